@@ -8,9 +8,9 @@ import { SetupProblem, at, main, mustRun, say } from './steps.mjs';
 import { readTree, typesText } from './words.mjs';
 
 const TARGETS = [
-  { module: 'messages', target: 'frontend/src/transports/messages.generated.ts' },
+  { module: 'events', target: 'frontend/src/transports/messages.generated.ts' },
   { module: 'library.library_messages', target: 'frontend/src/keepers/library.generated.ts' },
-  { module: 'web.people_messages', target: 'frontend/src/stores/people/people.generated.ts' },
+  { module: 'api.people_messages', target: 'frontend/src/stores/people/people.generated.ts' },
 ];
 
 /** @param {string} module @returns {Promise<string>} */

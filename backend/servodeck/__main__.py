@@ -12,14 +12,13 @@ def main() -> None:
     from servodeck.loading import loading
 
     with loading():
-        from servodeck.cli.cli import main as command_line
+        from servodeck.cli.main import main as command_line
     command_line()
 
 
 def is_stopped() -> bool:
     """Where anything goes wrong the command line tries again, which does no harm, and explains it."""
-    from servodeck.cli.remote import HERE, Remote
-    from servodeck.cli.stop_words import stopped_words
+    from servodeck.cli.remote import HERE, Remote, stopped_words
 
     try:
         token = os.environ.get("SERVODECK_TOKEN") or token_in(os.environ.get("SERVODECK_TOKEN_FILE"))

@@ -1,14 +1,15 @@
 """What is asked of the robot, in the same words at every door: WebSocket, HTTP and command line.
 
-Knows shapes; who may ask, and what this robot can do, others judge.
+Knows shapes. Who may ask is judged elsewhere, and so is what this robot can do.
 """
 
-from typing import Annotated
+from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import ConfigDict, Field, TypeAdapter
 
 from servodeck.protocol.values import Frame, ServoTarget
 from servodeck.schema import Message
+from servodeck.snapshots import ServoNumber, StopFor
 
 Servo = Annotated[str, Field(pattern=r"^[1-9][0-9]{0,2}$")]
 # Far more than a board stores: a slow group is sent in parts.
@@ -34,3 +35,212 @@ class PlayIntent(Message):
     frames: Annotated[list[FrameBody], Field(min_length=1, max_length=PLAYED_FRAMES)]
     times: Annotated[int, Field(ge=0, le=0xFFFF)] = 1
     loop_from: Annotated[int, Field(ge=0, lt=PLAYED_FRAMES)] = 0
+
+
+# A packet is 255 bytes at most; one more is let in so that the gate can say what is wrong with it.
+Hex = Annotated[
+    str, Field(max_length=512, description="Bytes of one packet, two hex digits each, no spaces.")
+]
+MessageId = Annotated[
+    int, Field(ge=0, le=2**53 - 1, description="Chosen by the client; comes back in the answer.")
+]
+
+
+Slot = Annotated[int, Field(ge=0, le=255)]
+LeaseAction = Literal["request", "release", "take", "refuse"]
+Nonce = Annotated[str, Field(max_length=40, description="Of the latest `tick`: shows how old this is.")]
+
+
+class Target(Message):
+    """Where a servo shall go, in its board's unit."""
+
+    servo: ServoNumber
+    position: Annotated[int, Field(ge=0, le=0xFFFF)]
+
+
+class MoveMessage(Message):
+    """Move servos. Of each the newest value counts; what waits for the wire leaves together, servos whose
+    place nobody knows slowly and one after another. `durationMs` 0: as fast as the servos and the link allow.
+    `nonce` shows that the driver says it, and now. Answered only where it is refused: `left` tells what has
+    left.
+    """
+
+    type: Literal["move"]
+    id: MessageId
+    targets: Annotated[list[Target], Field(min_length=1, max_length=253)]
+    duration_ms: Annotated[int, Field(ge=0, le=30_000)]
+    nonce: Nonce | None
+
+
+class RunMessage(Message):
+    """Run the group in `slot`; `times` 0: until it is stopped. What moves ends first."""
+
+    type: Literal["run"]
+    id: MessageId
+    slot: Slot
+    times: Annotated[int, Field(ge=0, le=0xFFFF)]
+    nonce: Nonce | None
+
+
+class StopGroupMessage(Message):
+    """End the running group behind its frame in progress. Everything else is free to move."""
+
+    type: Literal["stopGroup"]
+    id: MessageId
+
+
+class EraseMessage(Message):
+    """Erase every slot of the board."""
+
+    type: Literal["erase"]
+    id: MessageId
+    nonce: Nonce | None
+
+
+class SetSpeedMessage(Message):
+    """How fast the board plays the group in `slot`, `null` every group, until it is switched off."""
+
+    type: Literal["setSpeed"]
+    id: MessageId
+    slot: Slot | None
+    percent: Annotated[int, Field(ge=0, le=0xFFFF)]
+    nonce: Nonce | None
+
+
+class ReleaseMessage(Message):
+    """Take the torque off these servos: what they carry drops."""
+
+    type: Literal["release"]
+    id: MessageId
+    servos: Annotated[list[ServoNumber], Field(min_length=1, max_length=253)]
+    nonce: Nonce | None
+
+
+class PacketMessage(Message):
+    """Put one packet on the wire as it is. A question needs no `nonce`."""
+
+    type: Literal["packet"]
+    id: MessageId
+    bytes: Hex
+    nonce: Nonce | None
+
+
+class StopMessage(Message):
+    """STOP: drop all that waits, send stop three times, hold the robot where it is, and latch. Whatever else
+    it says, it is a stop.
+    """
+
+    model_config = ConfigDict(extra="ignore")
+
+    type: Literal["stop"]
+    why: StopFor = "person"
+
+
+class ResumeMessage(Message):
+    """Allow motion again. Moves nothing."""
+
+    type: Literal["resume"]
+
+
+class BoardMessage(Message):
+    """Which family the board is of, as a person has said; `unknown`: ask it again."""
+
+    type: Literal["board"]
+    id: MessageId
+    board: Annotated[str, Field(max_length=64)]
+
+
+class ReadMessage(Message):
+    """Ask the board now; what it says is told to everybody, and `done` once it has. Needs no lease."""
+
+    type: Literal["read"]
+    id: MessageId
+    what: Literal["battery"]
+
+
+class CalibrateMessage(Message):
+    """This client looks for the limits of `servo` and may pass the present ones with it, until `null` or the
+    end of its connection.
+    """
+
+    type: Literal["calibrate"]
+    servo: ServoNumber | None
+
+
+class LeaseMessage(Message):
+    """`request` a lease that is free, or ask its driver for it; `release` it, also to whoever asks, or take
+    the question back; `refuse` whoever asks; `take` it without asking.
+    """
+
+    type: Literal["lease"]
+    action: LeaseAction
+
+
+PersonId = Annotated[str, Field(min_length=1, max_length=64)]
+
+
+class GiveMessage(Message):
+    """The driver's or an owner's: whoever of that id is here and may drive shall drive now, unasked."""
+
+    type: Literal["give"]
+    to: PersonId
+
+
+ContinueMs = Annotated[
+    int, Field(ge=1000, le=3_600_000, description="After that it is stopped, at the latest.")
+]
+
+
+class ContinueMessage(Message):
+    """The driver's: the run under way may go on without me, for so long at most. `null`: it may not."""
+
+    type: Literal["continue"]
+    for_ms: ContinueMs | None
+
+
+class BeatMessage(Message):
+    """The answer to each `tick`: somebody is there who drives."""
+
+    type: Literal["beat"]
+    nonce: Nonce
+
+
+class PlayMessage(PlayIntent):
+    """Have the gateway play a group; `played` follows when it has ended, or `refused`. One that does not fit
+    into a message: `POST /api/play`.
+    """
+
+    type: Literal["play"]
+    id: MessageId
+    nonce: Nonce
+
+
+class StopPlayingMessage(Message):
+    """The driver's: what the gateway plays ends with its frame in progress."""
+
+    type: Literal["stopPlaying"]
+
+
+AnyClientMessage = (
+    MoveMessage
+    | PlayMessage
+    | StopPlayingMessage
+    | RunMessage
+    | StopGroupMessage
+    | EraseMessage
+    | SetSpeedMessage
+    | ReleaseMessage
+    | PacketMessage
+    | StopMessage
+    | ResumeMessage
+    | BoardMessage
+    | ReadMessage
+    | CalibrateMessage
+    | LeaseMessage
+    | GiveMessage
+    | ContinueMessage
+    | BeatMessage
+)
+ClientMessage = Annotated[AnyClientMessage, Field(discriminator="type")]
+
+client_message: TypeAdapter[AnyClientMessage] = TypeAdapter(ClientMessage)

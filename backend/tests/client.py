@@ -9,10 +9,10 @@ from typing import Any
 
 from websockets.sync.client import ClientConnection
 
-from servodeck.access.hub import Seat
 from servodeck.callers import THIS_COMPUTER, Caller
-from servodeck.driving.control import Control
 from servodeck.port.wire import Left
+from servodeck.robot.control import Control
+from servodeck.robot.hub import Seat
 from tests.fake_port import FakePort, FakePorts
 from tests.virtual_time import now
 

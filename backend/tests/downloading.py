@@ -2,11 +2,11 @@
 
 from collections.abc import Iterable, Sequence
 
-from servodeck.board.parts import Group, made_of, packets_of
 from servodeck.callers import Caller
-from servodeck.driving.control import Control
 from servodeck.protocol.timings import wire_s
-from servodeck.told import JobState
+from servodeck.robot.board.packet_rules import Group, made_of, packets_of
+from servodeck.robot.control import Control
+from servodeck.snapshots import JobState
 from tests.client import ANNA, Client
 from tests.fake_port import FakePort
 from tests.samples import STOP

@@ -12,10 +12,10 @@ from starlette.types import ASGIApp, Message, Scope
 from servodeck.access.entrance import Entrance
 from servodeck.access.guard import Guard
 from servodeck.access.roles import named_roles
+from servodeck.api.app import create_app
 from servodeck.callers import Role
-from servodeck.driving.control import Control
 from servodeck.errors import PortMissingError
-from servodeck.run.app import create_app
+from servodeck.robot.control import Control
 from tests.fake_port import FakePorts
 from tests.running import NO_LIBRARY, PORT, entrance_to
 

@@ -12,18 +12,18 @@ from pathlib import Path
 from httpx2 import ASGITransport, AsyncClient
 from starlette.types import ASGIApp
 
-from servodeck.access import access
-from servodeck.access.access import Access
+from servodeck.access import addresses
+from servodeck.access.addresses import Access
 from servodeck.access.devices import Devices, NoShelf
 from servodeck.access.entrance import Entrance
-from servodeck.driving.control import Control
-from servodeck.files.remembered import Remembered
+from servodeck.api.app import create_app
+from servodeck.api.library import robots_in
+from servodeck.api.page import STATIC
+from servodeck.api.server import Server
+from servodeck.files import Remembered
 from servodeck.library.library import Library, wall_clock_ms
 from servodeck.port.link import Ports
-from servodeck.run.app import create_app
-from servodeck.run.server import Server
-from servodeck.web.library_api import robots_in
-from servodeck.web.page import STATIC
+from servodeck.robot.control import Control
 
 PORT = 8300
 DEVICE = "/dev/board"
@@ -33,7 +33,7 @@ NO_LIBRARY = Library(Path(os.devnull) / "none")
 
 def entrance_to(where: Access | None = None, now: Callable[[], float] = time.monotonic) -> Entrance:
     """One that forgets everybody at the end; local where nothing is said."""
-    return Entrance(where or access.local(PORT), Devices(NoShelf(), wall_clock_ms), now)
+    return Entrance(where or addresses.local(PORT), Devices(NoShelf(), wall_clock_ms), now)
 
 
 def remembered_in(library: Library) -> Remembered:
@@ -93,7 +93,7 @@ class Running:
 async def server_on(
     ports: Ports,
     device: str | None = DEVICE,
-    make_access: Callable[[int], Access] = access.local,
+    make_access: Callable[[int], Access] = addresses.local,
     library: Library = NO_LIBRARY,
 ) -> AsyncIterator[Running]:
     """A real server on a free port."""

@@ -1,8 +1,8 @@
 """Packets of the protocol document for the tests, and how long they spend on the wire."""
 
-from servodeck.board.parts import Group, packets_of
 from servodeck.protocol.packets import parse_command
 from servodeck.protocol.values import Frame, Move, ServoTarget
+from servodeck.robot.board.packet_rules import Group, packets_of
 
 MOVE = bytes.fromhex("5555080301e80301d007")
 MOVE_ELSEWHERE = bytes.fromhex("5555080301e80301dc05")

@@ -9,17 +9,17 @@ from typing import Any
 from httpx2 import AsyncClient, Response
 from starlette.types import ASGIApp
 
-from servodeck.access import access
+from servodeck.access import addresses
 from servodeck.access.devices import Devices, NoShelf
 from servodeck.access.entrance import Entrance
+from servodeck.api.app import create_app
 from servodeck.callers import Role
-from servodeck.driving.control import Control
 from servodeck.library.library import wall_clock_ms
 from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.packets import encode
 from servodeck.protocol.values import Move, ServoTarget
-from servodeck.run.app import create_app
-from servodeck.told import JobState
+from servodeck.robot.control import Control
+from servodeck.snapshots import JobState
 from tests.downloading import ended
 from tests.fake_port import FakePort, FakePorts
 from tests.running import DEVICE, NO_LIBRARY, PORT, client_of
@@ -85,7 +85,7 @@ async def script(
 ) -> AsyncIterator[Scripted]:
     """`behind` the port."""
     port = behind or FakePort()
-    entrance = Entrance(access.lan(PORT), DevicesInMemory(NoShelf(), wall_clock_ms), now)
+    entrance = Entrance(addresses.lan(PORT), DevicesInMemory(NoShelf(), wall_clock_ms), now)
     _, owner = entrance.devices.admit("device", "Olga", "owner")
     device, token = entrance.devices.admit("token", "Dance", role)
     control = Control(FakePorts(port), now, board)

@@ -15,24 +15,20 @@ from fastapi import FastAPI
 from pydantic import ValidationError
 
 from servodeck.access.guard import Guard
-from servodeck.board.parts import Group, made_of, packets_of
+from servodeck.api.app import create_app
+from servodeck.api.websocket import take
 from servodeck.callers import Caller
-from servodeck.driving.control import SOMEBODY, Control
-from servodeck.driving.latch import Cause
 from servodeck.errors import GatewayError
-from servodeck.messages import StopMessage, client_message
+from servodeck.intents import StopMessage, client_message
 from servodeck.port.wire import Left
 from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.limits import PacketError
 from servodeck.protocol.packets import encode
-from servodeck.protocol.values import (
-    Frame,
-    ReadPositions,
-    ServoTarget,
-)
-from servodeck.run.app import create_app
-from servodeck.told import UnheldServos
-from servodeck.web.clients import take
+from servodeck.protocol.values import Frame, ReadPositions, ServoTarget
+from servodeck.robot.board.packet_rules import Group, made_of, packets_of
+from servodeck.robot.control import SOMEBODY, Control
+from servodeck.robot.latch import Cause
+from servodeck.snapshots import UnheldServos
 from tests.client import ANNA, Client
 from tests.downloading import ended
 from tests.fake_port import FakePorts

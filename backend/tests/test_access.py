@@ -2,29 +2,35 @@
 
 import pytest
 
-from servodeck.access import access, links
-from servodeck.access.access import bracketed, lan_addresses
+from servodeck.access import addresses
+from servodeck.access.addresses import bracketed, lan_addresses
 
 
 def test_one_computer_on_its_own_answers_to_loopback_names_only() -> None:
-    assert access.local(8300).hosts_at("127.0.0.1") == {b"127.0.0.1:8300", b"localhost:8300", b"[::1]:8300"}
-    assert access.local(8300).hosts_at("192.168.1.5") == access.local(8300).hosts_at(None)
-    assert b"localhost" in access.local(80).hosts_at(None)
-    assert b"localhost:80" in access.local(80).hosts_at(None)
+    assert addresses.local(8300).hosts_at("127.0.0.1") == {
+        b"127.0.0.1:8300",
+        b"localhost:8300",
+        b"[::1]:8300",
+    }
+    assert addresses.local(8300).hosts_at("192.168.1.5") == addresses.local(8300).hosts_at(None)
+    assert b"localhost" in addresses.local(80).hosts_at(None)
+    assert b"localhost:80" in addresses.local(80).hosts_at(None)
 
 
 def test_on_a_lan_it_answers_to_its_names_and_the_address_a_connection_came_in_at() -> None:
-    lan = access.lan(8300, "Robot.fritz.box")
+    lan = addresses.lan(8300, "Robot.fritz.box")
     names = {b"robot.fritz.box:8300", b"robot.local:8300", b"servodeck.local:8300"}
-    assert lan.hosts_at(None) == access.local(8300).hosts_at(None) | names
+    assert lan.hosts_at(None) == addresses.local(8300).hosts_at(None) | names
     assert lan.hosts_at("10.0.0.7") == lan.hosts_at(None) | {b"10.0.0.7:8300"}
     assert b"[fe80::1]:8300" in lan.hosts_at("fe80::1%eth0")
 
 
 @pytest.mark.parametrize("name", ["*", "bad name", "-", "", "robot:80", "röbot"])
 def test_a_host_name_that_is_none_is_left_out(name: str) -> None:
-    assert not any(name.encode() + b":8300" == host for host in access.lan(8300, name).hosts_at(None) if name)
-    assert b"*" not in b"".join(access.lan(8300, name).hosts_at(None))
+    assert not any(
+        name.encode() + b":8300" == host for host in addresses.lan(8300, name).hosts_at(None) if name
+    )
+    assert b"*" not in b"".join(addresses.lan(8300, name).hosts_at(None))
 
 
 @pytest.mark.parametrize(
@@ -38,7 +44,7 @@ def test_a_host_name_that_is_none_is_left_out(name: str) -> None:
     ],
 )
 def test_behind_a_proxy_its_address_is_the_only_one(url: str, hosts: set[bytes], is_secure: bool) -> None:
-    proxied = access.behind_proxy(url)
+    proxied = addresses.behind_proxy(url)
     assert proxied.hosts_at("127.0.0.1") == hosts
     assert proxied.is_secure == is_secure
     assert proxied.cookie.startswith("__Host-") == is_secure
@@ -53,7 +59,7 @@ def test_behind_a_proxy_its_address_is_the_only_one(url: str, hosts: set[bytes],
 )
 def test_an_address_that_cannot_be_is_refused(url: str) -> None:
     with pytest.raises(ValueError):  # noqa: PT011 (the sentence is for people)
-        access.behind_proxy(url)
+        addresses.behind_proxy(url)
 
 
 def test_addresses_as_a_host_header_has_them() -> None:
@@ -73,7 +79,7 @@ def test_addresses_as_a_host_header_has_them() -> None:
     ],
 )
 def test_only_addresses_that_answer_are_named_to_others(host: str, told: list[str]) -> None:
-    assert access.answered_at(host, ["192.168.1.5", "10.0.0.2"]) == told
+    assert addresses.answered_at(host, ["192.168.1.5", "10.0.0.2"]) == told
 
 
 @pytest.mark.parametrize(
@@ -83,6 +89,6 @@ def test_only_addresses_that_answer_are_named_to_others(host: str, told: list[st
 def test_an_invitation_names_an_address_that_answers(
     listens_at: str, named: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(links, "lan_addresses", lambda: ["192.0.2.7"])
+    monkeypatch.setattr(addresses, "lan_addresses", lambda: ["192.0.2.7"])
     own = "127.0.0.1:8300"
-    assert links.link_base(access.lan(8300, listens_at=listens_at), own) == (named or f"http://{own}")
+    assert addresses.link_base(addresses.lan(8300, listens_at=listens_at), own) == (named or f"http://{own}")

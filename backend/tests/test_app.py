@@ -13,9 +13,9 @@ import pytest
 from opentelemetry import trace
 from opentelemetry.trace import NoOpTracer, Tracer, TracerProvider
 
-from servodeck.driving.control import Control
+from servodeck.api.app import create_app
 from servodeck.errors import PortMissingError
-from servodeck.run.app import create_app
+from servodeck.robot.control import Control
 from tests.fake_port import FakePorts
 from tests.knocking import knock, roles_of_routes, scope_of
 from tests.running import NO_LIBRARY, PORT, entrance_to, http_to

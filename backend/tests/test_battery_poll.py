@@ -7,13 +7,13 @@ import asyncio
 from collections.abc import Sequence
 from typing import Any
 
-from servodeck.access.hub import Seat
-from servodeck.board.parts import Group, made_of, packets_of
-from servodeck.messages import ReadMessage
+from servodeck.api.websocket import take
+from servodeck.intents import ReadMessage
 from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.packets import encode
 from servodeck.protocol.values import Frame, Move, Run, ServoTarget
-from servodeck.web.clients import take
+from servodeck.robot.board.packet_rules import Group, made_of, packets_of
+from servodeck.robot.hub import Seat
 from tests.client import ANNA, Client
 from tests.lockstep import Simulator
 from tests.samples import BATTERY

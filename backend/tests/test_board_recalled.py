@@ -1,8 +1,8 @@
 """Of which family the board at a place is, said once and gone by after the next start."""
 
 from servodeck.callers import THIS_COMPUTER
-from servodeck.driving.control import Control
-from servodeck.files.remembered import Remembered
+from servodeck.files import Remembered
+from servodeck.robot.control import Control
 from tests.fake_port import FakePort, FakePorts
 from tests.virtual_time import in_virtual_time, now
 

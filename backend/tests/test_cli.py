@@ -18,8 +18,8 @@ import pytest
 from typer.testing import CliRunner, Result
 
 from servodeck import __version__
-from servodeck.cli.cli import app
-from servodeck.files.remembered import FILE
+from servodeck.cli.main import app
+from servodeck.files import FILE
 from tests.samples import STOP
 from tests.test_ports import Pty
 

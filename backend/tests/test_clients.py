@@ -12,13 +12,13 @@ from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.typing import Origin
 
-from servodeck.access import impatient
-from servodeck.access.hub import Seat
+from servodeck.access import connections
+from servodeck.api.websocket import read_all
 from servodeck.callers import THIS_COMPUTER
-from servodeck.driving.control import Control
 from servodeck.errors import PortMissingError
-from servodeck.messages import PROTOCOL
-from servodeck.web.clients import read_all
+from servodeck.events import PROTOCOL
+from servodeck.robot.control import Control
+from servodeck.robot.hub import Seat
 from tests.client import deaf_at
 from tests.fake_port import FakePort, FakePorts
 from tests.running import Running, server_on
@@ -149,7 +149,7 @@ async def test_bytes_and_giants_end_the_connection(gateway: Running) -> None:
 async def test_a_client_that_never_reads_is_dropped_and_the_others_lose_nothing(
     port: FakePort, gateway: Running, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(impatient, "FAREWELL_S", 0.1)
+    monkeypatch.setattr(connections, "FAREWELL_S", 0.1)
     lazy = await deaf_at(gateway.address)
     async with connect(gateway.ws, max_queue=None) as client:
         await hear_until(client, "welcome")

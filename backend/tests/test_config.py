@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from typer.testing import CliRunner, Result
 
 from servodeck.cli import config
-from servodeck.cli.cli import app
 from servodeck.cli.config import Setting, toml_line
+from servodeck.cli.main import app
 
 NOWHERE = Path("/nowhere")
 

@@ -4,9 +4,7 @@ import asyncio
 
 import pytest
 
-from servodeck.access.hub import OUTBOX_MESSAGES
 from servodeck.callers import THIS_COMPUTER
-from servodeck.driving.control import Control
 from servodeck.errors import (
     CancelledError,
     ClosedError,
@@ -17,7 +15,9 @@ from servodeck.errors import (
     PortLostError,
     PortMissingError,
 )
-from servodeck.port.inbox import SILENCE_S
+from servodeck.port.reader import SILENCE_S
+from servodeck.robot.control import Control
+from servodeck.robot.hub import OUTBOX_MESSAGES
 from tests.client import Client, driven, gateway_on
 from tests.fake_port import FakePort, FakePorts
 from tests.samples import (

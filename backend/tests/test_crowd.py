@@ -16,7 +16,7 @@ import pytest
 from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
-from servodeck.access.impatient import PING_S, PONG_S
+from servodeck.access.connections import PING_S, PONG_S
 from tests.amount import TIMES
 from tests.bus import PATIENCE_S, Bus, bus_of_pty, serving
 from tests.client import deaf_at

@@ -6,8 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from servodeck.access.device_file import FILE, DeviceFile
-from servodeck.access.devices import MAX_DEVICES, Devices, NoShelf
+from servodeck.access.devices import FILE, MAX_DEVICES, DeviceFile, Devices, NoShelf
 from servodeck.callers import THIS_COMPUTER, as_script
 from servodeck.errors import ForbiddenError, NotFoundError, OutOfRangeError, StorageError
 

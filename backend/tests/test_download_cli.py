@@ -12,7 +12,7 @@ from typing import Any
 import httpx2
 import pytest
 
-from servodeck.cli.exits import FAILURE, USAGE
+from servodeck.cli.options import FAILURE, USAGE
 from servodeck.protocol.timings import wire_s
 from tests.samples import DOWNLOAD
 from tests.test_cli import Served, run

@@ -4,11 +4,7 @@ import asyncio
 
 import pytest
 
-from servodeck.errors import (
-    CancelledError,
-    ExpiredError,
-    NotDrivingError,
-)
+from servodeck.errors import CancelledError, ExpiredError, NotDrivingError
 from tests.client import Client, driven
 from tests.samples import BATTERY, MOVE, MOVE_ELSEWHERE, MOVE_S, RUN, STOP, STOPS, is_held_ahead
 from tests.virtual_time import hold_up, in_virtual_time, now

@@ -4,17 +4,12 @@ import asyncio
 
 import pytest
 
-from servodeck.access.hub import Seat
+from servodeck.api.websocket import take
 from servodeck.callers import Caller
-from servodeck.errors import (
-    BusyError,
-    ExpiredError,
-    ForbiddenError,
-    NotDrivingError,
-)
-from servodeck.messages import GiveMessage, ResumeMessage, StopMessage
+from servodeck.errors import BusyError, ExpiredError, ForbiddenError, NotDrivingError
+from servodeck.intents import GiveMessage, ResumeMessage, StopMessage
 from servodeck.port.wire import Left
-from servodeck.web.clients import take
+from servodeck.robot.hub import Seat
 from tests.client import Client, driven, gateway_on
 from tests.fake_port import FakePort
 from tests.samples import (

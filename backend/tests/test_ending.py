@@ -15,8 +15,8 @@ import httpx2
 import pytest
 from websockets.sync.client import connect
 
+from servodeck.api.server import FORCED
 from servodeck.library.library_file import FILE
-from servodeck.run.server import FORCED
 from tests.client import lease_of
 from tests.samples import MOVE, STOP
 from tests.test_cli import END_S, Served
@@ -85,7 +85,7 @@ def test_no_client_puts_the_end_off(served: Served, text: str) -> None:
 def test_the_description_of_the_interface_does_not_put_the_stop_off(tmp_path: Path) -> None:
     """It is made when it is asked for first, which took more than a second on a busy computer."""
     hang = "openapi.get_openapi = lambda **_: threading.Event().wait()"
-    imports = "import threading; from servodeck.web import openapi; from servodeck.cli.cli import main"
+    imports = "import threading; from servodeck.web import openapi; from servodeck.cli.main import main"
     served = Served("--data", str(tmp_path), program=["-c", f"{imports}; {hang}; main()"])
     with raw(served, "GET /openapi.json HTTP/1.1\nHost: HOST\n\n"):
         time.sleep(0.2)  # it is being made
@@ -130,7 +130,7 @@ HANGING = {
 
 @pytest.mark.parametrize(("hang", "code"), HANGING.values(), ids=HANGING.keys())
 def test_what_hangs_for_ever_does_not_put_it_off(hang: str, code: int) -> None:
-    imports = "import threading; from servodeck.library import library; from servodeck.cli.cli import main"
+    imports = "import threading; from servodeck.library import library; from servodeck.cli.main import main"
     served = Served(program=["-c", f"{imports}; {hang}; main()"])
     end_in_time(served, code)
     served.end()

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from servodeck.driving.epoch import GRANTS_PER_START, first_epoch
+from servodeck.robot.driving import GRANTS_PER_START, first_epoch
 
 
 def test_each_start_counts_on_from_above_all_before_it(tmp_path: Path) -> None:

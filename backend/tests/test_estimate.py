@@ -3,7 +3,6 @@
 from hypothesis import given
 from hypothesis import strategies as st
 
-from servodeck.board.estimate import Estimate
 from servodeck.protocol import timings
 from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.packets import encode
@@ -22,6 +21,7 @@ from servodeck.protocol.values import (
     ServoTarget,
     Stop,
 )
+from servodeck.robot.board.estimate import Estimate
 from tests.samples import RUN, STOP, stored
 
 DOC = FAMILIES["doc"]

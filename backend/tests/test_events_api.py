@@ -12,12 +12,12 @@ from typing import Any
 from httpx2 import AsyncClient
 from starlette.types import Message
 
-from servodeck.access import access
-from servodeck.access.hub import OUTBOX_MESSAGES
-from servodeck.access.impatient import EXTENSION
-from servodeck.driving.control import Control
-from servodeck.run.app import create_app
-from servodeck.web.events_api import SILENCE_S
+from servodeck.access import addresses
+from servodeck.access.connections import EXTENSION
+from servodeck.api.app import create_app
+from servodeck.api.events import SILENCE_S
+from servodeck.robot.control import Control
+from servodeck.robot.hub import OUTBOX_MESSAGES
 from tests.fake_port import FakePort, FakePorts
 from tests.knocking import scope_of
 from tests.running import DEVICE, NO_LIBRARY, PORT, entrance_to, server_on
@@ -70,7 +70,7 @@ class Stage:
 @asynccontextmanager
 async def listening(*more: tuple[bytes, bytes]) -> AsyncIterator[Stage]:
     """A viewer's script that listens to a gateway on a LAN."""
-    port, entrance = FakePort(), entrance_to(access.lan(PORT), now)
+    port, entrance = FakePort(), entrance_to(addresses.lan(PORT), now)
     device, token = entrance.devices.admit("token", "Dance", "viewer")
     control = Control(FakePorts(port), now, "doc")
     await control.use_port(DEVICE)

@@ -20,8 +20,7 @@ import pytest
 from httpx2 import AsyncClient
 from websockets.asyncio.client import ClientConnection, connect
 
-from servodeck.access.device_file import DeviceFile
-from servodeck.access.devices import Devices
+from servodeck.access.devices import DeviceFile, Devices
 from servodeck.library.library import wall_clock_ms
 from tests.amount import TIMES
 from tests.bus import kept_waiting_s

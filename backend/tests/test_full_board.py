@@ -4,7 +4,7 @@ from itertools import repeat
 from typing import Any
 
 from servodeck.access.guard import body_bytes
-from servodeck.cli.download_cli import portions_of
+from servodeck.cli.groups import portions_of
 from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.packets import encode
 from servodeck.protocol.values import Download, Frame, ServoTarget

@@ -4,21 +4,11 @@ from contextlib import AbstractContextManager, nullcontext
 
 import pytest
 
-from servodeck.access import access
-from servodeck.access.gate import (
-    judge_handshake,
-    judge_latch,
-    judge_packet,
-    judge_script,
-)
-from servodeck.errors import (
-    ForbiddenError,
-    LatchedError,
-    MalformedError,
-    NotSupportedError,
-    OutOfRangeError,
-)
+from servodeck.access import addresses
+from servodeck.access.gate import judge_handshake, judge_script
+from servodeck.errors import ForbiddenError, LatchedError, MalformedError, NotSupportedError, OutOfRangeError
 from servodeck.protocol.decoder import COMMAND_AT
+from servodeck.robot.board.packet_rules import judge_latch, judge_packet
 from tests.samples import BATTERY, DOWNLOAD, ERASE, MOVE, RUN, STOP
 
 PORT = 8300
@@ -65,13 +55,15 @@ def headers_of(host: str | None, origin: str | None) -> list[tuple[bytes, bytes]
 @pytest.mark.parametrize("origin", ORIGINS)
 def test_only_the_own_address_and_its_own_page_pass(host: str | None, origin: str | None) -> None:
     with allowed((host, origin) in PASSING):
-        assert judge_handshake(headers_of(host, origin), access.local(PORT), None) == host
+        assert judge_handshake(headers_of(host, origin), addresses.local(PORT), None) == host
 
 
 def test_on_the_usual_port_a_browser_leaves_the_number_out() -> None:
-    assert judge_handshake(headers_of("localhost", "http://localhost"), access.local(80), None) == "localhost"
+    assert (
+        judge_handshake(headers_of("localhost", "http://localhost"), addresses.local(80), None) == "localhost"
+    )
     with pytest.raises(ForbiddenError):
-        judge_handshake(headers_of("localhost", None), access.local(PORT), None)
+        judge_handshake(headers_of("localhost", None), addresses.local(PORT), None)
 
 
 @pytest.mark.parametrize("name", ["host", "origin"])
@@ -79,7 +71,7 @@ def test_a_header_that_comes_twice_is_refused(name: str) -> None:
     headers = headers_of("localhost:8300", "http://localhost:8300")
     twice = [*headers, *(header for header in headers if header[0] == name.encode())]
     with pytest.raises(ForbiddenError, match="more than once"):
-        judge_handshake(twice, access.local(PORT), None)
+        judge_handshake(twice, addresses.local(PORT), None)
 
 
 @pytest.mark.parametrize(
@@ -88,7 +80,7 @@ def test_a_header_that_comes_twice_is_refused(name: str) -> None:
 def test_what_a_proxy_passed_on_is_refused_with_an_explanation(name: str) -> None:
     headers = [*headers_of("localhost:8300", None), (name.encode(), b"10.0.0.1")]
     with pytest.raises(ForbiddenError, match="proxy"):
-        judge_handshake(headers, access.local(PORT), None)
+        judge_handshake(headers, addresses.local(PORT), None)
 
 
 @pytest.mark.parametrize(
@@ -111,7 +103,7 @@ def test_another_site_may_link_to_the_page_and_nothing_else(
     named = ((b"sec-fetch-site", site), (b"sec-fetch-mode", mode))
     headers = headers_of("localhost:8300", None) + [(name, value.encode()) for name, value in named if value]
     with allowed(may_look):
-        judge_handshake(headers, access.local(PORT), None)
+        judge_handshake(headers, addresses.local(PORT), None)
     with allowed(may_act):
         judge_script(headers)
 

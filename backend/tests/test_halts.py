@@ -7,12 +7,12 @@ from typing import Any
 
 import pytest
 
-from servodeck.board.estimate import Estimate
-from servodeck.motion.halt_plan import HaltPlan, Unheld
 from servodeck.protocol.decoder import Packet
 from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.packets import encode, parse_command, parse_report
 from servodeck.protocol.values import Download, Frame, Move, ServoTarget
+from servodeck.robot.board.estimate import Estimate
+from servodeck.robot.motion.halt_plan import HaltPlan, Unheld
 from tests.vectors import load_vectors
 
 HISTORIES = load_vectors("halts")

@@ -12,10 +12,10 @@ from httpx2 import AsyncClient
 from prometheus_client.parser import text_string_to_metric_families
 
 from servodeck import __version__, threads
-from servodeck.driving.control import Control
 from servodeck.errors import PortMissingError
 from servodeck.library.library import Library
-from servodeck.port.background import BackgroundPorts
+from servodeck.port.link import BackgroundPorts
+from servodeck.robot.control import Control
 from tests.client import Client
 from tests.fake_port import FakePort, FakePorts
 from tests.running import http_to, server_on

@@ -2,8 +2,8 @@
 
 from itertools import count
 
-from servodeck.access.hub import Hub, Seat
 from servodeck.callers import Caller, Role
+from servodeck.robot.hub import Hub, Seat
 
 NUMBERS = count()
 

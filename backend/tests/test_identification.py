@@ -11,11 +11,11 @@ from typing import Any
 import pytest
 
 from servodeck.callers import THIS_COMPUTER
-from servodeck.driving.control import Control
 from servodeck.errors import GatewayError
-from servodeck.files.remembered import Remembered
+from servodeck.files import Remembered
 from servodeck.protocol.decoder import COMMAND_AT
 from servodeck.protocol.families import FAMILIES, UNKNOWN
+from servodeck.robot.control import Control
 from tests.client import Client
 from tests.lockstep import ENTRY, NODE, Simulator, SteppedBoard
 from tests.samples import MOVE, RUN, STOP

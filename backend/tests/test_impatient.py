@@ -9,8 +9,8 @@ import pytest
 from websockets.asyncio.client import connect
 from websockets.exceptions import InvalidStatus
 
-from servodeck.access import access, impatient, unauthenticated
-from servodeck.run import server
+from servodeck.access import addresses, connections
+from servodeck.api import server
 from tests.client import upgrade_at
 from tests.fake_port import FakePort, FakePorts
 from tests.running import Running, server_on
@@ -44,7 +44,7 @@ async def test_a_head_that_drips_in_is_not_waited_for() -> None:
         reader, writer = await asyncio.open_connection(*gateway.address)
         writer.write(HEAD % gateway.host.encode() + b"X-Slow: ")
         dripping = asyncio.create_task(drip(writer))
-        assert await ends_after_s(reader) <= impatient.HEAD_S + MARGIN_S
+        assert await ends_after_s(reader) <= connections.HEAD_S + MARGIN_S
         dripping.cancel()
         writer.close()
 
@@ -62,7 +62,7 @@ async def test_a_large_head_is_refused_with_its_reason(head: bytes) -> None:
     async with server_on(FakePorts(FakePort())) as gateway:
         reader, writer = await asyncio.open_connection(*gateway.address)
         writer.write(head.replace(b"%s", gateway.host.encode()))
-        answer = await asyncio.wait_for(reader.read(), impatient.ANSWERED_S + MARGIN_S)
+        answer = await asyncio.wait_for(reader.read(), connections.ANSWERED_S + MARGIN_S)
         assert answer.startswith(b"HTTP/1.1 431 Request Header Fields Too Large\r\n")
         assert json.loads(answer.partition(b"\r\n\r\n")[2])["code"] == "tooLarge"
         writer.transport.abort()
@@ -85,15 +85,15 @@ async def test_a_body_that_nobody_waits_for_is_left_where_it_is() -> None:
         head = HEAD.replace(b"GET /api/health", b"POST /api/stop") % gateway.host.encode()
         writer.write(head + b"Content-Type: application/json\r\nContent-Length: 16000\r\n\r\n{")
         assert (await reader.readline()) == b"HTTP/1.1 200 OK\r\n"
-        assert await ends_after_s(reader) <= impatient.ANSWERED_S + MARGIN_S
+        assert await ends_after_s(reader) <= connections.ANSWERED_S + MARGIN_S
         writer.close()
 
 
 async def test_the_connections_of_nobody_known_are_few_and_the_least_used_end_first(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(unauthenticated, "MOST_OF_ONE", 3)
-    async with server_on(FakePorts(FakePort()), make_access=access.lan) as gateway:
+    monkeypatch.setattr(connections, "MOST_OF_ONE", 3)
+    async with server_on(FakePorts(FakePort()), make_access=addresses.lan) as gateway:
         _, token = gateway.entrance.devices.admit("token", "Script", "viewer")
         authorization = b"Authorization: Bearer " + token.encode() + b"\r\n"
         known = await asyncio.open_connection(*gateway.address)
@@ -114,7 +114,7 @@ async def test_the_connections_of_nobody_known_are_few_and_the_least_used_end_fi
 async def test_a_head_without_end_is_not_collected() -> None:
     async with server_on(FakePorts(FakePort())) as gateway:
         reader, writer = await asyncio.open_connection(*gateway.address)
-        writer.write(HEAD % gateway.host.encode() + b"X-Long: " + b"x" * 4 * impatient.HEAD_BYTES)
+        writer.write(HEAD % gateway.host.encode() + b"X-Long: " + b"x" * 4 * connections.HEAD_BYTES)
         assert await ends_after_s(reader) <= MARGIN_S
         writer.close()
 
@@ -127,7 +127,7 @@ async def test_a_head_without_end_is_not_collected() -> None:
 async def test_what_never_comes_is_not_waited_for(
     monkeypatch: pytest.MonkeyPatch, limit: str, said: bytes
 ) -> None:
-    monkeypatch.setattr(impatient, limit, 0.1)
+    monkeypatch.setattr(connections, limit, 0.1)
     async with server_on(FakePorts(FakePort())) as gateway:
         reader, writer = await asyncio.open_connection(*gateway.address)
         writer.write(said.replace(b"%s", gateway.host.encode()))
@@ -142,7 +142,7 @@ async def test_many_slow_ones_keep_nobody_from_an_answer() -> None:
             writer.write(b"GET /")
         assert await asyncio.wait_for(status_of(gateway), MARGIN_S) == b"HTTP/1.1 200 OK\r\n"
         lasted_s = await asyncio.gather(*(ends_after_s(reader) for reader, _ in slow))
-        assert max(lasted_s) <= impatient.HEAD_S + MARGIN_S
+        assert max(lasted_s) <= connections.HEAD_S + MARGIN_S
         for _, writer in slow:
             writer.close()
 
@@ -159,13 +159,13 @@ async def test_who_has_its_answer_and_talks_on_is_not_listened_to() -> None:
     async with server_on(FakePorts(FakePort())) as gateway:
         reader, writer = await asyncio.open_connection(*gateway.address)
         writer.write(HEAD % gateway.host.encode() + b"Content-Length: 100000\r\n\r\n")
-        assert await ends_after_s(reader) <= impatient.ANSWERED_S + MARGIN_S
+        assert await ends_after_s(reader) <= connections.ANSWERED_S + MARGIN_S
         writer.close()
 
 
 async def test_a_page_that_says_nothing_more_stays(monkeypatch: pytest.MonkeyPatch) -> None:
     for limit in ("IDLE_S", "HEAD_S", "BODY_S"):
-        monkeypatch.setattr(impatient, limit, 0.2)
+        monkeypatch.setattr(connections, limit, 0.2)
     async with server_on(FakePorts(FakePort())) as gateway, connect(gateway.ws) as client:
         await hear_until(client, "welcome")
         await asyncio.sleep(0.4)
@@ -188,15 +188,15 @@ async def test_who_answers_no_ping_is_gone_and_who_does_stays(monkeypatch: pytes
 async def test_an_upgrade_that_is_refused_costs_no_more_than_a_request(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    made: list[impatient.ImpatientSocket] = []
+    made: list[connections.ImpatientSocket] = []
 
-    class NotedSocket(impatient.ImpatientSocket):
+    class NotedSocket(connections.ImpatientSocket):
         def __init__(self, *more: Any, **named: Any) -> None:
             super().__init__(*more, **named)
             made.append(self)
 
     monkeypatch.setattr(server, "ImpatientSocket", NotedSocket)
-    async with server_on(FakePorts(FakePort()), make_access=access.lan) as gateway:
+    async with server_on(FakePorts(FakePort()), make_access=addresses.lan) as gateway:
         _, token = gateway.entrance.devices.admit("token", "Script", "viewer")
         origin = {"Origin": "http://evil.example"}
         for headers, status in ((None, 401), ({"Authorization": "Bearer forged"}, 401), (origin, 403)):
@@ -217,7 +217,7 @@ async def test_what_was_to_be_said_when_that_end_comes_is_no_mistake(
         await hear_until(client, "welcome")
         (seat,) = gateway.control.hub.seats
         (served,) = gateway.server.server_state.connections
-        assert isinstance(served, impatient.ImpatientSocket)
+        assert isinstance(served, connections.ImpatientSocket)
         seat.put("{}")
         served.keepalive_timeout()
         await client.wait_closed()

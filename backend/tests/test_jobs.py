@@ -4,9 +4,7 @@ import asyncio
 
 import pytest
 
-from servodeck.board.parts import Group, made_of, packets_of
 from servodeck.callers import THIS_COMPUTER, Caller
-from servodeck.driving.control import Control
 from servodeck.errors import (
     ExpiredError,
     GatewayError,
@@ -21,6 +19,8 @@ from servodeck.protocol import timings
 from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.packets import encode
 from servodeck.protocol.values import Frame, Run, ServoTarget
+from servodeck.robot.board.packet_rules import Group, made_of, packets_of
+from servodeck.robot.control import Control
 from tests.client import Client, gateway_on
 from tests.downloading import AnsweringPort, begin, ended
 from tests.fake_port import FakePort, FakePorts

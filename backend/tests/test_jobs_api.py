@@ -6,9 +6,7 @@ from typing import Any
 
 import pytest
 
-from servodeck.errors import (
-    NotFoundError,
-)
+from servodeck.errors import NotFoundError
 from tests.client import Client
 from tests.downloading import AnsweringPort
 from tests.fake_port import FakePort, FakePorts

@@ -4,13 +4,9 @@ import asyncio
 
 import pytest
 
-from servodeck.board.parts import packets_of
 from servodeck.callers import THIS_COMPUTER
-from servodeck.errors import (
-    LatchedError,
-    PortLostError,
-    SlotBrokenError,
-)
+from servodeck.errors import LatchedError, PortLostError, SlotBrokenError
+from servodeck.robot.board.packet_rules import packets_of
 from tests.client import Client, gateway_on
 from tests.downloading import STORED, AnsweringPort, begin, ended
 from tests.fake_port import FakePort

@@ -11,14 +11,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from servodeck.board.parts import Group, made_of, packets_of, part_of
-from servodeck.board.tally import Progress, Tally
-from servodeck.driving.control import Control
 from servodeck.errors import CancelledError, NotDrivingError, NotFoundError, OutOfRangeError
 from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.packets import encode
 from servodeck.protocol.timings import wire_s
 from servodeck.protocol.values import Frame, Run, ServoTarget
+from servodeck.robot.board.download import Progress, Tally
+from servodeck.robot.board.packet_rules import Group, made_of, packets_of, part_of
+from servodeck.robot.control import Control
 from tests.client import ANNA, Client, gateway_on
 from tests.downloading import AnsweringPort, begin, ended
 from tests.fake_port import FakePorts

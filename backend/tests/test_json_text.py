@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from servodeck.json_text import has_more_values, is_object
+from servodeck.schema import has_more_values, is_object
 from tests.amount import TIMES
 
 VALUES = st.recursive(

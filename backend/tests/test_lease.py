@@ -4,8 +4,8 @@ from dataclasses import dataclass, field
 
 import pytest
 
-from servodeck.driving.lease import ANSWER_S, COMMAND_S, GONE_S, QUIET_S, SILENT_S, Lease
 from servodeck.errors import BusyError, ExpiredError, NotDrivingError
+from servodeck.robot.lease import ANSWER_S, COMMAND_S, GONE_S, QUIET_S, SILENT_S, Lease
 
 
 @dataclass

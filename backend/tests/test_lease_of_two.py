@@ -4,8 +4,8 @@ from hypothesis import settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, invariant, precondition, rule
 
-from servodeck.driving.lease import COMMAND_S, GONE_S, QUIET_S, Permit
 from servodeck.errors import GatewayError
+from servodeck.robot.lease import COMMAND_S, GONE_S, QUIET_S, Permit
 from tests.amount import TIMES
 from tests.test_lease import new_lease
 

@@ -9,8 +9,8 @@ import httpx2
 import pytest
 from typer.testing import CliRunner
 
-from servodeck.cli.cli import app
-from servodeck.cli.exits import FAILURE
+from servodeck.cli.main import app
+from servodeck.cli.options import FAILURE
 from tests.samples import ERASE
 from tests.scripted import move
 from tests.test_cli import Served, run

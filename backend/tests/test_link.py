@@ -9,7 +9,7 @@ from servodeck.errors import CancelledError, ClosedError, PortBusyError, PortLos
 from servodeck.port.link import Link, Ports
 from servodeck.port.ports import OpenPort
 from servodeck.port.wire import Wire
-from servodeck.told import PortState
+from servodeck.snapshots import PortState
 from tests.fake_port import FakePort, FakePorts
 from tests.virtual_time import at, in_virtual_time, now
 

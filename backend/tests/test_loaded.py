@@ -14,7 +14,7 @@ NOT_TO_SERVE = (
 NOT_FOR_A_COMMAND = ("fastapi", "starlette", "uvicorn", "prometheus_client", "asyncio")
 # Where the gateway would begin to serve, it says what is loaded and leaves.
 SERVE = """
-from servodeck.run.server import Server
+from servodeck.api.server import Server
 def run(self, sockets):
     print(*sys.modules, flush=True)
 Server.run = run
@@ -23,7 +23,7 @@ Server.run = run
 HELD_FROM_THE_START = {"PortState", "Memory", "ApplyWish", "RunWish", "EraseWish"}
 # There, too: the messages whose validators are built by then.
 BUILT = """
-from servodeck.run.server import Server
+from servodeck.api.server import Server
 def run(self, sockets):
     from servodeck.schema import Message
     def kinds(kind):
@@ -45,7 +45,7 @@ def words_of(*arguments: str, before: str = "") -> set[str]:
 
 def test_a_start_loads_what_it_serves_with_and_no_more(tmp_path: object) -> None:
     loaded = words_of("serve", "--listen", "127.0.0.1:0", "--data", str(tmp_path), "--no-open", before=SERVE)
-    assert "servodeck.run.app" in loaded
+    assert "servodeck.api.app" in loaded
     assert sorted(loaded & set(NOT_TO_SERVE)) == []
 
 
@@ -57,5 +57,5 @@ def test_a_start_builds_no_message_that_nobody_has_said_yet(tmp_path: object) ->
 @pytest.mark.parametrize("arguments", [("--version",), ("decode", "55", "55", "02", "07")])
 def test_a_small_command_loads_no_gateway(arguments: tuple[str, ...]) -> None:
     loaded = words_of(*arguments)
-    assert "servodeck.cli.cli" in loaded
+    assert "servodeck.cli.main" in loaded
     assert sorted(loaded & set(NOT_FOR_A_COMMAND)) == []

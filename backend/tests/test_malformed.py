@@ -8,11 +8,11 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from servodeck.access.gate import judge_packet
+from servodeck.api.websocket import hear, intake_of
 from servodeck.callers import THIS_COMPUTER
 from servodeck.errors import GatewayError
-from servodeck.messages import PacketMessage, client_message
-from servodeck.web.clients import hear, intake_of
+from servodeck.intents import PacketMessage, client_message
+from servodeck.robot.board.packet_rules import judge_packet
 from tests.amount import TIMES
 from tests.client import Client, gateway_on
 from tests.fake_port import FakePort

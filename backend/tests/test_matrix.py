@@ -7,8 +7,8 @@ from itertools import product
 import pytest
 from fastapi import FastAPI
 
-from servodeck.access import access, roles
-from servodeck.access.access import Access, Mode
+from servodeck.access import addresses, roles
+from servodeck.access.addresses import Access, Mode
 from servodeck.access.entrance import Entrance
 from servodeck.access.rates import PAGE_BURST
 from servodeck.callers import RANKS, Role
@@ -72,9 +72,9 @@ FOR_BROWSERS = {("POST", "/api/pair"), ("PATCH", "/api/me")}
 
 OWN_ADDRESS = "192.168.1.5"
 MODES: dict[Mode, Access] = {
-    "local": access.local(PORT),
-    "lan": access.lan(PORT, "Robot"),
-    "proxy": access.behind_proxy("https://robot.example"),
+    "local": addresses.local(PORT),
+    "lan": addresses.lan(PORT, "Robot"),
+    "proxy": addresses.behind_proxy("https://robot.example"),
 }
 GOOD: dict[Mode, set[str]] = {
     "local": {f"127.0.0.1:{PORT}", f"localhost:{PORT}", f"[::1]:{PORT}"},

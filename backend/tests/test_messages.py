@@ -8,25 +8,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
-from servodeck.access.hub import Seat
+from servodeck.api.websocket import hear, intake_of
 from servodeck.callers import THIS_COMPUTER
-from servodeck.driving.control import Control
-from servodeck.messages import (
-    DoneMessage,
-    MoveMessage,
-    PacketMessage,
-    ResumeMessage,
-    StateMessage,
-    StopMessage,
-    Target,
-    client_message,
-    encode,
-    gateway_message,
-    json_schema,
-)
+from servodeck.events import DoneMessage, StateMessage, encode, gateway_message, json_schema
+from servodeck.intents import MoveMessage, PacketMessage, ResumeMessage, StopMessage, Target, client_message
 from servodeck.protocol.families import FAMILIES
-from servodeck.told import IdentityTold, LinkState, NoiseTold, PortState
-from servodeck.web.clients import hear, intake_of
+from servodeck.robot.control import Control
+from servodeck.robot.hub import Seat
+from servodeck.snapshots import IdentityTold, LinkState, NoiseTold, PortState
 from tests.amount import TIMES
 from tests.fake_port import FakePort, FakePorts
 from tests.samples import BATTERY, MOVE, RUN, STOP

@@ -9,7 +9,7 @@ import pytest
 from starlette.types import Message
 
 from servodeck.callers import THIS_COMPUTER
-from servodeck.told import ServoLimits
+from servodeck.snapshots import ServoLimits
 from tests.client import ANNA, Client
 from tests.knocking import scope_of
 from tests.running import PORT

@@ -4,12 +4,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from servodeck.board.estimate import Estimate
-from servodeck.board.move_plan import FIRST_MOVE_MS, FIRST_MOVE_STAGGER_S, MovePlan, plan_move
 from servodeck.errors import NotSupportedError, OutOfRangeError
 from servodeck.protocol.families import FAMILIES, Family
 from servodeck.protocol.packets import encode
 from servodeck.protocol.values import Move, ServoTarget
+from servodeck.robot.board.estimate import Estimate
+from servodeck.robot.board.move_plan import FIRST_MOVE_MS, FIRST_MOVE_STAGGER_S, MovePlan, plan_move
 
 BUS = FAMILIES["bus-ctrl"]
 DOC = FAMILIES["doc"]

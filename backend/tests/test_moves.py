@@ -13,10 +13,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from servodeck.board.move_plan import FIRST_MOVE_MS, FIRST_MOVE_STAGGER_S
+from servodeck.api.websocket import take
 from servodeck.callers import Caller
-from servodeck.driving.control import Control
-from servodeck.driving.lease import COMMAND_S, QUIET_S
 from servodeck.errors import (
     BusyError,
     ExpiredError,
@@ -26,12 +24,14 @@ from servodeck.errors import (
     NotDrivingError,
     OutOfRangeError,
 )
-from servodeck.messages import MoveMessage, Target
+from servodeck.intents import MoveMessage, Target
 from servodeck.port.wire import QUEUE_PER_OWNER, Left, Owner
 from servodeck.protocol.packets import parse_command
 from servodeck.protocol.values import Move, ServoTarget
-from servodeck.told import ServoLimits
-from servodeck.web.clients import take
+from servodeck.robot.board.move_plan import FIRST_MOVE_MS, FIRST_MOVE_STAGGER_S
+from servodeck.robot.control import Control
+from servodeck.robot.lease import COMMAND_S, QUIET_S
+from servodeck.snapshots import ServoLimits
 from tests.amount import TIMES
 from tests.client import ANNA, Client, gateway_on
 from tests.fake_port import FakePort

@@ -9,11 +9,10 @@ from fastapi.routing import APIRoute
 from jsonschema_rs import validator_for
 from pydantic import TypeAdapter
 
+from servodeck.api.examples import EXAMPLES, PROBLEMS
+from servodeck.api.openapi import SCHEMES, STATUS_OF, described, docs_page, operations
 from servodeck.callers import Role
 from servodeck.errors import ErrorCode
-from servodeck.web.api_examples import EXAMPLES, PROBLEMS
-from servodeck.web.docs import docs_page
-from servodeck.web.openapi import SCHEMES, STATUS_OF, described, operations
 from tests.knocking import app_at
 from tests.test_matrix import ROLES
 

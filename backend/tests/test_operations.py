@@ -6,9 +6,9 @@ from typing import Any
 
 import pytest
 
+from servodeck.api.websocket import take
 from servodeck.callers import Caller
-from servodeck.driving.control import Control
-from servodeck.messages import (
+from servodeck.intents import (
     AnyClientMessage,
     EraseMessage,
     ReleaseMessage,
@@ -17,7 +17,7 @@ from servodeck.messages import (
     StopGroupMessage,
     StopMessage,
 )
-from servodeck.web.clients import take
+from servodeck.robot.control import Control
 from tests.client import ANNA, Client, gateway_on
 from tests.fake_port import FakePort
 from tests.samples import ERASE, MOVE, MOVE_S, RUN, STOP, STOPS

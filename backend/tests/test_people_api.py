@@ -8,11 +8,11 @@ from typing import Any
 import pytest
 from httpx2 import AsyncClient, Response
 
-from servodeck.access import access
+from servodeck.access import addresses
 from servodeck.access.entrance import Entrance
 from servodeck.callers import Caller, Role
-from servodeck.driving.control import Control
-from servodeck.messages import LeaseAction
+from servodeck.intents import LeaseAction
+from servodeck.robot.control import Control
 from tests.client import Client
 from tests.knocking import NOWHERE
 from tests.running import PORT, entrance_to, http_to
@@ -64,7 +64,7 @@ async def lan() -> AsyncIterator[tuple[Entrance, AsyncClient, Browser]]:
 
 @asynccontextmanager
 async def lan_with_control() -> AsyncIterator[tuple[Entrance, AsyncClient, Browser, Control]]:
-    entrance = entrance_to(access.lan(PORT, "robot"), now)
+    entrance = entrance_to(addresses.lan(PORT, "robot"), now)
     async with http_to(NOWHERE, now, device=None, entrance=entrance) as (client, control):
         owner = Browser(client)
         invite = entrance.pairing.invite("owner", "Anna")
@@ -278,7 +278,7 @@ async def test_a_token_or_a_cookie_is_no_stop_only_link() -> None:
 
 @in_virtual_time
 async def test_behind_a_proxy_the_cookie_is_for_https_only() -> None:
-    entrance = entrance_to(access.behind_proxy("https://robot.example"))
+    entrance = entrance_to(addresses.behind_proxy("https://robot.example"))
     async with http_to(NOWHERE, now, device=None, entrance=entrance) as (client, _):
         invite = entrance.pairing.invite("owner", "Anna")
         headers = {"host": "robot.example", "origin": "https://robot.example", "x-forwarded-for": "1.2.3.4"}

@@ -8,7 +8,7 @@ from httpx2 import AsyncClient
 from websockets.asyncio.client import connect
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
-from servodeck.access import access
+from servodeck.access import addresses
 from servodeck.callers import Role
 from tests.fake_port import FakePort, FakePorts
 from tests.running import Running, server_on
@@ -23,7 +23,7 @@ def port() -> FakePort:
 
 @pytest.fixture
 async def gateway(port: FakePort) -> AsyncIterator[Running]:
-    async with server_on(FakePorts(port), make_access=access.lan) as running:
+    async with server_on(FakePorts(port), make_access=addresses.lan) as running:
         yield running
 
 

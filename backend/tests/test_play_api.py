@@ -4,9 +4,9 @@ import asyncio
 from typing import Any
 
 from servodeck.callers import THIS_COMPUTER
-from servodeck.driving.lease import SILENT_S
 from servodeck.protocol.packets import parse_command
 from servodeck.protocol.values import Move
+from servodeck.robot.lease import SILENT_S
 from tests.client import Client
 from tests.fake_port import FakePort, FakePorts
 from tests.running import http_to

@@ -7,7 +7,7 @@ from pathlib import Path
 import httpx2
 import pytest
 
-from servodeck.cli.exits import FAILURE, USAGE
+from servodeck.cli.options import FAILURE, USAGE
 from tests.test_cli import Served, run
 from tests.test_download_cli import file_in
 

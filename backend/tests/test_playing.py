@@ -11,16 +11,15 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from servodeck.api.websocket import take
 from servodeck.callers import Caller
-from servodeck.driving.control import Control
 from servodeck.errors import GatewayError, MovingError
-from servodeck.intents import FrameBody
-from servodeck.messages import PlayMessage, StopMessage, StopPlayingMessage
+from servodeck.intents import FrameBody, PlayMessage, StopMessage, StopPlayingMessage
 from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.packets import encode, parse_command
 from servodeck.protocol.values import Frame, Move, ServoTarget
-from servodeck.told import ServoLimits
-from servodeck.web.clients import take
+from servodeck.robot.control import Control
+from servodeck.snapshots import ServoLimits
 from tests.amount import TIMES
 from tests.client import ANNA, Client, driven, gateway_on
 from tests.fake_port import FakePort

@@ -18,7 +18,7 @@ from serial.serialutil import Timeout
 from serial.tools import list_ports
 from typer.testing import CliRunner
 
-from servodeck.cli.cli import app
+from servodeck.cli.main import app
 from servodeck.errors import PortBusyError, PortDeniedError, PortError, PortLostError, PortMissingError
 from servodeck.port.ports import explain, is_same_port, list_devices, list_usb, open_port
 from servodeck.port.whereabouts import Whereabouts

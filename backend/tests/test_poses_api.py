@@ -8,7 +8,7 @@ from typing import Any
 from httpx2 import AsyncClient
 
 from servodeck.library.library import Library
-from servodeck.library.library_messages import RobotFacts
+from servodeck.snapshots import RobotFacts
 from tests.fake_port import FakePort, FakePorts
 from tests.running import http_to
 from tests.scripted import move, refusal

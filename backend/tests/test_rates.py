@@ -5,7 +5,7 @@ import asyncio
 import pytest
 from httpx2 import AsyncClient, Response
 
-from servodeck.access import access
+from servodeck.access import addresses
 from servodeck.access.entrance import Entrance
 from servodeck.access.rates import OF_DRIVERS, OF_VIEWERS, PAGE_BURST
 from servodeck.callers import Role
@@ -78,7 +78,7 @@ async def test_what_may_not_be_asked_is_refused_for_that_and_not_counted() -> No
 
 @in_virtual_time
 async def test_this_computer_is_not_counted() -> None:
-    async with http_to(NOWHERE, now, device=None, entrance=entrance_to(access.local(PORT), now)) as (
+    async with http_to(NOWHERE, now, device=None, entrance=entrance_to(addresses.local(PORT), now)) as (
         client,
         _,
     ):

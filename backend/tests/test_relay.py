@@ -5,7 +5,7 @@ import asyncio
 from hypothesis import given
 from hypothesis import strategies as st
 
-from servodeck.driving.relay import newest
+from servodeck.robot.broadcast import newest
 from tests.client import Client, gateway_on
 from tests.fake_port import FakePort
 from tests.samples import BATTERY, MOVE, MOVE_S, RUN, STOP, hold_at

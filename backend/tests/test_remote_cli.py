@@ -12,9 +12,9 @@ from typing import Any
 import httpx2
 import pytest
 
-from servodeck.cli.exits import FAILURE, INTERRUPTED, TIMED_OUT, UNREACHABLE, USAGE
-from servodeck.cli.remote_cli import usual_limit_s
-from servodeck.cli.stop_words import held_words
+from servodeck.cli.commands import usual_limit_s
+from servodeck.cli.options import FAILURE, INTERRUPTED, TIMED_OUT, UNREACHABLE, USAGE
+from servodeck.cli.remote import held_words
 from tests.samples import BATTERY, RUN, STOP
 from tests.test_cli import Served, run
 

@@ -8,13 +8,13 @@ from contextlib import asynccontextmanager, suppress
 
 import pytest
 
-from servodeck.board.parts import Group, made_of, packets_of
-from servodeck.driving.control import Control
 from servodeck.errors import GatewayError
 from servodeck.port.link import RETRIES_S
 from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.packets import encode
 from servodeck.protocol.values import Frame, Move, ServoTarget
+from servodeck.robot.board.packet_rules import Group, made_of, packets_of
+from servodeck.robot.control import Control
 from tests.client import ANNA, Client
 from tests.fake_port import FakePort, FakePorts
 from tests.samples import BATTERY, BATTERY_REPORT, MOVE, RUN, STOP, STOPS

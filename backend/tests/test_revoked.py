@@ -10,13 +10,13 @@ from fastapi import FastAPI
 from httpx2 import Response
 
 from servodeck.access.guard import Guard
-from servodeck.driving.scripts import Scripts
+from servodeck.api.websocket import take
 from servodeck.errors import NotPairedError
-from servodeck.messages import LeaseMessage, StopMessage
+from servodeck.intents import LeaseMessage, StopMessage
 from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.packets import encode
 from servodeck.protocol.values import Run
-from servodeck.web.clients import take
+from servodeck.robot.scripts import Scripts
 from tests.client import ANNA, Client
 from tests.downloading import AnsweringPort
 from tests.fake_port import FakePort

@@ -13,12 +13,13 @@ from httpx2 import Response
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from servodeck.access.intake import Intake, Rate
+from servodeck.api.intake import Intake
+from servodeck.api.websocket import merged, take
 from servodeck.callers import THIS_COMPUTER, Caller
-from servodeck.intents import FrameBody
-from servodeck.messages import (
+from servodeck.intents import (
     AnyClientMessage,
     ContinueMessage,
+    FrameBody,
     LeaseMessage,
     MoveMessage,
     PacketMessage,
@@ -32,7 +33,7 @@ from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.packets import encode, parse_command
 from servodeck.protocol.timings import MOVE, wire_s
 from servodeck.protocol.values import Command, Download, Move, Run
-from servodeck.web.clients import merged, take
+from servodeck.rate import Rate
 from tests.amount import TIMES
 from tests.client import Client
 from tests.downloading import STORED

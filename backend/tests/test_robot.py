@@ -5,15 +5,15 @@ import json
 
 import pytest
 
-from servodeck.access.hub import Seat
-from servodeck.board.parts import Group
+from servodeck.api.websocket import hear, intake_of
 from servodeck.callers import Caller
-from servodeck.driving.control import Control
 from servodeck.errors import OutOfRangeError
 from servodeck.protocol.packets import parse_command
 from servodeck.protocol.values import Frame, ServoTarget
-from servodeck.told import ServoLimits
-from servodeck.web.clients import hear, intake_of
+from servodeck.robot.board.packet_rules import Group
+from servodeck.robot.control import Control
+from servodeck.robot.hub import Seat
+from servodeck.snapshots import ServoLimits
 from tests.client import Client, gateway_on
 from tests.downloading import begin
 from tests.fake_port import FakePort

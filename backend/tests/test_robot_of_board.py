@@ -10,12 +10,10 @@ from typing import Any
 import pytest
 
 from servodeck.callers import Caller
-from servodeck.driving.control import Control
 from servodeck.errors import ConflictError, MovingError, NotFoundError, OutOfRangeError
-from servodeck.files.remembered import FILE, Remembered
-from servodeck.files.small_file import write_whole
-from servodeck.library.library_messages import RobotFacts
-from servodeck.told import ServoLimits
+from servodeck.files import FILE, Remembered, write_whole
+from servodeck.robot.control import Control
+from servodeck.snapshots import RobotFacts, ServoLimits
 from tests.client import Client
 from tests.fake_port import FakePort, FakePorts
 from tests.samples import MOVE, MOVE_ELSEWHERE

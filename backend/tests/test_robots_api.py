@@ -4,7 +4,7 @@ import time
 from pathlib import Path
 from typing import Any
 
-from servodeck.access import access
+from servodeck.access import addresses
 from servodeck.library.library import Library
 from tests.fake_port import FakePort, FakePorts
 from tests.running import PORT, entrance_to, http_to
@@ -50,7 +50,7 @@ async def test_a_robot_is_kept_put_on_the_board_and_its_limits_hold(tmp_path: Pa
 
 
 async def test_while_somebody_drives_others_change_no_limits_and_no_robot(tmp_path: Path) -> None:
-    lan = entrance_to(access.lan(PORT))
+    lan = entrance_to(addresses.lan(PORT))
     headers = {
         name: {"Authorization": f"Bearer {lan.devices.admit('token', name, 'driver')[1]}"}
         for name in ("Anna", "Bert")

@@ -10,13 +10,13 @@ from typing import Any
 
 import pytest
 
-from servodeck.board.parts import Group, made_of, packets_of
-from servodeck.board.playing import FrameGroup
-from servodeck.driving.control import Control
-from servodeck.driving.scripts import Scripts
 from servodeck.errors import GatewayError, NoAnswerError
 from servodeck.protocol.values import Frame, ServoTarget
-from servodeck.told import PlayState
+from servodeck.robot.board.packet_rules import Group, made_of, packets_of
+from servodeck.robot.board.playing import FrameGroup
+from servodeck.robot.control import Control
+from servodeck.robot.scripts import Scripts
+from servodeck.snapshots import PlayState
 from tests.client import ANNA, Client
 from tests.fake_port import FakePort, FakePorts
 from tests.running import DEVICE

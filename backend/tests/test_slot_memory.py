@@ -5,12 +5,12 @@ from pathlib import Path
 
 import pytest
 
-from servodeck.board.parts import Group
-from servodeck.board.slot_memory import FILE, OLD_FILE, SlotMemory
-from servodeck.driving.control import Control
 from servodeck.errors import SlotChangedError
 from servodeck.protocol.values import Frame, ServoTarget
-from servodeck.told import StoredGroup
+from servodeck.robot.board.packet_rules import Group
+from servodeck.robot.board.slots import FILE, OLD_FILE, SlotMemory
+from servodeck.robot.control import Control
+from servodeck.snapshots import StoredGroup
 from tests.client import Client, gateway_on
 from tests.downloading import AnsweringPort, begin, ended
 from tests.fake_port import FakePort, FakePorts

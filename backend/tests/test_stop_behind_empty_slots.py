@@ -9,12 +9,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from servodeck.api.websocket import take
 from servodeck.callers import Caller
-from servodeck.messages import StopMessage
+from servodeck.intents import StopMessage
 from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.packets import encode, parse_command
 from servodeck.protocol.values import Command, Erase, Move, Run, ServoTarget
-from servodeck.web.clients import take
 from tests.amount import TIMES
 from tests.boards import WorkingBoard, new_board, old_board
 from tests.client import Client

@@ -5,13 +5,13 @@ import random
 
 import pytest
 
-from servodeck.access.intake import Intake
-from servodeck.board.parts import Group
+from servodeck.api.intake import Intake
+from servodeck.api.websocket import hear, intake_of, take
 from servodeck.callers import THIS_COMPUTER, Caller
 from servodeck.errors import GatewayError, LatchedError, PortLostError
-from servodeck.messages import StopMessage
+from servodeck.intents import StopMessage
 from servodeck.protocol.values import Frame, ServoTarget
-from servodeck.web.clients import hear, intake_of, take
+from servodeck.robot.board.packet_rules import Group
 from tests.amount import named, seeds
 from tests.client import Client, gateway_on
 from tests.downloading import AnsweringPort, begin

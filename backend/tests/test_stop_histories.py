@@ -8,7 +8,6 @@ from collections.abc import Awaitable, Callable, Sequence
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from servodeck.board.estimate import Estimate
 from servodeck.protocol.families import FAMILIES, Family
 from servodeck.protocol.packets import encode, parse_command
 from servodeck.protocol.values import (
@@ -27,6 +26,7 @@ from servodeck.protocol.values import (
     ServoTarget,
     Stop,
 )
+from servodeck.robot.board.estimate import Estimate
 from tests.amount import TIMES
 from tests.boards import WorkingBoard, new_board, old_board
 from tests.samples import STOP

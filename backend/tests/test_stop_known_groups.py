@@ -7,9 +7,9 @@ from collections.abc import Awaitable, Callable
 
 import pytest
 
+from servodeck.api.websocket import take
 from servodeck.callers import Caller
-from servodeck.messages import StopMessage
-from servodeck.web.clients import take
+from servodeck.intents import StopMessage
 from tests.boards import new_board, old_board
 from tests.client import Client
 from tests.samples import STOP, hold_at, is_held_ahead

@@ -14,9 +14,9 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from servodeck.cli.cli import app
-from servodeck.run.pulse import BEAT_S
-from servodeck.run.server import END_S
+from servodeck.api.process import BEAT_S
+from servodeck.api.server import END_S
+from servodeck.cli.main import app
 from tests.test_cli import Served
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="systemd needs POSIX")

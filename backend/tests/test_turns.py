@@ -3,8 +3,8 @@
 import asyncio
 from collections.abc import Callable
 
-from servodeck.access.intake import Rate
-from servodeck.access.turns import Turns
+from servodeck.access.rates import Turns
+from servodeck.rate import Rate
 from tests.virtual_time import in_virtual_time, now
 
 

@@ -12,11 +12,11 @@ from pathlib import Path
 import pytest
 
 from servodeck.library.library import Library
-from servodeck.library.library_messages import NamedPose, PoseTarget, RobotFacts
-from servodeck.port.background import BackgroundPorts
+from servodeck.port.link import BackgroundPorts
 from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.packets import encode
 from servodeck.protocol.values import Move, Run, ServoTarget
+from servodeck.snapshots import NamedPose, PoseTarget, RobotFacts
 from tests.running import Running, server_on
 from tests.test_with_simulator import ROOT, Board, board, pytestmark
 

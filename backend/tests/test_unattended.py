@@ -4,11 +4,11 @@ import asyncio
 
 import pytest
 
+from servodeck.api.websocket import take
 from servodeck.callers import Caller
-from servodeck.driving.control import Control
 from servodeck.errors import CancelledError, NotDrivingError
-from servodeck.messages import ContinueMessage, StopMessage
-from servodeck.web.clients import take
+from servodeck.intents import ContinueMessage, StopMessage
+from servodeck.robot.control import Control
 from tests.client import ANNA, Client, gateway_on
 from tests.fake_port import FakePort
 from tests.samples import MOVE, RUN, STOP, STOPS

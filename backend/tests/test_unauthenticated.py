@@ -6,10 +6,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from servodeck.access import unauthenticated
-from servodeck.access.hub import SEATS
-from servodeck.access.unauthenticated import MOST, MOST_OF_ONE, Unauthenticated
-from servodeck.run.descriptors import WANTED
+from servodeck.access import connections
+from servodeck.access.connections import MOST, MOST_OF_ONE, Unauthenticated
+from servodeck.api.process import WANTED
+from servodeck.robot.hub import SEATS
 from tests.amount import TIMES
 
 FEW, FEW_OF_ONE = 5, 3
@@ -36,8 +36,8 @@ class Link:
 @given(steps=STEPS)
 def test_the_least_used_of_one_address_ends_first_else_that_of_all(steps: list[tuple[str, str, int]]) -> None:
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(unauthenticated, "MOST", FEW)
-        patch.setattr(unauthenticated, "MOST_OF_ONE", FEW_OF_ONE)
+        patch.setattr(connections, "MOST", FEW)
+        patch.setattr(connections, "MOST_OF_ONE", FEW_OF_ONE)
         links, expected = Unauthenticated(), list[tuple[str, Link]]()
         made, ended = list[Link](), list[Link]()
         for what, source, number in steps:

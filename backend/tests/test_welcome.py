@@ -2,7 +2,7 @@
 
 import asyncio
 
-from servodeck.driving.control import Control
+from servodeck.robot.control import Control
 from tests.client import Client, driven, gateway_on
 from tests.fake_port import FakePort, FakePorts
 from tests.samples import BATTERY, BATTERY_REPORT, MOVE

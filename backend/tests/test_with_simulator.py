@@ -18,8 +18,8 @@ import pytest
 from httpx2 import AsyncClient
 from websockets.asyncio.client import ClientConnection, connect
 
-from servodeck.cli.exits import FAILURE
-from servodeck.port.background import BackgroundPorts
+from servodeck.cli.options import FAILURE
+from servodeck.port.link import BackgroundPorts
 from servodeck.protocol.decoder import COMMAND_AT
 from tests.running import Running, server_on
 from tests.samples import BATTERY, BATTERY_REPORT, MOVE, RUN, STOP

@@ -5,10 +5,9 @@ Knows headers; no route, no board and no page.
 
 from collections.abc import Callable
 
-from servodeck.access.access import Access
-from servodeck.access.credentials import credential_of
+from servodeck.access.addresses import Access
+from servodeck.access.credentials import Invite, Pairing, credential_of
 from servodeck.access.devices import Device, Devices
-from servodeck.access.pairing import Invite, Pairing
 from servodeck.access.rates import Rates
 from servodeck.callers import THIS_COMPUTER, Caller, Role
 from servodeck.errors import NotPairedError, PairingError

@@ -1,4 +1,5 @@
-"""Decides who may ask and what may go on the wire. Pure functions: no socket, no port, no clock, no state.
+"""Which requests may come in, by their head: Host, Origin, forwarding, kind and size of the body. Pure
+functions.
 
 Denies by default: only the names of `access` pass, the page served under them, and programs, which have no
 Origin.
@@ -6,27 +7,12 @@ Origin.
 
 from collections.abc import Iterable
 
-from servodeck.access.access import Access
-from servodeck.callers import Role
+from servodeck.access.addresses import Access
 from servodeck.errors import (
     ForbiddenError,
-    GatewayError,
-    LatchedError,
-    MalformedError,
-    NotSupportedError,
-    OutOfRangeError,
     TooLargeError,
     WrongTypeError,
 )
-from servodeck.protocol.decoder import COMMAND_AT
-from servodeck.protocol.families import FAMILIES
-from servodeck.protocol.limits import PacketError
-from servodeck.protocol.packets import check_command, encode
-from servodeck.protocol.values import Command, Download
-
-MOVE, RUN, STOP, ERASE, DOWNLOAD = 3, 6, 7, 8, 25
-BATTERY, POSITIONS, VERSION, ALL_POSITIONS, OFFSETS = 15, 21, 1, 13, 2
-HARMLESS = frozenset({STOP, BATTERY, POSITIONS, VERSION, ALL_POSITIONS, OFFSETS})
 
 FORWARDING = frozenset(
     {b"forwarded", b"via", b"x-real-ip", b"x-client-ip", b"true-client-ip", b"cf-connecting-ip"}
@@ -115,61 +101,3 @@ def only(headers: list[tuple[bytes, bytes]], name: bytes) -> bytes | None:
     if len(values) > 1:
         raise ForbiddenError(f"The header {name.decode('ascii')} came more than once.")
     return values[0] if values else None
-
-
-def judge_packet(text: str, board: str) -> bytes:
-    """The packet in `text` (hex) when it is one command that board can take. Raises what is wrong with it."""
-    return judge_command(text, board)[0]
-
-
-def judge_command(text: str, board: str) -> tuple[bytes, Command]:
-    """As `judge_packet`; with what it says, which is read once."""
-    try:
-        packet = bytes.fromhex(text)
-    except ValueError:
-        raise MalformedError("The packet is not written in hex digits.") from None
-    try:
-        return packet, check_command(packet, FAMILIES[board])
-    except PacketError as error:
-        raise refusal_of(error) from error
-
-
-def judge_frame(command: Download, board: str) -> bytes:
-    """The packet that stores it. Raises what that board cannot take of it."""
-    try:
-        return encode(command, FAMILIES[board])
-    except PacketError as error:
-        raise refusal_of(error) from error
-
-
-def judge_by_hand(packet: bytes) -> None:
-    """A frame alone only breaks the slot it goes to (S33, S35). Raises NotSupportedError."""
-    if packet[COMMAND_AT] == DOWNLOAD:
-        raise NotSupportedError("Groups are stored as a whole: POST /api/download.")
-
-
-def refusal_of(error: PacketError) -> GatewayError:
-    if error.code == "malformed":
-        return MalformedError(error.detail)
-    return (NotSupportedError if error.field == "command" else OutOfRangeError)(error.detail)
-
-
-def is_harmless(packet: bytes) -> bool:
-    """It moves nothing and stores nothing: nobody has to drive for it."""
-    return packet[COMMAND_AT] in HARMLESS
-
-
-def role_for(packet: bytes) -> Role:
-    """Who may send it at least: questions harm nobody, an erased board is empty for all."""
-    command = packet[COMMAND_AT]
-    if command == STOP:
-        return "stopper"
-    if is_harmless(packet):
-        return "viewer"
-    return "owner" if command == ERASE else "driver"
-
-
-def judge_latch(command: int, latch: bool) -> None:
-    """While stopped, only what moves nothing and stores nothing passes. Raises LatchedError."""
-    if latch and command not in HARMLESS:
-        raise LatchedError("Stopped. Motion waits for Resume.")

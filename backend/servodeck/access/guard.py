@@ -1,9 +1,10 @@
-"""Stands before everything the gateway serves: asks `gate` about each request and upgrade, lets who is
-unknown wait where many ask at once, adds the security headers.
+"""Stands before everything the gateway serves: asks `gate` about each request and upgrade, makes unknown
+callers wait where many ask at once, adds the security headers, and logs refusals.
 
 Pure ASGI, because ordinary middleware does not see WebSockets. Knows no route.
 """
 
+import logging
 import re
 import time
 
@@ -12,13 +13,30 @@ from starlette.exceptions import HTTPException
 from starlette.responses import JSONResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
+from servodeck.access.connections import connection_of
 from servodeck.access.entrance import Entrance
 from servodeck.access.gate import asks_for_socket, judge_body_size, judge_body_type, judge_handshake
-from servodeck.access.impatient import connection_of
-from servodeck.access.intake import Rate
-from servodeck.access.refusals import log_refusal
-from servodeck.access.turns import Turns
+from servodeck.access.rates import Turns
 from servodeck.errors import GatewayError, NotPairedError
+from servodeck.rate import Rate
+
+LOGGER = "servodeck.access"
+# Of what somebody unknown has written.
+MAX_CHARACTERS = 100
+log = logging.getLogger(LOGGER)
+
+
+def log_refusal(scope: Scope, error: GatewayError) -> None:
+    client = scope.get("client")
+    facts = {
+        "from": client[0] if client else None,
+        "type": "websocket" if asks_for_socket(scope["headers"]) else scope["type"],
+        "path": scope["path"][:MAX_CHARACTERS],
+        "code": error.code,
+        "reason": error.detail[:MAX_CHARACTERS],
+    }
+    log.info("refused", extra={"facts": facts})
+
 
 BODY_BYTES = 16 * 1024
 LARGER_BODIES = (

@@ -16,10 +16,10 @@ from starlette.requests import HTTPConnection, Request
 from starlette.responses import Response
 from starlette.routing import BaseRoute, Mount
 
+from servodeck.access.connections import connection_of
 from servodeck.access.entrance import Entrance
-from servodeck.access.impatient import connection_of
 from servodeck.callers import Caller, Role
-from servodeck.json_text import has_more_values
+from servodeck.schema import has_more_values
 from servodeck.threads import in_thread
 
 # Reading as much takes a millisecond or, of a hostile text, ten.

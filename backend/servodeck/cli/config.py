@@ -10,7 +10,7 @@ import sys
 import tomllib
 from collections.abc import Collection, Iterable, Iterator
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import typer
 from typer.core import TyperGroup
@@ -116,3 +116,16 @@ def refuse_unknown(given: Iterable[str], known: Collection[str], where: str) -> 
         close = difflib.get_close_matches(name, known, n=1)
         hint = f"Did you mean {close[0]}?" if close else f"There are: {', '.join(sorted(known))}."
         raise typer.BadParameter(f"{name} is no option. {hint}", param_hint=where)
+
+
+def data_folder() -> Path:
+    home = Path.home()
+    if sys.platform == "win32":
+        return Path(os.environ.get("LOCALAPPDATA") or home / "AppData" / "Local") / "Servodeck"
+    if sys.platform == "darwin":
+        return home / "Library" / "Application Support" / "Servodeck"
+    return Path(os.environ.get("XDG_DATA_HOME") or home / ".local" / "share") / "servodeck"
+
+
+Level = Literal["debug", "info", "warning", "error"]
+Form = Literal["text", "json"]

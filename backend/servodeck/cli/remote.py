@@ -5,6 +5,7 @@ Knows requests and answers; no command's meaning and no terminal.
 """
 
 import json
+import math
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
 from http.client import HTTPConnection, HTTPException, HTTPResponse, HTTPSConnection
@@ -79,3 +80,23 @@ def read(answer: HTTPResponse) -> Any:
     if refusal:
         raise refusal
     return said
+
+
+RESUME = "servodeck resume allows motion again."
+
+
+def stopped_words(stopped: dict[str, Any]) -> str:
+    return f"{held_words(stopped['unheld'])} {RESUME}"
+
+
+def held_words(unheld: dict[str, Any] | None) -> str:
+    if unheld is None:
+        return "Stopped."
+    if unheld["forMs"] is None:
+        return "Stopped, but the board may not have heard it. Switch the robot off if it moves."
+    for_s = math.ceil(unheld["forMs"] / 100) / 10
+    if unheld["servos"] is None:
+        return f"Stopped, but a frame in progress cannot be held: servos may move for up to {for_s} s."
+    named = ", ".join(map(str, unheld["servos"]))
+    who, it = ("servo", "it") if len(unheld["servos"]) == 1 else ("servos", "they")
+    return f"Stopped, but {who} {named} cannot be held: {it} may move for up to {for_s} s."

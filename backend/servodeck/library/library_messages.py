@@ -1,7 +1,7 @@
 """What pages and the library say to each other over HTTP, as strict models.
 
-The only description of it: `python -m servodeck.library_messages` prints the JSON schema from which the
-page's types are generated. Knows no file and no route.
+The only description of it: `python -m servodeck.library.library_messages` prints the JSON
+schema from which the page's types are generated. Knows no file and no route.
 """
 
 import json
@@ -11,22 +11,14 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, TypeAdapter
 
 from servodeck.schema import Message, schema_of
-from servodeck.told import ServoLimits
+from servodeck.snapshots import Name, PoseTarget, RobotFacts, Whole
 
-MAX_SAFE = 2**53 - 1
 MAX_TEXT = 2 * 1024 * 1024
 
 Id = Annotated[str, Field(pattern=r"^[A-Za-z0-9-]{1,64}$")]
-Name = Annotated[str, Field(max_length=64)]
-Whole = Annotated[int, Field(ge=0, le=MAX_SAFE)]
 Text = Annotated[
     str, Field(max_length=MAX_TEXT, description="The document as JSON; only the page knows what it means.")
 ]
-
-
-class PoseTarget(Message):
-    servo: Annotated[int, Field(ge=0, le=0xFF)]
-    position: Annotated[int, Field(ge=0, le=0xFFFF)]
 
 
 class GroupFacts(Message):
@@ -41,28 +33,6 @@ class GroupFacts(Message):
     duration_ms: Whole
     unit: Literal["us", "steps"]
     pose: Annotated[list[PoseTarget], Field(max_length=256)]
-
-
-class NamedPose(Message):
-    """`id` stays when it is named anew. `targets` are some of the robot's servos, as its board counts."""
-
-    id: Whole
-    name: Annotated[str, Field(min_length=1, max_length=64)]
-    unit: Literal["us", "steps"]
-    targets: Annotated[list[PoseTarget], Field(min_length=1, max_length=253)]
-
-
-class RobotFacts(Message):
-    """What the gateway itself needs to know of a robot: how far its servos may be turned and the poses that
-    programs go to, as the board counts.
-    """
-
-    kind: Literal["robot"]
-    name: Name
-    board: Name
-    updated_at_ms: Whole
-    limits: Annotated[list[ServoLimits], Field(max_length=253)]
-    poses: Annotated[list[NamedPose], Field(max_length=1001)]
 
 
 Facts = Annotated[GroupFacts | RobotFacts, Field(discriminator="kind")]

@@ -1,8 +1,8 @@
 """Keeps one serial port open: opens it, waits for its loss, tries again with growing pauses, says how it
 stands.
 
-Knows ports and time, no packet and no client. It never changes the device by itself: it follows the one
-that a person chose to another name, and leaves another one that took its name alone.
+Knows ports and time, no packet and no client. It never changes the device by itself: it follows the one that
+a person chose to another name, and leaves another one that took its name alone.
 """
 
 import asyncio
@@ -13,11 +13,12 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from servodeck.errors import CancelledError, ClosedError, PortError, PortLostError
-from servodeck.port.ports import OpenPort
+from servodeck.port.ports import OpenPort, list_usb, open_port
 from servodeck.port.whereabouts import UsbDevice, Whereabouts
 from servodeck.port.wire import Wire, fail, settle
 from servodeck.protocol.timings import LINE
-from servodeck.told import PortState
+from servodeck.snapshots import PortState
+from servodeck.threads import in_thread
 
 RETRIES_S = tuple(ms / 1000 for ms in LINE.reconnect_ms)
 STEADY_S = 5.0  # a port that stayed open that long was no false start: begin with short pauses again
@@ -189,3 +190,23 @@ def log_change(before: PortState, now: PortState) -> None:
 
 def replaced() -> CancelledError:
     return CancelledError("The port was closed or changed meanwhile.")
+
+
+CLOSE_WAIT_S = 1.0
+
+
+class BackgroundPorts:
+    """The ports of this computer, for a link."""
+
+    async def open(self, device: str) -> OpenPort:
+        """Raises a PortError. A port that opens after the caller was cancelled is closed again."""
+        return await in_thread(lambda: open_port(device), undo=lambda port: port.close())
+
+    async def list_usb(self) -> list[UsbDevice]:
+        return await in_thread(list_usb)
+
+    async def close(self, port: OpenPort) -> None:
+        # Not wait_for: Python 3.11's swallows a cancellation that meets the result, and the link lived on.
+        with contextlib.suppress(TimeoutError):
+            async with asyncio.timeout(CLOSE_WAIT_S):
+                await in_thread(port.close)

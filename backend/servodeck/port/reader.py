@@ -1,7 +1,8 @@
-"""Gets bytes from an open port onto the event loop, on the way that suits the platform.
+"""From an open port to packets: gets bytes onto the event loop on the way that suits the platform, and tells
+the decoder when the line has been silent.
 
-Knows a port and a loop, no packet. Two ways behind one call: watch the descriptor (POSIX: half the CPU of a
-thread) or a thread that waits in `read` (everywhere).
+Two ways behind one call: watch the descriptor (POSIX: half the CPU of a thread) or a thread that waits in
+`read` (everywhere). Knows a port, a loop and the decoder, no client.
 """
 
 import asyncio
@@ -12,6 +13,8 @@ from functools import partial
 
 from servodeck.errors import PortLostError
 from servodeck.port.ports import OpenPort
+from servodeck.protocol.decoder import Decoder, DecoderEvent
+from servodeck.protocol.timings import LINE
 
 Received = Callable[[bytes], None]
 Lost = Callable[[PortLostError], None]
@@ -69,3 +72,26 @@ def read_in_thread(port: OpenPort, received: Received, lost: Lost) -> Stop:
 
     threading.Thread(target=run, name="serial reader", daemon=True).start()
     return stopped.set
+
+
+PAUSE_S = LINE.pause_ms / 1000
+SILENCE_S = LINE.idle_ms / 1000
+
+
+class Inbox:
+    def __init__(self, emit: Callable[[DecoderEvent], None]) -> None:
+        self._decoder = Decoder(emit)
+        self._timers: list[asyncio.TimerHandle] = []
+
+    def push(self, data: bytes) -> None:
+        self.close()
+        self._decoder.push(data)
+        loop = asyncio.get_running_loop()
+        self._timers = [
+            loop.call_later(PAUSE_S, self._decoder.pause),
+            loop.call_later(SILENCE_S, self._decoder.idle),
+        ]
+
+    def close(self) -> None:
+        for timer in self._timers:
+            timer.cancel()

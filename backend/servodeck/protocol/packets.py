@@ -7,10 +7,7 @@ shared/protocol/vectors holds both codecs to each other.
 
 from typing import Literal, assert_never
 
-from servodeck.protocol.decoder import (
-    HEADER,
-    Packet,
-)
+from servodeck.protocol.decoder import HEADER, Packet
 from servodeck.protocol.families import CommandKind, Family, Range
 from servodeck.protocol.limits import PacketError, check, check_range
 from servodeck.protocol.values import (

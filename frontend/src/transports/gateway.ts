@@ -42,7 +42,7 @@ import {
 } from './messages.generated.ts';
 import { createTurn } from './turn.ts';
 
-/** As in backend/servodeck/web/clients.py. */
+/** As in backend/servodeck/api/websocket.py. */
 const OUTDATED_PAGE = 4001;
 
 type SettleDone = { resolve: (outcome: Outcome) => void; reject: (error: LinkError) => void };

@@ -1,4 +1,4 @@
-// Made from the gateway's models by `npm run messages`; a check fails when the two differ. Change backend/servodeck/messages.py instead.
+// Made from the gateway's models by `npm run messages`; a check fails when the two differ. Change backend/servodeck/events.py instead.
 
 export type Message = ClientMessage | GatewayMessage;
 export type ClientMessage =

@@ -1,5 +1,5 @@
 // How far the groups of one download have come together, and how long the rest takes. Knows sizes and time; no packet. The
-// gateway counts alike (backend/servodeck/board/tally.py).
+// gateway counts alike (backend/servodeck/robot/board/download.py).
 
 import type { Clock } from '../clock.ts';
 import { wireMs } from '../codec/packet.ts';

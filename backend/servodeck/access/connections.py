@@ -1,0 +1,317 @@
+"""Connections that cannot be held open by saying little, nor fill memory by saying much: a request comes soon
+and whole, with a head of sane size; its body is read only where somebody waits for it; a WebSocket answers a
+ping; else the connection ends. Of those that have not proved who they are only few stay: STOP needs the
+descriptors.
+
+Knows time, bytes and addresses, no request's meaning.
+"""
+
+import asyncio
+from collections.abc import Callable
+from typing import Any, Protocol
+
+from starlette.types import Scope
+from uvicorn._types import ASGI3Application, ASGISendEvent
+from uvicorn.config import Config
+from uvicorn.protocols.http.httptools_impl import STATUS_LINE, HttpToolsProtocol, RequestResponseCycle
+from uvicorn.protocols.utils import ClientDisconnected
+from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIOProtocol
+from uvicorn.server import ServerState
+
+# Beside 216 seats and what files and the port take, far below the 1,024 descriptors that the process has.
+MOST = 256
+# A class behind one router loads the page at once: 6 connections of each of 20 browsers.
+MOST_OF_ONE = 128
+
+
+class Closable(Protocol):
+    def abort(self) -> None: ...
+
+
+class Unauthenticated:
+    def __init__(self) -> None:
+        # The one that was used longest ago comes first.
+        self._sources: dict[Closable, str] = {}
+
+    def add(self, connection: Closable, source: str) -> None:
+        """One that was just opened from the address `source`."""
+        self._sources[connection] = source
+        of_source = [each for each, address in self._sources.items() if address == source]
+        if len(of_source) > MOST_OF_ONE:
+            self._end(of_source[0])
+        elif len(self._sources) > MOST:
+            self._end(next(iter(self._sources)))
+
+    def use(self, connection: Closable) -> None:
+        """Something was asked or answered on it."""
+        if connection in self._sources:
+            self._sources[connection] = self._sources.pop(connection)
+
+    def remove(self, connection: Closable) -> None:
+        """Somebody has proved who they are, or it was closed."""
+        self._sources.pop(connection, None)
+
+    def _end(self, connection: Closable) -> None:
+        self.remove(connection)
+        connection.abort()
+
+
+# Before its first request and between two. Browsers open a connection or two ahead of need, and again later.
+IDLE_S = 2
+# Of who is known, between two requests: longer than clients keep a connection for their next request, so that
+# none of them asks on one that is just being closed.
+KNOWN_IDLE_S = 20
+HEAD_S = 1.0
+# A library of 3 MiB over a poor wireless link; for who is unknown, the answer, too.
+BODY_S = 30.0
+# Whoever has its answer and talks on may read it first.
+ANSWERED_S = 0.5
+HEAD_BYTES = 32 * 1024
+HEADERS = 100
+# What the system holds of a connection that is not read; 3 MiB take 100 such windows.
+RECEIVED_BYTES = 32 * 1024
+# Beyond it no connection waits for a next request.
+MOST_WAITING = 600
+# A browser answers by itself, also for a page that sleeps. Who does not read never gets to the ping.
+PING_S = 10.0
+PONG_S = 10.0
+# For the words of the end to arrive.
+FAREWELL_S = 2.0
+
+EXTENSION = "servodeck.connection"
+HEAD_REFUSED = b"""{"code":"tooLarge","detail":"The head of a request is at most 32 KiB and 100 headers."}"""
+
+
+class Connection(Protocol):
+    """What a request may say of the connection that it came on."""
+
+    def know(self) -> None:
+        """Somebody has proved who they are."""
+
+    def when_lost(self, lost: Callable[[], None]) -> None:
+        """Nobody hears an answer any more: once, and at once where it is so already."""
+
+    def abort(self) -> None:
+        """Cuts it, also where its other end does not read."""
+
+
+def connection_of(scope: Scope) -> Connection | None:
+    """None where there is no server, as in a test."""
+    connection: Connection | None = scope.get("extensions", {}).get(EXTENSION, {}).get("connection")
+    return connection
+
+
+MayUpgrade = Callable[[list[tuple[bytes, bytes]], str | None], bool]
+
+
+class State(ServerState):
+    """What all connections share."""
+
+    def __init__(self, may_upgrade: MayUpgrade) -> None:
+        """`may_upgrade` judges the headers of an upgrade that came in at that address of ours."""
+        super().__init__()
+        self.unauthenticated = Unauthenticated()
+        self.may_upgrade = may_upgrade
+
+
+class Losable:
+    """Tells one who asked that the connection is gone."""
+
+    _is_lost = False
+    _lost: Callable[[], None] | None = None
+
+    def when_lost(self, lost: Callable[[], None]) -> None:
+        if self._is_lost:
+            lost()
+        else:
+            self._lost = lost
+
+    def _tell_lost(self) -> None:
+        self._is_lost = True
+        if self._lost:
+            self._lost()
+        self._lost = None
+
+
+class HeadTooLargeError(Exception):
+    """Ends the parsing of a request."""
+
+
+class ImpatientProtocol(Losable, HttpToolsProtocol):
+    _timer: asyncio.TimerHandle | None = None
+    _head_bytes = 0
+    _received_bytes = 0
+    _in_head = False
+    _in_body = False
+    _is_known = False
+    _upgrades = False
+    _answered: RequestResponseCycle | None = None
+
+    def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
+        super().connection_made(transport)
+        self._end_in(IDLE_S)
+        self._shared.unauthenticated.add(transport, self.client[0] if self.client else "")
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        self._end_in(None)
+        self._shared.unauthenticated.remove(self.transport)
+        self._tell_lost()
+        if self._answered:  # uvicorn looks at the request that came last, which may wait for its turn
+            self._answered.disconnected = True
+            self._answered.message_event.set()
+        super().connection_lost(exc)
+
+    def _start_asgi_task(self, cycle: RequestResponseCycle, app: ASGI3Application) -> None:
+        self._answered = cycle
+        super()._start_asgi_task(cycle, app)
+
+    @property
+    def _shared(self) -> State:
+        return shared(self.server_state)
+
+    def know(self) -> None:
+        self._is_known = True
+        self.timeout_keep_alive = KNOWN_IDLE_S
+        self._shared.unauthenticated.remove(self.transport)
+        if not self._in_body:
+            self._end_in(None)
+
+    def abort(self) -> None:
+        self.transport.abort()
+
+    def data_received(self, data: bytes) -> None:
+        super().data_received(data)
+        if self._in_head:
+            self._received_bytes += len(data)
+            if self._received_bytes > HEAD_BYTES:  # a header that does not end
+                self._refuse_head()
+
+    def _should_upgrade(self) -> bool:
+        """Else it is answered as any other request: a socket that is refused stays in memory, in circles of
+        references, until the garbage of all of them is collected.
+        """
+        return self._upgrades
+
+    def _unsupported_upgrade_warning(self) -> None:
+        """Nothing to warn of: whoever refuses it says why."""
+
+    def handle_websocket_upgrade(self) -> None:
+        self._end_in(None)
+        super().handle_websocket_upgrade()
+
+    def on_message_begin(self) -> None:
+        super().on_message_begin()
+        self._in_head, self._head_bytes, self._received_bytes = True, 0, 0
+        self._end_in(HEAD_S)
+
+    def on_header(self, name: bytes, value: bytes) -> None:
+        super().on_header(name, value)
+        self._head_bytes += len(name) + len(value)
+        if self._is_head_too_large():
+            raise HeadTooLargeError
+
+    def on_headers_complete(self) -> None:
+        self._in_head, self._in_body = False, True
+        self._end_in(BODY_S)
+        self._shared.unauthenticated.use(self.transport)
+        self._upgrades = super()._should_upgrade() and self._shared.may_upgrade(
+            self.headers, self.server[0] if self.server else None
+        )
+        super().on_headers_complete()
+        if not (self.parser.should_upgrade() and self._upgrades):
+            self.scope["extensions"] = {EXTENSION: {"connection": self}}
+            self.flow.pause_reading()  # until somebody asks for the body
+
+    def on_message_complete(self) -> None:
+        self._in_body = False
+        if self._is_known:
+            self._end_in(None)
+        if not self.pipeline:
+            self.flow.resume_reading()
+        super().on_message_complete()
+
+    def on_response_complete(self) -> None:
+        super().on_response_complete()
+        self._shared.unauthenticated.use(self.transport)
+        if not self.cycle.response_complete or self._in_head:  # the next request is here already
+            return
+        if self._in_body:
+            self.cycle.body = bytearray()
+            self._hang_up()
+        else:
+            self._end_in(None)
+            if len(self.connections) > MOST_WAITING:
+                self.transport.close()
+
+    def send_400_response(self, msg: str) -> None:
+        if self._in_head and self._is_head_too_large():
+            self._refuse_head()
+        else:
+            super().send_400_response(msg)
+
+    def _is_head_too_large(self) -> bool:
+        return self._head_bytes + len(self.url) > HEAD_BYTES or len(self.headers) > HEADERS
+
+    def _refuse_head(self) -> None:
+        self._in_head = False
+        head = b"content-type: application/json\r\nconnection: close\r\ncontent-length: %d\r\n\r\n"
+        self.transport.write(STATUS_LINE[431] + head % len(HEAD_REFUSED) + HEAD_REFUSED)
+        self._hang_up()
+
+    def _hang_up(self) -> None:
+        """Reads nothing more. A close with unread bytes would overtake the answer: that comes later."""
+        self.flow.pause_reading()
+        if self.transport.can_write_eof():
+            self.transport.write_eof()
+        self._end_in(ANSWERED_S)
+
+    def _end_in(self, seconds: float | None) -> None:
+        """The connection, unless this is called again before; None lets it be."""
+        if self._timer:
+            self._timer.cancel()
+        self._timer = None if seconds is None else self.loop.call_later(seconds, self.transport.abort)
+
+
+def shared(state: ServerState) -> State:
+    assert isinstance(state, State)
+    return state
+
+
+class ImpatientSocket(Losable, WebSocketsSansIOProtocol):
+    """To close is not enough: what was written and is not read would keep the connection for good."""
+
+    _end: asyncio.TimerHandle | None = None
+
+    def __init__(self, config: Config, server_state: ServerState, *more: Any, **named: Any) -> None:
+        super().__init__(config, server_state, *more, **named)
+        self._unauthenticated = shared(server_state).unauthenticated
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        self._unauthenticated.remove(self.transport)
+        self._tell_lost()
+        if self._end:  # it would keep all of this in memory until then
+            self._end.cancel()
+        super().connection_lost(exc)
+
+    def know(self) -> None:
+        self._unauthenticated.remove(self.transport)
+
+    def abort(self) -> None:
+        self.transport.abort()
+
+    def keepalive_timeout(self) -> None:
+        super().keepalive_timeout()
+        self.transport.abort()
+
+    async def send(self, message: ASGISendEvent) -> None:
+        if self.close_sent:  # nobody's mistake: it was on its way when the end came
+            raise ClientDisconnected
+        await super().send(message)
+        # uvicorn takes a refusal for an application that forgot to answer, and logs an error.
+        self.handshake_complete = self.handshake_complete or self.close_sent
+
+    async def run_asgi(self) -> None:
+        self.scope["extensions"] = {**(self.scope["extensions"] or {}), EXTENSION: {"connection": self}}
+        await super().run_asgi()
+        if not self.disconnected:
+            self._end = self.loop.call_later(FAREWELL_S, self.transport.abort)

@@ -1,0 +1,175 @@
+"""Puts the gateway together: guard, routes, page, and one shape for every error. Holds no rule of its own."""
+
+import asyncio
+import contextlib
+from collections.abc import AsyncIterator, Awaitable, Callable
+from http import HTTPStatus
+from pathlib import Path
+from typing import Any
+
+from fastapi import FastAPI, Request
+from fastapi.exceptions import RequestValidationError
+from fastapi.routing import APIRoute
+from starlette.exceptions import HTTPException
+from starlette.requests import HTTPConnection
+from starlette.responses import HTMLResponse, JSONResponse, Response
+
+from servodeck import __version__, metrics
+from servodeck.access.entrance import Entrance
+from servodeck.access.guard import Guard, log_refusal
+from servodeck.access.roles import ANYBODY, JudgingRoute, named_roles, require_roles
+from servodeck.api.events import events_api
+from servodeck.api.groups import jobs_api, play_api
+from servodeck.api.health import health_api
+from servodeck.api.library import library_api, robots_api
+from servodeck.api.motion import motion_api, poses_api
+from servodeck.api.openapi import STYLE, described, docs_page
+from servodeck.api.page import STATIC, page
+from servodeck.api.people import people_api
+from servodeck.api.process import Pulse, sign_of_life
+from servodeck.api.robot import api, socket
+from servodeck.errors import ErrorCode, GatewayError, MalformedError
+from servodeck.files import Disk
+from servodeck.library.library import Library
+from servodeck.robot.control import Control
+from servodeck.robot.scripts import Scripts
+from servodeck.threads import in_thread
+
+CODE_OF_STATUS: dict[int, ErrorCode] = {
+    403: "forbidden",
+    404: "notFound",
+    405: "methodNotAllowed",
+    413: "tooLarge",
+    500: "internal",
+}
+
+
+METHODS_OF_PAGE = ("GET", "HEAD")
+DETAILS = {
+    404: "There is nothing at this address; /docs lists what there is.",
+    405: "This address takes another method; /docs lists what there is.",
+}
+
+
+def create_app(control: Control, library: Library, entrance: Entrance, static: Path = STATIC) -> Guard:
+    """The gateway with that entrance and the page built into `static`."""
+    app = FastAPI(
+        title="Servodeck gateway",
+        description="Drives a servo controller on a serial port. An error is a code and a sentence.",
+        version=__version__,
+        docs_url=None,
+        redoc_url=None,
+        openapi_url=None,
+        # Whatever the environment says: nothing of what goes on here goes anywhere else.
+        telemetry={"auto_configure": False, "tracing": False, "metrics": False, "logs": False},
+        lifespan=lifespan,
+    )
+    app.router.route_class = JudgingRoute
+    app.state.control = control
+    app.state.scripts = Scripts(control, entrance.still_lets_in)
+    app.state.library = library
+    app.state.pulse = Pulse(sign_of_life())
+    app.state.disk = Disk(library.folder, control.now)
+    app.state.entrance = entrance
+    app.include_router(api)
+    app.include_router(events_api)
+    app.include_router(health_api)
+    app.include_router(jobs_api)
+    app.include_router(play_api)
+    app.include_router(library_api)
+    app.include_router(motion_api)
+    app.include_router(people_api)
+    app.include_router(poses_api)
+    app.include_router(robots_api)
+    app.include_router(socket)
+    add_docs(app)
+    add_errors(app)
+    require_roles(app)
+    app.mount("/", page(static))
+    return Guard(app, entrance)
+
+
+@contextlib.asynccontextmanager
+async def lifespan(app: FastAPI) -> AsyncIterator[None]:
+    control: Control = app.state.control
+    beating = asyncio.create_task(app.state.pulse.run())
+    yield
+    beating.cancel()
+    await control.shut_down()
+
+
+def add_docs(app: FastAPI) -> None:
+    """Of functions that hold no app: the framework keeps those of the routes in a cache of the process."""
+    app.state.describing = asyncio.Lock()
+    answers: dict[str, Callable[..., Awaitable[Response]]] = {
+        "/docs": docs,
+        "/openapi.json": schema,
+        "/docs.css": style,
+    }
+    for path, answer in answers.items():
+        app.add_api_route(path, answer, include_in_schema=False, dependencies=[ANYBODY])
+
+
+async def description(app: FastAPI) -> dict[str, Any]:
+    """Making it takes so long that a stop would have to wait."""
+    async with app.state.describing:
+        if app.openapi_schema is None:
+            return await in_thread(lambda: described(app))
+        return app.openapi_schema
+
+
+async def docs(request: Request) -> HTMLResponse:
+    return HTMLResponse(docs_page(await description(request.app)))
+
+
+async def schema(request: Request) -> JSONResponse:
+    return JSONResponse(await description(request.app))
+
+
+async def style() -> Response:
+    return Response(STYLE, media_type="text/css")
+
+
+def add_errors(app: FastAPI) -> None:
+    @app.exception_handler(GatewayError)
+    async def gateway_error(connection: HTTPConnection, error: GatewayError) -> JSONResponse:
+        if connection.scope["type"] == "websocket":
+            log_refusal(connection.scope, error)
+        answer = problem(error.status, error.code, error.detail)
+        answer.headers.update(error.headers)
+        return answer
+
+    @app.exception_handler(RequestValidationError)
+    async def validation_error(_request: Request, error: RequestValidationError) -> JSONResponse:
+        first = error.errors()[0]
+        where = ".".join(str(part) for part in first["loc"])
+        return problem(MalformedError.status, MalformedError.code, f"{where}: {first['msg']}")
+
+    @app.exception_handler(HTTPException)
+    async def http_error(request: Request, error: HTTPException) -> JSONResponse:
+        status, methods = error.status_code, methods_at(app, request.scope["path"])
+        if status == HTTPStatus.NOT_FOUND and methods and request.method not in methods:
+            status = HTTPStatus.METHOD_NOT_ALLOWED  # of the page, which was looked through for it
+        answer = problem(status, CODE_OF_STATUS.get(status, "malformed"), DETAILS.get(status, error.detail))
+        answer.headers.update(error.headers or {})
+        if status == HTTPStatus.METHOD_NOT_ALLOWED:
+            answer.headers["Allow"] = ", ".join(methods or METHODS_OF_PAGE)
+        return answer
+
+    @app.exception_handler(Exception)
+    async def defect(_request: Request, _error: Exception) -> JSONResponse:
+        return problem(500, "internal", "The gateway made a mistake; its log says more.")
+
+
+def methods_at(app: FastAPI, path: str) -> list[str]:
+    """Of all routes of that address; the framework tells those of one."""
+    found: set[str] = set()
+    for route, _ in named_roles(app.routes):
+        if isinstance(route, APIRoute) and route.path_regex.match(path):
+            found |= route.methods or set()
+    return sorted(found)
+
+
+def problem(status: int, code: ErrorCode, detail: str) -> JSONResponse:
+    metrics.refused.labels(code).inc()
+    return JSONResponse({"code": code, "detail": detail}, status)

@@ -1,0 +1,93 @@
+"""How fast one client's messages are acted on: at its rate; above it the newest waits and takes the place of
+older ones; far above it the client has to go. Stops wait for nothing.
+
+Knows time and order, no socket and nothing of what a message asks.
+"""
+
+import asyncio
+from collections.abc import Callable
+
+from servodeck.intents import AnyClientMessage
+from servodeck.rate import Rate
+
+
+class Intake:
+    def __init__(
+        self,
+        rate: Rate,
+        take: Callable[[AnyClientMessage], None],
+        merged: Callable[[AnyClientMessage, AnyClientMessage], AnyClientMessage | None],
+        replaced: Callable[[AnyClientMessage], None],
+        overrun: Callable[[], None],
+    ) -> None:
+        """`merged` gives what an older and a newer message say together, None where the newer one makes the
+        older one void.
+        """
+        self._rate = rate
+        self._take = take
+        self._merged = merged
+        self._replaced = replaced
+        self._overrun = overrun
+        self._excess = 0
+        self._waiting: AnyClientMessage | None = None
+        self._timer: asyncio.TimerHandle | None = None
+
+    def take_at_once(self, message: AnyClientMessage) -> None:
+        """What waits was meant for a robot that moves: it goes."""
+        self._replace(None)
+        self._take(message)
+
+    def offer(self, message: AnyClientMessage) -> None:
+        if self._waiting is None and self._may_take():
+            self._take(message)
+            return
+        if self._waiting is not None:
+            self._exceed()
+            if together := self._merged(self._waiting, message):
+                self._waiting = together
+                return
+        self._replace(message)
+
+    def count(self) -> bool:
+        """Whether the rate takes one more of which nothing is left to wait."""
+        if self._may_take():
+            return True
+        self._exceed()
+        return False
+
+    def close(self) -> None:
+        if self._timer:
+            self._timer.cancel()
+        self._waiting = self._timer = None
+
+    def _may_take(self) -> bool:
+        """Each one that the rate takes makes up for one that was too many."""
+        if not self._rate.take():
+            return False
+        self._excess = max(0, self._excess - 1)
+        return True
+
+    def _exceed(self) -> None:
+        self._excess += 1
+        if self._excess > self._rate.burst:
+            self._overrun()
+
+    def _replace(self, message: AnyClientMessage | None) -> None:
+        before, self._waiting = self._waiting, message
+        if before is not None:
+            self._replaced(before)
+        if message is not None and self._timer is None:
+            self._wait()
+
+    def _wait(self) -> None:
+        self._timer = asyncio.get_running_loop().call_later(self._rate.wait_s, self._ready)
+
+    def _ready(self) -> None:
+        self._timer = None
+        if self._waiting is None:
+            return
+        if not self._may_take():  # rounding, or an unreadable message took it
+            self._wait()
+            return
+        message, self._waiting = self._waiting, None
+        self._take(message)

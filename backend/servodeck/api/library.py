@@ -1,0 +1,182 @@
+"""The library over HTTP, and which of its robots stands on the board. Translates between messages, `library`
+and `control`; decides only what text is a document.
+
+The library waits for a disk: in threads, where STOP does not wait for it.
+"""
+
+from typing import Annotated
+
+from fastapi import Depends, Path
+from starlette.concurrency import run_in_threadpool
+from starlette.requests import HTTPConnection
+
+from servodeck.access.roles import DRIVER, OWNER, VIEWER
+from servodeck.api.robot import Controlled, routes
+from servodeck.callers import Caller
+from servodeck.errors import MalformedError, NotDrivingError
+from servodeck.library.library import Library, Version
+from servodeck.library.library_messages import (
+    DocumentIds,
+    DocumentWrite,
+    DocumentWritten,
+    Id,
+    LibraryListing,
+    ListedDocument,
+    ListedVersion,
+    StoredDocument,
+    VersionText,
+    VersionWrite,
+    facts_of,
+    unknown_facts,
+)
+from servodeck.robot.control import Control
+from servodeck.robot.profile import ReadFacts
+from servodeck.schema import Message, is_object
+from servodeck.snapshots import RobotFacts
+
+
+async def library_of(connection: HTTPConnection) -> Library:
+    library = connection.app.state.library
+    assert isinstance(library, Library)
+    return library
+
+
+def robots_in(library: Library) -> ReadFacts:
+    """What the robot on the board is read by."""
+
+    def read(document: str) -> tuple[RobotFacts, int]:
+        facts, revision = library.facts_of(document, "robot")
+        return RobotFacts.model_validate_json(facts), revision
+
+    return read
+
+
+Kept = Annotated[Library, Depends(library_of)]
+IdInPath = Annotated[str, Path(pattern=r"^[A-Za-z0-9-]{1,64}$")]
+library_api = routes("/api/library", "library")
+
+
+@library_api.get("", dependencies=[VIEWER])
+def list_documents(library: Kept) -> LibraryListing:
+    """Every document, those in the trash too."""
+    documents = [
+        ListedDocument(
+            id=one.id,
+            revision=one.revision,
+            is_removed=one.is_removed,
+            facts=facts_of.validate_json(one.facts) if one.facts else unknown_facts(one.id, one.kind),
+        )
+        for one in library.list()
+    ]
+    return LibraryListing(documents=documents, set_aside=library.set_aside, changes_lost=library.changes_lost)
+
+
+@library_api.post("/remove", status_code=204, dependencies=[OWNER])
+async def remove(documents: DocumentIds, library: Kept, control: Controlled) -> None:
+    """Puts them into the trash for 30 days: all or none."""
+    await run_in_threadpool(library.remove, documents.ids)
+    control.robot.removed(documents.ids)
+
+
+@library_api.post("/restore", status_code=204, dependencies=[DRIVER])
+def restore(documents: DocumentIds, library: Kept) -> None:
+    """Takes them out of the trash: all or none."""
+    library.restore(documents.ids)
+
+
+@library_api.get("/{document}", dependencies=[VIEWER])
+def read(document: IdInPath, library: Kept) -> StoredDocument:
+    """The text of a document, also of one in the trash."""
+    text, revision = library.read(document)
+    return StoredDocument(text=text, revision=revision)
+
+
+@library_api.put("/{document}")
+async def write(
+    document: IdInPath,
+    wanted: DocumentWrite,
+    library: Kept,
+    control: Controlled,
+    caller: Annotated[Caller, DRIVER],
+) -> DocumentWritten:
+    """Keeps a text; 412, and nothing changed, where the document is at another revision with another text.
+    While somebody drives only they and owners change the limits of the robot on the board.
+    """
+    judge_limits(document, wanted, control, caller)
+    revision = await run_in_threadpool(keep, document, wanted, library, caller)
+    if isinstance(wanted.facts, RobotFacts):
+        control.robot.written(document, revision, wanted.facts)
+    return DocumentWritten(revision=revision)
+
+
+def judge_limits(document: str, wanted: DocumentWrite, control: Control, caller: Caller) -> None:
+    facts = wanted.facts
+    is_ruled = isinstance(facts, RobotFacts) and control.robot.changes_limits(document, facts)
+    if is_ruled and not control.driving.may_rule(caller):
+        raise NotDrivingError("Somebody else drives: the limits change only under their hands.")
+
+
+def keep(document: str, wanted: DocumentWrite, library: Library, caller: Caller) -> int:
+    """Waits for the disk."""
+    check_document(wanted.text)
+    if wanted.is_removed and not caller.may("owner"):
+        library.require_removed(document)
+    facts = wanted.facts
+    return library.write(
+        document,
+        wanted.text,
+        facts.model_dump_json(),
+        wanted.expected,
+        kind=facts.kind,
+        is_removed=wanted.is_removed,
+    )
+
+
+@library_api.get("/{document}/versions", dependencies=[VIEWER])
+def list_versions(document: IdInPath, library: Kept) -> list[ListedVersion]:
+    """Its named versions, oldest first."""
+    return [ListedVersion(id=one.id, name=one.name, at_ms=one.at_ms) for one in library.versions(document)]
+
+
+@library_api.get("/{document}/versions/{version}", dependencies=[VIEWER])
+def read_version(document: IdInPath, version: IdInPath, library: Kept) -> VersionText:
+    """The text that was kept under that version's name."""
+    return VersionText(text=library.read_version(document, version))
+
+
+@library_api.put("/{document}/versions/{version}", status_code=204, dependencies=[DRIVER])
+def keep_version(document: IdInPath, version: IdInPath, wanted: VersionWrite, library: Kept) -> None:
+    """Keeps a text beside the document under a name."""
+    check_document(wanted.text)
+    library.keep_version(document, Version(version, wanted.name, wanted.at_ms), wanted.text)
+
+
+@library_api.delete("/{document}/versions/{version}", status_code=204, dependencies=[DRIVER])
+def remove_version(document: IdInPath, version: IdInPath, library: Kept) -> None:
+    """That version goes for good; the document and its other versions stay."""
+    library.remove_version(document, version)
+
+
+def check_document(text: str) -> None:
+    if not is_object(text):
+        raise MalformedError("A document is a JSON object.")
+
+
+class RobotChoice(Message):
+    """`insteadOf`: the one that whoever asks knows to stand there."""
+
+    id: Id
+    instead_of: Id | None = None
+
+
+robots_api = routes("/api", "robots")
+
+
+@robots_api.put("/robot", status_code=204)
+async def put_on_board(choice: RobotChoice, control: Controlled, caller: Annotated[Caller, DRIVER]) -> None:
+    """That robot of the library stands on this board, for everybody and from now on. 412 where another one
+    stands there than either.
+    """
+    if not control.driving.may_rule(caller):
+        raise NotDrivingError("Somebody else drives: which robot it is changes only under their hands.")
+    await control.robot.put(choice.id, choice.instead_of)

@@ -1,0 +1,210 @@
+"""The HTTP interface that moves the robot: moves, poses, runs, and the lease of those who use it.
+
+Translates for `scripts` and the robot profile; decides which pose a name means.
+"""
+
+from collections.abc import Mapping, Sequence
+from typing import Annotated
+
+from fastapi import Depends, Path, Request
+from pydantic import Field
+from starlette.requests import HTTPConnection
+
+from servodeck.access.roles import DRIVER, OWNER, VIEWER
+from servodeck.api.robot import Controlled, routes
+from servodeck.callers import Caller
+from servodeck.errors import NotFoundError, OutOfRangeError
+from servodeck.intents import ContinueMs, PersonId, Servo
+from servodeck.protocol.families import Family
+from servodeck.protocol.limits import UNITS
+from servodeck.robot.scripts import ScriptAction, Scripts
+from servodeck.schema import Message
+from servodeck.snapshots import LeaseState, Name, NamedPose, Outcome
+
+Take = Annotated[bool, Field(description="An owner's: without asking the driver.")]
+
+
+class MoveWish(Message):
+    """`positions` by servo number, in the board's unit; all of them at once."""
+
+    time_ms: Annotated[int, Field(ge=0, le=30_000)]
+    positions: Annotated[
+        dict[Servo, Annotated[int, Field(ge=0, le=0xFFFF)]], Field(min_length=1, max_length=253)
+    ]
+    take: Take = False
+
+
+class MoveBegun(Message):
+    """`firstMoves`: nobody knew where these servos stood, so they started one after another."""
+
+    packets: int
+    over_in_ms: int
+    first_moves: list[int]
+
+
+class RunWish(Message):
+    """`times` 0: until stopped. `continueForMs`: it goes on without a `beat`, for so long at most."""
+
+    times: Annotated[int, Field(ge=0, le=0xFFFF)] = 1
+    continue_for_ms: ContinueMs | None = None
+    take: Take = False
+
+
+class RunBegun(Message):
+    """`acknowledged`: the board has taken it, which says nothing of the slot. `silent`: it should have said
+    so and has not. `sent`: such a board never says.
+    """
+
+    outcome: Outcome
+
+
+class EraseWish(Message):
+    take: Take = False
+
+
+class Erased(Message):
+    erased: bool
+
+
+class LeaseWish(Message):
+    """`beat`: somebody watches over what this script has begun. The others as in a page: `request`, `take`,
+    `release`.
+    """
+
+    action: ScriptAction
+
+
+class DriverWish(Message):
+    """As `GET /api/people` and the lease's `candidates` name them."""
+
+    id: PersonId
+
+
+ONCE, POLITELY = RunWish(), EraseWish()
+
+
+async def scripts_of(connection: HTTPConnection) -> Scripts:
+    scripts = connection.app.state.scripts
+    assert isinstance(scripts, Scripts)
+    return scripts
+
+
+Scripted = Annotated[Scripts, Depends(scripts_of)]
+Driving = Annotated[Caller, DRIVER]
+motion_api = routes("/api", "motion")
+
+
+@motion_api.post("/move")
+async def move(wish: MoveWish, request: Request, caller: Driving, scripts: Scripted) -> MoveBegun:
+    """Moves servos together. Answers when the last packet has left the wire; `overInMs` later they are there.
+    Servos that nobody knows the place of take 1500 ms at least and start one after another.
+    """
+    positions = {int(servo): position for servo, position in wish.positions.items()}
+    return await begin_move(request, caller, scripts, wish.time_ms, positions, take=wish.take)
+
+
+async def begin_move(
+    request: Request,
+    caller: Caller,
+    scripts: Scripts,
+    time_ms: int,
+    positions: Mapping[int, int],
+    *,
+    take: bool,
+) -> MoveBegun:
+    async def is_wanted() -> bool:
+        return not await request.is_disconnected()
+
+    moved = await scripts.move(caller, time_ms, positions, take=take, is_wanted=is_wanted)
+    return MoveBegun(packets=moved.packets, over_in_ms=moved.over_in_ms, first_moves=list(moved.first_moves))
+
+
+@motion_api.post("/slots/{slot}/run")
+async def run(
+    slot: Annotated[int, Path(ge=0, le=255)], caller: Driving, scripts: Scripted, wish: RunWish = ONCE
+) -> RunBegun:
+    """Runs the group in that slot; what moves ends first. It is stopped 2 s after the last `beat`, unless it
+    may continue.
+    """
+    outcome = await scripts.run(caller, slot, wish.times, take=wish.take, continue_ms=wish.continue_for_ms)
+    return RunBegun(outcome=outcome)
+
+
+@motion_api.post("/erase")
+async def erase(caller: Annotated[Caller, OWNER], scripts: Scripted, wish: EraseWish = POLITELY) -> Erased:
+    """Erases every slot of the board, for good."""
+    await scripts.erase(caller, take=wish.take)
+    return Erased(erased=True)
+
+
+@motion_api.post("/lease")
+async def lease(wish: LeaseWish, caller: Driving, scripts: Scripted) -> LeaseState:
+    """Who drives. Asked for by itself with each motion, and kept 2 s longer than that lasts."""
+    return scripts.act(caller, wish.action)
+
+
+@motion_api.put("/driver")
+async def give(wish: DriverWish, caller: Driving, scripts: Scripted) -> LeaseState:
+    """Hands the robot to somebody who is here with a page and may drive, unasked; what moves is stopped
+    first. Whoever drives may, and owners.
+    """
+    return scripts.give(caller, wish.id)
+
+
+class Poses(Message):
+    """Of the robot on the board."""
+
+    robot: Name
+    poses: list[NamedPose]
+
+
+class ApplyWish(Message):
+    time_ms: Annotated[int, Field(ge=0, le=30_000)] = 1500
+    take: Take = False
+
+
+GENTLY = ApplyWish()
+poses_api = routes("/api/poses", "poses")
+
+
+@poses_api.get("", dependencies=[VIEWER])
+async def list_poses(control: Controlled) -> Poses:
+    """The poses of the robot on the board, with its name; number 0 is home. Positions as the board counts."""
+    facts = control.robot.facts
+    return Poses(robot=facts.name if facts else "", poses=facts.poses if facts else [])
+
+
+@poses_api.post("/{pose}/apply")
+async def apply(
+    pose: Annotated[str, Path(min_length=1, max_length=64)],
+    request: Request,
+    caller: Driving,
+    scripts: Scripted,
+    control: Controlled,
+    wish: ApplyWish = GENTLY,
+) -> MoveBegun:
+    """Goes to the pose of that number or name; as `move` otherwise."""
+    control.board.judge_known()
+    found = find((await list_poses(control)).poses, pose)
+    judge_unit(found, control.board.family)
+    positions = {target.servo: target.position for target in found.targets}
+    return await begin_move(request, caller, scripts, wish.time_ms, positions, take=wish.take)
+
+
+def find(poses: Sequence[NamedPose], wanted: str) -> NamedPose:
+    """By its number or its name. Raises NotFoundError, or OutOfRangeError where a name is not enough."""
+    found = [pose for pose in poses if wanted in (str(pose.id), pose.name)]
+    exact = [pose for pose in found if str(pose.id) == wanted] or found
+    if not exact:
+        raise NotFoundError(f"No pose is called {wanted}. GET /api/poses lists them.")
+    if len(exact) > 1:
+        numbers = ", ".join(str(pose.id) for pose in exact)
+        raise OutOfRangeError(f"Several poses are called {wanted}: take one of the numbers {numbers}.")
+    return exact[0]
+
+
+def judge_unit(pose: NamedPose, family: Family) -> None:
+    if pose.unit != family.unit:
+        raise OutOfRangeError(
+            f"{pose.name} is in {UNITS[pose.unit]}; a {family.name} counts in {UNITS[family.unit]}."
+        )

@@ -1,0 +1,198 @@
+"""The description of the HTTP interface, for people and programs: what the framework reads from the routes,
+with who may use each, examples, and the one shape of every error; and the same as a page without a script, so
+that it works offline and under the strict content policy.
+
+Knows OpenAPI and the routes' roles; not what a route does.
+"""
+
+import json
+from collections.abc import Iterator
+from html import escape
+from typing import Any
+
+from fastapi import FastAPI
+from fastapi.openapi.utils import get_openapi
+from fastapi.routing import APIRoute
+
+from servodeck.access.roles import named_roles
+from servodeck.api.examples import EXAMPLES, PROBLEMS, Example
+from servodeck.callers import Role
+from servodeck.errors import ErrorCode, GatewayError
+
+PROBLEM = {"$ref": "#/components/schemas/Problem"}
+SCHEMES = {
+    "token": {
+        "type": "http",
+        "scheme": "bearer",
+        "description": "A script's token, made by an owner. Without an Origin header, as programs have none.",
+    },
+    "page": {
+        "type": "apiKey",
+        "in": "cookie",
+        "name": "servodeck_8300",
+        "description": "A paired browser's, named after the port. Counts only for the gateway's own page.",
+    },
+}
+ALL_SCHEMES: list[dict[str, list[str]]] = [{name: []} for name in SCHEMES]
+JSON = "application/json"
+RETRY_AFTER = {
+    "Retry-After": {
+        "description": "With 429 `tooMany`: after so many seconds one more request is taken.",
+        "schema": {"type": "integer", "minimum": 1},
+    }
+}
+
+
+def described(app: FastAPI) -> dict[str, Any]:
+    """As OpenAPI; the same object each time."""
+    if app.openapi_schema is None:
+        schema = get_openapi(
+            title=app.title, version=app.version, description=app.description, routes=app.routes
+        )
+        schema["components"]["securitySchemes"] = SCHEMES
+        for route, method, role in operations(app):
+            complete(schema["paths"][route.path_format][method.lower()], EXAMPLES[method, route.path], role)
+        app.openapi_schema = schema
+    return app.openapi_schema
+
+
+def operations(app: FastAPI) -> Iterator[tuple[APIRoute, str, Role | None]]:
+    for route, roles in named_roles(app.routes):
+        if isinstance(route, APIRoute) and route.include_in_schema:
+            yield from ((route, method, roles[0]) for method in route.methods or ())
+
+
+def complete(operation: dict[str, Any], example: Example, role: Role | None) -> None:
+    text = " ".join(operation["description"].split())
+    operation["summary"] = text.partition(". ")[0].partition("; ")[0].rstrip(".")
+    operation["description"] = f"{text} {who(role)}"
+    operation["security"] = [] if role is None else ALL_SCHEMES
+    if "requestBody" in operation:
+        operation["requestBody"]["content"][JSON]["example"] = example.asks
+    responses = operation["responses"]
+    responses.pop("422", None)  # the framework's own shape, which nobody is sent
+    for answer in responses.values():
+        for content in answer.get("content", {}).values():
+            content["example"] = example.answers
+    responses |= problems(operation, example, role)
+
+
+def who(role: Role | None) -> str:
+    return "For anybody." if role is None else f"Takes the role {role}."
+
+
+def problems(operation: dict[str, Any], example: Example, role: Role | None) -> dict[str, Any]:
+    """Those of this route as examples, by the class of their status."""
+    codes: list[ErrorCode] = [*example.errors]
+    if "requestBody" in operation or operation.get("parameters"):
+        codes.append("malformed")
+    codes.append("forbidden")
+    if role is not None:
+        codes.append("notPaired")
+    if role not in (None, "stopper"):
+        codes.append("tooMany")
+    found: dict[str, dict[str, Any]] = {"4XX": {}, "5XX": {}}
+    for code in codes:
+        value = {"code": code, "detail": PROBLEMS[code]}
+        found[f"{STATUS_OF[code] // 100}XX"][code] = {"summary": str(STATUS_OF[code]), "value": value}
+    found["5XX"]["internal"] = {
+        "summary": "500",
+        "value": {"code": "internal", "detail": "The gateway made a mistake; its log says more."},
+    }
+    return {
+        status: {
+            "description": "It was not done, and why.",
+            **({"headers": RETRY_AFTER} if "tooMany" in examples else {}),
+            "content": {JSON: {"schema": PROBLEM, "examples": examples}},
+        }
+        for status, examples in found.items()
+    }
+
+
+def classes_below(root: type[GatewayError]) -> Iterator[type[GatewayError]]:
+    for each in root.__subclasses__():
+        yield each
+        yield from classes_below(each)
+
+
+STATUS_OF: dict[ErrorCode, int] = {each.code: each.status for each in classes_below(GatewayError)}
+
+# More than anybody wants to read in the middle of a line.
+MANY = 8
+METHODS = ("get", "put", "post", "patch", "delete")
+
+STYLE = """
+:root { color-scheme: light dark; font: 16px/1.5 system-ui, sans-serif; }
+body { max-width: 60rem; margin: 2rem auto; padding: 0 1rem; }
+section { border-top: 1px solid color-mix(in srgb, currentColor 20%, transparent); padding: 0.5rem 0 1rem; }
+h2 { font-size: 1rem; font-family: ui-monospace, monospace; overflow-wrap: anywhere; }
+h2 span { display: inline-block; min-width: 5rem; font-weight: 700; text-transform: uppercase; }
+table { border-collapse: collapse; }
+th, td { text-align: left; vertical-align: top; padding: 0.2rem 1.5rem 0.2rem 0; font-weight: normal; }
+details { color: color-mix(in srgb, currentColor 75%, transparent); font-size: 0.875rem; }
+code { font-family: ui-monospace, monospace; overflow-wrap: anywhere; }
+"""
+
+
+def docs_page(schema: dict[str, Any]) -> str:
+    sections = [
+        operation(method, path, methods[method], schema)
+        for path, methods in schema["paths"].items()
+        for method in METHODS
+        if method in methods
+    ]
+    info = schema["info"]
+    title = escape(f"{info['title']} {info['version']}")
+    return (
+        '<!doctype html><html lang="en"><head><meta charset="utf-8">'
+        '<meta name="viewport" content="width=device-width">'
+        f'<title>{title}</title><link rel="stylesheet" href="docs.css"></head><body>'
+        f"<h1>{title}</h1><p>{escape(info['description'])}</p>"
+        '<p>For programs: <a href="openapi.json">openapi.json</a></p>'
+        f"{''.join(sections)}</body></html>"
+    )
+
+
+def operation(method: str, path: str, description: dict[str, Any], schema: dict[str, Any]) -> str:
+    said = {"body": description["requestBody"]} if "requestBody" in description else {}
+    rows = "".join(
+        f"<tr><th>{escape(label)}</th><td>{content(part, schema)}</td></tr>"
+        for label, part in {**said, **description["responses"]}.items()
+    )
+    return (
+        f"<section><h2><span>{method}</span>{escape(path)}</h2>"
+        f"<p>{escape(description.get('description', ''))}</p><table>{rows}</table></section>"
+    )
+
+
+def content(part: dict[str, Any], schema: dict[str, Any]) -> str:
+    """An example and its shape; of errors, which all have one shape, their codes."""
+    for found in part.get("content", {}).values():
+        if "examples" in found:
+            return ", ".join(f"{each['summary']} {code}" for code, each in found["examples"].items())
+        example = escape(json.dumps(found["example"], ensure_ascii=False))
+        fields = shape(found.get("schema", {}), schema)
+        return f"<code>{example}</code><details><summary>all fields</summary>{fields}</details>"
+    return "nothing"
+
+
+def shape(part: dict[str, Any], schema: dict[str, Any]) -> str:
+    """One line of a type: `{device: string, likely: boolean}`."""
+    if "$ref" in part:
+        part = schema["components"]["schemas"][part["$ref"].rsplit("/", 1)[1]]
+    if "anyOf" in part:
+        return " or ".join(shape(each, schema) for each in part["anyOf"])
+    if len(part.get("enum", ())) > MANY:
+        return "a code"
+    if "enum" in part:
+        return " or ".join(f"<code>{escape(str(each))}</code>" for each in part["enum"])
+    if "const" in part:
+        return f"<code>{escape(str(part['const']))}</code>"
+    if part.get("type") == "array":
+        return f"list of {shape(part['items'], schema)}"
+    if "properties" in part:
+        fields = [
+            f"<code>{escape(name)}</code>: {shape(each, schema)}" for name, each in part["properties"].items()
+        ]
+        return "{ " + ", ".join(fields) + " }"
+    return escape(str(part.get("type", "nothing")))

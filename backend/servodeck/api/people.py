@@ -1,0 +1,226 @@
+"""Pairing over HTTP: who am I, come in, and for owners who else may. Translates for `entrance`.
+
+Decides no role and makes no secret. What was changed holds at once; it is written down before the answer.
+"""
+
+import contextlib
+from typing import Annotated
+
+from fastapi import Depends, Query, Request, Response
+from starlette.requests import HTTPConnection
+
+from servodeck.access.addresses import link_base, pair_link, picture_of, stop_link
+from servodeck.access.devices import Device
+from servodeck.access.entrance import Entrance
+from servodeck.access.roles import ANYBODY, OWNER, VIEWER, entrance_of
+from servodeck.api.motion import Scripted
+from servodeck.api.people_messages import (
+    Invitation,
+    InviteWish,
+    Me,
+    OwnName,
+    PairWish,
+    People,
+    Person,
+    PersonChange,
+    StopLink,
+    StopLinkWish,
+    Token,
+    TokenWish,
+    You,
+)
+from servodeck.api.robot import Controlled, routes
+from servodeck.callers import Caller
+from servodeck.errors import ForbiddenError, MalformedError, StorageError
+from servodeck.robot.control import Control
+from servodeck.robot.hub import is_of
+
+# As long as browsers keep one: a device stays until it is revoked.
+COOKIE_S = 400 * 24 * 3600
+
+GroupGoesOn = Annotated[
+    bool, Query(alias="groupGoesOn", description="The group that it let go on is not stopped with it.")
+]
+Entered = Annotated[Entrance, Depends(entrance_of)]
+people_api = routes("/api", "people")
+
+
+async def base_of(connection: HTTPConnection) -> str:
+    return link_base(connection.app.state.entrance.access, connection.headers["host"])
+
+
+Base = Annotated[str, Depends(base_of)]
+
+
+@people_api.get("/me")
+async def me(entrance: Entered, caller: Annotated[Caller | None, ANYBODY]) -> Me:
+    """Who this gateway takes you for."""
+    access = entrance.access
+    overheard = access.needs_pairing and not access.is_secure
+    return Me(mode=access.mode, overheard=overheard, you=you_of(caller) if caller else None)
+
+
+async def called_by_browser(request: Request) -> None:
+    if "origin" not in request.headers:
+        raise ForbiddenError("Only a page pairs, and says its name. Programs take a token that has one.")
+
+
+def you_of(caller: Caller) -> You:
+    return You(id=caller.id, name=caller.name, role=caller.role)
+
+
+@people_api.patch("/me", dependencies=[Depends(called_by_browser)])
+async def rename_me(
+    wanted: OwnName, entrance: Entered, control: Controlled, caller: Annotated[Caller, VIEWER]
+) -> You:
+    """What others call you from now on; a number follows where somebody is called so already."""
+    changed = entrance.devices.change(caller.id, wanted.name, None)
+    spread_name(changed, control)
+    await entrance.devices.keep()
+    return you_of(changed.caller)
+
+
+def spread_name(device: Device, control: Control) -> None:
+    """Nothing of theirs ends by it: whoever drives goes on under the new one."""
+    control.hub.rename(device.id, device.name)
+    control.driving.tell_all()
+
+
+@people_api.post("/pair", dependencies=[Depends(called_by_browser)])
+async def pair(
+    wish: PairWish,
+    response: Response,
+    entrance: Entered,
+    present: Annotated[Caller | None, ANYBODY],
+    scripts: Scripted,
+) -> You:
+    """Comes in by a link, a code or a stop-only link, for a cookie; whoever may do as much keeps theirs."""
+    caller, credential = come_in(wish, entrance, present)
+    if present and not entrance.still_lets_in(present):
+        reason = "This device was paired again."
+        await scripts.send_away(present.id, reason, caller.name, group_goes_on=True)
+    if credential:
+        access = entrance.access
+        response.set_cookie(
+            access.cookie,
+            credential,
+            max_age=COOKIE_S,
+            path="/",
+            secure=access.is_secure,
+            httponly=True,
+            samesite="strict",
+        )
+        with contextlib.suppress(StorageError):  # a full disk keeps nobody out; until the next start it holds
+            await entrance.devices.keep()
+    return you_of(caller)
+
+
+def come_in(wish: PairWish, entrance: Entrance, present: Caller | None) -> tuple[Caller, str | None]:
+    if wish.stop is not None:
+        device = entrance.stop_link(wish.stop)
+        return (present, None) if present else (device.caller, wish.stop)
+    if wish.secret is not None:
+        return entrance.come_in(entrance.pairing.find_by_link(wish.secret), wish.name, present)
+    if wish.code is not None:
+        return entrance.come_in(entrance.pairing.find_by_code(wish.code), wish.name, present)
+    raise MalformedError("Nothing to pair with: a link's secret, a code or a stop-only link is needed.")
+
+
+@people_api.get("/people", dependencies=[OWNER])
+async def people(entrance: Entered, control: Controlled) -> People:
+    """Everybody who may come in, and which invitations are open."""
+    return People(
+        people=[person_of(one, control) for one in entrance.devices.all],
+        open_invites=[invite.id for invite in entrance.pairing.open],
+        open_codes=[invite.id for invite in entrance.pairing.open if invite.code],
+    )
+
+
+def person_of(device: Device, control: Control) -> Person:
+    driver, unattended = control.driving.driver, control.board.unattended
+    own = unattended.told() if is_of(unattended.by, device.id) else None
+    return Person(
+        id=device.id,
+        kind=device.kind,
+        name=device.name,
+        role=device.role,
+        paired_at_ms=device.paired_at_ms,
+        last_seen_ms=device.last_seen_ms,
+        here=control.hub.holds(device.id),
+        drives=is_of(driver, device.id),
+        unattended_slot=own.slot if own else None,
+    )
+
+
+@people_api.patch("/people/{person}")
+async def change(
+    person: str,
+    wanted: PersonChange,
+    entrance: Entered,
+    control: Controlled,
+    scripts: Scripted,
+    by: Annotated[Caller, OWNER],
+) -> Person:
+    """Another name or role. What was open under the old role is closed and may come back; a group that it let
+    go on is stopped, and its download ends, where it may not drive any more.
+    """
+    before = entrance.devices.get(person).role
+    changed = entrance.devices.change(person, wanted.name, wanted.role)
+    if changed.role == before:
+        spread_name(changed, control)
+    else:
+        reason, still_drives = "Your role is another one now.", changed.caller.may("driver")
+        await scripts.send_away(person, reason, by.name, still_drives=still_drives)
+    await entrance.devices.keep()
+    return person_of(changed, control)
+
+
+@people_api.delete("/people/{person}", status_code=204)
+async def revoke(
+    person: str,
+    entrance: Entered,
+    scripts: Scripted,
+    by: Annotated[Caller, OWNER],
+    group_goes_on: GroupGoesOn = False,
+) -> None:
+    """May not come in any more; what it has open is closed at once, what it moves is stopped, and nothing
+    that it asked for leaves the gateway behind the answer.
+    """
+    entrance.devices.revoke(person)
+    reason = "This device is not paired any more."
+    await scripts.send_away(person, reason, by.name, group_goes_on=group_goes_on)
+    await entrance.devices.keep()
+
+
+@people_api.post("/invites", dependencies=[OWNER])
+async def invite(wish: InviteWish, entrance: Entered, base: Base) -> Invitation:
+    """A link and a code for one device, for two minutes."""
+    made = entrance.pairing.invite(wish.role, wish.name)
+    link = pair_link(base, made.secret)
+    expires_in_ms = round(entrance.pairing.seconds_left(made) * 1000)
+    return Invitation(
+        id=made.id, link=link, code=made.code, picture=picture_of(link), expires_in_ms=expires_in_ms
+    )
+
+
+@people_api.delete("/invites/{invitation}", status_code=204, dependencies=[OWNER])
+async def withdraw(invitation: str, entrance: Entered) -> None:
+    """Ends an invitation that nobody has used."""
+    entrance.pairing.withdraw(invitation)
+
+
+@people_api.post("/tokens", dependencies=[OWNER])
+async def make_token(wish: TokenWish, entrance: Entered) -> Token:
+    """A token for a script: `Authorization: Bearer TOKEN`."""
+    device, token = entrance.devices.admit("token", wish.name, wish.role)
+    await entrance.devices.keep()
+    return Token(id=device.id, token=token)
+
+
+@people_api.post("/stop-links", dependencies=[OWNER])
+async def make_stop_link(wish: StopLinkWish, entrance: Entered, base: Base) -> StopLink:
+    """A link that can stop the robot and do nothing else, to stick on it; good until it is revoked."""
+    device, credential = entrance.devices.admit("stopLink", wish.name, "stopper")
+    await entrance.devices.keep()
+    link = stop_link(base, credential)
+    return StopLink(id=device.id, link=link, picture=picture_of(link))

@@ -1,0 +1,256 @@
+"""The HTTP interface for scripts: state, ports, stop, resume, battery. One error shape: `{code, detail}`.
+
+Translates between HTTP and `control`; decides nothing.
+"""
+
+import asyncio
+import math
+from dataclasses import asdict
+from typing import Annotated
+
+from fastapi import APIRouter, Depends, Request, WebSocket
+from fastapi.routing import APIRoute
+from pydantic import Field
+from pydantic.alias_generators import to_camel
+from starlette.requests import HTTPConnection
+
+from servodeck import __version__
+from servodeck.access.gate import judge_script
+from servodeck.access.roles import DRIVER, OWNER, STOPPER, VIEWER, JudgingRoute
+from servodeck.api.websocket import serve_client
+from servodeck.callers import Caller, as_script
+from servodeck.errors import ErrorCode, OutOfRangeError
+from servodeck.port.ports import is_same_port, lasting_of, list_devices
+from servodeck.protocol.families import FAMILIES
+from servodeck.robot.control import Control
+from servodeck.robot.driving import name_of
+from servodeck.robot.latch import Cause
+from servodeck.schema import Message
+from servodeck.snapshots import IdentityTold, LinkState, PlayState, PortState, UnattendedRun, UnheldServos
+from servodeck.threads import in_thread
+
+
+class Problem(Message):
+    """Why a request failed. `code` is for programs, `detail` for people."""
+
+    code: ErrorCode
+    detail: str
+
+
+class BatteryAge(Message):
+    battery_mv: int
+    age_ms: int
+
+
+class Running(Message):
+    """The group that may run: it was begun, and nobody has stopped it or heard that it ended. `endsInMs`: at
+    the latest; null where only the board could tell, which not every family does.
+    """
+
+    slot: int
+    times: int
+    ends_in_ms: int | None
+
+
+class Status(Message):
+    """`play`: what the gateway plays now, or played last."""
+
+    version: str
+    board: str
+    port: PortState
+    link: LinkState
+    identity: IdentityTold
+    latch: bool
+    clients: int
+    battery: BatteryAge | None
+    driver: str | None
+    running: Running | None
+    play: PlayState | None
+    unattended: UnattendedRun | None
+
+
+class Device(Message):
+    """A serial port of this computer. `likely`: its USB chip is one that these boards and cables bear.
+    `lasting`: a name that leads to it after every start and replug, where the system keeps one. `inUse`: it
+    is the gateway's present one, open or waited for.
+    """
+
+    device: str
+    description: str
+    likely: bool
+    lasting: str | None
+    in_use: bool
+
+
+class PortChoice(Message):
+    device: Annotated[str, Field(min_length=1, max_length=256, pattern=r"^[^\x00-\x1f]+$")]
+    board: str | None = None
+
+
+class BoardChoice(Message):
+    """A family of boards; `unknown`: ask it again."""
+
+    board: Annotated[str, Field(max_length=64)]
+
+
+class Battery(Message):
+    battery_mv: int
+
+
+class Stopped(Message):
+    """`halted`: the stop sequence has left the wire. `unheld`: what may go on in spite of it, since nobody
+    knows where to hold it; null where all is held.
+    """
+
+    latch: bool
+    halted: bool
+    unheld: UnheldServos | None
+
+
+class ApiRoute(JudgingRoute):
+    """Only our own page and programs get this far."""
+
+    def judge(self, request: Request) -> None:
+        judge_script(request.scope["headers"])
+        super().judge(request)
+
+
+# Dependencies are coroutines even where they wait for nothing: a plain function would go through a thread,
+# and STOP with it.
+async def control_of(connection: HTTPConnection) -> Control:
+    control = connection.app.state.control
+    assert isinstance(control, Control)
+    return control
+
+
+def operation_id(route: APIRoute) -> str:
+    """What generators of clients call it: what it is about, then what it does."""
+    return to_camel(f"{route.tags[0]}_{route.name}")
+
+
+def routes(prefix: str, about: str) -> APIRouter:
+    """For our own page and for scripts; whatever they refuse for is a Problem."""
+    return APIRouter(
+        prefix=prefix,
+        tags=[about],
+        generate_unique_id_function=operation_id,
+        route_class=ApiRoute,
+        responses={"4XX": {"model": Problem}, "5XX": {"model": Problem}},
+    )
+
+
+Controlled = Annotated[Control, Depends(control_of)]
+api = routes("/api", "gateway")
+socket = APIRouter()
+
+
+@socket.websocket("/ws")
+async def ws(websocket: WebSocket, caller: Annotated[Caller, VIEWER], control: Controlled) -> None:
+    await serve_client(websocket, caller, control)
+
+
+@api.get("/status", dependencies=[VIEWER])
+async def status(control: Controlled) -> Status:
+    """How everything stands now."""
+    return Status(
+        version=__version__,
+        board=control.board.taken_for,
+        port=control.board.port,
+        link=control.board.link_state,
+        identity=control.board.identity,
+        latch=control.latch,
+        clients=len(control.hub),
+        battery=age_of(control),
+        driver=name_of(control.driving.driver),
+        running=running_in(control),
+        play=control.board.plays.latest,
+        unattended=control.board.unattended.told(),
+    )
+
+
+def running_in(control: Control) -> Running | None:
+    motion, now = control.board.motion, control.now()
+    if motion.run is None or not motion.group_may_run(now):
+        return None
+    ends_in_s = motion.group_ends_in_s(now)
+    ends_in_ms = None if ends_in_s is None else math.ceil(ends_in_s * 1000)
+    return Running(slot=motion.run.slot, times=motion.run.times, ends_in_ms=ends_in_ms)
+
+
+def age_of(control: Control) -> BatteryAge | None:
+    reading = control.board.battery.newest
+    if reading is None:
+        return None
+    return BatteryAge(battery_mv=reading.battery_mv, age_ms=round((control.now() - reading.at_s) * 1000))
+
+
+@api.get("/ports", dependencies=[OWNER])
+def ports(control: Controlled) -> list[Device]:
+    """The serial ports of this computer and the one in use, the likely ones first."""
+    present = control.board.link.state.device
+    found = list_devices(control.named_device, present)
+    return [
+        Device(**asdict(port), in_use=present is not None and is_same_port(port.device, present))
+        for port in found
+    ]
+
+
+@api.put("/port", dependencies=[OWNER])
+async def use_port(choice: PortChoice, control: Controlled) -> PortState:
+    """Opens that port instead of the present one. After a failure it is tried again and again, as `status`
+    tells. One that opened is opened again at the next start, unless `--serial` names one.
+    """
+    if choice.board is not None and choice.board not in FAMILIES:
+        raise OutOfRangeError(f"board is {choice.board}, allowed: {', '.join(FAMILIES)}")
+    await control.use_port(choice.device, choice.board)
+    found = await in_thread(list_devices)
+    control.remembered.remember_port(lasting_of(choice.device, found))
+    await control.remembered.kept()
+    return control.board.port
+
+
+@api.delete("/port", dependencies=[OWNER])
+async def close_port(control: Controlled) -> PortState:
+    """Closes the port and leaves it closed, also after the next start."""
+    await control.close_port()
+    control.remembered.remember_port(None)
+    await control.remembered.kept()
+    return control.board.port
+
+
+@api.put("/board")
+async def name_board(
+    choice: BoardChoice, request: Request, control: Controlled, caller: Annotated[Caller, DRIVER]
+) -> Status:
+    """Says of which family the board is. It is driven as one once its answers do not contradict that; `link`
+    tells, and `identity` what it answered. Remembered for its port.
+    """
+    control.name_board(named(request, caller), choice.board)
+    return await status(control)
+
+
+def named(request: Request, caller: Caller) -> Caller:
+    """A page says where it comes from, a program does not."""
+    return caller if "origin" in request.headers else as_script(caller)
+
+
+@api.post("/stop")
+async def stop(request: Request, control: Controlled, caller: Annotated[Caller, STOPPER]) -> Stopped:
+    """STOP: drops all that waits, sends stop three times, holds each servo whose place is known, and refuses
+    motion until resume. Latches even without a port.
+    """
+    await asyncio.shield(control.stop(Cause("person", named(request, caller).name)))
+    return Stopped(latch=control.latch, halted=True, unheld=control.unheld)
+
+
+@api.post("/resume")
+async def resume(request: Request, control: Controlled, caller: Annotated[Caller, DRIVER]) -> Status:
+    """Allows motion again. Moves nothing. While somebody drives, only they or an owner may."""
+    control.resume(named(request, caller))
+    return await status(control)
+
+
+@api.get("/battery", dependencies=[VIEWER])
+async def battery(control: Controlled) -> Battery:
+    """Asks the board now; 504 where it does not answer."""
+    return Battery(battery_mv=await control.board.battery.read())

@@ -1,0 +1,155 @@
+"""Runs the gateway on a socket until it is told to end, and ends it in order: the robot first, then the
+clients.
+
+Knows uvicorn and signals, no message and no packet.
+"""
+
+import asyncio
+import contextlib
+import logging
+import os
+import signal
+import socket
+import sys
+import threading
+from collections.abc import Callable, Iterator
+from types import FrameType
+
+import uvicorn
+
+from servodeck import __version__
+from servodeck.access.connections import (
+    IDLE_S,
+    PING_S,
+    PONG_S,
+    RECEIVED_BYTES,
+    ImpatientProtocol,
+    ImpatientSocket,
+    State,
+)
+from servodeck.access.guard import Guard
+from servodeck.api import process
+from servodeck.errors import PortError
+from servodeck.protocol.timings import PLAY
+from servodeck.robot.control import Control
+
+# Whoever has not gone by then is cut off. Later, uvicorn would cancel what they asked and call that an error.
+LEAVE_S = 1.0
+CANCEL_S = 2
+END_S = 2.5
+FORCED = 1
+log = logging.getLogger("servodeck.server")
+SIGNALS = (signal.SIGINT, signal.SIGTERM)
+
+
+class Server(uvicorn.Server):
+    """Calls `ready` when it answers; stops the robot before it says goodbye to anybody."""
+
+    def __init__(self, app: Guard, control: Control, device: str | None, ready: Callable[[], None]) -> None:
+        super().__init__(
+            uvicorn.Config(
+                app,
+                http=ImpatientProtocol,
+                ws=ImpatientSocket,
+                ws_ping_interval=PING_S,
+                ws_ping_timeout=PONG_S,
+                ws_per_message_deflate=False,
+                ws_max_size=PLAY.message_bytes,
+                timeout_keep_alive=IDLE_S,
+                timeout_graceful_shutdown=CANCEL_S,
+                log_config=None,  # ours
+                log_level="warning",
+                access_log=False,
+                server_header=False,
+                proxy_headers=False,
+            )
+        )
+        self.server_state = State(app.may_upgrade)
+        self._control = control
+        self._device = device
+        self._ready = ready
+        self._leave = asyncio.Event()
+        self._loop: asyncio.AbstractEventLoop | None = None
+
+    def leave(self) -> None:
+        """Begins the end; may be called from any thread and from a signal handler."""
+        if self._loop:
+            self._loop.call_soon_threadsafe(self._leave.set)
+        self.should_exit = True
+
+    async def startup(self, sockets: list[socket.socket] | None = None) -> None:
+        self._loop = asyncio.get_running_loop()
+        self._opening = asyncio.create_task(self._open_port())
+        for listener in sockets or ():  # each connection begins with what its listener has
+            listener.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, RECEIVED_BYTES)
+        await super().startup(sockets)
+        if self.started:
+            log.info("ready", extra={"facts": {"version": __version__}})
+            process.tell("READY=1")
+            self._ready()
+
+    async def main_loop(self) -> None:
+        # uvicorn looks for the end ten times a second only; the robot shall not run on that long.
+        ticking = asyncio.create_task(super().main_loop())
+        leaving = asyncio.create_task(self._leave.wait())
+        await asyncio.wait({ticking, leaving}, return_when=asyncio.FIRST_COMPLETED)
+        self.should_exit = True
+        leaving.cancel()
+        ticking.cancel()
+
+    async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
+        log.info("ending")
+        process.tell("STOPPING=1")
+        self._opening.cancel()
+        await self._control.shut_down()
+        asyncio.get_running_loop().call_later(LEAVE_S, self._cut_off)
+        await super().shutdown(sockets)
+
+    def _cut_off(self) -> None:
+        for connection in tuple(self.server_state.connections):
+            connection.transport.abort()
+
+    async def _open_port(self) -> None:
+        if self._device:
+            with contextlib.suppress(PortError):  # the state tells it, and the link tries again
+                await self._control.use_port(self._device)
+
+    @contextlib.contextmanager
+    def capture_signals(self) -> Iterator[None]:
+        # Without uvicorn's second raise of the signal: an end that was asked for is a success.
+        if threading.current_thread() is not threading.main_thread():
+            yield
+            return
+        before = {number: signal.signal(number, self._on_signal) for number in SIGNALS}
+        try:
+            yield
+        finally:
+            for number, handler in before.items():
+                signal.signal(number, handler)
+
+    def _on_signal(self, _number: int, _frame: FrameType | None) -> None:
+        """Asked twice, or by the end of stdin before, it ends as it does anyway: soon, and in order."""
+        end_for_sure()
+        self.leave()
+
+
+def end_for_sure() -> None:
+    """Ends the process a while later, whatever holds it up by then. The robot is stopped long before, and
+    what the library called kept survives.
+    """
+    last_resort = threading.Timer(END_S, os._exit, (FORCED,))
+    last_resort.daemon = True
+    last_resort.start()
+
+
+def leave_with_stdin(leave: Callable[[], None]) -> None:
+    """Calls `leave` when whoever started us has closed our stdin, or is gone."""
+
+    def wait() -> None:
+        with contextlib.suppress(OSError, ValueError):
+            while os.read(sys.stdin.fileno(), 4096):
+                pass
+        end_for_sure()
+        leave()
+
+    threading.Thread(target=wait, name="stdin", daemon=True).start()

@@ -1,0 +1,356 @@
+"""Serves one WebSocket client: its messages to `control`, its outbox to the socket. Knows no port and no
+packet.
+
+Closes a client that sends what is no text or does not read; what cannot be understood is refused, never
+fatal.
+"""
+
+import asyncio
+import contextlib
+from collections.abc import Callable, Coroutine, Iterator, Sequence
+from typing import Any
+
+from pydantic import ValidationError
+from starlette.websockets import WebSocket, WebSocketDisconnect
+
+from servodeck import metrics
+from servodeck.api.intake import Intake
+from servodeck.callers import Caller, Role
+from servodeck.errors import BusyError, GatewayError, MalformedError
+from servodeck.events import PROTOCOL, DoneMessage, PlayedMessage, RefusedMessage, encode
+from servodeck.intents import (
+    AnyClientMessage,
+    BeatMessage,
+    BoardMessage,
+    CalibrateMessage,
+    ContinueMessage,
+    EraseMessage,
+    GiveMessage,
+    LeaseMessage,
+    MoveMessage,
+    PacketMessage,
+    PlayMessage,
+    ReadMessage,
+    ReleaseMessage,
+    ResumeMessage,
+    RunMessage,
+    SetSpeedMessage,
+    StopGroupMessage,
+    StopMessage,
+    StopPlayingMessage,
+    Target,
+    client_message,
+)
+from servodeck.port.wire import Left
+from servodeck.protocol.values import ServoTarget
+from servodeck.rate import Rate
+from servodeck.robot.board.playing import FrameGroup
+from servodeck.robot.control import Control
+from servodeck.robot.hub import AGAINST_THE_RULES, Seat
+from servodeck.robot.latch import Cause
+from servodeck.robot.operations import PageClaim
+from servodeck.snapshots import Outcome, PlayState
+
+UNSUPPORTED_DATA, OUTDATED_PAGE = 1003, 4001
+CLOSE_WAIT_S = 0.1
+# Messages a second, and at once. A page hands over the newest values every 8 ms while somebody drags: what
+# waits longer at the page would be older when the wire is free.
+DRIVER_RATE = (150.0, 300)
+VIEWER_RATE = (2.0, 10)
+# What each message takes at least; one that is not named here only an owner may send. A packet is judged by
+# what it does.
+ROLES: dict[type[AnyClientMessage], Role] = {
+    MoveMessage: "driver",
+    PlayMessage: "driver",
+    StopPlayingMessage: "driver",
+    RunMessage: "driver",
+    StopGroupMessage: "stopper",
+    EraseMessage: "owner",
+    SetSpeedMessage: "driver",
+    ReleaseMessage: "driver",
+    PacketMessage: "viewer",
+    StopMessage: "stopper",
+    ResumeMessage: "driver",
+    BoardMessage: "driver",
+    ReadMessage: "viewer",
+    CalibrateMessage: "driver",
+    LeaseMessage: "viewer",
+    GiveMessage: "driver",
+    ContinueMessage: "driver",
+    BeatMessage: "driver",
+}
+
+
+async def serve_client(socket: WebSocket, caller: Caller, control: Control) -> None:
+    if is_outdated(socket):
+        await socket.accept()
+        await socket.close(OUTDATED_PAGE, "This page is of another version than the gateway: reload it.")
+        return
+    if not control.hub.has_room_for(caller):
+        raise BusyError("All seats are taken: close another window or stream.")
+    seat = Seat(caller)
+    control.join(seat)  # before anything is waited for: whoever is revoked now is found
+    try:
+        await socket.accept()
+        await serve_seat(socket, seat, control)
+    finally:
+        control.leave(seat)
+    if seat.farewell:
+        with contextlib.suppress(TimeoutError, WebSocketDisconnect, RuntimeError):
+            await asyncio.wait_for(socket.close(seat.farewell.code, seat.farewell.reason), CLOSE_WAIT_S)
+
+
+def is_outdated(socket: WebSocket) -> bool:
+    """A page that was loaded before the gateway became another; programs have no Origin, and load nothing."""
+    return "origin" in socket.headers and socket.query_params.get("protocol") != str(PROTOCOL)
+
+
+async def serve_seat(socket: WebSocket, seat: Seat, control: Control) -> None:
+    """Until the client leaves, breaks the rules, is sent away or stops reading."""
+    tasks = [
+        asyncio.create_task(read_all(socket, seat, control)),
+        asyncio.create_task(write_all(socket, seat)),
+        asyncio.create_task(seat.ended.wait()),
+    ]
+    try:
+        done, _ = await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
+        for task in done:
+            task.result()
+    finally:
+        for task in tasks:
+            task.cancel()
+
+
+async def read_all(socket: WebSocket, seat: Seat, control: Control) -> None:
+    intake = intake_of(seat, control)
+    try:
+        while (event := await socket.receive())["type"] != "websocket.disconnect" and not seat.ended.is_set():
+            text = event.get("text")
+            if text is None:
+                await socket.close(UNSUPPORTED_DATA, "Text only.")
+                return
+            hear(text, seat, intake)
+            # What has come already is given without a pause: others' turn, a STOP may be among theirs.
+            await asyncio.sleep(0)
+    finally:
+        intake.close()
+
+
+def intake_of(seat: Seat, control: Control) -> Intake:
+    return Intake(
+        rate_of(seat.caller, control.now),
+        take=lambda message: take(message, seat, control),
+        merged=merged,
+        replaced=lambda message: refuse(seat, id_of(message), BusyError("A newer message took its place.")),
+        overrun=lambda: seat.end(AGAINST_THE_RULES, "Too many messages."),
+    )
+
+
+def rate_of(caller: Caller, now: Callable[[], float]) -> Rate:
+    return Rate(*(DRIVER_RATE if caller.may("driver") else VIEWER_RATE), now)
+
+
+def hear(text: str, seat: Seat, intake: Intake) -> None:
+    """Whatever it says, the worst outcomes are a `refused` and, for too many, the end."""
+    try:
+        message = client_message.validate_json(text)
+    except ValidationError as error:
+        if intake.count():
+            refuse(seat, None, MalformedError(first_problem(error)))
+        return
+    if isinstance(message, StopMessage):
+        intake.take_at_once(message)
+    else:
+        intake.offer(message)
+
+
+def id_of(message: AnyClientMessage) -> int | None:
+    """Of whoever asks for something; the others are about the lease, or a stop."""
+    number = getattr(message, "id", None)
+    return number if isinstance(number, int) else None
+
+
+def merged(before: AnyClientMessage, message: AnyClientMessage) -> AnyClientMessage | None:
+    """Both in one, where nothing of the older one may be lost: the value of a servo that the newer one does
+    not name.
+    """
+    if not (isinstance(before, MoveMessage) and isinstance(message, MoveMessage)):
+        return None
+    if before.duration_ms != message.duration_ms:
+        return None
+    newest = {target.servo: target for target in (*before.targets, *message.targets)}
+    return message.model_copy(update={"targets": list(newest.values())})
+
+
+async def write_all(socket: WebSocket, seat: Seat) -> None:
+    with contextlib.suppress(WebSocketDisconnect):
+        while True:
+            await socket.send_text(await seat.next())
+
+
+def take(message: AnyClientMessage, seat: Seat, control: Control) -> None:
+    """Acts on one message of somebody who is here and may send it. A stop is never too late."""
+    if seat.ended.is_set() and not isinstance(message, StopMessage):
+        return
+    with refusing(seat, id_of(message)):
+        seat.caller.require(ROLES.get(type(message), "owner"))
+        ACTS[type(message)](message, seat, control)
+
+
+def take_move(message: MoveMessage, seat: Seat, control: Control) -> None:
+    with refusing(seat, message.id):
+        left = control.move(seat, targets_of(message.targets), message.duration_ms, message.nonce)
+        left.add_done_callback(lambda left: answer_move(seat, message.id, left))
+
+
+def targets_of(targets: Sequence[Target]) -> list[ServoTarget]:
+    return [ServoTarget(target.servo, target.position) for target in targets]
+
+
+def answer_move(seat: Seat, message_id: int, left: Left) -> None:
+    """`left` tells what has left."""
+    with refusing(seat, message_id):
+        left.result()
+
+
+def take_play(message: PlayMessage, seat: Seat, control: Control) -> None:
+    frames = [body.frame() for body in message.frames]
+    group = FrameGroup(frames, message.times, message.loop_from)
+    with refusing(seat, message.id):
+        play(group, message.id, message.nonce, seat, control)
+
+
+def play(group: FrameGroup, message_id: int, nonce: str, seat: Seat, control: Control) -> PlayState:
+    """Raises what keeps it from beginning. Whoever asked hears how it ended."""
+    return control.play(
+        seat, group, nonce, lambda state: seat.put(encode(PlayedMessage(id=message_id, play=state)))
+    )
+
+
+def take_packet(message: PacketMessage, seat: Seat, control: Control) -> None:
+    with refusing(seat, message.id):
+        left = control.send(seat, message.bytes, message.nonce)
+        left.add_done_callback(lambda left: answer(seat, message.id, left))
+
+
+def take_run(message: RunMessage, seat: Seat, control: Control) -> None:
+    claim = PageClaim(control, seat, message.nonce)
+    perform(seat, message.id, control.operations.run(claim, message.slot, message.times))
+
+
+def take_erase(message: EraseMessage, seat: Seat, control: Control) -> None:
+    perform(seat, message.id, control.operations.erase(PageClaim(control, seat, message.nonce)))
+
+
+def take_set_speed(message: SetSpeedMessage, seat: Seat, control: Control) -> None:
+    claim = PageClaim(control, seat, message.nonce)
+    perform(seat, message.id, control.operations.set_speed(claim, message.slot, message.percent))
+
+
+def take_release(message: ReleaseMessage, seat: Seat, control: Control) -> None:
+    claim = PageClaim(control, seat, message.nonce)
+    perform(seat, message.id, control.operations.release(claim, message.servos))
+
+
+def perform(seat: Seat, message_id: int, work: Coroutine[Any, Any, Outcome]) -> None:
+    async def answered() -> None:
+        with refusing(seat, message_id):
+            seat.put(encode(DoneMessage(id=message_id, outcome=await work)))
+
+    seat.begin(answered())
+
+
+@contextlib.contextmanager
+def telling(seat: Seat, control: Control) -> Iterator[None]:
+    """How the lease stands says why not; a `refused` without an id is a stop's."""
+    try:
+        yield
+    except GatewayError:
+        control.driving.tell(seat)
+
+
+def take_stop(message: StopMessage, seat: Seat, control: Control) -> None:
+    with refusing(seat, None):
+        control.stop(Cause(message.why, seat.caller.name))
+
+
+def let_go_on(message: ContinueMessage, seat: Seat, control: Control) -> None:
+    with contextlib.suppress(GatewayError):  # how it stands says so: a `refused` without id is a stop's
+        control.let_go_on(seat, message.for_ms)
+
+
+def act_on_lease(message: LeaseMessage, seat: Seat, control: Control) -> None:
+    with telling(seat, control):
+        control.driving.act(seat, message.action)
+
+
+def give(message: GiveMessage, seat: Seat, control: Control) -> None:
+    with telling(seat, control):
+        control.driving.give(seat, message.to)
+
+
+def name_board(message: BoardMessage, seat: Seat, control: Control) -> None:
+    control.name_board(seat.caller, message.board)
+    seat.put(encode(DoneMessage(id=message.id)))
+
+
+def read(message: ReadMessage, seat: Seat, control: Control) -> None:
+    reading = asyncio.create_task(control.board.battery.read())
+    reading.add_done_callback(lambda read: answer_read(seat, message.id, read))
+
+
+def answer_read(seat: Seat, message_id: int, reading: asyncio.Task[int]) -> None:
+    with refusing(seat, message_id):
+        reading.result()
+        seat.put(encode(DoneMessage(id=message_id)))
+
+
+ACTS: dict[type[AnyClientMessage], Callable[[Any, Seat, Control], None]] = {
+    MoveMessage: take_move,
+    PlayMessage: take_play,
+    StopPlayingMessage: lambda _, _seat, control: control.stop_playing(),
+    RunMessage: take_run,
+    StopGroupMessage: lambda message, seat, control: perform(
+        seat, message.id, control.operations.end_group(seat)
+    ),
+    EraseMessage: take_erase,
+    SetSpeedMessage: take_set_speed,
+    ReleaseMessage: take_release,
+    PacketMessage: take_packet,
+    StopMessage: take_stop,
+    ResumeMessage: lambda _, seat, control: control.resume(seat.caller, seat),
+    BoardMessage: name_board,
+    ReadMessage: read,
+    CalibrateMessage: lambda message, seat, control: control.limits.calibrate(seat, message.servo),
+    LeaseMessage: act_on_lease,
+    GiveMessage: give,
+    ContinueMessage: let_go_on,
+    BeatMessage: lambda message, seat, control: control.driving.beat(seat, message.nonce),
+}
+
+
+def answer(seat: Seat, message_id: int, left: Left) -> None:
+    with refusing(seat, message_id):
+        left.result()
+        seat.put(encode(DoneMessage(id=message_id, outcome="sent")))
+
+
+@contextlib.contextmanager
+def refusing(seat: Seat, message_id: int | None) -> Iterator[None]:
+    """Turns a GatewayError into a `refused` for that seat."""
+    try:
+        yield
+    except GatewayError as error:
+        refuse(seat, message_id, error)
+
+
+def refuse(seat: Seat, message_id: int | None, error: GatewayError) -> None:
+    metrics.refused.labels(error.code).inc()
+    seat.put(encode(RefusedMessage(id=message_id, code=error.code, detail=error.detail)))
+
+
+def first_problem(error: ValidationError) -> str:
+    """One line: where and what; never the input itself."""
+    problem = error.errors(include_url=False, include_context=False, include_input=False)[0]
+    where = ".".join(str(part) for part in problem["loc"])
+    return f"{where}: {problem['msg']}" if where else problem["msg"]

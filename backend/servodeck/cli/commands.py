@@ -1,0 +1,289 @@
+"""The commands about what is kept: the poses of the robot on the board, the groups and robots of the library.
+
+Parses and prints; which pose a name means, and who may go there, the gateway decides.
+"""
+
+import sys
+import time
+from collections.abc import Callable
+from typing import Annotated, Any
+from urllib.parse import quote
+
+import typer
+
+from servodeck.cli.options import (
+    INTERRUPTED,
+    TIMED_OUT,
+    USAGE,
+    AsJson,
+    Take,
+    asked,
+    asking,
+    board,
+    board_words,
+    explain,
+    explain_silence,
+    fail,
+    show,
+    when_asked,
+)
+from servodeck.cli.remote import RefusedError, Remote, UnreachableError, stopped_words
+
+BEAT_S = 1.0
+# What the gateway lets go on without its driver at most.
+LONGEST_ALONE_S = 3600
+# How long the end of a group is waited for where nobody said: until its computed end and a little more, or
+# where only the board could tell.
+BEHIND_ITS_END_S = 2.0
+UNKNOWN_END_S = 30.0
+# Servos of unknown place start a quarter of a second apart.
+MOVE_WAIT_S = 90.0
+
+
+@asking
+def status(remote: Remote, as_json: AsJson = False) -> None:
+    """How everything stands: port, board, who drives, what runs."""
+    show(asked(remote, "GET", "/api/status"), as_json, status_words)
+
+
+def status_words(state: dict[str, Any]) -> str:
+    port, run, alone = state["port"], state["running"], state["unattended"]
+    lines = [
+        f"port     {port['status']} {port['device'] or ''} {port['detail'] or ''}".rstrip(),
+        board_words(state),
+        f"motion   {'stopped, waits for resume' if state['latch'] else 'allowed'}",
+        f"driver   {state['driver'] or 'nobody'}",
+    ]
+    if run:
+        lines.append(f"running  slot {run['slot']}, {run['times'] or 'endless'} times, as far as is known")
+    if alone:
+        lines.append(f"alone    without {alone['by']}, {alone['endsInMs'] / 1000:.0f} s at most")
+    return "\n".join(lines)
+
+
+@asking
+def stop(remote: Remote, as_json: AsJson = False) -> None:
+    """STOP: ends what moves, and refuses motion until `servodeck resume`. Says what it cannot hold, and how
+    long that may still move.
+    """
+    answer = asked(remote, "POST", "/api/stop")
+    show(answer, as_json, stopped_words)
+
+
+@asking
+def resume(remote: Remote, as_json: AsJson = False) -> None:
+    """Allow motion again. Moves nothing."""
+    answer = asked(remote, "POST", "/api/resume")
+    show(answer, as_json, lambda _: "Motion is allowed.")
+
+
+@asking
+def move(
+    remote: Remote,
+    targets: Annotated[
+        list[str], typer.Argument(metavar="SERVO=POSITION...", help="For example 1=1500 2=900")
+    ],
+    time_ms: Annotated[
+        int, typer.Option("--time", help="Milliseconds; a servo's first move takes 1500.")
+    ] = 1500,
+    take: Take = False,
+    as_json: AsJson = False,
+) -> None:
+    """Move servos together, in the board's unit."""
+    body = {"timeMs": time_ms, "positions": positions_in(targets), "take": take}
+    when_asked(remote)
+    answer = asked(remote, "POST", "/api/move", body, wait_s=MOVE_WAIT_S)
+    show(answer, as_json, begun_words)
+
+
+def begun_words(begun: dict[str, Any]) -> str:
+    return f"On its way, over in {begun['overInMs'] / 1000:.1f} s."
+
+
+def positions_in(targets: list[str]) -> dict[str, int]:
+    try:
+        pairs = [target.split("=") for target in targets]
+        return {str(int(servo)): int(position) for servo, position in pairs}
+    except ValueError:
+        fail("A target is SERVO=POSITION, for example 1=1500.", USAGE)
+
+
+@asking
+def run(
+    remote: Remote,
+    slot: Annotated[int, typer.Argument(help="Of the board, from 0.")],
+    times: Annotated[int, typer.Option(help="0: until stopped.")] = 1,
+    go_on: Annotated[
+        int | None,
+        typer.Option(
+            "--continue",
+            metavar="SECONDS",
+            help=f"Return at once; it goes on for so long at most. With --times 0: {LONGEST_ALONE_S}.",
+        ),
+    ] = None,
+    timeout_s: Annotated[
+        float | None,
+        typer.Option(
+            "--timeout",
+            metavar="SECONDS",
+            min=0,
+            help="End it where it has not ended by then. Left out: what the group takes, "
+            f"{UNKNOWN_END_S:.0f} where nobody knows that.",
+        ),
+    ] = None,
+    take: Take = False,
+    as_json: AsJson = False,
+) -> None:
+    """Run a group of the board and watch over it: Ctrl-C ends it. An endless run is not waited for."""
+    if go_on is not None and timeout_s is not None:
+        fail("--continue returns at once: there is nothing that --timeout could end.", USAGE)
+    if times == 0 and timeout_s is None and go_on is None:
+        go_on = LONGEST_ALONE_S
+    when_asked(remote)
+    body = {"times": times, "take": take, "continueForMs": None if go_on is None else go_on * 1000}
+    answer = asked(remote, "POST", f"/api/slots/{slot}/run", body)
+    show(answer, as_json, lambda begun: f"Slot {slot}: {begun['outcome']}.")
+    if go_on is not None:
+        if times == 0:
+            print(endless(slot, go_on), file=sys.stderr)
+        return
+    limit_s = watch(remote, timeout_s)
+    if limit_s is not None and times == 0:
+        print(f"Ended after {limit_s:g} s.")
+    elif limit_s is not None:
+        fail(unheard_end(slot, limit_s), TIMED_OUT)
+
+
+def endless(slot: int, alone_s: int) -> str:
+    return (
+        f"Slot {slot} repeats until it is stopped: by `servodeck stop`, by a page, by the next driver, or "
+        f"after {alone_s} s, by the gateway. --continue SECONDS sets that; --timeout SECONDS waits instead."
+    )
+
+
+def watch(remote: Remote, limit_s: float | None) -> float | None:
+    """Beats until the group is over. The seconds after which it was ended; None where it ended before."""
+    begun_s = time.monotonic()
+    try:
+        while running := asked(remote, "GET", "/api/status")["running"]:
+            limit_s = usual_limit_s(running["endsInMs"]) if limit_s is None else limit_s
+            left_s = limit_s - (time.monotonic() - begun_s)
+            if left_s <= 0:
+                let_go(remote)
+                return limit_s
+            asked(remote, "POST", "/api/lease", {"action": "beat"})
+            time.sleep(min(BEAT_S, left_s))
+    except KeyboardInterrupt:
+        let_go(remote)
+        fail("Ended.", INTERRUPTED)
+    return None
+
+
+def usual_limit_s(ends_in_ms: int | None) -> float:
+    return UNKNOWN_END_S if ends_in_ms is None else ends_in_ms / 1000 + BEHIND_ITS_END_S
+
+
+def let_go(remote: Remote) -> None:
+    """Which ends what runs, and nobody has to resume."""
+    asked(remote, "POST", "/api/lease", {"action": "release"})
+
+
+def unheard_end(slot: int, limit_s: float) -> str:
+    return (
+        f"Nobody has heard within {limit_s:g} s that slot {slot} has ended, so it was ended. "
+        "Did nothing move? Then the slot is empty. Does it take longer? --timeout SECONDS waits for it."
+    )
+
+
+@asking
+def erase(
+    remote: Remote,
+    sure: Annotated[bool, typer.Option("--yes", help="Without being asked again.")] = False,
+    take: Take = False,
+    as_json: AsJson = False,
+) -> None:
+    """Erase every slot of the board, for good. An owner's."""
+    if not sure:
+        typer.confirm("Every group on the board goes for good. Erase them?", abort=True)
+    when_asked(remote)
+    show(asked(remote, "POST", "/api/erase", {"take": take}), as_json, lambda _: "Every slot is empty.")
+
+
+@asking
+def battery(remote: Remote, as_json: AsJson = False) -> None:
+    """Ask the board for its battery voltage."""
+    answer = asked(remote, "GET", "/api/battery")
+    show(answer, as_json, lambda read: f"{read['batteryMv'] / 1000:.2f} V")
+
+
+@asking
+def events(remote: Remote) -> None:
+    """Show what happens, a JSON object a line, until Ctrl-C."""
+    try:
+        for line in remote.events():
+            print(line, flush=True)
+    except RefusedError as error:
+        explain(error)
+    except UnreachableError as error:
+        explain_silence(remote, error)
+    except KeyboardInterrupt:
+        raise typer.Exit(INTERRUPTED) from None
+
+
+COMMANDS: tuple[Callable[..., None], ...] = (
+    status,
+    board,
+    stop,
+    resume,
+    move,
+    run,
+    erase,
+    battery,
+    events,
+)
+
+
+@asking
+def poses(remote: Remote, as_json: AsJson = False) -> None:
+    """List the poses of the robot on the board, by number and name."""
+    show(asked(remote, "GET", "/api/poses"), as_json, poses_words)
+
+
+def poses_words(book: dict[str, Any]) -> str:
+    if not book["poses"]:
+        return f"{book['robot'] or 'The robot on the board'} has no poses yet: capture one on a page."
+    return "\n".join(f"{one['id']:>3}  {one['name']}" for one in book["poses"])
+
+
+@asking
+def pose(
+    remote: Remote,
+    wanted: Annotated[str, typer.Argument(metavar="POSE", help="Its name or its number; 0 is home.")],
+    time_ms: Annotated[
+        int, typer.Option("--time", help="Milliseconds; a servo's first move takes 1500.")
+    ] = 1500,
+    take: Take = False,
+    as_json: AsJson = False,
+) -> None:
+    """Go to a pose of the robot on the board."""
+    when_asked(remote)
+    path = f"/api/poses/{quote(wanted, safe='')}/apply"
+    begun = asked(remote, "POST", path, {"timeMs": time_ms, "take": take}, wait_s=MOVE_WAIT_S)
+    show(begun, as_json, begun_words)
+
+
+@asking
+def library(remote: Remote, as_json: AsJson = False) -> None:
+    """List the groups and robots of the library."""
+    show(asked(remote, "GET", "/api/library"), as_json, library_words)
+
+
+def library_words(listing: dict[str, Any]) -> str:
+    kept = [one for one in listing["documents"] if not one["isRemoved"]]
+    return "\n".join(map(document_words, kept)) or "The library is empty."
+
+
+def document_words(document: dict[str, Any]) -> str:
+    facts = document["facts"]
+    about = f"{facts['frames']} frames, {facts['durationMs'] / 1000:.1f} s" if "frames" in facts else "robot"
+    return f"{document['id']}  {facts['name']}  ({about})"

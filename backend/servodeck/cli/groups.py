@@ -1,0 +1,175 @@
+"""Commands about whole groups: download them to the board's slots, or have the gateway play one."""
+
+import json
+import time
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from servodeck.cli.commands import BEAT_S, LONGEST_ALONE_S
+from servodeck.cli.options import (
+    FAILURE,
+    INTERRUPTED,
+    USAGE,
+    AsJson,
+    Take,
+    asked,
+    asking,
+    fail,
+    show,
+    when_asked,
+)
+from servodeck.cli.remote import Remote
+from servodeck.protocol.timings import DOWNLOAD
+
+LOOK_S = 0.2
+SHAPE = '{"name": "Wave", "frames": [{"durationMs": 400, "positions": {"1": 1200}}]}'
+
+
+@asking
+def download(
+    remote: Remote,
+    groups: Annotated[
+        list[str], typer.Argument(metavar="SLOT=FILE...", help="For example 5=wave.json 6=bow.json")
+    ],
+    wait: Annotated[
+        bool, typer.Option("--wait/--no-wait", help="Until all are stored, or return once it has begun.")
+    ] = True,
+    take: Take = False,
+    as_json: AsJson = False,
+) -> None:
+    """Store groups on the board, one after the other. The gateway goes on by itself; Ctrl-C calls it off."""
+    job = handed_over(remote, [group_of(text) for text in groups], take=take)
+    if wait:
+        job = followed(remote, job, tells=not as_json)
+    show(job, as_json, download_words)
+    if job["status"] not in ("done", "running"):
+        raise typer.Exit(FAILURE)
+
+
+def handed_over(remote: Remote, groups: list[dict[str, Any]], *, take: bool) -> dict[str, Any]:
+    """As one job, in as many requests as the gateway needs to read them."""
+    first, *rest = portions_of(groups)
+    when_asked(remote)
+    job: dict[str, Any] = asked(remote, "POST", "/api/download", {"groups": first, "take": take})
+    for portion in rest:
+        body = {"groups": portion, "take": take, "behind": job["id"]}
+        job = asked(remote, "POST", "/api/download", body)
+    return job
+
+
+def portions_of(groups: list[dict[str, Any]]) -> list[list[dict[str, Any]]]:
+    portions: list[list[dict[str, Any]]] = []
+    room_bytes = 0
+    for group in groups:
+        size_bytes = len(json.dumps(group)) + 2  # a comma and a blank
+        if size_bytes > room_bytes:
+            portions.append([])
+            room_bytes = DOWNLOAD.portion_bytes
+        portions[-1].append(group)
+        room_bytes -= size_bytes
+    return portions
+
+
+def followed(remote: Remote, job: dict[str, Any], *, tells: bool) -> dict[str, Any]:
+    """Until it has ended."""
+    stored = 0
+    try:
+        while job["status"] == "running":
+            time.sleep(LOOK_S)
+            job = asked(remote, "GET", f"/api/jobs/{job['id']}")
+            for slot in job["slots"][stored : job["groupsStored"]] if tells else ():
+                print(f"Slot {slot} is stored.", flush=True)
+            stored = job["groupsStored"]
+    except KeyboardInterrupt:
+        asked(remote, "DELETE", f"/api/jobs/{job['id']}")
+        fail("Called off behind its frame in progress.", INTERRUPTED)
+    return job
+
+
+def download_words(job: dict[str, Any]) -> str:
+    stored, count = job["groupsStored"], len(job["slots"])
+    if job["status"] == "running":
+        return f"Begun: job {job['id']}, {counted(count, 'group')}, {counted(job['frameCount'], 'frame')}."
+    end = f"{stored} of {counted(count, 'group')} {'is' if count == 1 else 'are'} stored."
+    return end if job["status"] == "done" else f"{end} {job['detail']} ({job['code']})"
+
+
+def counted(count: int, thing: str) -> str:
+    return f"{count} {thing}{'' if count == 1 else 's'}"
+
+
+def group_of(text: str) -> dict[str, Any]:
+    """What the gateway takes; ends the program with an explanation for anything else."""
+    slot, separator, name = text.partition("=")
+    if not separator or not slot.isascii() or not slot.isdigit():
+        fail("A group is SLOT=FILE, for example 5=wave.json.", USAGE)
+    file = Path(name)
+    return {"name": file.stem} | group_in(file) | {"slot": int(slot)}
+
+
+def group_in(file: Path) -> dict[str, Any]:
+    """As a board stores it; ends the program with an explanation for anything else."""
+    try:
+        group = json.loads(file.read_text("utf-8"))
+    except OSError as error:
+        fail(f"{file} cannot be read: {error.strerror}.", USAGE)
+    except ValueError:
+        fail(f"{file} is no JSON. It holds one group: {SHAPE}", USAGE)
+    if not isinstance(group, dict) or "frames" not in group or "format" in group:
+        fail(f"{file} holds no frames as a board stores them: {SHAPE}", USAGE)
+    return group
+
+
+@asking
+def play(
+    remote: Remote,
+    file: Annotated[Path, typer.Argument(help="Of one group, as `servodeck download` takes it.")],
+    times: Annotated[int, typer.Option(help="0: until stopped.")] = 1,
+    go_on: Annotated[
+        int | None,
+        typer.Option("--continue", metavar="SECONDS", help="Return at once; it goes on for so long at most."),
+    ] = None,
+    take: Take = False,
+    as_json: AsJson = False,
+) -> None:
+    """Have the gateway play a group, frame by frame, and watch over it: Ctrl-C ends it."""
+    body: dict[str, Any] = {"frames": group_in(file)["frames"], "times": times, "take": take}
+    if go_on is not None:
+        body["continueForMs"] = min(go_on, LONGEST_ALONE_S) * 1000
+    state = asked(remote, "POST", "/api/play", body)
+    if go_on is None:
+        state = watched(remote, state)
+    show(state, as_json, play_words)
+    if state["status"] == "ended":
+        raise typer.Exit(FAILURE)
+
+
+def watched(remote: Remote, state: dict[str, Any]) -> dict[str, Any]:
+    """Until it has ended."""
+    beaten_s = time.monotonic()
+    try:
+        while state["status"] == "playing":
+            time.sleep(LOOK_S)
+            latest = asked(remote, "GET", "/api/status")["play"]
+            if latest["id"] != state["id"]:  # it ended, and somebody plays something else
+                return state | {"status": "ended", "code": "cancelled", "detail": "Another one is played."}
+            state = latest
+            if state["status"] == "playing" and time.monotonic() - beaten_s >= BEAT_S:
+                asked(remote, "POST", "/api/lease", {"action": "beat"})
+                beaten_s = time.monotonic()
+    except KeyboardInterrupt:
+        asked(remote, "DELETE", "/api/play")
+        fail("Ended with its frame in progress.", INTERRUPTED)
+    return state
+
+
+def play_words(state: dict[str, Any]) -> str:
+    count = counted(state["frameCount"], "frame")
+    if state["status"] == "playing":
+        return f"Begun: {count}, {state['times'] or 'endless'} times."
+    left_out = f" {counted(state['skippedFrames'], 'frame')} left out." if state["skippedFrames"] else ""
+    if state["status"] == "done":
+        return f"Played: {count}.{left_out}"
+    return f"Ended at frame {state['frameIndex'] + 1} of {state['frameCount']}.{left_out} {state['detail']}"

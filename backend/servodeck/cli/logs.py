@@ -1,0 +1,130 @@
+"""Log lines on stderr, readable or as JSON, of this program and of the libraries alike.
+
+Knows levels and lines, not what they tell. Whoever logs never waits: a reader who stopped reading costs
+lines, not time, and STOP runs on the same loop. Lines that anybody on the network can cause are few.
+"""
+
+import json
+import logging
+import os
+import queue
+import threading
+import time
+from collections.abc import Callable
+from datetime import UTC, datetime
+
+from servodeck.access.guard import LOGGER as REFUSALS
+from servodeck.cli.config import Form, Level
+from servodeck.rate import Rate
+
+STDERR = 2
+LINES_WAITING = 1000
+LAST_LINES_S = 0.2
+# Of the same sentence, and at once: a megabyte a day at most.
+SPARSE_RATE = (0.1, 5)
+SPARSE_LOGGERS = frozenset({REFUSALS, "uvicorn.error"})
+MAX_SENTENCES = 100
+
+
+class PatientHandler(logging.Handler):
+    """Hands each line to a thread that may have to wait; drops what comes while too many wait."""
+
+    def __init__(self, descriptor: int) -> None:
+        super().__init__()
+        self._lines: queue.Queue[bytes | None] = queue.Queue(LINES_WAITING)
+        # Past Python's own buffer: its lock, held by a thread that waits, would keep the process from ending.
+        self._writer = threading.Thread(
+            target=write_all, args=(self._lines.get, descriptor), name="log", daemon=True
+        )
+        self._writer.start()
+
+    def emit(self, record: logging.LogRecord) -> None:
+        self._put(f"{self.format(record)}\n".encode(errors="replace"))
+
+    def close(self) -> None:
+        """Waits a moment for the last lines."""
+        self._put(None)
+        self._writer.join(LAST_LINES_S)
+        super().close()
+
+    def _put(self, line: bytes | None) -> None:
+        try:
+            self._lines.put_nowait(line)
+        except queue.Full:
+            return
+
+
+class SparseFilter(logging.Filter):
+    """Lets few of the same sentence pass, of the loggers whose lines anybody can cause; each that passes
+    says how many did not.
+    """
+
+    def __init__(self, now: Callable[[], float] = time.monotonic) -> None:
+        super().__init__()
+        self._now = now
+        self._rates: dict[str, Rate] = {}
+        self._left_out: dict[str, int] = {}
+
+    def filter(self, record: logging.LogRecord) -> bool:
+        if record.name not in SPARSE_LOGGERS:
+            return True
+        sentence = str(record.msg)
+        if len(self._rates) >= MAX_SENTENCES:
+            self._rates.clear()
+            self._left_out.clear()
+        rate = self._rates.setdefault(sentence, Rate(*SPARSE_RATE, self._now))
+        if not rate.take():
+            self._left_out[sentence] = self._left_out.get(sentence, 0) + 1
+            return False
+        record.facts = {**facts_of(record), "leftOut": self._left_out.pop(sentence, None)}
+        return True
+
+
+def write_all(take: Callable[[], bytes | None], descriptor: int) -> None:
+    while line := take():
+        try:
+            while line:
+                line = line[os.write(descriptor, line) :]
+        except OSError:
+            return  # nobody can read any more
+
+
+def set_up_logs(level: Level, form: Form, descriptor: int = STDERR) -> logging.Handler:
+    """For the whole process. The handler, to be closed at the end."""
+    handler = PatientHandler(descriptor)
+    handler.setFormatter(FORMATTERS[form]())
+    handler.addFilter(SparseFilter())
+    logging.basicConfig(level=level.upper(), handlers=[handler], force=True)
+    return handler
+
+
+def facts_of(record: logging.LogRecord) -> dict[str, object]:
+    """What `extra={"facts": …}` told beside the sentence, without what there is none of."""
+    facts: dict[str, object] = getattr(record, "facts", {})
+    return {name: value for name, value in facts.items() if value is not None}
+
+
+class TextFormatter(logging.Formatter):
+    def __init__(self) -> None:
+        super().__init__("{asctime} {levelname:7} {message}", style="{")
+
+    def formatMessage(self, record: logging.LogRecord) -> str:  # noqa: N802 (the library's name)
+        facts = "".join(f"  {name}={json.dumps(value)}" for name, value in facts_of(record).items())
+        return super().formatMessage(record) + facts
+
+
+class JsonFormatter(logging.Formatter):
+    def format(self, record: logging.LogRecord) -> str:
+        line = {
+            "time": datetime.fromtimestamp(record.created, UTC).isoformat(timespec="milliseconds"),
+            "level": record.levelname.lower(),
+            "logger": record.name,
+            "event": record.getMessage(),
+            **facts_of(record),
+        }
+        if record.exc_info:
+            line["exception"] = self.formatException(record.exc_info)
+        return json.dumps(line, ensure_ascii=False)
+
+
+FORMATTERS: dict[Form, Callable[[], logging.Formatter]] = {"text": TextFormatter, "json": JsonFormatter}

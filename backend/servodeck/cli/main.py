@@ -1,0 +1,104 @@
+"""The command line: all its commands, and the small ones that need no gateway. Parses, prints and sets exit
+codes; the work is done elsewhere.
+"""
+
+import json
+from dataclasses import asdict, fields
+from typing import Annotated
+
+import typer
+
+from servodeck import __version__
+from servodeck.cli.commands import COMMANDS, library, pose, poses
+from servodeck.cli.config import PREFIX, commands_of, settings_of, toml_line
+from servodeck.cli.groups import download, play
+from servodeck.cli.options import USAGE, Token, TokenFile, asked, fail, remote_at
+from servodeck.cli.serve import serve
+from servodeck.port.ports import PortInfo, list_devices
+from servodeck.protocol.describe import describe
+from servodeck.protocol.limits import PacketError
+
+app = typer.Typer(
+    help="Servodeck: drives LewanSoul, Lobot and Hiwonder servo controllers.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    rich_markup_mode=None,
+)
+
+
+def show_version(is_wanted: bool) -> None:
+    if is_wanted:
+        print(f"servodeck {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def main_options(
+    _version: Annotated[
+        bool, typer.Option("--version", callback=show_version, is_eager=True, help="Show the version.")
+    ] = False,
+) -> None:
+    """Drives LewanSoul, Lobot and Hiwonder servo controllers."""
+
+
+app.command(context_settings={"auto_envvar_prefix": PREFIX})(serve)
+for command in (*COMMANDS, pose, poses, download, play, library):
+    app.command()(command)
+
+
+@app.command("config", context_settings={"allow_extra_args": True, "ignore_unknown_options": True})
+def show_config(context: typer.Context) -> None:
+    """Show what `serve` with the same options would go by, and where each value comes from."""
+    commands = commands_of(context)
+    with commands["serve"].make_context("serve", context.args, parent=context.parent) as made:
+        for setting in settings_of(made):
+            print(toml_line(setting))
+
+
+@app.command()
+def ports(
+    as_json: Annotated[bool, typer.Option("--json", help="For programs.")] = False,
+    url: Annotated[
+        str, typer.Option(envvar=f"{PREFIX}_URL", help="Those of the computer of that gateway.")
+    ] = "",
+    token: Token = "",
+    token_file: TokenFile = None,
+) -> None:
+    """List the serial ports of this computer, the likely ones first."""
+    if url:
+        remote = remote_at(url, token, token_file)
+        names = [field.name for field in fields(PortInfo)]
+        listed = asked(remote, "GET", "/api/ports")
+        found = [PortInfo(**{name: port[name] for name in names}) for port in listed]
+    else:
+        found = list_devices()
+    if as_json:
+        print(json.dumps([asdict(port) for port in found]))
+    elif not found:
+        print("No serial port found. Is the cable plugged in?")
+    for port in () if as_json else found:
+        print(f"{port.device}  {port.description}{'  (likely)' if port.likely else ''}")
+        if port.lasting:
+            print(f"    lasting name: {port.lasting}")
+
+
+@app.command()
+def decode(
+    hex_bytes: Annotated[list[str], typer.Argument(metavar="HEX...", help="Bytes, e.g. 55 55 02 07")],
+    report: Annotated[bool, typer.Option("--report", help="From the board, not to it.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="For programs.")] = False,
+) -> None:
+    """Say in words what a packet means."""
+    try:
+        packet = bytes.fromhex(" ".join(hex_bytes))
+        words = describe(packet, "report" if report else "command")
+    except ValueError:
+        fail("That is not a sequence of hex digits, two for each byte.", USAGE)
+    except PacketError as error:
+        fail(str(error))
+    print(json.dumps({"packet": packet.hex(), "text": words}) if as_json else words)
+
+
+def main() -> None:
+    app()

@@ -1,0 +1,228 @@
+"""The command that serves the page and owns the serial port: puts the gateway together and ends it.
+
+Imports the gateway only where it is served, so that the small commands answer at once.
+"""
+
+import ipaddress
+import os
+import socket
+import sys
+import time
+from contextlib import suppress
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from servodeck.cli.config import PREFIX, Form, Level, take_file
+from servodeck.cli.options import USAGE, fail
+from servodeck.loading import loading
+from servodeck.protocol.families import FAMILIES, UNKNOWN
+
+if TYPE_CHECKING:
+    from servodeck.access.addresses import Access
+    from servodeck.access.entrance import Entrance
+
+
+DEFAULT_LISTEN = "127.0.0.1:8300"
+LAN_LISTEN = "0.0.0.0:8300"
+
+
+def parse_listen(text: str, *, lan: bool) -> tuple[str, int]:
+    """HOST:PORT of this computer; ends the program with an explanation for anything else."""
+    host, separator, port = text.rpartition(":")
+    host = host.removeprefix("[").removesuffix("]")
+    if not separator or not port.isascii() or not port.isdigit() or int(port) > 0xFFFF:
+        fail(f"--listen takes HOST:PORT, for example {DEFAULT_LISTEN}; got {text}.", USAGE)
+    if not lan and not is_loopback(host):
+        fail(
+            f"{host} can be reached from other computers. Add --lan to let paired devices in; "
+            "without it Servodeck listens on 127.0.0.1, [::1] or localhost only.",
+            USAGE,
+        )
+    return host, int(port)
+
+
+def is_loopback(host: str) -> bool:
+    try:
+        # Exactly these: the page is answered under no other name or address.
+        return host == "localhost" or str(ipaddress.ip_address(host)) in ("127.0.0.1", "::1")
+    except ValueError:
+        return False
+
+
+def bind(host: str, port: int) -> socket.socket:
+    family = socket.AF_INET6 if ":" in host else socket.AF_INET
+    try:
+        return socket.create_server((host, port), family=family, backlog=512)
+    except OSError as error:
+        fail(
+            f"Cannot listen on {host}:{port} ({error.strerror}). Does another Servodeck run? "
+            f"--listen {host}:0 takes a free port."
+        )
+
+
+def url_of(listener: socket.socket) -> str:
+    """Where this computer itself reaches it."""
+    host, port = listener.getsockname()[:2]
+    host = {"0.0.0.0": "127.0.0.1", "::": "::1"}.get(host, host)
+    return f"http://[{host}]:{port}" if ":" in host else f"http://{host}:{port}"
+
+
+def serve(
+    config: Annotated[  # noqa: ARG001 (its callback reads it)
+        Path | None,
+        typer.Option(
+            callback=take_file,
+            is_eager=True,
+            help="TOML file of these options; left out: this user's own or /etc/servodeck/config.toml.",
+        ),
+    ] = None,
+    listen: Annotated[
+        str,
+        typer.Option(
+            help="HOST:PORT of this computer; port 0 takes a free one. "
+            f"Left out: {DEFAULT_LISTEN}, with --lan {LAN_LISTEN}."
+        ),
+    ] = "",
+    lan: Annotated[bool, typer.Option("--lan", help="Let other devices in, once they are paired.")] = False,
+    public_url: Annotated[
+        str, typer.Option(help="The one address of a proxy in front, for example https://robot.example.")
+    ] = "",
+    invite: Annotated[
+        bool, typer.Option("--invite", help="Show a link for one more owner, also where there is one.")
+    ] = False,
+    serial: Annotated[str, typer.Option(help="Serial device, or socket://HOST:PORT.")] = "",
+    board: Annotated[
+        str, typer.Option(help=f"Board family: {', '.join(FAMILIES)}. Left out: as it was last, else ask it.")
+    ] = "",
+    simulated: Annotated[
+        bool, typer.Option("--simulated", help="Tell everyone that the device is no real board.")
+    ] = False,
+    data: Annotated[
+        Path | None, typer.Option(help="Folder of the library; left out: one of this user's own.")
+    ] = None,
+    open_page: Annotated[
+        bool | None,
+        typer.Option(
+            "--open/--no-open",
+            envvar=f"{PREFIX}_OPEN",
+            help="Show the page; by default where a person looks on.",
+        ),
+    ] = None,
+    log_level: Annotated[Level, typer.Option(help="The least that the log on stderr tells.")] = "info",
+    log_format: Annotated[Form, typer.Option(help="For people, or a JSON object a line.")] = "text",
+    exit_with_stdin: Annotated[
+        bool, typer.Option("--exit-with-stdin", help="End when stdin ends: with the program that started us.")
+    ] = False,
+) -> None:
+    """Serve the page and own the serial port. Each option may also come from SERVODECK_NAME or a file."""
+    with loading():
+        from servodeck.access import addresses
+        from servodeck.access.announcement import Announcement
+        from servodeck.api.app import create_app
+        from servodeck.api.library import robots_in
+        from servodeck.api.process import allow_descriptors
+        from servodeck.api.server import Server, leave_with_stdin
+        from servodeck.cli.config import data_folder
+        from servodeck.cli.greeting import greeting, urls_for_others
+        from servodeck.cli.logs import set_up_logs
+        from servodeck.errors import StorageError
+        from servodeck.files import Remembered
+        from servodeck.library.library import Library
+        from servodeck.port.link import BackgroundPorts
+        from servodeck.robot.board.slots import SlotMemory
+        from servodeck.robot.control import Control
+        from servodeck.robot.driving import first_epoch
+
+    allow_descriptors()
+    recalls_board = not (board or simulated)
+    board = board or ("doc" if simulated else UNKNOWN.id)
+    if board not in FAMILIES:
+        fail(f"There is no board family {board}. Choose one of: {', '.join(FAMILIES)}.", USAGE)
+    proxied = parse_public_url(public_url) if public_url else None
+    listener = bind(*parse_listen(listen or (LAN_LISTEN if lan else DEFAULT_LISTEN), lan=lan))
+    folder = data or data_folder()
+    host, port = listener.getsockname()[:2]
+    by_address = addresses.lan(port, listens_at=host) if lan else addresses.local(port)
+    entrance = entrance_to(proxied or by_address, folder)
+    log = set_up_logs(log_level, log_format)
+    url = url_of(listener)
+
+    def reachable() -> list[str]:
+        return addresses.answered_at(host, addresses.lan_addresses())
+
+    is_heard = entrance.access.mode == "lan" and not is_loopback(host)
+    announcement = Announcement(entrance.access.port, addresses=reachable) if is_heard else None
+    library = Library(folder)
+    remembered = Remembered(folder)
+    device = serial or remembered.port
+    control = Control(
+        BackgroundPorts(),
+        time.monotonic,
+        board,
+        serial or None,
+        simulated=simulated,
+        epoch=first_epoch(folder),
+        slot_memory=SlotMemory(folder),
+        remembered=remembered,
+        recalls_board=recalls_board,
+        # A simulated one is what its starter says.
+        asks_board=not simulated,
+        polls_battery=True,
+        read_robot=robots_in(library),
+    )
+
+    def show(address: str) -> None:
+        import webbrowser
+
+        webbrowser.open(address)
+
+    def ready() -> None:
+        print(f"Servodeck is at {url}", flush=True)
+        if entrance.access.needs_pairing:
+            others = urls_for_others(entrance.access, reachable(), url)
+            is_alone = entrance.access.mode == "lan" and is_loopback(host)
+            only_here = LAN_LISTEN if is_alone else ""
+            print(greeting(entrance, others, invites=invite, only_here=only_here), flush=True)
+        if sys.stdout.isatty() if open_page is None else open_page:
+            show(url)
+
+    app = create_app(control, library, entrance)
+    server = Server(app, control, device, ready)
+    if exit_with_stdin:
+        leave_with_stdin(server.leave)
+    if announcement:
+        announcement.start()
+    server.run([listener])
+    if announcement:
+        announcement.end()
+    library.close()
+    with suppress(StorageError):
+        entrance.devices.close()
+    log.close()
+    # Python itself would wait for every thread that a disk or a driver still holds.
+    os._exit(0)
+
+
+def entrance_to(where: "Access", folder: Path) -> "Entrance":
+    """Ends the program with an explanation where nobody can tell who is paired."""
+    from servodeck.access.devices import DeviceFile, Devices, NoShelf
+    from servodeck.access.entrance import Entrance
+    from servodeck.errors import StorageError
+    from servodeck.library.library import wall_clock_ms
+
+    try:
+        shelf = DeviceFile(folder) if where.needs_pairing else NoShelf()
+        return Entrance(where, Devices(shelf, wall_clock_ms), time.monotonic)
+    except StorageError as error:
+        fail(error.detail)
+
+
+def parse_public_url(url: str) -> "Access":
+    from servodeck.access.addresses import behind_proxy
+
+    try:
+        return behind_proxy(url)
+    except ValueError as error:
+        fail(f"--public-url {url} cannot be: {error}.", USAGE)

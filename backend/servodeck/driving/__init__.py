@@ -1,1 +1,0 @@
-"""Who may move the robot now, what moves it, and what everybody is told of it."""

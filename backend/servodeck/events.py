@@ -1,0 +1,214 @@
+"""The messages of the gateway to its clients on the WebSocket and in the event stream.
+
+`python -m servodeck.events` prints the JSON schema of these messages and of the clients' (intents.py), from
+which the page's types are generated. Knows no socket, and no rule about who may say what.
+"""
+
+import json
+import sys
+from typing import Annotated, Any, Literal
+
+from pydantic import Field, TypeAdapter
+
+from servodeck.errors import ErrorCode
+from servodeck.intents import ClientMessage, MessageId
+from servodeck.schema import Message, schema_of
+from servodeck.snapshots import (
+    BatteryTold,
+    IdentityTold,
+    JobState,
+    LatchedBy,
+    LeaseState,
+    LinkState,
+    MotionTold,
+    Outcome,
+    PlayState,
+    PortState,
+    RobotTold,
+    StoredGroup,
+    UnattendedRun,
+    UnheldServos,
+)
+
+PROTOCOL = 5
+"""Counted up with each change that a page of before would not understand: it is told to load itself again."""
+
+
+class Standing(Message):
+    """How the gateway stands, for everybody alike. `board` is the family that it is driven as.
+    `brokenSlots` hold half a group: nobody may run them.
+    `slotVersions` tell what was stored in each slot last, as far as the gateway knows. `stoppedBy` is what
+    people call whoever pressed STOP, or whose page did it for the battery, where that is known.
+    `waitingToStart`: servos that were asked to move, but nobody knows where they stand, so they start one
+    after another, in this order.
+    """
+
+    board: str
+    port: PortState
+    link: LinkState
+    identity: IdentityTold
+    latch: bool
+    latched_by: LatchedBy | None
+    stopped_by: str | None
+    clients: int
+    unattended: UnattendedRun | None
+    broken_slots: list[int]
+    slot_versions: dict[str, StoredGroup]
+    waiting_to_start: list[int]
+
+
+class WelcomeMessage(Standing):
+    """The first message on each connection."""
+
+    type: Literal["welcome"] = "welcome"
+    version: str
+    robot: RobotTold | None
+    lease: LeaseState
+    job: JobState | None
+    play: PlayState | None
+    motion: MotionTold
+    battery: Annotated[BatteryTold, Field(discriminator="kind")]
+
+
+class BatteryMessage(Message):
+    """The board has told its battery, which the gateway asks for now and then, or stays silent about it."""
+
+    type: Literal["battery"] = "battery"
+    battery: Annotated[BatteryTold, Field(discriminator="kind")]
+
+
+class DoneMessage(Message):
+    """What was asked with that `id` is done. `outcome`: of a command for the board."""
+
+    type: Literal["done"] = "done"
+    id: MessageId
+    outcome: Outcome | None = None
+
+
+class RefusedMessage(Message):
+    """`id` is null where the message itself could not be read, and for a stop."""
+
+    type: Literal["refused"] = "refused"
+    id: MessageId | None
+    code: ErrorCode
+    detail: str
+
+
+class ReceivedMessage(Message):
+    """One packet of the board."""
+
+    type: Literal["received"] = "received"
+    packet: str
+
+
+class NoiseMessage(Message):
+    """Bytes of the board that belong to no packet."""
+
+    type: Literal["noise"] = "noise"
+    bytes: str
+
+
+class HaltedMessage(Message):
+    """The stop sequence has left the wire. `unheld`: what may go on in spite of it, if anything."""
+
+    type: Literal["halted"] = "halted"
+    unheld: UnheldServos | None
+
+
+class ResumedMessage(Message):
+    """Motion is allowed again, by somebody else's word."""
+
+    type: Literal["resumed"] = "resumed"
+    by: str
+
+
+class StateMessage(Standing):
+    """Something of this changed."""
+
+    type: Literal["state"] = "state"
+
+
+class JobMessage(Message):
+    """A download began, came further or ended; the latest one, whoever began it."""
+
+    type: Literal["job"] = "job"
+    job: JobState
+
+
+class PlayToldMessage(Message):
+    """What the gateway plays began, came further or ended; the latest play, whoever began it."""
+
+    type: Literal["play"] = "play"
+    play: PlayState
+
+
+class PlayedMessage(Message):
+    """To whoever asked for it: that play has ended, and how."""
+
+    type: Literal["played"] = "played"
+    id: MessageId
+    play: PlayState
+
+
+class RobotMessage(Message):
+    """Another robot stands on the board now, or any robot of the library has changed: look there."""
+
+    type: Literal["robot"] = "robot"
+    robot: RobotTold | None
+
+
+class LeaseToldMessage(Message):
+    """Something of the lease changed."""
+
+    type: Literal["lease"] = "lease"
+    lease: LeaseState
+
+
+class LeftMessage(Message):
+    """What has left the wire since the last of these, whoever asked for it."""
+
+    type: Literal["left"] = "left"
+    packets: list[str]
+
+
+class TickMessage(Message):
+    """To the driver, four times a second: answer it with a `beat`, and put its nonce into each `send`."""
+
+    type: Literal["tick"] = "tick"
+    nonce: str
+
+
+GatewayMessage = Annotated[
+    WelcomeMessage
+    | BatteryMessage
+    | DoneMessage
+    | RefusedMessage
+    | ReceivedMessage
+    | NoiseMessage
+    | HaltedMessage
+    | ResumedMessage
+    | StateMessage
+    | RobotMessage
+    | LeaseToldMessage
+    | TickMessage
+    | LeftMessage
+    | JobMessage
+    | PlayToldMessage
+    | PlayedMessage,
+    Field(discriminator="type"),
+]
+gateway_message: TypeAdapter[Any] = TypeAdapter(GatewayMessage)
+
+
+def encode(message: Message) -> str:
+    return message.model_dump_json()
+
+
+def json_schema() -> dict[str, Any]:
+    schema = schema_of("Message", {"ClientMessage": ClientMessage}, {"GatewayMessage": GatewayMessage})
+    return {**schema, "version": PROTOCOL}
+
+
+if __name__ == "__main__":
+    json.dump(json_schema(), sys.stdout, indent=2)
+    sys.stdout.write("\n")

@@ -1,0 +1,175 @@
+"""Small files of the data folder, written whole or not at all; what the gateway remembers in one of them; and
+whether the disk takes files now.
+
+Knows no document and no database. Blocking calls run in threads and never longer than a moment: a disk that
+hangs must not make its caller hang.
+"""
+
+import asyncio
+import logging
+import os
+import shutil
+import tempfile
+import threading
+from collections.abc import Callable, Mapping
+from contextlib import suppress
+from pathlib import Path
+from typing import Annotated
+
+from pydantic import Field, ValidationError
+
+from servodeck.schema import Message
+from servodeck.threads import in_thread
+
+DISK_WAIT_S = 1.0
+log = logging.getLogger("servodeck.files")
+
+
+def write_whole(file: Path, text: str) -> None:
+    """Raises OSError; what was there before is unharmed then."""
+    file.parent.mkdir(parents=True, exist_ok=True)
+    fresh = file.with_name(f"{file.name}.new")
+    with fresh.open("w", encoding="utf-8") as opened:
+        opened.write(text)
+        opened.flush()
+        os.fsync(opened.fileno())
+    fresh.replace(file)
+
+
+class FileBehind:
+    """What is held in memory, written behind: a disk that takes nothing hinders nobody."""
+
+    def __init__(self, file: Path | None, text: Callable[[], str]) -> None:
+        """`text` is asked for in a thread. Without a file it is forgotten with the gateway."""
+        self._file = file
+        self._text = text
+        self._lock = threading.Lock()
+        self._keeping: set[asyncio.Task[None]] = set()
+
+    async def kept(self) -> None:
+        """When the disk has it as it is now, or does not take it."""
+        if self._file is None:
+            return
+        with suppress(TimeoutError):
+            async with asyncio.timeout(DISK_WAIT_S):
+                await in_thread(self._write)
+
+    def keep_soon(self) -> None:
+        task = asyncio.create_task(self.kept())
+        self._keeping.add(task)
+        task.add_done_callback(self._keeping.discard)
+
+    def _write(self) -> None:
+        """What it writes is asked within the lock, so that nothing older overwrites it."""
+        assert self._file
+        with self._lock:
+            try:
+                write_whole(self._file, self._text())
+            except OSError as error:
+                log.warning("not kept", extra={"facts": {"file": self._file.name, "detail": str(error)}})
+
+
+WAIT_S = 0.5
+GOOD_FOR_S = 5.0
+NEEDED_BYTES = 16 * 1024 * 1024
+
+
+class Disk:
+    def __init__(self, folder: Path, now: Callable[[], float]) -> None:
+        self._folder = folder
+        self._now = now
+        self._answer: str | None = None
+        self._answered_at = float("-inf")
+        self._asking: asyncio.Task[None] | None = None
+
+    async def problem(self) -> str | None:
+        """What is wrong, for people; not asked anew within a few seconds."""
+        if self._asking is None and self._now() - self._answered_at > GOOD_FOR_S:
+            self._asking = asyncio.create_task(self._ask())
+        if self._asking:
+            try:
+                await asyncio.wait_for(asyncio.shield(self._asking), WAIT_S)
+            except TimeoutError:
+                return "The disk does not answer."
+        return self._answer
+
+    async def _ask(self) -> None:
+        try:
+            self._answer = await in_thread(lambda: problem_of(self._folder))
+            self._answered_at = self._now()
+        finally:
+            self._asking = None
+
+
+def problem_of(folder: Path) -> str | None:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder) as file:
+            file.write(b"\0")
+            file.flush()
+        free_bytes = shutil.disk_usage(folder).free
+    except OSError as error:
+        return f"The data folder takes no files: {error.strerror}."
+    return "The disk of the data folder is full." if free_bytes < NEEDED_BYTES else None
+
+
+FILE = "remembered.json"
+
+
+class Memory(Message):
+    port: Annotated[str, Field(max_length=256)] | None = None
+    boards: dict[str, str] = Field(default_factory=dict)
+    robots: dict[str, str] = Field(default_factory=dict)
+
+
+class Remembered:
+    def __init__(self, folder: Path | None = None) -> None:
+        """Without a folder it is forgotten with the gateway. Whoever says something has it kept."""
+        file = folder / FILE if folder else None
+        self._memory = read(file) if file else Memory()
+        behind = FileBehind(file, self._text)
+        self.kept = behind.kept
+        self.keep_soon = behind.keep_soon
+
+    @property
+    def port(self) -> str | None:
+        """The one that somebody chose, by a name that lasts where the system keeps one."""
+        return self._memory.port
+
+    def remember_port(self, device: str | None) -> None:
+        self._memory = self._memory.model_copy(update={"port": device})
+
+    def board_at(self, place: str) -> str | None:
+        """The family that somebody said."""
+        return self._memory.boards.get(place)
+
+    def remember_board(self, place: str, family: str | None) -> None:
+        self._memory = self._memory.model_copy(
+            update={"boards": with_entry(self._memory.boards, place, family)}
+        )
+
+    def robot_on(self, board: str) -> str | None:
+        """The document in the library."""
+        return self._memory.robots.get(board)
+
+    def remember_robot(self, board: str, document: str | None) -> None:
+        self._memory = self._memory.model_copy(
+            update={"robots": with_entry(self._memory.robots, board, document)}
+        )
+
+    def _text(self) -> str:
+        return self._memory.model_dump_json()
+
+
+def with_entry(entries: Mapping[str, str], key: str, value: str | None) -> dict[str, str]:
+    """None takes it out."""
+    others = {other: there for other, there in entries.items() if other != key}
+    return others if value is None else others | {key: value}
+
+
+def read(file: Path) -> Memory:
+    """What cannot be read was not written here."""
+    try:
+        return Memory.model_validate_json(file.read_text("utf-8"))
+    except (OSError, ValueError, ValidationError):
+        return Memory()

@@ -1,1 +1,0 @@
-"""Small files of the data folder, whole or not at all."""

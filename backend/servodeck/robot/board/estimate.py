@@ -1,0 +1,290 @@
+"""What the gateway believes of the robot: the motion estimate fed with what left the wire and what the board
+said, and the groups it stored itself. Twin of shared/src/session/robot.ts.
+
+Pure: time comes in, in seconds. Knows packets; no wire, no client.
+"""
+
+from collections.abc import Collection, Sequence
+from math import inf
+
+from servodeck.protocol.families import Family
+from servodeck.protocol.packets import parse_command
+from servodeck.protocol.timings import RUN
+from servodeck.protocol.values import (
+    Command,
+    Download,
+    Erase,
+    Erased,
+    Frame,
+    Move,
+    Report,
+    Run,
+    RunFinished,
+    RunStarted,
+    RunStopped,
+    ServoTarget,
+    SetSpeed,
+    Stop,
+)
+from servodeck.robot.board.slots import GroupMemory
+from servodeck.robot.motion.halt_plan import HaltPlan, Unheld, halt_plan, hold_behind_stop, unheld_since
+from servodeck.robot.motion.model import UNKNOWN_MOTION, UnknownRun, held_at, only_let_go
+from servodeck.robot.motion.motion import (
+    advance,
+    after_command,
+    after_cut_packet,
+    either_of,
+    farthest_from,
+    forgotten,
+    gentle_ms,
+    hears,
+    inherited,
+    latest_end_ms,
+    position_at,
+    remaining_ms,
+    target_of,
+    without_servos,
+)
+from servodeck.robot.motion.reports import after_cut, after_end, after_report
+from servodeck.snapshots import MotionTold, ServoWay
+
+# Longer than the start or the end of a run takes to be told: neither shall be taken for the next one's.
+RUN_TOLD_MS = 500
+# Seconds and milliseconds of one instant may differ by so much.
+CLOCK_GRAIN_MS = 0.001
+# An end later than that nobody waits for: it is a bound and no news.
+LONGEST_TOLD_MS = 3_600_000
+
+
+class Estimate:
+    def __init__(self, family: Family) -> None:
+        self.family = family
+        self._memory = GroupMemory()
+        self._motion = UNKNOWN_MOTION
+        self._at_ms = -inf
+        """Until then everything is booked: the packet on the wire has left by then."""
+        self._run: Run | None = None
+        self._asked: Run | None = None
+        """The run that left last."""
+        self._run_at_ms = -inf
+        self._over_ms = -inf
+        """The board may still say until then that its group has ended, and is taken to play it."""
+        self._unheard_until_ms = -inf
+        """A move that the board may take up late has ended by then."""
+        self._last_frame_until_ms = -inf
+        """The last frame of a group that was ended, and that nobody knows, is over by then."""
+
+    def played_frames(self, slot: int) -> Sequence[Frame] | None:
+        return self._memory.played_frames(slot)
+
+    def stored(self, slot: int, packets: Sequence[bytes], now: float) -> None:
+        """What that slot holds now, for sure. A frame that was due was begun from what it held before."""
+        self._advance(now)
+        self._memory.store(slot, packets)
+
+    def left(self, packet: bytes, at_s: float) -> None:
+        """The last bit of that packet leaves then."""
+        command = parse_command(packet)
+        if command is None:
+            return
+        at_ms = self._advance(at_s)
+        self._at_ms = at_ms
+        is_heard, ran = hears(self._motion, at_ms), self._motion.run
+        self._change_memory(command, is_heard=is_heard)
+        self._motion = after_command(self._motion, command, at_ms, self)
+        if isinstance(ran, UnknownRun) and self._motion.run is None:
+            self._last_frame_until_ms = self._motion.restless_until_ms
+        if isinstance(command, Download):
+            # A stop would break its slot, for what its driver let go on.
+            self._last_frame_until_ms = -inf
+        if isinstance(command, Run) and self._motion.run:
+            self._run = self._asked = command
+            self._run_at_ms, self._over_ms = at_ms, -inf
+        elif isinstance(command, Stop) and is_heard:
+            self._over_ms = -inf
+        elif isinstance(command, Move) and not is_heard:
+            duration_ms = max(command.duration_ms, self.family.shortest_move_ms)
+            self._unheard_until_ms = self._motion.deaf_until_ms + duration_ms
+
+    def heard(self, report: Report, at_s: float) -> None:
+        at_ms = self._advance(at_s)
+        if isinstance(report, Erased) and Erased in self._motion.answers_owed:
+            self._memory.empty()
+        if isinstance(report, RunStarted):
+            self._started(report, at_ms)
+        elif isinstance(report, RunFinished | RunStopped):
+            self._ended(report, at_ms)
+        else:
+            self._motion = after_report(self._motion, report, at_ms, self)
+
+    def silent(self, now: float) -> None:
+        """The board may have moved or restarted unseen; what ran may still run."""
+        motion = self._motion
+        if motion.tracks or any(held_at(motion.told, servo) is not None for servo in motion.told):
+            self._forget(self._advance(now))
+
+    def lost(self, now: float, cut: bytes | None = None) -> None:
+        """The link is gone: what the board does and holds nobody knows. The packet that was `cut` may have
+        arrived or not, and where nothing ends it the board takes what comes next for its rest.
+        """
+        self._memory.clear()
+        at_ms = self._advance(now)
+        command = parse_command(cut) if cut else None
+        arrived = after_command(self._motion, command, at_ms, self) if command else self._motion
+        self._forget(at_ms)
+        self._motion = either_of(self._motion, forgotten(arrived, at_ms, self))
+        if cut:
+            self._motion = after_cut_packet(self._motion, self.family)
+
+    def opened(self, now: float) -> None:
+        """Whoever had the port before may have set something in motion."""
+        self.lost(now)
+        self._motion = inherited(self._motion, self._advance(now))
+
+    @property
+    def may_swallow(self) -> bool:
+        """The board may take what is sent next for the rest of a packet that was cut."""
+        return self._motion.may_swallow > 0
+
+    @property
+    def deaf_until_s(self) -> float:
+        """The board may not hear what leaves before."""
+        return self._motion.deaf_until_ms / 1000
+
+    @property
+    def run(self) -> Run | None:
+        """The group that may run: nobody has stopped it, and it has not ended as far as anybody knows."""
+        return self._run
+
+    def group_may_run(self, now: float) -> bool:
+        self._advance(now)
+        return self._run is not None
+
+    def group_ends_in_s(self, now: float) -> float | None:
+        """At the latest, for a group that may run; None where only the board could tell."""
+        now_ms = self._advance(now)
+        end_ms = latest_end_ms(self._motion, self) + RUN.end_grace_ms if self._motion.run else self._over_ms
+        left_ms = max(0.0, end_ms - now_ms)
+        return None if left_ms > LONGEST_TOLD_MS else left_ms / 1000
+
+    def moves_for_s(self, now: float) -> float:
+        """At most, as far as the moves go that it knows; a group is another matter."""
+        now_ms = self._advance(now)
+        return max(0.0, remaining_ms(self._motion, now_ms), self._unheard_until_ms - now_ms) / 1000
+
+    def is_moving(self, now: float) -> bool:
+        """A move is under way; a group is another matter, and what it moves."""
+        now_ms = self._advance(now)
+        is_on_its_way = self._run is None and remaining_ms(self._motion, now_ms) > CLOCK_GRAIN_MS
+        return is_on_its_way or now_ms < self._unheard_until_ms
+
+    def last_frame_may_go_on(self, now: float) -> bool:
+        """Of a group that was ended, where nobody knows how long that takes."""
+        now_ms = self._advance(now)
+        return now_ms < min(self._last_frame_until_ms, self._motion.restless_until_ms)
+
+    def is_unknown(self, servo: int, now: float) -> bool:
+        """Nobody has moved it, and the board has not said where it stands."""
+        now_ms = self._advance(now)
+        return target_of(self._motion, servo) is None and position_at(self._motion, servo, now_ms) is None
+
+    def first_moves_ms(self, servos: Collection[int], now: float) -> float:
+        """How long first moves still take that a move of those servos would make faster or slower."""
+        return gentle_ms(self._motion, servos, self._advance(now), self.family)
+
+    def others_ms(self, servos: Collection[int], now: float) -> float:
+        """How long those still move that a move of `servos` does not name."""
+        now_ms = self._advance(now)
+        return remaining_ms(without_servos(self._motion, servos), now_ms)
+
+    def farthest_from(self, target: ServoTarget, now: float, at_s: float) -> float:
+        """How far its servo may be from there then, in board units."""
+        self._advance(now)
+        return farthest_from(self._motion, target.servo, target.position, at_s * 1000, self.family)
+
+    def halt_plan(self, now: float) -> HaltPlan:
+        """What a STOP pressed now holds and what not."""
+        return halt_plan(self._motion, self._advance(now), self)
+
+    def hold(self, now: float) -> Move | None:
+        """What holds the robot, as a move that begins to leave now, a gap behind a stop."""
+        return hold_behind_stop(self._motion, self._advance(now) - self.family.service_gap_ms, self)
+
+    def unheld_since(self, pressed_s: float, now: float) -> Unheld | None:
+        """What goes on in spite of a STOP pressed then, whose last packet left just now."""
+        return unheld_since(pressed_s * 1000, self._motion, self._advance(now), self)
+
+    def told(self, now: float) -> MotionTold:
+        """As whoever comes now is told of it."""
+        self._advance(now)
+        released = list(only_let_go(self._motion.told))
+        if self._run:
+            return MotionTold(servos=[], run_slot=self._run.slot, released=released)
+        ways = [
+            ServoWay(
+                servo=servo,
+                start=None if track.start_leeway == inf else track.start,
+                target=round(track.to),
+                begun_ms_ago=round(now * 1000 - track.start_ms, 1),
+                duration_ms=round(track.duration_ms, 1),
+            )
+            for servo, track in self._motion.tracks.items()
+            if track.to_leeway < inf
+        ]
+        return MotionTold(servos=ways, run_slot=None, released=released)
+
+    def _forget(self, at_ms: float) -> None:
+        self._memory.forget_speeds()
+        self._motion = forgotten(self._motion, at_ms, self)
+
+    def _advance(self, now: float) -> float:
+        """Does what was due; returns the time in milliseconds."""
+        now_ms = max(round(now * 1000, 6), self._at_ms)
+        ran = self._motion.run
+        end_ms = latest_end_ms(self._motion, self) if ran else -inf
+        self._motion = advance(self._motion, now_ms, self)
+        if ran and not self._motion.run:
+            self._over_ms = end_ms + RUN.end_grace_ms
+        if not self._motion.run and now_ms >= self._over_ms:
+            self._run = None
+        return now_ms
+
+    def _change_memory(self, command: Command, *, is_heard: bool) -> None:
+        match command:
+            case Erase():
+                self._memory.clear()
+            case Download(slot):
+                self._memory.clear(slot)
+            case SetSpeed(slot, percent):
+                self._memory.set_speed(slot, percent if is_heard else None)
+
+    def _started(self, report: RunStarted, at_ms: float) -> None:
+        """By a key or a pad at the board; one that was asked for may have been stopped since."""
+        is_ours = self._asked is not None and self._asked.slot == report.slot
+        if is_ours and self._run is None and at_ms - self._run_at_ms < RUN_TOLD_MS:
+            return
+        self._motion = after_report(self._motion, report, at_ms, self)
+        if self._run is None or self._run.slot != report.slot:
+            self._run, self._run_at_ms = Run(report.slot, report.times), at_ms
+
+    def _ended(self, report: RunFinished | RunStopped, at_ms: float) -> None:
+        """Where it may be the end of the run before, or another one may follow by itself, a group may still
+        run.
+        """
+        run, end_ms = self._motion.run, latest_end_ms(self._motion, self)
+        chained_slot = self.family.motion.chained_slot
+        is_in_doubt = isinstance(run, UnknownRun) and (
+            at_ms - self._run_at_ms < RUN_TOLD_MS
+            or (
+                isinstance(report, RunFinished)
+                and chained_slot is not None
+                and run.slot is not None
+                and run.slot > chained_slot
+            )
+        )
+        if isinstance(report, RunFinished):
+            self._motion = after_end(self._motion, report.slot, at_ms, self)
+        else:
+            self._motion = after_cut(self._motion, at_ms, self)
+        self._over_ms = end_ms if is_in_doubt else -inf
+        self._advance(at_ms / 1000)

@@ -1,0 +1,205 @@
+"""Which board is at the other end, through a link's whole life: asked at each opening, weighed against what
+it is taken for, named by a person, watched while idle. Twin of shared/src/session/identification.ts.
+
+Decides when a board is ready; the questions and their meaning are identity.py. Knows no port.
+"""
+
+import asyncio
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal, Protocol
+
+from servodeck.errors import (
+    BoardError,
+    BoardSilentError,
+    BoardUnknownError,
+    EchoError,
+    GatewayError,
+    MovingError,
+    WrongBoardError,
+)
+from servodeck.protocol.families import UNKNOWN, Family, Question
+from servodeck.protocol.values import Report, UnknownReport
+from servodeck.robot.board.heartbeat import Heartbeat
+from servodeck.robot.board.identity import Echoed, Evidence, candidates_of, fit_of, identify, is_echo
+
+Status = Literal["closed", "identifying", "ready", "stale", "refused"]
+
+
+@dataclass(frozen=True, slots=True)
+class BoardStatus:
+    """`error` says why it is stale or refused."""
+
+    status: Status
+    error: GatewayError | None = None
+
+
+class IdentifiedBoard(Protocol):
+    async def ask(self, question: Question) -> Report | None:
+        """Once. None where no answer came; raises what keeps it from being asked."""
+
+    def may_ask(self) -> bool:
+        """Somebody looks, and nothing moves: time for questions."""
+
+    def is_idle(self) -> bool:
+        """Nothing moves, runs or is being stored."""
+
+    def drive(self, family: Family) -> None:
+        """From now on it is spoken to as such a board."""
+
+    def entered(self, before: Status) -> None:
+        """`status` is another one now."""
+
+
+class Identification:
+    def __init__(self, board: IdentifiedBoard, claim: Family, *, asks: bool) -> None:
+        """`claim`: what it is taken for until somebody says otherwise. `asks`: that is checked by harmless
+        questions at each opening, and then whether it is still there; otherwise its word is enough.
+        """
+        self.claim = claim
+        self.evidence: Sequence[Evidence] = ()
+        self.state = BoardStatus("closed")
+        self._board = board
+        self._asks = asks
+        self._noise_bytes = 0
+        self._echoes = 0
+        self._check: asyncio.Task[None] | None = None
+        self._heartbeat = Heartbeat(self._heartbeat_question, self._is_answered, self._gone)
+
+    @property
+    def candidates(self) -> list[str]:
+        """Families that answer like it; none where nobody asked."""
+        return candidates_of(self.evidence)
+
+    @property
+    def heard_as(self) -> Family | None:
+        """What a report is read as; None: as of the board that is driven."""
+        return UNKNOWN if self.state.status == "identifying" else None
+
+    def begin(self) -> None:
+        """The line is open."""
+        self.evidence = ()
+        if self._asks:
+            self._begin_check()
+        else:
+            self._judge()
+
+    def ended(self) -> None:
+        """The line is down."""
+        self._end_check()
+        self._heartbeat.stop()
+        self._enter(BoardStatus("closed"))
+
+    def choose(self, family: Family) -> None:
+        """A person has said so; `UNKNOWN` has it asked again. Raises MovingError where a question might end
+        what moves.
+        """
+        status = self.state.status
+        if family is UNKNOWN and status != "closed" and not self._board.is_idle():
+            raise MovingError("The robot moves: wait for its end, or stop it first.")
+        self.claim = family
+        if family is UNKNOWN or status == "closed":
+            self._board.drive(family)
+        # What a board that is silent answered once says nothing of what is there now.
+        if self._asks and (family is UNKNOWN or status == "stale") and status != "closed":
+            self._begin_check()
+        elif status not in ("closed", "identifying"):
+            self._judge()
+
+    def heard(self, report: Report, data: bytes) -> None:
+        self._note_echo(data)
+        self._heartbeat.heard()
+        if self.state.status != "stale" or isinstance(report, UnknownReport):
+            return
+        if self._asks:
+            self._begin_check()
+        else:
+            self._accept(is_silent=False)
+
+    def heard_noise(self, data: bytes) -> None:
+        self._note_echo(data)
+        self._noise_bytes += len(data)
+
+    # Inside
+
+    def _begin_check(self) -> None:
+        self._end_check()
+        self._heartbeat.stop()
+        self._enter(BoardStatus("identifying"))
+        self._check = asyncio.create_task(self._ask_all())
+
+    def _end_check(self) -> None:
+        if self._check:
+            self._check.cancel()
+        self._check = None
+
+    async def _ask_all(self) -> None:
+        try:
+            self.evidence = await identify(self._board.ask, lambda: self._noise_bytes, lambda: self._echoes)
+        except GatewayError as error:
+            # Where the line went while questions were out, its state says so already.
+            if self.state.status == "identifying":
+                self._refuse(error)
+        else:
+            self._judge()
+
+    def _judge(self) -> None:
+        fit = fit_of(self.claim, self.evidence)
+        if any(isinstance(one, Echoed) for one in self.evidence):
+            self._refuse(
+                EchoError("The line sends back what it is given: its RX and TX may be joined, or crossed.")
+            )
+        elif self.claim is UNKNOWN:
+            self._refuse(BoardUnknownError(self._name_it()))
+        elif fit == "contradicts":
+            self._refuse(
+                WrongBoardError(f"The board does not answer like {self.claim.id}. {self._name_it()}")
+            )
+        else:
+            self._accept(is_silent=fit == "silent")
+
+    def _name_it(self) -> str:
+        like = f"It answers like: {', '.join(self.candidates)}. " if self.candidates else ""
+        return (
+            "Nobody has said which board is connected, so nothing goes to it that moves or stores. "
+            f"{like}Name it: servodeck board FAMILY, on the page, or servodeck serve --board FAMILY. "
+            "It is remembered for the port."
+        )
+
+    def _refuse(self, error: GatewayError) -> None:
+        self._heartbeat.stop()
+        self._board.drive(UNKNOWN)
+        self._enter(BoardStatus("refused", error))
+
+    def _accept(self, *, is_silent: bool) -> None:
+        self._board.drive(self.claim)
+        self._enter(BoardStatus("stale", silence()) if is_silent else BoardStatus("ready"))
+        self._heartbeat.start(is_gone=is_silent)
+
+    def _gone(self) -> None:
+        if self.state.status == "ready":
+            self._enter(BoardStatus("stale", silence()))
+
+    def _heartbeat_question(self) -> Question | None:
+        if not self._asks:
+            return None
+        # A board that is silent is asked for whoever comes, also over HTTP.
+        may_ask = self._board.may_ask() or (self.state.status == "stale" and self._board.is_idle())
+        return next(iter(self.claim.certain_answers), None) if may_ask else None
+
+    async def _is_answered(self, question: Question) -> bool | None:
+        try:
+            return await self._board.ask(question) is not None
+        except GatewayError:
+            return None
+
+    def _note_echo(self, data: bytes) -> None:
+        self._echoes += is_echo(data)
+
+    def _enter(self, state: BoardStatus) -> None:
+        before, self.state = self.state.status, state
+        self._board.entered(before)
+
+
+def silence() -> BoardError:
+    return BoardSilentError("The board does not answer. Is it switched on? It is asked again by itself.")

@@ -1,0 +1,187 @@
+"""Moves that wait for the wire: the newest value of each servo, merged, as many in a packet as it takes, made
+when the wire is free. Servos of unknown place start one after another (safety.md section 2).
+
+Knows targets, time and the wire. Who may move a servo is judged when it is asked and when it leaves, by
+whoever asks. Twin of shared/src/session/moveBuffer.ts and turns.ts.
+"""
+
+import asyncio
+from collections.abc import Callable, Collection, Sequence
+from dataclasses import dataclass, field
+from math import inf
+from typing import Protocol
+
+from servodeck.errors import GatewayError
+from servodeck.port.link import Link
+from servodeck.port.wire import CLOCK_GRAIN_S, Left, Owner, fail, settle
+from servodeck.protocol.families import Family
+from servodeck.protocol.values import ServoTarget
+from servodeck.rate import SHORTEST_WAIT_S
+from servodeck.robot.board.estimate import Estimate
+from servodeck.robot.board.move_plan import FIRST_MOVE_STAGGER_S, packet_of, softened
+from servodeck.robot.board.packet_rules import MOVE
+
+
+class MovedBoard(Protocol):
+    @property
+    def family(self) -> Family: ...
+    @property
+    def motion(self) -> Estimate: ...
+    @property
+    def link(self) -> Link: ...
+
+
+@dataclass(eq=False, slots=True)
+class Asked:
+    """One request. `judge` raises what keeps that target from leaving now; `starts`: it is the servo's first
+    move, for which it may have waited. `left` resolves when each value has left or a newer one has taken its
+    place.
+    """
+
+    owner: Owner
+    judge: Callable[[ServoTarget, bool], None]
+    left: Left = field(default_factory=lambda: asyncio.get_running_loop().create_future())
+    open: set[int] = field(default_factory=set)
+
+    def done(self, servo: int) -> None:
+        self.open.discard(servo)
+        if not self.open:
+            settle(self.left)
+
+
+@dataclass(frozen=True, slots=True)
+class Wish:
+    target: ServoTarget
+    duration_ms: int
+    asked: Asked
+
+
+class Moves:
+    def __init__(self, board: MovedBoard, now: Callable[[], float], changed: Callable[[], None]) -> None:
+        """`changed` hears that others wait to start."""
+        self._board = board
+        self._now = now
+        self._changed = changed
+        self._wishes: dict[int, Wish] = {}
+        self._queued: Left | None = None
+        self._next_start_s = -inf
+        self._timer: asyncio.TimerHandle | None = None
+        self.waiting_to_start: list[int] = []
+        """Asked to move, but nobody knows where they stand: they start in this order."""
+
+    @property
+    def is_empty(self) -> bool:
+        return not self._wishes
+
+    def is_waiting(self, asked: Asked) -> bool:
+        """Something of it has not begun to leave."""
+        return any(wish.asked is asked for wish in self._wishes.values())
+
+    def starts_within_s(self, servos: Collection[int]) -> float:
+        """Until the last of them has started, if no others are asked for; others may be waiting already."""
+        motion, now = self._board.motion, self._now()
+        count = sum(motion.is_unknown(servo, now) for servo in {*self._wishes, *servos})
+        return max(0.0, self._next_start_s - now) + (count - 1) * FIRST_MOVE_STAGGER_S if count else 0.0
+
+    def put(self, targets: Sequence[ServoTarget], duration_ms: int, asked: Asked) -> Left:
+        """`duration_ms` 0: as fast as the soft limit and the link allow. Raises where no port is open."""
+        self._board.link.wire()
+        for target in targets:
+            before = self._wishes.get(target.servo)
+            asked.open.add(target.servo)
+            self._wishes[target.servo] = Wish(target, duration_ms, asked)
+            if before and before.asked is not asked:
+                before.asked.done(target.servo)
+        self._queue_up()
+        return asked.left
+
+    def drop(self, reason: GatewayError, owner: Owner = None) -> None:
+        """Those of `owner`, or all: they do not leave any more."""
+        for servo, wish in list(self._wishes.items()):
+            if owner is None or wish.asked.owner is owner:
+                self._refuse(servo, reason)
+        self._plan_starts()
+
+    def _queue_up(self) -> None:
+        if (self._queued and not self._queued.done()) or not self._next_servos():
+            return
+        taken: list[Wish] = []
+        left = self._board.link.wire().send_made(MOVE, lambda: self._make(taken), self)
+        left.add_done_callback(lambda left: settle_all(taken, left))
+        self._queued = left
+
+    def _make(self, taken: list[Wish]) -> bytes | None:
+        """The next move, as its turn has come."""
+        self._queued = None
+        now, family, motion = self._now(), self._board.family, self._board.motion
+        starts = self._start_due()
+        for servo in self._next_servos():
+            if len(taken) < family.servos_per_move and self._may_leave(servo, starts=starts):
+                taken.append(self._wishes.pop(servo))
+        if not taken:
+            self._plan_starts()
+            return None
+        if starts:
+            self._next_start_s = now + FIRST_MOVE_STAGGER_S
+        targets = [wish.target for wish in taken]
+        swift = {wish.target.servo for wish in taken if wish.duration_ms == 0}
+        duration_ms = max(wish.duration_ms for wish in taken)
+        packet = packet_of(softened(targets, duration_ms, swift, family, motion, now), family)
+        self._plan_starts()
+        self._queue_up()
+        return packet
+
+    def _next_servos(self) -> list[int]:
+        """Whose turn has come: one that starts, else all whose place is known."""
+        unknown = self._unknown()
+        if unknown and self._start_due():
+            return unknown[:1]
+        return [servo for servo in self._wishes if servo not in unknown]
+
+    def _unknown(self) -> list[int]:
+        motion, now = self._board.motion, self._now()
+        return [servo for servo in self._wishes if motion.is_unknown(servo, now)]
+
+    def _start_due(self) -> bool:
+        return bool(self._unknown()) and self._now() >= self._next_start_s - CLOCK_GRAIN_S
+
+    def _start(self) -> None:
+        self._timer = None
+        self._queue_up()
+        if self._queued is None:  # a timer may fire a little early
+            self._plan_starts()
+
+    def _may_leave(self, servo: int, *, starts: bool) -> bool:
+        wish = self._wishes[servo]
+        try:
+            wish.asked.judge(wish.target, starts)
+        except GatewayError as error:
+            self._refuse(servo, error)
+            return False
+        return True
+
+    def _refuse(self, servo: int, reason: GatewayError) -> None:
+        fail(self._wishes.pop(servo).asked.left, reason)
+
+    def _plan_starts(self) -> None:
+        """Says who waits to start, and comes back when the next one may."""
+        if self._timer:
+            self._timer.cancel()
+            self._timer = None
+        waiting = self._unknown()
+        if waiting:
+            delay_s = max(SHORTEST_WAIT_S, self._next_start_s - self._now())
+            self._timer = asyncio.get_running_loop().call_later(delay_s, self._start)
+        if waiting != self.waiting_to_start:
+            self.waiting_to_start = waiting
+            self._changed()
+
+
+def settle_all(taken: Sequence[Wish], left: Left) -> None:
+    """Whatever became of the packet became of what it said."""
+    error = None if left.cancelled() else left.exception()
+    for wish in taken:
+        if isinstance(error, GatewayError):
+            fail(wish.asked.left, error)
+        else:
+            wish.asked.done(wish.target.servo)

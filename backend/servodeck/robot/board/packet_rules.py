@@ -1,0 +1,174 @@
+"""Which packets a board of a family can take: single commands, and groups as the packets that store them.
+
+Pure but for `parts_of`, which lets other tasks run between two frames: a large group takes a while, and a
+stop must not wait for it. A full board's frames would be 200 MB, its packets are 10. Knows no port, no client
+and no time.
+"""
+
+import asyncio
+import secrets
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from servodeck.callers import Role
+from servodeck.errors import (
+    CancelledError,
+    GatewayError,
+    LatchedError,
+    MalformedError,
+    NotSupportedError,
+    OutOfRangeError,
+)
+from servodeck.protocol.decoder import COMMAND_AT
+from servodeck.protocol.families import FAMILIES
+from servodeck.protocol.limits import PacketError
+from servodeck.protocol.packets import check_command, encode
+from servodeck.protocol.values import Command, Download, Frame, ServoTarget
+
+MOVE, RUN, STOP, ERASE, DOWNLOAD = 3, 6, 7, 8, 25
+BATTERY, POSITIONS, VERSION, ALL_POSITIONS, OFFSETS = 15, 21, 1, 13, 2
+HARMLESS = frozenset({STOP, BATTERY, POSITIONS, VERSION, ALL_POSITIONS, OFFSETS})
+
+
+def judge_packet(text: str, board: str) -> bytes:
+    """The packet in `text` (hex) when it is one command that board can take. Raises what is wrong with it."""
+    return judge_command(text, board)[0]
+
+
+def judge_command(text: str, board: str) -> tuple[bytes, Command]:
+    """As `judge_packet`; with what it says, which is read once."""
+    try:
+        packet = bytes.fromhex(text)
+    except ValueError:
+        raise MalformedError("The packet is not written in hex digits.") from None
+    try:
+        return packet, check_command(packet, FAMILIES[board])
+    except PacketError as error:
+        raise refusal_of(error) from error
+
+
+def judge_frame(command: Download, board: str) -> bytes:
+    """The packet that stores it. Raises what that board cannot take of it."""
+    try:
+        return encode(command, FAMILIES[board])
+    except PacketError as error:
+        raise refusal_of(error) from error
+
+
+def judge_by_hand(packet: bytes) -> None:
+    """A frame alone only breaks the slot it goes to (S33, S35). Raises NotSupportedError."""
+    if packet[COMMAND_AT] == DOWNLOAD:
+        raise NotSupportedError("Groups are stored as a whole: POST /api/download.")
+
+
+def refusal_of(error: PacketError) -> GatewayError:
+    if error.code == "malformed":
+        return MalformedError(error.detail)
+    return (NotSupportedError if error.field == "command" else OutOfRangeError)(error.detail)
+
+
+def is_harmless(packet: bytes) -> bool:
+    """It moves nothing and stores nothing: nobody has to drive for it."""
+    return packet[COMMAND_AT] in HARMLESS
+
+
+def role_for(packet: bytes) -> Role:
+    """Who may send it at least: questions harm nobody, an erased board is empty for all."""
+    command = packet[COMMAND_AT]
+    if command == STOP:
+        return "stopper"
+    if is_harmless(packet):
+        return "viewer"
+    return "owner" if command == ERASE else "driver"
+
+
+def judge_latch(command: int, latch: bool) -> None:
+    """While stopped, only what moves nothing and stores nothing passes. Raises LatchedError."""
+    if latch and command not in HARMLESS:
+        raise LatchedError("Stopped. Motion waits for Resume.")
+
+
+@dataclass(frozen=True, slots=True)
+class Group:
+    slot: int
+    name: str
+    frames: Sequence[Frame]
+    version: str = ""
+    replaces: str | None = None
+    document: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """One group of a download; `packets` in the order of its frames, for boards of the family `board`.
+    `extremes`: the least and the greatest position of each servo. `version`: what it is called, by whoever
+    asks, to tell it from others; `replaces`: that of what they have seen in its slot, if they have looked;
+    `document`: of the library, where it is of one.
+    """
+
+    slot: int
+    name: str
+    packets: Sequence[bytes]
+    board: str
+    extremes: Sequence[ServoTarget]
+    version: str
+    replaces: str | None
+    document: str | None
+
+
+def judge_parts(parts: Sequence[Part], board: str) -> None:
+    """Raises OutOfRangeError where a slot is wanted twice, CancelledError where they were made for another
+    family.
+    """
+    slots = [part.slot for part in parts]
+    twice = next((slot for at, slot in enumerate(slots) if slot in slots[:at]), None)
+    if twice is not None:
+        raise OutOfRangeError(f"Slot {twice} is wanted twice.")
+    if any(part.board != board for part in parts):
+        raise CancelledError("The board is taken for another one now.")
+
+
+async def parts_of(groups: Sequence[Group], board: str) -> list[Part]:
+    """Raises what such a board cannot take of them."""
+    return [await part_of(group, board) for group in groups]
+
+
+async def part_of(group: Group, board: str) -> Part:
+    packets = []
+    for packet in packets_of(group, board):
+        packets.append(packet)
+        await asyncio.sleep(0)
+    return made_of(group, packets, board)
+
+
+def made_of(group: Group, packets: Sequence[bytes], board: str) -> Part:
+    return Part(
+        group.slot,
+        group.name,
+        packets,
+        board,
+        extremes_of(group.frames),
+        group.version or secrets.token_hex(8),
+        group.replaces,
+        group.document,
+    )
+
+
+def extremes_of(frames: Sequence[Frame]) -> list[ServoTarget]:
+    least: dict[int, ServoTarget] = {}
+    greatest: dict[int, ServoTarget] = {}
+    for target in (target for frame in frames for target in frame.targets):
+        servo, position = target.servo, target.position
+        if servo not in least or position < least[servo].position:
+            least[servo] = target
+        if servo not in greatest or position > greatest[servo].position:
+            greatest[servo] = target
+    return [*least.values(), *greatest.values()]
+
+
+def packets_of(group: Group, board: str) -> Iterator[bytes]:
+    count = len(group.frames)
+    if count == 0:
+        raise OutOfRangeError("An action group needs at least one frame.")
+    for index, frame in enumerate(group.frames):
+        yield judge_frame(Download(group.slot, count, index, frame), board)

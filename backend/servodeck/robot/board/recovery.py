@@ -1,0 +1,63 @@
+"""What is sent because the board may have missed something: filler that ends a packet which a lost port has
+cut, and one more stop after flash work. Twin of shared/src/session/resync.ts.
+
+A cut packet leaves the board waiting for the rest of it, for ever: it would swallow the stop that comes after
+the return (S2, docs/adr/0007). While the board works on its flash it keeps one packet and drops the others
+(S9, S41, S53), so a group could begin behind three stops. Knows bytes and time, no wire.
+"""
+
+import asyncio
+from collections.abc import Callable
+
+from servodeck.protocol.decoder import COMMAND_AT
+from servodeck.protocol.timings import LINE
+from servodeck.robot.board.packet_rules import DOWNLOAD, RUN
+
+
+def filler_for(cut: bytes, filler: int) -> bytes:
+    """Nobody knows how much of the packet arrived, so the bytes must be harmless at every place of it. A
+    first 00 ends the wait for LEN at once (S1) and makes a move whose count is missing an empty one, where
+    the filler would have the board read what earlier packets left behind (S13); but it names slot 0, which a
+    run and a download must not get. What arrived of a move before the cut takes effect: no byte can prevent
+    that.
+    """
+    if cut[COMMAND_AT] in (RUN, DOWNLOAD):
+        return bytes([filler]) * LINE.filler_bytes
+    return bytes([0]) + bytes([filler]) * len(cut)
+
+
+class StopAgain:
+    def __init__(
+        self, now: Callable[[], float], deaf_until_s: Callable[[], float], stop: Callable[[], object]
+    ) -> None:
+        self._now = now
+        self._deaf_until_s = deaf_until_s
+        self._stop = stop
+        self._timer: asyncio.TimerHandle | None = None
+
+    def stopped(self, at_s: float) -> None:
+        """A stop leaves; its last bit then."""
+        if at_s < self._deaf_until_s():
+            self._plan()
+        else:
+            self.void()
+
+    def heard(self) -> None:
+        """The board has said something: it may hear from now on."""
+        if self._timer:
+            self._plan()
+
+    def void(self) -> None:
+        """Something else has begun since, or the board is another one."""
+        if self._timer:
+            self._timer.cancel()
+            self._timer = None
+
+    def _plan(self) -> None:
+        self.void()
+        delay_s = max(0.0, self._deaf_until_s() - self._now())
+        self._timer = asyncio.get_running_loop().call_later(delay_s, self._due)
+
+    def _due(self) -> None:
+        self._timer = None
+        self._stop()

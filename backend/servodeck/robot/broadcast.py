@@ -1,0 +1,180 @@
+"""What clients are told unasked: the whole state when they join and when something of it has changed, and the
+packets that have left the wire.
+
+Knows seats, messages and the parts they are about; changes none of them.
+"""
+
+import asyncio
+from collections.abc import Callable, Collection
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+from servodeck import __version__
+from servodeck.events import LeftMessage, StateMessage, WelcomeMessage, encode
+from servodeck.port.wire import Owner
+from servodeck.protocol.decoder import COMMAND_AT
+from servodeck.protocol.packets import parse_command
+from servodeck.protocol.values import Move
+from servodeck.robot.board.board import Board
+from servodeck.robot.board.packet_rules import MOVE
+from servodeck.robot.driving import Driving
+from servodeck.robot.hub import Hub, Seat
+from servodeck.robot.latch import Latch
+from servodeck.robot.profile import RobotOfBoard
+from servodeck.schema import Message
+
+
+class Telling:
+    def __init__(
+        self,
+        hub: Hub,
+        board: Board,
+        latch: Latch,
+        robot: RobotOfBoard,
+        driving: Driving,
+        now: Callable[[], float],
+    ) -> None:
+        self._hub = hub
+        self._board = board
+        self._latch = latch
+        self._robot = robot
+        self._driving = driving
+        self._now = now
+
+    def welcome(self, seat: Seat) -> None:
+        board = self._board
+        welcome = WelcomeMessage(
+            version=__version__,
+            robot=self._robot.told(),
+            lease=self._driving.state_for(seat),
+            job=board.jobs.latest,
+            play=board.plays.latest,
+            motion=board.motion.told(self._now()),
+            battery=board.battery.told(),
+            **self._standing(),
+        )
+        seat.put(encode(welcome))
+
+    def state(self, but: Seat | None = None) -> None:
+        self.everybody(StateMessage(**self._standing()), but)
+
+    def everybody(self, message: Message, but: Seat | None = None) -> None:
+        self._hub.tell_all(encode(message), but)
+
+    def _standing(self) -> dict[str, Any]:
+        """The fields of `Standing`."""
+        board, latch = self._board, self._latch
+        return {
+            "board": board.taken_for,
+            "port": board.port,
+            "link": board.link_state,
+            "identity": board.identity,
+            "latch": latch.cause is not None,
+            "latched_by": latch.by,
+            "stopped_by": latch.name,
+            "clients": len(self._hub),
+            "unattended": board.unattended.told(),
+            "broken_slots": board.broken_slots,
+            "slot_versions": board.slot_versions,
+            "waiting_to_start": board.moves.waiting_to_start,
+        }
+
+
+FLUSH_S = 0.05
+
+Packets = tuple[bytes, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Leaving:
+    """`known_to` was told apart."""
+
+    packet: bytes
+    at_s: float
+    known_to: Collection[Seat]
+
+
+class Relay:
+    def __init__(self, hub: Hub, now: Callable[[], float], driver: Callable[[], Seat | None]) -> None:
+        self._hub = hub
+        self._now = now
+        self._driver = driver
+        self._leaving: list[Leaving] = []
+        self._behind: dict[Seat, Packets] = {}
+        self._timer: asyncio.TimerHandle | None = None
+
+    def leaving(self, owner: Owner, packet: bytes, at_s: float) -> None:
+        """Its last bit leaves then; it is told when it has: at once to its `owner`, and to the driver."""
+        driver = self._driver()
+        known_to = [seat for seat in self._hub.seats if seat is owner or seat is driver]
+        for seat in known_to:
+            text = text_of((packet,))
+            asyncio.get_running_loop().call_later(max(0.0, at_s - self._now()), seat.put, text)
+        self._leaving.append(Leaving(packet, at_s, known_to))
+        if self._timer is None:
+            self._plan()
+
+    def tell_left(self) -> None:
+        """What has left by now is told before what follows from it."""
+        if self._timer:
+            self._timer.cancel()
+            self._flush()
+
+    def forget(self, seat: Seat) -> None:
+        self._behind.pop(seat, None)
+
+    def _plan(self) -> None:
+        delay_s = max(FLUSH_S, self._leaving[0].at_s - self._now())
+        self._timer = asyncio.get_running_loop().call_later(delay_s, self._flush)
+
+    def _flush(self) -> None:
+        now = self._now()
+        left = [each for each in self._leaving if each.at_s <= now]
+        self._leaving = self._leaving[len(left) :]
+        self._timer = None
+        if self._leaving:
+            self._plan()
+        told = newest(tuple(each.packet for each in left))
+        knowing = {seat for each in left for seat in each.known_to}
+        for seat in self._hub.seats:
+            known = seat in knowing
+            unheard = tuple(each.packet for each in left if seat not in each.known_to) if known else ()
+            self._tell(seat, newest(unheard) if known else told)
+
+    def _tell(self, seat: Seat, packets: Packets) -> None:
+        if not packets:
+            return
+        behind = self._behind.get(seat)
+        self._behind[seat] = packets if behind is None else newest(behind + packets)
+        if behind is None:
+            seat.put_later(lambda: text_of(self._behind.pop(seat, ())))
+
+
+@lru_cache(maxsize=16)
+def text_of(packets: Packets) -> str:
+    """The same for most seats, and then made once."""
+    return encode(LeftMessage(packets=[packet.hex() for packet in packets]))
+
+
+@lru_cache(maxsize=16)
+def newest(packets: Packets) -> Packets:
+    """Without the moves whose every servo was sent elsewhere right after."""
+    kept: list[bytes] = []
+    moved: set[int] = set()
+    for packet in reversed(packets):
+        servos = servos_of(packet)
+        if servos is None:
+            moved.clear()
+        elif servos <= moved:
+            continue
+        else:
+            moved |= servos
+        kept.append(packet)
+    return tuple(reversed(kept))
+
+
+def servos_of(packet: bytes) -> set[int] | None:
+    """Of a move; None for all else."""
+    command = parse_command(packet) if packet[COMMAND_AT] == MOVE else None
+    return {target.servo for target in command.targets} if isinstance(command, Move) else None

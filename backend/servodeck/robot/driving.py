@@ -1,0 +1,260 @@
+"""Which start of the gateway this is, counted on disk: no lease of an earlier one is taken for one of now.
+
+Knows one small file and no lease. It is written once, before anybody is served, so that no grant ever waits
+for a disk.
+"""
+
+import asyncio
+import contextlib
+from collections.abc import Callable
+from pathlib import Path
+
+from servodeck.callers import Caller
+from servodeck.errors import CancelledError, NotDrivingError, NotFoundError
+from servodeck.events import LeaseToldMessage, TickMessage, encode
+from servodeck.files import write_whole
+from servodeck.intents import LeaseAction
+from servodeck.rate import SHORTEST_WAIT_S
+from servodeck.robot.hub import Hub, Seat
+from servodeck.robot.lease import BEAT_S, GONE_S, Lease, LeaseEvents, Permit
+from servodeck.snapshots import Candidate, LeaseState
+
+# A timer so late means that this process was held up. What the driver said meanwhile waits to be read, and a
+# tick that was not sent could not be answered: before a silence is judged, one is sent, and so long waited.
+HELD_UP_S = 0.1
+CATCH_UP_S = 0.1
+
+
+class Driving:
+    def __init__(self, hub: Hub, now: Callable[[], float], epoch: int, events: LeaseEvents) -> None:
+        self._hub = hub
+        self._now = now
+        self._lease: Lease[Seat] = Lease(epoch, events)
+        self._timer: asyncio.TimerHandle | None = None
+        self._tick_s = 0.0
+        self._wake_s = 0.0
+        self._catches_up = False
+
+    @property
+    def driver(self) -> Seat | None:
+        return self._lease.driver
+
+    @property
+    def epoch(self) -> int:
+        """Another one with each driver, and while nobody drives."""
+        return self._lease.epoch
+
+    def act(self, seat: Seat, action: LeaseAction) -> None:
+        """Raises ForbiddenError, BusyError, NotDrivingError, or CancelledError for a seat that has ended."""
+        require_present(seat)
+        now = self._now()
+        match action:
+            case "request":
+                seat.caller.require("driver")
+                self._lease.request(seat, now)
+            case "take":
+                seat.caller.require("owner")
+                self._lease.take(seat, now)
+            case "release":
+                self._lease.release(seat, now)
+            case "refuse":
+                self._lease.refuse(seat)
+        self._plan()
+
+    def give(self, giver: Seat, to: str) -> None:
+        """Hands it to somebody who is here and may drive. Raises ForbiddenError, NotDrivingError for whoever
+        does not drive and is no owner, or NotFoundError.
+        """
+        require_present(giver)
+        giver.caller.require("driver")
+        driver = self._lease.driver
+        if not giver.caller.may("owner") and (driver is None or driver.caller.id != giver.caller.id):
+            raise NotDrivingError("Only who drives, or an owner, hands the robot on.")
+        self._lease.give(giver, self._heir(to), self._now())
+        self._plan()
+
+    def _heir(self, caller_id: str) -> Seat:
+        """Of several windows the one that asks, else the latest."""
+        found = [seat for seat in self._hub.seats if seat.caller.id == caller_id and could_drive(seat)]
+        if not found:
+            raise NotFoundError("Nobody of that id is here who may drive.")
+        asker = self._lease.asker
+        return asker if asker in found else found[-1]
+
+    def leave(self, seat: Seat) -> None:
+        self._lease.leave(seat, self._now())
+        self._plan()
+
+    def seated(self, seat: Seat) -> None:
+        """It came or went: whoever may hand the robot on hears whom to."""
+        if not could_drive(seat):
+            return
+        for one in self._hub.seats:
+            if one.caller.id != seat.caller.id and self._may_give(one):
+                self.tell(one)
+
+    def _may_give(self, seat: Seat) -> bool:
+        return seat is self._lease.driver or seat.caller.may("owner")
+
+    def _candidates(self, giver: Seat) -> list[Candidate]:
+        """Each once, whatever windows they have open."""
+        if not self._may_give(giver):
+            return []
+        driver = self._lease.driver
+        but = {giver.caller.id} | ({driver.caller.id} if driver else set())
+        found = {one.caller.id: one.caller.name for one in self._hub.seats if could_drive(one)}
+        return [Candidate(id=key, name=name) for key, name in found.items() if key not in but]
+
+    def beat(self, seat: Seat, nonce: str) -> None:
+        self._lease.beat(seat, nonce)
+
+    def speak_for(self, seat: Seat, *, take: bool) -> str:
+        """For a program, which asks for one thing at a time: a nonce of now, with the lease where it is free
+        or taken. Raises ForbiddenError, CancelledError, or NotDrivingError that names who drives.
+        """
+        require_present(seat)
+        seat.caller.require("driver")
+        driver = self._lease.driver
+        if take:
+            self.act(seat, "take")
+        elif driver is None:
+            self.act(seat, "request")
+        elif driver is not seat:
+            raise NotDrivingError(f'{driver.caller.name} drives. An owner may take it: "take": true.')
+        return self._lease.issue(self._now())
+
+    def vouch(self, seat: Seat, for_s: float) -> None:
+        """What that program asked lasts for so long from now. One that was sent away cannot."""
+        if not seat.ended.is_set():
+            self._lease.vouch(seat, self._now() + for_s)
+            self._plan()
+
+    def permit(self, seat: Seat, nonce: str | None) -> Permit:
+        """Raises NotDrivingError or ExpiredError."""
+        return self._lease.permit(seat, nonce, self._now())
+
+    def standing(self, seat: Seat) -> Permit:
+        """For what its driver has asked for already, and what had to end first has ended. Raises
+        NotDrivingError or ExpiredError.
+        """
+        return self._lease.standing(seat, self._now())
+
+    def judge_request(self, caller: Caller, nonce: str) -> None:
+        """For what a page asks beside its WebSocket: only the driver's has the nonce. A large request takes
+        its time. Raises NotDrivingError or ExpiredError.
+        """
+        self._lease.permit(self.driving_page(caller), nonce, self._now(), GONE_S)
+
+    def judge(self, permit: Permit) -> None:
+        """Raises NotDrivingError or ExpiredError."""
+        self._lease.judge(permit, self._now())
+
+    def driving_page(self, caller: Caller) -> Seat:
+        """The page that drives, for what it asks beside its WebSocket. Raises NotDrivingError."""
+        driver = self._lease.driver
+        if driver is None or driver.caller.id != caller.id:
+            raise NotDrivingError(f"{driver.caller.name if driver else 'Nobody'} drives.")
+        return driver
+
+    def may_rule(self, caller: Caller) -> bool:
+        """Whether they may change what moves are judged by: while another drives, only an owner may."""
+        return self.driver is None or self.driver.caller.id == caller.id or caller.may("owner")
+
+    def judge_resume(self, caller: Caller) -> None:
+        """Raises ForbiddenError, or NotDrivingError that names who may."""
+        caller.require("driver")
+        if self.driver and not self.may_rule(caller):
+            name = self.driver.caller.name
+            raise NotDrivingError(f"{name} drives: only {name} or an owner may resume.")
+
+    def state_for(self, seat: Seat) -> LeaseState:
+        lease = self._lease
+        answer_in_s = lease.answer_in_s(self._now())
+        return LeaseState(
+            you=seat.caller.name,
+            driver=name_of(lease.driver),
+            drives=lease.driver is seat,
+            asker=name_of(lease.asker),
+            asks=lease.asker is seat,
+            answer_in_ms=None if answer_in_s is None else round(answer_in_s * 1000),
+            may_drive=seat.caller.may("driver"),
+            may_take=seat.caller.may("owner"),
+            given_by=name_of(lease.giver) if lease.driver is seat else None,
+            candidates=self._candidates(seat),
+        )
+
+    def tell_all(self) -> None:
+        """Each client its own view; the driver gets a nonce with it."""
+        for seat in self._hub.seats:
+            self.tell(seat)
+        if self._lease.driver:
+            self._tick(self._lease.driver)
+
+    def tell(self, seat: Seat) -> None:
+        seat.put(encode(LeaseToldMessage(lease=self.state_for(seat))))
+
+    def _tick(self, driver: Seat) -> None:
+        now = self._now()
+        self._tick_s = now + BEAT_S
+        driver.put(encode(TickMessage(nonce=self._lease.issue(now))))
+
+    def _plan(self) -> None:
+        if self._catches_up:
+            return
+        if self._timer:
+            self._timer.cancel()
+        due_s = self._lease.due_s()
+        if due_s is not None:
+            self._wake_in(min(due_s, self._tick_s) - self._now())
+
+    def _wake_in(self, delay_s: float) -> None:
+        delay_s = max(SHORTEST_WAIT_S, delay_s)
+        self._wake_s = self._now() + delay_s
+        self._timer = asyncio.get_running_loop().call_later(delay_s, self._wake)
+
+    def _wake(self) -> None:
+        is_late = self._now() - self._wake_s > HELD_UP_S
+        # Once, however late the next timer is: a driver who is gone must not be waited for longer.
+        self._catches_up = is_late and not self._catches_up
+        if self._catches_up and self._lease.driver:
+            self._tick(self._lease.driver)
+            self._wake_in(CATCH_UP_S)
+            return
+        self._catches_up = False
+        self._lease.advance(self._now())
+        if self._lease.driver and self._now() >= self._tick_s:
+            self._tick(self._lease.driver)
+        self._plan()
+
+
+def require_present(seat: Seat) -> None:
+    """A client that was sent away gets nothing by what it still asks."""
+    if seat.ended.is_set():
+        raise CancelledError("Its client is not here any more.")
+
+
+def could_drive(seat: Seat) -> bool:
+    return seat.answers and seat.caller.may("driver")
+
+
+def name_of(seat: Seat | None) -> str | None:
+    return None if seat is None else seat.caller.name
+
+
+GRANTS_PER_START = 2**32
+
+
+def first_epoch(folder: Path) -> int:
+    """What the leases of this start count on from. Where nothing can be written it goes on all the same."""
+    file = folder / "epoch"
+    start = read_start(file) + 1
+    with contextlib.suppress(OSError):
+        write_whole(file, str(start))
+    return start * GRANTS_PER_START
+
+
+def read_start(file: Path) -> int:
+    try:
+        return max(0, int(file.read_text("ascii")))
+    except (OSError, ValueError):
+        return 0

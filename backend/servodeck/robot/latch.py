@@ -1,0 +1,123 @@
+"""The latch: whether motion is refused, why, and by whose hand; and what happens to a moving robot when its
+driver falls silent, leaves or changes (docs/adr/0012).
+
+Knows what the lease says and how to stop; not who may drive or resume.
+"""
+
+import contextlib
+import logging
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from servodeck.errors import CancelledError, GatewayError, NotDrivingError
+from servodeck.robot.hub import is_of
+from servodeck.snapshots import LatchedBy
+
+if TYPE_CHECKING:
+    from servodeck.robot.control import Control
+
+
+log = logging.getLogger("servodeck.robot")
+
+
+@dataclass(frozen=True, slots=True)
+class Cause:
+    """`name` is for people: who pressed STOP, or whose page did it for the battery."""
+
+    by: LatchedBy
+    name: str | None = None
+
+
+class Latch:
+    def __init__(self, changed: Callable[[], None]) -> None:
+        self._changed = changed
+        self.cause: Cause | None = None
+
+    @property
+    def by(self) -> LatchedBy | None:
+        return self.cause.by if self.cause else None
+
+    @property
+    def name(self) -> str | None:
+        return self.cause.name if self.cause else None
+
+    def close(self, cause: Cause) -> None:
+        """Who latched first is told."""
+        if self.cause is None:
+            self.cause = cause
+            log.info("stopped")
+            self._changed()
+
+    def open(self) -> bool:
+        """Whether it was closed."""
+        if self.cause is None:
+            return False
+        self.cause = None
+        log.info("resumed")
+        self._changed()
+        return True
+
+
+class Watch:
+    def __init__(self, control: "Control") -> None:
+        self._control = control
+
+    def driver_quiet(self) -> None:
+        control = self._control
+        driver = control.driving.driver
+        control.board.drop(driver, CancelledError("Its driver was not heard any more."))
+        play = control.board.plays.present
+        if play and play.as_run:
+            return
+        if play or control.board.motion.is_moving(control.now()):
+            self._stop_for_nobody()
+
+    def driver_silent(self) -> None:
+        if self._control.board.may_move_on() and not self._control.board.unattended.by:
+            self._stop_for_nobody()
+
+    def driver_lost(self) -> None:
+        self.driver_silent()
+
+    def driver_changed(self) -> None:
+        """What one driver began does not go on under the next; nobody has to resume for it."""
+        board = self._control.board
+        goes_on_alone = board.unattended.by and self._control.driving.driver is None
+        if board.may_move() and not goes_on_alone:
+            self.end_quietly(NotDrivingError("Somebody else drives now."))
+
+    def lease_changed(self) -> None:
+        driving = self._control.driving
+        if driving.driver and self._control.board.unattended.by not in (None, driving.driver):
+            self.end_quietly(NotDrivingError("Somebody else drives now."))
+        driving.tell_all()
+
+    def sent_away(self, caller_id: str, by: str, *, group_goes_on: bool) -> None:
+        """`by` has revoked them: STOP for what they move, and for the group that they let go on unless it
+        may. Nobody who is out answers for what moves.
+        """
+        board, driver = self._control.board, self._control.driving.driver
+        if is_of(board.unattended.by, caller_id):
+            if group_goes_on:
+                return
+            board.unattended.end()
+        elif not is_of(driver, caller_id):
+            return
+        if board.may_move_on():
+            with contextlib.suppress(GatewayError):
+                self._control.stop(Cause("person", by))
+
+    def end_quietly(self, reason: GatewayError) -> None:
+        """Without the latch: somebody is there, or it was said beforehand."""
+        with contextlib.suppress(GatewayError):
+            self._control.board.halt(reason)
+
+    def _stop_for_nobody(self) -> None:
+        """STOP because nobody watches over what moves: whoever goes on has to look first. Not twice: a second
+        hold would end later than was said of the first.
+        """
+        if self._control.latch:
+            return
+        with contextlib.suppress(GatewayError):
+            self._control.stop(Cause("silence"))

@@ -1,0 +1,180 @@
+"""The estimate as a value, and what a way of playing groups has to answer. Knows what can be known of a
+board's motion; no rule of any board: those are tracks.py, deadlines.py and polled.py. Twin of
+shared/src/motion/model.ts.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from math import inf
+from typing import Literal, Protocol
+
+from servodeck.protocol.families import Family
+from servodeck.protocol.values import Command, Frame, Move, Release, Report, Run, ServoTarget
+from servodeck.robot.motion.tracks import Order, Tracks, doubted
+
+
+@dataclass(frozen=True, slots=True)
+class Reading:
+    # None: the board has not said it since.
+    position: int | None
+    # It has no torque: hands may have turned it since, and its next move starts from anywhere.
+    is_released: bool = False
+
+
+Told = Mapping[int, Reading]
+
+RELEASED = Reading(None, is_released=True)
+
+
+def after_positions(told: Told, positions: Sequence[ServoTarget]) -> Told:
+    new = {
+        each.servo: Reading(each.position, each.servo in told and told[each.servo].is_released)
+        for each in positions
+    }
+    return {**told, **new}
+
+
+def after_order(told: Told, command: Command, *, is_heard: bool) -> Told:
+    """After the command left the wire; `is_heard` False where the board may not have taken it up."""
+    match command:
+        case Release(servos):
+            return {**told, **dict.fromkeys(servos, RELEASED)}
+        case Run():
+            return only_let_go(told)
+        case Move(_, targets):
+            moved = {target.servo for target in targets}
+            still_free = moved & only_let_go(told).keys() if not is_heard else set[int]()
+            rest = {servo: reading for servo, reading in told.items() if servo not in moved}
+            return {**rest, **dict.fromkeys(still_free, RELEASED)}
+    return told
+
+
+def only_let_go(told: Told) -> dict[int, Reading]:
+    """What the board said before is no longer so."""
+    return {servo: RELEASED for servo, reading in told.items() if reading.is_released}
+
+
+def held_at(told: Told, servo: int) -> int | None:
+    """Where the board said that it stands; None where it has not, or where hands may have turned it since."""
+    reading = told.get(servo)
+    return None if reading is None or reading.is_released else reading.position
+
+
+@dataclass(frozen=True, slots=True)
+class UnknownRun:
+    """A group that may move anything at any time: its frames are not ours, or its time cannot be computed.
+    `ends_to_hear`: how many ends the board will report until nothing runs any more (S49). `until_ms`: it has
+    ended by then, as long as it counts its repeats.
+    """
+
+    slot: int | None
+    ends_to_hear: int = 1
+    until_ms: float = inf
+
+
+@dataclass(frozen=True, slots=True)
+class DeadlineRun:
+    """`next` is the frame that begins at `next_at_ms`; `total` what the board takes for the group's length
+    (S46). `times` 0: until stopped.
+    """
+
+    slot: int
+    total: int
+    next: int
+    next_at_ms: float
+    pass_at_ms: float
+    times: int
+    loops_done: int
+    ends_to_hear: int
+
+
+@dataclass(frozen=True, slots=True)
+class PolledRun:
+    """Known until `rest_at_ms`; behind it `rest` is where the servos of the later frames end, somewhen before
+    `end_ms`. `rested_ms`: what moved before the first frame has arrived by then; no frame takes longer than
+    `longest_ms`. `is_blurred`: `rest` stands in the tracks already.
+    """
+
+    slot: int
+    rest: Mapping[int, int]
+    rest_at_ms: float
+    surely_until_ms: float
+    end_ms: float
+    rested_ms: float
+    longest_ms: float
+    is_blurred: bool = False
+
+
+AnyRun = UnknownRun | DeadlineRun | PolledRun
+
+
+@dataclass(frozen=True, slots=True)
+class Motion:
+    tracks: Tracks = field(default_factory=dict)
+    told: Told = field(default_factory=dict)
+    """Of servos without a track."""
+    run: AnyRun | None = None
+    recent: tuple[Order, ...] = ()
+    """Moves and frames of almost now."""
+    untold_end_ms: float = -inf
+    """When a group ended by our clock that the board has not told the end of yet."""
+    deaf_until_ms: float = -inf
+    """Until then the board may be busy with flash or servos, its servos frozen, packets waiting or dropped
+    (S9, S41).
+    """
+    answers_owed: tuple[type[Report], ...] = ()
+    """When it has answered all that, it hears again sooner."""
+    may_hold_packet: bool = False
+    """A packet came while it was deaf, and may wait to be taken up."""
+    may_swallow: int = 0
+    """So many more packets the board may take for the rest of one that was cut."""
+    restless_until_ms: float = -inf
+    """Until then a servo we know nothing of may still be on its way."""
+    inherited_until_ms: float = -inf
+    """Until then what others set in motion before the port was opened may go on. Only STOP speaks of it."""
+    skips_first: Literal["no", "maybe", "yes"] = "no"
+    """The next run skips its first frame (L11)."""
+
+
+class KnownBoard(Protocol):
+    """The board as far as it stays the same while it moves."""
+
+    @property
+    def family(self) -> Family: ...
+
+    def played_frames(self, slot: int) -> Sequence[Frame] | None:
+        """The group with the times it is played with (X3), empty where nothing is stored, or None where
+        nobody knows it.
+        """
+
+
+class Playback(Protocol):
+    """One way of playing groups. Each function gets a motion that is advanced to the time it happens."""
+
+    def request(self, motion: Motion, request: Run, at_ms: float, board: KnownBoard, /) -> Motion: ...
+
+    def advance(self, motion: Motion, now_ms: float, board: KnownBoard, /) -> Motion:
+        """Everything that was due by `now_ms` has happened."""
+
+    def stop(self, motion: Motion, at_ms: float, board: KnownBoard, /) -> Motion: ...
+
+    def interrupt(self, motion: Motion, at_ms: float, /) -> Motion:
+        """Any other command came."""
+
+    def ended(self, motion: Motion, board: KnownBoard, /) -> Motion:
+        """The board says that a group has ended."""
+
+    def pass_ms(self, frames: Sequence[Frame]) -> float:
+        """How long one pass of a group takes at most."""
+
+
+# Nothing is known: after connecting, and after anything that may have moved the robot behind our back.
+UNKNOWN_MOTION = Motion()
+
+
+def running_unknown(motion: Motion, slot: int | None, ends_to_hear: int = 1, until_ms: float = inf) -> Motion:
+    """Nobody knows where anything is while that group may run, nor behind it: perhaps its slot is empty, and
+    the moves go on.
+    """
+    run = UnknownRun(slot, ends_to_hear, until_ms)
+    return replace(motion, tracks=doubted(motion.tracks), told=only_let_go(motion.told), run=run)

@@ -1,0 +1,372 @@
+"""Where each servo is now, given the commands that left the wire and when. One pure value and functions over
+it: no clock, no link. How a family moves is data (`Family.motion`), how it plays groups is deadlines.py or
+polled.py.
+
+None means that nobody can know: before the end of a servo's first move unless the board told where it stands
+(model.py), while a group runs whose frames are not ours, behind the first frame of LeArm's groups (L7), after
+a release, in a move that flash work froze (S29, S41), and after a command that came when the board may have
+been deaf. Twin of shared/src/motion/motion.ts; shared/protocol/vectors/halts.json holds both to each other.
+"""
+
+import math
+from collections.abc import Collection, Sequence
+from dataclasses import replace
+from math import inf
+
+from servodeck.protocol.decoder import HEADER
+from servodeck.protocol.families import Family
+from servodeck.protocol.timings import ESTIMATE
+from servodeck.protocol.values import (
+    AllPositions,
+    Battery,
+    Command,
+    Download,
+    Erase,
+    Erased,
+    Frame,
+    FrameStored,
+    Move,
+    Offsets,
+    Positions,
+    ReadAllPositions,
+    ReadBattery,
+    ReadOffsets,
+    ReadPositions,
+    ReadVersion,
+    Release,
+    Report,
+    Run,
+    RunAccepted,
+    ServoTarget,
+    Stop,
+    Version,
+)
+from servodeck.robot.motion.deadlines import deadlines, end_of, longest_ms
+from servodeck.robot.motion.model import (
+    UNKNOWN_MOTION,
+    DeadlineRun,
+    KnownBoard,
+    Motion,
+    Playback,
+    UnknownRun,
+    after_order,
+    held_at,
+    only_let_go,
+    running_unknown,
+)
+from servodeck.robot.motion.polled import polled
+from servodeck.robot.motion.tracks import (
+    LONGEST_MOVE_MS,
+    Order,
+    Tracks,
+    board_duration_ms,
+    contested,
+    end_ms,
+    last_end_ms,
+    leeway_of,
+    lengthened,
+    only,
+    ordered,
+    position_of,
+    retarget,
+    share,
+    standing_at,
+    stands,
+    unrest_behind,
+)
+
+PLAYBACKS: dict[str, Playback] = {"deadlines": deadlines, "polled": polled}
+
+ANSWERS: dict[type[Command], type[Report]] = {
+    Download: FrameStored,
+    Erase: Erased,
+    ReadPositions: Positions,
+    ReadAllPositions: AllPositions,
+    ReadVersion: Version,
+    ReadOffsets: Offsets,
+    ReadBattery: Battery,
+    Run: RunAccepted,
+}
+# These keep a board that answers them from its servos and packets until then: flash work, slow talk (S41, X7,
+# L13).
+DEAFENING = frozenset(ANSWERS) - {ReadBattery, Run}
+# What LEN does not count, and the whole of a packet without parameters.
+HEAD_BYTES, SHORTEST_PACKET_BYTES = 2, 4
+
+
+def playback_of(board: KnownBoard) -> Playback:
+    return PLAYBACKS[board.family.motion.groups]
+
+
+def advance(motion: Motion, now_ms: float, board: KnownBoard) -> Motion:
+    """The same motion with everything that was due by `now_ms` done. Call before reading it."""
+    if isinstance(motion.run, UnknownRun) and now_ms >= motion.run.until_ms:
+        return replace(motion, run=None)
+    return playback_of(board).advance(motion, now_ms, board)
+
+
+def hears(motion: Motion, at_ms: float) -> bool:
+    """False where the board may be too busy to take up what it is told, or takes it for the rest of a cut
+    packet.
+    """
+    return at_ms >= motion.deaf_until_ms and motion.may_swallow == 0
+
+
+def after_command(motion: Motion, command: Command, at_ms: float, board: KnownBoard) -> Motion:
+    """After the last bit of `command` left the wire at `at_ms`."""
+    current = advance(motion, at_ms, board)
+    is_heard = hears(current, at_ms)
+    if is_heard:
+        after = restless(current, after_heard(current, command, at_ms, board), at_ms)
+    else:
+        after = maybe_swallowed(after_unheard(current, command, at_ms, board), at_ms)
+    return replace(after, told=after_order(after.told, command, is_heard=is_heard))
+
+
+def maybe_swallowed(motion: Motion, at_ms: float) -> Motion:
+    """What it completes then may move any servo to anywhere."""
+    if motion.may_swallow == 0:
+        return motion
+    return replace(
+        motion,
+        tracks={},
+        told=only_let_go(motion.told),
+        may_swallow=motion.may_swallow - 1,
+        restless_until_ms=max(at_ms, motion.deaf_until_ms) + LONGEST_MOVE_MS,
+    )
+
+
+def after_cut_packet(motion: Motion, family: Family) -> Motion:
+    """After one of our packets was cut. Where no filler ends it (S7) the board waits for its rest, and takes
+    what comes next for that.
+    """
+    if family.resync_filler is not None:
+        return motion
+    # Cut in its head, it gets the first header of the next one for its LEN.
+    longest_bytes = max(HEADER, family.max_length) + HEAD_BYTES
+    return replace(motion, may_swallow=math.ceil(longest_bytes / SHORTEST_PACKET_BYTES))
+
+
+def restless(before: Motion, after: Motion, at_ms: float, for_ms: float = LONGEST_MOVE_MS) -> Motion:
+    """Where a group nobody knows has ended, its last move may go on for that long."""
+    if not isinstance(before.run, UnknownRun) or after.run is not None:
+        return after
+    return replace(after, restless_until_ms=max(after.restless_until_ms, at_ms + for_ms))
+
+
+def after_heard(motion: Motion, command: Command, at_ms: float, board: KnownBoard) -> Motion:
+    playback = playback_of(board)
+    if isinstance(command, Run):
+        return playback.request(motion, command, at_ms, board)
+    if isinstance(command, Stop):
+        return playback.stop(motion, at_ms, board)
+    cut = playback.interrupt(motion, at_ms)
+    if isinstance(command, Move):
+        return moved(cut, command, at_ms, board)
+    if isinstance(command, Release):
+        return released(cut, command.servos)
+    is_answered = command.kind in board.family.answers
+    return deafened(cut, command, at_ms, board) if is_answered and type(command) in DEAFENING else cut
+
+
+def moved(motion: Motion, move: Move, at_ms: float, board: KnownBoard) -> Motion:
+    end_ms = at_ms + board_duration_ms(move.duration_ms, board.family)
+    order = Order("move", move.targets, at_ms, end_ms, motion.tracks)
+    recent = ordered(motion.recent, order, board.family)
+    # A frame of that group may overrule it at any time.
+    is_sure = not isinstance(motion.run, UnknownRun)
+    tracks = retarget(
+        with_start(motion, move.targets),
+        move.targets,
+        move.duration_ms,
+        at_ms,
+        board.family,
+        is_sure=is_sure,
+    )
+    return replace(
+        motion,
+        recent=recent,
+        tracks=contested(tracks, recent),
+        restless_until_ms=unrest_behind(motion.restless_until_ms, move.duration_ms, at_ms, board.family),
+        inherited_until_ms=unrest_behind(motion.inherited_until_ms, move.duration_ms, at_ms, board.family),
+    )
+
+
+def with_start(motion: Motion, targets: Sequence[ServoTarget]) -> Tracks:
+    """Those of the targets that stand where the board said begin there."""
+    told = {target.servo: held_at(motion.told, target.servo) for target in targets}
+    standing = {servo: standing_at(at) for servo, at in told.items() if at is not None}
+    return {**motion.tracks, **standing}
+
+
+def released(motion: Motion, servos: Collection[int]) -> Motion:
+    """It drops, who knows where to."""
+    return without_servos(motion, servos)
+
+
+def deafened(motion: Motion, command: Command, at_ms: float, board: KnownBoard) -> Motion:
+    """Servos at rest stay; those under way freeze and jump (S29), but they arrive. A group goes on, nobody
+    knows when.
+    """
+    deaf_until_ms = at_ms + ESTIMATE.longest_deafness_ms
+    deaf = replace(
+        motion, deaf_until_ms=deaf_until_ms, answers_owed=(ANSWERS[type(command)],), may_hold_packet=False
+    )
+    if motion.run is not None:
+        until_ms = latest_end_ms(motion, board) + ESTIMATE.longest_deafness_ms
+        return running_unknown(deaf, None, until_ms=until_ms)
+    tracks = {
+        servo: track if stands(track, at_ms) else lengthened(track, deaf_until_ms)
+        for servo, track in motion.tracks.items()
+    }
+    return replace(deaf, tracks=tracks)
+
+
+def latest_end_ms(motion: Motion, board: KnownBoard) -> float:
+    """By then the run has ended, if nothing holds it up; -inf without a run."""
+    match motion.run:
+        case None:
+            return -inf
+        case UnknownRun(until_ms=until_ms):
+            return until_ms
+        case DeadlineRun() as run:
+            return end_of(run, board)
+        case run:
+            return run.end_ms
+
+
+def after_unheard(motion: Motion, command: Command, at_ms: float, board: KnownBoard) -> Motion:
+    """It is dropped or comes late: what it may move is not known, and of what moved only its end is."""
+    answer = ANSWERS.get(type(command))
+    owed = (answer,) if answer and command.kind in board.family.answers else ()
+    later = replace(
+        motion,
+        deaf_until_ms=at_ms + ESTIMATE.longest_deafness_ms if owed else motion.deaf_until_ms,
+        answers_owed=(*motion.answers_owed, *owed),
+        may_hold_packet=True,
+    )
+    if isinstance(command, Run):
+        until_ms = later.deaf_until_ms + longest_ms(command, board.family)
+        return running_unknown(later, None, until_ms=max(until_ms, latest_end_ms(motion, board)))
+    aims = {each.servo: each.position for each in command.targets} if isinstance(command, Move) else {}
+    freed = command.servos if isinstance(command, Release) else ()
+
+    def is_at_rest(servo: int) -> bool:
+        track = motion.tracks.get(servo)
+        return track is not None and stands(track, at_ms) and aims.get(servo, track.to) == track.to
+
+    moves = any(not stands(track, at_ms) for track in motion.tracks.values()) or any(
+        not is_at_rest(servo) for servo in aims
+    )
+    return replace(
+        later,
+        tracks=only(motion.tracks, lambda _, servo: is_at_rest(servo) and servo not in freed),
+        restless_until_ms=later.deaf_until_ms + LONGEST_MOVE_MS if moves else motion.restless_until_ms,
+    )
+
+
+def pass_ms(frames: Sequence[Frame], board: KnownBoard) -> float:
+    """How long one pass of a group takes at most."""
+    return playback_of(board).pass_ms(frames)
+
+
+def forgotten(motion: Motion, at_ms: float, board: KnownBoard) -> Motion:
+    """Nothing is known any more: the robot may have been moved or the board restarted. A group that ran may
+    run on.
+    """
+    if motion.run is not None:
+        still_ms: float = LONGEST_MOVE_MS
+    else:
+        still_ms = last_end_ms(motion.tracks, at_ms) - at_ms + ESTIMATE.last_ticks_ms
+    return replace(
+        UNKNOWN_MOTION,
+        told=only_let_go(motion.told),
+        run=UnknownRun(None, until_ms=latest_end_ms(motion, board)) if motion.run else None,
+        deaf_until_ms=motion.deaf_until_ms,
+        may_swallow=motion.may_swallow,
+        inherited_until_ms=motion.inherited_until_ms,
+        restless_until_ms=max(motion.restless_until_ms, at_ms + still_ms),
+        skips_first="maybe",
+    )
+
+
+def inherited(motion: Motion, at_ms: float) -> Motion:
+    """Whoever had the port before it was opened at `at_ms` may have set something in motion."""
+    return replace(motion, inherited_until_ms=at_ms + LONGEST_MOVE_MS)
+
+
+def either_of(one: Motion, other: Motion) -> Motion:
+    """Of two forgotten motions nobody knows which it was."""
+    return replace(
+        one,
+        run=one.run or other.run,
+        deaf_until_ms=max(one.deaf_until_ms, other.deaf_until_ms),
+        restless_until_ms=max(one.restless_until_ms, other.restless_until_ms),
+        inherited_until_ms=max(one.inherited_until_ms, other.inherited_until_ms),
+    )
+
+
+def position_at(motion: Motion, servo: int, now_ms: float) -> int | None:
+    """Present position of a servo in board units, or None while it is unknown."""
+    told = held_at(motion.told, servo)
+    if told is not None:
+        return told
+    track = motion.tracks.get(servo)
+    position = position_of(track, now_ms) if track else None
+    return None if position is None else rounded(position)
+
+
+def rounded(position: float) -> int:
+    """Half up, as JavaScript does."""
+    return math.floor(position + 0.5)
+
+
+def leeway_at(motion: Motion, servo: int, now_ms: float, family: Family) -> float:
+    """How far off `position_at` may be, in board units: the way of one tick, and more for a servo redirected
+    on its way.
+    """
+    if held_at(motion.told, servo) is not None:
+        return 0
+    track = motion.tracks.get(servo)
+    return leeway_of(track, now_ms, family) if track else inf
+
+
+def farthest_from(motion: Motion, servo: int, to: float, now_ms: float, family: Family) -> float:
+    """How far it may be from there at most, in board units."""
+    at = position_at(motion, servo, now_ms)
+    if at is not None:
+        return abs(to - at)
+    position, track = family.position, motion.tracks.get(servo)
+    if track is None or track.to_leeway == inf:
+        return max(to - position.min, position.max - to)
+    return abs(to - track.to) + (position.max - position.min) * (1 - share(track, now_ms))
+
+
+def target_of(motion: Motion, servo: int) -> float | None:
+    """Where a servo was last asked to be, or None when it never was."""
+    track = motion.tracks.get(servo)
+    return None if track is None or track.to_leeway == inf else track.to
+
+
+def without_servos(motion: Motion, servos: Collection[int]) -> Motion:
+    """The motion of the others alone."""
+    return replace(motion, tracks=only(motion.tracks, lambda _, servo: servo not in servos))
+
+
+def remaining_ms(motion: Motion, now_ms: float) -> float:
+    """Milliseconds until the moves in progress end; 0 at rest."""
+    return last_end_ms(motion.tracks, now_ms) - now_ms
+
+
+def gentle_ms(motion: Motion, servos: Collection[int], now_ms: float, family: Family) -> float:
+    """How long a move must take at least, so that no servo whose start is unknown snaps to its target."""
+    is_shared = family.motion.timing == "shared"
+    if is_shared and isinstance(motion.run, UnknownRun):
+        return inf
+    ends_ms = [
+        end_ms(track)
+        for servo, track in motion.tracks.items()
+        if position_of(track, now_ms) is None and (is_shared or servo in servos)
+    ]
+    restless_ms = motion.restless_until_ms - now_ms if is_shared else 0
+    return math.ceil(max([0, restless_ms, *(end - now_ms for end in ends_ms)]))

@@ -1,0 +1,210 @@
+"""What a driver has the board do besides moves: run, end and erase groups, set their speed, let servos go.
+For pages and for scripts alike; each is sent once, and its outcome is told (docs/adr/0014, class C).
+
+Knows what is asked and in which order it leaves. How somebody shows that they drive is a `Claim`'s affair,
+what may leave `control`'s.
+"""
+
+import asyncio
+import contextlib
+from collections.abc import AsyncIterator, Sequence
+from typing import TYPE_CHECKING, Protocol
+
+from servodeck.errors import CancelledError, GatewayError, MovingError, NoAnswerError
+from servodeck.port.wire import Left
+from servodeck.protocol.families import Family
+from servodeck.protocol.timings import RUN, STOP
+from servodeck.protocol.values import Command, Erase, Erased, Release, Run, RunAccepted, RunStarted, SetSpeed
+from servodeck.robot.board.downloads import ERASE_TIMEOUT_S
+from servodeck.robot.board.move_plan import judge_command, portions_of
+from servodeck.robot.board.packet_rules import MOVE, judge_latch
+from servodeck.robot.hub import Seat
+from servodeck.robot.lease import Permit
+from servodeck.snapshots import Outcome
+
+if TYPE_CHECKING:
+    from servodeck.robot.control import Control
+
+
+RUN_WAIT_S = RUN.timeout_ms / 1000
+
+
+class Claim(Protocol):
+    """How somebody shows that they may have it done."""
+
+    @property
+    def seat(self) -> Seat: ...
+
+    def claim(self) -> None:
+        """Raises what keeps them from driving."""
+
+    def permit(self) -> Permit:
+        """For one packet that leaves now."""
+
+    def renew(self) -> None:
+        """What had to end first has ended. Raises where they do not drive any more."""
+
+    def lasts(self, left: Left, for_s: float) -> None:
+        """That packet sets something in motion for so long."""
+
+
+class PageClaim:
+    """Of a page, whose heartbeat goes on by itself: the nonce of what it said."""
+
+    def __init__(self, control: "Control", seat: Seat, nonce: str | None) -> None:
+        self.seat = seat
+        self._driving = control.driving
+        self._nonce = nonce
+        self._permit: Permit | None = None
+
+    def claim(self) -> None:
+        self.seat.caller.require("driver")
+        self._permit = self._driving.permit(self.seat, self._nonce)
+
+    def permit(self) -> Permit:
+        return self._permit or self._driving.permit(self.seat, self._nonce)
+
+    def renew(self) -> None:
+        self._permit = self._driving.standing(self.seat)
+
+    def lasts(self, left: Left, for_s: float) -> None:
+        """As long as it is heard."""
+
+
+class Turn:
+    """One request's leave to move the robot. It ends with the next stop, and with another driver."""
+
+    def __init__(self, control: "Control", claim: Claim) -> None:
+        """Raises what keeps its first packet from leaving."""
+        control.board.link.wire()
+        judge_latch(MOVE, control.latch)
+        self._control = control
+        self._claim = claim
+        claim.claim()
+        self._mark = self._present()
+
+    async def after_the_stop(self) -> None:
+        """Where what another driver began is being stopped."""
+        self._judge()
+        if self._control.board.link.wire().is_halting:
+            await self.end_what_moves()
+
+    async def end_what_moves(self) -> None:
+        self._judge()
+        ended = self._control.board.end_motion()
+        self._mark = self._present()  # now: whatever else stops the robot meanwhile ends this turn, too
+        if ended:
+            await asyncio.shield(ended)  # others may wait for it
+            self._judge()
+            self._claim.renew()
+
+    def send(self, command: Command, lasts_s: float = 0.0) -> Left:
+        """`lasts_s`: what it sets in motion."""
+        self._judge()
+        left = self._control.put(self._claim.seat, command, self._claim.permit())
+        self._claim.lasts(left, lasts_s)
+        return left
+
+    def _present(self) -> tuple[int, int]:
+        return self._control.driving.epoch, self._control.board.halts
+
+    def _judge(self) -> None:
+        if self._mark != self._present():
+            raise CancelledError("Stopped, or taken over, before all of it had left.")
+
+
+class Operations:
+    def __init__(self, control: "Control") -> None:
+        self._control = control
+        self._asks_the_board = False
+        self._ending: asyncio.Task[None] | None = None
+
+    async def run(self, claim: Claim, slot: int, times: int) -> Outcome:
+        """What moves ends first."""
+        command, family = Run(slot, times), self._family()
+        judge_command(command, family)
+        async with self._asking_the_board():
+            turn = Turn(self._control, claim)
+            self._control.board.plays.judge_idle()
+            if self._ending:  # one that left between the repeats of a stop would be ended by the last one
+                await asyncio.shield(self._ending)
+                claim.renew()
+            await turn.end_what_moves()
+            left = turn.send(command)
+            if "run" not in family.answers:
+                await left
+                return "sent"
+            answers = self._control.board.answers
+            taken = await answers.to(left, RUN_WAIT_S, RunAccepted, RunStarted)
+            return "silent" if taken is None else "acknowledged"
+
+    async def end_group(self, seat: Seat) -> Outcome:
+        """Behind its frame in progress; everything else is free to move. Said three times (S54), also where
+        whoever asked has gone meanwhile.
+        """
+        left = self._control.stop_once(seat)
+        if self._ending is None:
+            self._ending = asyncio.create_task(self._end_again(seat))
+        ending = self._ending
+        await left
+        await asyncio.shield(ending)
+        return "sent"
+
+    async def _end_again(self, seat: Seat) -> None:
+        try:
+            with contextlib.suppress(GatewayError):  # a port that is lost takes no more of them
+                for _ in range(STOP.repeats):
+                    await asyncio.sleep(STOP.repeat_every_ms / 1000)
+                    await self._control.stop_once(seat)
+        finally:
+            self._ending = None
+
+    async def erase(self, claim: Claim) -> Outcome:
+        """Until the board says that it is done."""
+        command = Erase()
+        judge_command(command, self._family())
+        self._judge_rest()
+        async with self._asking_the_board():
+            left = Turn(self._control, claim).send(command, ERASE_TIMEOUT_S)
+            if await self._control.board.answers.to(left, ERASE_TIMEOUT_S, Erased) is None:
+                raise NoAnswerError("The board did not say whether its groups are erased.")
+        return "acknowledged"
+
+    async def set_speed(self, claim: Claim, slot: int | None, percent: int) -> Outcome:
+        """`slot` None: of every group."""
+        command = SetSpeed(slot, percent)
+        judge_command(command, self._family())
+        await Turn(self._control, claim).send(command)
+        return "sent"
+
+    async def release(self, claim: Claim, servos: Sequence[int]) -> Outcome:
+        """At rest only: a move that goes on or still waits for the wire would power them again (X7)."""
+        family = self._family()
+        commands = [Release(tuple(portion)) for portion in portions_of(servos, family.servos_per_move)]
+        for command in commands:
+            judge_command(command, family)
+        self._judge_rest()
+        turn = Turn(self._control, claim)
+        for command in commands:
+            await turn.send(command)
+        return "sent"
+
+    def _family(self) -> Family:
+        self._control.board.judge_known()
+        return self._control.board.family
+
+    def _judge_rest(self) -> None:
+        """Flash work freezes servos and then lets them jump (S29, S39)."""
+        if self._control.board.may_move() or not self._control.board.moves.is_empty:
+            raise MovingError("The robot moves: wait for its end, or stop it first.")
+
+    @contextlib.asynccontextmanager
+    async def _asking_the_board(self) -> AsyncIterator[None]:
+        """One at a time: the board's answers do not say to whom."""
+        if self._asks_the_board:
+            raise MovingError("The board is being asked for something else.")
+        self._asks_the_board = True
+        try:
+            yield
+        finally:
+            self._asks_the_board = False

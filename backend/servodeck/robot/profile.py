@@ -1,0 +1,218 @@
+"""The robot on the board, the same for everybody: its family and its profile from the library, as they were
+last chosen for this board, and with the profile its limits and poses.
+
+Knows what the library says of robots, no text of one; no client, and not who may change what.
+"""
+
+import asyncio
+import logging
+from collections.abc import Callable, Iterable, Sequence
+
+from servodeck.errors import ConflictError, GatewayError, MovingError, NotFoundError, OutOfRangeError
+from servodeck.files import Remembered
+from servodeck.port.wire import Owner
+from servodeck.protocol.families import FAMILIES, UNKNOWN
+from servodeck.protocol.values import Command, Move, ServoTarget
+from servodeck.robot.board.board import Board
+from servodeck.snapshots import RobotFacts, RobotTold, ServoLimits
+from servodeck.threads import in_thread
+
+
+class RobotLimits:
+    def __init__(self) -> None:
+        self._limits: dict[int, ServoLimits] = {}
+        self._calibrating: dict[Owner, int] = {}
+        self._are_awaited = False
+
+    def await_them(self) -> None:
+        """There are some, and nobody knows them yet: until `set` or `clear` nothing moves."""
+        self._are_awaited = True
+
+    def set(self, servos: Iterable[ServoLimits]) -> None:
+        """In place of all that was set before."""
+        self._limits = {limits.servo: limits for limits in servos}
+        self._are_awaited = False
+
+    def name_of(self, servo: int) -> str:
+        """As people are told of it."""
+        limits = self._limits.get(servo)
+        return f"{limits.name} (servo {servo})" if limits else f"servo {servo}"
+
+    def calibrate(self, owner: Owner, servo: int | None) -> None:
+        """Whoever looks for the limits of a servo may pass the old ones, with that servo alone and until
+        `forget`.
+        """
+        if servo is None:
+            self.forget(owner)
+        else:
+            self._calibrating[owner] = servo
+
+    def forget(self, owner: Owner) -> None:
+        self._calibrating.pop(owner, None)
+
+    def clear(self) -> None:
+        """Nobody has described this one."""
+        self._limits.clear()
+        self._calibrating.clear()
+        self._are_awaited = False
+
+    def judge(self, command: Command | None, owner: Owner) -> None:
+        """Raises OutOfRangeError that names the servo and its range, or MovingError."""
+        self.judge_targets(targets_of(command), self._calibrating.get(owner))
+
+    def judge_targets(self, targets: Sequence[ServoTarget], free: int | None = None) -> None:
+        """As `judge`; that servo is `free` of its limits."""
+        if targets and self._are_awaited:
+            raise MovingError("The limits of this robot are still being read: try again.")
+        for target in targets:
+            limits = self._limits.get(target.servo)
+            if limits and target.servo != free and not limits.min <= target.position <= limits.max:
+                raise OutOfRangeError(
+                    f"{self.name_of(target.servo)}: position is {target.position}, "
+                    f"allowed {limits.min}..{limits.max}"
+                )
+
+
+def targets_of(command: Command | None) -> tuple[ServoTarget, ...]:
+    return command.targets if isinstance(command, Move) else ()
+
+
+ReadFacts = Callable[[str], tuple[RobotFacts, int]]
+"""Of a robot outside the trash, with its revision. Blocks; raises a GatewayError."""
+log = logging.getLogger("servodeck.robot")
+
+
+def no_robot(_document: str) -> tuple[RobotFacts, int]:
+    """A library that holds none."""
+    raise NotFoundError("The library does not hold that.")
+
+
+class RobotOfBoard:
+    def __init__(
+        self, limits: RobotLimits, read: ReadFacts, remembered: Remembered, changed: Callable[[], None]
+    ) -> None:
+        """`changed`: it is another one now, or any robot of the library is."""
+        self._limits = limits
+        self._read = read
+        self._remembered = remembered
+        self._changed = changed
+        self._board: tuple[str, str] | None = None
+        self._document: str | None = None
+        self._revision = 0
+        self._last_told: RobotTold | None = None
+        self._reading: asyncio.Task[None] | None = None
+        self.facts: RobotFacts | None = None
+
+    def told(self) -> RobotTold | None:
+        return RobotTold(id=self._document, revision=self._revision) if self._document else None
+
+    def stands_on(self, family: str, place: str) -> None:
+        """That board is at hand: what was remembered of it holds from now on. Until the library has told its
+        limits nothing moves.
+        """
+        if (family, place) == self._board:
+            return
+        self.leave()
+        self._board = family, place
+        self._document = self._remembered.robot_on(self._key())
+        if self._document:
+            self._limits.await_them()
+            self._reading = asyncio.create_task(self._recall(self._document))
+        if self.told() != self._last_told:
+            self._tell()
+
+    def leave(self) -> None:
+        """No board is at hand. Clients hear that from the port."""
+        if self._reading:
+            self._reading.cancel()
+        self._board = self._reading = None
+        self._forget()
+
+    async def put(self, document: str, instead_of: str | None) -> None:
+        """For everybody, and remembered. Raises a ConflictError where a third one stands there,
+        NotFoundError, or OutOfRangeError for one that is built on another board.
+        """
+        board = self._board
+        self._judge(document, instead_of)
+        facts, revision = await in_thread(lambda: self._read(document))
+        if board is None or self._board != board:
+            raise ConflictError("No such board is connected any more.")
+        self._judge(document, instead_of)
+        if facts.board != board[0]:
+            raise OutOfRangeError(f"{facts.name} is built on a board {facts.board}, not {board[0]}.")
+        self._remembered.remember_robot(self._key(), document)
+        self._hold(document, revision, facts)
+        await self._remembered.kept()
+
+    def changes_limits(self, document: str, facts: RobotFacts) -> bool:
+        """Whether moves would be judged otherwise."""
+        known = self.facts
+        return document == self._document and (known is None or known.limits != facts.limits)
+
+    def written(self, document: str, revision: int, facts: RobotFacts) -> None:
+        """Answers may come in another order than the writing was done."""
+        if document == self._document and revision > self._revision:
+            self._hold(document, revision, facts)
+        else:
+            self._tell()
+
+    def removed(self, documents: list[str]) -> None:
+        if self._document in documents:
+            self._remembered.remember_robot(self._key(), None)
+            self._remembered.keep_soon()
+            self._forget()
+        self._tell()
+
+    async def _recall(self, document: str) -> None:
+        try:
+            facts, revision = await in_thread(lambda: self._read(document))
+        except GatewayError as error:
+            log.warning("robot not read", extra={"facts": {"detail": error.detail}})
+            self._forget()
+            self._tell()
+        else:
+            if self.facts is None:  # nobody has written it meanwhile
+                self._hold(document, revision, facts)
+
+    def _hold(self, document: str, revision: int, facts: RobotFacts) -> None:
+        self._document, self._revision, self.facts = document, revision, facts
+        self._limits.set(facts.limits)
+        self._tell()
+
+    def _tell(self) -> None:
+        self._last_told = self.told()
+        self._changed()
+
+    def _forget(self) -> None:
+        self._document, self._revision, self.facts = None, 0, None
+        self._limits.clear()
+
+    def _judge(self, document: str, instead_of: str | None) -> None:
+        if self._document not in (document, instead_of):
+            raise ConflictError("Another robot was put on this board meanwhile.")
+
+    def _key(self) -> str:
+        assert self._board
+        return " ".join(self._board)
+
+
+class RecalledBoard:
+    def __init__(self, remembered: Remembered, *, is_wanted: bool) -> None:
+        """Not wanted where an option has said it."""
+        self._remembered = remembered
+        self.is_wanted = is_wanted
+
+    def port_opened(self, board: Board) -> None:
+        known = self._remembered.board_at(board.link.place)
+        if self.is_wanted and board.identification.claim is UNKNOWN and known in FAMILIES:
+            board.recall(known)
+
+    def said(self, board: Board) -> None:
+        """Somebody has. What the board's answers contradict is not kept; a simulated one is what its starter
+        says, each time anew.
+        """
+        family, status = board.identification.claim, board.identification.state.status
+        is_contradicted = status == "refused" and family is not UNKNOWN
+        if board.port.status in ("open", "lost") and not board.port.simulated and not is_contradicted:
+            self._remembered.remember_board(board.link.place, None if family is UNKNOWN else family.id)
+            self._remembered.keep_soon()

@@ -1,1 +1,0 @@
-"""The gateway as a process: put together, started, watched and ended."""
