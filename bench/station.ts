@@ -105,14 +105,14 @@ export async function openDashboard(page: Page, url: string): Promise<void> {
   await page.getByRole('slider').first().waitFor();
 }
 
-/** Its address, once it has said it and opened its port. */
+/** Its address, once it has said it, opened its port and asked the board who it is: before that nobody may name the board. */
 async function openedGateway(lines: readonly string[]): Promise<string> {
   const urlIn = (line: string): string | undefined => /http:\/\/[^\s/]+/.exec(line)?.[0];
   const url = await eventually('the gateway to start', () => lines.map(urlIn).find(Boolean));
-  return eventually('the gateway to open its port', async () => {
+  return eventually('the gateway to know what the board answers', async () => {
     const response = await fetch(`${url}/api/status`);
-    const status = (await response.json()) as { port: { status: string } };
-    return status.port.status === 'open' ? url : undefined;
+    const { port, link } = (await response.json()) as { port: { status: string }; link: { status: string } };
+    return port.status === 'open' && link.status !== 'identifying' ? url : undefined;
   });
 }
 
