@@ -20,6 +20,8 @@ from pathlib import Path
 from websockets.asyncio.client import ClientConnection, connect
 
 SERVOS = 6
+# Moves count up from 0.
+BOARD_ID = 2**53 - 1
 PERIOD_S = 0.05
 JOIN_AT_ONCE = 20
 # Between Resume and the next press: at any moment of the driver's.
@@ -44,7 +46,7 @@ class Driver:
         self.moving: asyncio.Task[None] | None = None
 
     async def begin(self) -> None:
-        await self._say(type="board", board="doc")
+        await self._say(type="board", id=BOARD_ID, board="doc")
         await self._say(type="lease", action="request")
         await self.drives.wait()
         self.moving = asyncio.create_task(self._move())
@@ -64,6 +66,9 @@ class Driver:
                 self._nonce = message["nonce"]
                 await self._say(type="beat", nonce=self._nonce)
                 self.drives.set()
+            if message["type"] == "refused" and message["id"] == BOARD_ID:
+                sys.stderr.write(message["detail"])
+                os._exit(1)
 
     async def _say(self, **message: object) -> None:
         await self._client.send(json.dumps(message))

@@ -12,7 +12,7 @@ import { mainThreadOf, type MainThread } from './mainThread.ts';
 import { openDashboard, withBoard, withPage } from './station.ts';
 import { median } from './statistics.ts';
 
-const GROUPS = amount(504, 60);
+const GROUPS = amount(504, 40);
 const SERVOS = 16;
 const FRAMES = 56;
 const REPEATS = amount(3, 1);

@@ -16,6 +16,7 @@ const READY_MS = 10_000;
 const POLL_MS = 20;
 const folders: string[] = [];
 let boards = 0;
+let browser: Promise<Browser> | undefined;
 
 export interface BoardOnPort {
   readonly device: string;
@@ -82,19 +83,18 @@ export async function withGateway<Result>(
   }
 }
 
-/** Lends `work` an empty page of a browser too. */
+/** Lends `work` an empty page too, with memory, cache and renderer of its own; the browser serves all groups. */
 export async function withPage<Result>(
   device: string,
   work: (page: Page, url: string) => Promise<Result>,
 ): Promise<Result> {
-  const browser = await startBrowser();
+  browser ??= startBrowser();
+  // Pages of this computer may always speak to it; one whose headers a measurement changed has to be allowed.
+  const page = await (await browser).newPage({ permissions: ['local-network-access'] });
   try {
-    return await withGateway(device, async (url) =>
-      // Pages of this computer may always speak to it; one whose headers a measurement changed has to be allowed.
-      work(await browser.newPage({ permissions: ['local-network-access'] }), url),
-    );
+    return await withGateway(device, (url) => work(page, url));
   } finally {
-    await browser.close();
+    await page.context().close();
   }
 }
 

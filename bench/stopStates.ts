@@ -13,17 +13,17 @@ import { stopFigures, stopTimes, type StopTimes } from './presses.ts';
 import { withPresser, type Presser } from './presser.ts';
 import { withBoard, withGateway } from './station.ts';
 
-const PRESSES = amount(50, 5);
+const PRESSES = amount(50, 3);
 const STOPS_PER_PRESS = 3;
 const SLOT = 8;
 /** A download that was stopped has the next one wait 2.5 s; several robots at once take the time of one. */
-const ROBOTS = 5;
+const ROBOTS = amount(5, 3);
 /** Some ten seconds of frames, far more than until it is stopped. */
 const FRAMES = Array.from({ length: 200 }, () => ({ durationMs: 500, positions: { 1: 1_500, 2: 1_500 } }));
 /** The gateway knows by the clock that the last stop has left; the board may have it a moment later. */
 const BOARD_LAG_MS = 500;
 const FLOODERS = 10;
-const FLOOD_SETTLES_MS = 2_000;
+const FLOOD_SETTLES_MS = amount(2_000, 1_000);
 
 interface Robot {
   readonly presser: Presser;

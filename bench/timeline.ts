@@ -18,7 +18,7 @@ import { median } from './statistics.ts';
 const FRAMES = 255;
 const SERVOS = 32;
 const SEED = 255;
-const RUNS = amount(15, 3);
+const RUNS = amount(15, 1);
 const EDIT_LIMIT_MS = 2;
 
 type Edit = (group: ActionGroup) => ActionGroup;
