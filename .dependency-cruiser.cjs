@@ -1,4 +1,4 @@
-// The layer rule: codec < motion < session < stores < panels < App, with documents and the simulator beside the session.
+// The layer rule: codec < motion < session < robot < features < app, with documents and the simulator beside the session.
 // Types count as imports. Say a change of this file in docs/adr/.
 
 // A rig or a board under test exists for tests, measurements and replays of saved logs.
@@ -80,38 +80,50 @@ module.exports = {
     ),
 
     forbid(
-      'only-connect-picks-a-transport',
-      'Panels, stores and widgets do not know which way leads to the board.',
-      { path: page, pathNot: `${page}(transports|connect)/` },
+      'only-robot-picks-a-transport',
+      'Features, state and widgets do not know which way leads to the board.',
+      { path: page, pathNot: `${page}(transports|robot|app)/` },
       { path: `${page}transports/` },
     ),
     forbid(
       'transports-know-no-page',
       'A transport carries bytes.',
       { path: `${page}transports/` },
-      { path: page, pathNot: `${page}(transports|gateway)/` },
+      { path: page, pathNot: `${page}(transports/|robot/request[.]ts$)` },
     ),
     forbid(
-      'keepers-know-no-page',
-      'A keeper keeps texts.',
-      { path: `${page}keepers/`, pathNot: test },
-      { path: page, pathNot: `${page}(keepers|gateway)/` },
+      'robot-knows-no-feature',
+      'The robot is below everything that drives it.',
+      { path: `${page}robot/`, pathNot: test },
+      {
+        path: page,
+        pathNot: `${page}((robot|transports|state|ui|i18n)/|features/(drive/servoView|profiles/robots)[.]ts$)`,
+      },
     ),
     forbid(
       'gateway-requests-know-nothing',
       'A request of the gateway is made by those who know what it is for.',
-      { path: `${page}gateway/` },
-      { pathNot: `${page}gateway/` },
+      { path: `${page}robot/request[.]ts$` },
+      { pathNot: `${page}robot/request[.]ts$` },
     ),
     forbid(
-      'stores-know-no-panel',
-      'Stores hold what is; panels show it.',
-      { path: `${page}stores/`, pathNot: test },
-      { path: page, pathNot: `${page}(stores|i18n)/` },
+      'state-knows-no-feature',
+      'State is what every part builds its own from: notices, undo, stored texts.',
+      { path: `${page}state/` },
+      { path: page, pathNot: `${page}(state|i18n)/` },
+    ),
+    forbid(
+      'document-storage-knows-no-page',
+      'Where documents are stored, nobody knows what they are for.',
+      { path: `${page}features/library/\\w+Keeper[.]ts$` },
+      {
+        path: page,
+        pathNot: `${page}(features/library/(\\w+Keeper|library[.]generated)[.]ts$|robot/request[.]ts$)`,
+      },
     ),
     forbid(
       'ui-knows-no-robot',
-      'Shared widgets know neither stores nor panels.',
+      'Shared widgets know neither state nor features.',
       { path: `${page}ui/` },
       { path: page, pathNot: `${page}(ui|i18n)/` },
     ),
@@ -122,10 +134,10 @@ module.exports = {
       { path: page, pathNot: `${page}i18n/` },
     ),
     forbid(
-      'panels-know-no-app',
-      'App puts panels together; a panel never looks back.',
-      { path: `${page}[^/]+/`, pathNot: `${page}gallery/` },
-      { path: `${page}(App|main|gallery)[.]tsx?$` },
+      'features-know-no-app',
+      'App puts features together; a feature never looks back.',
+      { path: page, pathNot: `${page}app/` },
+      { path: `${page}app/` },
     ),
     forbid(
       'page-uses-page-and-shared',

@@ -6,7 +6,7 @@ import { join } from 'node:path';
 import type { Page } from '@playwright/test';
 import startSqlite from 'sql.js';
 import { mixedFiles } from '#shared/testing/mixedFilesUnderTest.ts';
-import { fileMeans } from '../frontend/src/files/means.ts';
+import { fileMeans } from '../frontend/src/features/library/files/means.ts';
 import { amount } from './amounts.ts';
 import type { Figure } from './figure.ts';
 import { mainThreadOf } from './mainThread.ts';

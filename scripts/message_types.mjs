@@ -9,8 +9,8 @@ import { readTree, typesText } from './words.mjs';
 
 const TARGETS = [
   { module: 'events', target: 'frontend/src/transports/messages.generated.ts' },
-  { module: 'library.library_messages', target: 'frontend/src/keepers/library.generated.ts' },
-  { module: 'api.people_messages', target: 'frontend/src/stores/people/people.generated.ts' },
+  { module: 'library.library_messages', target: 'frontend/src/features/library/library.generated.ts' },
+  { module: 'api.people_messages', target: 'frontend/src/robot/people.generated.ts' },
 ];
 
 /** @param {string} module @returns {Promise<string>} */

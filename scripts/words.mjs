@@ -292,7 +292,7 @@ export function firstKeys() {
   /** @type {Set<string>} */
   const found = new Set();
   for (const file of readdirSync(SOURCES, { recursive: true, encoding: 'utf8' })) {
-    if (!/\.tsx?$/u.test(file) || /\.test\.tsx?$|^gallery\b/u.test(file)) continue;
+    if (!/\.tsx?$/u.test(file) || /\.test\.tsx?$|^app.gallery\b/u.test(file)) continue;
     const text = readFileSync(path.join(SOURCES, file), 'utf8');
     if (READS_FIRST.test(text)) for (const key of keysIn(text, file)) found.add(key);
   }

@@ -182,10 +182,12 @@ describe('the first load', () => {
   }
 
   test('does not bring what only later parts say', () => {
-    const first = comesWith('main.tsx');
+    const first = comesWith(join('app', 'main.tsx'));
     expect(first).toContain(join('i18n', 'words.ts'));
     expect(first).not.toContain(join('i18n', 'whole.ts'));
-    expect(comesWith(join('files', 'FilesContent.tsx'))).toContain(join('i18n', 'whole.ts'));
+    expect(comesWith(join('features', 'library', 'files', 'FilesContent.tsx'))).toContain(
+      join('i18n', 'whole.ts'),
+    );
   });
 
   test('says less than half of all', () => {

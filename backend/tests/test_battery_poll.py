@@ -1,6 +1,6 @@
 """The battery that the gateway asks for once for everybody: when, and what clients are told of it. Real
 simulated boards, virtual time; the page does the same on a link of its own:
-frontend/src/stores/battery/batteryPoll.test.ts.
+frontend/src/features/battery/batteryPoll.test.ts.
 """
 
 import asyncio

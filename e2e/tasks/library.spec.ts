@@ -129,7 +129,7 @@ test.describe('the contract', () => {
   test('a gateway keeps what a browser keeps, in the same way', async ({ newGateway, page }) => {
     const gateway = await newGateway();
     await page.addInitScript({
-      content: await bundle('frontend/src/keepers/gatewayKeeperUnderTest.ts', 'keepers'),
+      content: await bundle('frontend/src/features/library/gatewayKeeperUnderTest.ts', 'keepers'),
     });
     await page.goto(`${gateway.url}/docs`);
     const outcomes = await page.evaluate(() => (window as unknown as CheckWindow).checkKeeper());

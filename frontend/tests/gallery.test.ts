@@ -4,7 +4,7 @@
 
 import * as chosen from '../../e2e/fixtures/chosen.ts';
 import * as gallery from '../../e2e/fixtures/gallery.ts';
-import { DASHBOARDS } from '../src/gallery/DashboardSpecimens.tsx';
+import { DASHBOARDS } from '../src/app/gallery/DashboardSpecimens.tsx';
 import type { Page } from './harness/page.ts';
 import { isExhaustive, looks, objections } from './harness/sound.ts';
 import { expect, here, test } from './harness/test.ts';

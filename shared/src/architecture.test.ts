@@ -8,7 +8,7 @@ import families from '../protocol/families.json' with { type: 'json' };
 
 const root = resolve(import.meta.dirname, '../..');
 
-/** A part knows itself and what is listed. Folders not named here are panels. */
+/** A part knows itself and what is listed. `features` and `app` are not named here. */
 const mayKnow: Record<string, readonly string[]> = {
   'shared/clock': [],
   'shared/codec': [],
@@ -21,10 +21,16 @@ const mayKnow: Record<string, readonly string[]> = {
   'shared/simulator': ['shared/codec', 'shared/clock'],
   'frontend/i18n': ['shared'],
   'frontend/ui': ['frontend/i18n'],
-  'frontend/gateway': [],
-  'frontend/transports': ['frontend/gateway', 'shared'],
-  'frontend/keepers': ['frontend/gateway', 'shared'],
-  'frontend/stores': ['frontend/i18n', 'shared'],
+  'frontend/state': ['frontend/i18n', 'shared'],
+  'frontend/transports': ['frontend/robot', 'shared'],
+  'frontend/robot': [
+    'frontend/features',
+    'frontend/transports',
+    'frontend/state',
+    'frontend/ui',
+    'frontend/i18n',
+    'shared',
+  ],
 };
 const importStatement =
   /^(?:import|export)\s[^;'=]*?from\s+'([^']+)'|^import\s+'([^']+)'|\bimport\('([^']+)'\)/gm;
@@ -89,11 +95,11 @@ test('shared code imports nothing from outside shared but valibot, which is as p
   expect(strangers).toEqual([]);
 });
 
-test('only connect knows the transports', () => {
+test('only robot and app know the transports', () => {
   const users = sourcesOf('frontend').filter((file) =>
     importsOf(file).some((imported) => partOf(imported) === 'frontend/transports'),
   );
-  expect(users.map(partOf).filter((part) => !/^frontend\/(transports|connect)$/.test(part))).toEqual([]);
+  expect(users.map(partOf).filter((part) => !/^frontend\/(transports|robot|app)$/.test(part))).toEqual([]);
 });
 
 test('no `if` asks which family a board is of: what it would know is a field of shared/protocol/families.json', () => {

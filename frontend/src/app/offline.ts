@@ -2,8 +2,8 @@
 
 import { messageSW, Workbox } from 'workbox-window';
 import { words } from '../i18n/whole.ts';
-import type { Device } from '../stores/device/device.ts';
-import type { Notices } from '../stores/notices.ts';
+import type { Device } from '../robot/device.ts';
+import type { Notices } from '../state/notices.ts';
 
 const LOOK_AGAIN_MS = 60 * 60_000;
 

@@ -1,7 +1,7 @@
 // The gateway's HTTP interface for a link: every failure is a LinkError. Knows no route.
 
 import { isLinkErrorCode, LinkError } from '#shared/session/linkError.ts';
-import { GatewayProblem, request, type Asking } from '../gateway/request.ts';
+import { GatewayProblem, request, type Asking } from '../robot/request.ts';
 
 /** Rejects where nobody answers in time, and with what the gateway says it refuses for. */
 export async function askGateway(path: string, asking: Asking): Promise<unknown> {

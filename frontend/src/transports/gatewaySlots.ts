@@ -5,7 +5,7 @@ import { fingerprintOf } from '#shared/group/fingerprint.ts';
 import { LinkError } from '#shared/session/linkError.ts';
 import { DOWNLOAD_PORTION_BYTES } from '#shared/session/timings.ts';
 import type { SharedSlots, SlotGroup, SlotVersions } from '#shared/session/transport.ts';
-import { isRecord } from '../gateway/request.ts';
+import { isRecord } from '../robot/request.ts';
 import { askGateway, refusal } from './gatewayHttp.ts';
 import { frameBody } from './gatewayWords.ts';
 import type { JobState, StateMessage } from './messages.generated.ts';

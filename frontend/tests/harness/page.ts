@@ -4,10 +4,10 @@
 import { createElement, StrictMode, type ReactNode } from 'react';
 import { createRoot, type Root } from 'react-dom/client';
 import { commands, page as tester } from 'vitest/browser';
-import { App } from '../../src/App.tsx';
-import { arrive } from '../../src/connect/arrival.ts';
-import { openPage } from '../../src/connect/page.ts';
-import { Gallery } from '../../src/gallery/Gallery.tsx';
+import { App } from '../../src/app/App.tsx';
+import { arrive } from '../../src/app/arrival.ts';
+import { openPage } from '../../src/app/page.ts';
+import { Gallery } from '../../src/app/gallery/Gallery.tsx';
 import { fetchRest } from '../../src/ui/later.tsx';
 import { preferredLanguage, speak } from '../../src/i18n/words.ts';
 import type { Media, Screen } from './commands.ts';

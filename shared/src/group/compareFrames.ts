@@ -1,7 +1,7 @@
 // What is different between two groups as a board has them: length, and the first frame that is not the same. Pure.
 
 import type { Frame } from '../codec/commands.ts';
-import { totalDurationMs } from '../group/group.ts';
+import { totalDurationMs } from './group.ts';
 
 export interface FramesComparison {
   readonly isSame: boolean;

@@ -3,7 +3,7 @@
 
 import type { Range } from '../codec/families.ts';
 import { isLiveSlot } from '../codec/slotMeanings.ts';
-import type { ActionGroup } from '../group/group.ts';
+import type { ActionGroup } from './group.ts';
 import type { SlotBook, VersionsTold } from './slotBook.ts';
 
 export interface KnownSlots {

@@ -3,7 +3,7 @@
 
 import * as v from 'valibot';
 import type { Frame } from '../codec/commands.ts';
-import { GROUP_NAME_LENGTH } from '../group/group.ts';
+import { GROUP_NAME_LENGTH } from './group.ts';
 import { readVersioned, type Read } from '../document/versionedText.ts';
 import { whole } from '../document/schemas.ts';
 

@@ -1,0 +1,241 @@
+// Puts the panels together for the window at hand: side by side on a desktop, stacked on a tablet, one at a time on a
+// phone. STOP stands outside of all of them.
+
+import { useEffect, useLayoutEffect, useRef, type UIEvent } from 'react';
+import { I18nProvider } from 'react-aria-components/I18nProvider';
+import { useStore } from 'zustand';
+import { CaptureStrip } from '../features/animate/frames/CaptureStrip.tsx';
+import { useUndoKeys } from '../features/undo/useUndoKeys.ts';
+import { useBatteryTab } from '../features/battery/useBatteryTab.ts';
+import { motionsInFrame } from '../features/picture/motionInFrame.ts';
+import { BoardPanel } from '../features/board/BoardPanel.tsx';
+import { ConnectDialog } from '../features/connect/ConnectDialog.tsx';
+import type { Page } from './page.ts';
+import { LogDrawer } from '../features/log/LogDrawer.tsx';
+import { LogPanel } from '../features/log/LaterLogPanel.tsx';
+import { Messages } from '../features/log/Messages.tsx';
+import { FilesDesk } from '../features/library/files/FilesArea.tsx';
+import { LibraryDialog } from '../features/library/LibraryDialog.tsx';
+import { PeopleDialog } from '../features/people/PeopleDialog.tsx';
+import { TakeThat } from '../features/animate/play/TakeThat.tsx';
+import { RobotDialog } from '../features/profiles/RobotDialog.tsx';
+import { Authoring } from './Authoring.tsx';
+import { ReplaceQuestion } from '../features/board/slots/ReplaceQuestion.tsx';
+import { LivePanel } from '../features/drive/LivePanel.tsx';
+import { StopButton } from '../features/drive/StopButton.tsx';
+import { StoresContext, useStores, useView } from '../features/stores.ts';
+import type { Undoable } from '../state/undoable.ts';
+import type { Tab as TabName, Theme } from '../features/view.ts';
+import { TopBar } from './TopBar.tsx';
+import { Hints } from '../ui/Hints.tsx';
+import type { IconName } from '../ui/Icon.tsx';
+import { fetchRest, laterComponent } from '../ui/later.tsx';
+import { TabList, tabPanel } from '../ui/TabList.tsx';
+import { useEachFrame } from '../ui/useEachFrame.ts';
+import { useFocusKept } from '../ui/useFocusKept.ts';
+import { useLayout } from '../ui/useLayout.ts';
+import { useNoPasteByMouse } from '../ui/useNoPasteByMouse.ts';
+import { useParts } from '../ui/useParts.ts';
+import { useSpokenLocale } from '../ui/useSpokenLocale.ts';
+import { words } from '../i18n/words.ts';
+import styles from './App.module.css';
+
+const ButtonsPage = laterComponent(
+  async () => (await import('../features/buttons/ButtonsPage.tsx')).ButtonsPage,
+  '100%',
+);
+const BatteryPanel = laterComponent(
+  async () => (await import('../features/battery/BatteryPanel.tsx')).BatteryPanel,
+  '200px',
+);
+const Kiosk = laterComponent(async () => (await import('./Kiosk.tsx')).Kiosk, '100%');
+
+export function App({ page }: { readonly page: Page }) {
+  const locale = useSpokenLocale();
+  return (
+    <I18nProvider locale={locale}>
+      <StoresContext value={page.stores}>
+        <FilesDesk>
+          <Dashboard page={page} />
+        </FilesDesk>
+      </StoresContext>
+    </I18nProvider>
+  );
+}
+
+function Dashboard({ page }: { readonly page: Page }) {
+  const layout = useLayout();
+  const { notices } = useStores();
+  const isKiosk = useView((state) => state.kiosk === 'on');
+  const moveHere = (): void => void page.connector.moveHere().catch(notices.tellError);
+  return (
+    <div className={styles.app} data-layout={layout}>
+      <Unseen />
+      {!isKiosk && <TopBar onMoveHere={moveHere} />}
+      <StopButton />
+      {isKiosk ? <Kiosk onMoveHere={moveHere} /> : layout === 'phone' ? <PhoneWork /> : <DeskWork />}
+      <Said />
+      <ConnectDialog connector={page.connector} />
+      <RobotDialog />
+      <LibraryDialog />
+      <ReplaceQuestion />
+      {!isKiosk && <TakeThatKey />}
+      <PeopleDialog />
+      <Hints />
+    </div>
+  );
+}
+
+/** What goes on whatever is shown. On its own: all below whoever listens to something is drawn again when that changes. */
+function Unseen() {
+  const { device, pad, playback } = useStores();
+  useTheme();
+  useBatteryTab();
+  useUndoKeys(useWritten());
+  useFocusKept();
+  useNoPasteByMouse();
+  useParts();
+  useEffect(() => void fetchRest(whenIdle), []);
+  useEachFrame(() => {
+    device.refresh(motionsInFrame(device));
+    pad.frame();
+    playback.frame();
+  });
+  return null;
+}
+
+const REST_MS = 400;
+
+/** Not every browser says when it has nothing to do. */
+const whenIdle = (): Promise<void> =>
+  new Promise((resolve) => {
+    setTimeout(
+      () => ('requestIdleCallback' in window ? requestIdleCallback(() => resolve()) : resolve()),
+      REST_MS,
+    );
+  });
+
+/** What the undo keys are about: what is written on now. */
+function useWritten(): Pick<Undoable<unknown>, 'undo' | 'redo'> | null {
+  const { document: group, poses, macros, mappings } = useStores();
+  return useView(({ kiosk, tab, authoring }) => {
+    if (kiosk === 'on') return null;
+    if (tab === 'buttons') return macros;
+    return { group, poses: poses.book, pad: mappings }[authoring];
+  });
+}
+
+/** On the page of buttons letters start buttons. */
+function TakeThatKey() {
+  return useView((state) => state.tab !== 'buttons') ? <TakeThat /> : null;
+}
+
+function DeskWork() {
+  const isButtons = useView((state) => state.tab === 'buttons');
+  if (isButtons) {
+    return (
+      <>
+        <main className={styles.page}>
+          <ButtonsPage />
+        </main>
+        <Messages />
+      </>
+    );
+  }
+  return (
+    <>
+      <main className={styles.desk}>
+        <div className={styles.live}>
+          <LivePanel />
+        </div>
+        <div className={styles.authoring} data-column>
+          <div className={styles.work}>
+            <Authoring />
+          </div>
+          <div className={styles.boardRow}>
+            <BoardPanel isSpread />
+            <BatteryPanel />
+          </div>
+        </div>
+      </main>
+      <div className={styles.foot}>
+        <LogDrawer />
+        <Messages />
+      </div>
+    </>
+  );
+}
+
+const TABS: readonly { readonly id: TabName; readonly icon: IconName }[] = [
+  { id: 'live', icon: 'live' },
+  { id: 'actions', icon: 'frames' },
+  { id: 'board', icon: 'board' },
+  { id: 'log', icon: 'log' },
+  { id: 'buttons', icon: 'buttons' },
+];
+
+function PhoneWork() {
+  const { view } = useStores();
+  const tab = useView((state) => state.tab);
+  return (
+    <div className={styles.tabs}>
+      <nav className={styles.tabBar} aria-label={words.tabList}>
+        <TabList
+          label={words.tabList}
+          tabs={TABS.map((one) => ({ ...one, name: words.tabs[one.id] }))}
+          chosen={tab}
+          onChoose={(id) => view.setState({ tab: id })}
+        />
+      </nav>
+      {tab === 'live' && <CaptureStrip />}
+      <Messages />
+      <main {...useOwnPlace(tab)} className={styles.phone}>
+        <div key={tab} {...tabPanel(tab)} className={styles.tabPanel}>
+          <PhonePanel tab={tab} />
+        </div>
+      </main>
+    </div>
+  );
+}
+
+function PhonePanel({ tab }: { readonly tab: TabName }) {
+  if (tab === 'live') return <LivePanel />;
+  if (tab === 'actions') return <Authoring />;
+  if (tab === 'log') return <LogPanel />;
+  if (tab === 'buttons') return <ButtonsPage />;
+  return (
+    <>
+      <BoardPanel />
+      <BatteryPanel />
+    </>
+  );
+}
+
+/** Each tab is found as far down as it was left, a new one at its top. */
+function useOwnPlace(tab: TabName) {
+  const ref = useRef<HTMLElement>(null);
+  const places = useRef(new Map<TabName, number>());
+  useLayoutEffect(() => {
+    if (ref.current !== null) ref.current.scrollTop = places.current.get(tab) ?? 0;
+  }, [tab]);
+  const onScroll = (event: UIEvent<HTMLElement>): void =>
+    void places.current.set(tab, event.currentTarget.scrollTop);
+  return { ref, onScroll };
+}
+
+function Said() {
+  const said = useStore(useStores().notices.said);
+  return (
+    <p className={styles.said} role="status">
+      {said}
+    </p>
+  );
+}
+
+function useTheme(): void {
+  const theme: Theme = useView((state) => state.theme);
+  useEffect(() => {
+    if (theme === 'system') delete document.documentElement.dataset.theme;
+    else document.documentElement.dataset.theme = theme;
+  }, [theme]);
+}

@@ -1,0 +1,93 @@
+// The slim bar: which robot, how it is linked, what goes on, the battery. The right end is kept free for STOP.
+
+import { useStore } from 'zustand';
+import { nameOf } from '../robot/boards.ts';
+import { useDevice, useStores, useView } from '../features/stores.ts';
+import type { Theme } from '../features/view.ts';
+import { RobotButton } from '../features/profiles/RobotButton.tsx';
+import { BatteryReadout } from '../features/battery/BatteryReadout.tsx';
+import { IconButton } from '../ui/Button.tsx';
+import type { IconName } from '../ui/Icon.tsx';
+import { PeopleButton } from '../features/people/PeopleDialog.tsx';
+import { PageSwitch } from '../features/buttons/PageSwitch.tsx';
+import { boardName } from '../i18n/sentences/boards.ts';
+import { words } from '../i18n/words.ts';
+import { LanguageControl } from './LanguageControl.tsx';
+import { LinkChip } from '../features/connect/LinkChip.tsx';
+import { StatusLine, type StatusLineProps } from '../features/connect/StatusLine.tsx';
+import { PART } from '../ui/useParts.ts';
+import styles from './TopBar.module.css';
+
+export function TopBar({ onMoveHere }: Pick<StatusLineProps, 'onMoveHere'>) {
+  const isShared = useDevice((state) => state.way?.kind === 'gateway');
+  return (
+    <header {...PART} className={styles.bar} data-shared={isShared} aria-label={words.regions.top}>
+      <h1 className={styles.product}>
+        <Sign />
+        <span className={styles.productName}>{words.product}</span>
+      </h1>
+      <Robot />
+      <StatusLine className={styles.status} onMoveHere={onMoveHere} />
+      <div className={styles.pages}>
+        <PageSwitch />
+      </div>
+      <BatteryReadout />
+      <div className={styles.looks}>
+        <PeopleButton />
+        <LanguageControl />
+        <ThemeButton />
+      </div>
+    </header>
+  );
+}
+
+/** The product's sign: a servo horn on its scale. */
+function Sign() {
+  return (
+    <svg className={styles.sign} viewBox="0 0 32 32" aria-hidden="true" focusable="false">
+      <path className={styles.signScale} d="M6.5 23.5A12 12 0 1 1 25.5 23.5" />
+      <path
+        className={styles.signHorn}
+        d="M13.2 17.6L21.6 6.6a1.6 1.6 0 0 1 2.8 1.6l-5.6 12.6a3.4 3.4 0 1 1-5.6-3.2z"
+      />
+    </svg>
+  );
+}
+
+function Robot() {
+  const { boards } = useStores();
+  const way = useDevice((state) => state.way);
+  const family = useDevice((state) => state.family);
+  const nickname = useStore(boards.store, (all) => (way === null ? '' : all[nameOf(way)]?.nickname)) ?? '';
+  const name = way === null ? words.link.noBoard : way.isSimulated ? '' : nickname || boardName(family);
+  return (
+    <div className={styles.robot}>
+      <RobotButton />
+      {name !== '' && <span className={styles.robotName}>{name}</span>}
+      <LinkChip />
+    </div>
+  );
+}
+
+const THEME_ICONS: Readonly<Record<Theme, IconName>> = { system: 'half', light: 'sun', dark: 'moon' };
+
+/** The first press changes what is seen: away from what the system has, then to it, then back to following it. */
+function nextTheme(theme: Theme): Theme {
+  const system = matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light';
+  if (theme === system) return 'system';
+  return theme === 'system' ? OTHER[system] : system;
+}
+
+const OTHER = { light: 'dark', dark: 'light' } as const;
+
+function ThemeButton() {
+  const { view } = useStores();
+  const theme = useView((state) => state.theme);
+  return (
+    <IconButton
+      icon={THEME_ICONS[theme]}
+      label={words.theme.now({ theme: words.theme[theme] })}
+      onPress={() => view.setState({ theme: nextTheme(theme) })}
+    />
+  );
+}

@@ -1,0 +1,136 @@
+// Coming in and letting in, in each state: a stranger's card, the stop-only page, and what an owner sees.
+
+import type { ReactNode } from 'react';
+import { NameCard } from '../../features/people/NameCard.tsx';
+import { OwnView } from '../../features/people/OwnView.tsx';
+import { PairCard } from '../../features/people/PairCard.tsx';
+import { PeopleView } from '../../features/people/PeopleView.tsx';
+import { StopFace, type StopOutcome } from '../../features/people/StopPage.tsx';
+import { PeopleError, type PeopleState } from '../../features/people/people.ts';
+import type { Exhibit } from './exhibit.ts';
+
+/** No QR code that anybody could use. */
+const PICTURE =
+  'data:image/svg+xml,%3Csvg xmlns=%22http://www.w3.org/2000/svg%22 viewBox=%220 0 7 7%22%3E%3Cpath d=%22M1 1h2v2H1zM4 1h2v2H4zM1 4h2v2H1zM5 5h1v1H5z%22/%3E%3C/svg%3E';
+const AT_MS = 1_790_000_000_000;
+
+const EMPTY: PeopleState = {
+  me: { mode: 'lan', overheard: true, you: { id: 'anna', name: 'Anna', role: 'owner' } },
+  people: [
+    person('anna', 'Anna', 'owner', true),
+    person('ben', 'Ben, whose name is rather long for one row', 'driver', true),
+    person('dora', 'Cleo', 'driver', true),
+    person('cleo', 'iPhone', 'viewer', false),
+  ],
+  invitation: null,
+  shown: null,
+};
+
+const CASES: readonly { readonly name: string; readonly state: PeopleState }[] = [
+  { name: 'People', state: EMPTY },
+  {
+    name: 'People, invitation open',
+    state: {
+      ...EMPTY,
+      invitation: {
+        ...{ id: 'one', role: 'driver', code: '12345678', picture: PICTURE },
+        ...{ link: 'http://192.168.1.5:8300/#pair=not-a-real-one', expiresInMs: 120_000, untilMs: 120_000 },
+      },
+    },
+  },
+  {
+    name: 'People, codes spent',
+    state: {
+      ...EMPTY,
+      invitation: {
+        ...{ id: 'one', role: 'viewer', code: null, picture: PICTURE },
+        ...{ link: 'http://192.168.1.5:8300/#pair=not-a-real-one', expiresInMs: 120_000, untilMs: 120_000 },
+      },
+    },
+  },
+  {
+    name: 'People, token shown',
+    state: { ...EMPTY, shown: { kind: 'token', name: 'Script', token: 'abc123.not-a-real-one' } },
+  },
+  {
+    name: 'People, stop-only link shown',
+    state: {
+      ...EMPTY,
+      people: [
+        ...EMPTY.people,
+        { ...person('link', 'On the robot', 'stopper', false), kind: 'stopLink', lastSeenMs: null },
+      ],
+      shown: {
+        kind: 'stopLink',
+        name: 'On the robot',
+        link: 'http://192.168.1.5:8300/#stop=x',
+        picture: PICTURE,
+      },
+    },
+  },
+];
+
+function person(id: string, name: string, role: PeopleState['people'][number]['role'], here: boolean) {
+  return {
+    id,
+    kind: 'device',
+    name,
+    role,
+    here,
+    drives: id === 'ben',
+    unattendedSlot: null,
+    pairedAtMs: AT_MS,
+    lastSeenMs: AT_MS,
+  } as const;
+}
+
+const PROBLEMS: readonly (PeopleError | null)[] = [
+  null,
+  new PeopleError('failed', ''),
+  new PeopleError('locked', ''),
+];
+const OUTCOMES: readonly StopOutcome[] = ['idle', 'sending', 'sent', new PeopleError('notPaired', '')];
+
+const GUEST: PeopleState['me'] = {
+  mode: 'lan',
+  overheard: true,
+  you: { id: 'ben', name: 'Bert', role: 'driver' },
+};
+
+const nothing = (): void => undefined;
+const WISHES = {
+  ...{ sayName: nothing, invite: nothing, endInvitation: nothing, change: nothing, revoke: nothing },
+  ...{ makeToken: nothing, makeStopLink: nothing, closeShown: nothing },
+};
+
+const inDialog = (name: string, content: ReactNode): Exhibit => ({ name, content, isInDialog: true });
+
+export const PEOPLE: readonly Exhibit[] = [
+  ...PROBLEMS.map((problem, index) =>
+    inDialog(
+      `Pair card ${index + 1}`,
+      <PairCard problem={problem} overheard suggested="iPhone" onPair={nothing} />,
+    ),
+  ),
+  inDialog('Name card', <NameCard suggested="iPhone" problem={null} onName={nothing} />),
+  inDialog(
+    'Name card, not heard',
+    <NameCard suggested="iPhone" problem={new PeopleError('unreachable', '')} onName={nothing} />,
+  ),
+  inDialog('Your name', <OwnView me={GUEST} onRename={nothing} />),
+  ...OUTCOMES.map((outcome, index) =>
+    inDialog(`Stop only ${index + 1}`, <StopFace outcome={outcome} onPress={nothing} />),
+  ),
+  ...CASES.map(({ name, state }) =>
+    inDialog(
+      name,
+      <PeopleView
+        state={state}
+        wishes={WISHES}
+        candidates={[{ id: 'dora', name: 'Cleo' }]}
+        onHandOver={nothing}
+        now={() => 0}
+      />,
+    ),
+  ),
+];

@@ -1,0 +1,136 @@
+// What a group becomes on the board, how it is played, and the board's slots, in their states, fed by plain values.
+
+import type { ReactNode } from 'react';
+import { insertFrame, setMeta, type NewFrame } from '#shared/group/groupEdits.ts';
+import { EMPTY_SLOT_BOOK, withStored } from '#shared/group/slotBook.ts';
+import { BoardPanel } from '../../features/board/BoardPanel.tsx';
+import { PlayBar } from '../../features/animate/play/PlayBar.tsx';
+import { ReplaceContent } from '../../features/board/slots/ReplaceQuestion.tsx';
+import { SlotBoard } from '../../features/board/slots/SlotBoard.tsx';
+import { editServoView, type Stores } from '../../features/stores.ts';
+import { standing, type Exhibit } from './exhibit.ts';
+
+const frame = (durationMs: number, position: number, easing: 'linear' | 'inOut' = 'linear'): NewFrame => ({
+  ...{ durationMs, easing },
+  targets: [1, 2, 3].map((servo) => ({ servo, position: position + 100 * servo })),
+});
+
+function write({ document, compiled }: Stores, ...frames: readonly NewFrame[]): void {
+  document.edit(
+    () => 'write',
+    (group) =>
+      frames.reduce((sum, each) => insertFrame(sum, sum.frames.length, each), { ...group, name: 'Wave' }),
+  );
+  compiled.now();
+}
+
+function fill(stores: Stores): void {
+  write(stores, frame(400, 900), frame(900, 1900));
+  const { frames, fingerprint } = stores.compiled.now();
+  const stored = {
+    name: 'Wave',
+    documentId: stores.library.store.getState().openId,
+    frames,
+    fingerprint,
+    storedAtMs: 1_790_000_000_000,
+  };
+  const book = [
+    { ...stored, slot: 0, fingerprint: 'c0ffee00' },
+    { ...stored, slot: 1 },
+    { ...stored, slot: 8, name: 'Bow', documentId: 'bow', fingerprint: 'beef0000' },
+  ].reduce(withStored, EMPTY_SLOT_BOOK);
+  stores.slots.store.setState({ book: { ...book, erased: [{ ...stored, slot: 100, name: 'Dance' }] } });
+}
+
+interface Case {
+  readonly name: string;
+  readonly panel: ReactNode;
+  readonly isInDialog?: boolean;
+  prepare(stores: Stores): void;
+}
+
+const CASES: readonly Case[] = [
+  {
+    name: 'On the board, off by a little',
+    panel: <BoardPanel />,
+    prepare: (stores) => write(stores, frame(400, 900), frame(900, 1900, 'inOut')),
+  },
+  {
+    name: 'On the board, does not fit',
+    panel: <BoardPanel />,
+    prepare: (stores) => write(stores, frame(400, 300), frame(5, 1900), frame(20, 700)),
+  },
+  {
+    name: 'Going to the first pose',
+    panel: <PlayBar />,
+    prepare: ({ playback }) => playback.store.setState({ phase: 'leading' }),
+  },
+  {
+    name: 'Only on the drawing',
+    panel: <PlayBar />,
+    prepare: ({ playback }) => playback.store.setState({ phase: 'previewing' }),
+  },
+  {
+    name: 'The board gets the group first',
+    panel: <PlayBar />,
+    prepare: ({ playback }) => playback.store.setState({ phase: 'storing' }),
+  },
+  {
+    name: 'Ready to play from within',
+    panel: <PlayBar />,
+    prepare(stores) {
+      fill(stores);
+      stores.playhead.go(700);
+    },
+  },
+  {
+    name: 'Ready to play, a row muted',
+    panel: <PlayBar />,
+    prepare(stores) {
+      fill(stores);
+      editServoView(stores, (view) => ({ ...view, muted: [1] }));
+    },
+  },
+  {
+    name: 'On the board, another group in the slot',
+    panel: <BoardPanel />,
+    prepare(stores) {
+      fill(stores);
+      stores.view.setState({ slot: 8 });
+    },
+  },
+  {
+    name: 'Download, another group in the slot',
+    panel: <AnotherGroupInSlot />,
+    isInDialog: true,
+    prepare(stores) {
+      fill(stores);
+      stores.view.setState({ slot: 8 });
+    },
+  },
+  { name: 'Slots', panel: <SlotBoard />, prepare: fill },
+  {
+    name: 'Slots, several groups',
+    panel: <SlotBoard isSeveralFirst />,
+    prepare(stores) {
+      fill(stores);
+      void stores.library.add(
+        setMeta(stores.document.store.getState().present, { name: 'Greet the visitor', slot: 12 }),
+      );
+    },
+  },
+];
+
+function AnotherGroupInSlot() {
+  const conflict = { slot: 8, record: null, version: undefined, held: 'Bow', heldId: 'bow', name: 'Wave' };
+  return <ReplaceContent question={{ conflicts: [conflict], free: [21] }} />;
+}
+
+export const PLAYING: readonly Exhibit[] = CASES.map(({ name, panel, isInDialog = false, prepare }) => ({
+  ...{ name, content: panel, isInDialog },
+  stores() {
+    const stores = standing({});
+    prepare(stores);
+    return stores;
+  },
+}));

@@ -1,0 +1,232 @@
+// The states of the page as one table: what the session says, where the servos are, what is written and selected. What is left
+// out is usual: a cable, a board that is ready, servos at rest, no frame.
+
+import type { FamilyId } from '#shared/codec/families.ts';
+import { identityFrom } from '#shared/session/identity.ts';
+import { LINK_ERROR_CODES } from '#shared/session/linkError.ts';
+import type { Unheld } from '#shared/motion/haltPlan.ts';
+import type { Latch, SessionState } from '#shared/session/state.ts';
+import { INITIAL_STATE } from '#shared/session/store.ts';
+import type { Way } from '../../robot/device.ts';
+import { SERVO_SPECIMENS, type ServoSpecimen } from './servoSpecimens.ts';
+import {
+  BATTERY_TOLD,
+  codeOf,
+  DOWNLOADING,
+  DOWNLOADING_SEVERAL,
+  FEEDS,
+  lost,
+  NO_BATTERY,
+  READY,
+  refused,
+  REMOTE,
+  reported,
+  running,
+  SIMULATED,
+  TURNS,
+  UNSURE,
+  VERSION_TOLD,
+  WATCHED,
+  type BatteryFeed,
+  type Pose,
+} from './states.ts';
+
+/** The bar with what is below it, live control, the action group, board and battery, the log. */
+export type Part = 'bar' | 'live' | 'group' | 'board' | 'log';
+
+export interface Specimen {
+  readonly name: string;
+  /** Where it is unlike others; left out: everywhere. */
+  readonly shows?: readonly Part[];
+  /** Another robot than the usual one of the board. */
+  readonly robot?: ServoSpecimen;
+  readonly board?: FamilyId;
+  /** Nobody has said which board it is. */
+  readonly isUnknown?: boolean;
+  readonly nickname?: string;
+  readonly groupName?: string;
+  readonly way?: Way | null;
+  readonly state?: SessionState;
+  readonly pose?: Pose;
+  readonly frames?: number;
+  readonly selectedFrame?: number;
+  readonly feed?: BatteryFeed;
+  /** Where the board's servos were last sent, at an earlier visit. */
+  readonly lastPositions?: Readonly<Record<number, number>>;
+}
+
+type Shows = Required<Pick<Specimen, 'shows'>>;
+
+const BAR: Shows = { shows: ['bar'] };
+const DRIVEN: Shows = { shows: ['bar', 'live'] };
+const STORED: Shows = { shows: ['bar', 'board'] };
+const TOLD: Shows = { shows: ['bar', 'live', 'board'] };
+
+const LATCHED = { pose: 'moving', frames: 3, ...DRIVEN } as const;
+
+/** Why nothing moves, and what is known of the stop. */
+const latched = (
+  reason: Latch['reason'],
+  stop: Latch['stop'],
+  unheld: Unheld | null = null,
+): SessionState => ({
+  ...READY,
+  latch: { reason, by: reason === 'elsewhere' ? 'Cleo' : null, stop, unheld },
+});
+
+export const SPECIMENS: readonly Specimen[] = [
+  { name: 'Disconnected', way: null, state: INITIAL_STATE, pose: 'unknown' },
+  { name: 'Opening', state: { ...INITIAL_STATE, link: { status: 'opening' } }, pose: 'unknown', ...DRIVEN },
+  {
+    name: 'Ready, nothing known',
+    way: SIMULATED,
+    state: { ...READY, battery: { kind: 'unread' } },
+    pose: 'unknown',
+  },
+  {
+    name: 'Ready, last pose known',
+    pose: 'unknown',
+    lastPositions: { 1: 1450, 2: 1500, 3: 1950, 4: 2050, 5: 1150, 6: 1700 },
+    ...DRIVEN,
+  },
+  {
+    name: 'Starting one after another',
+    state: { ...READY, waitingToStart: [4, 5, 6] },
+    pose: 'unknown',
+    ...DRIVEN,
+  },
+  { name: 'Ready, posed', frames: 3, selectedFrame: 2 },
+  { name: 'Ready, simulated at a gateway', way: { ...REMOTE, isSimulated: true }, ...BAR },
+  {
+    name: 'Stopped, simulated at a gateway, another drives',
+    way: { ...REMOTE, isSimulated: true },
+    state: { ...latched('elsewhere', 'sent'), lease: WATCHED },
+    ...BAR,
+  },
+  { name: 'Moving', way: REMOTE, pose: 'moving', ...DRIVEN },
+  {
+    name: 'Playing from the page',
+    state: { ...READY, activity: { kind: 'playing', frameIndex: 1, frameCount: 4 } },
+    pose: 'moving',
+    frames: 4,
+    shows: ['bar', 'live', 'group'],
+  },
+  { name: 'Running, requested', way: REMOTE, state: running('requested', 2), frames: 3, ...STORED },
+  {
+    name: 'Running, acknowledged',
+    way: REMOTE,
+    state: running('acknowledged', 0),
+    pose: 'moving',
+    frames: 3,
+  },
+  { name: 'Running, unknown', way: REMOTE, state: running('unknown', 1), frames: 3, ...STORED },
+  { name: 'Downloading', state: DOWNLOADING, frames: 21, ...STORED },
+  { name: 'Erasing', state: { ...READY, activity: { kind: 'erasing' } }, frames: 2, ...STORED },
+  { name: 'Stopped, sending', state: latched('pressed', 'sending'), ...LATCHED },
+  { name: 'Stopped, sent', state: latched('pressed', 'sent'), pose: 'moving', frames: 3 },
+  { name: 'Stopped, confirmed', state: latched('pressed', 'confirmed'), ...LATCHED },
+  { name: 'Stopped, failed', state: latched('pressed', 'failed'), ...LATCHED },
+  {
+    name: 'Stopped in a first move',
+    state: latched('pressed', 'sent', { servos: [3, 5], forMs: 1_200 }),
+    ...LATCHED,
+  },
+  {
+    name: 'Stopped in a group that the board alone knows',
+    state: latched('pressed', 'sent', { servos: null, forMs: 30_000 }),
+    ...LATCHED,
+  },
+  { name: 'Stopped elsewhere', way: REMOTE, state: latched('elsewhere', 'sent'), ...DRIVEN },
+  { name: 'Stopped for the battery', state: latched('battery', 'sent'), ...LATCHED },
+  { name: 'Stopped for want of a driver', way: REMOTE, state: latched('unwatched', 'sent'), ...DRIVEN },
+  { name: 'Back after a loss', state: latched('reconnected', 'sent'), pose: 'unknown', ...DRIVEN },
+  { name: 'Lost with countdown', state: lost('lost', 3_600_000), pose: 'unknown', frames: 3 },
+  ...Object.entries(FEEDS).map(([name, feed]): Specimen => ({
+    name,
+    state: { ...READY, battery: { kind: 'read', batteryMv: feed.volts.at(-1) ?? 0, atMs: 0 } },
+    feed,
+    ...STORED,
+  })),
+  { name: 'Battery silent', state: { ...READY, battery: { kind: 'silent', lastMv: null } }, ...STORED },
+  { name: 'Broken slot', state: { ...READY, brokenSlots: [0] }, frames: 3, ...STORED },
+  { name: 'Sixteen servos', board: 'lsc-16', pose: 'moving', ...DRIVEN },
+  ...SERVO_SPECIMENS.map((specimen): Specimen => ({ pose: 'moving', frames: 3, ...specimen })),
+  { name: 'Old uHand', board: 'openarm-old', state: NO_BATTERY, frames: 3, ...TOLD },
+  { name: 'LeArm', board: 'learm-esp32', state: NO_BATTERY, frames: 2, ...TOLD },
+  {
+    name: 'Positions read',
+    board: 'xarm',
+    state: { ...READY, reported: reported([498, 512, 700, 350, 0, -3]) },
+    frames: 2,
+    ...TOLD,
+  },
+  {
+    name: 'LeArm, asked',
+    board: 'learm-esp32',
+    nickname: 'Shelf arm',
+    state: {
+      ...NO_BATTERY,
+      identity: identityFrom(VERSION_TOLD),
+      reported: reported([770, 1500, 644, 511, 1255, 1500]),
+      version: 1,
+      offsets: [1, 2, 3, 4, 5, 6].map((servo) => ({ servo, offset: servo === 2 ? -5 : 0 })),
+    },
+    frames: 2,
+    ...TOLD,
+  },
+  { name: 'Bus servos', board: 'bus-ctrl', pose: 'moving', frames: 2, ...TOLD },
+  {
+    name: 'Nicknamed',
+    nickname: 'Desk arm',
+    state: { ...READY, identity: identityFrom(BATTERY_TOLD) },
+    ...BAR,
+  },
+  {
+    name: 'Identifying',
+    isUnknown: true,
+    state: { ...INITIAL_STATE, link: { status: 'identifying' } },
+    pose: 'unknown',
+    ...TOLD,
+  },
+  ...Object.entries(UNSURE).map(([name, evidence]): Specimen => ({
+    name,
+    isUnknown: true,
+    state: { ...refused(codeOf(evidence)), identity: identityFrom(evidence), battery: { kind: 'unread' } },
+    pose: 'unknown',
+    ...BAR,
+  })),
+  {
+    name: 'Stale',
+    board: 'lsc-16',
+    state: { ...latched('reconnected', 'failed'), link: { status: 'stale', sinceMs: 0 } },
+    pose: 'unknown',
+    ...DRIVEN,
+  },
+  ...Object.entries(TURNS).map(([name, lease]): Specimen => ({
+    ...{ name, way: REMOTE, state: { ...READY, lease }, pose: 'moving', frames: 2 },
+    ...(lease.unattended === null ? DRIVEN : TOLD),
+  })),
+  {
+    name: 'Another drives, stopped',
+    way: REMOTE,
+    state: { ...latched('elsewhere', 'sent'), lease: WATCHED },
+    ...DRIVEN,
+  },
+  {
+    name: 'Another drives, downloading',
+    way: REMOTE,
+    state: { ...DOWNLOADING, lease: WATCHED, brokenSlots: [5] },
+    frames: 21,
+    ...TOLD,
+  },
+  {
+    name: 'Downloading several',
+    way: REMOTE,
+    state: { ...DOWNLOADING_SEVERAL, brokenSlots: [9] },
+    frames: 21,
+    ...STORED,
+  },
+  ...LINK_ERROR_CODES.map((code): Specimen => ({
+    ...{ name: `Error ${code}`, state: refused(code), pose: 'unknown', ...BAR },
+  })),
+];

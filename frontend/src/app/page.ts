@@ -1,0 +1,186 @@
+// Builds the page's stores with the browser's own clock and storage, and starts the first link.
+
+import type { Clock } from '#shared/clock.ts';
+import { FAMILIES } from '#shared/codec/families.ts';
+import { createAside } from '../features/animate/group/aside.ts';
+import { createBattery } from '../features/battery/battery.ts';
+import { applyBatteryPolicy } from '../features/battery/batteryPolicy.ts';
+import { pollBattery } from '../features/battery/batteryPoll.ts';
+import { createBlend } from '../features/poses/blend.ts';
+import { createBoards } from '../robot/boards.ts';
+import { createCompiled } from '../features/animate/group/compiled.ts';
+import { createDevice } from '../robot/device.ts';
+import { createDocument } from '../features/animate/group/document.ts';
+import type { TextStorage } from '../state/textStorage.ts';
+import type { Keeper } from '#shared/files/keeper.ts';
+import { watchInputs } from '../features/inputs/watchInputs.ts';
+import { followLanguage } from './language.ts';
+import { createLibrary } from '../features/library/library.ts';
+import { createLastPoses } from '../robot/lastPoses.ts';
+import { createMacroRun } from '../features/buttons/macroRun.ts';
+import { createMacros } from '../features/buttons/macros.ts';
+import { createMappings } from '../features/inputs/mappings.ts';
+import { tellHandedOver } from '../features/people/handedOver.ts';
+import { lookAfresh } from '../features/animate/timeline/freshLook.ts';
+import { createGroupPlace } from '../features/board/slots/groupPlace.ts';
+import { createMotionTape } from '../features/animate/play/motionTape.ts';
+import { createNotices } from '../state/notices.ts';
+import { createPad } from '../features/inputs/pad.ts';
+import { createPeople } from '../features/people/people.ts';
+import type { Me } from '../robot/people.generated.ts';
+import { createPlayback } from '../features/animate/play/playback.ts';
+import { createPlayhead } from '../features/animate/play/playhead.ts';
+import { createPoses } from '../features/poses/poses.ts';
+import { createTeaching } from '../features/drive/teaching.ts';
+import { createRobotKeeping } from '../features/profiles/robotKeeping.ts';
+import { followRobot } from '../features/profiles/robotOfLink.ts';
+import { createRobots } from '../features/profiles/robots.ts';
+import { findOthersGroups } from '../features/board/slots/othersGroups.ts';
+import { createReplacing } from '../features/board/slots/replacing.ts';
+import { createSlots } from '../features/board/slots/slots.ts';
+import type { Stores } from '../features/stores.ts';
+import { createTimeline } from '../features/animate/timeline/timeline.ts';
+import { createView } from '../features/view.ts';
+import { bringSelectionBack } from '../features/animate/timeline/selectionBack.ts';
+import { peopleProblem } from '../features/people/problem.ts';
+import { browserClock } from '../transports/browserClock.ts';
+import { hasGateway } from '../robot/gatewayApi.ts';
+import { beginAnewAsAnother, type Arrival } from './arrival.ts';
+import { peopleApi } from '../features/people/peopleApi.ts';
+import { putOnBoard } from '../robot/robotsApi.ts';
+import { watchLeaving } from './leaving.ts';
+import { createConnector, type Connector } from '../robot/connector.ts';
+
+/** The page's time, for whoever is no transport. */
+export const pageClock: Clock = browserClock;
+
+export interface Page {
+  readonly stores: Stores;
+  readonly connector: Connector;
+}
+
+/** `arrival` says who is here; a page without a gateway belongs to whoever opens it. */
+export async function openPage({ me, problem }: Arrival): Promise<Page> {
+  const storage = storageOf(() => window.localStorage);
+  const notices = createNotices(pageClock);
+  const view = createView({ browser: storage, tab: storageOf(() => window.sessionStorage) });
+  // Documents begin with names in the language of whoever opens the page.
+  await followLanguage({ view, notices, tags: navigator.languages });
+  const robots = createRobots(storage, notices);
+  const device = createDevice({ family: FAMILIES.doc, clock: pageClock, notices, robots });
+  const boards = createBoards(storage);
+  const battery = createBattery(device, robots);
+  const mappings = createMappings(storage, notices, robots);
+  const readPads = () => (isSecureContext ? navigator.getGamepads() : []);
+  const poses = createPoses({ storage, notices, robots, device, view });
+  const pad = createPad({ device, robots, view, poses, mappings, notices, clock: pageClock, readPads });
+  const macros = createMacros(storage, notices, robots);
+  const macroRun = createMacroRun({ device, poses, robots, notices, clock: pageClock });
+  const written = createDocument(storage, notices, pageClock);
+  const keeper = chooseKeeper(me);
+  const library = createLibrary({
+    ...{ document: written, storage, notices, robots, view, clock: pageClock },
+    ...{ keeper, epochMs: Date.now, newId },
+  });
+  const mayWrite = me?.you?.role !== 'viewer';
+  const keeping = createRobotKeeping({
+    ...{ robots, poses: poses.book, buttons: macros, pad: mappings, storage, notices, clock: pageClock },
+    ...{ keeper: mayWrite ? keeper : gatewaysKeeper(), mayWrite, epochMs: Date.now, newId },
+  });
+  const noteRobot = followRobot({ robots, keeping, notices, mayWrite, putOnBoard });
+  device.store.subscribe(({ snapshot }, before) => {
+    if (snapshot !== before.snapshot) noteRobot(snapshot);
+  });
+  const compiled = createCompiled({
+    ...{ document: written, device, robots, clock: pageClock },
+    aside: createAside(),
+  });
+  const slots = createSlots({ device, robots, notices, storage, today: Date.now });
+  const place = createGroupPlace({ document: written, opened: library.store, view, slots, device });
+  const replacing = createReplacing({ device, robots, slots, place });
+  const timeline = createTimeline();
+  const playhead = createPlayhead(timeline);
+  const playback = createPlayback({
+    ...{ device, document: written, compiled, slots, place, replacing, notices, view, playhead, robots },
+    documentId: () => library.store.getState().openId,
+  });
+  const stores = {
+    ...{ device, notices, boards, robots, battery, mappings, pad, poses, macroRun, library, view },
+    ...{ compiled, slots, place, replacing, playhead, playback, keeping },
+    blend: createBlend({ device, robots, view }),
+    teaching: createTeaching({ device, robots, notices }),
+    people: createPeople({ api: peopleApi, me, notices, now: pageClock.now }),
+    tape: createMotionTape({ device, robots, clock: pageClock }),
+    macros,
+    document: written,
+    lastPoses: createLastPoses(storage, device),
+    timeline,
+  };
+  const connector = createConnector({
+    device,
+    notices,
+    boards,
+    storage,
+    isWatched,
+    role: me?.you?.role ?? 'owner',
+    isAtGateway: me !== null,
+    robot: () => robots.current().robot,
+  });
+  if (problem !== null) notices.tell('warning', peopleProblem(problem.code, problem.message));
+  if (me?.you) beginAnewAsAnother(device.store, me.you, () => location.reload());
+  connector.start().catch(notices.tellError);
+  const paused = (): void => {
+    playback.hidden();
+    macroRun.end();
+    written.flush();
+  };
+  const left = (): void => {
+    connector.leave();
+    written.flush();
+  };
+  watchLeaving(window, { hidden: paused, left });
+  applyBatteryPolicy({ device, battery, robots, poses, notices });
+  watchInputs(window, pad);
+  tellHandedOver(device.store, notices);
+  lookAfresh({ library, view, timeline });
+  bringSelectionBack({ document: written, timeline, view });
+  findOthersGroups({ device, robots, slots, compiled, library, keeper });
+  stores.view.subscribe(({ tab, kiosk }) => {
+    if (tab === 'buttons' || kiosk === 'on') pad.drive(false);
+  });
+  pollBattery(device, isWatched);
+  window.addEventListener('focus', () => {
+    void library.refresh();
+    keeping.refresh();
+  });
+  return { stores, connector };
+}
+
+/** The gateway's, where there is one to write to: what a viewer tries out stays in the viewer's browser. */
+async function chooseKeeper(me: Me | null): Promise<Keeper> {
+  const isViewer = me?.you?.role === 'viewer';
+  const isKept = !isViewer && (me !== null || (await hasGateway(pageClock)));
+  if (isKept) return gatewaysKeeper();
+  const { createBrowserKeeper } = await import('../features/library/browserKeeper.ts');
+  return createBrowserKeeper('servodeck', Date.now);
+}
+
+/** Which of them is wanted is known only later: neither is in the first load. */
+const gatewaysKeeper = async (): Promise<Keeper> =>
+  (await import('../features/library/gatewayKeeper.ts')).gatewayKeeper;
+
+/** Not `randomUUID`, which is there only at secure addresses. */
+function newId(): string {
+  const bytes = crypto.getRandomValues(new Uint8Array(16));
+  return [...bytes].map((byte) => byte.toString(16).padStart(2, '0')).join('');
+}
+
+const isWatched = (): boolean => document.visibilityState === 'visible';
+
+/** Asking for the storage alone may throw; each access then throws instead, where it is expected. */
+function storageOf(found: () => Storage): TextStorage {
+  return {
+    getItem: (key) => found().getItem(key),
+    setItem: (key, text) => found().setItem(key, text),
+  };
+}

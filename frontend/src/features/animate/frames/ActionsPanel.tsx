@@ -1,0 +1,140 @@
+// The action group being written: its name, its keys over time, its frames, and what can be done with them. A phone shows the
+// frames first, and what begins one right below them. Edits go to the document alone; the robot moves only by Play and by loading a
+// pose.
+
+import { Fragment, useCallback } from 'react';
+import { rename } from '#shared/group/groupEdits.ts';
+import { convertGroup } from '#shared/profile/counterpart.ts';
+import { BodyPicture } from '../../picture/Body.tsx';
+import { FilesButton } from '../../library/files/FilesButton.tsx';
+import { LibraryButton } from '../../library/LibraryButton.tsx';
+import { useDocument, useGroupBoard, useKnownFamily, useStores } from '../../stores.ts';
+import { Button } from '../../../ui/Button.tsx';
+import { EmptyState } from '../../../ui/EmptyState.tsx';
+import { useIsPainted } from '../../../ui/useIsPainted.ts';
+import { useLayout } from '../../../ui/useLayout.ts';
+import { NameField } from '../../../ui/NameField.tsx';
+import type { PanelParts } from '../../../ui/Panel.tsx';
+import { PlayBar } from '../play/PlayBar.tsx';
+import { usePlayer } from '../play/usePlayer.ts';
+import { UndoTools } from '../../undo/UndoTools.tsx';
+import { words } from '../../../i18n/whole.ts';
+import { CaptureBar } from './CaptureBar.tsx';
+import { FrameStrip } from './FrameStrip.tsx';
+import { FrameTools } from './FrameTools.tsx';
+import { Timeline } from '../timeline/Timeline.tsx';
+import styles from './ActionsPanel.module.css';
+
+export const actionsParts: PanelParts = {
+  title: () => words.actions.title,
+  Note,
+  Tools,
+  Content,
+  className: styles.panel,
+};
+
+function Note() {
+  const { document } = useStores();
+  const name = useDocument(({ present }) => present.name);
+  const call = (wanted: string): void =>
+    document.edit(
+      () => words.actions.steps.rename,
+      (before) => rename(before, wanted),
+    );
+  return (
+    <span className={styles.named}>
+      <LibraryButton />
+      <NameField label={words.actions.name} name={name} onRename={call} />
+    </span>
+  );
+}
+
+function Tools() {
+  const { document } = useStores();
+  return (
+    <>
+      <FilesButton />
+      <UndoTools of={document} />
+    </>
+  );
+}
+
+function Content() {
+  const isEmpty = useDocument(({ present }) => present.frames.length === 0);
+  const player = usePlayer();
+  const isPhone = useLayout() === 'phone';
+  const isPainted = useIsPainted();
+  const play = useCallback(
+    (isPreview: boolean) => (isPreview ? player.togglePreview() : player.toggle()),
+    [player],
+  );
+  const timeline = <Timeline key="timeline" onPlay={play} />;
+  const capture = <CaptureBar key="capture" />;
+  const tools = <FrameTools key="tools" />;
+  const frames = (
+    <Fragment key="frames">
+      {isEmpty ? <Empty /> : <FrameStrip />}
+      {isPhone ? [capture, tools] : [tools, capture]}
+      <PlayBar />
+    </Fragment>
+  );
+  const inOrder = isPhone ? [frames, timeline] : [timeline, frames];
+  return (
+    <>
+      <OtherBoard />
+      {isPhone && (
+        <div className={styles.body}>
+          <BodyPicture />
+        </div>
+      )}
+      {isPainted ? inOrder : [inOrder[0], <div key="rest" className={styles.rest} />]}
+    </>
+  );
+}
+
+/** What was made for another board is drawn as it is; it can be played here once it is converted. */
+function OtherBoard() {
+  const { document, notices } = useStores();
+  const { isOther } = useGroupBoard();
+  const { unit } = useKnownFamily();
+  if (!isOther) return null;
+  const convert = (): void => {
+    const converted = convertGroup(document.store.getState().present, unit);
+    if (converted === null) notices.tell('warning', words.actions.notConverted);
+    else
+      document.edit(
+        () => words.actions.steps.convert,
+        () => converted,
+      );
+  };
+  return (
+    <div className={styles.otherBoard} role="status">
+      <p>{words.actions.otherBoard}</p>
+      <Button hint={words.actions.convertHint({ to: unit })} onPress={convert}>
+        {words.actions.convert}
+      </Button>
+    </div>
+  );
+}
+
+function Empty() {
+  return (
+    <EmptyState
+      title={words.actions.empty}
+      hint={words.actions.emptyHint}
+      sketch={<Sketch />}
+      className={styles.empty}
+    />
+  );
+}
+
+function Sketch() {
+  return (
+    <svg className={styles.sketch} viewBox="0 0 180 64" aria-hidden="true">
+      {[0, 62, 124].map((x) => (
+        <rect key={x} className={styles.slot} x={x + 1} y={1} width={54} height={62} rx={5} />
+      ))}
+      <path className={styles.stroke} d="M16 52V34l10-14M78 52V34l14-8M152 52V34l-14-10" />
+    </svg>
+  );
+}

@@ -1,0 +1,23 @@
+// The worker beside the page: each message is a group as text, and is answered with its frames as numbers.
+
+import { groupFromText } from '#shared/group/groupText.ts';
+import { numbersOf } from '#shared/group/frameNumbers.ts';
+import { workedOut, type Source, type WorkedOut } from './workedOut.ts';
+
+export interface Order {
+  readonly groupText: string;
+  readonly options: Omit<Source, 'group'>;
+}
+
+export interface Answer extends Omit<WorkedOut, 'frames'> {
+  readonly numbers: Int32Array;
+}
+
+addEventListener('message', ({ data, ports: [port] }: MessageEvent<Order>) => {
+  const { groupText, options } = data;
+  const read = groupFromText(groupText);
+  if ('problem' in read) throw new TypeError(read.problem.code);
+  const { frames, ...rest } = workedOut({ group: read.value, ...options });
+  const numbers = Int32Array.from(numbersOf(frames));
+  port?.postMessage({ ...rest, numbers } satisfies Answer, [numbers.buffer]);
+});

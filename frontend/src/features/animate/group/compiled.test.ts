@@ -1,0 +1,169 @@
+import { describe, expect, test } from 'vitest';
+import { insertFrame, setMeta } from '#shared/group/groupEdits.ts';
+import { groupFromText, groupToText } from '#shared/group/groupText.ts';
+import { createCompiled, obstacles } from './compiled.ts';
+import { createDesk } from '../../deskUnderTest.ts';
+import { workedOut, type Source } from './workedOut.ts';
+
+const frame = (position: number, easing: 'linear' | 'inOut' = 'linear') => ({
+  ...{ durationMs: 800, easing },
+  targets: [{ servo: 1, position }],
+});
+
+async function openDesk() {
+  const desk = await createDesk();
+  const state = () => desk.compiled.store.getState();
+  const add = (position: number, easing?: 'linear' | 'inOut') =>
+    desk.document.edit(
+      () => 'add',
+      (group) => insertFrame(group, group.frames.length, frame(position, easing)),
+    );
+  const setMax = (maxErrorUnits: number) =>
+    desk.document.edit(
+      () => 'error',
+      (group) => setMeta(group, { maxErrorUnits }),
+    );
+  return { ...desk, state, add, setMax };
+}
+
+describe('the group as the board gets it', () => {
+  test('is worked out when the last change is a while ago, once', async () => {
+    const { add, state, clock } = await openDesk();
+    const before = state().latest;
+    add(1000);
+    await clock.advance(200);
+    add(1500);
+    await clock.advance(200);
+    expect(state()).toMatchObject({ isFresh: false });
+    expect(state().latest).toBe(before);
+    await clock.advance(100);
+    expect(state().isFresh).toBe(true);
+    expect(state().latest.report.frameCount).toBe(2);
+  });
+
+  test('is not worked out within a gesture', async () => {
+    const { document, state, clock, add } = await openDesk();
+    add(1000);
+    await clock.advance(300);
+    document.begin(() => 'drag');
+    document.preview((group) => insertFrame(group, 1, frame(1500)));
+    await clock.advance(5000);
+    expect(state().latest.report.frameCount).toBe(1);
+    document.commit();
+    await clock.advance(300);
+    expect(state().latest.report.frameCount).toBe(2);
+  });
+
+  test('is there at once for whoever sends it', async () => {
+    const { add, compiled, state } = await openDesk();
+    add(1000);
+    expect(compiled.now().report.frameCount).toBe(1);
+    expect(state().isFresh).toBe(true);
+    expect(compiled.now()).toBe(compiled.now());
+  });
+
+  test('worked out beside the page: the last one stands until the next is there, one at a time, the newest wins', async () => {
+    const { document, device, robots, clock, add } = await openDesk();
+    const orders: { readonly source: Source; answer(): void; fail(): void }[] = [];
+    const { store, now } = createCompiled({
+      ...{ document, device, robots, clock },
+      aside: (source) =>
+        new Promise((resolve, reject) =>
+          orders.push({ source, answer: () => resolve(workedOut(source)), fail: () => reject(new Error()) }),
+        ),
+    });
+    const frames = (): readonly [number, boolean] => {
+      const { latest, isFresh } = store.getState();
+      return [latest.report.frameCount, isFresh];
+    };
+    add(1000);
+    await clock.advance(300);
+    add(1500);
+    await clock.advance(1000);
+    expect(orders).toHaveLength(1);
+    expect(frames()).toEqual([0, false]);
+    orders[0]!.answer();
+    await clock.advance(300);
+    expect(frames()).toEqual([0, false]);
+    expect(orders[1]!.source.group.frames).toHaveLength(2);
+    orders[1]!.answer();
+    await clock.advance(0);
+    expect(frames()).toEqual([2, true]);
+
+    add(1800);
+    await clock.advance(300);
+    const whole = now();
+    orders[2]!.answer();
+    await clock.advance(300);
+    expect(store.getState().latest).toBe(whole);
+
+    add(1200);
+    await clock.advance(300);
+    orders[3]!.fail();
+    await clock.advance(300);
+    expect(frames()).toEqual([4, true]);
+  });
+
+  test('needs fewer frames where a larger error may be', async () => {
+    const { add, compiled, clock, state, setMax } = await openDesk();
+    add(1000);
+    add(2000, 'inOut');
+    const exact = compiled.now().frames.length;
+    setMax(60);
+    await clock.advance(300);
+    expect(state().latest.frames.length).toBeLessThan(exact);
+    expect(state().latest.report.worst?.units).toBeGreaterThan(5);
+  });
+
+  test('how far off it may be is the group’s: undone, kept and of no other one', async () => {
+    const { add, compiled, document, device, robots, setMax } = await openDesk();
+    add(1000);
+    const { present: before } = document.store.getState();
+    setMax(60);
+    expect(compiled.now().source.maxErrorUnits).toBe(60);
+    const on = { family: device.store.getState().family, robot: robots.current().robot };
+    expect(compiled.of(before, on).source.maxErrorUnits).toBe(5);
+    const read = groupFromText(groupToText(document.store.getState().present));
+    expect(read).toMatchObject({ value: { maxErrorUnits: 60 } });
+    document.undo();
+    expect(compiled.now().source.maxErrorUnits).toBe(5);
+  });
+
+  test('of another group is worked out once for each robot, however often it is asked for', async () => {
+    const { compiled, document, device, robots } = await openDesk();
+    const { present: group } = document.store.getState();
+    const on = { family: device.store.getState().family, robot: robots.current().robot };
+    const first = compiled.of(group, on);
+    expect(compiled.of(group, { ...on })).toBe(first);
+    expect(compiled.of(group, { ...on, robot: { ...on.robot } })).not.toBe(first);
+  });
+
+  test('goes back to fresh when a change is undone', async () => {
+    const { add, document, state, clock } = await openDesk();
+    add(1000);
+    await clock.advance(300);
+    const { latest } = state();
+    add(1500);
+    document.undo();
+    expect(state()).toMatchObject({ isFresh: true });
+    await clock.advance(300);
+    expect(state().latest).toBe(latest);
+  });
+
+  test('a servo that comes late is said and keeps nothing from being sent', async () => {
+    const { document, compiled } = await openDesk();
+    document.edit(
+      () => 'fast',
+      (group) => ({
+        ...[500, 2500].reduce(
+          (sum, position) =>
+            insertFrame(sum, sum.frames.length, { durationMs: 100, targets: [{ servo: 1, position }] }),
+          group,
+        ),
+      }),
+    );
+    const { report } = compiled.now();
+    expect(report.problems.map(({ kind }) => kind)).toEqual(['tooFast']);
+    expect(obstacles(report, 'board')).toEqual([]);
+  });
+});

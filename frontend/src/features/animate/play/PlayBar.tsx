@@ -1,0 +1,238 @@
+// Playing the group: from the page, from where the playhead is, or by the board itself, which gets it first where it has not just
+// this. What goes on is said in a line that is always there.
+
+import { useShallow } from 'zustand/react/shallow';
+import type { SlotFate } from '#shared/group/slotBook.ts';
+import { chosenTimes } from '../../board/slots/groupPlace.ts';
+import type { PlaybackPhase } from './playback.ts';
+import { SPEED_PERCENT } from './player.ts';
+import { useFates } from '../../board/slots/useFates.ts';
+import { motionHindrance, startHindrance } from '../../../robot/readiness.ts';
+import { isSilent } from '../../drive/servoView.ts';
+import {
+  useDevice,
+  useDocument,
+  usePlayback,
+  useRobot,
+  useServoView,
+  useSlot,
+  useSnapshot,
+  useStores,
+  useView,
+} from '../../stores.ts';
+import { timesOf } from '../timeline/groupTimes.ts';
+import { Button, IconButton } from '../../../ui/Button.tsx';
+import { cx } from '../../../ui/cx.ts';
+import { LiveText } from '../../../ui/LiveText.tsx';
+import { NumberField } from '../../../ui/NumberField.tsx';
+import { Toggle } from '../../../ui/Toggle.tsx';
+import { words } from '../../../i18n/whole.ts';
+import { usePlayer } from './usePlayer.ts';
+import styles from './PlayBar.module.css';
+
+export function PlayBar() {
+  const phase = usePlayback((state) => state.phase);
+  const player = usePlayer();
+  const mayPlay = useMayPlay();
+  const isIdle = phase === null;
+  const mayStep = useDocument(({ present }) => present.frames.length > 0) && isIdle;
+  return (
+    <div className={styles.bar} role="group" aria-label={words.play.tools}>
+      <IconButton
+        icon="earlier"
+        label={words.play.back}
+        isDisabled={!mayStep}
+        onPress={() => player.step(-1)}
+      />
+      <PlayButton phase={phase} />
+      <IconButton
+        icon="later"
+        label={words.play.forth}
+        isDisabled={!mayStep}
+        onPress={() => player.step(1)}
+      />
+      <PreviewButton phase={phase} />
+      <RunOnBoard isDisabled={!mayPlay || !isIdle} />
+      <div className={cx(styles.aside, !isIdle && styles.busy)}>
+        <Settings isDisabled={!isIdle} />
+        <Phase phase={phase} />
+      </div>
+    </div>
+  );
+}
+
+/** Something of the group can be sent now. */
+function useMayPlay(): boolean {
+  const unit = useDocument(({ present }) => present.unit);
+  const isEmpty = useDocument(({ present }) => present.frames.length === 0);
+  const isFree = useSnapshot((snapshot) => startHindrance(snapshot) === null);
+  const isSameUnit = useDevice((state) => state.family.unit === unit);
+  return isFree && isSameUnit && !isEmpty;
+}
+
+/** One button to begin and to end: the focus is still on it when what it began is to end. */
+function PlayButton({ phase }: { readonly phase: PlaybackPhase | null }) {
+  const player = usePlayer();
+  const mayPlay = useMayPlay();
+  const ends = phase === null || phase === 'previewing' ? null : phase;
+  return (
+    <Button
+      icon={ends === null ? 'play' : END_ICONS[ends]}
+      isDisabled={ends === null && (!mayPlay || phase !== null)}
+      onPress={() => (ends === null ? player.play() : player.pause())}
+    >
+      <PlayWords ends={ends} />
+    </Button>
+  );
+}
+
+const END_ICONS = {
+  leading: 'pause',
+  returning: 'pause',
+  playing: 'pause',
+  storing: 'end',
+  running: 'end',
+} as const;
+
+function endWord(phase: keyof typeof END_ICONS): string {
+  if (phase === 'storing') return words.play.cancel;
+  return phase === 'running' ? words.play.end : words.play.pause;
+}
+
+/** As the one to play. */
+function PreviewButton({ phase }: { readonly phase: PlaybackPhase | null }) {
+  const player = usePlayer();
+  const isEmpty = useDocument(({ present }) => present.frames.length === 0);
+  const isOn = phase === 'previewing';
+  return (
+    <Button
+      icon={isOn ? 'pause' : 'eye'}
+      hint={words.play.previewHint}
+      isDisabled={isEmpty || (phase !== null && !isOn)}
+      onPress={() => player.togglePreview()}
+    >
+      <span className={cx(styles.words, styles.preview)} data-longest={words.play.preview}>
+        <span className={styles.now}>{isOn ? words.play.pause : words.play.preview}</span>
+      </span>
+    </Button>
+  );
+}
+
+/** Nobody reads a button while the playhead is dragged. */
+const SAID_EACH_MS = 500;
+
+/** From where, as the playhead goes, or how often; or what ends it. With room for the longest: what follows stays in its place. */
+function PlayWords({ ends }: { readonly ends: keyof typeof END_ICONS | null }) {
+  const player = usePlayer();
+  const loops = usePlayback((state) => state.loops);
+  const times = useView(chosenTimes);
+  const fromEnd = words.play.playFrom({ atMs: useDocument(({ present }) => timesOf(present).lengthMs) });
+  const whole = words.play.play({ times: loops ? 1 : times });
+  return (
+    <span className={styles.words} data-longest={whole.length > fromEnd.length ? whole : fromEnd}>
+      <LiveText
+        isFixed
+        className={styles.now}
+        eachMs={SAID_EACH_MS}
+        text={() => {
+          if (ends !== null) return endWord(ends);
+          const { fromMs, times: passes } = player.next();
+          return fromMs === null
+            ? words.play.play({ times: loops ? 1 : passes })
+            : words.play.playFrom({ atMs: fromMs });
+        }}
+      />
+    </span>
+  );
+}
+
+function Settings({ isDisabled }: { readonly isDisabled: boolean }) {
+  const { notices } = useStores();
+  const player = usePlayer();
+  const { speedPercent, loops, isLive } = usePlayback((state) => state);
+  const mayMove = useSnapshot((snapshot) => motionHindrance(snapshot) === null);
+  const { min, max } = SPEED_PERCENT;
+  return (
+    <div className={styles.settings}>
+      <Toggle
+        label={words.play.loop}
+        isOn={loops}
+        isDisabled={isDisabled}
+        onChange={(isOn) => player.set({ loops: isOn })}
+      />
+      <NumberField
+        label={words.play.speedField}
+        value={speedPercent}
+        min={min}
+        max={max}
+        step={10}
+        unit={words.play.percent}
+        size="small"
+        isDisabled={isDisabled}
+        onChange={(percent) => player.set({ speedPercent: percent })}
+        onRefused={(percent) =>
+          notices.refuse(words.refused({ name: words.play.speedField, value: percent, min, max }))
+        }
+      />
+      <Toggle
+        label={words.play.live}
+        isOn={isLive}
+        isDisabled={isDisabled || !mayMove}
+        onChange={(isOn) => player.set({ isLive: isOn })}
+      />
+    </div>
+  );
+}
+
+function RunOnBoard({ isDisabled }: { readonly isDisabled: boolean }) {
+  const player = usePlayer();
+  const commands = useDevice((state) => state.family.commands);
+  const slot = useSlot();
+  const fate = useFates()(slot);
+  if (!commands.includes('run') || !commands.includes('download')) return null;
+  return (
+    <Button
+      icon="board"
+      isDisabled={isDisabled}
+      hint={boardHint(slot, fate)}
+      onPress={() => player.runOnBoard()}
+    >
+      {words.play.onBoard}
+    </Button>
+  );
+}
+
+/** Whether it downloads first is said before. */
+function boardHint(slot: number, fate: SlotFate): string {
+  return fate === 'same'
+    ? words.play.onBoardHint({ slot })
+    : words.play.onBoardDownloads({ slot, isOlder: fate === 'older' });
+}
+
+function Phase({ phase }: { readonly phase: PlaybackPhase | null }) {
+  const speedPercent = usePlayback((state) => state.speedPercent);
+  const silent = useSilentRows();
+  const { playing, ...others } = words.play.phase;
+  const rests = silent.length === 0 ? '' : words.play.silent({ names: words.numbers.formatNames(silent) });
+  return (
+    <p className={styles.phase} role="status">
+      {phase === null ? rests : phase === 'playing' ? playing({ share: speedPercent / 100 }) : others[phase]}
+    </p>
+  );
+}
+
+/** The servos of the group that are muted, or beside those that play alone, by name. */
+function useSilentRows(): readonly string[] {
+  const { servos } = useRobot();
+  // Not all of the view: a servo that is dragged changes it in each frame.
+  const muted = useServoView((view) => view.muted);
+  const solo = useServoView((view) => view.solo);
+  return useDocument(
+    useShallow(({ present }) => {
+      const { tracks } = timesOf(present);
+      return servos
+        .filter(({ servo }) => tracks.has(servo) && isSilent({ muted, solo }, servo))
+        .map(({ name }) => name);
+    }),
+  );
+}

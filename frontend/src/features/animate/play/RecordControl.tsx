@@ -1,0 +1,65 @@
+// Recording by hand: on purpose, from a press to the next one, or after the fact, what moved in the last two minutes.
+
+import { useStore } from 'zustand';
+import { recorded } from '../../drive/servoView.ts';
+import { servoViewOf, useRobot, useServoView, useStores, type Stores } from '../../stores.ts';
+import { Button } from '../../../ui/Button.tsx';
+import { useNow } from '../../../ui/useNow.ts';
+import { say } from '../../../i18n/sentences/say.ts';
+import { words } from '../../../i18n/whole.ts';
+import { useOffer } from './useOffer.ts';
+
+export function RecordControl() {
+  const stores = useStores();
+  const { tape } = stores;
+  const offer = useOffer();
+  const sinceMs = useStore(tape.store, (state) => state.recordingSinceMs);
+  return (
+    <>
+      <Record
+        sinceMs={sinceMs}
+        onBegin={() => tape.record()}
+        onEnd={() => offer(tape.end(recorded(servoViewOf(stores), servosOf(stores)).servos))}
+      />
+      <Button tone="quiet" hint={words.record.takeThatHint} onPress={() => offer(tape.takeThat())}>
+        {words.record.takeThat}
+      </Button>
+    </>
+  );
+}
+
+const servosOf = ({ robots }: Pick<Stores, 'robots'>): readonly number[] =>
+  robots.current().robot.servos.map(({ servo }) => servo);
+
+interface RecordProps {
+  /** null: nothing is recorded. */
+  readonly sinceMs: number | null;
+  onBegin(): void;
+  onEnd(): void;
+}
+
+/** One button for both: the focus is still on it when the recording is to end. */
+function Record({ sinceMs, onBegin, onEnd }: RecordProps) {
+  const all = useRobot().servos.map(({ servo }) => servo);
+  const { servos, by } = recorded(
+    useServoView((view) => view),
+    all,
+  );
+  const hint = `${words.record.recordHint}. ${say(words.record.keeps[by], { count: servos.length, all: all.length })}`;
+  return (
+    <Button
+      tone={sinceMs === null ? 'quiet' : 'plain'}
+      icon={sinceMs === null ? 'record' : 'end'}
+      hint={hint}
+      onPress={sinceMs === null ? onBegin : onEnd}
+    >
+      {sinceMs === null ? words.record.record : <EndWords sinceMs={sinceMs} />}
+    </Button>
+  );
+}
+
+function EndWords({ sinceMs }: { readonly sinceMs: number }) {
+  const { device } = useStores();
+  const nowMs = useNow(device.clock.now, 500);
+  return words.record.end({ ms: Math.max(0, nowMs - sinceMs) });
+}

@@ -1,0 +1,36 @@
+// The key that keeps the last two minutes, whatever is written on now: the hand that moved the robot may be on poses or a pad. What
+// was recorded, by this key or on purpose, is asked about here.
+
+import { useEffect, useEffectEvent } from 'react';
+import { useStore } from 'zustand';
+import { useStores } from '../../stores.ts';
+import { isTextField } from '../../../ui/textField.ts';
+import { TakeDialog } from './TakeDialog.tsx';
+import { useOffer } from './useOffer.ts';
+
+const TAKE_KEY = 't';
+/** Letters mean other things there. */
+const OTHERS = '[role=dialog], [role=alertdialog], [role=menu]';
+
+export function TakeThat() {
+  const { tape } = useStores();
+  const offer = useOffer();
+  const taken = useStore(tape.store, (state) => state.taken);
+  useKey(TAKE_KEY, () => offer(tape.takeThat()));
+  return <TakeDialog samples={taken} onClose={() => tape.store.setState({ taken: [] })} />;
+}
+
+/** A plain key, anywhere but where one writes or chooses. */
+function useKey(wanted: string, pressed: () => void): void {
+  const press = useEffectEvent((event: KeyboardEvent) => {
+    const { target } = event;
+    const isPlain = !event.ctrlKey && !event.metaKey && !event.altKey && !event.repeat;
+    const isForOthers = isTextField(target) || (target instanceof Element && target.closest(OTHERS) !== null);
+    if (event.key.toLowerCase() === wanted && isPlain && !isForOthers) pressed();
+  });
+  useEffect(() => {
+    const listen = (event: KeyboardEvent): void => press(event);
+    window.addEventListener('keydown', listen);
+    return () => window.removeEventListener('keydown', listen);
+  }, []);
+}

@@ -1,0 +1,91 @@
+// What is played and how it is to be played, and what goes on with each frame and when nobody looks any more. What plays comes with the
+// panel that has the buttons for it, see `playerOf`. Knows no panel.
+
+import { createStore, type StoreApi } from 'zustand/vanilla';
+import type { CompiledStore } from '../group/compiled.ts';
+import type { Device } from '../../../robot/device.ts';
+import type { Document } from '../group/document.ts';
+import type { Notices } from '../../../state/notices.ts';
+import type { Playhead } from './playhead.ts';
+import type { RobotStore } from '../../profiles/robots.ts';
+import type { GroupPlace } from '../../board/slots/groupPlace.ts';
+import type { Replacing } from '../../board/slots/replacing.ts';
+import type { Slots } from '../../board/slots/slots.ts';
+import type { View } from '../../view.ts';
+
+/** `leading`: gently on the way to the first pose. `returning`: gently back there, in a loop. `storing`: the board gets the group first. `previewing`: only on the drawing. */
+export type PlaybackPhase = 'leading' | 'returning' | 'playing' | 'storing' | 'running' | 'previewing';
+
+export interface PlaybackState {
+  readonly speedPercent: number;
+  readonly loops: boolean;
+  /** The robot follows the pose at the playhead. */
+  readonly isLive: boolean;
+  /** null: nothing is played by this. */
+  readonly phase: PlaybackPhase | null;
+}
+
+/** `fromMs` null: from the beginning; `times` 0: until stopped. */
+export interface NextPlay {
+  readonly fromMs: number | null;
+  readonly times: number;
+}
+
+export interface Player {
+  set(change: Partial<Pick<PlaybackState, 'speedPercent' | 'loops' | 'isLive'>>): void;
+  /** What playing would do now. */
+  next(): NextPlay;
+  play(): void;
+  /** Plays, or pauses what plays. */
+  toggle(): void;
+  /** Plays on the drawing alone, or pauses what plays. Needs no robot and moves none. */
+  togglePreview(): void;
+  /** Downloads first where the board has not just this, and asks before another group goes for it. */
+  runOnBoard(): void;
+  /** Where it is; a group on the board ends after its frame in progress. */
+  pause(): void;
+  /** To the end of the next frame of the group, or of the one before; the robot goes along where it follows. */
+  step(direction: 1 | -1): void;
+  /** To be called while the page is drawn: moves the playhead, and the robot where it follows. */
+  frame(): void;
+  /** The page is not looked at any more. */
+  hidden(): void;
+}
+
+export interface Playback {
+  readonly store: StoreApi<PlaybackState>;
+  /** To be called while the page is drawn: moves the playhead, and the robot where it follows. */
+  frame(): void;
+  /** The page is not looked at any more. */
+  hidden(): void;
+  /** The one player of this page; made when it is first asked for. */
+  player(make: (options: PlaybackOptions, store: StoreApi<PlaybackState>) => Player): Player;
+}
+
+export interface PlaybackOptions {
+  readonly device: Device;
+  readonly document: Document;
+  readonly compiled: CompiledStore;
+  readonly slots: Slots;
+  readonly place: GroupPlace;
+  readonly replacing: Replacing;
+  readonly notices: Notices;
+  readonly view: View;
+  readonly playhead: Playhead;
+  readonly robots: RobotStore;
+  /** Of the group at hand, in the library. */
+  documentId(): string;
+}
+
+export function createPlayback(options: PlaybackOptions): Playback {
+  const store = createStore<PlaybackState>(() => ({
+    ...{ speedPercent: 100, loops: false, isLive: false, phase: null },
+  }));
+  let player: Player | null = null;
+  return {
+    store,
+    frame: () => player?.frame(),
+    hidden: () => player?.hidden(),
+    player: (make) => (player ??= make(options, store)),
+  };
+}

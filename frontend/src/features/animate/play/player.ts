@@ -1,0 +1,189 @@
+// Plays the group at hand, from the page or on the board, and says where it is: what is played is what compile makes of it, by
+// either way. One thing at a time; STOP, a lost link and a hidden page end it. Knows no panel.
+
+import type { StoreApi } from 'zustand/vanilla';
+import { totalDurationMs } from '#shared/group/group.ts';
+import { frameEnds } from '#shared/group/tracks.ts';
+import type { Activity } from '#shared/session/state.ts';
+import { words } from '../../../i18n/words.ts';
+import { createBoardRun } from './boardRun.ts';
+import { obstacles, type CompiledGroup } from '../group/compiled.ts';
+import { problemText } from '../group/problemText.ts';
+import { createFollower } from '../../../robot/follower.ts';
+import { createMeantPart } from './meantPart.ts';
+import type { Playback, PlaybackOptions, PlaybackPhase, PlaybackState, Player } from './playback.ts';
+import { pageAt, previewAt, type PagePlay, type PreviewPlay } from './playedAt.ts';
+import { endsMotion, startHindrance } from '../../../robot/readiness.ts';
+
+export const SPEED_PERCENT = { min: 10, max: 200 } as const;
+
+const NEAR_END_MS = 100;
+
+export const playerOf = (playback: Playback): Player => playback.player(createPlayer);
+
+function createPlayer(options: PlaybackOptions, store: StoreApi<PlaybackState>): Player {
+  const { device, document, compiled, slots, notices, view, playhead, robots } = options;
+  const { clock } = device;
+  const follower = createFollower(device);
+  const meant = createMeantPart({
+    ...{ device, document, view, playhead, robots },
+    chosen: () => store.getState(),
+  });
+  let following: PagePlay | null = null;
+  let previewing: PreviewPlay | null = null;
+
+  function followPlayhead(): void {
+    if (document.store.getState().present.unit === device.store.getState().family.unit)
+      follower.follow(meant.poseAt(playhead.at()));
+  }
+
+  const activity = (): Activity => device.store.getState().snapshot.activity;
+  const phase = (next: PlaybackPhase | null): void => {
+    if (store.getState().phase !== next) store.setState({ phase: next });
+  };
+
+  /** What may be played now; else the person is told what keeps it from that. */
+  function playable(by: 'page' | 'board'): CompiledGroup | null {
+    const hindrance = startHindrance(device.store.getState().snapshot);
+    const group = compiled.now();
+    const [problem] = obstacles(group.report, by);
+    const reason =
+      hindrance !== null
+        ? words.servos.blocked[hindrance]
+        : group.frames.length === 0
+          ? words.board.nothingToDownload
+          : problem === undefined
+            ? null
+            : problemText(problem, group.source);
+    if (reason === null) return group;
+    notices.tell('warning', reason);
+    return null;
+  }
+
+  function play(): void {
+    const group = playable('page');
+    if (group === null) return;
+    store.setState({ isLive: false });
+    const passage = meant.passage(group);
+    following = { passage, index: 0, beganMs: clock.now(), isLead: true };
+    phase('leading');
+    const times = meant.passes();
+    playhead.show(passage.atMs[0] ?? 0);
+    const ended = (isDone: boolean): void => {
+      if (isDone) playhead.go(passage.atMs.at(-1) ?? 0);
+      following = null;
+      phase(null);
+    };
+    device.play(passage.frames, times, ended, passage.loopFrom);
+  }
+
+  function preview(): void {
+    store.setState({ isLive: false });
+    const { speedPercent } = store.getState();
+    const part = meant.part();
+    const startMs = meant.within() ?? part.fromMs;
+    previewing = { ...part, startMs, passes: meant.passes(), speedPercent, beganMs: clock.now() };
+    phase('previewing');
+    playhead.show(startMs);
+  }
+
+  function endPreview(): void {
+    if (previewing === null) return;
+    previewing = null;
+    phase(null);
+  }
+
+  const board = createBoardRun({
+    ...{ device, compiled, slots, place: options.place, replacing: options.replacing, view },
+    documentId: () => options.documentId(),
+    phase(next) {
+      phase(next);
+      if (next === 'running') playhead.show(0);
+    },
+  });
+
+  function runOnBoard(): void {
+    const group = playable('board');
+    const { times, untilStopped } = view.getState();
+    const isEndless = untilStopped || store.getState().loops;
+    if (group !== null) board.begin(group, isEndless ? 0 : times);
+  }
+
+  function pause(): void {
+    if (previewing !== null) endPreview();
+    else if (following !== null) device.stopPlaying();
+    else if (activity().kind === 'downloading') slots.cancel();
+    else if (activity().kind === 'running') device.stopGroup();
+  }
+
+  let last = activity();
+  device.store.subscribe(({ snapshot }, { snapshot: before }) => {
+    const next = snapshot.activity;
+    if (next !== last) {
+      last = next;
+      noteActivity(next);
+    }
+    if (snapshot.latch !== null && before.latch === null) endPreview();
+    if (endsMotion(snapshot)) store.setState({ isLive: false });
+  });
+
+  function noteActivity(next: Activity): void {
+    if (next.kind === 'playing' && following !== null) {
+      const isLead = following.isLead && next.frameIndex === 0;
+      following = { ...following, index: next.frameIndex, beganMs: clock.now(), isLead };
+      const isBack = following.passage.returns && next.frameIndex === 0;
+      phase(isLead ? 'leading' : isBack ? 'returning' : 'playing');
+    }
+    if (next.kind !== 'idle' || store.getState().phase !== 'running') return;
+    phase(null);
+    // The board's word comes between two drawings.
+    const lengthMs = totalDurationMs(compiled.store.getState().latest.frames);
+    if (lengthMs - playhead.at() < NEAR_END_MS) playhead.go(lengthMs);
+  }
+
+  function showPreview(play: PreviewPlay): void {
+    const atMs = previewAt(play, clock.now());
+    playhead.go(Math.round(atMs ?? play.toMs));
+    if (atMs === null) endPreview();
+  }
+
+  function showBoard(): void {
+    const atMs = board.at();
+    if (atMs !== null) playhead.go(atMs);
+  }
+
+  function step(direction: 1 | -1): void {
+    const ends = frameEnds(document.store.getState().present.frames);
+    const at = playhead.at();
+    const to =
+      direction === 1 ? ends.find((endMs) => endMs > at) : (ends.findLast((endMs) => endMs < at) ?? ends[0]);
+    if (to === undefined) return;
+    if (store.getState().isLive) follower.go(meant.poseAt(to), Math.abs(to - at), meant.poseAt(at));
+    playhead.show(to);
+  }
+
+  return {
+    next: () => ({ fromMs: meant.within(), times: meant.passes() }),
+    set(change) {
+      if (change.isLive === true) follower.begin();
+      store.setState(change);
+    },
+    play,
+    toggle: () => (store.getState().phase === null ? play() : pause()),
+    togglePreview: () => (store.getState().phase === null ? preview() : pause()),
+    runOnBoard,
+    pause,
+    step,
+    frame() {
+      if (previewing !== null) showPreview(previewing);
+      else if (following !== null) playhead.go(Math.round(pageAt(following, clock.now())));
+      else showBoard();
+      if (store.getState().isLive) followPlayhead();
+    },
+    hidden() {
+      endPreview();
+      store.setState({ isLive: false });
+      device.stopPlaying();
+    },
+  };
+}

@@ -1,0 +1,65 @@
+// The whole group in one line: where its keys are, what of it is in sight, and where the playhead is. Dragged, it shows another
+// part.
+
+import { memo } from 'react';
+import type { PointerEvent } from 'react';
+import { Canvas } from '../../picture/Canvas.tsx';
+import { useDocument, useStores, useTimeline } from '../../stores.ts';
+import { words } from '../../../i18n/whole.ts';
+import { timesOf } from './groupTimes.ts';
+import { setTime } from './looking.ts';
+import { paintFrames, paintPlayhead } from './paintMinimap.ts';
+import { panned, seenSpan } from './timeScale.ts';
+import styles from './Minimap.module.css';
+
+export const Minimap = memo(function Minimap({ lanes }: { readonly lanes: string }) {
+  const stores = useStores();
+  const time = useTimeline((state) => state.time);
+  const widthPx = useTimeline((state) => state.widthPx);
+  const allMs = useDocument(({ present }) => Math.max(timesOf(present).lengthMs, 1));
+  const seen = seenSpan(time, widthPx);
+  const share = (atMs: number): number => Math.min(1, Math.max(0, atMs / allMs));
+  const [from, to] = [share(seen.fromMs), share(seen.toMs)];
+
+  const look = (event: PointerEvent<HTMLElement>): void => {
+    if (event.buttons !== 1) return;
+    const { left, width } = event.currentTarget.getBoundingClientRect();
+    const middleMs = ((event.clientX - left) / width) * allMs;
+    setTime({ stores }, (now) => {
+      const { fromMs, toMs } = seenSpan(now, widthPx);
+      return panned(now, (middleMs - (fromMs + toMs) / 2) / now.msPerPx);
+    });
+  };
+
+  return (
+    <div
+      className={styles.map}
+      role="scrollbar"
+      aria-label={words.timeline.minimap}
+      aria-controls={lanes}
+      aria-orientation="horizontal"
+      aria-valuenow={Math.round(from * 100)}
+      aria-valuetext={words.timeline.seen({ from, to })}
+      onPointerDown={(event) => {
+        event.currentTarget.setPointerCapture(event.pointerId);
+        look(event);
+      }}
+      onPointerMove={look}
+    >
+      <Canvas
+        className={styles.keys}
+        shown={() => [timesOf(stores.document.store.getState().present)] as const}
+        paint={paintFrames}
+      />
+      <Canvas
+        className={styles.playhead}
+        shown={() => [share(stores.timeline.getState().playheadMs)] as const}
+        paint={paintPlayhead}
+      />
+      <span
+        className={styles.seen}
+        style={{ insetInlineStart: `${from * 100}%`, width: `${(to - from) * 100}%` }}
+      />
+    </div>
+  );
+});

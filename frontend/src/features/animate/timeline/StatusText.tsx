@@ -1,0 +1,74 @@
+// One line that says where what is dragged is by now, what keys and pointer do right now, and what is selected.
+
+import { memo } from 'react';
+import { useServoView, useStores, editServoView } from '../../stores.ts';
+import { Button } from '../../../ui/Button.tsx';
+import { LiveText } from '../../../ui/LiveText.tsx';
+import { isTouch } from '../../../ui/touch.ts';
+import { READABLE_MS } from '../../../ui/useFollow.ts';
+import { instantText } from './instantText.ts';
+import { words } from '../../../i18n/whole.ts';
+import { cellName } from './cellName.ts';
+import type { StatusName } from './gesture.ts';
+import { changeable, whyHeld } from './desk.ts';
+import { selectedKeys } from './groupTimes.ts';
+import { selectedMarker } from './markers.ts';
+import { servoAtHand } from './moving.ts';
+import { NudgeTools } from './NudgeTools.tsx';
+import { turnText } from './positions.ts';
+import { servoRowId } from './rows.ts';
+import { useDesk, type SeenDesk } from './useDesk.ts';
+import styles from './StatusText.module.css';
+
+export interface Said {
+  readonly status: StatusName | null;
+  readonly tells: (() => string) | undefined;
+}
+
+export const StatusText = memo(function StatusText({ status, tells }: Said) {
+  const desk = useDesk();
+  const stores = useStores();
+  const hidden = useServoView((view) => view.hidden.length);
+  return (
+    <div className={styles.line}>
+      <p className={styles.text}>
+        {tells !== undefined && <LiveText className={styles.dragged} text={tells} eachMs={READABLE_MS} />}
+        {textOf(desk, status)}
+      </p>
+      {isTouch() && <NudgeTools desk={desk} />}
+      {hidden > 0 && (
+        <Button tone="quiet" onPress={() => editServoView(stores, (view) => ({ ...view, hidden: [] }))}>
+          {words.timeline.rows.showHidden({ count: hidden })}
+        </Button>
+      )}
+    </div>
+  );
+});
+
+/** Fingers hold no keys down. */
+const ABOUT_KEYS = new Set<StatusName>(['move', 'box', 'scrub', 'duration', 'stretch', 'stretchBack']);
+
+function textOf(desk: SeenDesk, status: StatusName | null): string {
+  const { state, family } = desk;
+  if (status !== null && status !== 'selected' && status !== 'nothing')
+    return isTouch() && ABOUT_KEYS.has(status) ? '' : words.timeline.status[status];
+  const marker = selectedMarker(desk);
+  if (marker !== undefined) {
+    const about = words.timeline.draggedMarker({ text: marker.text, at: instantText(marker.atMs) });
+    return isTouch()
+      ? words.timeline.byTouch.marker({ about })
+      : words.timeline.markerSelected({ about, tickMs: family.motion.tickMs });
+  }
+  const keys = selectedKeys(desk.times, state.selected);
+  const servo = servoAtHand(desk, keys);
+  const [only] = keys;
+  if (only === undefined || servo === undefined)
+    return isTouch() ? words.timeline.byTouch.nothing : words.timeline.status.nothing;
+  if (changeable(desk).length === 0) return words.timeline.held[whyHeld(desk)];
+  const about =
+    keys.length === 1
+      ? cellName(desk, { row: servoRowId(servo), frameId: only.frameId })
+      : words.timeline.keys({ count: keys.length });
+  if (isTouch()) return words.timeline.byTouch.selected({ about });
+  return words.timeline.status.selected({ about, tickMs: family.motion.tickMs, turn: turnText(desk, servo) });
+}

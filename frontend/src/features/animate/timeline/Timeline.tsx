@@ -1,0 +1,222 @@
+// The timeline: a grid for keyboard and ears, lanes for eye and hand, both of the same keys. Changes the document alone; the
+// playhead moves nothing but the picture of a pose.
+
+import {
+  memo,
+  useCallback,
+  useEffect,
+  useId,
+  useLayoutEffect,
+  useRef,
+  useState,
+  type ClipboardEvent,
+  type KeyboardEvent,
+  type ReactNode,
+} from 'react';
+import { MovingLabel } from '../../picture/MovingLabel.tsx';
+import { useDocument, useStores, useTimeline } from '../../stores.ts';
+import { instantText } from './instantText.ts';
+import { words } from '../../../i18n/whole.ts';
+import { AskBox } from './AskBox.tsx';
+import { copy, cut, paste } from './changes.ts';
+import { clipFromText, clipToText } from './clipText.ts';
+import { deskOf } from './desk.ts';
+import { keepInStep } from './inStep.ts';
+import { actionOf } from './keymap.ts';
+import { bringToLife, sizesNow } from './lanes.ts';
+import { Minimap } from './Minimap.tsx';
+import { cellId, Rows } from './Rows.tsx';
+import { PlayheadLine } from './PlayheadLine.tsx';
+import { heightOf, placedRows } from './rows.ts';
+import { topOfRows } from './sizes.ts';
+import { StatusText, type Said } from './StatusText.tsx';
+import { TimelineMenu, type OpenMenu } from './TimelineMenu.tsx';
+import { TimelineTools } from './TimelineTools.tsx';
+import { useActiveCell } from './useActiveCell.ts';
+import { useRows } from './useRows.ts';
+import { PART } from '../../../ui/useParts.ts';
+import styles from './Timeline.module.css';
+
+/** `onPlay`: the play key was pressed here, with Shift to play on the drawing alone. */
+export const Timeline = memo(function Timeline({ onPlay }: { onPlay(isPreview: boolean): void }) {
+  const stores = useStores();
+  const id = useId();
+  const [menu, setMenu] = useState<OpenMenu | null>(null);
+  const [said, setSaid] = useState<Said>(SAYS_NOTHING);
+  const scroller = useRef<HTMLDivElement>(null);
+  const grid = useRef<HTMLDivElement>(null);
+  const lanes = useRef<HTMLDivElement>(null);
+  const canvas = useRef<HTMLCanvasElement>(null);
+  const box = useRef<HTMLDivElement>(null);
+  const menuSpot = useRef<HTMLSpanElement>(null);
+  const rows = useRows();
+  const columns = useDocument(({ present }) => present.frames.length);
+  const isTall = useTimeline((state) => state.isTall);
+  const sizes = sizesNow({ isTall });
+  const totalPx = topOfRows(sizes) + heightOf(placedRows(rows.slice(1), sizes));
+  const openMenu = useCallback((kind: OpenMenu['kind'], anchor: Element | null) => {
+    setMenu({ kind, anchor: { current: anchor } });
+  }, []);
+  const openRowMenu = useCallback(
+    (row: string, button: Element) => {
+      stores.timeline.setState({ cursor: { row, frameId: null } });
+      openMenu('row', button);
+    },
+    [stores, openMenu],
+  );
+
+  useLayoutEffect(() => {
+    const [area, lane] = [scroller.current, lanes.current];
+    if (area === null || lane === null) return undefined;
+    const measure = (): void =>
+      stores.timeline.setState({
+        widthPx: lane.clientWidth,
+        heightPx: area.clientHeight,
+        scrollTop: area.scrollTop,
+      });
+    const observer = new ResizeObserver(measure);
+    observer.observe(area);
+    observer.observe(lane);
+    return () => observer.disconnect();
+  }, [stores]);
+
+  useActiveCell(grid, id);
+
+  useEffect(() => keepInStep(stores), [stores]);
+
+  useEffect(() => {
+    const parts = {
+      ...{ scroller: scroller.current, lanes: lanes.current },
+      ...{ canvas: canvas.current, box: box.current },
+    };
+    if (!areThere(parts)) return undefined;
+    return bringToLife(parts, stores, {
+      openMenu({ x, y }) {
+        if (menuSpot.current === null) return;
+        Object.assign(menuSpot.current.style, { left: `${x}px`, top: `${y}px` });
+        openMenu('keys', menuSpot.current);
+      },
+      say: (status, tells) =>
+        setSaid((before) =>
+          before.status === status && before.tells === tells ? before : { status, tells },
+        ),
+    });
+  }, [stores, openMenu]);
+
+  function key(event: KeyboardEvent): void {
+    if (event.target !== grid.current) return;
+    const isMenuKey = event.key === 'ContextMenu' || (event.key === 'F10' && event.shiftKey);
+    const action = actionOf(event.nativeEvent);
+    if (isMenuKey) openMenu('keys', cellAtCursor());
+    else if (event.key === ' ' && !event.ctrlKey) onPlay(event.shiftKey);
+    else if (action === undefined) return;
+    else action(deskOf(stores));
+    event.preventDefault();
+  }
+
+  const cellAtCursor = (): Element | null => {
+    const { row, frameId } = stores.timeline.getState().cursor;
+    const there = (one: string): Element | null => window.document.getElementById(one);
+    return there(cellId(id, row, frameId)) ?? there(cellId(id, row, null));
+  };
+
+  function put(event: ClipboardEvent, clip: ReturnType<typeof copy>): void {
+    if (clip === null) return;
+    event.clipboardData.setData('text/plain', clipToText(clip));
+    event.preventDefault();
+  }
+
+  function take(event: ClipboardEvent): void {
+    const text = event.clipboardData.getData('text/plain');
+    paste(deskOf(stores), (text === '' ? null : clipFromText(text)) ?? stores.timeline.getState().clip);
+    event.preventDefault();
+  }
+
+  const takeFocus = useCallback(() => grid.current?.focus({ preventScroll: true }), []);
+  const closeMenu = useCallback(() => setMenu(null), []);
+
+  /** As if it had been pressed here; what the browser does of itself, as copying, it does where the focus is by now. */
+  function pressHere(event: KeyboardEvent): void {
+    event.stopPropagation();
+    const again = new window.KeyboardEvent(event.type, event.nativeEvent);
+    if (grid.current?.dispatchEvent(again) === false) event.preventDefault();
+  }
+
+  return (
+    <section {...PART} className={styles.timeline} aria-label={words.timeline.title}>
+      <TimelineTools openMenu={openMenu} />
+      <div
+        ref={scroller}
+        className={styles.scroller}
+        style={{ height: totalPx }}
+        onScroll={(event) => stores.timeline.setState({ scrollTop: event.currentTarget.scrollTop })}
+      >
+        <div style={{ height: totalPx }}>
+          <Stage>
+            <div
+              ref={grid}
+              id={`${id}lanes`}
+              role="grid"
+              tabIndex={0}
+              className={styles.grid}
+              aria-label={words.timeline.grid}
+              aria-rowcount={rows.length}
+              aria-colcount={columns}
+              aria-multiselectable="true"
+              onKeyDown={key}
+              onCopy={(event) => put(event, copy(deskOf(stores)))}
+              onCut={(event) => put(event, cut(deskOf(stores)))}
+              onPaste={take}
+              onPointerDown={takeFocus}
+              // It is one stop: what is pressed in it takes no focus, and keys go on meaning the timeline.
+              onMouseDown={(event) => event.preventDefault()}
+            >
+              <div ref={lanes} className={styles.lanes} role="presentation">
+                <canvas ref={canvas} className={styles.canvas} aria-hidden="true" />
+                <PlayheadLine />
+                <div ref={box} className={styles.box} aria-hidden="true" hidden />
+                <span ref={menuSpot} className={styles.menuSpot} aria-hidden="true" />
+              </div>
+              <Rows {...{ rows, sizes, id, openRowMenu }} />
+            </div>
+            <Corner />
+            {/* A menu that is open keeps the focus to itself, and the field would not get it. */}
+            {menu === null && <AskBox onClose={takeFocus} onPass={pressHere} />}
+          </Stage>
+        </div>
+      </div>
+      <Minimap lanes={`${id}lanes`} />
+      <StatusText {...said} />
+      <TimelineMenu menu={menu} onClose={closeMenu} />
+    </section>
+  );
+});
+
+/** As high as the window onto the rows. */
+function Stage({ children }: { readonly children: ReactNode }) {
+  const heightPx = useTimeline((state) => state.heightPx);
+  return (
+    <div className={styles.stage} style={{ height: heightPx }}>
+      {children}
+    </div>
+  );
+}
+
+const SAYS_NOTHING: Said = { status: null, tells: undefined };
+
+function areThere<Parts extends object>(
+  parts: Parts,
+): parts is { [Name in keyof Parts]: NonNullable<Parts[Name]> } {
+  return Object.values(parts).every((part) => part !== null);
+}
+
+/** Above the names: where the playhead is. */
+function Corner() {
+  const { playhead } = useStores();
+  return (
+    <p className={styles.corner}>
+      <span className={styles.cornerName}>{words.timeline.playhead}</span>
+      <MovingLabel className={styles.instant} colour="ink" text={() => instantText(playhead.at())} />
+    </p>
+  );
+}

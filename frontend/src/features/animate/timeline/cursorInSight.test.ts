@@ -1,0 +1,44 @@
+import { expect, test } from 'vitest';
+import { editServoView } from '../../stores.ts';
+import { ALL_ROW } from './timeline.ts';
+import { keepCursorInSight } from './cursorInSight.ts';
+import { sizesOf, topOfRows } from './sizes.ts';
+import { createTimelineDesk } from './timelineUnderTest.ts';
+
+const SIZES = sizesOf(false, false);
+const TWO_ROWS = topOfRows(SIZES) + 2 * SIZES.servo;
+
+test('rows scroll below the cursor, no farther than they have to', async () => {
+  const { stores, key } = await createTimelineDesk();
+  const scroller = { scrollTop: 0, clientHeight: TWO_ROWS };
+  keepCursorInSight(scroller, stores, () => SIZES);
+  key('ArrowDown');
+  key('ArrowDown');
+  expect(scroller.scrollTop).toBe(0);
+  key('ArrowDown');
+  key('ArrowDown');
+  expect(scroller.scrollTop).toBe(2 * SIZES.servo);
+  key('ArrowUp');
+  expect(scroller.scrollTop).toBe(2 * SIZES.servo);
+  key('ArrowUp');
+  key('ArrowUp');
+  expect(scroller.scrollTop).toBe(0);
+});
+
+test('keys on a row that is hidden are no longer selected', async () => {
+  const { stores, select, selected } = await createTimelineDesk();
+  keepCursorInSight({ scrollTop: 0, clientHeight: TWO_ROWS }, stores, () => SIZES);
+  select([1, 1], [2, 2]);
+  editServoView(stores, (view) => ({ ...view, hidden: [1] }));
+  expect(selected()).toEqual([[2, 2]]);
+});
+
+test('where its row is hidden the cursor is in the row of all servos, on the same frame', async () => {
+  const { stores, key } = await createTimelineDesk();
+  keepCursorInSight({ scrollTop: 0, clientHeight: TWO_ROWS }, stores, () => SIZES);
+  key('ArrowDown');
+  key('ArrowRight');
+  const { frameId } = stores.timeline.getState().cursor;
+  editServoView(stores, (view) => ({ ...view, hidden: [1] }));
+  expect(stores.timeline.getState().cursor).toEqual({ row: ALL_ROW, frameId });
+});

@@ -1,0 +1,117 @@
+// What a press on the lanes becomes when it is dragged, and what all such gestures share: an edit that begins with the first
+// movement, and where a thing that is dragged in time comes to rest.
+
+import type { ActionGroup } from '#shared/group/group.ts';
+import type { Label } from '#shared/document/history.ts';
+import type { SelectMode } from './keySet.ts';
+import type { Words } from '../../../i18n/whole.ts';
+import type { Desk, DeskStores } from './desk.ts';
+import type { Spot } from './hit.ts';
+import type { Sizes } from './sizes.ts';
+import { msAt } from './timeScale.ts';
+import { snapped } from './snap.ts';
+
+export type StatusName = keyof Words['timeline']['status'];
+
+export interface Held {
+  readonly ctrl: boolean;
+  readonly shift: boolean;
+  readonly alt: boolean;
+}
+
+export interface Press {
+  readonly stores: DeskStores;
+  readonly sizes: Sizes;
+  readonly spot: Spot;
+  readonly held: Held;
+  /** A finger drags the lanes about where a mouse draws a box. */
+  readonly isTouch: boolean;
+  showBox(box: { readonly from: Spot; readonly to: Spot } | null): void;
+  scroll(byPx: number): void;
+}
+
+export interface Gesture {
+  readonly status: StatusName;
+  /** Past an end of the lanes these go on below it. */
+  readonly leadsOn?: 'throughTime' | 'throughRowsToo';
+  /** Where what is dragged is by now. */
+  tells?(): string;
+  move(spot: Spot, held: Held): void;
+  /** `isClick`: the pointer never left its place. */
+  end(isClick: boolean): void;
+  cancel(): void;
+}
+
+export const nothing = (): void => undefined;
+const NEAR_PX = 7;
+
+export const modeOf = ({ ctrl, shift }: Held): SelectMode => (ctrl ? 'toggles' : shift ? 'adds' : 'replaces');
+
+/** An edit of the document that begins with the first movement. */
+export function edits(
+  press: Press,
+  status: StatusName,
+  label: Label,
+  moved: (spot: Spot, held: Held) => ((group: ActionGroup) => ActionGroup) | null,
+  rest: Pick<Gesture, 'tells'> & {
+    shown?(): void;
+    clicked?(): void;
+    ended?(): void;
+    cancelled?(): void;
+  } = {},
+): Gesture {
+  const { document } = press.stores;
+  let hasBegun = false;
+  /** It was undone, or another edit has ended it: the hand goes on with nothing. */
+  const isTaken = (): boolean => hasBegun && document.store.getState().gesture === null;
+  return {
+    status,
+    leadsOn: 'throughTime',
+    ...(rest.tells === undefined ? {} : { tells: rest.tells }),
+    move(spot, held) {
+      const edit = isTaken() ? null : moved(spot, held);
+      if (edit === null) return;
+      if (!hasBegun) document.begin(label);
+      hasBegun = true;
+      document.preview(edit);
+      rest.shown?.();
+    },
+    end(isClick) {
+      if (isTaken()) return;
+      if (hasBegun) document.commit();
+      if (isClick) rest.clicked?.();
+      else rest.ended?.();
+    },
+    cancel() {
+      if (isTaken()) return;
+      if (hasBegun) document.cancel();
+      rest.cancelled?.();
+    },
+  };
+}
+
+/** Where the playhead comes to rest: what is set there shall be where the board can do it. */
+export function onRaster({ stores }: Press, desk: Desk, atMs: number, { alt }: Held): number {
+  const { tickMs } = desk.family.motion;
+  const isFree = alt || !stores.timeline.getState().snaps;
+  return Math.max(0, snapped(atMs, isFree ? null : { placesMs: [], tickMs, reachMs: 0 }));
+}
+
+/** What a thing at `atMs` comes to when it is dragged so far. `own` are the instants that move along. */
+export function draggedTo(
+  press: Press,
+  desk: Desk,
+  atMs: number,
+  own: ReadonlySet<number>,
+): (spot: Spot, held: Held) => number {
+  const { times, state, group, family } = desk;
+  const others = [...times.ends, ...group.markers.map((marker) => marker.atMs), state.playheadMs, 0];
+  const placesMs = others.filter((placeMs) => !own.has(placeMs));
+  const pressedMs = msAt(state.time, press.spot.x);
+  return ({ x }, { alt }) => {
+    const { time, snaps } = press.stores.timeline.getState();
+    const wanted = Math.max(0, atMs + msAt(time, x) - pressedMs);
+    const field = { placesMs, tickMs: family.motion.tickMs, reachMs: NEAR_PX * time.msPerPx };
+    return snapped(wanted, alt || !snaps ? null : field);
+  };
+}

@@ -1,0 +1,233 @@
+// A table from what a press hit to what then follows the pointer. An edit of the document is one gesture of it, shown while it
+// lasts, kept at its end or called off.
+
+import { moveMarker } from '#shared/group/markerEdits.ts';
+import { setDuration } from '#shared/group/timeEdits.ts';
+import { keySet, withKeys } from './keySet.ts';
+import type { KeyRef } from '#shared/group/tracks.ts';
+import { instantText } from './instantText.ts';
+import { words } from '../../../i18n/whole.ts';
+import { changeable, deskOf, select, whyHeld, type Desk } from './desk.ts';
+import {
+  draggedTo,
+  edits,
+  modeOf,
+  nothing,
+  onRaster,
+  type Gesture,
+  type Held,
+  type Press,
+} from './gesture.ts';
+import { hitAt, keysInBox, type Hit, type Spot } from './hit.ts';
+import { pressFrame } from './inStep.ts';
+import { keyGesture } from './keyGesture.ts';
+import { cursorAfter, stretchingOf } from './moving.ts';
+import { timesOf } from './groupTimes.ts';
+import { lookAt, selectFrame, setTime } from './looking.ts';
+import { sceneOf, wholeSceneOf } from './scene.ts';
+import { topOfRows } from './sizes.ts';
+import { toldOfBox, toldOfFrame, toldOfMarker, toldOfRange } from './told.ts';
+import { msAt, panned, seenSpan, xOf } from './timeScale.ts';
+
+export function gestureOf(press: Press): Gesture {
+  const desk = deskOf(press.stores);
+  const scene = sceneOf(desk, press.sizes);
+  const hit = hitAt(scene, press.spot);
+  switch (hit.kind) {
+    case 'ruler':
+      return press.held.shift ? rangeGesture(press, desk, hit.atMs) : scrubGesture(press, desk, hit.atMs);
+    case 'marker':
+      return markerGesture(press, desk, hit.id);
+    case 'edge':
+      return durationGesture(press, desk, hit);
+    case 'head':
+      return headGesture(press, desk, hit.frameId);
+    case 'handle':
+      return stretchGesture(press, desk, hit);
+    case 'key':
+      return keyGesture(press, scene, hit);
+    case 'empty':
+      return press.isTouch ? panGesture(press, desk) : boxGesture(press, desk, hit);
+  }
+}
+
+function scrubGesture(press: Press, desk: Desk, atMs: number): Gesture {
+  lookAt(desk, onRaster(press, desk, atMs, press.held));
+  const move = ({ x }: Spot, held: Held): void =>
+    press.stores.timeline.setState(({ time, widthPx }) => {
+      const { fromMs, toMs } = seenSpan(time, widthPx);
+      const wanted = onRaster(press, desk, msAt(time, x), held);
+      return { playheadMs: Math.max(0, Math.ceil(fromMs), Math.min(Math.floor(toMs), wanted)) };
+    });
+  return { status: 'scrub', leadsOn: 'throughTime', move, end: nothing, cancel: nothing };
+}
+
+function rangeGesture(press: Press, desk: Desk, fromMs: number): Gesture {
+  const { timeline } = press.stores;
+  const before = desk.state.range;
+  return {
+    status: 'scrub',
+    leadsOn: 'throughTime',
+    move({ x }, held) {
+      const toMs = msAt(timeline.getState().time, x);
+      const [first = 0, last = 0] = [fromMs, toMs]
+        .map((atMs) => onRaster(press, desk, atMs, held))
+        .toSorted((a, b) => a - b);
+      timeline.setState({ range: { fromMs: first, toMs: last } });
+    },
+    tells: () => toldOfRange(press.stores),
+    end: (isClick) => isClick && timeline.setState({ range: null }),
+    cancel: () => timeline.setState({ range: before }),
+  };
+}
+
+function markerGesture(press: Press, desk: Desk, id: number): Gesture {
+  const marker = desk.group.markers.find((one) => one.id === id);
+  const atMs = marker?.atMs ?? 0;
+  press.stores.timeline.setState({ marker: id });
+  const to = draggedTo(press, desk, atMs, new Set([atMs]));
+  return edits(
+    press,
+    'move',
+    () => words.timeline.steps.moveMarker,
+    (spot, held) => {
+      const target = to(spot, held);
+      return (group) => moveMarker(group, id, target);
+    },
+    { tells: () => toldOfMarker(press.stores, id) },
+  );
+}
+
+function durationGesture(press: Press, desk: Desk, { frameId, atMs }: Hit & { kind: 'edge' }): Gesture {
+  const place = desk.times.places.get(frameId) ?? -1;
+  const frame = desk.times.frames[place];
+  const to = draggedTo(press, desk, atMs, new Set([atMs]));
+  const longest = desk.family.durationMs.max;
+  return edits(
+    press,
+    'duration',
+    () => words.timeline.steps.duration({ frame: place + 1 }),
+    (spot, held) => {
+      const durationMs = (frame?.durationMs ?? 0) + to(spot, held) - atMs;
+      const { ripples } = press.stores.timeline.getState();
+      return (group) =>
+        setDuration(group, frameId, Math.min(longest, Math.max(0, durationMs)), { ripple: ripples });
+    },
+    { tells: () => toldOfFrame(press.stores, frameId) },
+  );
+}
+
+function stretchGesture(press: Press, desk: Desk, { end, span }: Hit & { kind: 'handle' }): Gesture {
+  const isFirst = end === 'first';
+  const [pulledMs, fixedMs] = isFirst ? [span.fromMs, span.toMs] : [span.toMs, span.fromMs];
+  const to = draggedTo(press, desk, pulledMs, new Set([pulledMs]));
+  const refs = changeable(desk);
+  if (refs.length === 0) return { status: whyHeld(desk), move: nothing, end: nothing, cancel: nothing };
+  let factor = 1;
+  let stretched: readonly KeyRef[] = refs;
+  return edits(
+    press,
+    isFirst ? 'stretchBack' : 'stretch',
+    () => words.timeline.steps.stretch,
+    (spot, held) => {
+      const wanted = Math.max(0, (to(spot, held) - fixedMs) / (pulledMs - fixedMs));
+      const stretching = stretchingOf(desk, span, { factor: wanted, fixed: isFirst ? 'last' : 'first' });
+      factor = stretching.factor;
+      return (group) => {
+        const next = stretching.edit(group);
+        stretched = stretching.selects(timesOf(next));
+        return next;
+      };
+    },
+    {
+      tells: () =>
+        words.timeline.draggedStretch({
+          ...{ share: factor, length: instantText(Math.round((span.toMs - span.fromMs) * factor)) },
+        }),
+      shown: () => press.stores.timeline.setState({ selected: keySet(stretched) }),
+      ended: () => select(press.stores, keySet(stretched), cursorAfter(desk, refs, stretched)),
+      cancelled: () => select(press.stores, desk.state.selected, desk.state.cursor),
+    },
+  );
+}
+
+/** The frames that the pointer goes over come along. */
+function headGesture(press: Press, desk: Desk, frameId: number): Gesture {
+  const before = desk.state.selected;
+  if (press.held.shift || press.held.ctrl) pressFrame(press.stores, frameId, press.held);
+  else selectFrame(desk, frameId, 'replaces');
+  return {
+    status: 'box',
+    tells: () => toldOfBox(press.stores),
+    move(spot) {
+      const now = deskOf(press.stores);
+      const hit = hitAt(sceneOf(now, press.sizes), { ...spot, y: press.spot.y });
+      if (hit.kind === 'head') selectFrame(now, hit.frameId, 'adds');
+    },
+    end: nothing,
+    cancel: () => select(press.stores, before),
+  };
+}
+
+function boxGesture(press: Press, desk: Desk, { row }: Hit & { kind: 'empty' }): Gesture {
+  const { stores, held, spot: from } = press;
+  const before = desk.state.selected;
+  const mode = modeOf(held);
+  const fromMs = msAt(desk.state.time, from.x);
+  const isOnRows = from.y >= topOfRows(press.sizes);
+  const close = (): void => press.showBox(null);
+  return {
+    status: 'box',
+    leadsOn: isOnRows ? 'throughRowsToo' : 'throughTime',
+    tells: () => toldOfBox(stores),
+    move(spot) {
+      // Where it was begun: the lanes may have gone on.
+      const { time, scrollTop } = stores.timeline.getState();
+      const scrolledPx = isOnRows ? scrollTop - desk.state.scrollTop : 0;
+      const corner = { x: xOf(time, fromMs), y: from.y - scrolledPx };
+      press.showBox({ from: corner, to: spot });
+      const scene = wholeSceneOf(deskOf(stores), press.sizes);
+      select(
+        stores,
+        withKeys(
+          before,
+          keysInBox(scene, { corner, pointer: spot, isOnRows }),
+          mode === 'toggles' ? 'adds' : mode,
+        ),
+      );
+    },
+    end(isClick) {
+      close();
+      if (isClick && mode === 'replaces')
+        select(stores, new Set(), { row: row?.row.id ?? desk.state.cursor.row, frameId: null });
+    },
+    cancel() {
+      close();
+      select(stores, before);
+    },
+  };
+}
+
+/** Sideways through time, up and down through the rows. */
+function panGesture(press: Press, desk: Desk): Gesture {
+  let last = press.spot;
+  return {
+    status: 'nothing',
+    move(spot) {
+      const byPx = last.x - spot.x;
+      setTime(desk, (time) => panned(time, byPx));
+      press.scroll(last.y - spot.y);
+      last = spot;
+    },
+    end: (isClick) => isClick && press.isTouch && select(press.stores, new Set()),
+    cancel: nothing,
+  };
+}
+
+export const panFrom = (press: Press): Gesture => panGesture(press, deskOf(press.stores));
+
+/** What a finger that rests for a while does when it goes on: a box. */
+export function boxFrom(press: Press): Gesture {
+  const desk = deskOf(press.stores);
+  return boxGesture(press, desk, { kind: 'empty', row: null, atMs: 0 });
+}

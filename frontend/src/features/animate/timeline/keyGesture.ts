@@ -1,0 +1,93 @@
+// A press on a key: it selects, asks for a number, or drags all selected keys in time and value, with Ctrl copies of them.
+
+import type { KeyRef } from '#shared/group/tracks.ts';
+import { keySet, withKeys } from './keySet.ts';
+import { words } from '../../../i18n/whole.ts';
+import { changeable, deskOf, select, whyHeld, type Desk } from './desk.ts';
+import { draggedTo, edits, modeOf, nothing, type Gesture, type Held, type Press } from './gesture.ts';
+import { timesOf } from './groupTimes.ts';
+import { hasAll, keysBetween, type Hit, type Spot } from './hit.ts';
+import { copyOf, cursorAfter, moveOf } from './moving.ts';
+import type { Scene } from './scene.ts';
+import { toldOfKey } from './told.ts';
+
+/** How far the hand has to go before a drag turns a value, so that time alone can be dragged. */
+const VALUE_FROM_PX = 5;
+/** A low row is geared down: the whole range takes so much. */
+const RANGE_PX = 200;
+
+export function keyGesture(press: Press, scene: Scene, hit: Hit & { kind: 'key' }): Gesture {
+  const { stores, held } = press;
+  const wasSelected = hasAll(scene.state.selected, hit.refs);
+  if (!wasSelected) selectPressed(press, hit);
+  else stores.timeline.setState({ cursor: { row: hit.row.id, frameId: hit.frameId } });
+  const desk = deskOf(stores);
+  const before = desk.state.selected;
+  const refs = changeable(desk);
+  if (refs.length === 0) return { status: whyHeld(desk), move: nothing, end: nothing, cancel: nothing };
+  let moved: readonly KeyRef[] = refs;
+  let copies = false;
+  const own = new Set(refs.map(({ atMs }) => atMs));
+  const to = draggedTo(press, desk, hit.atMs, own);
+  return edits(
+    press,
+    'move',
+    () => (copies ? words.timeline.steps.duplicate : words.timeline.steps.move),
+    (spot, now) => {
+      const deltaMs = isKept(press, spot, now, 'time') ? to(spot, now) - hit.atMs : 0;
+      const deltaPosition = isKept(press, spot, now, 'value') ? turnedBy(press, scene, hit, spot) : 0;
+      // In their own place there is nothing to copy.
+      copies = now.ctrl && deltaMs !== 0;
+      const move = (copies ? copyOf : moveOf)(desk, refs, { deltaMs, deltaPosition });
+      return (group) => {
+        const next = move.edit(group);
+        moved = move.selects(timesOf(next));
+        return next;
+      };
+    },
+    {
+      tells: () => toldOfKey(stores, cursorAfter(desk, refs, moved), hit.atMs),
+      shown: () => stores.timeline.setState({ selected: keySet(moved) }),
+      clicked() {
+        if (!wasSelected || held.shift) return;
+        // A drag with Ctrl copies all of them, only a click takes one away.
+        if (held.ctrl) selectPressed(press, hit);
+        else if (before.size === 1) stores.timeline.setState({ asks: 'value' });
+        else select(stores, keySet(hit.refs));
+      },
+      ended: () => select(stores, keySet(moved), cursorAfter(desk, refs, moved)),
+      cancelled: () => select(stores, scene.state.selected, scene.state.cursor),
+    },
+  );
+}
+
+/** Shift keeps to the direction in which the pointer went farther. */
+function isKept({ spot }: Press, { x, y }: Spot, { shift }: Held, axis: 'time' | 'value'): boolean {
+  const isSideways = Math.abs(x - spot.x) >= Math.abs(y - spot.y);
+  return !shift || isSideways === (axis === 'time');
+}
+
+function turnedBy({ spot }: Press, scene: Scene, { row }: Hit & { kind: 'key' }, { y }: Spot): number {
+  const placed = scene.rows.find((one) => one.row.id === row.id);
+  const way = spot.y - y;
+  if (placed === undefined || Math.abs(way) < VALUE_FROM_PX) return 0;
+  const { min, max } = row.servo ?? scene.family.position;
+  const px = Math.max(RANGE_PX, placed.height - 14);
+  return Math.round(((way - Math.sign(way) * VALUE_FROM_PX) * (max - min)) / px);
+}
+
+function selectPressed({ stores, held }: Press, hit: Hit & { kind: 'key' }): void {
+  const desk = deskOf(stores);
+  const cursor = { row: hit.row.id, frameId: hit.frameId };
+  const refs = held.shift ? spanned(desk, hit) : hit.refs;
+  select(stores, withKeys(desk.state.selected, refs, modeOf(held)), cursor);
+}
+
+/** All keys between the cursor and the one that is pressed. */
+function spanned(desk: Desk, { row, atMs }: Hit & { kind: 'key' }): readonly KeyRef[] {
+  const { cursor } = desk.state;
+  const place = desk.times.places.get(cursor.frameId ?? 0);
+  const fromMs = place === undefined ? atMs : (desk.times.ends[place] ?? atMs);
+  const from = place === undefined ? row.id : cursor.row;
+  return keysBetween(desk.rows, desk.times, { row: from, atMs: fromMs }, { row: row.id, atMs });
+}

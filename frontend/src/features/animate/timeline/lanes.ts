@@ -1,0 +1,173 @@
+// Brings the lanes to life outside of React's rounds: paints them when something changed, follows pointer and wheel. Knows
+// elements and stores, no edit.
+
+import { setKeysAt } from './changes.ts';
+import { keepCursorInSight } from './cursorInSight.ts';
+import { deskOf, select, type DeskStores } from './desk.ts';
+import type { StatusName } from './gesture.ts';
+import { hasAll, hitAt, type Spot } from './hit.ts';
+import { hoverAt } from './hover.ts';
+import { keySet } from './keySet.ts';
+import { lookOf, SCHEMES, type Look } from '../../picture/look.ts';
+import { selectFrame, setTime, shownKeys } from './looking.ts';
+import { paint } from './paint.ts';
+import { followPointer } from './pointer.ts';
+import { sceneOf, type Scene } from './scene.ts';
+import { sizesOf, type Sizes } from './sizes.ts';
+import { panned, pinched, zoomedAt } from './timeScale.ts';
+import { isTouch } from '../../../ui/touch.ts';
+import { followWheel } from './wheel.ts';
+
+export interface LaneParts {
+  readonly scroller: HTMLElement;
+  readonly lanes: HTMLElement;
+  readonly canvas: HTMLCanvasElement;
+  readonly box: HTMLElement;
+}
+
+export interface LaneHost {
+  openMenu(spot: Spot): void;
+  say(status: StatusName | null, tells?: () => string): void;
+}
+
+export const sizesNow = ({ isTall }: { readonly isTall: boolean }): Sizes => sizesOf(isTouch(), isTall);
+
+export function bringToLife(parts: LaneParts, stores: DeskStores, host: LaneHost): () => void {
+  const sizes = (): Sizes => sizesNow(stores.timeline.getState());
+  const painting = paintOnChange(parts, stores, sizes);
+  const scroll = (byPx: number): void => void (parts.scroller.scrollTop += byPx);
+  const change = (to: Parameters<typeof setTime>[1]): void => setTime({ stores }, to);
+  const pointing = followPointer(parts.lanes, {
+    press: (spot, held, isTouch) => ({
+      ...{ stores, spot, isTouch, scroll, sizes: sizes() },
+      held: { ...held, ctrl: held.ctrl || stores.view.getState().addsToSelection },
+      showBox: (box) => showBox(parts.box, box),
+    }),
+    pinch(before, now) {
+      const [one, other] = [before.map(({ x }) => x), now.map(({ x }) => x)];
+      change((time) => pinched(time, [one[0] ?? 0, one[1] ?? 0], [other[0] ?? 0, other[1] ?? 0]));
+      scroll(middle(before) - middle(now));
+    },
+    pan: (byPx) => change((time) => panned(time, byPx)),
+    openMenu(spot) {
+      selectForMenu(stores, sizes(), spot);
+      host.openMenu(spot);
+    },
+    doubleClick: (spot) => actAt(stores, sizes(), spot),
+    hover(spot) {
+      const over = spot === null ? null : hoverAt(stores, sizes(), spot);
+      parts.canvas.style.cursor = over?.cursor ?? '';
+      host.say(over?.status ?? null);
+    },
+    say: host.say,
+  });
+  const turning = followWheel(parts.lanes, {
+    zoom: (x, factor) => change((time) => zoomedAt(time, x, factor)),
+    pan: (byPx) => change((time) => panned(time, byPx)),
+    scroll,
+  });
+  const following = keepCursorInSight(parts.scroller, stores, sizes);
+  return () => {
+    painting();
+    pointing();
+    turning();
+    following();
+  };
+}
+
+const middle = (spots: readonly Spot[]): number => spots.reduce((sum, { y }) => sum + y, 0) / spots.length;
+
+/** What of the servo panel shows here; a drag there changes other things of it all the time. */
+const SHOWN = ['robotId', 'hidden', 'folded', 'locked', 'solo', 'muted'] as const;
+
+function paintOnChange(parts: LaneParts, stores: DeskStores, sizes: () => Sizes): () => void {
+  let request = 0;
+  let painted: Painted | null = null;
+  const repaint = (): void => {
+    if (request !== 0) return;
+    request = requestAnimationFrame(() => {
+      request = 0;
+      painted = paintLanes(parts, sceneOf(deskOf(stores), sizes()), painted);
+    });
+  };
+  const schemes = SCHEMES.map((scheme) => matchMedia(scheme));
+  for (const scheme of schemes) scheme.addEventListener('change', repaint);
+  const ends = [
+    stores.timeline.subscribe(({ playheadMs: _, ...state }, before) => {
+      if (Object.entries(state).some(([name, value]) => value !== before[name as keyof typeof before]))
+        repaint();
+    }),
+    stores.document.store.subscribe(repaint),
+    stores.robots.store.subscribe(repaint),
+    stores.view.subscribe((state, before) => {
+      const { servos, theme, positionsIn } = before;
+      const isSame = SHOWN.every((name) => state.servos[name] === servos[name]);
+      if (!isSame || state.theme !== theme || state.positionsIn !== positionsIn) repaint();
+    }),
+    stores.device.store.subscribe(({ family }, before) => family !== before.family && repaint()),
+  ];
+  repaint();
+  return () => {
+    cancelAnimationFrame(request);
+    for (const end of ends) end();
+    for (const scheme of schemes) scheme.removeEventListener('change', repaint);
+  };
+}
+
+interface Painted {
+  readonly scene: Scene;
+  readonly look: Look;
+}
+
+/** `before`: what was painted there last, null for nothing. */
+function paintLanes({ canvas }: LaneParts, scene: Scene, before: Painted | null): Painted | null {
+  const { widthPx, heightPx } = scene;
+  const ctx = canvas.getContext('2d');
+  if (ctx === null || widthPx === 0) return null;
+  const ratio = devicePixelRatio;
+  const [width, height] = [Math.round(widthPx * ratio), Math.round(heightPx * ratio)];
+  const isFit = canvas.width === width && canvas.height === height;
+  if (!isFit) Object.assign(canvas, { width, height });
+  ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
+  const look = lookOf(canvas);
+  paint({ ctx, look, scene }, isFit && before?.look === look ? before.scene : null);
+  return { scene, look };
+}
+
+function showBox(element: HTMLElement, box: { readonly from: Spot; readonly to: Spot } | null): void {
+  element.hidden = box === null;
+  if (box === null) return;
+  const { from, to } = box;
+  Object.assign(element.style, {
+    left: `${Math.min(from.x, to.x)}px`,
+    top: `${Math.min(from.y, to.y)}px`,
+    width: `${Math.abs(from.x - to.x)}px`,
+    height: `${Math.abs(from.y - to.y)}px`,
+  });
+}
+
+/** What the menu is about is selected, unless it was already. */
+function selectForMenu(stores: DeskStores, sizes: Sizes, spot: Spot): void {
+  const desk = deskOf(stores);
+  const hit = hitAt(sceneOf(desk, sizes), spot);
+  if (hit.kind === 'key' && !hasAll(desk.state.selected, hit.refs))
+    select(stores, keySet(hit.refs), { row: hit.row.id, frameId: hit.frameId });
+  if (hit.kind === 'head' || hit.kind === 'edge') {
+    if (!hasAll(desk.state.selected, shownKeys(desk, hit.frameId)))
+      selectFrame(desk, hit.frameId, 'replaces');
+  }
+  if (hit.kind === 'marker') stores.timeline.setState({ marker: hit.id });
+  if (hit.kind === 'empty' && hit.row !== null)
+    stores.timeline.setState({ cursor: { row: hit.row.row.id, frameId: null } });
+}
+
+/** A key where there is none; the text of a marker, the note of a frame. */
+function actAt(stores: DeskStores, sizes: Sizes, spot: Spot): void {
+  const desk = deskOf(stores);
+  const hit = hitAt(sceneOf(desk, sizes), spot);
+  if (hit.kind === 'marker') stores.timeline.setState({ marker: hit.id, asks: 'marker' });
+  if (hit.kind === 'head') stores.timeline.setState({ asks: 'note' });
+  const { tickMs } = desk.family.motion;
+  if (hit.kind === 'empty' && hit.row !== null && hit.atMs >= 0)
+    setKeysAt(desk, hit.row.row.servos, Math.round(hit.atMs / tickMs) * tickMs);
+}

@@ -1,0 +1,128 @@
+// Keys moved in time and place: by arrow keys and by dragging alike. The keys go as far as all of them can go together.
+
+import { duplicateKeys } from '#shared/group/clip.ts';
+import { moveKeys, boundedMove, type KeyMove } from '#shared/group/keyEdits.ts';
+import { boundedFactor, stretchedMs, stretchKeys, type KeyStretch } from '#shared/group/stretchKeys.ts';
+import type { TimeRange } from '#shared/group/timeEdits.ts';
+import { keysAt, type Key, type KeyRef } from '#shared/group/tracks.ts';
+import type { ActionGroup } from '#shared/group/group.ts';
+import type { Range } from '#shared/codec/families.ts';
+import { words } from '../../../i18n/whole.ts';
+import type { Cursor } from './timeline.ts';
+import { cellName } from './cellName.ts';
+import { apply, changeable, hasChangeable, rangeOf, rowOf, type Desk } from './desk.ts';
+import { timesOf, type GroupTimes } from './groupTimes.ts';
+import { nudgeUnits } from './positions.ts';
+
+export interface Move {
+  edit(group: ActionGroup): ActionGroup;
+  /** The moved keys, as they are named then. */
+  selects(times: GroupTimes): readonly KeyRef[];
+}
+
+export interface Stretching extends Move {
+  /** As much as there is room for. */
+  readonly factor: number;
+}
+
+export function moveOf(desk: Desk, keys: readonly Key[], wanted: KeyMove): Move {
+  const within = { ...wanted, deltaPosition: withinLimits(desk, keys, wanted.deltaPosition) };
+  const { deltaMs } = boundedMove(keys, within);
+  const { ripples } = desk.state;
+  const moved = keys.map(({ servo, atMs }) => ({ servo, atMs: atMs + deltaMs }));
+  return {
+    edit: (before) => moveKeys(before, keys, within, { ripple: ripples }),
+    selects: (after) => (ripples || deltaMs === 0 ? keys : sameRefs(keys, keysAt(after.tracks, moved))),
+  };
+}
+
+/** The very same list where it names the same: frames that lose all their keys go along with them. */
+const sameRefs = (before: readonly KeyRef[], after: readonly KeyRef[]): readonly KeyRef[] =>
+  before.length === after.length &&
+  before.every(({ frameId, servo }, index) => {
+    const other = after[index];
+    return other?.frameId === frameId && other.servo === servo;
+  })
+    ? before
+    : after;
+
+/** The same keys once more, so far from them, in the place of what they meet; they themselves stay. */
+export function copyOf(desk: Desk, keys: readonly Key[], wanted: KeyMove): Move {
+  const deltaPosition = withinLimits(desk, keys, wanted.deltaPosition);
+  const { deltaMs } = boundedMove(keys, { ...wanted, deltaPosition });
+  const places = keys.map(({ servo, atMs }) => ({ servo, atMs: atMs + deltaMs }));
+  const copies = ({ tracks }: GroupTimes): readonly KeyRef[] => keysAt(tracks, places);
+  return {
+    edit(before) {
+      const copied = duplicateKeys(before, keys, deltaMs, STAYS).group;
+      return moveKeys(copied, copies(timesOf(copied)), { deltaMs: 0, deltaPosition }, STAYS);
+    },
+    selects: copies,
+  };
+}
+
+/** What is behind stays at its time, as it does when pasted. */
+const STAYS = { ripple: false } as const;
+
+/** The selected keys that may change, so many times as long together; `fixed`: the end that stays. */
+export function stretchingOf(
+  desk: Desk,
+  span: TimeRange,
+  { factor, fixed }: Pick<KeyStretch, 'factor' | 'fixed'>,
+): Stretching {
+  const keys = changeable(desk);
+  const wanted = { ...span, factor, fixed, ripple: desk.stores.timeline.getState().ripples };
+  const by = { ...wanted, factor: boundedFactor(desk.group, keys, wanted) };
+  const stretched = keys.map(({ servo, atMs }) => ({ servo, atMs: stretchedMs(atMs, by) }));
+  return {
+    factor: by.factor,
+    edit: (before) => stretchKeys(before, keys, wanted),
+    selects: ({ tracks }) => keysAt(tracks, stretched),
+  };
+}
+
+/** All together stop where the first of them meets its limit. Keys beyond their limits may come back. */
+function withinLimits(desk: Desk, keys: readonly Key[], delta: number): number {
+  const ranges = new Map<number, Range>();
+  return keys.reduce((least, { servo, position }) => {
+    const range = ranges.get(servo) ?? rangeOf(desk, servo);
+    ranges.set(servo, range);
+    const room = delta > 0 ? Math.max(0, range.max - position) : Math.min(0, range.min - position);
+    return Math.abs(room) < Math.abs(least) ? room : least;
+  }, delta);
+}
+
+/** The servo whose arrows count: that of the cursor's key, else of the first one. */
+export function servoAtHand(
+  desk: Pick<Desk, 'rows'> & { readonly state: Pick<Desk['state'], 'cursor'> },
+  refs: readonly KeyRef[],
+): number | undefined {
+  const { frameId, row } = desk.state.cursor;
+  const servos = rowOf(desk, row)?.servos ?? [];
+  return (refs.find((ref) => ref.frameId === frameId && servos.includes(ref.servo)) ?? refs[0])?.servo;
+}
+
+/** Where the cursor is then: on the same key, whatever it is called. */
+export function cursorAfter(desk: Desk, refs: readonly KeyRef[], moved: readonly KeyRef[]): Cursor {
+  const { cursor } = desk.state;
+  const servos = rowOf(desk, cursor.row)?.servos ?? [];
+  const index = refs.findIndex((ref) => ref.frameId === cursor.frameId && servos.includes(ref.servo));
+  return { ...cursor, frameId: moved[index]?.frameId ?? cursor.frameId };
+}
+
+/** `turns`: by one of what is shown, degrees or units. */
+export function nudge(desk: Desk, ticks: number, turns: number): void {
+  if (!hasChangeable(desk)) return;
+  const deltaMs = ticks * desk.family.motion.tickMs;
+  const refs = changeable(desk);
+  const deltaPosition = turns * nudgeUnits(desk, servoAtHand(desk, refs) ?? 0);
+  const move = moveOf(desk, refs, { deltaMs, deltaPosition });
+  let { cursor } = desk.state;
+  apply(desk, {
+    label: () => words.timeline.steps.move,
+    ...move,
+    cursor: (_times, moved) => (cursor = cursorAfter(desk, refs, moved)),
+  });
+  const times = timesOf(desk.stores.document.store.getState().present);
+  desk.stores.notices.say(cellName({ ...desk, times }, cursor));
+}

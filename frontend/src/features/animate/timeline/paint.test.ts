@@ -1,0 +1,41 @@
+import { expect, test } from 'vitest';
+import { recordingPen } from '../../picture/penUnderTest.ts';
+import { editServoView } from '../../stores.ts';
+import { paint } from './paint.ts';
+import { sceneOf } from './scene.ts';
+import { sizesOf } from './sizes.ts';
+import { createTimelineDesk } from './timelineUnderTest.ts';
+
+/** So wide is what is left of a key where there are many. */
+const TICK_PX = 2;
+
+test('keys that are crowded are as pale as their row: all of them where it is muted', async () => {
+  const { stores, desk } = await createTimelineDesk();
+  stores.timeline.setState({ time: { fromMs: 0, msPerPx: 100 } });
+  editServoView(stores, (view) => ({ ...view, muted: [1] }));
+  const ticks: { y: number; alpha: number }[] = [];
+  const ctx: Record<string, unknown> = {
+    globalAlpha: 1,
+    fillRect(_: number, y: number, width: number) {
+      if (width === TICK_PX) ticks.push({ y, alpha: Number(ctx.globalAlpha) });
+    },
+    measureText: () => ({ width: 10 }),
+  };
+  const canvas = new Proxy(ctx, { get: (own, name: string) => own[name] ?? (() => undefined) });
+  const scene = sceneOf(desk(), sizesOf(false, false));
+  paint(
+    {
+      ctx: canvas as unknown as CanvasRenderingContext2D,
+      scene,
+      look: recordingPen({ width: 800, height: 400 }).pen.look,
+    },
+    null,
+  );
+  const alphasOf = (servo: number) => {
+    const row = scene.rows.find((one) => one.row.servos[0] === servo);
+    const [top, bottom] = [row?.top ?? 0, (row?.top ?? 0) + (row?.height ?? 0)];
+    return ticks.filter(({ y }) => y >= top && y < bottom).map(({ alpha }) => alpha);
+  };
+  expect(alphasOf(1)).toEqual([0.4, 0.4, 0.4]);
+  expect(alphasOf(2)).toEqual([1, 1, 1]);
+});

@@ -1,0 +1,247 @@
+// Draws the lanes on a canvas: only what is seen, all of it at once. Draws what it is given; changes nothing.
+
+import type { Key } from '#shared/group/tracks.ts';
+import { CURVES } from '#shared/group/easings.ts';
+import { keyName } from './keySet.ts';
+import { handleX, HANDLES, stretchOf } from './hit.ts';
+import type { Brush } from './brush.ts';
+import type { Look } from '../../picture/look.ts';
+import { paintHeads, paintMarkers } from './paintHeads.ts';
+import { changedStretch, isWithin, wholeOf, type Stretch } from './repaint.ts';
+import type { PlacedRow } from './rows.ts';
+import { keysInRow, within } from './rowKeys.ts';
+import { keyY, type Scene } from './scene.ts';
+import { msAt, seenSpan, xOf } from './timeScale.ts';
+import { topOfRows } from './sizes.ts';
+import { keysOfFrame } from './groupTimes.ts';
+
+/** Keys closer than this are ticks: diamonds would be one band. */
+const CROWDED_PX = 8;
+const KEY_PX = 5;
+/** A curve is drawn as lines of about this length. */
+const CURVE_STEP_PX = 5;
+const MOST_CURVE_STEPS = 32;
+
+/** `before`: what is painted there already. */
+export function paint(brush: Brush, before: Scene | null): void {
+  const changed = before === null ? null : changedStretch(before, brush.scene);
+  if (changed !== null) return paintRows(brush, changed, paintMarkers);
+  const { all } = brush.scene;
+  paintRows(brush, wholeOf(brush.scene));
+  paintGround(brush, all);
+  paintRow(brush, all, wholeOf(brush.scene));
+  paintHandles(brush);
+  paintHeads(brush);
+}
+
+/** `paintOver`: what lies over the rows there. */
+function paintRows(brush: Brush, stretch: Stretch, paintOver?: (brush: Brush) => void): void {
+  const { ctx, look, scene } = brush;
+  const top = Math.max(topOfRows(scene.sizes), stretch.top);
+  const rows = scene.rows.filter((row) => isWithin(row, stretch));
+  ctx.save();
+  ctx.beginPath();
+  ctx.rect(stretch.left, top, stretch.right - stretch.left, Math.max(0, stretch.bottom - top));
+  ctx.clip();
+  fill(ctx, look.well, 1, 0, top, scene.widthPx, stretch.bottom - top);
+  for (const row of rows) paintGround(brush, row);
+  paintBoundaries(brush, top, stretch.bottom);
+  for (const row of rows) paintRow(brush, row, stretch);
+  paintOver?.(brush);
+  ctx.restore();
+}
+
+function paintGround({ ctx, look, scene }: Brush, { row, top, height }: PlacedRow): void {
+  const { state, widthPx, held } = scene;
+  if (row.kind !== 'servo') fill(ctx, look.panel, 1, 0, top, widthPx, height);
+  if (state.cursor.row === row.id) fill(ctx, look.ink, 0.07, 0, top, widthPx, height);
+  if (held.has(row.id)) hatch(ctx, look, top, height, widthPx);
+  fill(ctx, look.line, 1, 0, top + height - 1, widthPx, 1);
+}
+
+function fill(
+  ctx: CanvasRenderingContext2D,
+  colour: string,
+  alpha: number,
+  ...box: [number, number, number, number]
+): void {
+  ctx.globalAlpha = alpha;
+  ctx.fillStyle = colour;
+  ctx.fillRect(...box);
+  ctx.globalAlpha = 1;
+}
+
+function hatch(
+  ctx: CanvasRenderingContext2D,
+  look: Look,
+  top: number,
+  height: number,
+  widthPx: number,
+): void {
+  ctx.save();
+  ctx.beginPath();
+  ctx.rect(0, top, widthPx, height);
+  ctx.clip();
+  ctx.beginPath();
+  for (let x = -height; x < widthPx; x += 9) {
+    ctx.moveTo(x, top + height);
+    ctx.lineTo(x + height, top);
+  }
+  stroke(ctx, look.line, 1);
+  ctx.restore();
+}
+
+function stroke(ctx: CanvasRenderingContext2D, colour: string, width: number): void {
+  ctx.strokeStyle = colour;
+  ctx.lineWidth = width;
+  ctx.stroke();
+}
+
+/** The ends of the frames, where they are not closer than the eye can part. */
+function paintBoundaries({ ctx, look, scene }: Brush, top: number, bottom: number): void {
+  const { times, state, widthPx } = scene;
+  const { fromMs, toMs } = seenSpan(state.time, widthPx);
+  ctx.beginPath();
+  let lastX = -Infinity;
+  for (const endMs of times.ends) {
+    if (endMs < fromMs || endMs > toMs) continue;
+    const x = Math.round(xOf(state.time, endMs)) + 0.5;
+    if (x - lastX < 3) continue;
+    lastX = x;
+    ctx.moveTo(x, top);
+    ctx.lineTo(x, bottom);
+  }
+  stroke(ctx, look.line, 1);
+}
+
+function paintRow(brush: Brush, placed: PlacedRow, { left, right }: Stretch): void {
+  const { ctx, look, scene } = brush;
+  const { state, times, muted } = scene;
+  const keys = keysInRow(placed.row, times);
+  const [from, to] = within(keys, msAt(state.time, left), msAt(state.time, right));
+  ctx.globalAlpha = muted.has(placed.row.id) ? 0.4 : 1;
+  if (placed.row.kind === 'servo' && keys.length > 0) {
+    paintWay(brush, placed, keys, from, to);
+    stroke(ctx, look.commanded, 1.5);
+    paintLeadIn(brush, placed, keys[0]);
+  }
+  for (let index = from; index < to; index++) {
+    const key = keys[index];
+    if (key !== undefined) paintKey(brush, placed, key, isCrowded(scene, keys, index));
+  }
+  ctx.globalAlpha = 1;
+}
+
+/** The servo's way from key to key; the first of them is before what is seen, the last one behind it. */
+function paintWay(
+  { ctx, scene }: Brush,
+  placed: PlacedRow,
+  keys: readonly Key[],
+  from: number,
+  to: number,
+): void {
+  const { state, family, widthPx } = scene;
+  const at = ({ atMs, position }: Key): Point => [xOf(state.time, atMs), keyY(placed, position, family)];
+  ctx.beginPath();
+  for (let index = from; index < to; index++) {
+    const [before, key] = [keys[index - 1], keys[index]];
+    if (key === undefined) continue;
+    if (before === undefined || index === from) ctx.moveTo(...at(key));
+    else lineTo(ctx, key, at(before), at(key));
+  }
+  const last = keys[to - 1];
+  if (to >= keys.length && last !== undefined) ctx.lineTo(widthPx, at(last)[1]);
+}
+
+type Point = readonly [x: number, y: number];
+
+function lineTo(ctx: CanvasRenderingContext2D, { easing }: Key, [fromX, fromY]: Point, [x, y]: Point): void {
+  if (easing === 'hold') ctx.lineTo(x, fromY);
+  else if (easing !== 'linear' && y !== fromY) {
+    const steps = Math.min(MOST_CURVE_STEPS, Math.ceil((x - fromX) / CURVE_STEP_PX));
+    for (let step = 1; step < steps; step++) {
+      const share = step / steps;
+      ctx.lineTo(fromX + (x - fromX) * share, fromY + (y - fromY) * CURVES[easing].at(share));
+    }
+  }
+  ctx.lineTo(x, y);
+}
+
+/** Nobody knows where the servo is before its first key. */
+function paintLeadIn({ ctx, look, scene }: Brush, placed: PlacedRow, first: Key | undefined): void {
+  if (first === undefined) return;
+  const y = keyY(placed, first.position, scene.family);
+  ctx.save();
+  ctx.setLineDash([2, 4]);
+  ctx.beginPath();
+  ctx.moveTo(Math.max(0, xOf(scene.state.time, 0)), y);
+  ctx.lineTo(xOf(scene.state.time, first.atMs), y);
+  stroke(ctx, look['ink-dim'], 1);
+  ctx.restore();
+}
+
+function isCrowded({ state }: Scene, keys: readonly Key[], index: number): boolean {
+  const here = keys[index]?.atMs ?? 0;
+  const near = (other: Key | undefined): boolean =>
+    other !== undefined && Math.abs(other.atMs - here) / state.time.msPerPx < CROWDED_PX;
+  return near(keys[index - 1]) || near(keys[index + 1]);
+}
+
+function paintKey(brush: Brush, placed: PlacedRow, key: Key, crowded: boolean): void {
+  const { ctx, look, scene } = brush;
+  const x = xOf(scene.state.time, key.atMs);
+  const y = keyY(placed, key.position, scene.family);
+  const share = selectedShare(scene, placed, key);
+  const isCursor = scene.state.cursor.row === placed.row.id && scene.state.cursor.frameId === key.frameId;
+  if (crowded) {
+    ctx.fillStyle = share > 0 ? look.ink : look['ink-dim'];
+    ctx.fillRect(x - 1, y - 4, 2, 8);
+  } else {
+    diamond(ctx, x, y, share === 1 ? KEY_PX + 1 : KEY_PX);
+    ctx.fillStyle = share === 1 ? look.ink : share > 0 ? look.edge : look.panel;
+    ctx.fill();
+    stroke(ctx, share > 0 ? look.ink : look['ink-dim'], 1.5);
+  }
+  if (isCursor) {
+    ctx.beginPath();
+    ctx.rect(x - KEY_PX - 4.5, y - KEY_PX - 4.5, 2 * KEY_PX + 9, 2 * KEY_PX + 9);
+    stroke(ctx, look.ink, 1);
+  }
+}
+
+function selectedShare({ state, times, selectedFrames }: Scene, { row }: PlacedRow, key: Key): number {
+  if (!selectedFrames.has(key.frameId)) return 0;
+  if (key.servo !== -1) return state.selected.has(keyName(key)) ? 1 : 0;
+  const own = keysOfFrame(times, row.servos, key.frameId);
+  return own.length === 0 ? 0 : own.filter((one) => state.selected.has(keyName(one))).length / own.length;
+}
+
+function diamond(ctx: CanvasRenderingContext2D, x: number, y: number, radius: number): void {
+  ctx.beginPath();
+  ctx.moveTo(x, y - radius);
+  ctx.lineTo(x + radius, y);
+  ctx.lineTo(x, y + radius);
+  ctx.lineTo(x - radius, y);
+  ctx.closePath();
+}
+
+/** A bar under the selected stretch, with an arrow at each end to pull. */
+function paintHandles({ ctx, look, scene }: Brush): void {
+  const { state, times, all } = scene;
+  const span = stretchOf(times, state.selected);
+  if (span === null) return;
+  const [from, to] = [xOf(state.time, span.fromMs), xOf(state.time, span.toMs)];
+  const y = all.top + all.height / 2;
+  fill(ctx, look.ink, 0.25, from, all.top + all.height - 4, to - from, 3);
+  ctx.fillStyle = look.ink;
+  for (const end of HANDLES) {
+    const x = handleX(state, span, end);
+    const out = end === 'first' ? -1 : 1;
+    ctx.beginPath();
+    ctx.moveTo(x + 5 * out, y);
+    ctx.lineTo(x - 3 * out, y - 7);
+    ctx.lineTo(x - 3 * out, y + 7);
+    ctx.closePath();
+    ctx.fill();
+  }
+}

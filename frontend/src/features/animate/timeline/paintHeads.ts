@@ -1,0 +1,127 @@
+// Draws what is fixed on top of the lanes: the ruler with its marks, markers and loop range, and the heads of the frames.
+
+import { markText } from '../../../i18n/instants.ts';
+import { words } from '../../../i18n/whole.ts';
+import { hasAll } from './hit.ts';
+import { colourOf } from '../../picture/look.ts';
+import { marksWithin, markStep } from './marks.ts';
+import type { Brush } from './brush.ts';
+import { seenSpan, xOf } from './timeScale.ts';
+
+/** Narrower heads carry no number. */
+const NUMBER_PX = 22;
+const NARROWEST_PX = 3;
+
+export function paintHeads(brush: Brush): void {
+  const { ctx, look, scene } = brush;
+  const { sizes, widthPx } = scene;
+  ctx.fillStyle = look.panel;
+  ctx.fillRect(0, 0, widthPx, sizes.ruler + sizes.heads);
+  paintRange(brush);
+  paintMarks(brush);
+  paintFrames(brush);
+  paintMarkers(brush);
+}
+
+function paintRange({ ctx, look, scene }: Brush): void {
+  const { range, time } = scene.state;
+  if (range === null) return;
+  const from = xOf(time, range.fromMs);
+  ctx.globalAlpha = 0.22;
+  ctx.fillStyle = look.ink;
+  ctx.fillRect(from, 0, xOf(time, range.toMs) - from, scene.sizes.ruler);
+  ctx.globalAlpha = 1;
+}
+
+function paintMarks({ ctx, look, scene }: Brush): void {
+  const { sizes, state, widthPx } = scene;
+  ctx.font = look.font;
+  ctx.textAlign = 'left';
+  ctx.textBaseline = 'middle';
+  const [stepMs] = markStep(state.time.msPerPx);
+  for (const { atMs, isMain } of marksWithin(seenSpan(state.time, widthPx), state.time.msPerPx)) {
+    const x = Math.round(xOf(state.time, atMs));
+    ctx.fillStyle = isMain ? look.edge : look.line;
+    ctx.fillRect(x, sizes.ruler - (isMain ? 10 : 5), 1, isMain ? 10 : 5);
+    ctx.fillStyle = look['ink-dim'];
+    if (isMain) ctx.fillText(markText(atMs, stepMs), x + 4, sizes.ruler / 2 - 1);
+  }
+}
+
+function paintFrames(brush: Brush): void {
+  const { ctx, look, scene } = brush;
+  const { times, state, sizes, widthPx } = scene;
+  const { fromMs, toMs } = seenSpan(state.time, widthPx);
+  const [top, height] = [sizes.ruler, sizes.heads];
+  ctx.fillStyle = look.line;
+  ctx.fillRect(0, top, widthPx, 1);
+  ctx.fillRect(0, top + height - 1, widthPx, 1);
+  let startMs = 0;
+  for (const [index, frame] of times.frames.entries()) {
+    const endMs = times.ends[index] ?? startMs;
+    if (endMs >= fromMs && startMs <= toMs)
+      paintFrame(brush, index, xOf(state.time, startMs), xOf(state.time, endMs));
+    startMs += frame.durationMs;
+  }
+}
+
+function paintFrame({ ctx, look, scene }: Brush, index: number, from: number, to: number): void {
+  const { times, state, sizes, selectedFrames } = scene;
+  const frame = times.frames[index];
+  const width = to - from;
+  if (frame === undefined || width < NARROWEST_PX) return;
+  const [top, height] = [sizes.ruler + 1, sizes.heads - 2];
+  const keys = frame.targets.map(({ servo }) => ({ frameId: frame.id, servo }));
+  const isSelected = selectedFrames.has(frame.id) && hasAll(state.selected, keys);
+  const tint = isSelected ? look.ink : colourOf(look, frame.colour);
+  if (tint !== null) {
+    ctx.globalAlpha = isSelected ? 0.22 : 0.5;
+    ctx.fillStyle = tint;
+    ctx.fillRect(from, top, width, height);
+    ctx.globalAlpha = 1;
+  }
+  ctx.fillStyle = look.edge;
+  ctx.fillRect(Math.round(to), top, 1, height);
+  if (width < NUMBER_PX) return;
+  ctx.fillStyle = isSelected ? look.ink : look['ink-dim'];
+  ctx.textAlign = 'center';
+  ctx.fillText(words.numbers.formatWhole(index + 1), from + width / 2, top + height / 2);
+  if (frame.note !== '') paintNote(ctx, to, top);
+}
+
+/** A folded corner: there is more to read. */
+function paintNote(ctx: CanvasRenderingContext2D, right: number, top: number): void {
+  const size = 8;
+  ctx.beginPath();
+  ctx.moveTo(right - size, top);
+  ctx.lineTo(right, top);
+  ctx.lineTo(right, top + size);
+  ctx.closePath();
+  ctx.fill();
+}
+
+export function paintMarkers({ ctx, look, scene }: Brush): void {
+  const { markers, state, sizes, heightPx } = scene;
+  ctx.textAlign = 'left';
+  for (const { id, atMs, text } of markers) {
+    const x = Math.round(xOf(state.time, atMs));
+    ctx.fillStyle = look.edge;
+    ctx.globalAlpha = 0.6;
+    ctx.fillRect(x, sizes.ruler, 1, heightPx);
+    ctx.globalAlpha = 1;
+    ctx.fillStyle = state.marker === id ? look.ink : look.edge;
+    ctx.beginPath();
+    ctx.moveTo(x - 5, 2);
+    ctx.lineTo(x + 5, 2);
+    ctx.lineTo(x + 5, 9);
+    ctx.lineTo(x, 14);
+    ctx.lineTo(x - 5, 9);
+    ctx.closePath();
+    ctx.fill();
+    const width = ctx.measureText(text).width;
+    ctx.fillStyle = look.raised;
+    ctx.fillRect(x + 8, 1, width + 6, 15);
+    ctx.fillStyle = look.ink;
+    ctx.fillText(text, x + 11, 9);
+  }
+}

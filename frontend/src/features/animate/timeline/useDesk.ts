@@ -1,0 +1,19 @@
+// What small parts of the timeline that show a bit of everything read, anew whenever something of it changed. The playhead is left
+// out: what follows it is drawn past React. So is what the servo panel changes all the time while it drags.
+
+import { useShallow } from 'zustand/react/shallow';
+import { useGroupBoard, useServoView, useStores, useTimeline, useView } from '../../stores.ts';
+import { useInFrame } from '../../../ui/useInFrame.ts';
+import { deskOf, type Desk } from './desk.ts';
+
+export type SeenDesk = Omit<Desk, 'state'> & { readonly state: Omit<Desk['state'], 'playheadMs'> };
+
+export function useDesk(): SeenDesk {
+  const stores = useStores();
+  useInFrame(stores.document.store, ({ present }) => present);
+  useGroupBoard();
+  useView((state) => state.positionsIn);
+  useServoView((view) => view);
+  useTimeline(useShallow(({ playheadMs: _, ...shown }) => shown));
+  return deskOf(stores);
+}

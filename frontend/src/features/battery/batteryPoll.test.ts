@@ -1,0 +1,107 @@
+import { describe, expect, test } from 'vitest';
+import { FAMILIES } from '#shared/codec/families.ts';
+import { createRig } from '#shared/session/rig.ts';
+import { createSession } from '#shared/session/session.ts';
+import type { Transport } from '#shared/session/transport.ts';
+import { canReadBattery, pollBattery } from './batteryPoll.ts';
+import { createDevice } from '../../robot/device.ts';
+import { createNotices } from '../../state/notices.ts';
+import { createRobots } from '../profiles/robots.ts';
+
+async function createDesk(visible = () => true) {
+  const rig = await createRig();
+  const device = createDevice({
+    family: FAMILIES.doc,
+    clock: rig.clock,
+    notices: createNotices(rig.clock),
+    robots: createRobots({ getItem: () => null, setItem: () => undefined }, createNotices(rig.clock)),
+  });
+  const end = pollBattery(device, visible);
+  device.attach(rig.session, { kind: 'simulated', label: 'Simulated board', isSimulated: true });
+  return { ...rig, device, end, asked: () => rig.ofKind('readBattery').length };
+}
+
+describe('the battery poll', () => {
+  test('asks as soon as a link is ready, then every five seconds', async () => {
+    const { clock, asked, device } = await createDesk();
+    await clock.advance(200);
+    expect(asked()).toBe(1);
+    expect(device.store.getState().snapshot.battery).toMatchObject({ kind: 'read', batteryMv: 7500 });
+    await clock.advance(10_000);
+    expect(asked()).toBe(3);
+  });
+
+  test('asks nothing while a group runs', async () => {
+    const { clock, asked, device } = await createDesk();
+    device.download([{ slot: 1, frames: [{ durationMs: 20_000, targets: [{ servo: 1, position: 1500 }] }] }]);
+    await clock.advance(3000);
+    device.run(1, 1);
+    await clock.advance(500);
+    const before = asked();
+    await clock.advance(12_000);
+    expect(device.store.getState().snapshot.activity.kind).toBe('running');
+    expect(asked()).toBe(before);
+  });
+
+  test('asks nothing while a servo moves, and soon after a playing has ended', async () => {
+    const { clock, asked, device } = await createDesk();
+    await clock.advance(1000);
+    device.move([{ servo: 1, position: 1600 }], 12_000);
+    await clock.advance(11_000);
+    expect(asked()).toBe(1);
+    await clock.advance(9500);
+    const before = asked();
+    device.play([{ durationMs: 2000, targets: [{ servo: 1, position: 1700 }] }], 1, () => undefined);
+    await clock.advance(3000);
+    expect(device.store.getState().snapshot.activity.kind).toBe('idle');
+    expect(asked()).toBe(before + 1);
+  });
+
+  test('asks nothing while the page is hidden, and nothing after its end', async () => {
+    let visible = false;
+    const { clock, asked, end } = await createDesk(() => visible);
+    await clock.advance(12_000);
+    expect(asked()).toBe(0);
+    visible = true;
+    await clock.advance(5000);
+    expect(asked()).toBe(1);
+    end();
+    await clock.advance(20_000);
+    expect(asked()).toBe(1);
+  });
+
+  test('asks nothing of a shared robot: its link does', async () => {
+    const { clock, device } = await createDesk();
+    const rig = await createRig();
+    const readBattery = () => Promise.reject(new Error('asked by the page'));
+    const lease = { driver: null, drives: false, asker: null, asks: false, answerInMs: null, others: 0 };
+    const person = {
+      you: 'Ben',
+      mayDrive: true,
+      mayTake: false,
+      givenBy: null,
+      candidates: [],
+      unattended: null,
+    };
+    const transport: Transport = {
+      ...rig.transport,
+      readBattery,
+      open(events) {
+        events.leased?.({ ...lease, ...person });
+        events.battery?.({ kind: 'read', batteryMv: 7_200, atMs: 0 });
+        return rig.transport.open(events);
+      },
+    };
+    const session = createSession({ transport, clock, family: FAMILIES.doc });
+    device.attach(session, { kind: 'gateway', label: 'Gateway', isSimulated: true });
+    await session.open();
+    await clock.advance(20_000);
+    expect(rig.ofKind('readBattery')).toEqual([]);
+    expect(session.state.battery).toEqual({ kind: 'read', batteryMv: 7_200, atMs: 0 });
+  });
+
+  test('only boards that answer are asked', () => {
+    expect(canReadBattery({ family: FAMILIES.doc })).toBe(true);
+    expect(canReadBattery({ family: FAMILIES['openarm-new'] })).toBe(false);
+  });
+});

@@ -1,0 +1,58 @@
+// How often the chosen slot is run: a number of times or, as a deliberate choice, until stopped; and whether it may go on alone.
+
+import { useDevice, useStores, useView } from '../stores.ts';
+import { NumberField } from '../../ui/NumberField.tsx';
+import { Toggle } from '../../ui/Toggle.tsx';
+import { words } from '../../i18n/whole.ts';
+import { GoOnControl } from './GoOnControl.tsx';
+import { useRunSettings } from './useRunSettings.ts';
+import field from '../../ui/Field.module.css';
+import styles from './BoardPanel.module.css';
+
+export function RunSettings() {
+  const { view } = useStores();
+  const { untilStopped, canRepeat } = useRunSettings();
+  return (
+    <>
+      <div className={styles.row}>
+        <TimesField untilStopped={untilStopped} />
+        <div className={styles.actions}>
+          <Toggle
+            label={words.board.untilStopped}
+            isOn={untilStopped}
+            isDisabled={!canRepeat}
+            onChange={(isOn) => view.setState({ untilStopped: isOn })}
+          />
+          {canRepeat ? (
+            <p className={styles.hint}>{untilStopped ? words.board.untilStoppedHint : ''}</p>
+          ) : (
+            <p className={styles.absent}>{words.board.untilStoppedAbsent}</p>
+          )}
+        </div>
+      </div>
+      <GoOnControl />
+    </>
+  );
+}
+
+function TimesField({ untilStopped }: { readonly untilStopped: boolean }) {
+  const { view, notices } = useStores();
+  const times = useView((state) => state.times);
+  const max = useDevice((state) => state.family.runTimes.max);
+  return (
+    <div className={field.named}>
+      <span className={styles.label} aria-hidden="true">
+        {words.board.times}
+      </span>
+      <NumberField
+        label={words.board.times}
+        value={times}
+        min={1}
+        max={max}
+        isDisabled={untilStopped}
+        onChange={(value) => view.setState({ times: value })}
+        onRefused={(value) => notices.refuse(words.refused({ name: words.board.times, value, min: 1, max }))}
+      />
+    </div>
+  );
+}

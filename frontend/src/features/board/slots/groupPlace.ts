@@ -1,0 +1,90 @@
+// Where the group at hand goes on the board, and how often it is run there. What a person chooses holds until another group is opened or
+// this one names its own; else it is the group's own slot, or a free one of the board. Moves and stores nothing.
+
+import { createStore, type StoreApi } from 'zustand/vanilla';
+import type { ActionGroup } from '#shared/group/group.ts';
+import { ownSlot, slotFor, type KnownSlots } from '#shared/group/placing.ts';
+import type { Device } from '../../../robot/device.ts';
+import type { Document } from '../../animate/group/document.ts';
+import type { View, ViewState } from '../../view.ts';
+import type { Slots } from './slots.ts';
+
+export interface PlaceState {
+  /** The one that Download and Run are about. */
+  readonly slot: number;
+}
+
+export interface GroupPlace {
+  readonly store: StoreApi<PlaceState>;
+  known(): KnownSlots;
+}
+
+export interface GroupPlaceOptions {
+  readonly document: Document;
+  /** Which document of the library is open. */
+  readonly opened: Pick<StoreApi<{ readonly openId: string }>, 'getState' | 'subscribe'>;
+  readonly view: View;
+  readonly slots: Slots;
+  readonly device: Device;
+}
+
+/** 0: until stopped. */
+export function chosenTimes({ times, untilStopped }: Pick<ViewState, 'times' | 'untilStopped'>): number {
+  return untilStopped ? 0 : times;
+}
+
+export function createGroupPlace({ document, opened, view, slots, device }: GroupPlaceOptions): GroupPlace {
+  const present = (): ActionGroup => document.store.getState().present;
+
+  function known(): KnownSlots {
+    const { family, snapshot } = device.store.getState();
+    const { slotVersions, brokenSlots } = snapshot;
+    const { book } = slots.store.getState();
+    return { book, versions: slotVersions ?? {}, broken: brokenSlots, range: family.slot };
+  }
+
+  function slotNow(): number {
+    const chosen = view.getState().slot;
+    if (chosen !== null) return chosen;
+    const own = ownSlot(opened.getState().openId, present(), known());
+    const { commands, slot } = device.store.getState().family;
+    // A board that takes no groups from here runs those it was filled with.
+    return commands.includes('download') ? slotFor(own, known()) : (own ?? slot.min);
+  }
+
+  const store = createStore<PlaceState>(() => ({ slot: slotNow() }));
+  const follow = (): void => {
+    const slot = slotNow();
+    if (slot !== store.getState().slot) store.setState({ slot });
+  };
+
+  function beginAnew(): void {
+    const { times } = present();
+    view.setState({
+      slot: null,
+      ...(times === 0 ? { untilStopped: true } : { times, untilStopped: false }),
+    });
+    follow();
+  }
+
+  document.store.subscribe(({ present: now }, { present: before }) => {
+    if (now.slot !== before.slot || now.times !== before.times) beginAnew();
+  });
+  opened.subscribe(({ openId }, before) => {
+    if (openId !== before.openId) beginAnew();
+  });
+  view.subscribe(({ slot }, before) => {
+    if (slot !== before.slot) follow();
+  });
+  slots.store.subscribe(follow);
+  device.store.subscribe(({ family, snapshot }, before) => {
+    const { slotVersions, brokenSlots } = before.snapshot;
+    const isSame =
+      family === before.family &&
+      snapshot.slotVersions === slotVersions &&
+      snapshot.brokenSlots === brokenSlots;
+    if (!isSame) follow();
+  });
+  beginAnew();
+  return { store, known };
+}

@@ -1,0 +1,33 @@
+// What each slot of the board at hand holds, against the group at hand, and whether one is being filled.
+
+import { holds } from '#shared/document/history.ts';
+import { fateOf, type SlotFate } from '#shared/group/slotBook.ts';
+import type { Truth } from '../../../ui/Chip.tsx';
+import { useCompiled, useDocument, useLibrary, useSlots, useSnapshot } from '../../stores.ts';
+
+export const FATE_TRUTH: Readonly<Record<SlotFate, Truth>> = {
+  arriving: 'commanded',
+  broken: 'danger',
+  same: 'confirmed',
+  older: 'warning',
+  other: 'commanded',
+  empty: 'neutral',
+  unknown: 'unknown',
+};
+
+export function useFates(): (slot: number) => SlotFate {
+  const book = useSlots((state) => state.book);
+  const broken = useSnapshot((snapshot) => snapshot.brokenSlots);
+  const arriving = useSnapshot(({ activity }) => (activity.kind === 'downloading' ? activity.slot : null));
+  const versions = useSnapshot(({ slotVersions }) => slotVersions) ?? NO_VERSIONS;
+  const latest = useCompiled((state) => state.latest);
+  const documentId = useLibrary((state) => state.openId);
+  const isEmpty = useDocument(({ present }) => present.frames.length === 0);
+  // What a group comes to is worked out a little later than it is there: that of another one says nothing about it.
+  const isOfThis = useDocument((history) => holds(history, latest.source.group));
+  const fingerprint = isOfThis ? latest.fingerprint : '';
+  const onPage = isEmpty ? null : { documentId, fingerprint };
+  return (slot) => fateOf(book, { broken, arriving, versions }, slot, onPage);
+}
+
+const NO_VERSIONS = {};

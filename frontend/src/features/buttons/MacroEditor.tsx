@@ -1,0 +1,158 @@
+// What the selected button is called, looks like and does.
+
+import { COLOURS } from '#shared/document/colours.ts';
+import { macroOf, type Macro } from '#shared/profile/macro.ts';
+import { changeMacro, moveMacro, removeMacro } from '#shared/profile/macroEdits.ts';
+import { useId, useState, type KeyboardEvent } from 'react';
+import { useMacros, useStores, useView } from '../stores.ts';
+import { Button, IconButton } from '../../ui/Button.tsx';
+import { NameField } from '../../ui/NameField.tsx';
+import { Panel } from '../../ui/Panel.tsx';
+import { words } from '../../i18n/whole.ts';
+import { macroKey } from './macroKey.ts';
+import { StepList } from './StepList.tsx';
+import styles from './MacroEditor.module.css';
+
+export function MacroEditor() {
+  const id = useView((state) => state.selectedButton);
+  const macro = useMacros(({ present }) => macroOf(present, id));
+  if (macro === undefined) return <p className={styles.hint}>{words.macros.select}</p>;
+  return (
+    <Panel
+      title={words.macros.selected({ name: macro.name })}
+      tools={<Tools macro={macro} />}
+      className={styles.panel}
+    >
+      <div className={styles.fields}>
+        <Name macro={macro} />
+        <Colours macro={macro} />
+        <KeyField key={macro.id} macro={macro} />
+        <StepList macro={macro} />
+      </div>
+    </Panel>
+  );
+}
+
+interface MacroProps {
+  readonly macro: Macro;
+}
+
+function Tools({ macro }: MacroProps) {
+  const { macros, notices } = useStores();
+  const list = useMacros(({ present }) => present.macros);
+  const index = list.indexOf(macro);
+  const { id, name } = macro;
+  const move = (to: number) => (): void => {
+    macros.edit(
+      () => words.macros.edits.move({ name }),
+      (page) => moveMacro(page, id, to),
+    );
+    notices.say(words.macros.moved({ from: index + 1, to: to + 1 }));
+  };
+  return (
+    <>
+      <IconButton
+        icon="earlier"
+        label={words.macros.earlier}
+        isDisabled={index === 0}
+        onPress={move(index - 1)}
+      />
+      <IconButton
+        icon="later"
+        label={words.macros.later}
+        isDisabled={index === list.length - 1}
+        onPress={move(index + 1)}
+      />
+      <IconButton
+        icon="trash"
+        label={words.macros.delete}
+        onPress={() =>
+          macros.edit(
+            () => words.macros.edits.delete({ name }),
+            (page) => removeMacro(page, id),
+          )
+        }
+      />
+    </>
+  );
+}
+
+function Name({ macro: { id, name } }: MacroProps) {
+  const { macros } = useStores();
+  return (
+    <NameField
+      isFramed
+      label={words.macros.name}
+      name={name}
+      onRename={(wanted) =>
+        macros.edit(
+          () => words.macros.edits.rename({ name }),
+          (page) => changeMacro(page, id, { name: wanted }),
+        )
+      }
+    />
+  );
+}
+
+function Colours({ macro: { id, name, colour } }: MacroProps) {
+  const { macros } = useStores();
+  const group = useId();
+  return (
+    <fieldset className={styles.colours} aria-label={words.macros.colour}>
+      {COLOURS.map((one) => (
+        <label key={one} className={styles.colour} data-colour={one}>
+          <input
+            type="radio"
+            name={group}
+            aria-label={words.macros.colours[one]}
+            checked={one === colour}
+            onChange={() =>
+              macros.edit(
+                () => words.macros.edits.colour({ name }),
+                (page) => changeMacro(page, id, { colour: one }),
+              )
+            }
+          />
+        </label>
+      ))}
+    </fieldset>
+  );
+}
+
+/** Keys that say nothing before another one is pressed. */
+const HELD_WITH_OTHERS = new Set(['Shift', 'Control', 'Alt', 'AltGraph', 'Meta']);
+
+function KeyField({ macro: { id, name, key } }: MacroProps) {
+  const { macros, notices } = useStores();
+  const [isListening, setListening] = useState(false);
+  const setKey = (wanted: string | null): void => {
+    setListening(false);
+    const { present } = macros.store.getState();
+    const loser = present.macros.find((one) => wanted !== null && one.key === wanted && one.id !== id);
+    macros.edit(
+      () => words.macros.edits.key({ name }),
+      (page) => changeMacro(page, id, { key: wanted }),
+    );
+    if (loser !== undefined && wanted !== null)
+      notices.tell('info', words.macros.keyTaken({ key: wanted.toUpperCase(), from: loser.name }));
+  };
+  /** Before the button takes it for a press. Esc has been STOP already, and ends the listening. */
+  const listen = (event: KeyboardEvent): void => {
+    if (!isListening || event.key === 'Tab') return;
+    event.preventDefault();
+    event.stopPropagation();
+    const wanted = macroKey(event.nativeEvent);
+    if (wanted !== null) setKey(wanted);
+    else if (event.key === 'Escape') setListening(false);
+    else if (!event.repeat && !HELD_WITH_OTHERS.has(event.key)) notices.tell('info', words.macros.keyUnfit);
+  };
+  return (
+    <div className={styles.row} onKeyDownCapture={listen} onBlur={() => setListening(false)}>
+      <span className={styles.label}>{words.macros.key}</span>
+      <Button onPress={() => setListening(true)}>
+        {isListening ? words.macros.pressKey : (key?.toUpperCase() ?? words.macros.setKey)}
+      </Button>
+      {key !== null && <IconButton icon="close" label={words.macros.noKey} onPress={() => setKey(null)} />}
+    </div>
+  );
+}

@@ -1,0 +1,196 @@
+// What goes on, in one place that never moves: the latch with its Resume first, then a lost link with its countdown, then
+// what the board does. Changes are read out.
+
+import type { Unheld } from '#shared/motion/haltPlan.ts';
+import { usePlayedFrame } from '../animate/play/usePlayedFrame.ts';
+import { useDevice, useDocument, useIsTeaching, useSnapshot, useStores } from '../stores.ts';
+import { mayResume } from '#shared/session/lease.ts';
+import type { LinkErrorCode } from '#shared/session/linkError.ts';
+import type { Activity, Latch, LinkState } from '#shared/session/state.ts';
+import { Button } from '../../ui/Button.tsx';
+import { Mark, type Truth } from '../../ui/Chip.tsx';
+import { cx } from '../../ui/cx.ts';
+import { useNow } from '../../ui/useNow.ts';
+import { servosText } from '../../i18n/sentences/servos.ts';
+import { secondsLeft } from '../../i18n/numbers.ts';
+import { stoppedBy, mayResumeText } from '../../i18n/sentences/people.ts';
+import { errorSentence } from '../../i18n/sentences/errors.ts';
+import { words } from '../../i18n/words.ts';
+import { LeaseChip } from '../people/LeaseChip.tsx';
+import { UnattendedChip } from '../people/UnattendedChip.tsx';
+import styles from './StatusLine.module.css';
+
+export interface StatusLineProps {
+  /** Its place in the bar. */
+  readonly className?: string | undefined;
+  /** Has another tab let go of the robot. */
+  onMoveHere(): void;
+}
+
+export function StatusLine({ className, onMoveHere }: StatusLineProps) {
+  const link = useSnapshot((snapshot) => snapshot.link);
+  const latch = useSnapshot((snapshot) => snapshot.latch);
+  const activity = useSnapshot((snapshot) => snapshot.activity);
+  const played = usePlayed();
+  const isTeaching = useIsTeaching();
+  const isDown = link.status === 'lost' || link.status === 'refused';
+  const isCalm = link.status === 'ready' && latch === null;
+  const isMoving = useDevice((device) => device.isMoving) && activity.kind === 'idle';
+  return (
+    <div
+      className={cx(
+        styles.line,
+        className,
+        isDown && styles.lost,
+        latch !== null && styles.held,
+        isCalm && styles.calm,
+      )}
+    >
+      {isDown ? (
+        <Down link={link} onMoveHere={onMoveHere} />
+      ) : link.status === 'stale' ? (
+        <Said truth="warning" text={errorSentence('boardSilent')} />
+      ) : link.status === 'identifying' ? (
+        <Said truth="unknown" text={words.identity.asking} />
+      ) : latch !== null ? (
+        <Latched latch={latch} />
+      ) : isTeaching ? (
+        <Said truth="warning" text={words.teach.status} />
+      ) : (
+        <Said
+          truth={isMoving ? 'estimated' : activityTruth(activity)}
+          text={
+            link.status !== 'ready' ? '' : isMoving ? words.activity.moving : activityWords(activity, played)
+          }
+        />
+      )}
+      <LeaseChip />
+      <UnattendedChip />
+    </div>
+  );
+}
+
+function Said({ truth, text, more = '' }: { truth: Truth; text: string; more?: string }) {
+  return (
+    <div className={styles.said} role="status">
+      {text !== '' && <Mark truth={truth} />}
+      <div className={styles.words}>
+        <p className={styles.text}>{text}</p>
+        <p className={styles.more}>{more}</p>
+      </div>
+    </div>
+  );
+}
+
+function Latched({ latch }: { readonly latch: Latch }) {
+  const { device } = useStores();
+  const lease = useSnapshot((snapshot) => snapshot.lease);
+  const isOurs = lease === null || mayResume(lease);
+  return (
+    <>
+      <Said
+        truth={latch.stop === 'confirmed' ? 'confirmed' : latch.stop === 'failed' ? 'danger' : 'warning'}
+        text={words.stop.outcome[latch.stop]}
+        more={isOurs ? latchWords(latch) : `${latchWords(latch)}. ${mayResumeText(lease)}`}
+      />
+      {isOurs && (
+        <Button onPress={() => device.resume()} icon="play" hint={words.stop.resumeHint}>
+          {words.stop.resume}
+        </Button>
+      )}
+    </>
+  );
+}
+
+const ANSWERED_ELSEWHERE: readonly LinkErrorCode[] = ['closed', 'boardUnknown', 'wrongBoard', 'echo'];
+
+const IN_ANOTHER_TAB: readonly LinkErrorCode[] = ['heldElsewhere', 'movedAway'];
+
+function latchWords({ reason, by, unheld }: Latch): string {
+  const why = reason === 'elsewhere' ? stoppedBy(by) : words.stop.reason[reason];
+  if (unheld === null) return why;
+  const goesOn = unheldText(unheld);
+  return reason === 'pressed' ? goesOn : `${goesOn}. ${why}`;
+}
+
+function unheldText({ servos, forMs }: Unheld): string {
+  const who = servos === null ? words.stop.robot : servosText(servos);
+  return Number.isFinite(forMs)
+    ? words.stop.goesOnFor({ servos: who, ms: forMs })
+    : words.stop.goesOn({ servos: who });
+}
+
+type DownState = Extract<LinkState, { status: 'lost' | 'refused' }>;
+
+function Down({ link, onMoveHere }: { readonly link: DownState; readonly onMoveHere: () => void }) {
+  const { device } = useStores();
+  const needsChoice = link.error.code === 'boardUnknown';
+  const said = (
+    <Said
+      truth={needsChoice ? 'warning' : 'danger'}
+      text={errorSentence(link.error.code, link.error.message)}
+    />
+  );
+  // There is nothing to try again: the sentence says to connect, or to say which board it is.
+  if (ANSWERED_ELSEWHERE.includes(link.error.code)) return said;
+  const retryAtMs = link.status === 'lost' ? link.retryAtMs : null;
+  return (
+    <>
+      {said}
+      <span className={styles.countdown}>
+        {retryAtMs === null ? words.link.needsYou : <Countdown untilMs={retryAtMs} />}
+      </span>
+      {IN_ANOTHER_TAB.includes(link.error.code) ? (
+        <Button onPress={onMoveHere}>{words.link.moveHere}</Button>
+      ) : (
+        <Button onPress={() => device.retryNow()} icon="refresh">
+          {words.link.retryNow}
+        </Button>
+      )}
+    </>
+  );
+}
+
+function Countdown({ untilMs }: { readonly untilMs: number }) {
+  const { device } = useStores();
+  const nowMs = useNow(device.clock.now, 250);
+  return words.link.retryIn({ seconds: secondsLeft(untilMs - nowMs) });
+}
+
+function activityTruth(activity: Activity): Truth {
+  if (activity.kind === 'idle') return 'neutral';
+  if (activity.kind !== 'running') return 'commanded';
+  return ({ requested: 'commanded', acknowledged: 'confirmed', unknown: 'unknown' } as const)[activity.truth];
+}
+
+interface Played {
+  readonly frame: number;
+  readonly count: number;
+}
+
+/** Of the person's group, counted from one: what is sent are more frames, as compile makes them. null: something else is played. */
+function usePlayed(): Played | null {
+  const count = useDocument(({ present }) => present.frames.length);
+  const index = usePlayedFrame();
+  return index === null ? null : { frame: index + 1, count };
+}
+
+function activityWords(activity: Activity, played: Played | null): string {
+  switch (activity.kind) {
+    case 'idle':
+      return words.activity.idle;
+    case 'running':
+      return words.activity.told({
+        activity: words.activity.running(activity),
+        truth: words.activity.runTruth[activity.truth],
+      });
+    case 'playing':
+      return played === null
+        ? words.activity.moving
+        : words.activity.playing({ frame: played.frame, count: played.count });
+    case 'downloading':
+      return words.activity.downloading({ slot: activity.slot });
+    case 'erasing':
+      return words.activity.erasing;
+  }
+}

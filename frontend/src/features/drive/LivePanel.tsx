@@ -1,0 +1,16 @@
+// The place of live control: the servos, or, while nobody has said which board this is, the question.
+
+import { useDevice } from '../stores.ts';
+import { laterComponent } from '../../ui/later.tsx';
+import { ServosPanel } from './ServosPanel.tsx';
+
+const WhichBoard = laterComponent(
+  async () => (await import('../connect/identity/WhichBoard.tsx')).WhichBoard,
+  '100%',
+  'guards',
+);
+
+export function LivePanel() {
+  const isUnknown = useDevice(({ family, way }) => family.id === 'unknown' && way !== null);
+  return isUnknown ? <WhichBoard /> : <ServosPanel />;
+}

@@ -1,0 +1,222 @@
+// One servo: dial, name, slider, value. Its target and its estimate are drawn past React, so that dozens may move in each frame.
+
+import { memo, useRef } from 'react';
+import { servoOf, type RobotServo } from '#shared/profile/robot.ts';
+import { MovingText } from '../picture/MovingText.tsx';
+import { mayBrush, motionHindrance, tellsPositions } from '../../robot/readiness.ts';
+import { isHeld } from './servoView.ts';
+import { useDevice, useGuess, useServoView, useSnapshot, useStores, useView } from '../stores.ts';
+import { cx } from '../../ui/cx.ts';
+import { Sight, useSight } from '../../ui/sight.ts';
+import { NumberField } from '../../ui/NumberField.tsx';
+import { servoLabel } from '../../i18n/sentences/servos.ts';
+import { useWords, words } from '../../i18n/words.ts';
+import { Estimate } from './Estimate.tsx';
+import { PositionSlider } from './PositionSlider.tsx';
+import { Reported } from './Reported.tsx';
+import { scaleOf, stepped, type Scale } from './scale.ts';
+import { ServoName } from './ServoName.tsx';
+import { useHand } from './useHand.ts';
+import { targetOf } from './useTarget.ts';
+import { useWheelSteps } from './useWheelSteps.ts';
+import styles from './ServoRow.module.css';
+
+export interface ServoRowProps {
+  readonly servo: RobotServo;
+  /** All servos of the list from top to bottom, for selecting a stretch of it. */
+  readonly order: readonly number[];
+}
+
+export const ServoRow = memo(function ServoRow({ servo: own, order }: ServoRowProps) {
+  const { servo } = own;
+  useWords();
+  const row = useRef<HTMLLIElement>(null);
+  const name = useRef<HTMLButtonElement>(null);
+  const isInSight = useSight(row);
+  const isSelected = useServoView(({ selected }) => selected.includes(servo));
+  return (
+    <li ref={row} className={cx(styles.row, isSelected && styles.selected)}>
+      <Sight value={isInSight}>
+        <ServoName ref={name} servo={own} order={order} />
+        <ServoControls
+          servo={own}
+          // What a finger holds may be behind the picture that stays in sight.
+          onHeld={() => name.current?.scrollIntoView({ block: 'nearest' })}
+        />
+      </Sight>
+    </li>
+  );
+});
+
+interface ServoControlsProps {
+  readonly servo: RobotServo;
+  /** A finger has taken hold of the slider. */
+  onHeld(): void;
+}
+
+function ServoControls({ servo: own, onHeld }: ServoControlsProps) {
+  const { servo } = own;
+  const { device } = useStores();
+  const hand = useHand();
+  const family = useDevice((state) => state.family);
+  const isKnown = useDevice((state) => state.known.includes(servo));
+  const isRead = useDevice((state) => state.readServos.includes(servo));
+  const guess = useGuess(own);
+  const scale = scaleOf(
+    own,
+    family,
+    useView((state) => state.positionsIn),
+  );
+  const hindrance = useSnapshot(motionHindrance);
+  const isLocked = useServoView((view) => isHeld(view, servo));
+  const isTelling = tellsPositions(family);
+  const blocked = hindrance !== null || isLocked;
+  const area = useRef<HTMLDivElement>(null);
+  /** Whoever reads why turns the wheel to scroll. */
+  const isRefused = useRef(false);
+  const refusal = useRef<(() => void) | null>(null);
+  const touch = (): void => {
+    isRefused.current = false;
+  };
+  /** What was refused before is of no interest any more. */
+  const take = (): void => {
+    touch();
+    refusal.current?.();
+    refusal.current = null;
+  };
+  const move = (position: number): void => {
+    take();
+    hand.move(servo, position);
+  };
+  const leap = (position: number): void => {
+    take();
+    hand.leap(servo, position);
+  };
+  /** By a finger. */
+  const isNewlyHeld = useRef(false);
+  const drag = (position: number): void => {
+    if (isNewlyHeld.current) onHeld();
+    isNewlyHeld.current = false;
+    take();
+    hand.drag(servo, position);
+  };
+  useWheelSteps(area, {
+    mayStep: () =>
+      !isLocked && !isRefused.current && mayBrush(device.store.getState().snapshot, device.motion(servo)),
+    step(change, isFar) {
+      const from = targetOf(device, servo);
+      if (from !== null) move(stepped(scale, from, change * scale.step * (isFar ? 10 : 1)));
+    },
+  });
+
+  return (
+    <div
+      ref={area}
+      className={styles.controls}
+      onFocus={touch}
+      onPointerDown={({ pointerType }) => {
+        touch();
+        isNewlyHeld.current = pointerType === 'touch';
+      }}
+      // Not before the press is whole: a finger that scrolls past asks nobody for the robot.
+      onPointerUp={() => hindrance === 'watching' && device.lease('request')}
+    >
+      <PositionSlider
+        {...{ servo: own, family, scale, isKnown, isRead, guess, blocked }}
+        onMove={move}
+        onLeap={leap}
+        onDrag={drag}
+        onHome={() => hand.home([servo])}
+      />
+      <TargetField
+        {...{ servo: own, scale, isKnown, isRead, guess, blocked }}
+        onStep={move}
+        onTyped={(position) => {
+          touch();
+          return hand.place(servo, position);
+        }}
+        onRefused={(takeBack) => {
+          isRefused.current = true;
+          refusal.current = takeBack;
+        }}
+      />
+      <div className={styles.readings}>
+        <Estimate servo={servo} scale={scale} />
+        {isTelling && <Reported servo={servo} scale={scale} />}
+      </div>
+    </div>
+  );
+}
+
+interface TargetFieldProps {
+  readonly servo: RobotServo;
+  readonly scale: Scale;
+  readonly isKnown: boolean;
+  readonly isRead: boolean;
+  readonly guess: number | null;
+  readonly blocked: boolean;
+  onStep(position: number): void;
+  /** Gives back who of those that move along stopped them at its limit, if any did. */
+  onTyped(position: number): number | null;
+  onRefused(takeBack: () => void): void;
+}
+
+function TargetField(props: TargetFieldProps) {
+  const { servo: own, scale, isKnown, isRead, guess, blocked, onStep, onTyped, onRefused } = props;
+  const { device, notices, robots, view } = useStores();
+  const source = isRead ? 'confirmed' : 'commanded';
+  const shown = (): number | null => {
+    const target = targetOf(device, own.servo);
+    return target === null ? null : scale.shown(target);
+  };
+  const tellStop = (first: number): void => {
+    const met = servoOf(robots.current().robot, first);
+    if (met === undefined) return;
+    const read = scaleOf(met, device.store.getState().family, view.getState().positionsIn);
+    notices.tell(
+      'warning',
+      words.servoPanel.stoppedBy({ name: servoLabel(met), min: read.text(met.min), max: read.text(met.max) }),
+    );
+  };
+  const take = (wanted: number, isStep: boolean): void => {
+    const position = scale.position(wanted);
+    const first = isStep ? null : onTyped(position);
+    if (isStep) onStep(position);
+    if (first !== null) tellStop(first);
+  };
+  const refuse = (wanted: number): (() => void) => {
+    const takeBack = notices.refuse(refusal(own, wanted, scale));
+    onRefused(takeBack);
+    return takeBack;
+  };
+  return (
+    <NumberField
+      label={words.servos.target({ servo: own.servo })}
+      size="large"
+      truth={isKnown ? { mark: source, title: words.truth[source] } : undefined}
+      value={{ now: shown, Show: MovingText }}
+      {...{ min: scale.min, max: scale.max, unit: scale.unit, decimals: scale.decimals, step: scale.step }}
+      placeholder={
+        isKnown
+          ? ''
+          : guess === null
+            ? words.servos.unknown
+            : words.firstMoves.guessed({ position: scale.digits(guess) })
+      }
+      start={scale.shown(guess ?? own.home)}
+      isReadOnly={blocked}
+      onChange={take}
+      onRefused={refuse}
+    />
+  );
+}
+
+function refusal(servo: RobotServo, shown: number, { min, max, unit }: Scale) {
+  const text = (value: number): string => (unit === '°' ? `${value}°` : `${value}`);
+  return words.servoPanel.refused({
+    name: servoLabel(servo),
+    value: text(shown),
+    min: text(min),
+    max: text(max),
+  });
+}

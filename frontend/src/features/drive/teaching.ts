@@ -1,0 +1,135 @@
+// Posing the robot by hand: lets go of every servo, asks the board again and again where they stand, and ends with a hold where
+// they were last read. STOP, a lost link, another driver and whatever else moves the robot end it without one. Knows no panel.
+
+import { createStore, type StoreApi } from 'zustand/vanilla';
+import type { ServoTarget } from '#shared/codec/commands.ts';
+import type { Family } from '#shared/codec/families.ts';
+import { servoLabel } from '../../i18n/sentences/servos.ts';
+import { words } from '../../i18n/words.ts';
+import type { Device, DeviceState } from '../../robot/device.ts';
+import { limitRefusal } from '../../robot/limits.ts';
+import { GENTLE_MOVE_MS } from '../../robot/moveTime.ts';
+import { endsMotion, startHindrance, tellsPositions } from '../../robot/readiness.ts';
+import type { Notices } from '../../state/notices.ts';
+import type { RobotStore } from '../profiles/robots.ts';
+
+export interface TeachingState {
+  readonly isOn: boolean;
+}
+
+export interface Teaching {
+  readonly store: StoreApi<TeachingState>;
+  /** Only after a person was warned: what the servos carry drops. */
+  begin(): void;
+  /** Holds the servos where they were last read. */
+  end(): void;
+}
+
+export interface TeachingOptions {
+  readonly device: Device;
+  readonly robots: RobotStore;
+  readonly notices: Notices;
+}
+
+/** Between an answer and the next question: others have something to ask, too. */
+const PAUSE_MS = 20;
+/** One question may be lost on the way. */
+const SILENT_LIMIT = 3;
+
+/** Its servos can be let go of and asked where they stand. */
+export function canTeach(family: Family): boolean {
+  return family.commands.includes('release') && tellsPositions(family);
+}
+
+export function createTeaching({ device, robots, notices }: TeachingOptions): Teaching {
+  const store = createStore<TeachingState>(() => ({ isOn: false }));
+  /** Answers of a teaching before this one change nothing. */
+  let round = 0;
+  /** An answer is awaited: until then the board may be too busy to take up a move. */
+  let isAsking = false;
+  let isEnding = false;
+
+  const servos = (): readonly number[] => robots.current().robot.servos.map(({ servo }) => servo);
+
+  function off(): void {
+    round += 1;
+    isAsking = false;
+    isEnding = false;
+    store.setState({ isOn: false });
+  }
+
+  function endReleased(): void {
+    off();
+    notices.tell('warning', words.teach.staysReleased);
+  }
+
+  function begin(): void {
+    const { snapshot, family } = device.store.getState();
+    if (store.getState().isOn || startHindrance(snapshot) !== null || !canTeach(family)) return;
+    round += 1;
+    const mine = round;
+    store.setState({ isOn: true });
+    device.release(servos(), (isDone) => {
+      if (mine !== round) return;
+      if (isDone) read(mine, 0);
+      else off();
+    });
+  }
+
+  function read(mine: number, silent: number): void {
+    if (mine !== round) return;
+    // One that is moved would freeze for the answer and then jump (S29).
+    if (!device.isAtRest()) return endReleased();
+    isAsking = true;
+    device.readPositions(servos(), (isDone) => {
+      if (mine !== round) return;
+      isAsking = false;
+      const silentNow = isDone ? 0 : silent + 1;
+      if (isEnding) hold();
+      else if (silentNow === SILENT_LIMIT) endReleased();
+      else device.clock.after(PAUSE_MS, () => read(mine, silentNow));
+    });
+  }
+
+  function isEnded({ snapshot }: DeviceState): boolean {
+    return endsMotion(snapshot) || snapshot.activity.kind !== 'idle';
+  }
+
+  function end(): void {
+    if (!store.getState().isOn) return;
+    isEnding = true;
+    if (!isAsking) hold();
+  }
+
+  function hold(): void {
+    off();
+    const { robot } = robots.current();
+    const motion = device.motions();
+    const read = robot.servos.flatMap(({ servo }): readonly ServoTarget[] => {
+      const { target, reported } = motion(servo);
+      return target === null || reported !== 'released' ? [] : [{ servo, position: Math.round(target) }];
+    });
+    const held = read.filter((target) => limitRefusal(robot, [target]) === null);
+    if (held.length > 0) device.move(held, GENTLE_MOVE_MS);
+    const beyond = robot.servos.filter(
+      ({ servo }) => motion(servo).reported !== 'commanded' && !held.some((target) => target.servo === servo),
+    );
+    if (beyond.length > 0)
+      notices.tell(
+        'warning',
+        words.teach.notHeld({ names: words.numbers.formatNames(beyond.map(servoLabel)) }),
+      );
+  }
+
+  device.store.subscribe((state) => {
+    if (store.getState().isOn && isEnded(state)) endReleased();
+  });
+  let robotId = robots.current().id;
+  robots.store.subscribe(() => {
+    const { id } = robots.current();
+    if (id !== robotId && store.getState().isOn) endReleased();
+    robotId = id;
+  });
+
+  return { store, begin, end };
+}

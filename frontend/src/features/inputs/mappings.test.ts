@@ -1,0 +1,62 @@
+import { describe, expect, test } from 'vitest';
+import type { Mapping } from '#shared/profile/mapping.ts';
+import { readyMapping } from '#shared/profile/mappingReady.ts';
+import { createVirtualClock } from '#shared/testing/virtualClock.ts';
+import { createMappings } from './mappings.ts';
+import { createNotices } from '../../state/notices.ts';
+import { createRobots, freshRobot } from '../profiles/robots.ts';
+
+function desk(texts = new Map<string, string>()) {
+  const storage = {
+    getItem: (key: string) => texts.get(key) ?? null,
+    setItem: (key: string, text: string) => void texts.set(key, text),
+  };
+  const notices = createNotices(createVirtualClock());
+  const robots = createRobots(storage, notices);
+  const mappings = createMappings(storage, notices, robots);
+  const told = () => notices.store.getState().length;
+  const bindings = () => mappings.store.getState().present.bindings.length;
+  return { texts, robots, mappings, told, bindings };
+}
+
+const emptied = (mapping: Mapping): Mapping => ({ ...mapping, bindings: [] });
+
+describe('mappings', () => {
+  test('a robot has the ready one until somebody changes it; then it is there at the next visit', () => {
+    const { texts, mappings, robots } = desk();
+    expect(mappings.store.getState().present).toEqual(readyMapping(robots.current().robot));
+    mappings.edit(() => 'empty', emptied);
+    expect(desk(texts).bindings()).toBe(0);
+  });
+
+  test('edits are undone and redone', () => {
+    const { mappings, bindings } = desk();
+    const before = bindings();
+    mappings.edit(() => 'empty', emptied);
+    mappings.undo();
+    expect(bindings()).toBe(before);
+    mappings.redo();
+    expect(bindings()).toBe(0);
+  });
+
+  test('each robot has its own, with its own undo', () => {
+    const { robots, mappings, bindings } = desk();
+    const { id } = robots.current();
+    mappings.edit(() => 'empty', emptied);
+    robots.add(() => 'add', freshRobot('hand', 'doc'));
+    expect(bindings()).toBeGreaterThan(0);
+    mappings.undo();
+    expect(bindings()).toBeGreaterThan(0);
+    robots.takeUp(id);
+    expect(bindings()).toBe(0);
+    mappings.undo();
+    expect(bindings()).toBeGreaterThan(0);
+  });
+
+  test('saved text that is none of ours is set aside', () => {
+    const { texts, told, bindings } = desk(new Map([['servodeck.mapping.1', 'x']]));
+    expect(texts.get('servodeck.mapping.1.unreadable')).toBe('x');
+    expect(told()).toBe(1);
+    expect(bindings()).toBeGreaterThan(0);
+  });
+});

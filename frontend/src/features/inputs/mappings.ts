@@ -1,0 +1,27 @@
+// What pad and keys do to the robot at hand; a robot without an entry has its ready mapping. Moves nothing; pad.ts does what a
+// mapping says.
+
+import type { Mapping } from '#shared/profile/mapping.ts';
+import { readyMapping } from '#shared/profile/mappingReady.ts';
+import { mappingFromText, mappingToText } from '#shared/profile/mappingText.ts';
+import { flawSentence } from '../../i18n/sentences/errors.ts';
+import { words } from '../../i18n/words.ts';
+import type { TextStorage } from '../../state/textStorage.ts';
+import type { Notices } from '../../state/notices.ts';
+import { createRobotDocument, type RobotDocument } from '../profiles/robotDocument.ts';
+import type { RobotStore } from '../profiles/robots.ts';
+
+export function createMappings(
+  storage: TextStorage,
+  notices: Notices,
+  robots: RobotStore,
+): RobotDocument<Mapping> {
+  return createRobotDocument({
+    ...{ storage, notices, robots, key: 'servodeck.mapping' },
+    ...{
+      notSaved: () => words.pad.notSaved,
+      unreadable: (flaw) => words.pad.unreadable({ flaw: flawSentence(flaw) }),
+    },
+    ...{ fresh: readyMapping, toText: mappingToText, fromText: mappingFromText },
+  });
+}

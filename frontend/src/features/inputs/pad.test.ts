@@ -1,0 +1,315 @@
+import { describe, expect, test } from 'vitest';
+import { FAMILIES } from '#shared/codec/families.ts';
+import type { Input } from '#shared/profile/mapping.ts';
+import { addPose } from '#shared/profile/poseEdits.ts';
+import { createRig } from '#shared/session/rig.ts';
+import { stayingSentence } from '../../i18n/sentences/servos.ts';
+import { words } from '../../i18n/words.ts';
+import { createDevice } from '../../robot/device.ts';
+import { createMappings } from './mappings.ts';
+import { createNotices } from '../../state/notices.ts';
+import { createPad, type Gamepadlike } from './pad.ts';
+import { createPoses } from '../poses/poses.ts';
+import { createView } from '../view.ts';
+import { INITIAL_SERVO_VIEW } from '../drive/servoView.ts';
+import { createRobots, freshRobot } from '../profiles/robots.ts';
+
+const STANDARD = { id: 'Pad', index: 0, mapping: 'standard' };
+/** Button numbers of the ready mapping. */
+const STOP = 1;
+const RIGHT_TRIGGER = 7;
+
+/** A robot whose first servo stands at 1500, and a pad lying beside it, switched on unless told otherwise. */
+async function createDesk({ drives = true } = {}) {
+  const rig = await createRig();
+  const notices = createNotices(rig.clock);
+  const storage = { getItem: () => null, setItem: () => undefined };
+  const robots = createRobots(storage, notices);
+  const device = createDevice({ family: FAMILIES.doc, clock: rig.clock, notices, robots });
+  const mappings = createMappings(storage, notices, robots);
+  let plugged: Gamepadlike | null = null;
+  const readPads = () => [null, plugged];
+  const view = createView({ browser: storage, tab: storage });
+  const poses = createPoses({ storage, notices, robots, device, view });
+  const pad = createPad({ device, robots, view, poses, mappings, notices, clock: rig.clock, readPads });
+  device.attach(rig.session, { kind: 'simulated', label: 'Simulated board', isSimulated: true });
+  const told = () => notices.store.getState().map((notice) => notice.text);
+  const moves = () => rig.ofKind('move').length;
+  const target = (servo = 1) => device.motion(servo).target ?? undefined;
+
+  function hold(...pressed: readonly number[]): void {
+    const value = (button: number) => ({ value: pressed.includes(button) ? 1 : 0 });
+    plugged = { ...STANDARD, axes: [0, 0, 0, 0], buttons: Array.from({ length: 17 }, (_, at) => value(at)) };
+  }
+  async function frames(ms: number): Promise<void> {
+    for (let passed = 0; passed < ms; passed += 16) {
+      await rig.clock.advance(16);
+      device.refresh();
+      pad.frame();
+    }
+  }
+
+  /** What leaves during a while, once what is on its way has left. */
+  async function movesIn(ms: number): Promise<number> {
+    await frames(100);
+    const before = moves();
+    await frames(ms);
+    return moves() - before;
+  }
+
+  hold();
+  device.move([{ servo: 1, position: 1500 }], 1500);
+  await frames(2500);
+  if (drives) pad.drive(true);
+  await frames(50);
+  return {
+    ...{ ...rig, pad, device, robots, view, poses, mappings, told, moves, movesIn, target, hold, frames },
+    isDriving: () => pad.store.getState().isDriving,
+    unplug: () => (plugged = null),
+  };
+}
+
+describe('driving by pad', () => {
+  test('a trigger turns its servo while it is held, and not a moment longer', async () => {
+    const { hold, frames, target, device, movesIn } = await createDesk();
+    hold(RIGHT_TRIGGER);
+    await frames(500);
+    const reached = target() ?? 0;
+    expect(reached).toBeGreaterThan(1700);
+    hold();
+    await frames(300);
+    expect((target() ?? 0) - reached).toBeLessThan(20);
+    expect(device.motion(1).estimated).toBe(target());
+    expect(await movesIn(500)).toBe(0);
+  });
+
+  test('off, nothing moves: neither connecting a pad nor pushing it', async () => {
+    const { hold, unplug, frames, movesIn } = await createDesk({ drives: false });
+    unplug();
+    await frames(50);
+    hold(RIGHT_TRIGGER);
+    expect(await movesIn(500)).toBe(0);
+  });
+
+  test('a pad that comes with a trigger held moves nothing until it is let go', async () => {
+    const { hold, unplug, frames, pad, movesIn } = await createDesk();
+    unplug();
+    await frames(50);
+    pad.drive(true);
+    await frames(50);
+    hold(RIGHT_TRIGGER);
+    expect(await movesIn(500)).toBe(0);
+    hold();
+    await frames(50);
+    hold(RIGHT_TRIGGER);
+    expect(await movesIn(500)).toBeGreaterThan(0);
+  });
+
+  test('pulling the pad ends the motion, switches off and says so', async () => {
+    const { hold, unplug, frames, isDriving, told, movesIn } = await createDesk();
+    hold(RIGHT_TRIGGER);
+    await frames(200);
+    unplug();
+    await frames(50);
+    expect(isDriving()).toBe(false);
+    expect(told()).toEqual([words.pad.gone]);
+    expect(await movesIn(300)).toBe(0);
+  });
+
+  test('a servo that nobody moved stays and is asked for; once it is known it turns', async () => {
+    const { hold, frames, device, told, target, movesIn } = await createDesk();
+    hold(5);
+    expect(await movesIn(300)).toBe(0);
+    expect(told()).toEqual([words.pad.unknown({ servo: 'Wrist roll' })]);
+    hold();
+    device.move([{ servo: 2, position: 1500 }], 1500);
+    await frames(4000);
+    hold(5);
+    await frames(500);
+    expect(target(2)).toBeGreaterThan(1600);
+  });
+
+  test('other robot, other hands: taking up another one switches off', async () => {
+    const { robots, isDriving } = await createDesk();
+    robots.add(() => 'add', freshRobot('hand', 'doc'));
+    expect(isDriving()).toBe(false);
+  });
+});
+
+test('a servo that is pushed on at its limit is told once while driving goes on, with its range', async () => {
+  const { hold, frames, told, target, movesIn } = await createDesk();
+  const push = async (): Promise<void> => {
+    hold(RIGHT_TRIGGER);
+    await frames(4000);
+  };
+  await push();
+  expect(target()).toBe(2500);
+  expect(told()).toEqual([words.pad.atLimit({ servo: 'Gripper', min: 500, max: 2500 })]);
+  expect(await movesIn(500)).toBe(0);
+  hold();
+  await frames(8000);
+  await push();
+  expect(told()).toEqual([]);
+});
+
+test('a locked servo stays, is told once a push, and turns once it is free', async () => {
+  const { hold, frames, view, robots, told, target, movesIn } = await createDesk();
+  const lock = (...locked: readonly number[]): void =>
+    view.setState({ servos: { ...INITIAL_SERVO_VIEW, robotId: robots.current().id, locked } });
+  lock(1);
+  hold(RIGHT_TRIGGER);
+  expect(await movesIn(500)).toBe(0);
+  expect(told()).toEqual([stayingSentence(['Gripper'])]);
+  lock();
+  hold();
+  await frames(50);
+  hold(RIGHT_TRIGGER);
+  await frames(300);
+  expect(target()).toBeGreaterThan(1600);
+});
+
+describe('a button for a pose', () => {
+  const X = 2;
+
+  async function deskWithPose() {
+    const desk = await createDesk();
+    desk.poses.book.edit(
+      () => 'capture',
+      (book) => addPose(book, { name: 'Wave', unit: 'us', targets: [{ servo: 1, position: 1900 }] }),
+    );
+    desk.mappings.edit(
+      () => 'bind',
+      (mapping) => ({
+        ...mapping,
+        bindings: [
+          ...mapping.bindings,
+          { input: { kind: 'button', index: X }, action: { kind: 'pose', pose: 1, durationMs: 2500 } },
+        ],
+      }),
+    );
+    await desk.frames(50);
+    return desk;
+  }
+
+  test('goes there once a press, in the time that was chosen, and on when it is let go', async () => {
+    const { hold, frames, ofKind, target, poses, movesIn } = await deskWithPose();
+    hold(X);
+    await frames(500);
+    expect(ofKind('move').at(-1)).toMatchObject({
+      durationMs: 2500,
+      targets: [{ servo: 1, position: 1900 }],
+    });
+    expect(poses.book.store.getState().present.applied).toBe(1);
+    hold();
+    expect(await movesIn(500)).toBe(0);
+    expect(target()).toBe(1900);
+  });
+
+  test('moves nothing while driving is off, and says where the pose is gone', async () => {
+    const { hold, frames, pad, poses, told, movesIn } = await deskWithPose();
+    pad.drive(false);
+    hold(X);
+    expect(await movesIn(300)).toBe(0);
+    hold();
+    poses.book.undo();
+    pad.drive(true);
+    await frames(50);
+    hold(X);
+    expect(await movesIn(300)).toBe(0);
+    expect(told()).toEqual([words.poses.gone]);
+  });
+});
+
+describe('STOP', () => {
+  test('on the pad halts and switches off; resuming does not switch on', async () => {
+    const { hold, frames, device, isDriving, ofKind, movesIn } = await createDesk();
+    hold(RIGHT_TRIGGER);
+    await frames(300);
+    hold(RIGHT_TRIGGER, STOP);
+    await frames(300);
+    expect(device.store.getState().snapshot.latch).toMatchObject({ reason: 'pressed' });
+    expect(ofKind('stop').length).toBeGreaterThan(0);
+    expect(isDriving()).toBe(false);
+    device.resume();
+    expect(await movesIn(500)).toBe(0);
+    expect(isDriving()).toBe(false);
+  });
+
+  test('on the pad works while driving is off, once a press', async () => {
+    const { hold, frames, device, ofKind } = await createDesk({ drives: false });
+    hold(STOP);
+    await frames(1000);
+    expect(device.store.getState().snapshot.latch).not.toBeNull();
+    const stops = ofKind('stop').length;
+    await frames(1000);
+    expect(ofKind('stop')).toHaveLength(stops);
+  });
+
+  test('from anywhere else switches off, and stopped it cannot be switched on', async () => {
+    const { device, frames, pad, isDriving } = await createDesk();
+    device.halt();
+    await frames(50);
+    expect(isDriving()).toBe(false);
+    pad.drive(true);
+    expect(isDriving()).toBe(false);
+  });
+});
+
+describe('driving by keys', () => {
+  test('a held key turns its servo; any key-up ends all of them', async () => {
+    const { pad, frames, target, movesIn } = await createDesk();
+    expect(pad.keyDown('KeyQ', false)).toBe(true);
+    await frames(400);
+    expect(target()).toBeGreaterThan(1600);
+    pad.keyUp();
+    expect(await movesIn(400)).toBe(0);
+    expect(pad.keyDown('KeyQ', true)).toBe(true);
+    expect(await movesIn(400)).toBe(0);
+  });
+
+  test('leaving the window lets go of the keys, and coming back does not press them', async () => {
+    const { pad, frames, movesIn } = await createDesk();
+    pad.keyDown('KeyQ', false);
+    await frames(200);
+    pad.leave();
+    expect(await movesIn(400)).toBe(0);
+    pad.comeBack();
+    expect(await movesIn(400)).toBe(0);
+  });
+
+  test('keys that are not bound, that everybody needs, or while it is off, are for others', async () => {
+    const { pad } = await createDesk();
+    expect(pad.keyDown('KeyM', false)).toBe(false);
+    expect(pad.keyDown('Escape', false)).toBe(false);
+    pad.drive(false);
+    expect(pad.keyDown('KeyQ', false)).toBe(false);
+  });
+});
+
+describe('listening for an input', () => {
+  test('tells the one that is moved and obeys none meanwhile', async () => {
+    const { pad, hold, frames, movesIn, device } = await createDesk();
+    const heard: Input[] = [];
+    pad.listen((input) => heard.push(input));
+    await frames(50);
+    expect(heard).toEqual([]);
+    hold(STOP);
+    await frames(20);
+    expect(heard).toEqual([{ kind: 'button', index: STOP }]);
+    expect(await movesIn(200)).toBe(0);
+    expect(device.store.getState().snapshot.latch).toBeNull();
+    pad.listen((input) => heard.push(input));
+    expect(pad.keyDown('KeyM', false)).toBe(true);
+    pad.keyUp();
+    expect(heard[1]).toEqual({ kind: 'key', code: 'KeyM' });
+  });
+
+  test('given up, the next press is obeyed as ever', async () => {
+    const { pad, hold, frames, device } = await createDesk();
+    const giveUp = pad.listen(() => expect.unreachable());
+    giveUp();
+    hold(STOP);
+    await frames(50);
+    expect(device.store.getState().snapshot.latch).not.toBeNull();
+  });
+});

@@ -1,0 +1,19 @@
+// The library over the page, for as long as a group is looked for.
+
+import { useStores, useView } from '../stores.ts';
+import { Dialog } from '../../ui/Dialog.tsx';
+import { laterComponent } from '../../ui/later.tsx';
+import { words } from '../../i18n/words.ts';
+
+const LibraryView = laterComponent(async () => (await import('./LibraryView.tsx')).LibraryView, '60vh');
+
+export function LibraryDialog() {
+  const { view } = useStores();
+  const isOpen = useView((state) => state.libraryOpen);
+  const close = (): void => view.setState({ libraryOpen: false });
+  return (
+    <Dialog full title={words.library.title} closeLabel={words.close} isOpen={isOpen} onClose={close}>
+      <LibraryView onDone={close} />
+    </Dialog>
+  );
+}

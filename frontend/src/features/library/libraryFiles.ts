@@ -1,0 +1,185 @@
+// The whole library as one file, and a file into the library: all of it or nothing, beside what is there. Knows no place.
+
+import type { Clock } from '#shared/clock.ts';
+import type { ActionGroup } from '#shared/group/group.ts';
+import { groupToText, sameGroup } from '#shared/group/groupText.ts';
+import type { GroupFacts } from '#shared/files/factsShape.ts';
+import {
+  asLibraryError,
+  LibraryError,
+  listedOf,
+  type Keeper,
+  type LibraryErrorCode,
+  type Listed,
+} from '#shared/files/keeper.ts';
+import {
+  libraryFromText,
+  libraryToText,
+  type BundledDocument,
+  type BundledVersion,
+} from '#shared/files/libraryText.ts';
+import { flawSentence, libraryProblem } from '../../i18n/sentences/errors.ts';
+import { words } from '../../i18n/whole.ts';
+import type { Notices } from '../../state/notices.ts';
+import { groupOf } from './groupOf.ts';
+
+export interface LibraryFiles {
+  /** null where it failed; then the person was told why. */
+  exportText(): Promise<string | null>;
+  importText(text: string): Promise<void>;
+}
+
+export interface LibraryFilesOptions {
+  readonly keeper: Promise<Keeper>;
+  readonly notices: Notices;
+  factsOf(group: ActionGroup, updatedAtMs: number): GroupFacts;
+  newId(): string;
+  readonly clock: Clock;
+  tell(error: unknown): void;
+  refresh(): Promise<void>;
+  /** Until the keeper has every change; rejects where it does not take them. */
+  settle(): Promise<void>;
+}
+
+/** As long as nobody wonders. */
+const PATIENCE_MS = 700;
+
+type Fate = 'added' | 'changed' | 'same';
+
+export function createLibraryFiles(options: LibraryFilesOptions): LibraryFiles {
+  const { notices, newId, tell } = options;
+
+  async function exportText(): Promise<string | null> {
+    await options.settle();
+    const keeper = await options.keeper;
+    const documents = listedOf(await keeper.list(), 'group');
+    const kept = documents.filter(({ isRemoved }) => !isRemoved);
+    const read = await Promise.all(kept.map((document) => bundle(keeper, document)));
+    const bundled = read.flatMap(({ bundled: one }) => one ?? []);
+    const lost = read.flatMap((one) => one.lost);
+    const [first] = lost;
+    if (bundled.length === 0 && first !== undefined) throw first.error;
+    notices.tell('info', words.library.exported({ count: bundled.length }));
+    if (first !== undefined)
+      notices.tell(
+        'warning',
+        words.library.notExported({ names: words.numbers.formatNames(lost.map(({ name }) => name)) }),
+      );
+    return libraryToText({ documents: bundled });
+  }
+
+  async function take(documents: readonly BundledDocument[]): Promise<void> {
+    await options.settle();
+    const keeper = await options.keeper;
+    const present = listedOf(await keeper.list(), 'group');
+    const fates: Fate[] = [];
+    const staged: string[] = [];
+    for (const document of documents) {
+      const { fate, id } = await fateOf(keeper, present, document);
+      fates.push(fate);
+      staged.push(id);
+      if (fate !== 'same') await stage(keeper, id, document);
+    }
+    // Until here all of it lies in the trash: now it appears together, or never.
+    await keeper.restore(staged);
+    const count = (fate: Fate): number => fates.filter((one) => one === fate).length;
+    notices.tell(
+      'info',
+      words.library.imported({ added: count('added'), changed: count('changed'), same: count('same') }),
+    );
+    await options.refresh();
+  }
+
+  async function fateOf(
+    keeper: Keeper,
+    present: readonly Listed[],
+    { id, group }: BundledDocument,
+  ): Promise<{ readonly fate: Fate; readonly id: string }> {
+    if (!present.some((one) => one.id === id)) return { fate: 'added', id };
+    const found = await wholeOrNot(async () => groupOf((await keeper.read(id)).text));
+    return 'whole' in found && sameGroup(found.whole, group)
+      ? { fate: 'same', id }
+      : { fate: 'changed', id: newId() };
+  }
+
+  async function stage(keeper: Keeper, id: string, document: BundledDocument): Promise<void> {
+    const { group, updatedAtMs, versions } = document;
+    const facts = options.factsOf(group, updatedAtMs);
+    await keeper.write(id, { text: groupToText(group), facts, expected: 0, isRemoved: true });
+    for (const { name, atMs, group: kept } of versions)
+      await keeper.keepVersion(id, { id: newId(), name, atMs }, groupToText(kept));
+  }
+
+  return {
+    exportText: () =>
+      exportText().catch((error: unknown) => {
+        tell(error);
+        return null;
+      }),
+    async importText(text) {
+      const read = libraryFromText(text);
+      if ('problem' in read)
+        notices.tell('warning', words.library.notImported({ flaw: flawSentence(read.problem) }));
+      else await whileToldOf(take(read.value.documents)).catch(tellNotImported);
+    },
+  };
+
+  /** A keeper may let one wait long. */
+  async function whileToldOf(taking: Promise<void>): Promise<void> {
+    const waiting = words.library.importWaits;
+    const leave = options.clock.after(PATIENCE_MS, () => notices.tell('warning', waiting));
+    await taking.finally(() => {
+      leave();
+      notices.takeBack(waiting);
+    });
+  }
+
+  function tellNotImported(error: unknown): void {
+    const { code, message } = asLibraryError(error);
+    notices.tell('warning', words.library.importFailed({ problem: libraryProblem(code, message) }));
+  }
+}
+
+/** What is not whole is left out and named. In the place of a group there stands the newest of its versions that is. */
+async function bundle(keeper: Keeper, { id, facts }: Listed): Promise<Bundling> {
+  const { name, updatedAtMs } = facts;
+  const read = await wholeOrNot(async () => groupOf((await keeper.read(id)).text));
+  const lost: Lost[] = [];
+  const versions: BundledVersion[] = [];
+  const listed = await wholeOrNot(() => keeper.versions(id));
+  if ('error' in listed) lost.push({ name: words.library.versionsOf({ name }), error: listed.error });
+  for (const { id: version, ...kept } of 'whole' in listed ? listed.whole : []) {
+    const found = await wholeOrNot(async () => groupOf(await keeper.readVersion(id, version)));
+    if ('whole' in found) versions.push({ ...kept, group: found.whole });
+    else lost.push({ name: words.library.versionOf({ name, version: kept.name }), error: found.error });
+  }
+  if ('whole' in read) return { bundled: { id, updatedAtMs, group: read.whole, versions }, lost };
+  const newest = versions.at(-1);
+  const named = newest === undefined ? name : words.library.standsFor({ name, version: newest.name });
+  lost.unshift({ name: named, error: read.error });
+  return { bundled: newest ? { id, updatedAtMs, group: newest.group, versions } : null, lost };
+}
+
+interface Lost {
+  readonly name: string;
+  readonly error: LibraryError;
+}
+
+interface Bundling {
+  readonly bundled: BundledDocument | null;
+  readonly lost: readonly Lost[];
+}
+
+/** Of one text alone: damaged, of another version of this program, or deleted meanwhile. All else is the library's, and thrown. */
+const OF_ONE_TEXT: ReadonlySet<LibraryErrorCode> = new Set(['damaged', 'unreadable', 'notFound']);
+
+async function wholeOrNot<T>(
+  read: () => Promise<T>,
+): Promise<{ readonly whole: T } | { readonly error: LibraryError }> {
+  try {
+    return { whole: await read() };
+  } catch (error) {
+    if (error instanceof LibraryError && OF_ONE_TEXT.has(error.code)) return { error };
+    throw error;
+  }
+}

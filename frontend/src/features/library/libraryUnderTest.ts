@@ -1,0 +1,66 @@
+// Pages at one keeper, in virtual time, for tests: each has its own stores; `texts` is what its browser kept.
+
+import type { Keeper } from '#shared/files/keeper.ts';
+import { insertFrame } from '#shared/group/groupEdits.ts';
+import type { VirtualClock } from '#shared/testing/virtualClock.ts';
+import { createDocument } from '../animate/group/document.ts';
+import { createNotices } from '../../state/notices.ts';
+import { createRobots } from '../profiles/robots.ts';
+import { createView } from '../view.ts';
+import { createLibrary } from './library.ts';
+import { createLibraryFiles } from './libraryFiles.ts';
+
+export const EPOCH_MS = 1_790_000_000_000;
+
+/** `keeper`: known at once, or some time later. */
+export function createVisit(
+  keeper: Keeper | Promise<Keeper>,
+  clock: VirtualClock,
+  texts = new Map<string, string>(),
+) {
+  /** The browser's storage has no room for these. */
+  const full = new Set<string>();
+  const storage = {
+    getItem: (key: string) => texts.get(key) ?? null,
+    setItem(key: string, text: string): void {
+      if (full.has(key)) throw new DOMException('full', 'QuotaExceededError');
+      texts.set(key, text);
+    },
+  };
+  const notices = createNotices(clock);
+  const document = createDocument(storage, notices, clock);
+  const view = createView({ browser: storage, tab: storage });
+  const robots = createRobots(storage, notices);
+  const begun = createLibrary({
+    ...{ keeper: Promise.resolve(keeper), document, storage, notices, robots, view, clock },
+    epochMs: () => EPOCH_MS,
+    newId: nextId,
+  });
+  const library = { ...begun, ...createLibraryFiles(begun.forFiles) };
+  const names = () =>
+    library.store
+      .getState()
+      .documents.filter(({ isRemoved }) => !isRemoved)
+      .map(({ facts }) => facts.name)
+      .sort();
+  return {
+    ...{ texts, full, document, library, names, view, notices },
+    told: () => notices.store.getState().map(({ text }) => text),
+    act: () => notices.store.getState().at(-1)?.action?.act(),
+    group: () => document.store.getState().present,
+    openId: () => library.store.getState().openId,
+    capture: (position: number) =>
+      document.edit(
+        () => 'capture',
+        (group) =>
+          insertFrame(group, group.frames.length, { durationMs: 500, targets: [{ servo: 1, position }] }),
+      ),
+    /** Long enough for what was written to be kept, or tried again. */
+    later: () => clock.advance(5800),
+    /** The page goes, as the browser tells it. */
+    leave: document.flush,
+  };
+}
+
+let ids = 0;
+const nextId = (): string => `id-${++ids}`;

@@ -1,0 +1,97 @@
+// Versions of a group that were kept under a name, and the way back to them. What cannot be done is told; nothing rejects.
+
+import type { ActionGroup } from '#shared/group/group.ts';
+import { groupToText } from '#shared/group/groupText.ts';
+import type { Keeper, Version } from '#shared/files/keeper.ts';
+import { words } from '../../i18n/words.ts';
+import type { Document } from '../animate/group/document.ts';
+import type { Notices } from '../../state/notices.ts';
+import { groupOf } from './groupOf.ts';
+
+export interface LibraryVersions {
+  versions(id: string): Promise<readonly Version[]>;
+  keepVersion(id: string, name: string): Promise<void>;
+  /** The person may take it back. */
+  renameVersion(id: string, version: Version, name: string): Promise<void>;
+  /** The person may take it back. */
+  removeVersion(id: string, version: Version): Promise<void>;
+  /** Opens the document and goes back to that version, undoably. */
+  restoreVersion(id: string, version: Version): Promise<void>;
+}
+
+interface LibraryVersionsOptions {
+  readonly keeper: Promise<Keeper>;
+  readonly document: Document;
+  readonly notices: Notices;
+  /** Milliseconds since 1970. */
+  epochMs(): number;
+  newId(): string;
+  /** Tells what failed. */
+  attempt(work: Promise<void>): Promise<void>;
+  read(id: string): Promise<ActionGroup>;
+  /** Where the disk has damaged what is kept, `instead` takes its place. */
+  open(id: string, instead: ActionGroup): Promise<void>;
+  /** Until the keeper has every change; rejects where it does not take them. */
+  settle(): Promise<void>;
+  refresh(): Promise<void>;
+}
+
+export function createLibraryVersions(options: LibraryVersionsOptions): LibraryVersions {
+  const { document, notices, epochMs, newId, attempt, read, open, settle, refresh } = options;
+
+  async function versions(id: string): Promise<readonly Version[]> {
+    let found: readonly Version[] = [];
+    await attempt(options.keeper.then(async (keeper) => void (found = await keeper.versions(id))));
+    return found;
+  }
+
+  async function keepVersion(id: string, name: string): Promise<void> {
+    const text = groupToText(await read(id));
+    await settle();
+    await (await options.keeper).keepVersion(id, { id: newId(), name, atMs: epochMs() }, text);
+    notices.say(words.library.versionKept({ name }));
+    await refresh();
+  }
+
+  async function renameVersion(id: string, version: Version, name: string): Promise<void> {
+    const keeper = await options.keeper;
+    const text = await keeper.readVersion(id, version.id);
+    await keeper.keepVersion(id, { ...version, name }, text);
+    tellUndoably(words.library.versionRenamed({ name: version.name, wanted: name }), () =>
+      keeper.keepVersion(id, version, text),
+    );
+    await refresh();
+  }
+
+  async function removeVersion(id: string, version: Version): Promise<void> {
+    const keeper = await options.keeper;
+    const text = await keeper.readVersion(id, version.id);
+    await keeper.removeVersion(id, version.id);
+    tellUndoably(words.library.versionRemoved({ name: version.name }), () =>
+      keeper.keepVersion(id, version, text),
+    );
+    await refresh();
+  }
+
+  function tellUndoably(text: string, undo: () => Promise<void>): void {
+    const act = (): void => void attempt(undo().then(refresh));
+    notices.tell('info', text, { label: words.library.undo, act });
+  }
+
+  async function restoreVersion(id: string, { id: version, name }: Version): Promise<void> {
+    const group = groupOf(await (await options.keeper).readVersion(id, version));
+    await open(id, group);
+    document.edit(
+      () => words.library.steps.version({ name }),
+      () => group,
+    );
+  }
+
+  return {
+    versions,
+    keepVersion: (id, name) => attempt(keepVersion(id, name)),
+    renameVersion: (id, version, name) => attempt(renameVersion(id, version, name)),
+    removeVersion: (id, version) => attempt(removeVersion(id, version)),
+    restoreVersion: (id, version) => attempt(restoreVersion(id, version)),
+  };
+}

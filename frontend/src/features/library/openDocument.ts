@@ -1,0 +1,92 @@
+// Which document of the library the page shows, remembered for the next visit, and the histories of those it showed before.
+// Knows no keeper.
+
+import * as v from 'valibot';
+import type { ActionGroup } from '#shared/group/group.ts';
+import { sameGroup } from '#shared/group/groupText.ts';
+import { record, startHistory, type History, type Label } from '#shared/document/history.ts';
+import type { Document } from '../animate/group/document.ts';
+import type { TextStorage } from '../../state/textStorage.ts';
+
+export interface OpenDocument {
+  id(): string;
+  /** Of the library's text that each document here is based on; 0 for one it has never had. */
+  revisionOf(id: string): number;
+  setRevision(id: string, revision: number): void;
+  /** True where an earlier visit had it open. */
+  readonly wasRemembered: boolean;
+  /** Shows that one. Its steps come back; what others have changed meanwhile is one more step, called `label`. */
+  show(id: string, group: ActionGroup, label: Label): void;
+  /** Goes on with the same group as another document of the library. */
+  become(id: string): void;
+}
+
+const KEY = 'servodeck.group.open';
+const schema = v.object({
+  id: v.pipe(v.string(), v.minLength(1)),
+  revision: v.pipe(v.number(), v.safeInteger(), v.minValue(0)),
+});
+
+export function createOpenDocument(
+  document: Document,
+  storage: TextStorage,
+  newId: () => string,
+): OpenDocument {
+  const remembered = load(storage);
+  let id = remembered?.id ?? newId();
+  const revisions = new Map([[id, remembered?.revision ?? 0]]);
+  const aside = new Map<string, History<ActionGroup>>();
+
+  const revisionOf = (of: string): number => revisions.get(of) ?? 0;
+
+  function remember(): void {
+    try {
+      storage.setItem(KEY, JSON.stringify({ id, revision: revisionOf(id) }));
+    } catch {
+      // The document has told the person that this browser stores nothing.
+    }
+  }
+
+  // At once: what is written before the first answer must be found under this name again.
+  remember();
+
+  function become(other: string): void {
+    id = other;
+    remember();
+  }
+
+  return {
+    id: () => id,
+    revisionOf,
+    setRevision(of, revision) {
+      revisions.set(of, revision);
+      if (of === id) remember();
+    },
+    wasRemembered: remembered !== null,
+    show(other, group, label) {
+      document.commit();
+      aside.set(id, document.store.getState());
+      become(other);
+      document.take(goneOn(aside.get(other), group, label));
+    },
+    become,
+  };
+}
+
+function goneOn(
+  history: History<ActionGroup> | undefined,
+  group: ActionGroup,
+  label: Label,
+): History<ActionGroup> {
+  if (history !== undefined && sameGroup(history.present, group)) return history;
+  const isFresh = history === undefined || history.past.length + history.future.length === 0;
+  return isFresh ? startHistory(group) : record(history, label, group);
+}
+
+function load(storage: TextStorage): v.InferOutput<typeof schema> | null {
+  try {
+    return v.parse(schema, JSON.parse(storage.getItem(KEY) ?? 'null'));
+  } catch {
+    return null;
+  }
+}

@@ -1,0 +1,121 @@
+// The packet log: what went over the link, in words and in bytes, newest last. It can be held, searched, thinned out by kind,
+// saved and cleared; held, packets go on being collected. Below it packets are sent by hand.
+
+import { useDeferredValue, useMemo, useState, useSyncExternalStore } from 'react';
+import { useStore } from 'zustand';
+import { useStores, useView } from '../stores.ts';
+import type { LogEntry } from '../../robot/traffic.ts';
+import type { LogKind } from '../view.ts';
+import { Button, IconButton } from '../../ui/Button.tsx';
+import { words } from '../../i18n/whole.ts';
+import { useWords } from '../../i18n/words.ts';
+import { LogList } from './LogList.tsx';
+import { RawSender } from './RawSender.tsx';
+import { kindOf, lineText } from './describe.ts';
+import { createLogView } from './logView.ts';
+import { saveFile } from '../../ui/saveFile.ts';
+import { logFile } from './savedLog.ts';
+import { searchTest } from './search.ts';
+import { PART } from '../../ui/useParts.ts';
+import styles from './LogPanel.module.css';
+
+const KINDS = ['move', 'group', 'battery', 'link', 'noise'] as const satisfies readonly LogKind[];
+
+export function LogPanel({ onFold }: { readonly onFold?: () => void }) {
+  const { device, notices } = useStores();
+  const { nextId } = useStore(device.traffic.store);
+  const [heldId, setHeldId] = useState<number | null>(null);
+  const [query, setQuery] = useState('');
+  const view = useLogView(useDeferredValue(query), heldId);
+
+  const save = (): void => {
+    const { family, way } = device.store.getState();
+    saveFile(logFile(device.traffic, family.id, way?.label ?? '', new Date()));
+  };
+  const copy = (entry: LogEntry): void => {
+    copyText(lineText(entry)).then(
+      () => notices.tell('info', words.log.copied),
+      () => notices.tell('warning', words.log.notCopied),
+    );
+  };
+
+  return (
+    <section {...PART} className={styles.panel} aria-label={words.log.title} data-fills="">
+      <header className={styles.header}>
+        <h2 className={styles.title}>{words.log.title}</h2>
+        <Filter />
+        <input
+          type="search"
+          className={styles.search}
+          aria-label={words.log.search}
+          placeholder={words.log.searchHint}
+          autoComplete="off"
+          spellCheck={false}
+          value={query}
+          onChange={(event) => setQuery(event.target.value)}
+        />
+        <span className={styles.note}>
+          {countedText(view.passedCount, view.hiddenCount)}
+          {heldId !== null && ` · ${words.log.paused({ count: nextId - heldId })}`}
+        </span>
+        <Button
+          tone="quiet"
+          icon={heldId === null ? 'pause' : 'play'}
+          onPress={() => setHeldId(heldId === null ? nextId : null)}
+        >
+          {heldId === null ? words.log.pause : words.log.goOn}
+        </Button>
+        <Button tone="quiet" icon="save" hint={words.log.saveHint} onPress={save}>
+          {words.log.save}
+        </Button>
+        <Button tone="quiet" icon="trash" onPress={() => device.traffic.clear()}>
+          {words.log.clear}
+        </Button>
+        {onFold !== undefined && <IconButton icon="down" label={words.log.fold} onPress={onFold} />}
+      </header>
+      <LogList entries={view.shown} hiddenCount={view.hiddenCount} onCopy={copy} />
+      <RawSender />
+    </section>
+  );
+}
+
+function useLogView(query: string, heldId: number | null) {
+  const { device } = useStores();
+  const kinds = useView((state) => state.logKinds);
+  const { locale } = useWords();
+  const view = useMemo(() => {
+    const isFound = searchTest(query, locale);
+    const passes = (entry: LogEntry): boolean => kinds.includes(kindOf(entry)) && isFound(entry);
+    return createLogView(device.traffic, passes, heldId ?? undefined);
+  }, [device, kinds, query, heldId, locale]);
+  return useSyncExternalStore(view.subscribe, view.getSnapshot);
+}
+
+/** Rejects where the browser forbids it; on an insecure address it has no clipboard at all. */
+async function copyText(text: string): Promise<void> {
+  await navigator.clipboard.writeText(text);
+}
+
+function Filter() {
+  const { view } = useStores();
+  const kinds = useView((state) => state.logKinds);
+  const toggle = (kind: LogKind): void =>
+    view.setState({
+      logKinds: kinds.includes(kind) ? kinds.filter((other) => other !== kind) : [...kinds, kind],
+    });
+  return (
+    <fieldset className={styles.filter} aria-label={words.log.filter}>
+      {KINDS.map((kind) => (
+        <label key={kind} className={styles.kind}>
+          <input type="checkbox" checked={kinds.includes(kind)} onChange={() => toggle(kind)} />
+          {words.log.kinds[kind]}
+        </label>
+      ))}
+    </fieldset>
+  );
+}
+
+function countedText(passed: number, hidden: number): string {
+  if (hidden === 0) return words.log.counted({ passed });
+  return words.log.countedOf({ passed, all: passed + hidden });
+}

@@ -1,0 +1,62 @@
+// What of the log is looked at: the newest entries that pass a test, and how many do and do not. Reads each entry once, so that
+// a long log costs nothing more with each packet. Knows no page; React reads it as an external store.
+
+import type { LogEntry, TrafficLog } from '../../robot/traffic.ts';
+
+export interface LogView {
+  /** The newest of those that pass, oldest first. */
+  readonly shown: readonly LogEntry[];
+  readonly passedCount: number;
+  readonly hiddenCount: number;
+}
+
+export interface LogViewStore {
+  getSnapshot(): LogView;
+  subscribe(listener: () => void): () => void;
+}
+
+/** More lines than anybody reads at once; each is drawn. */
+const DRAWN = 200;
+
+/** Entries from `heldId` on are left out: the log is held while it is read. */
+export function createLogView(
+  log: TrafficLog,
+  passes: (entry: LogEntry) => boolean,
+  heldId = Infinity,
+): LogViewStore {
+  let nextId = 0;
+  let passedIds: number[] = [];
+  let shown: LogEntry[] = [];
+  let snapshot: LogView = { shown, passedCount: 0, hiddenCount: 0 };
+
+  function read(): void {
+    const { oldestId, nextId: newestId } = log.store.getState();
+    const endId = Math.max(oldestId, Math.min(newestId, heldId));
+    for (let id = Math.max(nextId, oldestId); id < endId; id++) {
+      const entry = log.at(id);
+      if (!passes(entry)) continue;
+      passedIds.push(id);
+      shown.push(entry);
+    }
+    nextId = endId;
+    const firstKept = passedIds.findIndex((id) => id >= oldestId);
+    if (firstKept !== 0) passedIds = firstKept < 0 ? [] : passedIds.slice(firstKept);
+    const passedCount = passedIds.length;
+    shown = shown.slice(shown.length - Math.min(DRAWN, passedCount));
+    snapshot = { shown, passedCount, hiddenCount: endId - oldestId - passedCount };
+  }
+
+  read();
+  return {
+    getSnapshot: () => snapshot,
+    subscribe(listener) {
+      const update = (): void => {
+        read();
+        listener();
+      };
+      // What came between the first reading and now.
+      read();
+      return log.store.subscribe(update);
+    },
+  };
+}

@@ -1,0 +1,125 @@
+// Packets in plain words, for the log and for packets written by hand. Knows the meaning of commands and reports.
+
+import type { Command, ServoTarget } from '#shared/codec/commands.ts';
+import type { RawRefusal, RawVerdict } from '#shared/codec/rawPacket.ts';
+import type { Report } from '#shared/codec/reports.ts';
+import { rangeText } from '../../i18n/sentences/errors.ts';
+import { words } from '../../i18n/whole.ts';
+
+/** Targets named in one line of the log; the bytes beside it have the rest. */
+const TARGETS_SHOWN = 6;
+
+/** `command` null: what the family knows nothing of, by its bytes. */
+export function commandText(command: Command | null, bytes: Uint8Array): string {
+  const { commands } = words.packets;
+  if (command === null) {
+    const [first, , , number = 0] = bytes;
+    return first === 0x55 ? commands.unknown({ number }) : commands.filler({ count: bytes.length });
+  }
+  switch (command.kind) {
+    case 'move':
+      return commands.move({ ...command, targets: targetsText(command.targets) });
+    case 'run':
+      return commands.run(command);
+    case 'download': {
+      const { slot, frameIndex, frameCount, frame } = command;
+      const { durationMs } = frame;
+      return commands.download({
+        ...{ slot, frame: frameIndex + 1, count: frameCount },
+        ...{ targets: targetsText(frame.targets), durationMs },
+      });
+    }
+    case 'setSpeed': {
+      const { slot, percent } = command;
+      return slot === null ? commands.setSpeedOfAll({ percent }) : commands.setSpeed({ slot, percent });
+    }
+    case 'release':
+      return commands.release({ servos: servosText(command.servos) });
+    case 'readPositions':
+      return commands.readPositions({ count: command.servos.length, servos: servosText(command.servos) });
+    default:
+      return commands[command.kind];
+  }
+}
+
+export function reportText(report: Report): string {
+  const { reports } = words.packets;
+  switch (report.kind) {
+    case 'runStarted':
+      return reports.runStarted(report);
+    case 'runFinished':
+      return report.slot === null ? reports.someRunFinished : reports.runFinished({ slot: report.slot });
+    case 'battery':
+      return reports.battery({ mv: report.batteryMv });
+    case 'positions':
+    case 'allPositions':
+      return reports.positions({ targets: targetsText(report.positions) });
+    case 'offsets': {
+      const offsets = report.offsets.map(({ servo, offset }) => pairText(servo, offset));
+      return reports.offsets({ offsets: shortList(offsets) });
+    }
+    case 'version':
+      return reports.version({ version: report.version, unit: words.units[report.unit] });
+    case 'unknown':
+      return reports.unknown({ number: report.command });
+    default:
+      return reports[report.kind];
+  }
+}
+
+/** What the board would make of a packet written by hand, or why it does not get it. */
+export function rawText(verdict: RawVerdict, bytes: Uint8Array, board: string): string {
+  const { raw } = words.packets;
+  switch (verdict.kind) {
+    case 'command':
+      return commandText(verdict.command, bytes);
+    case 'ignored':
+      return raw.ignored({ number: verdict.number, board });
+    case 'incomplete':
+      return verdict.missing === null ? raw.begins : raw.incomplete({ count: verdict.missing });
+    case 'refused':
+      return raw.refused({ reason: refusalText(verdict.reason, board) });
+  }
+}
+
+function refusalText(reason: RawRefusal, board: string): string {
+  const { refusals, names } = words.packets;
+  switch (reason.code) {
+    case 'noHeader':
+    case 'flash':
+      return refusals[reason.code];
+    case 'shortLength':
+      return refusals.shortLength(reason);
+    case 'longLength':
+      return refusals.longLength({ ...reason, board });
+    case 'tooLong':
+      return refusals.tooLong({ count: reason.extra });
+    case 'neverSend':
+    case 'unknownNumber':
+      return refusals[reason.code]({ number: reason.number, board });
+    case 'otherShape':
+      return refusals.otherShape({ command: names[reason.command] });
+    case 'limits':
+      return refusals.limits({ reason: rangeText(reason.refusal) });
+  }
+}
+
+function targetsText(targets: readonly ServoTarget[]): string {
+  if (targets.length === 0) return words.packets.nothing;
+  return shortList(targets.map(({ servo, position }) => pairText(servo, position)));
+}
+
+function servosText(servos: readonly number[]): string {
+  const named = shortList(servos.map(words.numbers.formatWhole));
+  return words.packets.servos({ count: servos.length, servos: named });
+}
+
+function pairText(servo: number, value: number): string {
+  return `${words.numbers.formatWhole(servo)} → ${words.numbers.formatWhole(value)}`;
+}
+
+function shortList(items: readonly string[]): string {
+  const list = items.slice(0, TARGETS_SHOWN).join(words.comma);
+  const count = items.length - TARGETS_SHOWN;
+  return count <= 0 ? list : words.packets.more({ list, count });
+}

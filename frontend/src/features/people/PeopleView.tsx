@@ -1,0 +1,143 @@
+// Whom an owner lets in and who may come in already. Plain values in, wishes out; so every case can be shown.
+
+import type { Person } from '../../robot/people.generated.ts';
+import { PERSON_ROLES, type PeopleState, type PeopleWishes, type PersonRole } from './people.ts';
+import type { Candidate } from '#shared/session/lease.ts';
+import { Button } from '../../ui/Button.tsx';
+import { Chip } from '../../ui/Chip.tsx';
+import { Confirm } from '../../ui/Confirm.tsx';
+import { NameField } from '../../ui/NameField.tsx';
+import { Select } from '../../ui/Select.tsx';
+import { words } from '../../i18n/whole.ts';
+import { AddressNotes } from './AddressNotes.tsx';
+import { InviteCard } from './InviteCard.tsx';
+import { ScriptsCard } from './ScriptsCard.tsx';
+import styles from './People.module.css';
+
+export interface PeopleViewProps {
+  readonly state: PeopleState;
+  readonly wishes: PeopleWishes;
+  /** Whom the robot may be handed to now. */
+  readonly candidates: readonly Candidate[];
+  onHandOver(person: string): void;
+  now(): number;
+}
+
+export function PeopleView({ state, wishes, candidates, onHandOver, now }: PeopleViewProps) {
+  return (
+    <div className={styles.people}>
+      <InviteCard invitation={state.invitation} wishes={wishes} now={now} />
+      <section className={styles.card} aria-label={words.people.list}>
+        <h3>{words.people.list}</h3>
+        <ul className={styles.list}>
+          {state.people.map((person) => (
+            <PersonRow
+              key={person.id}
+              person={person}
+              isYou={person.id === state.me?.you?.id}
+              wishes={wishes}
+              onHandOver={candidates.some(({ id }) => id === person.id) ? onHandOver : null}
+            />
+          ))}
+        </ul>
+      </section>
+      <ScriptsCard shown={state.shown} wishes={wishes} />
+      <AddressNotes overheard={state.me?.overheard === true} />
+    </div>
+  );
+}
+
+interface PersonProps {
+  readonly wishes: PeopleWishes;
+  readonly person: Person;
+}
+
+interface PersonRowProps extends PersonProps {
+  readonly isYou: boolean;
+  /** null: the robot cannot be handed to them now. */
+  readonly onHandOver: ((person: string) => void) | null;
+}
+
+function PersonRow({ person, isYou, wishes, onHandOver }: PersonRowProps) {
+  const { id, kind, name, role } = person;
+  return (
+    <li className={styles.person}>
+      <div className={styles.who}>
+        <NameField
+          isFramed
+          label={words.people.rename({ name })}
+          name={name}
+          onRename={(wanted) => wishes.change(id, { name: wanted })}
+        />
+        <span className={styles.dim}>{isYou ? words.people.you : words.people.kinds[kind]}</span>
+      </div>
+      {role === 'stopper' ? (
+        <span className={styles.role}>{words.people.roleNames.stopper}</span>
+      ) : (
+        <RoleSelect
+          label={words.people.roleOf({ name })}
+          role={role}
+          onChange={(wanted) => wishes.change(id, { role: wanted })}
+        />
+      )}
+      <div className={styles.presence}>
+        <Presence person={person} />
+        {onHandOver !== null && (
+          <Button
+            tone="quiet"
+            aria-label={words.people.handOverTo({ name })}
+            hint={words.people.handOverHint}
+            onPress={() => onHandOver(id)}
+          >
+            {words.people.handOver}
+          </Button>
+        )}
+      </div>
+      <RevokeControl person={person} wishes={wishes} />
+    </li>
+  );
+}
+
+/** A group that they let go on is stopped with them, unless the owner says otherwise here. */
+function RevokeControl({ person: { id, name, unattendedSlot }, wishes }: PersonProps) {
+  const runs = unattendedSlot !== null;
+  return (
+    <Confirm
+      tone="quiet"
+      icon="trash"
+      label={words.people.revoke}
+      title={words.people.revokeOf({ name })}
+      text={runs ? words.people.revokeTextOfRun({ slot: unattendedSlot }) : words.people.revokeText}
+      keepLabel={words.people.keep}
+      otherwise={
+        runs ? { label: words.people.revokeGroupGoesOn, onConfirm: () => wishes.revoke(id, true) } : undefined
+      }
+      confirmLabel={runs ? words.people.revokeAndStop : words.people.revoke}
+      closeLabel={words.close}
+      onConfirm={() => wishes.revoke(id, false)}
+    />
+  );
+}
+
+function Presence({ person: { here, drives, lastSeenMs } }: { readonly person: Person }) {
+  if (drives) return <Chip truth="commanded">{words.people.drives}</Chip>;
+  if (here) return <Chip truth="confirmed">{words.people.here}</Chip>;
+  return (
+    <span className={styles.dim}>
+      {lastSeenMs === null
+        ? words.people.never
+        : words.people.seen({ when: words.dates.formatMoment(lastSeenMs) })}
+    </span>
+  );
+}
+
+interface RoleSelectProps {
+  readonly label: string;
+  readonly role: PersonRole;
+  onChange(role: PersonRole): void;
+}
+
+function RoleSelect({ label, role, onChange }: RoleSelectProps) {
+  const options = PERSON_ROLES.map((value) => ({ value, label: words.people.roleNames[value] }));
+  return <Select label={label} value={role} options={options} onChange={onChange} />;
+}

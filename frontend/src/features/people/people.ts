@@ -1,0 +1,160 @@
+// Who this page is at the gateway, and who may come in, as an owner sees it: devices, tokens, stop-only links, and the invitation that is open. An
+// invitation that was used is followed by a new one, so that a class comes in one after the other. Knows no request.
+
+import { createStore, type StoreApi } from 'zustand/vanilla';
+import { peopleProblem, type PeopleErrorCode } from './problem.ts';
+import type { Notices } from '../../state/notices.ts';
+import type {
+  Invitation,
+  InviteWish,
+  Me,
+  People,
+  PersonChange,
+  StopLink,
+  Token,
+  TokenWish,
+  You,
+} from '../../robot/people.generated.ts';
+
+export type PersonRole = InviteWish['role'];
+export const PERSON_ROLES: readonly PersonRole[] = ['viewer', 'driver', 'owner'];
+
+/** Each rejects with a PeopleError. */
+export interface PeopleApi {
+  /** null where no gateway answers. */
+  me(): Promise<Me | null>;
+  sayName(name: string): Promise<You>;
+  list(): Promise<People>;
+  invite(wish: InviteWish): Promise<Invitation>;
+  withdraw(invitation: string): Promise<void>;
+  change(person: string, wanted: PersonChange): Promise<void>;
+  /** `groupGoesOn`: the group that they let go on is not stopped with them. */
+  revoke(person: string, groupGoesOn: boolean): Promise<void>;
+  makeToken(wish: TokenWish): Promise<Token>;
+  makeStopLink(name: string): Promise<StopLink>;
+}
+
+export class PeopleError extends Error {
+  constructor(
+    readonly code: PeopleErrorCode,
+    message: string,
+    options?: ErrorOptions,
+  ) {
+    super(message, options);
+  }
+}
+
+export interface OpenInvitation extends Invitation {
+  readonly role: PersonRole;
+  /** On the clock of the page. */
+  readonly untilMs: number;
+}
+
+/** Something to be read once: a token, or a stop-only link to print. */
+export type Shown =
+  | { readonly kind: 'token'; readonly name: string; readonly token: string }
+  | { readonly kind: 'stopLink'; readonly name: string; readonly link: string; readonly picture: string };
+
+export interface PeopleState {
+  /** null: no gateway serves this page. */
+  readonly me: Me | null;
+  readonly people: People['people'];
+  readonly invitation: OpenInvitation | null;
+  readonly shown: Shown | null;
+}
+
+export interface PeopleStore {
+  readonly store: StoreApi<PeopleState>;
+  refresh(): Promise<void>;
+  sayName(name: string): void;
+  invite(role: PersonRole, name: string): void;
+  endInvitation(): void;
+  change(person: string, wanted: PersonChange): void;
+  revoke(person: string, groupGoesOn: boolean): void;
+  makeToken(name: string, role: PersonRole): void;
+  makeStopLink(name: string): void;
+  closeShown(): void;
+}
+
+/** What a person may ask for. */
+export type PeopleWishes = Omit<PeopleStore, 'store' | 'refresh'>;
+
+export interface PeopleOptions {
+  readonly api: PeopleApi;
+  readonly me: Me | null;
+  readonly notices: Pick<Notices, 'tell'>;
+  now(): number;
+}
+
+export const letsIn = (me: Me | null): boolean => me?.mode !== 'local' && me?.you?.role === 'owner';
+
+export function createPeople({ api, me, notices, now }: PeopleOptions): PeopleStore {
+  const store = createStore<PeopleState>(() => ({ me, people: [], invitation: null, shown: null }));
+
+  const tellError = (error: unknown): void => {
+    if (!(error instanceof PeopleError)) throw error;
+    notices.tell('danger', peopleProblem(error.code, error.message));
+  };
+
+  function known(you: You): void {
+    const { me: before } = store.getState();
+    if (before !== null) store.setState({ me: { ...before, you } });
+  }
+
+  /** Only owners see more than themselves. */
+  async function refresh(): Promise<void> {
+    if (!letsIn(store.getState().me)) {
+      const now = await api.me();
+      if (now?.you) known(now.you);
+      return;
+    }
+    const { people, openInvites, openCodes } = await api.list();
+    store.setState({ people });
+    const { invitation } = store.getState();
+    const isUsed = invitation !== null && now() < invitation.untilMs && !openInvites.includes(invitation.id);
+    if (isUsed) await open(invitation.role, '');
+    else if (invitation !== null && !openCodes.includes(invitation.id))
+      store.setState({ invitation: { ...invitation, code: null } });
+  }
+
+  async function open(role: PersonRole, name: string): Promise<void> {
+    const made = await api.invite({ role, name });
+    store.setState({ invitation: { ...made, role, untilMs: now() + made.expiresInMs } });
+  }
+
+  function act(work: () => Promise<void>): void {
+    work().then(refresh).catch(tellError);
+  }
+
+  async function withdraw(): Promise<void> {
+    const { invitation } = store.getState();
+    store.setState({ invitation: null });
+    // One that is used or over cannot be withdrawn and need not be.
+    if (invitation !== null) await api.withdraw(invitation.id).catch(() => undefined);
+  }
+
+  return {
+    store,
+    refresh: () => refresh().catch(tellError),
+    sayName: (name) => act(async () => known(await api.sayName(name))),
+    invite: (role, name) =>
+      act(async () => {
+        await withdraw();
+        await open(role, name);
+      }),
+    endInvitation: () => void withdraw(),
+    change: (person, wanted) => act(() => api.change(person, wanted)),
+    revoke: (person, groupGoesOn) => act(() => api.revoke(person, groupGoesOn)),
+    makeToken: (name, role) =>
+      act(async () => {
+        const { token } = await api.makeToken({ name, role });
+        store.setState({ shown: { kind: 'token', name, token } });
+      }),
+    makeStopLink: (name) =>
+      act(async () => {
+        const { link, picture } = await api.makeStopLink(name);
+        store.setState({ shown: { kind: 'stopLink', name, link, picture } });
+      }),
+    closeShown: () => store.setState({ shown: null }),
+  };
+}

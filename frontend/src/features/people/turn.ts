@@ -1,0 +1,68 @@
+// What is said of the turn to drive, and what may be done about it, as each of the people there sees it. Pure.
+
+import type { Lease, LeaseAction } from '#shared/session/lease.ts';
+import type { Truth } from '../../ui/Chip.tsx';
+import { personName } from '../../i18n/sentences/people.ts';
+import { words } from '../../i18n/words.ts';
+
+export interface TurnAct {
+  readonly label: string;
+  readonly hint?: string;
+  readonly tone: 'plain' | 'quiet';
+  readonly wish: LeaseAction;
+}
+
+export interface Turn {
+  readonly truth: Truth;
+  readonly text: string;
+  /** `countdown`: how long the driver may still refuse. */
+  readonly more: { readonly said: string } | 'countdown';
+  readonly acts: readonly TurnAct[];
+}
+
+export function turnOf(lease: Lease): Turn {
+  if (lease.drives) return lease.asker === null ? driving(lease) : beingAsked(lease, lease.asker);
+  return lease.driver === null ? unclaimed(lease) : watching(lease, lease.driver);
+}
+
+const driving = ({ you, givenBy, others }: Lease): Turn => ({
+  truth: 'confirmed',
+  text: words.lease.drives,
+  more: {
+    said:
+      givenBy === null
+        ? words.lease.others({ count: others })
+        : words.lease.given({ name: personName(givenBy, you) }),
+  },
+  acts: [{ label: words.lease.release, hint: words.lease.releaseHint, tone: 'quiet', wish: 'release' }],
+});
+
+const beingAsked = ({ you }: Lease, asker: string): Turn => ({
+  truth: 'warning',
+  text: words.lease.asker({ name: personName(asker, you) }),
+  more: 'countdown',
+  acts: [
+    { label: words.lease.allow, tone: 'plain', wish: 'release' },
+    { label: words.lease.refuse, tone: 'plain', wish: 'refuse' },
+  ],
+});
+
+const unclaimed = ({ mayDrive }: Lease): Turn => ({
+  truth: 'neutral',
+  text: words.lease.nobody,
+  more: { said: mayDrive ? words.lease.nobodyMore : words.lease.watching },
+  acts: [],
+});
+
+function watching({ you, asks, mayDrive, mayTake }: Lease, driver: string): Turn {
+  const ask: TurnAct = asks
+    ? { label: words.lease.takeBack, tone: 'quiet', wish: 'release' }
+    : { label: words.lease.request, hint: words.lease.requestHint, tone: 'plain', wish: 'request' };
+  const take = { label: words.lease.take, hint: words.lease.takeHint, tone: 'quiet', wish: 'take' } as const;
+  return {
+    truth: asks ? 'commanded' : 'neutral',
+    text: (asks ? words.lease.asked : words.lease.driver)({ name: personName(driver, you) }),
+    more: asks ? 'countdown' : { said: words.lease.watching },
+    acts: [...(asks || mayDrive ? [ask] : []), ...(mayTake ? [take] : [])],
+  };
+}

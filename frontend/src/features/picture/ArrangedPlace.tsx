@@ -1,0 +1,81 @@
+// A servo on the body while its place is being chosen: dragged, or pushed by arrow keys. Letting go is one step of the history.
+
+import { useRef, useState, type KeyboardEvent, type PointerEvent, type RefObject } from 'react';
+import type { Robot, RobotServo } from '#shared/profile/robot.ts';
+import { useStores } from '../stores.ts';
+import { cx } from '../../ui/cx.ts';
+import { numberAndName } from '../../i18n/sentences/servos.ts';
+import { words } from '../../i18n/words.ts';
+import { at, PlaceFace } from './Place.tsx';
+import { placeBy, placeUnder, type PlaceAt } from './placing.ts';
+import styles from './Place.module.css';
+
+export interface ArrangedPlaceProps {
+  readonly servo: RobotServo;
+  /** What the places are shares of. */
+  readonly stage: RefObject<HTMLElement | null>;
+}
+
+export function ArrangedPlace({ servo: { servo, name, place }, stage }: ArrangedPlaceProps) {
+  const { robots } = useStores();
+  const [dragged, setDragged] = useState<PlaceAt | null>(null);
+  /** How far from its middle it is held; null: it is not. */
+  const grip = useRef<{ readonly x: number; readonly y: number } | null>(null);
+
+  function letGo(): void {
+    grip.current = null;
+    setDragged(null);
+  }
+
+  function put(to: PlaceAt | null): void {
+    letGo();
+    if (to !== null && (to.x !== place.x || to.y !== place.y))
+      robots.edit(
+        () => words.servoPanel.placeStep({ servo }),
+        (robot) => withPlace(robot, servo, to),
+      );
+  }
+
+  function take(event: PointerEvent<HTMLButtonElement>): void {
+    if (event.button !== 0) return;
+    event.currentTarget.setPointerCapture(event.pointerId);
+    const { left, top, width, height } = event.currentTarget.getBoundingClientRect();
+    grip.current = { x: event.clientX - left - width / 2, y: event.clientY - top - height / 2 };
+  }
+
+  function drag(event: PointerEvent<HTMLButtonElement>): void {
+    if (stage.current === null || grip.current === null) return;
+    const { x, y } = grip.current;
+    const middle = { clientX: event.clientX - x, clientY: event.clientY - y };
+    setDragged(placeUnder(middle, stage.current.getBoundingClientRect()));
+  }
+
+  function push(event: KeyboardEvent): void {
+    if (event.key === 'Escape') letGo();
+    const to = placeBy(event, place);
+    if (to === null) return;
+    event.preventDefault();
+    put(to);
+  }
+
+  return (
+    <li className={styles.place} style={at(dragged ?? place)}>
+      <button
+        type="button"
+        className={cx(styles.button, styles.arranged)}
+        aria-label={words.servoPanel.placeOf({ ...place, name: numberAndName(servo, name) })}
+        onPointerDown={take}
+        onPointerMove={drag}
+        onPointerUp={() => put(dragged)}
+        onPointerCancel={letGo}
+        onKeyDown={push}
+      >
+        <PlaceFace servo={servo} />
+      </button>
+    </li>
+  );
+}
+
+function withPlace(robot: Robot, servo: number, place: PlaceAt): Robot {
+  return { ...robot, servos: robot.servos.map((one) => (one.servo === servo ? { ...one, place } : one)) };
+}

@@ -1,0 +1,101 @@
+// A canvas for what changes in each frame: it costs neither style nor layout, only what is drawn, and only where it shows something
+// else than before. Knows no needle.
+
+import { useEffectEvent, useLayoutEffect, useRef } from 'react';
+import { lookOf, type Look } from './look.ts';
+import { watchSize } from '../../ui/onScreen.ts';
+import { useSight } from '../../ui/sight.ts';
+import { useFollow } from '../../ui/useFollow.ts';
+
+export interface Size {
+  readonly width: number;
+  readonly height: number;
+}
+
+export interface Pen {
+  readonly ctx: CanvasRenderingContext2D;
+  readonly look: Look;
+  /** In pixels of the page, as everything that is drawn. */
+  readonly size: Size;
+}
+
+export interface Picture<Shown extends readonly unknown[]> {
+  /** What is shown now: it is drawn again where one of these is another. */
+  shown(): Shown;
+  /** On a clean canvas. */
+  paint(pen: Pen, shown: Shown): void;
+}
+
+export interface CanvasProps<Shown extends readonly unknown[]> extends Pick<Picture<Shown>, 'shown'> {
+  readonly className?: string | undefined;
+  /** What was painted stays on it, for whoever paints only what is another. */
+  readonly isKept?: boolean;
+  paint(pen: Pen, shown: Shown, isClean: boolean): void;
+}
+
+/** Where it is another, nothing of what was painted is left. */
+interface Ground {
+  readonly size: Size;
+  readonly look: Look;
+  readonly ratio: number;
+}
+
+interface Read<Shown> extends Ground {
+  readonly shown: Shown;
+}
+
+export function Canvas<Shown extends readonly unknown[]>(props: CanvasProps<Shown>) {
+  const { className, isKept = false, shown, paint } = props;
+  const canvas = useRef<HTMLCanvasElement>(null);
+  const size = useRef<Size>({ width: 0, height: 0 });
+  const painted = useRef<Ground | null>(null);
+  const sight = useSight(canvas);
+
+  function read(): Read<Shown> | null {
+    if (canvas.current === null || size.current.width === 0) return null;
+    const look = lookOf(canvas.current);
+    return { size: size.current, look, ratio: devicePixelRatio, shown: shown() };
+  }
+
+  function draw(now: Read<Shown> | null): void {
+    if (canvas.current === null || now === null) return;
+    const isClean = !isKept || painted.current === null || !isSameGround(painted.current, now);
+    const ctx = isClean ? cleanContext(canvas.current, now) : canvas.current.getContext('2d');
+    if (ctx !== null) paint({ ctx, look: now.look, size: now.size }, now.shown, isClean);
+    painted.current = now;
+  }
+
+  const drawNow = useEffectEvent(() => draw(read()));
+
+  useLayoutEffect(() => {
+    if (canvas.current === null) return undefined;
+    return watchSize(canvas.current, ({ contentRect: { width, height } }) => {
+      size.current = { width, height };
+      drawNow();
+    });
+  }, []);
+  useFollow({ read, isSame, draw, sight });
+  return <canvas ref={canvas} className={className} aria-hidden="true" />;
+}
+
+function isSame(one: Read<readonly unknown[]> | null, other: Read<readonly unknown[]> | null): boolean {
+  if (one === null || other === null) return one === other;
+  return (
+    isSameGround(one, other) &&
+    one.shown.length === other.shown.length &&
+    one.shown.every((part, index) => part === other.shown[index])
+  );
+}
+
+const isSameGround = (one: Ground, other: Ground): boolean =>
+  one.size === other.size && one.look === other.look && one.ratio === other.ratio;
+
+function cleanContext(canvas: HTMLCanvasElement, { size, ratio }: Ground): CanvasRenderingContext2D | null {
+  const [width, height] = [Math.round(size.width * ratio), Math.round(size.height * ratio)];
+  if (canvas.width !== width) canvas.width = width;
+  if (canvas.height !== height) canvas.height = height;
+  const ctx = canvas.getContext('2d');
+  ctx?.setTransform(ratio, 0, 0, ratio, 0, 0);
+  ctx?.clearRect(0, 0, size.width, size.height);
+  return ctx;
+}

@@ -1,0 +1,84 @@
+// A list whose pictures are drawn on one canvas, over what is in sight of it. The canvas scrolls with the list.
+
+import { useLayoutEffect, useRef, useState, type ReactNode } from 'react';
+import { watchSize } from '../../ui/onScreen.ts';
+import { Sight, useSight } from '../../ui/sight.ts';
+import { useEachFrame } from '../../ui/useEachFrame.ts';
+import { Canvas } from './Canvas.tsx';
+import {
+  coverOf,
+  createPainting,
+  createSheet,
+  isSameArea,
+  SheetAround,
+  type Area,
+  type Placed,
+} from './sheet.ts';
+import styles from './SharedSheet.module.css';
+
+/** Whatever else moves a row, its pictures are behind it no longer than this. */
+const MEASURED_EACH_MS = 500;
+
+export interface SharedSheetProps {
+  /** Where the list is, left out: in the flow of the page. */
+  readonly className?: string | undefined;
+  readonly children: ReactNode;
+}
+
+export function SharedSheet({ className = styles.sheet, children }: SharedSheetProps) {
+  const list = useRef<HTMLDivElement>(null);
+  const canvas = useRef<HTMLDivElement>(null);
+  const isInSight = useSight(list);
+  const [sheet] = useState(createSheet);
+  const [paintOn] = useState(createPainting);
+  const parts = useRef<readonly Placed[]>([]);
+  const covered = useRef<Area>({ left: 0, top: 0, width: 0, height: 0 });
+
+  useLayoutEffect(() => sheet.measureAnew());
+  useLayoutEffect(() => {
+    if (list.current === null) return undefined;
+    return watchSize(list.current, sheet.measureAnew);
+  }, [sheet]);
+  // Not in the frame in which texts are written: it would have that one laid out twice.
+  useEachFrame(sheet.measureAnew, { eachMs: MEASURED_EACH_MS, turnMs: MEASURED_EACH_MS / 2 });
+
+  function place(): void {
+    const cover = coverOf(parts.current, covered.current);
+    if (canvas.current === null || isSameArea(cover, covered.current)) return;
+    covered.current = cover;
+    const { left, top, width, height } = cover;
+    Object.assign(canvas.current.style, {
+      transform: `translate(${left}px, ${top}px)`,
+      ...{ width: `${width}px`, height: `${height}px` },
+    });
+  }
+
+  function shown(): readonly unknown[] {
+    parts.current = list.current === null ? [] : sheet.inSight(list.current);
+    place();
+    const corner = covered.current;
+    return parts.current.flatMap(({ left, top, shown: now }) => [
+      left - corner.left,
+      top - corner.top,
+      ...now,
+    ]);
+  }
+
+  return (
+    <SheetAround value={sheet}>
+      <div ref={list} className={className}>
+        {children}
+        <div ref={canvas} className={styles.cover} aria-hidden="true">
+          <Sight value={isInSight}>
+            <Canvas
+              className={styles.canvas}
+              isKept
+              shown={shown}
+              paint={(pen, _, isClean) => paintOn(pen, parts.current, covered.current, isClean)}
+            />
+          </Sight>
+        </div>
+      </div>
+    </SheetAround>
+  );
+}

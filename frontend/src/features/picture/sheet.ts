@@ -1,0 +1,162 @@
+// The pictures that share one canvas: dozens of canvases cost the browser more than all that is drawn on them. Knows where those in
+// sight stand; draws nothing by itself.
+
+import { createContext } from 'react';
+import type { InSight } from '../../ui/sight.ts';
+import type { Pen, Picture, Size } from './Canvas.tsx';
+
+/** A picture on a sheet: drawn where `place` stands, as large as that is. */
+export interface Part<Shown extends readonly unknown[]> extends Picture<Shown> {
+  readonly place: Element;
+  readonly sight: InSight;
+}
+
+export interface Placed {
+  /** The same from frame to frame. */
+  readonly part: object;
+  readonly left: number;
+  readonly top: number;
+  readonly size: Size;
+  readonly shown: readonly unknown[];
+  paint(pen: Pen): void;
+}
+
+export interface Sheet {
+  /** Returns what takes it away again. */
+  readonly add: <Shown extends readonly unknown[]>(part: Part<Shown>) => () => void;
+  /** Something may stand elsewhere now. */
+  readonly measureAnew: () => void;
+  /** Those in sight, seen from the corner of `around`. */
+  readonly inSight: (around: Element) => readonly Placed[];
+}
+
+export const SheetAround = createContext<Sheet | null>(null);
+
+interface Box {
+  readonly left: number;
+  readonly top: number;
+  readonly size: Size;
+}
+
+interface Kept {
+  readonly sight: InSight;
+  /** null: to be measured. */
+  box: Box | null;
+  measured(corner: DOMRect): Box;
+  picture(): Pick<Placed, 'shown' | 'paint'>;
+}
+
+export function createSheet(): Sheet {
+  const all = new Set<Kept>();
+  return {
+    add(part) {
+      const kept = keep(part);
+      all.add(kept);
+      return () => all.delete(kept);
+    },
+    measureAnew() {
+      for (const kept of all) kept.box = null;
+    },
+    inSight(around) {
+      let corner: DOMRect | undefined;
+      const seen: Placed[] = [];
+      for (const kept of all) {
+        if (!kept.sight.current) continue;
+        kept.box ??= kept.measured((corner ??= around.getBoundingClientRect()));
+        seen.push({ part: kept, ...kept.box, ...kept.picture() });
+      }
+      return seen;
+    },
+  };
+}
+
+function keep<Shown extends readonly unknown[]>({ place, sight, shown, paint }: Part<Shown>): Kept {
+  let size: Size = { width: 0, height: 0 };
+  return {
+    sight,
+    box: null,
+    measured(corner) {
+      const { left, top, width, height } = place.getBoundingClientRect();
+      // The same object as long as it is the same size: what is measured by it is measured once.
+      if (size.width !== width || size.height !== height) size = { width, height };
+      return { left: left - corner.left, top: top - corner.top, size };
+    },
+    picture() {
+      const now = shown();
+      return { shown: now, paint: (pen) => paint(pen, now) };
+    },
+  };
+}
+
+/** In pixels of the page. */
+export interface Area {
+  readonly left: number;
+  readonly top: number;
+  readonly width: number;
+  readonly height: number;
+}
+
+/** What the canvas lies over, seen from the corner of the list: as much as all of them take, on whole pixels. Where none is in sight it
+    stays: a canvas without a size is not drawn any more. */
+export function coverOf(parts: readonly Placed[], before: Area): Area {
+  if (parts.length === 0) return before;
+  const left = Math.floor(Math.min(...parts.map((part) => part.left)));
+  const top = Math.floor(Math.min(...parts.map((part) => part.top)));
+  const right = Math.ceil(Math.max(...parts.map((part) => part.left + part.size.width)));
+  const bottom = Math.ceil(Math.max(...parts.map((part) => part.top + part.size.height)));
+  return { left, top, width: right - left, height: bottom - top };
+}
+
+export const isSameArea = (one: Area, other: Area): boolean =>
+  one.left === other.left &&
+  one.top === other.top &&
+  one.width === other.width &&
+  one.height === other.height;
+
+interface Painted extends Placed {
+  /** Of the canvas. */
+  readonly area: Area;
+}
+
+/** Of the pictures on a canvas few change in a frame: only those are painted again. `cover`: where on the list the canvas is. `isClean`:
+    nothing is on it any more. */
+export function createPainting() {
+  let painted = new Map<object, Painted>();
+  let ground: Area | null = null;
+  return (pen: Pen, parts: readonly Placed[], cover: Area, isClean: boolean): void => {
+    const { ctx, look } = pen;
+    if (isClean || ground === null || !isSameArea(ground, cover)) {
+      ctx.clearRect(0, 0, cover.width, cover.height);
+      painted = new Map();
+      ground = cover;
+    }
+    const wanted = new Map(parts.map((one) => [one.part, { ...one, area: areaOf(one, cover) }]));
+    for (const [part, { area, shown }] of painted) {
+      const now = wanted.get(part);
+      if (now !== undefined && isSameArea(now.area, area) && isSameShown(now.shown, shown)) continue;
+      ctx.clearRect(area.left, area.top, area.width, area.height);
+      painted.delete(part);
+    }
+    for (const [part, now] of wanted) {
+      if (painted.has(part)) continue;
+      const { left, top } = now.area;
+      ctx.translate(left, top);
+      now.paint({ ctx, look, size: now.size });
+      ctx.translate(-left, -top);
+      painted.set(part, now);
+    }
+  };
+}
+
+const isSameShown = (one: readonly unknown[], other: readonly unknown[]): boolean =>
+  one.length === other.length && one.every((value, index) => value === other[index]);
+
+/** On whole pixels of the screen: between two of them no edge would be sharp, and none could be cleared without a trace. */
+function areaOf({ left, top, size }: Placed, cover: Area): Area {
+  return {
+    left: Math.round((left - cover.left) * devicePixelRatio) / devicePixelRatio,
+    top: Math.round((top - cover.top) * devicePixelRatio) / devicePixelRatio,
+    width: Math.ceil(size.width * devicePixelRatio) / devicePixelRatio,
+    height: Math.ceil(size.height * devicePixelRatio) / devicePixelRatio,
+  };
+}

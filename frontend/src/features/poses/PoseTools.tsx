@@ -1,0 +1,212 @@
+// What can be done with the selected pose, in words. Always in its place, so that nothing jumps when a pose is selected.
+
+import { addMacro } from '#shared/profile/macroEdits.ts';
+import type { PoseBook } from '#shared/profile/pose.ts';
+import { duplicatePose, markRest, movePose, removePose, setPose } from '#shared/profile/poseEdits.ts';
+import { flippedTargets, mirroredTargets } from '#shared/profile/poseShapes.ts';
+import { servoOf } from '#shared/profile/robot.ts';
+import { putFrame } from '../animate/frames/capture.ts';
+import { GENTLE_MOVE_MS } from '../../robot/moveTime.ts';
+import { longerName } from '../../state/longerName.ts';
+import { useDevice, useDocument, usePoses, useRobot, useStores } from '../stores.ts';
+import { Button, IconButton } from '../../ui/Button.tsx';
+import { Toggle } from '../../ui/Toggle.tsx';
+import { servoLabel } from '../../i18n/sentences/servos.ts';
+import { words } from '../../i18n/whole.ts';
+import { useSelectedPose } from './useSelectedPose.ts';
+import styles from './PosesPanel.module.css';
+
+/** A step of the book, in the words of the moment. */
+type PoseLabel = (name: string) => string;
+
+/** What lies open below the tools. */
+export type Drawer = 'servos' | 'blend';
+
+export interface PoseToolsProps {
+  readonly drawer: Drawer | null;
+  onDrawer(drawer: Drawer | null): void;
+}
+
+export function PoseTools({ drawer, onDrawer }: PoseToolsProps) {
+  const pose = useSelectedPose();
+  const toggle = (which: Drawer) => (isOn: boolean) => onDrawer(isOn ? which : null);
+  return (
+    <div className={styles.tools} role="group" aria-label={words.poses.tools}>
+      <span className={styles.which}>{pose === undefined ? words.poses.select : pose.name}</span>
+      <Arrange />
+      <div className={styles.shapes}>
+        <Shapes />
+        <Toggle
+          label={words.poses.servos}
+          isOn={drawer === 'servos'}
+          isDisabled={pose === undefined}
+          onChange={toggle('servos')}
+        />
+        <Toggle
+          label={words.poses.blend}
+          isOn={drawer === 'blend'}
+          isDisabled={pose === undefined}
+          onChange={toggle('blend')}
+        />
+      </div>
+    </div>
+  );
+}
+
+/** Its targets: as the robot is commanded now, mirrored, flipped; and where the robot rests. */
+function Shapes() {
+  const { device, poses, notices, macros, document, view } = useStores();
+  const pose = useSelectedPose();
+  const robot = useRobot();
+  const knowsPose = useDevice((state) => state.known.length > 0);
+  const unit = useDevice((state) => state.family.unit);
+  const restId = usePoses(({ present }) => present.restId);
+  const isRest = restId !== null && restId === pose?.id;
+  const mayShape = pose?.unit === unit;
+  const fitsGroup = useDocument(({ present }) => present.frames.length === 0 || present.unit === pose?.unit);
+  const hasSides = (pose?.targets ?? []).some(
+    ({ servo }) => typeof servoOf(robot, servo)?.mirror === 'number',
+  );
+
+  function edit(label: PoseLabel, change: (book: PoseBook, id: number) => PoseBook): void {
+    if (pose !== undefined)
+      poses.book.edit(
+        () => label(pose.name),
+        (book) => change(book, pose.id),
+      );
+  }
+
+  const update = (): void =>
+    edit(
+      (name) => words.poses.steps.update({ name }),
+      (book, id) => setPose(book, id, device.pose(), unit),
+    );
+
+  const reshape = (label: PoseLabel, shape: typeof mirroredTargets) => (): void => {
+    const { targets, held } = shape(robot, pose?.targets ?? []);
+    edit(label, (book, id) => setPose(book, id, targets));
+    if (held.length > 0)
+      notices.tell('warning', words.poses.held({ names: words.numbers.formatNames(held.map(servoLabel)) }));
+  };
+
+  const addToGroup = (): void => {
+    if (pose === undefined) return;
+    putFrame({ document, view }, 'after', pose, () => words.poses.steps.addToGroup({ name: pose.name }));
+    notices.tell('info', words.poses.added({ name: pose.name }), {
+      label: words.poses.openGroup,
+      act: () => view.setState({ authoring: 'group' }),
+    });
+  };
+
+  const makeButton = (): void => {
+    if (pose === undefined) return;
+    const { id, name } = pose;
+    macros.edit(
+      () => words.macros.edits.add({ name }),
+      (page) => addMacro(page, name, [{ kind: 'pose', pose: id, durationMs: GENTLE_MOVE_MS }]),
+    );
+    notices.tell('info', words.poses.buttonMade({ name }));
+  };
+
+  return (
+    <>
+      <Button tone="quiet" icon="update" isDisabled={pose === undefined || !knowsPose} onPress={update}>
+        {words.poses.update}
+      </Button>
+      <Button
+        tone="quiet"
+        icon="mirror"
+        hint={words.poses.mirrorHint}
+        isDisabled={!mayShape || !hasSides}
+        onPress={reshape((name) => words.poses.steps.mirror({ name }), mirroredTargets)}
+      >
+        {words.poses.mirror}
+      </Button>
+      <Button
+        tone="quiet"
+        icon="flip"
+        hint={words.poses.flipHint}
+        isDisabled={!mayShape}
+        onPress={reshape((name) => words.poses.steps.flip({ name }), flippedTargets)}
+      >
+        {words.poses.flip}
+      </Button>
+      <Button
+        tone="quiet"
+        icon="frames"
+        hint={words.poses.addHint}
+        isDisabled={pose === undefined || !fitsGroup}
+        onPress={addToGroup}
+      >
+        {words.poses.add}
+      </Button>
+      <Button tone="quiet" icon="buttons" isDisabled={pose === undefined} onPress={makeButton}>
+        {words.poses.button}
+      </Button>
+      <Toggle
+        label={words.poses.makeRest}
+        isOn={isRest}
+        isDisabled={pose === undefined}
+        onChange={(isOn) =>
+          edit(
+            () => words.poses.steps.rest,
+            (book, id) => markRest(book, isOn ? id : null),
+          )
+        }
+      />
+    </>
+  );
+}
+
+function Arrange() {
+  const { poses, view, notices } = useStores();
+  const pose = useSelectedPose();
+  const list = usePoses(({ present }) => present.poses);
+  const nextId = usePoses(({ present }) => present.nextId);
+  const index = pose === undefined ? -1 : list.indexOf(pose);
+  const none = pose === undefined;
+
+  const move = (to: number) => (): void => {
+    if (none) return;
+    poses.book.edit(
+      () => words.poses.steps.move({ name: pose.name }),
+      (book) => movePose(book, pose.id, to),
+    );
+    notices.say(words.poses.moved({ from: index + 1, to: to + 1 }));
+  };
+  const duplicate = (): void => {
+    if (none) return;
+    view.setState({ selectedPose: nextId });
+    poses.book.edit(
+      () => words.poses.steps.duplicate({ name: pose.name }),
+      (book) => duplicatePose(book, pose.id, longerName(pose.name, words.poses.copyOf)),
+    );
+  };
+  const remove = (): void => {
+    if (none) return;
+    view.setState({ selectedPose: list[index + 1]?.id ?? list[index - 1]?.id ?? null });
+    poses.book.edit(
+      () => words.poses.steps.delete({ name: pose.name }),
+      (book) => removePose(book, pose.id),
+    );
+  };
+
+  return (
+    <span className={styles.icons}>
+      <IconButton
+        icon="earlier"
+        label={words.poses.earlier}
+        isDisabled={none || index === 0}
+        onPress={move(index - 1)}
+      />
+      <IconButton
+        icon="later"
+        label={words.poses.later}
+        isDisabled={none || index === list.length - 1}
+        onPress={move(index + 1)}
+      />
+      <IconButton icon="copy" label={words.poses.duplicate} isDisabled={none} onPress={duplicate} />
+      <IconButton icon="trash" label={words.poses.delete} isDisabled={none} onPress={remove} />
+    </span>
+  );
+}

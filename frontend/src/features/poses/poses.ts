@@ -1,0 +1,130 @@
+// The poses of the robot at hand, and the way to them: by the device, in its limits, slowly unless asked otherwise. To go to
+// a pose is noted as a step of the book; undoing it changes the note and moves nothing.
+
+import type { Label } from '#shared/document/history.ts';
+import { EMPTY_BOOK, poseOf, type PoseBook, type PoseRef } from '#shared/profile/pose.ts';
+import { markApplied, withPosesOf } from '#shared/profile/poseEdits.ts';
+import { homeTargets, strangersTo } from '#shared/profile/poseShapes.ts';
+import { poseBookFromText, poseBookToText } from '#shared/profile/poseText.ts';
+import type { ServoTarget } from '#shared/codec/commands.ts';
+import { flawSentence } from '../../i18n/sentences/errors.ts';
+import { words } from '../../i18n/words.ts';
+import type { Device } from '../../robot/device.ts';
+import { limitRefusal } from '../../robot/limits.ts';
+import { freeOf, stayingOf } from '../drive/locks.ts';
+import type { Notices } from '../../state/notices.ts';
+import { createRobotDocument, type RobotDocument } from '../profiles/robotDocument.ts';
+import type { RobotStore } from '../profiles/robots.ts';
+import type { TextStorage } from '../../state/textStorage.ts';
+import type { View } from '../view.ts';
+
+export interface Poses {
+  readonly book: RobotDocument<PoseBook>;
+  /** null where there is no such pose, or none in the unit of the board at hand. */
+  targetsOf(ref: PoseRef): readonly ServoTarget[] | null;
+  /** False where it was refused; then the person was told why. */
+  apply(ref: PoseRef, durationMs: number): boolean;
+  /** Somewhere between poses. */
+  applyBlend(label: Label, targets: readonly ServoTarget[], durationMs: number): void;
+  /** Adds the poses of a file, all or none. */
+  importText(text: string): void;
+}
+
+export interface PosesOptions {
+  readonly storage: TextStorage;
+  readonly notices: Notices;
+  readonly robots: RobotStore;
+  readonly device: Device;
+  readonly view: View;
+}
+
+export function createPoses({ storage, notices, robots, device, view }: PosesOptions): Poses {
+  const book = createRobotDocument({
+    ...{
+      storage,
+      notices,
+      robots,
+      key: 'servodeck.poses',
+      notSaved: () => words.poses.notSaved,
+      unreadable: (flaw) => words.poses.unreadable({ flaw: flawSentence(flaw) }),
+    },
+    ...{ fresh: () => EMPTY_BOOK, toText: poseBookToText, fromText: poseBookFromText },
+    shared: { of: withoutPlace, onto: onPlaceOf },
+  });
+  const present = (): PoseBook => book.store.getState().present;
+
+  function targetsOf(ref: PoseRef): readonly ServoTarget[] | null {
+    const id = ref === 'rest' ? present().restId : ref;
+    if (id === 'home' || id === null) return homeTargets(robots.current().robot);
+    const pose = poseOf(present(), id);
+    return pose?.unit === device.store.getState().family.unit ? pose.targets : null;
+  }
+
+  /** Locked servos stay, and the person is told. */
+  function go(targets: readonly ServoTarget[], durationMs: number): boolean {
+    const staying = stayingOf({ view, robots }, targets);
+    const free = freeOf({ view, robots }, targets);
+    const isGone = free.length > 0 && device.move(free, durationMs);
+    if (staying !== null && (isGone || free.length === 0)) notices.tell('info', staying);
+    return isGone;
+  }
+
+  /** Of the poses together, because none is taken without the others. */
+  function flawOfImport({ poses }: PoseBook): string | null {
+    return limitRefusal(
+      robots.current().robot,
+      poses.flatMap(({ targets }) => targets),
+    );
+  }
+
+  function take(imported: PoseBook): void {
+    book.edit(
+      () => words.poses.steps.import,
+      (before) => withPosesOf(before, imported),
+    );
+    const targets = imported.poses.flatMap((pose) => pose.targets);
+    const strangers = strangersTo(robots.current().robot, targets);
+    if (strangers.length > 0)
+      notices.tell('warning', words.poses.strangers({ servos: words.numbers.formatList(strangers) }));
+  }
+
+  return {
+    book,
+    targetsOf,
+    apply(ref, durationMs) {
+      const targets = targetsOf(ref);
+      if (targets === null) notices.tell('warning', words.poses.gone);
+      if (targets === null || !go(targets, durationMs)) return false;
+      const name = poseName(present(), ref);
+      book.edit(
+        () => words.poses.steps.apply({ name }),
+        (before) => markApplied(before, ref),
+      );
+      return true;
+    },
+    applyBlend(label, targets, durationMs) {
+      if (go(targets, durationMs)) book.edit(label, (before) => markApplied(before, null));
+    },
+    importText(text) {
+      const read = poseBookFromText(text);
+      const problem =
+        'problem' in read
+          ? words.poses.importFailed({ flaw: flawSentence(read.problem) })
+          : flawOfImport(read.value);
+      if (problem !== null) notices.tell('warning', problem);
+      else if ('value' in read) take(read.value);
+    },
+  };
+}
+
+/** Where the robot went last is told by the robot, not by the book. */
+const withoutPlace = (book: PoseBook): PoseBook => ({ ...book, applied: null });
+
+function onPlaceOf({ applied }: PoseBook, book: PoseBook): PoseBook {
+  return typeof applied === 'number' && poseOf(book, applied) === undefined ? book : { ...book, applied };
+}
+
+export function poseName(book: PoseBook, ref: PoseRef): string {
+  if (typeof ref === 'string') return words.poses.verbs[ref];
+  return poseOf(book, ref)?.name ?? words.poses.missing;
+}

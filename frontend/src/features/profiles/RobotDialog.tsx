@@ -1,0 +1,51 @@
+// Everything about robots in one dialog: the list of them, the description of the one at hand, its calibration. Ctrl+Z here
+// is the robots' own, not that of the frames behind the dialog.
+
+import type { ComponentType } from 'react';
+import { undoActionOf } from '../undo/useUndoKeys.ts';
+import { useStores, useView } from '../stores.ts';
+import type { ViewState } from '../view.ts';
+import { Dialog } from '../../ui/Dialog.tsx';
+import { laterComponent } from '../../ui/later.tsx';
+import { words } from '../../i18n/words.ts';
+import styles from './RobotDialog.module.css';
+
+type RobotView = NonNullable<ViewState['robotView']>;
+
+export function RobotDialog() {
+  const { view, robots } = useStores();
+  const open = useView((state) => state.robotView);
+  const Content = open === null ? null : CONTENT[open];
+  return (
+    <Dialog
+      full={open === 'edit'}
+      wide={open !== 'edit'}
+      title={words.robots.title}
+      closeLabel={words.close}
+      isOpen={open !== null}
+      onClose={() => view.setState({ robotView: null })}
+    >
+      <div
+        className={styles.content}
+        onKeyDown={(event) => {
+          const action = undoActionOf(event);
+          if (action === null) return;
+          event.preventDefault();
+          event.stopPropagation();
+          robots[action]();
+        }}
+      >
+        {Content !== null && <Content />}
+      </div>
+    </Dialog>
+  );
+}
+
+const CONTENT: Readonly<Record<RobotView, ComponentType>> = {
+  list: laterComponent(async () => (await import('./RobotList.tsx')).RobotList, '50vh'),
+  edit: laterComponent(async () => (await import('./RobotEditor.tsx')).RobotEditor, '50vh'),
+  calibrate: laterComponent(
+    async () => (await import('./calibration/CalibrationWizard.tsx')).CalibrationWizard,
+    '50vh',
+  ),
+};

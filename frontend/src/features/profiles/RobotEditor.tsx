@@ -1,0 +1,123 @@
+// The description of the robot at hand: its name, what it looks like, what feeds it, its servos.
+
+import { fedBy } from '#shared/profile/batterySupply.ts';
+import { BATTERY_KINDS, BODIES, NAME_LENGTH } from '#shared/profile/robot.ts';
+import { addServo } from '#shared/profile/robotEdits.ts';
+import { FAMILIES } from '#shared/codec/families.ts';
+import { useRobot, useStores } from '../stores.ts';
+import { Button } from '../../ui/Button.tsx';
+import { Select } from '../../ui/Select.tsx';
+import { boardName } from '../../i18n/sentences/boards.ts';
+import { words } from '../../i18n/whole.ts';
+import { CellField } from './CellField.tsx';
+import { PlaceEditor } from './PlaceEditor.tsx';
+import { RobotHead } from './RobotHead.tsx';
+import { ServoTable } from './ServoTable.tsx';
+import styles from './RobotEditor.module.css';
+
+export function RobotEditor() {
+  const { robots } = useStores();
+  const robot = useRobot();
+
+  function rename(text: string): boolean {
+    const wanted = text.trim();
+    return (
+      wanted !== '' &&
+      robots.edit(
+        () => words.robotEditor.name,
+        (all) => ({ ...all, name: wanted }),
+      )
+    );
+  }
+
+  return (
+    <>
+      <RobotHead />
+      <div className={styles.facts}>
+        <label className={styles.name}>
+          <span>{words.robotEditor.name}</span>
+          <CellField
+            label={words.robotEditor.name}
+            value={robot.name}
+            maxLength={NAME_LENGTH}
+            onTake={rename}
+          />
+        </label>
+        <Kind
+          label={words.robotEditor.body}
+          value={robot.body}
+          kinds={BODIES}
+          names={words.robotEditor.bodies}
+          onChange={(body) =>
+            robots.edit(
+              () => words.robotEditor.body,
+              (all) => ({ ...all, body }),
+            )
+          }
+        />
+        <Kind
+          label={words.robotEditor.battery}
+          value={robot.battery}
+          kinds={BATTERY_KINDS}
+          names={words.robotEditor.batteries}
+          onChange={(kind) =>
+            robots.edit(
+              () => words.robotEditor.battery,
+              (all) => fedBy(all, kind),
+            )
+          }
+        />
+        <p className={styles.dim}>{words.robotEditor.board({ name: boardName(FAMILIES[robot.board]) })}</p>
+      </div>
+      <ServoTable />
+      <AddServo />
+      <PlaceEditor />
+    </>
+  );
+}
+
+interface KindProps<Value extends string> {
+  readonly label: string;
+  readonly value: Value;
+  readonly kinds: readonly Value[];
+  readonly names: Readonly<Record<Value, string>>;
+  onChange(kind: Value): void;
+}
+
+function Kind<Value extends string>({ label, value, kinds, names, onChange }: KindProps<Value>) {
+  return (
+    <label>
+      <span>{label}</span>
+      <Select
+        label={label}
+        value={value}
+        options={kinds.map((kind) => ({ value: kind, label: names[kind] }))}
+        onChange={onChange}
+      />
+    </label>
+  );
+}
+
+function AddServo() {
+  const { robots } = useStores();
+  const robot = useRobot();
+  const longer = addServo(robot, (number) => words.robotEditor.newServo({ servo: number }));
+  return (
+    <div className={styles.foot}>
+      <Button
+        icon="plus"
+        isDisabled={longer === null}
+        onPress={() =>
+          longer !== null &&
+          robots.edit(
+            () => words.robotEditor.addStep,
+            () => longer,
+          )
+        }
+      >
+        {words.robotEditor.add}
+      </Button>
+      <p className={styles.dim}>{longer === null ? words.robotEditor.full : words.robotEditor.hint}</p>
+    </div>
+  );
+}

@@ -1,0 +1,172 @@
+// The servos of the robot at hand, a row each. A change that cannot be is told below its row and taken nowhere.
+
+import type { Label } from '#shared/document/history.ts';
+import { useId, useState } from 'react';
+import { flawOf, type Robot, type RobotServo } from '#shared/profile/robot.ts';
+import { changeServo, pair, reachOf, removeServo } from '#shared/profile/robotEdits.ts';
+import { FAMILIES } from '#shared/codec/families.ts';
+import { useRobot, useStores } from '../stores.ts';
+import { IconButton } from '../../ui/Button.tsx';
+import { robotFlawSentence } from '../../i18n/sentences/robotFlaws.ts';
+import { servoLabel } from '../../i18n/sentences/servos.ts';
+import { words } from '../../i18n/whole.ts';
+import { CellField } from './CellField.tsx';
+import { COLUMNS, type Column, type ColumnId, type Edited } from './columns.ts';
+import { ReachBar } from './ReachBar.tsx';
+import styles from './ServoTable.module.css';
+
+export function ServoTable() {
+  const { servos, board } = useRobot();
+  const { unit } = FAMILIES[board];
+  const titles = {
+    ...words.robotEditor.columns,
+    degreesPerUnit: words.robotEditor.degreesPer[unit],
+  };
+  return (
+    <div className={styles.table}>
+      <div className={styles.titles} aria-hidden="true">
+        {COLUMNS.map(({ id, isNumber }) => (
+          <span key={id} data-number={isNumber}>
+            {titles[id]}
+          </span>
+        ))}
+        <span>{words.robotEditor.reversed}</span>
+        <span>{words.robotEditor.mirror}</span>
+      </div>
+      <ol aria-label={words.robotEditor.servos}>
+        {servos.map((servo) => (
+          <ServoLine key={servo.servo} servo={servo} titles={titles} />
+        ))}
+      </ol>
+    </div>
+  );
+}
+
+interface ServoLineProps {
+  readonly servo: RobotServo;
+  readonly titles: Readonly<Record<ColumnId, string>>;
+}
+
+function ServoLine({ servo, titles }: ServoLineProps) {
+  const robot = useRobot();
+  const { robots } = useStores();
+  const called = servoLabel(servo);
+  const [problems, setProblems] = useState<Partial<Record<ColumnId, string>>>({});
+  const problemId = useId();
+
+  const change = (what: Label, edit: (robot: Robot) => Robot): boolean =>
+    robots.edit(() => words.robotEditor.step({ column: what(), servo: called }), edit);
+
+  function take(column: Column, text: string): boolean {
+    const isSame = text === column.show(servo);
+    const edited = isSame ? { robot } : column.edit(robot, servo, text);
+    const problem = problemOf(edited);
+    setProblems(({ [column.id]: _, ...others }) =>
+      problem === null ? others : { ...others, [column.id]: problem },
+    );
+    return (
+      'robot' in edited &&
+      problem === null &&
+      change(
+        () => words.robotEditor.columns[column.id],
+        () => edited.robot,
+      )
+    );
+  }
+
+  return (
+    <li className={styles.line} aria-label={words.robotEditor.row({ servo: servo.servo, name: called })}>
+      {COLUMNS.map((column) => (
+        <label key={column.id} className={styles.cell} data-cell={column.id}>
+          <span className={styles.title}>{titles[column.id]}</span>
+          <CellField
+            label={words.robotEditor.cell({ column: titles[column.id], servo: called })}
+            value={column.show(servo)}
+            isNumber={column.isNumber}
+            column={column.id}
+            problemId={problems[column.id] === undefined ? undefined : problemId}
+            onTake={(text) => take(column, text)}
+          />
+        </label>
+      ))}
+      <label className={styles.check}>
+        <span className={styles.title}>{words.robotEditor.reversed}</span>
+        <input
+          type="checkbox"
+          aria-label={words.robotEditor.cell({ column: words.robotEditor.reversed, servo: called })}
+          checked={servo.isReversed}
+          onChange={(event) => {
+            const isReversed = event.target.checked;
+            change(
+              () => words.robotEditor.reversed,
+              (all) => changeServo(all, servo.servo, { isReversed }),
+            );
+          }}
+        />
+      </label>
+      <label className={styles.cell} data-cell="mirror">
+        <span className={styles.title}>{words.robotEditor.mirror}</span>
+        <Mirror
+          servo={servo}
+          others={robot.servos}
+          onChange={(partner) =>
+            change(
+              () => words.robotEditor.mirror,
+              (all) => pair(all, servo.servo, partner),
+            )
+          }
+        />
+      </label>
+      <IconButton
+        icon="trash"
+        label={words.robotEditor.remove({ name: called })}
+        isDisabled={robot.servos.length === 1}
+        onPress={() =>
+          robots.edit(
+            () => words.robotEditor.removeStep({ name: called }),
+            (all) => removeServo(all, servo.servo),
+          )
+        }
+      />
+      <ReachBar servo={servo} reach={reachOf(robot, servo)} unit={FAMILIES[robot.board].unit} />
+      <p id={problemId} className={styles.problem} role="alert">
+        {Object.values(problems).join(' ')}
+      </p>
+    </li>
+  );
+}
+
+function problemOf(edited: Edited): string | null {
+  if ('problem' in edited) return edited.problem;
+  const flaw = flawOf(edited.robot);
+  return flaw === null ? null : robotFlawSentence(flaw);
+}
+
+interface MirrorProps {
+  readonly servo: RobotServo;
+  readonly others: readonly RobotServo[];
+  onChange(partner: number | null): void;
+}
+
+function Mirror({ servo: { servo, name, group, mirror }, others, onChange }: MirrorProps) {
+  return (
+    <select
+      className={styles.input}
+      aria-label={words.robotEditor.cell({
+        column: words.robotEditor.mirror,
+        servo: servoLabel({ name, group }),
+      })}
+      value={mirror ?? ''}
+      onChange={({ target: { value } }) => onChange(value === '' ? null : Number(value))}
+    >
+      <option value="">{words.robotEditor.noMirror}</option>
+      {others
+        .filter((other) => other.servo !== servo)
+        .map((other) => (
+          <option key={other.servo} value={other.servo}>
+            {words.robotEditor.row({ servo: other.servo, name: servoLabel(other) })}
+          </option>
+        ))}
+    </select>
+  );
+}

@@ -1,0 +1,167 @@
+// Calibration, a servo at a time: its ends and its home are crept to, its direction is looked at, its mirror filled in, its trim
+// worked out. It can be left anywhere: what was set is in the robot, and the place is kept.
+
+import { useEffect, useId, useRef } from 'react';
+import type { CalibrationStep } from '#shared/profile/calibration.ts';
+import { isDone, isServoDone, stepsOf } from '#shared/profile/robotCalibration.ts';
+import { RobotHead } from '../RobotHead.tsx';
+import { useStores } from '../../stores.ts';
+import { Button } from '../../../ui/Button.tsx';
+import { Mark } from '../../../ui/Chip.tsx';
+import { cx } from '../../../ui/cx.ts';
+import { servoLabel } from '../../../i18n/sentences/servos.ts';
+import { words } from '../../../i18n/whole.ts';
+import { Answer } from './Answer.tsx';
+import { DirectionStep } from './DirectionStep.tsx';
+import { EndStep } from './EndStep.tsx';
+import { MotionGate } from './MotionGate.tsx';
+import { PartnerStep } from './PartnerStep.tsx';
+import { TrimStep } from './TrimStep.tsx';
+import { useCalibration, type CalibrationAtHand } from './useCalibration.ts';
+import styles from './CalibrationWizard.module.css';
+
+export function CalibrationWizard() {
+  const at = useCalibration();
+  const titleId = useId();
+  return (
+    <>
+      <RobotHead />
+      <div className={styles.wizard}>
+        <Servos at={at} />
+        <section className={styles.work} aria-labelledby={titleId}>
+          <h3 id={titleId} className={styles.title}>
+            {servoLabel(at.servo)}
+          </h3>
+          <Steps at={at} />
+          <div
+            key={`${at.servo.servo} ${at.progress.step}`}
+            className={styles.step}
+            role="group"
+            aria-labelledby={titleId}
+          >
+            {contentOf(at)}
+          </div>
+          <p className={styles.problem} role="alert">
+            {at.problem}
+          </p>
+          <div className={styles.foot}>{at.isFinished ? <Finished /> : <KeepServo at={at} />}</div>
+        </section>
+      </div>
+    </>
+  );
+}
+
+function contentOf(at: CalibrationAtHand) {
+  const { step } = at.progress;
+  switch (step) {
+    case 'min':
+    case 'max':
+    case 'home':
+      return (
+        <MotionGate servo={at.servo} robot={at.robot}>
+          <EndStep at={at} end={step} />
+        </MotionGate>
+      );
+    case 'direction':
+      return (
+        <MotionGate servo={at.servo} robot={at.robot}>
+          <DirectionStep at={at} />
+        </MotionGate>
+      );
+    case 'partner':
+      return <PartnerStep at={at} />;
+    case 'trim':
+      return <TrimStep at={at} />;
+  }
+}
+
+interface At {
+  readonly at: CalibrationAtHand;
+}
+
+function Servos({ at: { robot, servo, progress, go } }: At) {
+  const list = useRef<HTMLOListElement>(null);
+  // On a phone they stand in a row that is longer than the window.
+  useEffect(() => {
+    list.current?.querySelector('[aria-current]')?.scrollIntoView({ block: 'nearest', inline: 'nearest' });
+  }, [servo.servo]);
+  return (
+    <ol ref={list} className={styles.servos} aria-label={words.calibration.servos}>
+      {robot.servos.map((one) => {
+        const steps = stepsOf(one);
+        const doneCount = steps.filter((step) => isDone(progress, one.servo, step)).length;
+        return (
+          <li key={one.servo}>
+            <button
+              type="button"
+              className={cx(styles.servo, one === servo && styles.selected)}
+              aria-label={words.calibration.servo({
+                name: servoLabel(one),
+                done: doneCount,
+                all: steps.length,
+              })}
+              aria-current={one === servo ? 'step' : undefined}
+              onClick={() => go(one.servo, steps.find((step) => !isDone(progress, one.servo, step)) ?? 'min')}
+            >
+              <Mark truth={doneCount === steps.length ? 'confirmed' : 'neutral'} />
+              <span className={styles.called}>
+                {one.name}
+                <span className={styles.dim}>{one.group}</span>
+              </span>
+            </button>
+          </li>
+        );
+      })}
+    </ol>
+  );
+}
+
+function Steps({ at: { servo, progress, go } }: At) {
+  const named = (step: CalibrationStep): string => words.calibration.stepNames[step];
+  return (
+    <ol className={styles.steps} aria-label={words.calibration.steps}>
+      {stepsOf(servo).map((step) => {
+        const done = isDone(progress, servo.servo, step);
+        return (
+          <li key={step}>
+            <button
+              type="button"
+              className={cx(styles.stepName, step === progress.step && styles.selected)}
+              aria-label={done ? words.calibration.isDone({ step: named(step) }) : named(step)}
+              aria-current={step === progress.step ? 'step' : undefined}
+              onClick={() => go(servo.servo, step)}
+            >
+              <Mark truth={done ? 'confirmed' : 'neutral'} />
+              {named(step)}
+            </button>
+          </li>
+        );
+      })}
+    </ol>
+  );
+}
+
+function KeepServo({ at: { servo, progress, keepServo } }: At) {
+  if (isServoDone(progress, servo)) return null;
+  return (
+    <Answer key={servo.servo} tone="quiet" onPress={keepServo}>
+      {words.calibration.keepServo({ name: servoLabel(servo) })}
+    </Answer>
+  );
+}
+
+function Finished() {
+  const { view } = useStores();
+  return (
+    <div className={styles.actions} role="status">
+      <p>{words.calibration.finished}</p>
+      <Button
+        tone="primary"
+        onPress={() => view.setState({ robotView: null, tab: 'actions', authoring: 'poses' })}
+      >
+        {words.calibration.onToPoses}
+      </Button>
+      <Button onPress={() => view.setState({ robotView: null })}>{words.calibration.done}</Button>
+    </div>
+  );
+}

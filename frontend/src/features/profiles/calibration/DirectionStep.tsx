@@ -1,0 +1,147 @@
+// Asks whether the servo turned the way of the arrow: at once where it is on its way home, which was an act of its own and shows it,
+// else after it was turned a little and back. Whichever side of home has more room is tried, and the arrow says that side.
+
+import { useEffect, useRef, useState } from 'react';
+import { changeServo } from '#shared/profile/robotEdits.ts';
+import type { RobotServo } from '#shared/profile/robot.ts';
+import { FAMILIES } from '#shared/codec/families.ts';
+import { useTarget } from '../../drive/useTarget.ts';
+import { GENTLE_MOVE_MS } from '../../../robot/moveTime.ts';
+import { motionHindrance } from '../../../robot/readiness.ts';
+import { useDevice, useStores } from '../../stores.ts';
+import { words } from '../../../i18n/whole.ts';
+import { Answer } from './Answer.tsx';
+import { Ask } from './Ask.tsx';
+import { sightOf } from './sight.ts';
+import { awayFrom, homeward, sideOf, startTurning, type TurnPhase } from './turning.ts';
+import type { CalibrationAtHand } from './useCalibration.ts';
+import styles from './CalibrationWizard.module.css';
+
+interface At {
+  readonly at: CalibrationAtHand;
+}
+
+export function DirectionStep({ at }: At) {
+  const away = awayFrom(at.servo);
+  return away === null ? <TooLittleRoom at={at} /> : <TurnAndAsk at={at} away={away} />;
+}
+
+function TooLittleRoom({ at: { robot, servo, isFinished, keep, go } }: At) {
+  const { unit } = FAMILIES[robot.board];
+  return (
+    <>
+      <Ask>
+        {words.calibration.tooLittleRoom({
+          min: servo.min,
+          max: words.position[unit]({ position: servo.max }),
+        })}
+      </Ask>
+      <div className={styles.actions}>
+        <Answer tone={isFinished ? 'plain' : 'primary'} onPress={() => go(servo.servo, 'min')}>
+          {words.calibration.setEnds}
+        </Answer>
+        {!isFinished && (
+          <Answer tone="quiet" onPress={keep}>
+            {words.calibration.leaveAsIs}
+          </Answer>
+        )}
+      </div>
+    </>
+  );
+}
+
+function TurnAndAsk({ at: { robot, servo, accept }, away }: At & { readonly away: number }) {
+  const { device } = useStores();
+  const { phase, turn } = useTurning(servo, away);
+  const target = useTarget(servo.servo);
+  const [side] = useState(() => homeward(servo, { target, estimated: device.motion(servo.servo).estimated }));
+  const isMoving = useDevice((state) => state.isMoving);
+  // That something moves is known a moment after it was asked to.
+  const { estimated } = device.motion(servo.servo);
+  const isOnItsWay = isMoving || Math.abs((estimated ?? servo.home) - servo.home) > 1;
+  const isTurning = phase === 'away' || phase === 'back';
+  const isAway = target !== servo.home && !isTurning;
+  const shows = isAway ? 'nothing' : phase === null && side !== 0 ? 'wayHome' : 'turn';
+  // It has shown what there is to see, and comes home whatever is answered.
+  const isAsked = shows === 'wayHome' || (shows === 'turn' && (phase === 'back' || phase === 'done'));
+  const way = (shows === 'wayHome' ? side : sideOf(servo)) > 0 ? 'right' : 'left';
+  const { unit } = FAMILIES[robot.board];
+  const from = sightOf(robot, servo);
+  const sight = words.calibration.sights[from];
+  const sentence = {
+    nothing: words.calibration.homeFirst({
+      at: target ?? servo.home,
+      home: words.position[unit]({ position: servo.home }),
+    }),
+    wayHome: sight.homeward,
+    turn: sight.about,
+  };
+  const question = { nothing: '', wayHome: sight.askedHomeward[way], turn: sight.asked[way] };
+  const answer = (isReversed: boolean) => () =>
+    accept((all) => changeServo(all, servo.servo, { isReversed }));
+  return (
+    <>
+      <Ask>{sentence[shows]}</Ask>
+      {from !== 'gripper' && (
+        <div className={styles.arrow}>
+          {(shows === 'wayHome' || phase === 'away') && <TurnArrow isClockwise={way === 'right'} />}
+        </div>
+      )}
+      <div className={styles.actions}>
+        {isAway ? (
+          <Answer tone="primary" onPress={() => device.creep(servo.home, GENTLE_MOVE_MS)}>
+            {words.calibration.goTo({ at: words.position[unit]({ position: servo.home }) })}
+          </Answer>
+        ) : (
+          <Answer tone={isAsked ? 'plain' : 'primary'} isPending={isTurning || isOnItsWay} onPress={turn}>
+            {words.calibration.turn}
+          </Answer>
+        )}
+      </div>
+      <p className={styles.asked}>{isAsked ? question[shows] : ''}</p>
+      <div className={styles.actions}>
+        <Answer tone={isAsked ? 'primary' : 'plain'} isDisabled={!isAsked} onPress={answer(false)}>
+          {words.calibration.same}
+        </Answer>
+        <Answer isDisabled={!isAsked} onPress={answer(true)}>
+          {words.calibration.other}
+        </Answer>
+      </div>
+    </>
+  );
+}
+
+function useTurning(servo: RobotServo, away: number): { readonly phase: TurnPhase | null; turn(): void } {
+  const { device } = useStores();
+  const [phase, setPhase] = useState<TurnPhase | null>(null);
+  const end = useRef<() => void>(() => undefined);
+  useEffect(() => () => end.current(), []);
+  return {
+    phase,
+    turn() {
+      end.current();
+      end.current = startTurning(
+        {
+          clock: device.clock,
+          motion: () => device.motion(servo.servo),
+          mayMove: () => motionHindrance(device.store.getState().snapshot) === null,
+          move: device.creep,
+        },
+        { home: servo.home, away },
+        setPhase,
+      );
+    },
+  };
+}
+
+/** A horn and the way it turns; drawn the other way round it turns the other way. */
+function TurnArrow({ isClockwise }: { readonly isClockwise: boolean }) {
+  return (
+    <svg viewBox="-60 -60 120 76" role="img" aria-label={words.calibration.arrow}>
+      <g transform={isClockwise ? '' : 'scale(-1 1)'}>
+        <path className={styles.horn} d="M-9 0L-4 -40a4 4 0 0 1 8 0L9 0A9 9 0 0 1 -9 0z" />
+        <path className={styles.turn} d="M-36 -36A51 51 0 0 1 34 -38M34 -38l-4 -14M34 -38l-14 1" />
+      </g>
+    </svg>
+  );
+}

@@ -1,0 +1,84 @@
+// Stands before every step that moves a servo: says why it may not move now and offers what helps, and brings a servo that nobody knows the place of
+// to its middle, or all such servos home, slowly and only when told to.
+
+import type { ReactNode } from 'react';
+import type { Robot, RobotServo } from '#shared/profile/robot.ts';
+import { reachOf } from '#shared/profile/robotEdits.ts';
+import { isWatching, mayResume, type Lease } from '#shared/session/lease.ts';
+import { FAMILIES } from '#shared/codec/families.ts';
+import { GENTLE_MOVE_MS } from '../../../robot/moveTime.ts';
+import { motionHindrance } from '../../../robot/readiness.ts';
+import { useDevice, useSnapshot, useStores } from '../../stores.ts';
+import { turnOf } from '../../people/turn.ts';
+import { mayResumeText } from '../../../i18n/sentences/people.ts';
+import { words } from '../../../i18n/whole.ts';
+import { Answer } from './Answer.tsx';
+import { Ask } from './Ask.tsx';
+
+export interface MotionGateProps {
+  readonly robot: Robot;
+  readonly servo: RobotServo;
+  readonly children: ReactNode;
+}
+
+export function MotionGate({ robot, servo, children }: MotionGateProps) {
+  const { device } = useStores();
+  const hindrance = useSnapshot(motionHindrance);
+  const lease = useSnapshot((snapshot) => snapshot.lease);
+  const known = useDevice((state) => state.known);
+  const isKnown = known.includes(servo.servo);
+  const homes = robot.servos
+    .filter((one) => !known.includes(one.servo))
+    .map((one) => ({ servo: one.servo, position: one.home }));
+  if (hindrance === 'latched') {
+    return (
+      <>
+        <Ask>{words.calibration.stopped}</Ask>
+        {lease === null || mayResume(lease) ? (
+          <Answer tone="primary" onPress={device.resume}>
+            {words.stop.resume}
+          </Answer>
+        ) : (
+          <p>{mayResumeText(lease)}</p>
+        )}
+      </>
+    );
+  }
+  if (hindrance !== null) {
+    return (
+      <>
+        <Ask>{words.servos.blocked[hindrance]}</Ask>
+        {lease !== null && isWatching(lease) && <TurnAnswers lease={lease} />}
+      </>
+    );
+  }
+  if (isKnown) return children;
+  return (
+    <>
+      <Ask>{words.calibration.unknown}</Ask>
+      <Answer tone="primary" onPress={() => device.creep(middleOf(robot, servo), GENTLE_MOVE_MS)}>
+        {words.calibration.goHome}
+      </Answer>
+      {homes.length > 1 && (
+        <Answer onPress={() => device.move(homes, GENTLE_MOVE_MS)}>
+          {words.calibration.allHome({ count: homes.length })}
+        </Answer>
+      )}
+    </>
+  );
+}
+
+/** What may be done about whose turn it is, as the bar offers it behind this dialog. */
+function TurnAnswers({ lease }: { readonly lease: Lease }) {
+  const { device } = useStores();
+  return turnOf(lease).acts.map(({ label, wish, ...how }) => (
+    <Answer key={label} {...how} onPress={() => device.lease(wish)}>
+      {label}
+    </Answer>
+  ));
+}
+
+function middleOf(robot: Robot, servo: RobotServo): number {
+  const { min, max } = reachOf(robot, servo);
+  return Math.min(max, Math.max(min, FAMILIES[robot.board].centre - servo.trim));
+}

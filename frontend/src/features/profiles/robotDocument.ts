@@ -1,0 +1,138 @@
+// A document that each robot has one of: the store shows the one of the robot at hand, saves it under the robot's number,
+// and changes it with the robot. Text that cannot be read is set aside, never thrown away. Never moves anything.
+
+import { startHistory, type History } from '#shared/document/history.ts';
+import type { Robot } from '#shared/profile/robot.ts';
+import type { Read, TextFlaw } from '#shared/document/versionedText.ts';
+import type { TextStorage } from '../../state/textStorage.ts';
+import type { Notices } from '../../state/notices.ts';
+import type { OwnRobot, RobotStore } from './robots.ts';
+import { createUndoable, type Undoable } from '../../state/undoable.ts';
+import { words } from '../../i18n/words.ts';
+
+export interface RobotDocumentOptions<T> {
+  readonly storage: TextStorage;
+  readonly notices: Notices;
+  readonly robots: RobotStore;
+  /** Before the robot's number in the storage's key. */
+  readonly key: string;
+  /** What a robot has that nothing was saved for. */
+  fresh(robot: Robot): T;
+  toText(value: T): string;
+  fromText(text: string): Read<T>;
+  /** Without what is of nobody's interest elsewhere, and with it again. */
+  readonly shared?: { of(value: T): T; onto(mine: T, theirs: T): T };
+  /** What the person is told then. */
+  notSaved(): string;
+  unreadable(flaw: TextFlaw): string;
+}
+
+const elsewhere = (): string => words.robots.steps.elsewhere;
+
+export interface RobotDocument<T> extends Undoable<T> {
+  of(robot: OwnRobot): T;
+  /** What others are to have of that robot's, null where it is as it comes with the robot. */
+  textOf(robot: OwnRobot): string | null;
+  /** From elsewhere; a text that this version cannot read is left alone. */
+  takeIn(robot: OwnRobot, text: string | null): void;
+  /** After each change of any robot's. */
+  onChange(changed: () => void): void;
+}
+
+export function createRobotDocument<T>(options: RobotDocumentOptions<T>): RobotDocument<T> {
+  const { storage, notices, robots, key, toText } = options;
+  const { shared = { of: (value: T) => value, onto: (_mine: T, theirs: T) => theirs } } = options;
+  /** Histories of robots that are not at hand. */
+  const aside = new Map<number, History<T>>();
+  const listeners = new Set<() => void>();
+  let owner = robots.current().id;
+
+  function save(id: number, value: T): void {
+    try {
+      storage.setItem(`${key}.${id}`, toText(value));
+    } catch {
+      notices.tell('warning', options.notSaved());
+    }
+  }
+
+  const document = createUndoable(load(options, robots.current()), (present) => {
+    save(owner, present);
+    for (const changed of listeners) changed();
+  });
+
+  robots.store.subscribe(() => {
+    const taken = robots.current();
+    const { id } = taken;
+    if (id === owner) return;
+    document.commit();
+    aside.set(owner, document.store.getState());
+    owner = id;
+    document.store.setState(aside.get(id) ?? startHistory(load(options, taken)), true);
+  });
+
+  function of(robot: OwnRobot): T {
+    if (robot.id !== owner) return aside.get(robot.id)?.present ?? load(options, robot);
+    const { gesture, present } = document.store.getState();
+    return gesture?.value ?? present;
+  }
+
+  const sharedText = (value: T): string => toText(shared.of(value));
+
+  function textOf(robot: OwnRobot): string | null {
+    const text = sharedText(of(robot));
+    return text === sharedText(options.fresh(robot.robot)) ? null : text;
+  }
+
+  function takeIn(robot: OwnRobot, text: string | null): void {
+    const read = text === null ? { value: options.fresh(robot.robot) } : options.fromText(text);
+    if (!('value' in read) || text === textOf(robot)) return;
+    const value = shared.onto(of(robot), read.value);
+    if (robot.id !== owner) aside.delete(robot.id);
+    else if (hasSteps()) document.edit(elsewhere, () => value);
+    else document.store.setState(startHistory(value), true);
+    save(robot.id, value);
+  }
+
+  function hasSteps(): boolean {
+    const { past, future, gesture } = document.store.getState();
+    return past.length + future.length > 0 || gesture !== null;
+  }
+
+  /** Where only the change is forbidden, not what is noted for this screen alone. */
+  function isRefused(edit: (present: T) => T): boolean {
+    const why = robots.refusal();
+    if (why === null) return false;
+    const { present } = document.store.getState();
+    if (sharedText(edit(present)) === sharedText(present)) return false;
+    notices.tell('warning', why);
+    return true;
+  }
+
+  return {
+    ...document,
+    edit(label, edit) {
+      if (!isRefused(edit)) document.edit(label, edit);
+    },
+    preview(edit) {
+      if (robots.refusal() === null) document.preview(edit);
+    },
+    ...{ of, textOf, takeIn },
+    onChange: (changed) => void listeners.add(changed),
+  };
+}
+
+function load<T>(options: RobotDocumentOptions<T>, { id: owner, robot }: OwnRobot): T {
+  const { storage, notices, key } = options;
+  const empty = options.fresh(robot);
+  try {
+    const text = storage.getItem(`${key}.${owner}`);
+    if (text === null) return empty;
+    const read = options.fromText(text);
+    if ('value' in read) return read.value;
+    storage.setItem(`${key}.${owner}.unreadable`, text);
+    notices.tell('warning', options.unreadable(read.problem));
+  } catch {
+    notices.tell('warning', options.notSaved());
+  }
+  return empty;
+}

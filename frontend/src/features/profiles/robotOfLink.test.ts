@@ -1,0 +1,289 @@
+import { describe, expect, test } from 'vitest';
+import type { Robot } from '#shared/profile/robot.ts';
+import { changeServo } from '#shared/profile/robotEdits.ts';
+import { FAMILIES } from '#shared/codec/families.ts';
+import { LinkError } from '#shared/session/linkError.ts';
+import type { Lease } from '#shared/session/lease.ts';
+import { INITIAL_STATE } from '#shared/session/store.ts';
+import type { SessionState } from '#shared/session/state.ts';
+import { createVirtualClock, type VirtualClock } from '#shared/testing/virtualClock.ts';
+import type { Keeper } from '#shared/files/keeper.ts';
+import { createMemoryKeeper } from '../library/memoryKeeper.ts';
+import { followRobot } from './robotOfLink.ts';
+import { freshRobot } from './robots.ts';
+import { createVisit, named } from './robotVisitUnderTest.ts';
+
+const LEASE: Lease = {
+  ...{ driver: null, drives: false, asker: null, asks: false, answerInMs: null },
+  ...{
+    you: 'Ben',
+    mayDrive: true,
+    mayTake: false,
+    givenBy: null,
+    candidates: [],
+    others: 1,
+    unattended: null,
+  },
+};
+
+const narrowed = (robot: Robot): Robot => changeServo(robot, 4, { max: 2000 });
+
+const FASTER = 'Another robot was put there meanwhile.';
+
+/** What a gateway does: which robot is on the board, told to every screen. */
+function createGateway(clock: VirtualClock) {
+  const screens = new Set<(document: string | null) => void>();
+  let document: string | null = null;
+  let refusal: LinkError | null = null;
+  let answerMs = 0;
+  return {
+    asked: [] as string[],
+    document: () => document,
+    refuseBy: (error: LinkError | null) => (refusal = error),
+    answerAfter: (delayMs: number) => (answerMs = delayMs),
+    async put(this: { asked: string[] }, next: string, insteadOf: string | null): Promise<void> {
+      this.asked.push(next);
+      await Promise.resolve();
+      if (refusal !== null) throw refusal;
+      if (next !== document && insteadOf !== document) throw new LinkError('gatewayRefused', FASTER);
+      document = next;
+      // The answer may come before the word to everybody.
+      clock.after(50, () => {
+        for (const tell of screens) tell(next);
+      });
+      if (answerMs > 0) await new Promise<void>((resolve) => clock.after(answerMs, resolve));
+    },
+    join(tell: (document: string | null) => void): void {
+      screens.add(tell);
+      tell(document);
+    },
+  };
+}
+
+type Gateway = ReturnType<typeof createGateway>;
+
+function createScreen(
+  gateway: Gateway,
+  keeper: Keeper,
+  clock: VirtualClock,
+  mayWrite = true,
+  texts = new Map<string, string>(),
+) {
+  const visit = createVisit(keeper, clock, texts, mayWrite);
+  let state: SessionState = {
+    ...INITIAL_STATE,
+    ...{ family: FAMILIES.doc, link: { status: 'ready' }, lease: LEASE },
+  };
+  const note = followRobot({ ...visit, mayWrite, putOnBoard: (...put) => gateway.put(...put) });
+  const change = (patch: Partial<SessionState>): void => note((state = { ...state, ...patch }));
+  gateway.join((document) => change({ robotOnBoard: { document } }));
+  return {
+    ...visit,
+    change,
+    atHand: () => visit.robots.current().robot.name,
+    isTheBoards: () => visit.keeping.robotOf(gateway.document() ?? '') === visit.robots.current().id,
+  };
+}
+
+function lesson() {
+  const clock = createVirtualClock();
+  return { clock, gateway: createGateway(clock), keeper: createMemoryKeeper('gateway') };
+}
+
+describe('the robot of a shared board', () => {
+  test('is the usual one where nobody has described any, the same for two screens at once', async () => {
+    const { clock, gateway, keeper } = lesson();
+    const screens = [createScreen(gateway, keeper, clock), createScreen(gateway, keeper, clock)];
+    await clock.advance(1000);
+    expect(gateway.document()).toBe('usual-doc');
+    expect(gateway.asked).toHaveLength(2);
+    for (const screen of screens) {
+      expect(screen.isTheBoards()).toBe(true);
+      expect(screen.names()).toHaveLength(1);
+      expect(screen.told()).toEqual([]);
+    }
+  });
+
+  test('is at hand of whoever joins, and each edit follows', async () => {
+    const { clock, gateway, keeper } = lesson();
+    const teacher = createScreen(gateway, keeper, clock);
+    teacher.robots.add(() => 'add', { ...freshRobot('arm', 'doc'), name: 'Crane' });
+    await clock.advance(1000);
+    const pupil = createScreen(gateway, keeper, clock);
+    await clock.advance(1000);
+    expect([pupil.atHand(), pupil.isTheBoards()]).toEqual(['Crane', true]);
+    teacher.robots.edit(() => 'rename', named('Digger'));
+    teacher.capture('Wave');
+    await clock.advance(300);
+    pupil.change({ robotOnBoard: { document: gateway.document() } });
+    await clock.advance(300);
+    expect([pupil.atHand(), pupil.poses()]).toEqual(['Digger', ['Wave']]);
+  });
+
+  test('is changed for everybody by whoever takes up another one', async () => {
+    const { clock, gateway, keeper } = lesson();
+    const [one, other] = [createScreen(gateway, keeper, clock), createScreen(gateway, keeper, clock)];
+    await clock.advance(1000);
+    one.robots.add(() => 'add', { ...freshRobot('hand', 'doc'), name: 'Hand' });
+    await clock.advance(1000);
+    expect([one.atHand(), other.atHand()]).toEqual(['Hand', 'Hand']);
+    other.robots.takeUp(other.robots.store.getState().present.own[0]?.id ?? 0);
+    await clock.advance(1000);
+    expect(one.atHand()).toBe(other.atHand());
+    expect(one.atHand()).not.toBe('Hand');
+  });
+
+  test('and its limits are left to whoever drives; poses are not', async () => {
+    const { clock, gateway, keeper } = lesson();
+    const pupil = createScreen(gateway, keeper, clock);
+    await clock.advance(1000);
+    pupil.change({ lease: { ...LEASE, driver: 'Ada' } });
+    expect(pupil.robots.edit(() => 'limits', narrowed)).toBe(false);
+    expect(pupil.told().at(-1)).toContain('Ada drives');
+    expect(pupil.robots.edit(() => 'rename', named('Crane'))).toBe(true);
+    pupil.capture('Wave');
+    expect(pupil.poses()).toEqual(['Wave']);
+    pupil.robots.add(() => 'add', { ...freshRobot('hand', 'doc'), name: 'Hand' });
+    expect(pupil.atHand()).toBe('Crane');
+    for (const lease of [
+      { driver: 'Ada', drives: true },
+      { driver: 'Ada', mayTake: true },
+      { driver: null },
+    ]) {
+      pupil.change({ lease: { ...LEASE, ...lease } });
+      expect(pupil.robots.edit(() => 'limits', narrowed)).toBe(true);
+      pupil.robots.undo();
+    }
+  });
+
+  test('a viewer sees it and changes nothing', async () => {
+    const { clock, gateway, keeper } = lesson();
+    const teacher = createScreen(gateway, keeper, clock);
+    teacher.robots.add(() => 'add', { ...freshRobot('arm', 'doc'), name: 'Crane' });
+    await clock.advance(1000);
+    const asked = gateway.asked.length;
+    const viewer = createScreen(gateway, keeper, clock, false);
+    await clock.advance(1000);
+    expect(viewer.atHand()).toBe('Crane');
+    viewer.robots.edit(() => 'rename', named('Mine'));
+    viewer.capture('Wave');
+    const before = viewer.names();
+    viewer.robots.duplicate();
+    expect([viewer.atHand(), viewer.poses(), viewer.names()]).toEqual(['Crane', [], before]);
+    expect(viewer.told()[0]).toContain('Viewers');
+    await clock.advance(1000);
+    expect(gateway.asked).toHaveLength(asked);
+  });
+
+  test('what was put there stays at hand and is put once, however late the word about it comes', async () => {
+    const { clock, gateway, keeper } = lesson();
+    const one = createScreen(gateway, keeper, clock);
+    const putTimes: number[] = [];
+    for (const wish of [() => undefined, () => one.robots.duplicate()]) {
+      wish();
+      const { id } = one.robots.current();
+      const asked = gateway.asked.length;
+      while (gateway.asked.length === asked) await clock.advance(1);
+      for (const status of ['ready', 'identifying', 'ready'] as const) {
+        one.change({ link: { status } });
+        await clock.advance(5);
+        expect(one.robots.current().id).toBe(id);
+      }
+      await clock.advance(1000);
+      expect(one.isTheBoards()).toBe(true);
+      putTimes.push(gateway.asked.length - asked);
+    }
+    expect(putTimes).toEqual([1, 1]);
+    expect(one.told()).toEqual([]);
+  });
+
+  test('is the one that was put there last, also where the word about it overtakes the answer', async () => {
+    const { clock, gateway, keeper } = lesson();
+    const [one, other] = [createScreen(gateway, keeper, clock), createScreen(gateway, keeper, clock)];
+    await clock.advance(1000);
+    const first = gateway.document() ?? '';
+    gateway.answerAfter(200);
+    one.robots.duplicate();
+    while (gateway.document() === first) await clock.advance(1);
+    gateway.answerAfter(0);
+    await gateway.put(first, gateway.document());
+    await clock.advance(1000);
+    expect(gateway.document()).toBe(first);
+    expect([one.isTheBoards(), other.isTheBoards()]).toEqual([true, true]);
+  });
+
+  test('is put there by whoever was not ready when it was kept, as soon as that is over', async () => {
+    const { clock, gateway, keeper } = lesson();
+    const one = createScreen(gateway, keeper, clock);
+    one.change({ link: { status: 'identifying' } });
+    await clock.advance(1000);
+    expect(gateway.asked).toEqual([]);
+    one.change({ link: { status: 'ready' } });
+    await clock.advance(1000);
+    expect(one.isTheBoards()).toBe(true);
+  });
+
+  test('whoever was slower takes up what was put there, and asks no more', async () => {
+    const { clock, gateway, keeper } = lesson();
+    const described = ['Crane', 'Digger'].map((name) => {
+      const { robots, texts } = createVisit(createMemoryKeeper('browser'), clock);
+      robots.edit(() => 'rename', named(name));
+      return texts;
+    });
+    const screens = described.map((texts) => createScreen(gateway, keeper, clock, true, texts));
+    const refusals = (): number =>
+      screens.flatMap(({ told }) => told()).filter((text) => text.includes(FASTER)).length;
+    for (const told of [0, 1]) {
+      const asked = gateway.asked.length;
+      while (gateway.asked.length < asked + 2) await clock.advance(1);
+      for (const status of ['identifying', 'ready'] as const)
+        for (const { change } of screens) change({ link: { status } });
+      await clock.advance(1000);
+      expect(gateway.asked).toHaveLength(asked + 2);
+      expect(screens.map(({ isTheBoards }) => isTheBoards())).toEqual([true, true]);
+      // A wish that somebody had is not lost without a word.
+      expect(refusals()).toBe(told);
+      for (const { robots } of screens) robots.duplicate();
+    }
+  });
+
+  test('who described one before the word came that somebody was faster asks nothing either', async () => {
+    const { clock, gateway, keeper } = lesson();
+    gateway.refuseBy(new LinkError('gatewayRefused', FASTER));
+    const one = createScreen(gateway, keeper, clock);
+    while (gateway.asked.length === 0) await clock.advance(1);
+    one.robots.duplicate();
+    await clock.advance(1000);
+    expect(gateway.asked).toEqual(['usual-doc']);
+    gateway.refuseBy(null);
+    one.change({ robotOnBoard: { document: null } });
+    await clock.advance(1000);
+    expect(one.isTheBoards()).toBe(true);
+  });
+
+  test('stays what it is where the gateway refuses another one, which is told once', async () => {
+    const { clock, gateway, keeper } = lesson();
+    const one = createScreen(gateway, keeper, clock);
+    await clock.advance(1000);
+    const before = one.atHand();
+    gateway.refuseBy(new LinkError('gatewayRefused', 'Somebody else drives.'));
+    one.robots.add(() => 'add', { ...freshRobot('hand', 'doc'), name: 'Hand' });
+    await clock.advance(1000);
+    expect(one.atHand()).toBe(before);
+    expect(one.told()).toHaveLength(1);
+    expect(gateway.asked.filter((document) => document !== 'usual-doc')).toHaveLength(1);
+  });
+
+  test('a link of its own asks nobody, and nothing is asked before it is ready', async () => {
+    const { clock, gateway, keeper } = lesson();
+    const screen = createScreen(gateway, keeper, clock);
+    screen.change({ link: { status: 'opening' } });
+    await clock.advance(1000);
+    const asked = gateway.asked.length;
+    screen.change({ link: { status: 'ready' }, robotOnBoard: null });
+    screen.robots.add(() => 'add', { ...freshRobot('hand', 'doc'), name: 'Hand' });
+    await clock.advance(1000);
+    expect(gateway.asked).toHaveLength(asked);
+    expect(screen.atHand()).toBe('Hand');
+  });
+});

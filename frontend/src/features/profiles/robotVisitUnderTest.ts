@@ -1,0 +1,64 @@
+// A page's robots at one keeper, in virtual time, for tests; `texts` is what its browser kept.
+
+import type { Keeper } from '#shared/files/keeper.ts';
+import { addPose } from '#shared/profile/poseEdits.ts';
+import type { Robot } from '#shared/profile/robot.ts';
+import { FAMILIES } from '#shared/codec/families.ts';
+import type { VirtualClock } from '#shared/testing/virtualClock.ts';
+import { createDevice } from '../../robot/device.ts';
+import { createMacros } from '../buttons/macros.ts';
+import { createMappings } from '../inputs/mappings.ts';
+import { createNotices } from '../../state/notices.ts';
+import { createPoses } from '../poses/poses.ts';
+import { createView } from '../view.ts';
+import { createRobotKeeping } from './robotKeeping.ts';
+import { createRobots } from './robots.ts';
+
+const EPOCH_MS = 1_790_000_000_000;
+
+export function createVisit(
+  keeper: Keeper,
+  clock: VirtualClock,
+  texts = new Map<string, string>(),
+  mayWrite = true,
+) {
+  const storage = {
+    getItem: (key: string) => texts.get(key) ?? null,
+    setItem: (key: string, text: string) => void texts.set(key, text),
+  };
+  const notices = createNotices(clock);
+  const robots = createRobots(storage, notices);
+  const device = createDevice({ family: FAMILIES.doc, clock, notices, robots });
+  const { book } = createPoses({
+    storage,
+    notices,
+    robots,
+    device,
+    view: createView({ browser: storage, tab: storage }),
+  });
+  const keeping = createRobotKeeping({
+    ...{ keeper: Promise.resolve(keeper), mayWrite, robots, poses: book, storage, notices, clock },
+    buttons: createMacros(storage, notices, robots),
+    pad: createMappings(storage, notices, robots),
+    epochMs: () => EPOCH_MS,
+    newId: nextId,
+  });
+  return {
+    ...{ texts, robots, book, keeping, notices },
+    names: () => robots.store.getState().present.own.map(({ robot }) => robot.name),
+    poses: () => book.store.getState().present.poses.map(({ name }) => name),
+    told: () => notices.store.getState().map(({ text }) => text),
+    capture: (name: string) =>
+      book.edit(
+        () => 'capture',
+        (before) => addPose(before, { name, unit: 'us', targets: [{ servo: 1, position: 1700 }] }),
+      ),
+  };
+}
+
+export const named =
+  (name: string) =>
+  (robot: Robot): Robot => ({ ...robot, name });
+
+let ids = 0;
+export const nextId = (): string => `id-${++ids}`;

@@ -1,0 +1,275 @@
+// The robots that are described, and the one at hand: undoable, saved in the browser's storage after each edit. Text that cannot
+// be read is set aside, never thrown away. Knows no link and no keeper: what others have changed is told to it.
+
+import { createStore, type StoreApi } from 'zustand/vanilla';
+import {
+  commit,
+  rebase,
+  record,
+  redo,
+  startHistory,
+  undo,
+  type History,
+  type Label,
+} from '#shared/document/history.ts';
+import { readyRobot, usualRobot, type ReadyRobotId } from '#shared/profile/readyRobots.ts';
+import { flawOf, NAME_LENGTH, type Robot, type RobotFlaw } from '#shared/profile/robot.ts';
+import { robotFromText, robotToText } from '#shared/profile/robotText.ts';
+import type { FamilyId } from '#shared/codec/families.ts';
+import { robotNames } from '../../i18n/sentences/robots.ts';
+import { words } from '../../i18n/words.ts';
+import { longerName } from '../../state/longerName.ts';
+import type { TextStorage } from '../../state/textStorage.ts';
+import type { Notices } from '../../state/notices.ts';
+
+export interface OwnRobot {
+  /** Means nothing outside this store; never used twice. */
+  readonly id: number;
+  readonly robot: Robot;
+}
+
+export interface Robots {
+  readonly own: readonly OwnRobot[];
+  /** The one at hand. */
+  readonly currentId: number;
+  readonly nextId: number;
+}
+
+export interface RobotStore {
+  readonly store: StoreApi<History<Robots>>;
+  current(): OwnRobot;
+  /** The robot on such a board: the one at hand, else the last one described for it, else the usual one, made now. */
+  takeUpFor(board: FamilyId): void;
+  takeUp(id: number): void;
+  /** By a name that tells it from the others. False where that may not be now; the person is told why. */
+  add(label: Label, robot: Robot): boolean;
+  /** False where the edit would leave a robot that cannot be; the person is told why. */
+  edit(label: Label, change: (robot: Robot) => Robot): boolean;
+  duplicate(): void;
+  remove(id: number): void;
+  undo(): void;
+  redo(): void;
+  /** Why the robot at hand may not be changed now, for people, or null; `next` where the change is one of its figures. */
+  refusal(next?: Robot): string | null;
+  /** Asked for `refusal` from now on. */
+  refuseBy(refusal: (before: Robot, next: Robot | null) => string | null): void;
+  /** From elsewhere, null for one that is new here: its number. A step only where it would undo what was done here. */
+  takeIn(id: number | null, robot: Robot): number;
+  /** It is gone elsewhere. */
+  drop(id: number): void;
+}
+
+const KEY = 'servodeck.robots';
+const ASIDE_KEY = 'servodeck.robots.unreadable';
+
+export function createRobots(storage: TextStorage, notices: Notices): RobotStore {
+  const store = createStore<History<Robots>>(() => startHistory(load(storage, notices)));
+  const present = (): Robots => store.getState().present;
+
+  function change(next: History<Robots>): void {
+    store.setState(next, true);
+    try {
+      storage.setItem(KEY, toText(next.present));
+    } catch {
+      notices.tell('warning', words.robots.notSaved);
+    }
+  }
+
+  const step = (label: Label, next: Robots): void => change(record(store.getState(), label, next));
+
+  /** No step of the history: nothing was described, only chosen. */
+  const silently = (next: Robots): void => change({ ...commit(store.getState()), present: next });
+
+  const current = (): OwnRobot => currentOf(present());
+  let refuse: (before: Robot, next: Robot | null) => string | null = () => null;
+  const refusal = (next?: Robot): string | null => refuse(current().robot, next ?? null);
+
+  /** Its sentences come later than the first load: hardly an edit is refused. */
+  function tellFlaw(flaw: RobotFlaw): void {
+    void import('../../i18n/sentences/robotFlaws.ts').then(
+      ({ robotFlawSentence }) => notices.tell('warning', robotFlawSentence(flaw)),
+      notices.tellError,
+    );
+  }
+
+  /** Tells the person. */
+  function isRefused(next?: Robot): boolean {
+    const why = refusal(next);
+    if (why !== null) notices.tell('warning', why);
+    return why !== null;
+  }
+
+  function takeIn(id: number | null, robot: Robot): number {
+    const history = commit(store.getState());
+    if (id === null) {
+      const fresh = unusedId(history);
+      change(
+        rebase(history, (robots) => ({ ...withRobot(robots, robot, fresh), currentId: robots.currentId })),
+      );
+      return fresh;
+    }
+    const before = robotIn(present(), id);
+    const isTouched = valuesOf(history).some((value) => robotIn(value, id) !== before);
+    const next = (robots: Robots): Robots => replaced(robots, id, robot);
+    if (isTouched) change(record(history, () => words.robots.steps.elsewhere, next(history.present)));
+    else change(rebase(history, next));
+    return id;
+  }
+
+  return {
+    store,
+    current,
+    takeUpFor(board) {
+      if (current().robot.board === board) return;
+      const { own } = present();
+      const known = own.findLast(({ robot }) => robot.board === board);
+      if (known !== undefined) silently({ ...present(), currentId: known.id });
+      else silently(withRobot(present(), freshRobot(usualRobot(board), board)));
+    },
+    takeUp(id) {
+      const chosen = (robots: Robots): Robots =>
+        robotIn(robots, id) === undefined ? robots : { ...robots, currentId: id };
+      // No step that is taken back later chooses another one.
+      if (id !== present().currentId) change(rebase(commit(store.getState()), chosen));
+    },
+    add(label, robot) {
+      if (isRefused()) return false;
+      step(label, withRobot(present(), { ...robot, name: unusedName(present(), robot.name) }));
+      return true;
+    },
+    edit(label, edit) {
+      const { id, robot } = current();
+      const next = edit(robot);
+      const flaw = flawOf(next);
+      if (flaw !== null) tellFlaw(flaw);
+      if (flaw !== null || (next !== robot && isRefused(next))) return false;
+      if (next !== robot) step(label, replaced(present(), id, next));
+      return true;
+    },
+    duplicate() {
+      if (isRefused()) return;
+      const { robot } = current();
+      step(
+        () => words.robots.steps.duplicate,
+        withRobot(present(), {
+          ...robot,
+          name: unusedName(present(), words.robots.copyOf({ name: robot.name })),
+        }),
+      );
+    },
+    remove(id) {
+      const own = present().own.filter((one) => one.id !== id);
+      const next = own.at(-1);
+      if (next === undefined || isRefused()) return;
+      const { currentId } = present();
+      step(() => words.robots.steps.remove, {
+        ...present(),
+        own,
+        currentId: currentId === id ? next.id : currentId,
+      });
+    },
+    undo: () => change(undo(store.getState())),
+    redo: () => change(redo(store.getState())),
+    refusal,
+    refuseBy: (refusedBy) => (refuse = refusedBy),
+    takeIn,
+    drop(id) {
+      const history = commit(store.getState());
+      change(rebase(history, (robots) => without(robots, id, unusedId(history))));
+    },
+  };
+}
+
+const valuesOf = ({ past, present, future }: History<Robots>): readonly Robots[] => [
+  present,
+  ...[...past, ...future].map(({ value }) => value),
+];
+
+/** In no step, so that one that is taken back gives nobody another's number. */
+const unusedId = (history: History<Robots>): number =>
+  Math.max(...valuesOf(history).map(({ nextId }) => nextId));
+
+/** With the first number that tells it from the others; no longer than a name may be. */
+function unusedName({ own }: Robots, name: string): string {
+  const names = new Set(own.map(({ robot }) => robot.name));
+  let found = name.slice(0, NAME_LENGTH).trim();
+  for (let number = 2; names.has(found); number += 1)
+    found = longerName(name, (some) => words.robots.numbered({ ...some, number }));
+  return found;
+}
+
+const robotIn = ({ own }: Robots, id: number): Robot | undefined => own.find((one) => one.id === id)?.robot;
+
+/** There is always one: the last of a board is described anew. */
+function without(robots: Robots, id: number, unused: number): Robots {
+  const gone = robotIn(robots, id);
+  if (gone === undefined) return robots;
+  const own = robots.own.filter((one) => one.id !== id);
+  const last = own.at(-1);
+  if (last === undefined)
+    return withRobot({ ...robots, own }, freshRobot(usualRobot(gone.board), gone.board), unused);
+  return { ...robots, own, currentId: robots.currentId === id ? last.id : robots.currentId };
+}
+
+export function currentOf({ own, currentId }: Robots): OwnRobot {
+  const found = own.find(({ id }) => id === currentId) ?? own[0];
+  if (found === undefined) throw new Error('there is always one robot');
+  return found;
+}
+
+export function freshRobot(id: ReadyRobotId, board: FamilyId): Robot {
+  return readyRobot(id, board, robotNames(id));
+}
+
+function withRobot({ own, nextId }: Robots, robot: Robot, id = nextId): Robots {
+  return { own: [...own, { id, robot }], currentId: id, nextId: id + 1 };
+}
+
+/** As it comes with its board, so nobody has described it. */
+export function isUsual(robot: Robot): boolean {
+  return robotToText(robot) === robotToText(freshRobot(usualRobot(robot.board), robot.board));
+}
+
+function replaced(robots: Robots, id: number, robot: Robot): Robots {
+  return { ...robots, own: robots.own.map((one) => (one.id === id ? { id, robot } : one)) };
+}
+
+function toText({ own, currentId, nextId }: Robots): string {
+  const files = own.map(({ id, robot }) => ({ id, file: robotToText(robot) }));
+  return JSON.stringify({ files, currentId, nextId });
+}
+
+function load(storage: TextStorage, notices: Notices): Robots {
+  const fresh: Robots = { own: [{ id: 1, robot: freshRobot('arm', 'doc') }], currentId: 1, nextId: 2 };
+  try {
+    const text = storage.getItem(KEY);
+    if (text === null) return fresh;
+    const robots = fromText(text);
+    if (robots !== null) return robots;
+    storage.setItem(ASIDE_KEY, text);
+    notices.tell('warning', words.robots.unreadable);
+  } catch {
+    notices.tell('warning', words.robots.notSaved);
+  }
+  return fresh;
+}
+
+/** null where any of it is not what this store wrote. */
+function fromText(text: string): Robots | null {
+  try {
+    const { files, currentId, nextId } = JSON.parse(text) as {
+      files: { id: number; file: string }[];
+      currentId: number;
+      nextId: number;
+    };
+    const own = files.map(({ id, file }) => {
+      const read = robotFromText(file);
+      if (!Number.isSafeInteger(id) || 'problem' in read) throw new Error('not one of ours');
+      return { id, robot: read.robot };
+    });
+    if (own.length === 0 || ![currentId, nextId].every(Number.isSafeInteger)) return null;
+    return { own, currentId, nextId };
+  } catch {
+    return null;
+  }
+}

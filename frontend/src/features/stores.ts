@@ -1,0 +1,230 @@
+// The page's stores as one bundle, handed down by React context, and the hooks that read them. A panel subscribes to
+// exactly what it shows.
+
+import { createContext, use } from 'react';
+import { useStore } from 'zustand';
+import { familyOfUnit, robotInUnit } from '#shared/profile/counterpart.ts';
+import type { Robot, RobotServo } from '#shared/profile/robot.ts';
+import type { Family } from '#shared/codec/families.ts';
+import type { ActionGroup } from '#shared/group/group.ts';
+import type { History } from '#shared/document/history.ts';
+import type { MacroPage } from '#shared/profile/macro.ts';
+import type { PoseBook } from '#shared/profile/pose.ts';
+import type { BatteryState, BatteryStore } from './battery/battery.ts';
+import type { Blend, BlendState } from './poses/blend.ts';
+import type { Boards } from '../robot/boards.ts';
+import { boardOfGroup, knownFamily, type GroupBoard } from './animate/group/groupBoard.ts';
+import type { CompiledState, CompiledStore } from './animate/group/compiled.ts';
+import type { MotionTape } from './animate/play/motionTape.ts';
+import type { Mapping } from '#shared/profile/mapping.ts';
+import type { Device, DeviceState } from '../robot/device.ts';
+import type { Document, DocumentState } from './animate/group/document.ts';
+import { currentOf, type RobotStore } from './profiles/robots.ts';
+import type { RobotKeeping } from './profiles/robotKeeping.ts';
+import { guessesOf, guessOf, type LastPoses } from '../robot/lastPoses.ts';
+import type { Notices } from '../state/notices.ts';
+import { servoViewFor, type ServoView, type Stand } from './drive/servoView.ts';
+import type { Pad, PadState } from './inputs/pad.ts';
+import type { MacroRun } from './buttons/macroRun.ts';
+import type { Playback, PlaybackState } from './animate/play/playback.ts';
+import type { Playhead } from './animate/play/playhead.ts';
+import type { PeopleStore } from './people/people.ts';
+import type { Poses } from './poses/poses.ts';
+import type { Teaching } from './drive/teaching.ts';
+import type { GroupPlace } from './board/slots/groupPlace.ts';
+import type { Replacing } from './board/slots/replacing.ts';
+import type { Slots, SlotsState } from './board/slots/slots.ts';
+import type { Undoable } from '../state/undoable.ts';
+import type { Library, LibraryState } from './library/library.ts';
+import type { Timeline, TimelineState } from './animate/timeline/timeline.ts';
+import type { View, ViewState } from './view.ts';
+
+export interface Stores {
+  readonly device: Device;
+  readonly document: Document;
+  readonly library: Library;
+  readonly view: View;
+  readonly timeline: Timeline;
+  readonly notices: Notices;
+  readonly boards: Boards;
+  readonly lastPoses: LastPoses;
+  readonly robots: RobotStore;
+  readonly keeping: RobotKeeping;
+  readonly battery: BatteryStore;
+  readonly mappings: Undoable<Mapping>;
+  readonly pad: Pad;
+  readonly poses: Poses;
+  readonly blend: Blend;
+  readonly teaching: Teaching;
+  readonly people: PeopleStore;
+  readonly macros: Undoable<MacroPage>;
+  readonly macroRun: MacroRun;
+  readonly compiled: CompiledStore;
+  readonly slots: Slots;
+  readonly place: GroupPlace;
+  readonly replacing: Replacing;
+  readonly playhead: Playhead;
+  readonly playback: Playback;
+  readonly tape: MotionTape;
+}
+
+export const StoresContext = createContext<Stores | null>(null);
+
+export function useStores(): Stores {
+  const stores = use(StoresContext);
+  if (stores === null) throw new Error('a panel stands outside StoresContext');
+  return stores;
+}
+
+export function useDevice<T>(select: (state: DeviceState) => T): T {
+  return useStore(useStores().device.store, select);
+}
+
+export function useSnapshot<T>(select: (snapshot: DeviceState['snapshot']) => T): T {
+  return useStore(useStores().device.store, (state) => select(state.snapshot));
+}
+
+export function useDocument<T>(select: (state: DocumentState) => T): T {
+  return useStore(useStores().document.store, select);
+}
+
+export function useGroup(): ActionGroup {
+  return useDocument((state) => state.present);
+}
+
+export function useLibrary<T>(select: (state: LibraryState) => T): T {
+  return useStore(useStores().library.store, select);
+}
+
+export function usePoses<T>(select: (state: History<PoseBook>) => T): T {
+  return useStore(useStores().poses.book.store, select);
+}
+
+export function useBlend<T>(select: (state: BlendState) => T): T {
+  return useStore(useStores().blend.store, select);
+}
+
+/** The servos are posed by hand. */
+export function useIsTeaching(): boolean {
+  return useStore(useStores().teaching.store, ({ isOn }) => isOn);
+}
+
+export function useMacros<T>(select: (state: History<MacroPage>) => T): T {
+  return useStore(useStores().macros.store, select);
+}
+
+/** The one that is connected; while none is known, the one that the robot at hand is described for. */
+export function useKnownFamily(): Family {
+  const robot = useRobot();
+  return useDevice(({ family }) => knownFamily(family, robot));
+}
+
+/** What the group at hand is drawn by. */
+export function useGroupBoard(): GroupBoard {
+  const [robot, family] = [useRobot(), useKnownFamily()];
+  const unit = useDocument(({ present }) => present.unit);
+  const isOther = useDocument(({ present }) => boardOfGroup(present, family, robot).isOther);
+  return isOther
+    ? { family: familyOfUnit(unit), robot: robotInUnit(robot, unit), isOther }
+    : { family, robot, isOther };
+}
+
+export function groupBoardOf({
+  document,
+  device,
+  robots,
+}: Pick<Stores, 'document' | 'device' | 'robots'>): GroupBoard {
+  const { robot } = robots.current();
+  return boardOfGroup(
+    document.store.getState().present,
+    knownFamily(device.store.getState().family, robot),
+    robot,
+  );
+}
+
+/** The slot that Download and Run are about. */
+export function useSlot(): number {
+  return useStore(useStores().place.store, ({ slot }) => slot);
+}
+
+/** The robot at hand. */
+export function useRobot(): Robot {
+  return useStore(useStores().robots.store, ({ present }) => currentOf(present).robot);
+}
+
+export function useBattery<T>(select: (state: BatteryState) => T): T {
+  return useStore(useStores().battery, select);
+}
+
+/** Where the servo may stand, while nobody knows. */
+export function useGuess(servo: RobotServo): number | null {
+  const { lastPoses } = useStores();
+  // Of a servo whose pose is being remembered anew the target is known.
+  return useDevice((state) => guessOf(lastPoses.getState(), state, servo));
+}
+
+/** There is a guess of some servo. */
+export function useIsGuessing(): boolean {
+  const { lastPoses } = useStores();
+  const robot = useRobot();
+  return useDevice((state) => Object.keys(guessesOf(lastPoses.getState(), state, robot)).length > 0);
+}
+
+export function guessNow({ lastPoses, device }: Pick<Stores, 'lastPoses' | 'device'>, servo: RobotServo) {
+  return guessOf(lastPoses.getState(), device.store.getState(), servo);
+}
+
+export function guessesNow({
+  lastPoses,
+  device,
+  robots,
+}: Pick<Stores, 'lastPoses' | 'device' | 'robots'>): Stand {
+  return guessesOf(lastPoses.getState(), device.store.getState(), robots.current().robot);
+}
+
+/** What pad and keys do to it. */
+export function useMapping(): Mapping {
+  return useStore(useStores().mappings.store, ({ present }) => present);
+}
+
+export function usePad<T>(select: (state: PadState) => T): T {
+  return useStore(useStores().pad.store, select);
+}
+
+export function useCompiled<T>(select: (state: CompiledState) => T): T {
+  return useStore(useStores().compiled.store, select);
+}
+
+export function useSlots<T>(select: (state: SlotsState) => T): T {
+  return useStore(useStores().slots.store, select);
+}
+
+export function usePlayback<T>(select: (state: PlaybackState) => T): T {
+  return useStore(useStores().playback.store, select);
+}
+
+export function useView<T>(select: (state: ViewState) => T): T {
+  return useStore(useStores().view, select);
+}
+
+export function useTimeline<T>(select: (state: TimelineState) => T): T {
+  return useStore(useStores().timeline, select);
+}
+
+/** How the servos of the robot at hand are shown. */
+export function useServoView<T>(select: (view: ServoView) => T): T {
+  const robotId = useStore(useStores().robots.store, ({ present }) => currentOf(present).id);
+  return useView(({ servos }) => select(servoViewFor(servos, robotId)));
+}
+
+export function servoViewOf({ view, robots }: Pick<Stores, 'view' | 'robots'>): ServoView {
+  return servoViewFor(view.getState().servos, robots.current().id);
+}
+
+export function editServoView(
+  stores: Pick<Stores, 'view' | 'robots'>,
+  change: (view: ServoView) => ServoView,
+): void {
+  const { id } = stores.robots.current();
+  stores.view.setState({ servos: { ...change(servoViewOf(stores)), robotId: id } });
+}

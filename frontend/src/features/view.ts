@@ -1,0 +1,160 @@
+// What is selected, open and set on this screen: neither the robot's state nor the document's. How things look, and the kiosk, is
+// remembered by the browser; what is worked on and how far a calibration is, by the browser's tab alone; nothing else. Knows no
+// link.
+
+import { createStore, type StoreApi } from 'zustand/vanilla';
+import {
+  calibrationFromText,
+  calibrationToText,
+  type KeptCalibration,
+} from '#shared/profile/calibrationText.ts';
+import { LANGUAGE_CODES, type Language } from '../i18n/words.ts';
+import type { TextStorage } from '../state/textStorage.ts';
+import { GENTLE_MOVE_MS, type MoveTime } from '../robot/moveTime.ts';
+import { INITIAL_SERVO_VIEW, type ServoView } from './drive/servoView.ts';
+
+/** On a wide screen all but the buttons are side by side. */
+export type Tab = 'live' | 'actions' | 'board' | 'log' | 'buttons';
+export type Theme = 'system' | 'light' | 'dark';
+export type LanguageChoice = 'system' | Language;
+/** `board`: the units of the board, microseconds or steps. */
+export type PositionsIn = 'board' | 'degrees';
+/** Servos one below the other, or where they sit on the body. */
+export type ServoLayout = 'list' | 'body';
+export type LogKind = 'move' | 'group' | 'battery' | 'link' | 'noise';
+
+export interface ViewState {
+  readonly tab: Tab;
+  readonly theme: Theme;
+  readonly language: LanguageChoice;
+  /** Nothing but buttons and STOP; remembered, so that a reload is no way out. */
+  readonly kiosk: 'on' | 'off';
+  readonly authoring: 'group' | 'poses' | 'pad';
+  readonly connectOpen: boolean;
+  readonly libraryOpen: boolean;
+  readonly peopleOpen: boolean;
+  /** What of the robots is open; null: nothing. */
+  readonly robotView: 'list' | 'edit' | 'calibrate' | null;
+  /** How far that of one robot has come: nothing of it is lost by a reload. */
+  readonly calibration: KeptCalibration | null;
+  readonly logOpen: boolean;
+  readonly logKinds: readonly LogKind[];
+  readonly selectedFrame: number | null;
+  /** Each press on a frame or key takes it beside the others, or away: a finger holds no Ctrl key. */
+  readonly addsToSelection: boolean;
+  readonly servos: ServoView;
+  readonly positionsIn: PositionsIn;
+  readonly servoLayout: ServoLayout;
+  readonly selectedPose: number | null;
+  /** How long a pose takes to be reached. */
+  readonly poseMs: number;
+  readonly selectedButton: number | null;
+  readonly editsButtons: boolean;
+  readonly moveTime: MoveTime;
+  /** Chosen for the group at hand; null: where that goes by itself. */
+  readonly slot: number | null;
+  readonly times: number;
+  readonly untilStopped: boolean;
+  /** The next run may go on without this page; chosen anew for each. */
+  readonly goesOn: boolean;
+  /** At most. */
+  readonly goOnMinutes: number;
+}
+
+export type View = StoreApi<ViewState>;
+
+/** Where each remembered choice is stored, and what it may be. What is worked on outlives a reload, and no other tab begins with it. */
+const REMEMBERED = {
+  theme: { by: 'browser', key: 'servodeck.view', values: ['system', 'light', 'dark'] },
+  language: { by: 'browser', key: 'servodeck.language', values: ['system', ...LANGUAGE_CODES] },
+  positionsIn: { by: 'browser', key: 'servodeck.positionsIn', values: ['board', 'degrees'] },
+  kiosk: { by: 'browser', key: 'servodeck.kiosk', values: ['on', 'off'] },
+  servoLayout: { by: 'browser', key: 'servodeck.servoLayout', values: ['list', 'body'] },
+  tab: { by: 'tab', key: 'servodeck.tab', values: ['live', 'actions', 'board', 'log', 'buttons'] },
+  authoring: { by: 'tab', key: 'servodeck.authoring', values: ['group', 'poses', 'pad'] },
+} as const satisfies { readonly [K in keyof ViewState]?: Memory<ViewState[K]> };
+
+const CALIBRATION_KEY = 'servodeck.calibration';
+
+interface Memory<Value> {
+  readonly by: keyof Memories;
+  readonly key: string;
+  readonly values: readonly Value[];
+}
+
+/** What the browser keeps for each of its visits, and what it keeps for one of its tabs. */
+export interface Memories {
+  readonly browser: TextStorage;
+  readonly tab: TextStorage;
+}
+
+type Remembered = keyof typeof REMEMBERED;
+const NAMES = Object.keys(REMEMBERED) as Remembered[];
+
+export const INITIAL_VIEW: ViewState = {
+  tab: 'live',
+  theme: 'system',
+  language: 'system',
+  kiosk: 'off',
+  authoring: 'group',
+  connectOpen: false,
+  libraryOpen: false,
+  peopleOpen: false,
+  robotView: null,
+  calibration: null,
+  logOpen: false,
+  logKinds: ['move', 'group', 'battery', 'link', 'noise'],
+  selectedFrame: null,
+  addsToSelection: false,
+  servos: INITIAL_SERVO_VIEW,
+  positionsIn: 'board',
+  servoLayout: 'list',
+  selectedPose: null,
+  poseMs: GENTLE_MOVE_MS,
+  selectedButton: null,
+  editsButtons: false,
+  moveTime: 'hand',
+  slot: null,
+  times: 1,
+  untilStopped: false,
+  goesOn: false,
+  goOnMinutes: 10,
+};
+
+export function createView(memories: Memories): View {
+  const view = createStore<ViewState>(() => ({ ...INITIAL_VIEW, ...load(memories) }));
+  view.subscribe((state, before) => {
+    for (const name of NAMES) {
+      const { by, key } = REMEMBERED[name];
+      if (state[name] !== before[name]) save(memories[by], key, state[name]);
+    }
+    if (state.calibration !== before.calibration)
+      save(memories.tab, CALIBRATION_KEY, calibrationToText(state.calibration));
+  });
+  return view;
+}
+
+function load(memories: Memories): Partial<ViewState> {
+  try {
+    const known = NAMES.map((name) => {
+      const { by, key } = REMEMBERED[name];
+      return [name, memories[by].getItem(key)] as const;
+    });
+    const chosen = known.filter(([name, text]) => isOneOf(REMEMBERED[name].values, text));
+    const calibration = calibrationFromText(memories.tab.getItem(CALIBRATION_KEY) ?? '');
+    return { ...Object.fromEntries(chosen), calibration };
+  } catch {
+    return {};
+  }
+}
+
+const isOneOf = (values: readonly string[], text: string | null): boolean =>
+  text !== null && values.includes(text);
+
+function save(storage: TextStorage, key: string, text: string): void {
+  try {
+    storage.setItem(key, text);
+  } catch {
+    // Storage is forbidden here: the choice lasts as long as the page, and that is all it is worth.
+  }
+}

@@ -1,0 +1,163 @@
+// What is asked of the board and its session besides motion by hand: STOP, groups, readings, memory. Whatever fails becomes a
+// notice. Keeps nothing; knows no panel.
+
+import type { Frame } from '#shared/codec/commands.ts';
+import type { Family } from '#shared/codec/families.ts';
+import { LinkError } from '#shared/session/linkError.ts';
+import type { Session } from '#shared/session/session.ts';
+import type { HaltReason, SlotGroup } from '#shared/session/transport.ts';
+import { downloadedSentence, downloadCancelled } from '../i18n/sentences/slots.ts';
+import { words } from '../i18n/words.ts';
+import type { Notices } from '../state/notices.ts';
+import type { LateNews } from './lateNews.ts';
+import type { LimitGate } from './limitGate.ts';
+
+export interface BoardVerbs {
+  /** From now on each run and each playing asks first; `anyway` begins what was refused, once. */
+  guardRuns(mayBegin: RunGuard): void;
+  halt(why?: HaltReason): void;
+  resume(): void;
+  identify(): void;
+  choose(family: Family): void;
+  /** `settled` hears whether the board took it, as far as anybody can know. */
+  run(slot: number, times: number, settled?: Settled): void;
+  stopGroup(): void;
+  /** `settled` hears whether the board said so. */
+  erase(settled?: Settled): void;
+  readBattery(): void;
+  /** Unasked, so nobody is told that it failed: another screen's question may have met this one on the board (S52). */
+  watchBattery(): void;
+  readPositions(servos: readonly number[], settled?: Settled): void;
+  /** Firmware and trims, one question after the other. */
+  readDetails(): void;
+  setSpeed(slot: number | null, percent: number): void;
+  release(servos: readonly number[], settled?: Settled): void;
+  sendRaw(packet: Uint8Array): void;
+  /** One after the other. `settled` hears whether all of them are stored. */
+  download(groups: readonly SlotGroup[], settled?: Settled): void;
+  cancelDownload(): void;
+  /** `times` 0: until stopped; each pass but the first begins with frame `loopFrom`. `settled` hears whether the last frame was played: not after a pause, a stop or a failure. */
+  play(frames: readonly Frame[], times: number, settled: Settled, loopFrom?: number): void;
+  stopPlaying(): void;
+}
+
+export type Settled = (isDone: boolean) => void;
+
+/** Whether something may begin to run now. Where not, it tells the person and may offer to begin it anyway. */
+export type RunGuard = (anyway: () => void) => boolean;
+
+export interface BoardVerbsOptions {
+  /** null while nothing is connected. */
+  session(): Session | null;
+  readonly gate: LimitGate;
+  readonly notices: Notices;
+  readonly lateNews: LateNews;
+  tellError(error: unknown): void;
+}
+
+export function createBoardVerbs({
+  session: now,
+  gate,
+  notices,
+  lateNews,
+  tellError,
+}: BoardVerbsOptions): BoardVerbs {
+  let mayBegin: RunGuard = () => true;
+
+  function attempt(work: (session: Session) => Promise<unknown>, settled: Settled = () => undefined): void {
+    const session = now();
+    if (session === null) return settled(false);
+    work(session).then(
+      (isDone) => {
+        lateNews.asked();
+        settled(isDone !== false);
+      },
+      (error: unknown) => {
+        tellError(error);
+        settled(false);
+      },
+    );
+  }
+
+  /** As `attempt`, where nothing forbids that something runs. */
+  function attemptRun(
+    work: (session: Session) => Promise<unknown>,
+    settled: Settled = () => undefined,
+  ): void {
+    const asked = now();
+    const anyway = (): void => {
+      if (now() === asked) attempt(work);
+    };
+    if (asked !== null && mayBegin(anyway)) attempt(work, settled);
+    else settled(false);
+  }
+
+  /** False where it was called off. */
+  async function downloadTo(current: Session, groups: readonly SlotGroup[]): Promise<boolean> {
+    const slots = groups.map(({ slot }) => slot);
+    try {
+      await current.download(groups);
+      notices.tell('info', downloadedSentence(slots));
+      return true;
+    } catch (error) {
+      if (!(error instanceof LinkError && error.code === 'cancelled')) throw error;
+      const broken = slots.find((slot) => current.state.brokenSlots.includes(slot));
+      notices.tell('warning', downloadCancelled(broken ?? null));
+      return false;
+    }
+  }
+
+  return {
+    guardRuns: (guard) => (mayBegin = guard),
+    halt: (why) => attempt((current) => current.halt(why)),
+    resume: () => attempt((current) => current.resume()),
+    identify: () => attempt((current) => current.identify()),
+    choose: (chosen) => attempt((current) => current.choose(chosen)),
+    run: (slot, times, settled) => attemptRun((current) => current.run(slot, times), settled),
+    stopGroup: () => attempt((current) => current.stopGroup()),
+    erase: (settled) =>
+      attempt((current) => current.erase().then(() => notices.tell('info', words.board.erased)), settled),
+    readBattery: () => attempt((current) => current.readBattery()),
+    watchBattery: () =>
+      void now()
+        ?.readBattery()
+        .catch(() => undefined),
+    readPositions: (servos, settled) => attempt((current) => current.readPositions(servos), settled),
+    readDetails: () => attempt((current) => current.readVersion().then(() => current.readOffsets())),
+    setSpeed: (slot, percent) =>
+      attempt((current) =>
+        current.setSpeed(slot, percent).then(() => notices.tell('info', speedSent(slot, percent))),
+      ),
+    release: (servos, settled) => attempt((current) => current.release(servos), settled),
+    download(groups, settled = () => undefined) {
+      const onIt = gate.groups(groups);
+      if (onIt === null) settled(false);
+      else attempt((current) => downloadTo(current, onIt), settled);
+    },
+    sendRaw(packet) {
+      if (gate.lets(packet)) attempt((current) => current.sendRaw(packet));
+    },
+    cancelDownload: () => attempt((current) => current.cancelDownload()),
+    play(frames, times, settled, loopFrom = 0) {
+      const onIt = gate.frames(frames);
+      if (onIt === null) {
+        settled(false);
+        return;
+      }
+      attemptRun(async (current) => {
+        const { lateFrames, latestMs, skippedFrames, isWhole } = await current.play(onIt, {
+          times,
+          loopFrom,
+        });
+        if (skippedFrames > 0) notices.tell('warning', words.play.skipped({ frames: skippedFrames }));
+        else if (lateFrames > 0) notices.tell('info', words.play.late({ frames: lateFrames, ms: latestMs }));
+        return isWhole;
+      }, settled);
+    },
+    stopPlaying: () => now()?.stopPlaying(),
+  };
+}
+
+function speedSent(slot: number | null, percent: number): string {
+  return slot === null ? words.board.speedSentToAll({ percent }) : words.board.speedSent({ slot, percent });
+}

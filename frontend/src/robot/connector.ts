@@ -1,0 +1,263 @@
+// Picks the way to the robot: this computer's port, the gateway, or the simulated robot, and remembers the last one chosen.
+// The only place that knows transports; hands a session to the device store and forgets it.
+
+import { createStore, type StoreApi } from 'zustand/vanilla';
+import type { Robot } from '#shared/profile/robot.ts';
+import { FAMILIES, UNKNOWN_BOARD, type FamilyId } from '#shared/codec/families.ts';
+import {
+  createLocalRobot,
+  createSession,
+  type LocalRobotOptions,
+  type Session,
+} from '#shared/session/session.ts';
+import { isProfileName } from '#shared/simulator/profileNames.ts';
+import type { Transport } from '#shared/session/transport.ts';
+import type { Boards } from './boards.ts';
+import type { Device, Way } from './device.ts';
+import type { TextStorage } from '../state/textStorage.ts';
+import type { Notices } from '../state/notices.ts';
+import type { You } from './people.generated.ts';
+import { createGatewayTransport } from '../transports/gateway.ts';
+import { choosePort, grantedPorts, portLabel, webSerialObstacle } from '../transports/serialPorts.ts';
+import { createWebSerialChannel } from '../transports/webSerial.ts';
+import { later } from '../ui/later.tsx';
+import { words } from '../i18n/words.ts';
+import {
+  gatewayUrl,
+  hasGateway,
+  openGatewayPort,
+  readGateway,
+  readPorts,
+  SURE_WITHIN_MS,
+  type GatewayPort,
+  type GatewayStatus,
+} from './gatewayApi.ts';
+import { greetingOf } from './greeting.ts';
+import { recallReconnects, recallWay, rememberReconnects, rememberWay } from './lastWay.ts';
+import { rememberSlots } from './rememberedSlots.ts';
+
+export interface ConnectState {
+  /** What the simulated robot in the page is. */
+  readonly board: FamilyId;
+  /** Links come back by themselves, also at the next visit. */
+  readonly reconnects: boolean;
+  readonly serialObstacle: ReturnType<typeof webSerialObstacle>;
+  readonly granted: readonly GrantedPort[];
+  /** The one that was opened last. */
+  readonly openPort: SerialPort | null;
+  /** `looking` until the page's own address has answered or not. */
+  readonly gateway: 'looking' | 'absent' | GatewayStatus;
+  readonly gatewayPorts: readonly GatewayPort[];
+}
+
+export interface GrantedPort {
+  readonly port: SerialPort;
+  /** The channel's own name of it. */
+  readonly label: string;
+}
+
+export interface Connector {
+  readonly store: StoreApi<ConnectState>;
+  /** The first way of this visit: the last one chosen, else the gateway, else the simulated robot. */
+  start(): Promise<void>;
+  /** Looks again for the gateway, its ports and the ports granted here. */
+  look(): Promise<void>;
+  simulate(board: FamilyId): Promise<void>;
+  setReconnects(reconnects: boolean): void;
+  useGateway(): void;
+  /** Has the gateway open that port first. Rejects with a LinkError. */
+  useGatewayPort(device: string): Promise<void>;
+  useSerialPort(port: SerialPort): void;
+  /** Opens the browser's chooser. Rejects with a LinkError. */
+  chooseSerialPort(): Promise<void>;
+  disconnect(): void;
+  /** After `heldElsewhere` or `movedAway`: the other tab stops the robot and lets go, then this one tries again. */
+  moveHere(): Promise<void>;
+  /** The page goes: the robot is told to stop, where nobody else drives it. */
+  leave(): void;
+}
+
+const GREETING_MS = 2000;
+
+type Link =
+  | Pick<LocalRobotOptions, 'kind' | 'channel' | 'withheld'>
+  | { readonly kind: 'gateway'; readonly transport: Transport };
+
+export interface ConnectorOptions {
+  readonly device: Device;
+  readonly notices: Notices;
+  readonly boards: Boards;
+  readonly storage: TextStorage;
+  /** What whoever opened the page may do at its gateway. */
+  readonly role: You['role'];
+  /** It has answered already. */
+  readonly isAtGateway: boolean;
+  /** The one at hand. */
+  robot(): Robot;
+  isWatched(): boolean;
+}
+
+const loadSimulated = () => import('../transports/simulated.ts');
+// It needs no gateway: it is there before it is wanted.
+later(loadSimulated);
+
+export function createConnector(options: ConnectorOptions): Connector {
+  const { device, notices, boards, storage, role, isWatched } = options;
+  const store = createStore<ConnectState>(() => ({
+    board: 'doc',
+    reconnects: recallReconnects(storage),
+    serialObstacle: webSerialObstacle(),
+    granted: [],
+    openPort: null,
+    gateway: 'looking',
+    gatewayPorts: [],
+  }));
+
+  let current: { readonly session: Session; way(): Way } | null = null;
+
+  function openSerial(port: SerialPort): Link {
+    store.setState({ openPort: port });
+    return { kind: 'webSerial', channel: createWebSerialChannel(port) };
+  }
+
+  /** What is open already is left alone, and that is said: the browser's chooser does not know it. */
+  function openOnce(port: SerialPort): void {
+    const { openPort } = store.getState();
+    const way = current?.way();
+    const isOpen = way?.kind === 'webSerial' && current?.session.state.link.status === 'ready';
+    if (isOpen && port === openPort) notices.tell('info', words.connect.isOpen({ label: way.label }));
+    else chosen(openSerial(port));
+  }
+
+  /** A board in the page is what it was made as; any other is asked, and taken for what it was the last time. A gateway asks itself. */
+  async function connect(link: Link): Promise<void> {
+    const { board } = store.getState();
+    const isOwn = link.kind === 'simulated';
+    const way = (): Way => wayOf(link);
+    const known = boards.recall(way())?.family;
+    const options = {
+      clock: device.clock,
+      family: isOwn ? FAMILIES[board] : known === undefined ? UNKNOWN_BOARD : FAMILIES[known],
+      identifies: !isOwn,
+      isWatched,
+      // The simulated robot in the page is a new one at each visit: nothing of it is worth remembering. A gateway remembers by itself.
+      slotMemory: isOwn ? undefined : rememberSlots(storage, way),
+    };
+    const session =
+      'transport' in link
+        ? createSession({ ...options, ...link })
+        : createLocalRobot({ ...options, ...link });
+    current = { session, way };
+    // Before the page itself hears that it is ready: where somebody has changed the gateway's port, it leads to another board.
+    let wasReady = false;
+    session.subscribe({
+      state({ link: { status } }) {
+        if (status === 'ready' && !wasReady) device.describe(session, way());
+        wasReady = status === 'ready';
+      },
+    });
+    device.attach(session, way());
+    // A first attempt that fails is in the link's state, with its sentence and its next try.
+    await session.open().catch(() => undefined);
+    // The gateway tells what it leads to only once it is open.
+    device.describe(session, way());
+  }
+
+  function chosen(link: Link): void {
+    rememberWay(storage, { kind: link.kind, board: store.getState().board });
+    void connect(link);
+  }
+
+  async function look(withinMs?: number): Promise<void> {
+    const [gateway, granted] = await Promise.all([readGateway(withinMs), grantedPorts()]);
+    const ports = gateway === null || role !== 'owner' ? [] : await readPorts(withinMs);
+    store.setState({
+      gateway: gateway ?? 'absent',
+      gatewayPorts: ports,
+      granted: granted.map((port) => ({ port, label: portLabel(port) })),
+    });
+  }
+
+  async function start(): Promise<void> {
+    const last = recallWay(storage);
+    if (last !== null) store.setState({ board: last.board });
+    await look(options.isAtGateway ? SURE_WITHIN_MS : undefined);
+    const { gateway, granted, reconnects } = store.getState();
+    const [port] = granted;
+    if (last?.kind === 'simulated' || (gateway === 'absent' && last === null)) {
+      await connect(await simulated());
+      if (last === null) greet();
+    } else if (!reconnects) return;
+    else if (last?.kind === 'webSerial' && port !== undefined) await connect(openSerial(port.port));
+    else if (typeof gateway === 'object') await connect(gatewayLink());
+    else await connect(await simulated());
+    if (gateway === 'absent') void offerLateGateway();
+  }
+
+  /** One that was too slow to be found: nobody is to take the robot in the page for the real one. */
+  async function offerLateGateway(): Promise<void> {
+    if (!(await hasGateway(device.clock)) || current?.way().kind !== 'simulated') return;
+    await look();
+    notices.tell('warning', words.link.gatewayAnswers, {
+      label: words.link.useGateway,
+      act: () => chosen(gatewayLink()),
+    });
+  }
+
+  const gatewayLink = (): Link => ({
+    kind: 'gateway',
+    transport: createGatewayTransport(gatewayUrl(), device.clock, { mayDrive: role !== 'viewer' }),
+  });
+
+  async function simulated(): Promise<Link> {
+    const { createSimulatedChannel } = await loadSimulated();
+    return { kind: 'simulated', channel: createSimulatedChannel(simulatedAs(store.getState().board)) };
+  }
+
+  /** Until a way is chosen the simulated arm rises, so that the page is alive; no real robot ever moves by itself. */
+  function greet(): void {
+    const { unit, usualServoCount } = FAMILIES[store.getState().board];
+    if (unit === 'us' && usualServoCount === 6) device.move(greetingOf(options.robot()), GREETING_MS);
+  }
+
+  device.setAutoReconnect(store.getState().reconnects);
+
+  return {
+    store,
+    start,
+    look,
+    setReconnects(reconnects) {
+      store.setState({ reconnects });
+      rememberReconnects(storage, reconnects);
+      device.setAutoReconnect(reconnects);
+    },
+    async simulate(board) {
+      store.setState({ board });
+      chosen(await simulated());
+    },
+    useGateway: () => chosen(gatewayLink()),
+    async useGatewayPort(path) {
+      await openGatewayPort(path);
+      await look();
+      chosen(gatewayLink());
+    },
+    useSerialPort: openOnce,
+    async chooseSerialPort() {
+      openOnce(await choosePort());
+    },
+    disconnect: () => void device.detach().catch(notices.tellError),
+    async moveHere() {
+      await current?.session.takeOver();
+    },
+    leave: () => current?.session.leave(),
+  };
+}
+
+/** A board that nobody has modelled is simulated by the usual one. */
+const simulatedAs = (board: FamilyId) => (isProfileName(board) ? { profile: board } : {});
+
+function wayOf(link: Link): Way {
+  const { label } = 'transport' in link ? link.transport : link.channel;
+  const isSimulated = 'transport' in link ? link.transport.isSimulated : link.kind === 'simulated';
+  return { kind: link.kind, label, isSimulated };
+}

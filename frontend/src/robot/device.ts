@@ -1,0 +1,296 @@
+// The robot as the page sees it: wraps one session at a time, keeps its latest snapshot, and turns intents of the panels into
+// calls whose failures become notices. Live, never undoable; knows no transport and no panel. What changes in each frame is asked
+// for and not in the store: whoever listens to that would be woken for it.
+
+import { createStore, type StoreApi } from 'zustand/vanilla';
+import { sameList } from '#shared/group/groupEdits.ts';
+import { fromBoard, onBoard, type Robot } from '#shared/profile/robot.ts';
+import type { Clock } from '#shared/clock.ts';
+import type { ServoTarget } from '#shared/codec/commands.ts';
+import type { Family } from '#shared/codec/families.ts';
+import type { LeaseAction } from '#shared/session/lease.ts';
+import type { Session } from '#shared/session/session.ts';
+import { INITIAL_STATE } from '#shared/session/store.ts';
+import type { Motions, ServoMotion, SessionState } from '#shared/session/state.ts';
+import type { Transport } from '#shared/session/transport.ts';
+import { personName } from '../i18n/sentences/people.ts';
+import { errorSentence } from '../i18n/sentences/errors.ts';
+import { words } from '../i18n/words.ts';
+import { createBoardVerbs, type BoardVerbs } from './boardVerbs.ts';
+import { createLateNews } from './lateNews.ts';
+import { createLimitGate } from './limitGate.ts';
+import { moveDurationMs, type Pace } from './moveTime.ts';
+import { createMovingWatch } from './movingWatch.ts';
+import type { Notices } from '../state/notices.ts';
+import type { RobotStore } from '../features/profiles/robots.ts';
+import { createTargetBook } from './targetBook.ts';
+import { createTrafficLog, type TrafficLog } from './traffic.ts';
+
+/** Which way leads to the robot, and the name of the port or machine for people. */
+export interface Way {
+  readonly kind: Transport['kind'];
+  readonly label: string;
+  /** Nothing real moves, whichever way leads there. */
+  readonly isSimulated: boolean;
+}
+
+export interface DeviceState {
+  readonly family: Family;
+  readonly way: Way | null;
+  readonly snapshot: SessionState;
+  /** Servos that were asked for something, or whose place the board has said; where another one is nobody knows. */
+  readonly known: readonly number[];
+  /** Those of them whose place is the board's own word. */
+  readonly readServos: readonly number[];
+  /** A servo is on its way, so far as anybody can know; looked at now and then, and kept for a moment between two moves. */
+  readonly isMoving: boolean;
+}
+
+export interface Device extends BoardVerbs {
+  readonly store: StoreApi<DeviceState>;
+  readonly traffic: TrafficLog;
+  readonly clock: Clock;
+  /** Takes the session over and closes the one before it. */
+  attach(session: Session, way: Way): void;
+  /** What the session's way leads to became known. */
+  describe(session: Session, way: Way): void;
+  detach(): Promise<void>;
+  /** What each was last asked for, from the moment on that it was, and where it is by now: as of this moment. */
+  motions(): Motions;
+  motion(servo: number): ServoMotion;
+  /** What the robot was last asked for, or at rest where the board says it stands; without servos of unknown place. */
+  pose(): readonly ServoTarget[];
+  /** Nothing moves and nothing is under way, so far as anybody can know. */
+  isAtRest(): boolean;
+  /** Looks what became of the motion; to be called while the page is drawn, once a frame. */
+  refresh(motion?: Motions): void;
+  /** Servos whose newest target has not left yet. */
+  waiting(): number;
+  /** False where it was refused; then the person was told why. */
+  move(targets: readonly ServoTarget[], pace: Pace): boolean;
+  /** As `move`, between two frames: the store has what comes of it with the next one. */
+  drag(targets: readonly ServoTarget[], pace: Pace): boolean;
+  /** This servo's limits are looked for: `creep` moves it, past the present ones too. null: no longer. */
+  calibrate(servo: number | null): void;
+  /** Moves the servo that is calibrated, as far as its board can. */
+  creep(position: number, durationMs: number): void;
+  /** About who drives a robot that is shared. */
+  lease(action: LeaseAction): void;
+  /** The run under way may go on without this page, for so long at most; null: it may not. */
+  letGoOn(forMs: number | null): void;
+  retryNow(): void;
+  /** Holds for later sessions too. */
+  setAutoReconnect(enabled: boolean): void;
+}
+
+/** Failures after which the link is tried again and again. */
+const TRIED_ON = ['lost', 'portMissing', 'portBusy'] as const;
+
+const NOTHING = { way: null, snapshot: INITIAL_STATE, known: [], readServos: [], isMoving: false } as const;
+
+const NO_MOTION: ServoMotion = { target: null, estimated: null };
+
+export interface DeviceOptions {
+  readonly family: Family;
+  readonly clock: Clock;
+  readonly notices: Notices;
+  /** Whose limits and trims hold for everything that moves. */
+  readonly robots: RobotStore;
+}
+
+export function createDevice({ family, clock, notices, robots }: DeviceOptions): Device {
+  const store = createStore<DeviceState>(() => ({ family, ...NOTHING }));
+  const traffic = createTrafficLog();
+  const book = createTargetBook(clock);
+  const watch = createMovingWatch(clock, isUnderWay);
+  const lateNews = createLateNews(clock, notices);
+  let session: Session | null = null;
+  let unsubscribe = (): void => undefined;
+  let autoReconnect = true;
+  let saidOfResume = '';
+  let calibrated: number | null = null;
+
+  const robot = (): Robot => robots.current().robot;
+  const meant = (servo: number, onBoardAt: number): number => fromBoard(robot(), servo, onBoardAt);
+  const gate = createLimitGate(robot, notices.refuse);
+
+  /** On a link of one's own it is the last one described for such a board. */
+  function takeUpRobot({ family: connected, robotOnBoard }: SessionState): void {
+    if (robotOnBoard === null && connected.id !== 'unknown') robots.takeUpFor(connected.id);
+  }
+
+  robots.store.subscribe(() => takeUpRobot(store.getState().snapshot));
+
+  function motions(): Motions {
+    if (session === null) return () => NO_MOTION;
+    const onBoardNow = session.motions();
+    const { waitingToStart } = session.state;
+    const targetOf = book.targets();
+    return (servo) => {
+      const { target, estimated, reported } = onBoardNow(servo);
+      const sent = target === null ? null : Math.round(meant(servo, target));
+      const now = {
+        target: targetOf(servo, sent, waitingToStart.includes(servo)),
+        estimated: estimated === null ? null : meant(servo, estimated),
+      };
+      // Once it is asked for something the board's word is where it comes from.
+      return reported === undefined || now.target !== sent ? now : { ...now, reported };
+    };
+  }
+
+  function pose(): readonly ServoTarget[] {
+    const motion = motions();
+    const asked = robot().servos.flatMap(({ servo }) => {
+      const { target } = motion(servo);
+      return target === null ? [] : [{ servo, position: target }];
+    });
+    return asked.toSorted((one, other) => one.servo - other.servo);
+  }
+
+  function isAtRest(): boolean {
+    return store.getState().snapshot.activity.kind === 'idle' && !isUnderWay();
+  }
+
+  function isUnderWay(): boolean {
+    const motion = motions();
+    return robot().servos.some(({ servo }) => {
+      const { target, estimated } = motion(servo);
+      // Without a target we moved it nowhere, even where the board told of it.
+      return target !== null && target !== estimated;
+    });
+  }
+
+  function refresh(motion: Motions = motions()): void {
+    const before = store.getState();
+    const servos = robot().servos.map(({ servo }) => servo);
+    const known = sameList(
+      before.known,
+      servos.filter((servo) => motion(servo).target !== null),
+    );
+    const readServos = sameList(
+      before.readServos,
+      servos.filter((servo) => motion(servo).reported !== undefined),
+    );
+    if (known !== before.known || readServos !== before.readServos) store.setState({ known, readServos });
+    const isMoving = watch.isMoving();
+    if (isMoving !== before.isMoving) store.setState({ isMoving });
+  }
+
+  /** What a latch or a failure swallowed will not come. */
+  function forgetWishes(): void {
+    book.clear();
+    refresh();
+  }
+
+  function noteState(snapshot: SessionState): void {
+    const wasReady = store.getState().snapshot.link.status === 'ready';
+    takeUpRobot(snapshot);
+    const becomesReady = !wasReady && snapshot.link.status === 'ready';
+    if (becomesReady && calibrated !== null) session?.calibrate(calibrated);
+    // First into the log: whoever hears of the state may send something at once.
+    traffic.note(snapshot, clock.now(), snapshot.family.id);
+    store.setState({ snapshot, family: snapshot.family });
+    if (snapshot.latch !== null || snapshot.link.status !== 'ready') forgetWishes();
+    if (snapshot.latch !== null) notices.takeBack(saidOfResume);
+    if (becomesReady) for (const code of TRIED_ON) notices.takeBack(errorSentence(code));
+  }
+
+  function noteResumed(by: string): void {
+    saidOfResume = words.stop.resumed({ name: personName(by, store.getState().snapshot.lease?.you ?? '') });
+    notices.tell('info', saidOfResume);
+  }
+
+  function noteProblem(error: unknown): void {
+    forgetWishes();
+    tellError(error);
+  }
+
+  function tellError(error: unknown): void {
+    notices.tellError(error);
+    lateNews.told(error);
+  }
+
+  /** `onIt`: the same in the board's own figures. False where it was refused; then the person was told why. */
+  function send(targets: readonly ServoTarget[], onIt: readonly ServoTarget[], pace: Pace): boolean {
+    if (session === null) return false;
+    try {
+      session.move(onIt, moveDurationMs(pace, targets, session.state.family, motions()));
+      book.wish(targets);
+      lateNews.asked();
+      return true;
+    } catch (error) {
+      notices.tellError(error);
+      return false;
+    }
+  }
+
+  function drag(targets: readonly ServoTarget[], pace: Pace): boolean {
+    const onIt = session === null ? null : gate.targets(targets);
+    return onIt !== null && send(targets, onIt, pace);
+  }
+
+  async function detach(): Promise<void> {
+    const former = session;
+    unsubscribe();
+    // Whoever hears of it still finds where the robot was sent.
+    store.setState(NOTHING);
+    session = null;
+    book.clear();
+    traffic.note(INITIAL_STATE, clock.now(), store.getState().family.id);
+    await former?.close();
+  }
+
+  const verbs = createBoardVerbs({ session: () => session, ...{ gate, notices, lateNews, tellError } });
+
+  return {
+    ...verbs,
+    store,
+    traffic,
+    clock,
+    attach(next, way) {
+      void detach();
+      session = next;
+      session.setAutoReconnect(autoReconnect);
+      store.setState({ way });
+      noteState(next.state);
+      unsubscribe = next.subscribe({
+        state: noteState,
+        traffic: (entry) => traffic.add(entry, next.state.family.id),
+        problem: noteProblem,
+        resumed: noteResumed,
+      });
+    },
+    describe(described, way) {
+      if (described === session) store.setState({ way });
+    },
+    detach,
+    motions,
+    motion: (servo) => motions()(servo),
+    pose,
+    isAtRest,
+    refresh,
+    waiting: book.waiting,
+    move(targets, pace) {
+      const isSent = drag(targets, pace);
+      if (isSent) refresh();
+      return isSent;
+    },
+    drag,
+    calibrate(servo) {
+      calibrated = servo;
+      session?.calibrate(servo);
+    },
+    creep(position, durationMs) {
+      if (calibrated === null) return;
+      const targets = [{ servo: calibrated, position }];
+      if (send(targets, onBoard(robot(), targets), durationMs)) refresh();
+    },
+    lease: (action) => session?.lease(action),
+    letGoOn: (forMs) => session?.letGoOn(forMs),
+    retryNow: () => session?.retryNow(),
+    setAutoReconnect(enabled) {
+      autoReconnect = enabled;
+      session?.setAutoReconnect(enabled);
+    },
+  };
+}

@@ -1,0 +1,86 @@
+// The gateway's HTTP interface as far as connecting needs it: is there one at the page's own address, which board and ports
+// does it have, open that port. Trusts no answer's shape; every failure is a LinkError.
+
+import type { Clock } from '#shared/clock.ts';
+import { LinkError } from '#shared/session/linkError.ts';
+import { isRecord, isWithoutGateway } from './request.ts';
+import { askGateway } from '../transports/gatewayHttp.ts';
+
+export interface GatewayStatus {
+  /** The port in use, null when none is. */
+  readonly device: string | null;
+}
+
+export interface GatewayPort {
+  readonly device: string;
+  readonly description: string;
+  /** The gateway's present one, by whichever of its names. */
+  readonly inUse: boolean;
+}
+
+const ANSWER_WITHIN_MS = 2000;
+/** For one that has just said who is here: it is only slow, and nobody is to be given another robot for that. */
+export const SURE_WITHIN_MS = 10_000;
+const PATIENT_MS = 30_000;
+const ASK_AGAIN_MS = 1000;
+/** Statuses of a server that may be in order a moment later. */
+const FROM_HERE_PASSING = 500;
+
+/** null where no gateway answers: the page came from elsewhere, or the gateway is gone. */
+export async function readGateway(withinMs = ANSWER_WITHIN_MS): Promise<GatewayStatus | null> {
+  try {
+    const status: unknown = await askGateway('api/status', { withinMs });
+    if (!isRecord(status) || !isRecord(status.port)) return null;
+    const { device, code } = status.port;
+    // Whatever has its name now is one to be chosen like any other.
+    return { device: typeof device === 'string' && code !== 'otherDevice' ? device : null };
+  } catch {
+    return null;
+  }
+}
+
+/**
+ * Asks until somebody answers: a gateway that is slow is one, a server that answers otherwise has none. Documents must not be kept
+ * at two places because of a bad moment.
+ */
+export async function hasGateway(clock: Clock): Promise<boolean> {
+  if (isWithoutGateway()) return false;
+  for (;;) {
+    const answer = await fetch('api/status', { signal: AbortSignal.timeout(PATIENT_MS) }).catch(() => null);
+    if (answer !== null && answer.status < FROM_HERE_PASSING) {
+      const status: unknown = await answer.json().catch(() => null);
+      // One that wants to be told first who asks is a gateway, too.
+      return isRecord(status) && (isRecord(status.port) || typeof status.code === 'string');
+    }
+    await new Promise<void>((resolve) => void clock.after(ASK_AGAIN_MS, resolve));
+  }
+}
+
+/** Ports of the gateway's machine, the likely ones first. */
+export async function readPorts(withinMs = ANSWER_WITHIN_MS): Promise<readonly GatewayPort[]> {
+  const list: unknown = await askGateway('api/ports', { withinMs });
+  if (!Array.isArray(list)) throw new LinkError('internal', 'the gateway’s list of ports is no list');
+  return list.filter(isPort).map(({ device, description, inUse }) => ({ device, description, inUse }));
+}
+
+/** Whatever board is there: the gateway knows it from before, or asks it. */
+export async function openGatewayPort(device: string): Promise<void> {
+  const body = { device, board: 'unknown' };
+  await askGateway('api/port', { method: 'PUT', body, withinMs: ANSWER_WITHIN_MS });
+}
+
+/** The gateway's WebSocket beside the page. */
+export function gatewayUrl(): string {
+  const url = new URL('ws', document.baseURI);
+  url.protocol = url.protocol === 'https:' ? 'wss:' : 'ws:';
+  return url.href;
+}
+
+function isPort(value: unknown): value is GatewayPort {
+  return (
+    isRecord(value) &&
+    typeof value.device === 'string' &&
+    typeof value.description === 'string' &&
+    typeof value.inUse === 'boolean'
+  );
+}
