@@ -25,8 +25,9 @@ export class GatewayProblem extends Error {
   }
 }
 
-/** The static site says in its head that there is none, and asks nobody. */
+/** The static site says in its head that there is none, and asks nobody. Measurements and tests under Node have no document. */
 export const isWithoutGateway = (): boolean =>
+  typeof document !== 'undefined' &&
   document.querySelector('meta[name="servodeck-gateway"][content="none"]') !== null;
 
 /** The answer, null where it is none. Rejects with a GatewayProblem. */
