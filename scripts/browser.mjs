@@ -1,5 +1,5 @@
-// What only the browser tests need: a Chromium and, for serial ports without hardware, umockdev. Says where they are,
-// fetches them where that is possible, and otherwise tells the way out. Knows no test.
+// What only the browser tests need: a Chromium and, for cables without hardware, umockdev and dbus-daemon. Says where they
+// are, fetches them where that is possible, and otherwise tells the way out. Knows no test.
 
 import { existsSync } from 'node:fs';
 import { createRequire } from 'node:module';
@@ -36,11 +36,19 @@ export function umockdevProblem() {
   return found ? null : 'umockdev is not installed (on Debian or Ubuntu: apt install umockdev)';
 }
 
-/** Fetches what is missing. Without umockdev some tests are skipped; without a browser nothing is proved. */
+/** Why there can be no stand-in for BlueZ here, or null where there can. */
+export function bluezProblem() {
+  if (process.platform !== 'linux') return 'BlueZ exists on Linux only';
+  const found = onPath(['dbus-daemon']).some((program) => existsSync(program));
+  return found ? null : 'dbus-daemon is not installed (on Debian or Ubuntu: apt install dbus-daemon)';
+}
+
+/** Fetches what is missing. Without umockdev or dbus-daemon some tests are skipped; without a browser nothing is proved. */
 export async function browserForTests() {
   const missing = [];
   if (!findBrowser()) missing.push('chromium', 'fonts-liberation');
   if (umockdevProblem() && process.platform === 'linux') missing.push('umockdev');
+  if (bluezProblem() && process.platform === 'linux') missing.push('dbus-daemon');
   if (missing.length > 0) await installSystemPackages(missing);
   if (!findBrowser()) await installPlaywrightsBrowser();
   if (findBrowser()) return;

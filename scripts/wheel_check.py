@@ -25,6 +25,7 @@ from websockets.sync.client import connect
 NEEDED = (
     *("servodeck/static/index.html", "servodeck/static/index.html.br", "servodeck/__main__.py"),
     *("servodeck/protocol/families.json", "servodeck/protocol/timings.json"),
+    "servodeck/protocol/bluetooth.json",
 )
 STOP = bytes.fromhex("55550207")
 # In KiB of gzipped JavaScript; see ADR 20. What makes it grow comes later, or pays for it.

@@ -2,7 +2,7 @@
 
 import asyncio
 import socket
-from collections.abc import Callable
+from collections.abc import Awaitable, Callable
 
 from servodeck.errors import PortError, PortLostError, PortMissingError
 from servodeck.port.ports import OpenPort
@@ -31,11 +31,12 @@ class FakePort:
             raise PortLostError("The board is gone.")
         return data
 
-    def write(self, data: bytes) -> None:
+    def write(self, data: bytes) -> Awaitable[None] | None:
         if self.refuses_writes:
             raise PortLostError("The board takes nothing.")
         self.written.append((asyncio.get_running_loop().time(), data))
         self._wrote.set()
+        return None
 
     def close(self) -> None:
         self.is_open = False

@@ -1,7 +1,7 @@
 """What leaves the port, in which order and when, to the tenth of a millisecond."""
 
 import asyncio
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Awaitable
 from contextlib import asynccontextmanager
 from functools import partial
 from itertools import pairwise
@@ -20,6 +20,7 @@ from tests.virtual_time import at, in_virtual_time, now
 ANNA, BERT = "anna", "bert"
 STOPPED = LatchedError("Stopped before it left.")
 STOP_MS = wire_ms(STOP)
+SLOW_MS = 80
 
 
 @asynccontextmanager
@@ -219,6 +220,27 @@ async def test_a_port_that_takes_nothing_is_lost_too() -> None:
     async with open_wire(port) as wire:
         with pytest.raises(PortLostError):
             await wire.halt(no_hold, STOPPED)
+
+
+class SlowPort(FakePort):
+    """A radio: the system takes a packet later than it is given one."""
+
+    def write(self, data: bytes) -> Awaitable[None]:
+        super().write(data)
+        return asyncio.sleep(SLOW_MS / 1000)
+
+
+@in_virtual_time
+async def test_a_packet_that_the_system_takes_late_has_left_late_and_a_stop_waits_for_it() -> None:
+    port = SlowPort()
+    async with open_wire(port) as wire:
+        left = wire.send(MOVE, ANNA)
+        at(0.015, lambda: wire.halt(no_hold, STOPPED))
+        await left
+        assert now() * 1000 == pytest.approx(GAP_MS + SLOW_MS, abs=0.1)
+        await asyncio.sleep(1)
+    assert port.packets() == [MOVE, STOP, STOP, STOP]
+    assert port.times_ms()[1] == pytest.approx(GAP_MS + SLOW_MS + GAP_MS, abs=0.1)
 
 
 @in_virtual_time

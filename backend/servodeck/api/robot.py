@@ -20,6 +20,7 @@ from servodeck.access.roles import DRIVER, OWNER, STOPPER, VIEWER, JudgingRoute
 from servodeck.api.websocket import serve_client
 from servodeck.callers import Caller, as_script
 from servodeck.errors import ErrorCode, OutOfRangeError
+from servodeck.port.bluetooth import this_computer
 from servodeck.port.ports import is_same_port, lasting_of, list_devices
 from servodeck.protocol.families import FAMILIES
 from servodeck.robot.control import Control
@@ -185,10 +186,17 @@ def age_of(control: Control) -> BatteryAge | None:
 
 
 @api.get("/ports", dependencies=[OWNER])
-def ports(control: Controlled) -> list[Device]:
-    """The serial ports of this computer and the one in use, the likely ones first."""
+def ports(control: Controlled, bluetooth: bool = False) -> list[Device]:
+    """The serial ports of this computer and the one in use, the likely ones first. `bluetooth`: also the
+    modules that are heard within a few seconds.
+    """
     present = control.board.link.state.device
-    found = list_devices(control.named_device, present)
+    heard = this_computer().scan() if bluetooth else []
+    known = {port.device for port in heard}
+    found = [
+        *heard,
+        *(port for port in list_devices(control.named_device, present) if port.device not in known),
+    ]
     return [
         Device(**asdict(port), in_use=present is not None and is_same_port(port.device, present))
         for port in found

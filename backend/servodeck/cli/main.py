@@ -18,6 +18,9 @@ from servodeck.port.ports import PortInfo, list_devices
 from servodeck.protocol.describe import describe
 from servodeck.protocol.limits import PacketError
 
+# The gateway listens for modules that long before it answers, and a busy computer needs a moment more.
+SCAN_WAIT_S = 15.0
+
 app = typer.Typer(
     help="Servodeck: drives LewanSoul, Lobot and Hiwonder servo controllers.",
     no_args_is_help=True,
@@ -64,15 +67,19 @@ def ports(
     ] = "",
     token: Token = "",
     token_file: TokenFile = None,
+    bluetooth: Annotated[
+        bool, typer.Option("--bluetooth", help="Listen for Bluetooth modules, too; takes a few seconds.")
+    ] = False,
 ) -> None:
     """List the serial ports of this computer, the likely ones first."""
     if url:
         remote = remote_at(url, token, token_file)
         names = [field.name for field in fields(PortInfo)]
-        listed = asked(remote, "GET", "/api/ports")
+        query = "?bluetooth=true" if bluetooth else ""
+        listed = asked(remote, "GET", f"/api/ports{query}", wait_s=SCAN_WAIT_S)
         found = [PortInfo(**{name: port[name] for name in names}) for port in listed]
     else:
-        found = list_devices()
+        found = [*(modules_heard() if bluetooth else []), *list_devices()]
     if as_json:
         print(json.dumps([asdict(port) for port in found]))
     elif not found:
@@ -81,6 +88,17 @@ def ports(
         print(f"{port.device}  {port.description}{'  (likely)' if port.likely else ''}")
         if port.lasting:
             print(f"    lasting name: {port.lasting}")
+
+
+def modules_heard() -> list[PortInfo]:
+    """Ends the program with the reason where Bluetooth cannot be had."""
+    from servodeck.errors import PortError
+    from servodeck.port.bluetooth import this_computer
+
+    try:
+        return this_computer().scan()
+    except PortError as error:
+        fail(error.detail)
 
 
 @app.command()

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from servodeck.errors import CancelledError, ClosedError, PortError, PortLostError
+from servodeck.port.bluetooth import is_bluetooth, this_computer
 from servodeck.port.ports import OpenPort, list_usb, open_port
 from servodeck.port.whereabouts import UsbDevice, Whereabouts
 from servodeck.port.wire import Wire, fail, settle
@@ -200,7 +201,7 @@ class BackgroundPorts:
 
     async def open(self, device: str) -> OpenPort:
         """Raises a PortError. A port that opens after the caller was cancelled is closed again."""
-        return await in_thread(lambda: open_port(device), undo=lambda port: port.close())
+        return await in_thread(lambda: open_any(device), undo=lambda port: port.close())
 
     async def list_usb(self) -> list[UsbDevice]:
         return await in_thread(list_usb)
@@ -210,3 +211,8 @@ class BackgroundPorts:
         with contextlib.suppress(TimeoutError):
             async with asyncio.timeout(CLOSE_WAIT_S):
                 await in_thread(port.close)
+
+
+def open_any(device: str) -> OpenPort:
+    """By the name's form: Bluetooth, or what pyserial opens."""
+    return this_computer().open(device) if is_bluetooth(device) else open_port(device)

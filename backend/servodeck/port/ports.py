@@ -9,7 +9,7 @@ import os
 import re
 import select
 import socket
-from collections.abc import Callable, Iterable
+from collections.abc import Awaitable, Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Protocol, TypeVar
@@ -47,7 +47,8 @@ class OpenPort(Protocol):
     def read_now(self) -> bytes:
         """The bytes that are there. Only after `fileno` was reported readable."""
 
-    def write(self, data: bytes) -> None: ...
+    def write(self, data: bytes) -> Awaitable[None] | None:
+        """Hands it over; where that takes a while, returns what is done when it has been."""
 
     def close(self) -> None:
         """Never raises. May take a while."""

@@ -243,12 +243,16 @@ class Wire:
 
     async def _put(self, packet: bytes, owner: Owner) -> None:
         self.unfinished = packet
-        self._port.write(packet)
+        handed_over = self._port.write(packet)
         self._last_command = packet[COMMAND_AT]
         metrics.sent.labels(metrics.name_of(self._last_command)).inc()
         self._left_at = self._now() + wire_s(len(packet))
         self._free_at = self._left_at + self._gap_s
         self._leaving(owner, packet, self._left_at)
+        if handed_over:
+            await handed_over
+            self._left_at = max(self._left_at, self._now())
+            self._free_at = self._left_at + self._gap_s
         await self._until(self._left_at)
         self.unfinished = None
 
