@@ -14,17 +14,17 @@ from servodeck.errors import ErrorCode
 from servodeck.intents import ClientMessage, MessageId
 from servodeck.schema import Message, schema_of
 from servodeck.snapshots import (
-    BatteryTold,
-    IdentityTold,
+    BatteryState,
+    IdentityState,
     JobState,
     LatchedBy,
     LeaseState,
     LinkState,
-    MotionTold,
+    MotionState,
     Outcome,
     PlayState,
     PortState,
-    RobotTold,
+    RobotState,
     StoredGroup,
     UnattendedRun,
     UnheldServos,
@@ -34,7 +34,7 @@ PROTOCOL = 5
 """Counted up with each change that a page of before would not understand: it is told to load itself again."""
 
 
-class Standing(Message):
+class GatewayState(Message):
     """How the gateway stands, for everybody alike. `board` is the family that it is driven as.
     `brokenSlots` hold half a group: nobody may run them.
     `slotVersions` tell what was stored in each slot last, as far as the gateway knows. `stoppedBy` is what
@@ -46,7 +46,7 @@ class Standing(Message):
     board: str
     port: PortState
     link: LinkState
-    identity: IdentityTold
+    identity: IdentityState
     latch: bool
     latched_by: LatchedBy | None
     stopped_by: str | None
@@ -57,24 +57,24 @@ class Standing(Message):
     waiting_to_start: list[int]
 
 
-class WelcomeMessage(Standing):
+class WelcomeMessage(GatewayState):
     """The first message on each connection."""
 
     type: Literal["welcome"] = "welcome"
     version: str
-    robot: RobotTold | None
+    robot: RobotState | None
     lease: LeaseState
     job: JobState | None
     play: PlayState | None
-    motion: MotionTold
-    battery: Annotated[BatteryTold, Field(discriminator="kind")]
+    motion: MotionState
+    battery: Annotated[BatteryState, Field(discriminator="kind")]
 
 
 class BatteryMessage(Message):
     """The board has told its battery, which the gateway asks for now and then, or stays silent about it."""
 
     type: Literal["battery"] = "battery"
-    battery: Annotated[BatteryTold, Field(discriminator="kind")]
+    battery: Annotated[BatteryState, Field(discriminator="kind")]
 
 
 class DoneMessage(Message):
@@ -122,7 +122,7 @@ class ResumedMessage(Message):
     by: str
 
 
-class StateMessage(Standing):
+class StateMessage(GatewayState):
     """Something of this changed."""
 
     type: Literal["state"] = "state"
@@ -135,7 +135,7 @@ class JobMessage(Message):
     job: JobState
 
 
-class PlayToldMessage(Message):
+class PlayStateMessage(Message):
     """What the gateway plays began, came further or ended; the latest play, whoever began it."""
 
     type: Literal["play"] = "play"
@@ -154,10 +154,10 @@ class RobotMessage(Message):
     """Another robot stands on the board now, or any robot of the library has changed: look there."""
 
     type: Literal["robot"] = "robot"
-    robot: RobotTold | None
+    robot: RobotState | None
 
 
-class LeaseToldMessage(Message):
+class LeaseStateMessage(Message):
     """Something of the lease changed."""
 
     type: Literal["lease"] = "lease"
@@ -189,11 +189,11 @@ GatewayMessage = Annotated[
     | ResumedMessage
     | StateMessage
     | RobotMessage
-    | LeaseToldMessage
+    | LeaseStateMessage
     | TickMessage
     | LeftMessage
     | JobMessage
-    | PlayToldMessage
+    | PlayStateMessage
     | PlayedMessage,
     Field(discriminator="type"),
 ]

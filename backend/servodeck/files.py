@@ -36,7 +36,7 @@ def write_whole(file: Path, text: str) -> None:
     fresh.replace(file)
 
 
-class FileBehind:
+class BackgroundFile:
     """What is held in memory, written behind: a disk that takes nothing hinders nobody."""
 
     def __init__(self, file: Path | None, text: Callable[[], str]) -> None:
@@ -46,7 +46,7 @@ class FileBehind:
         self._lock = threading.Lock()
         self._keeping: set[asyncio.Task[None]] = set()
 
-    async def kept(self) -> None:
+    async def saved(self) -> None:
         """When the disk has it as it is now, or does not take it."""
         if self._file is None:
             return
@@ -54,8 +54,8 @@ class FileBehind:
             async with asyncio.timeout(DISK_WAIT_S):
                 await in_thread(self._write)
 
-    def keep_soon(self) -> None:
-        task = asyncio.create_task(self.kept())
+    def save_soon(self) -> None:
+        task = asyncio.create_task(self.saved())
         self._keeping.add(task)
         task.add_done_callback(self._keeping.discard)
 
@@ -127,9 +127,9 @@ class Remembered:
         """Without a folder it is forgotten with the gateway. Whoever says something has it kept."""
         file = folder / FILE if folder else None
         self._memory = read(file) if file else Memory()
-        behind = FileBehind(file, self._text)
-        self.kept = behind.kept
-        self.keep_soon = behind.keep_soon
+        behind = BackgroundFile(file, self._text)
+        self.saved = behind.saved
+        self.save_soon = behind.save_soon
 
     @property
     def port(self) -> str | None:

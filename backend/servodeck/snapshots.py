@@ -90,7 +90,7 @@ class PositionsReport(Message):
     positions: list[ServoPosition]
 
 
-class AnsweredTold(Message):
+class AnsweredEvidence(Message):
     """The board answered that question when it was asked who it is."""
 
     kind: Literal["answered"] = "answered"
@@ -98,33 +98,33 @@ class AnsweredTold(Message):
     report: Annotated[BatteryReport | VersionReport | PositionsReport, Field(discriminator="kind")]
 
 
-class SilentTold(Message):
+class SilentEvidence(Message):
     """It did not answer that question."""
 
     kind: Literal["silent"] = "silent"
     question: Question
 
 
-class EchoedTold(Message):
+class EchoedEvidence(Message):
     """The question itself came back."""
 
     kind: Literal["echoed"] = "echoed"
 
 
-class NoiseTold(Message):
+class NoiseEvidence(Message):
     """Bytes came that are no packets."""
 
     kind: Literal["noise"] = "noise"
     byte_count: int
 
 
-EvidenceTold = AnsweredTold | SilentTold | EchoedTold | NoiseTold
+EvidenceState = AnsweredEvidence | SilentEvidence | EchoedEvidence | NoiseEvidence
 
 
-class IdentityTold(Message):
+class IdentityState(Message):
     """What the board answered when it was asked who it is, and the families that answer like that."""
 
-    evidence: list[Annotated[EvidenceTold, Field(discriminator="kind")]]
+    evidence: list[Annotated[EvidenceState, Field(discriminator="kind")]]
     candidates: list[str]
 
 
@@ -145,7 +145,7 @@ class BatterySilent(Message):
     last_mv: int | None
 
 
-BatteryTold = BatteryUnread | BatteryRead | BatterySilent
+BatteryState = BatteryUnread | BatteryRead | BatterySilent
 
 
 class UnattendedRun(Message):
@@ -183,7 +183,7 @@ class ServoWay(Message):
     duration_ms: float
 
 
-class MotionTold(Message):
+class MotionState(Message):
     """Where packets have taken the servos since the port opened; of one that is not named nobody knows the
     place. `runSlot`: the group that may run. `released`: they have no torque, so hands may have turned them.
     """
@@ -252,7 +252,7 @@ class ServoLimits(Message):
     max: Annotated[int, Field(ge=0, le=65535)]
 
 
-class RobotTold(Message):
+class RobotState(Message):
     """The robot on the board: which document of the library, at which revision; 0 while it is read."""
 
     id: str

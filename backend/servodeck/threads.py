@@ -17,7 +17,7 @@ async def in_thread(action: Callable[[], T], undo: Callable[[T], None] | None = 
     loop = asyncio.get_running_loop()
     outcome: asyncio.Future[T] = loop.create_future()
 
-    def hand_over(result: T) -> None:
+    def deliver(result: T) -> None:
         if not outcome.done():
             outcome.set_result(result)
         elif undo is not None:
@@ -29,7 +29,7 @@ async def in_thread(action: Callable[[], T], undo: Callable[[T], None] | None = 
 
     def run() -> None:
         try:
-            told = partial(hand_over, action())
+            told = partial(deliver, action())
         except Exception as error:  # noqa: BLE001 (whatever it is, somebody waits for it)
             told = partial(refuse, error)
         with contextlib.suppress(RuntimeError):  # the loop is closed: the process is ending

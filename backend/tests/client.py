@@ -12,14 +12,14 @@ from websockets.sync.client import ClientConnection
 from servodeck.callers import THIS_COMPUTER, Caller
 from servodeck.port.wire import Left
 from servodeck.robot.control import Control
-from servodeck.robot.hub import Seat
+from servodeck.robot.hub import Session
 from tests.fake_port import FakePort, FakePorts
 from tests.virtual_time import now
 
 ANNA = Caller("anna", "Anna", "driver")
 
 
-class Client(Seat):
+class Client(Session):
     """`lease` is what it was told last; `beats` False is a tab that froze."""
 
     def __init__(self, control: Control, caller: Caller = THIS_COMPUTER) -> None:

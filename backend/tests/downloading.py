@@ -41,6 +41,6 @@ async def ended(control: Control, job: JobState) -> JobState:
 
 def begin(control: Control, *groups: Group) -> JobState:
     """By somebody who may."""
-    board = control.board.taken_for
+    board = control.board.family_id
     parts = [made_of(group, list(packets_of(group, board)), board) for group in groups]
     return control.download(parts, ANNA, lambda: None)

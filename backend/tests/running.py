@@ -14,7 +14,7 @@ from starlette.types import ASGIApp
 
 from servodeck.access import addresses
 from servodeck.access.addresses import Access
-from servodeck.access.devices import Devices, NoShelf
+from servodeck.access.devices import Devices, NoDeviceStore
 from servodeck.access.entrance import Entrance
 from servodeck.api.app import create_app
 from servodeck.api.library import robots_in
@@ -33,7 +33,7 @@ NO_LIBRARY = Library(Path(os.devnull) / "none")
 
 def entrance_to(where: Access | None = None, now: Callable[[], float] = time.monotonic) -> Entrance:
     """One that forgets everybody at the end; local where nothing is said."""
-    return Entrance(where or addresses.local(PORT), Devices(NoShelf(), wall_clock_ms), now)
+    return Entrance(where or addresses.local(PORT), Devices(NoDeviceStore(), wall_clock_ms), now)
 
 
 def remembered_in(library: Library) -> Remembered:

@@ -10,7 +10,7 @@ from httpx2 import AsyncClient, Response
 from starlette.types import ASGIApp
 
 from servodeck.access import addresses
-from servodeck.access.devices import Devices, NoShelf
+from servodeck.access.devices import Devices, NoDeviceStore
 from servodeck.access.entrance import Entrance
 from servodeck.api.app import create_app
 from servodeck.callers import Role
@@ -85,7 +85,7 @@ async def script(
 ) -> AsyncIterator[Scripted]:
     """`behind` the port."""
     port = behind or FakePort()
-    entrance = Entrance(addresses.lan(PORT), DevicesInMemory(NoShelf(), wall_clock_ms), now)
+    entrance = Entrance(addresses.lan(PORT), DevicesInMemory(NoDeviceStore(), wall_clock_ms), now)
     _, owner = entrance.devices.admit("device", "Olga", "owner")
     device, token = entrance.devices.admit("token", "Dance", role)
     control = Control(FakePorts(port), now, board)

@@ -26,7 +26,7 @@ from servodeck.protocol.limits import PacketError
 from servodeck.protocol.packets import encode
 from servodeck.protocol.values import Frame, ReadPositions, ServoTarget
 from servodeck.robot.board.packet_rules import Group, made_of, packets_of
-from servodeck.robot.control import SOMEBODY, Control
+from servodeck.robot.control import UNNAMED_PERSON, Control
 from servodeck.robot.latch import Cause
 from servodeck.snapshots import UnheldServos
 from tests.client import ANNA, Client
@@ -111,7 +111,7 @@ class Watched(Control):
         self.said: list[Said] = []
         self.pressed_s: list[float] = []
 
-    def stop(self, cause: Cause = SOMEBODY) -> Left:
+    def stop(self, cause: Cause = UNNAMED_PERSON) -> Left:
         self.pressed_s.append(now())
         return super().stop(cause)
 

@@ -90,7 +90,7 @@ async def test_a_port_is_chosen_and_closed() -> None:
     async with http_to(ports, time.monotonic) as (client, control):
         chosen = await client.put("/api/port", json={"device": "/dev/other", "board": "lsc-16"})
         assert chosen.json() == {**OPEN, "device": "/dev/other"}
-        assert control.board.taken_for == "lsc-16"
+        assert control.board.family_id == "lsc-16"
         assert control.remembered.port == "/dev/other"
         assert (await client.delete("/api/port")).json() == CLOSED
         assert control.remembered.port is None

@@ -13,7 +13,7 @@ from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.packets import encode
 from servodeck.protocol.values import Frame, Move, Run, ServoTarget
 from servodeck.robot.board.packet_rules import Group, made_of, packets_of
-from servodeck.robot.hub import Seat
+from servodeck.robot.hub import Session
 from tests.client import ANNA, Client
 from tests.lockstep import Simulator
 from tests.samples import BATTERY
@@ -46,10 +46,10 @@ async def test_it_is_asked_at_once_and_every_5_s_and_all_are_told(simulator: Sim
         await anna.heard()
         await bert.heard()
         assert await batteries(here, 20) == 4
-        for seat in (anna, bert):
-            heard = await seat.heard()
+        for session in (anna, bert):
+            heard = await session.heard()
             assert [one["batteryMv"] for one in told(heard)] == [7500] * 4
-            assert BATTERY in seat.followed
+            assert BATTERY in session.followed
         late = await Client(here.control).heard()
         assert late[0]["battery"]["kind"] == "read"
         assert late[0]["battery"]["ageMs"] < 5000
@@ -63,7 +63,7 @@ async def test_a_question_is_told_before_its_answer(simulator: Simulator) -> Non
         await asyncio.sleep(4.5)
         kinds = []
         while anna.waiting:
-            text = await Seat.next(anna)
+            text = await Session.next(anna)
             kinds += [kind for kind in ("left", "received", "battery") if f'"type":"{kind}"' in text]
         assert kinds == ["left", "received", "battery"]
 
@@ -134,11 +134,11 @@ async def test_a_person_asks_for_everybody(simulator: Simulator) -> None:
         await asyncio.sleep(READY_S + 1)
         await anna.heard()
         await bert.heard()
-        for seat, number in ((anna, 1), (bert, 2)):
-            take(ReadMessage(type="read", id=number, what="battery"), seat, here.control)
+        for session, number in ((anna, 1), (bert, 2)):
+            take(ReadMessage(type="read", id=number, what="battery"), session, here.control)
         assert await batteries(here, 0.5) == 1
-        for seat in (anna, bert):
-            kinds = [message["type"] for message in await seat.heard()]
+        for session in (anna, bert):
+            kinds = [message["type"] for message in await session.heard()]
             assert kinds == ["received", "battery", "done"]
 
 

@@ -34,7 +34,7 @@ async def start(
 async def family_after_a_start(remembered: Remembered, place: str = PLACE) -> str:
     control = await start(remembered, place=place)
     await control.board.link.close()
-    return control.board.taken_for
+    return control.board.family_id
 
 
 async def say(remembered: Remembered, *boards: str, simulated: bool = False) -> None:
@@ -65,7 +65,7 @@ async def test_an_option_goes_before_it_also_one_that_wants_the_board_asked() ->
     await say(remembered, "lsc-6")
     for board in ("doc", "unknown"):
         control = await start(remembered, board, named=True)
-        assert control.board.taken_for == board
+        assert control.board.family_id == board
         await control.board.link.close()
 
 

@@ -47,10 +47,10 @@ class Served:
         variables: Mapping[str, str] | None = None,
         pty: Pty | None = None,
         is_named: bool = True,
-        asks_board: bool = False,
+        identifies_board: bool = False,
     ) -> None:
         """On a pty of its own; whoever brings one reads it. Not `is_named`: nobody says which port. Unless it
-        `asks_board`, nothing but what a test says reaches the board.
+        `identifies_board`, nothing but what a test says reaches the board.
         """
         self.pty = pty or Pty()
         command = [*before, sys.executable, *program, "serve", "--listen", "127.0.0.1:0"]
@@ -58,7 +58,7 @@ class Served:
             [
                 *command,
                 *(["--serial", self.pty.device] if is_named else []),
-                *([] if asks_board else ["--simulated"]),
+                *([] if identifies_board else ["--simulated"]),
                 *more,
             ],
             stdin=subprocess.PIPE,
@@ -123,7 +123,9 @@ def test_the_board_is_what_it_was_last_unless_an_option_says(tmp_path: Path) -> 
     memory = {"boards": {pty.device: "lsc-6"}}
     for options, board in (((), "lsc-6"), (("--board", "unknown"), "unknown")):
         (tmp_path / FILE).write_text(json.dumps(memory))
-        served = Served(*data, "--serial", pty.device, *options, pty=pty, is_named=False, asks_board=True)
+        served = Served(
+            *data, "--serial", pty.device, *options, pty=pty, is_named=False, identifies_board=True
+        )
         served.read_until_stops(1)
         assert board_of(served) == board
         served.process.kill()

@@ -18,7 +18,7 @@ from servodeck.callers import THIS_COMPUTER
 from servodeck.errors import PortMissingError
 from servodeck.events import PROTOCOL
 from servodeck.robot.control import Control
-from servodeck.robot.hub import Seat
+from servodeck.robot.hub import Session
 from tests.client import deaf_at
 from tests.fake_port import FakePort, FakePorts
 from tests.running import Running, server_on
@@ -149,7 +149,7 @@ async def test_bytes_and_giants_end_the_connection(gateway: Running) -> None:
 async def test_a_client_that_never_reads_is_dropped_and_the_others_lose_nothing(
     port: FakePort, gateway: Running, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(connections, "FAREWELL_S", 0.1)
+    monkeypatch.setattr(connections, "CLOSE_S", 0.1)
     lazy = await deaf_at(gateway.address)
     async with connect(gateway.ws, max_queue=None) as client:
         await hear_until(client, "welcome")
@@ -205,9 +205,9 @@ class Pouring:
 
 async def test_whoever_has_much_to_say_lets_others_speak_in_between() -> None:
     pouring, control = Pouring(), Control(FakePorts(PortMissingError("")), time.monotonic, "doc")
-    seat = Seat(THIS_COMPUTER)
-    reading = asyncio.create_task(read_all(cast("WebSocket", pouring), seat, control))
-    for turn in range(5):
-        assert pouring.taken <= turn + 1
+    session = Session(THIS_COMPUTER)
+    reading = asyncio.create_task(read_all(cast("WebSocket", pouring), session, control))
+    for grant in range(5):
+        assert pouring.taken <= grant + 1
         await asyncio.sleep(0)
     reading.cancel()

@@ -55,8 +55,8 @@ async def test_stop_latches_for_everyone_until_resume() -> None:
         await control.stop()
         hold = hold_at(2000)
         assert port.packets() == [STOP, MOVE, STOP, hold, STOP, STOP, hold]
-        for seat in (anna, bert):
-            told = await seat.heard()
+        for session in (anna, bert):
+            told = await session.heard()
             assert [message["type"] for message in told] == ["state", "halted"]
             assert told[0]["latch"] is True
         for packet in (MOVE, RUN, DOWNLOAD, ERASE):
@@ -75,14 +75,14 @@ async def test_an_unknown_board_gets_questions_and_stops_and_nothing_else() -> N
     async with gateway_on(port) as control:
         anna, bert = Client(control), Client(control)
         await anna.heard(), await bert.heard()
-        control.take_for("unknown")
+        control.choose_family("unknown")
         assert [message["board"] for message in await bert.heard()] == ["unknown"]
         for packet in (MOVE, RUN, DOWNLOAD, ERASE):
             with pytest.raises(NotSupportedError):
                 anna.send(packet)
         await anna.send(BATTERY)
         await anna.send(STOP)
-        control.take_for("openarm-new")
+        control.choose_family("openarm-new")
         with pytest.raises(NotSupportedError):
             anna.send(BATTERY)
         await anna.send(MOVE)
@@ -94,12 +94,12 @@ async def test_what_waits_for_one_board_does_not_go_to_another() -> None:
     async with driven() as (control, port, anna):
         leaving, waiting = anna.send(MOVE), anna.send(ERASE)
         await asyncio.sleep(0)
-        control.take_for("lsc-6")
+        control.choose_family("lsc-6")
         await leaving
         with pytest.raises(CancelledError):
             await waiting
         with pytest.raises(OutOfRangeError):
-            control.take_for("toaster")
+            control.choose_family("toaster")
         assert port.packets() == [STOP, MOVE]
 
 
@@ -181,8 +181,8 @@ async def test_every_client_hears_every_packet_and_the_noise_between() -> None:
         await anna.heard(), await bert.heard()
         port.say(b"\x00\x01" + BATTERY_REPORT + b"\x55\x55\x04\x0f")
         await asyncio.sleep(1)
-        for seat in (anna, bert):
-            told = await seat.heard()
+        for session in (anna, bert):
+            told = await session.heard()
             assert [message for message in told if message["type"] != "battery"] == [
                 {"type": "noise", "bytes": "0001"},
                 {"type": "received", "packet": BATTERY_REPORT.hex()},

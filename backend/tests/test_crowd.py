@@ -152,7 +152,7 @@ async def crowd_at(served: Served) -> AsyncIterator[Crowd]:
 async def test_a_class_with_some_who_never_read(tmp_path: Path) -> None:
     with bus_of_pty() as (pty, bus), serving(pty, tmp_path) as served:
         async with crowd_at(served) as crowd:
-            seated, before_kib = len(crowd.readers), rss_kib(served)
+            presence_changed, before_kib = len(crowd.readers), rss_kib(served)
             for number in range(STOPS):
                 await crowd.hand.drive(DRIVES_S / STOPS)
                 await stop_by(crowd.readers[-1 - number], crowd, bus)
@@ -161,7 +161,7 @@ async def test_a_class_with_some_who_never_read(tmp_path: Path) -> None:
             await crowd.see(await crowd.hand.move(2222))
             if DRIVES_S > PING_S + PONG_S:
                 await crowd.fill()
-                assert (seated, len(crowd.readers)) == (195, READERS)
+                assert (presence_changed, len(crowd.readers)) == (195, READERS)
                 await crowd.see(await crowd.hand.move(1111))
 
 

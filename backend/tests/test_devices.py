@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from servodeck.access.devices import FILE, MAX_DEVICES, DeviceFile, Devices, NoShelf
+from servodeck.access.devices import FILE, MAX_DEVICES, DeviceFile, Devices, NoDeviceStore
 from servodeck.callers import THIS_COMPUTER, as_script
 from servodeck.errors import ForbiddenError, NotFoundError, OutOfRangeError, StorageError
 
@@ -29,7 +29,7 @@ async def test_who_was_paired_is_known_after_a_restart_and_the_file_holds_no_sec
 
 @pytest.mark.parametrize("change", [lambda c: c[:-1], lambda c: c + "x", lambda c: c.partition(".")[0] + "."])
 def test_only_the_whole_credential_counts(change: object) -> None:
-    devices = Devices(NoShelf(), lambda: 7)
+    devices = Devices(NoDeviceStore(), lambda: 7)
     _, credential = devices.admit("device", "Anna", "owner")
     assert callable(change)
     assert devices.find(change(credential)) is None
@@ -54,7 +54,7 @@ async def test_whoever_is_revoked_stays_out_after_a_restart(tmp_path: Path) -> N
 
 
 def test_the_last_owner_can_neither_go_nor_step_down_and_a_token_is_no_owner() -> None:
-    devices = Devices(NoShelf(), lambda: 7)
+    devices = Devices(NoDeviceStore(), lambda: 7)
     anna, _ = devices.admit("device", "Anna", "owner")
     devices.admit("token", "Script", "owner")
     for act in (lambda: devices.revoke(anna.id), lambda: devices.change(anna.id, None, "viewer")):
@@ -67,7 +67,7 @@ def test_the_last_owner_can_neither_go_nor_step_down_and_a_token_is_no_owner() -
 
 
 def test_a_stop_only_link_stays_one() -> None:
-    devices = Devices(NoShelf(), lambda: 7)
+    devices = Devices(NoDeviceStore(), lambda: 7)
     link, _ = devices.admit("stopLink", "On the robot", "stopper")
     with pytest.raises(ForbiddenError):
         devices.change(link.id, None, "driver")
@@ -75,7 +75,7 @@ def test_a_stop_only_link_stays_one() -> None:
 
 
 def test_there_is_an_end_to_how_many() -> None:
-    devices = Devices(NoShelf(), lambda: 7)
+    devices = Devices(NoDeviceStore(), lambda: 7)
     for number in range(MAX_DEVICES):
         devices.admit("device", str(number), "viewer")
     with pytest.raises(OutOfRangeError):
@@ -107,7 +107,7 @@ def test_a_file_that_cannot_be_read_lets_nobody_in_and_is_left_alone(tmp_path: P
 
 
 def test_whoever_is_called_like_another_gets_a_number() -> None:
-    devices = Devices(NoShelf(), lambda: 7)
+    devices = Devices(NoDeviceStore(), lambda: 7)
     long = "x" * 64
     names = [devices.admit("device", name, "viewer")[0].name for name in ("Android", "Android", long, long)]
     assert names == ["Android", "Android 2", long, "x" * 60 + " 2"]
@@ -118,7 +118,7 @@ def test_whoever_is_called_like_another_gets_a_number() -> None:
 
 
 def test_nobody_is_called_as_whoever_sits_at_the_robot() -> None:
-    devices = Devices(NoShelf(), lambda: 7)
+    devices = Devices(NoDeviceStore(), lambda: 7)
     local = (THIS_COMPUTER.name, as_script(THIS_COMPUTER).name)
     assert [devices.admit("device", name, "viewer")[0].name for name in local] == [
         "This computer 2",

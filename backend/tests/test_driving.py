@@ -9,7 +9,7 @@ from servodeck.callers import Caller
 from servodeck.errors import BusyError, ExpiredError, ForbiddenError, NotDrivingError
 from servodeck.intents import GiveMessage, ResumeMessage, StopMessage
 from servodeck.port.wire import Left
-from servodeck.robot.hub import Seat
+from servodeck.robot.hub import Session
 from tests.client import Client, driven, gateway_on
 from tests.fake_port import FakePort
 from tests.samples import (
@@ -111,7 +111,7 @@ async def test_whoever_may_hand_it_on_hears_who_comes_and_goes_and_listeners_do_
         anna = Client(control, PUPIL)
         control.driving.act(anna, "request")
         assert anna.lease["candidates"] == []
-        control.join(Seat(CARL, answers=False))
+        control.join(Session(CARL, answers=False))
         assert anna.lease["candidates"] == []
         carl, elsewhere = Client(control, CARL), Client(control, CARL)
         assert anna.lease["candidates"] == [{"id": "carl", "name": "Carl"}]

@@ -124,7 +124,7 @@ def told_ways(motion: Estimate, now: float) -> list[tuple[int, float | None, int
     """As whoever comes now is told of them."""
     return [
         (way.servo, way.start, way.target, way.begun_ms_ago, way.duration_ms)
-        for way in motion.told(now).servos
+        for way in motion.snapshot(now).servos
     ]
 
 
@@ -133,31 +133,31 @@ def test_whoever_comes_is_told_each_way_and_since_when() -> None:
         (0.0, move(0, s1=1000)), (1.0, move(1000, s1=2000)), (1.5, move(1500, s2=500)), family="lsc-6"
     )
     assert told_ways(motion, 1.25) == [(1, 1000, 2000, 250, 1000), (2, None, 500, -250, 1500)]
-    assert motion.told(1.25).run_slot is None
+    assert motion.snapshot(1.25).run_slot is None
     assert told_ways(motion, 60.0) == [(1, 1000, 2000, 59_000, 1000), (2, None, 500, 58_500, 1500)]
 
 
 def test_whoever_comes_is_told_which_servos_hands_may_turn() -> None:
     motion = told((0.0, move(0, s1=500, s2=600)), (1.0, Release((1,))), family="bus-ctrl")
     motion.heard(Positions((ServoTarget(1, 400),)), 2.0)
-    assert motion.told(2.0).released == [1]
+    assert motion.snapshot(2.0).released == [1]
     motion.left(RUN, 3.0)
-    assert motion.told(3.0).released == [1]
+    assert motion.snapshot(3.0).released == [1]
     motion.left(STOP, 4.0)
     motion.left(encode(move(1500, s1=500), DOC), 5.0)
-    assert motion.told(60.0).released == []
+    assert motion.snapshot(60.0).released == []
 
 
 def test_while_a_group_may_run_no_place_is_told_but_that_it_may() -> None:
     motion = running((0.0, Run(8, 1)))
-    assert (told_ways(motion, 1.0), motion.told(1.0).run_slot) == ([], 8)
-    assert motion.told(2.0 + END_GRACE_S).run_slot is None
+    assert (told_ways(motion, 1.0), motion.snapshot(1.0).run_slot) == ([], 8)
+    assert motion.snapshot(2.0 + END_GRACE_S).run_slot is None
 
 
 def test_a_group_begun_at_the_board_makes_every_place_unknown_until_its_end() -> None:
     motion = told((0.0, move(0, s1=1000)), family="lsc-6")
     motion.heard(RunStarted(3, 1), 5.0)
-    assert (motion.is_unknown(1, 6.0), motion.told(6.0).run_slot) == (True, 3)
+    assert (motion.is_unknown(1, 6.0), motion.snapshot(6.0).run_slot) == (True, 3)
     motion.heard(RunFinished(3), 9.0)
     assert not motion.group_may_run(9.0)
 

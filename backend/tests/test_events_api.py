@@ -150,7 +150,7 @@ async def test_whoever_is_sent_away_and_who_is_there_at_the_end_hears_the_end() 
     for is_revoked in (True, False):
         async with listening() as here:
             if is_revoked:
-                here.control.send_away(here.token_id, "Revoked.", "Olga")
+                here.control.disconnect(here.token_id, "Revoked.", "Olga")
             else:
                 here.control.hub.close()
             await asyncio.sleep(0.1)
@@ -185,7 +185,7 @@ async def test_over_a_real_socket_a_listener_who_does_not_read_is_cut() -> None:
                 while len(running.control.hub) == 0:  # noqa: ASYNC110 (nothing announces it)
                     await asyncio.sleep(0)
                 while len(running.control.hub) > 0:
-                    running.control.hub.tell_all("x" * 4096)
+                    running.control.hub.send_all("x" * 4096)
                     await asyncio.sleep(0)
                 while running.server.server_state.connections:  # noqa: ASYNC110 (nothing announces it)
                     await asyncio.sleep(0)

@@ -3,18 +3,18 @@
 from itertools import count
 
 from servodeck.callers import Caller, Role
-from servodeck.robot.hub import Hub, Seat
+from servodeck.robot.hub import Hub, Session
 
 NUMBERS = count()
 
 
 def come(hub: Hub, role: Role) -> int:
     """As many devices of that role as find a seat; how many they are."""
-    for seated in count():
+    for presence_changed in count():
         caller = Caller(str(next(NUMBERS)), "Somebody", role)
         if not hub.has_room_for(caller):
-            return seated
-        hub.join(Seat(caller))
+            return presence_changed
+        hub.join(Session(caller))
     raise AssertionError("There is always one more.")
 
 

@@ -79,10 +79,10 @@ class Here:
     def questions(self) -> list[str]:
         return [kind for kind in self.kinds() if kind in ("battery", "version", "positions")]
 
-    def refusal(self, seat: Client, packet: bytes = MOVE) -> str | None:
+    def refusal(self, session: Client, packet: bytes = MOVE) -> str | None:
         """Why that does not leave."""
         try:
-            seat.send(packet)
+            session.send(packet)
         except GatewayError as error:
             return error.code
         return None
@@ -106,7 +106,7 @@ async def asked(
         stepped,
         now,
         claim,
-        asks_board=True,
+        identifies_board=True,
         polls_battery=polls_battery,
         recalls_board=True,
         remembered=remembered,
@@ -168,7 +168,7 @@ async def test_it_is_not_taken_for_what_its_answers_rule_out_and_that_is_not_rem
         await asyncio.sleep(ASKED_S)
         here.control.name_board(THIS_COMPUTER, "lsc-6")
         assert here.link() == ("refused", "wrongBoard")
-        assert here.control.board.taken_for == UNKNOWN.id
+        assert here.control.board.family_id == UNKNOWN.id
         assert remembered.board_at(DEVICE) is None
         here.control.name_board(THIS_COMPUTER, "learm-esp32")
         assert here.link() == ("ready", None)

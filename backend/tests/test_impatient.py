@@ -215,10 +215,10 @@ async def test_what_was_to_be_said_when_that_end_comes_is_no_mistake(
 ) -> None:
     async with server_on(FakePorts(FakePort())) as gateway, connect(gateway.ws) as client:
         await hear_until(client, "welcome")
-        (seat,) = gateway.control.hub.seats
+        (session,) = gateway.control.hub.sessions
         (served,) = gateway.server.server_state.connections
         assert isinstance(served, connections.ImpatientSocket)
-        seat.put("{}")
+        session.put("{}")
         served.keepalive_timeout()
         await client.wait_closed()
     assert [record for record in caplog.records if record.levelname == "ERROR"] == []

@@ -115,7 +115,7 @@ async def test_while_it_lasts_nothing_else_goes_to_the_board_whoever_asks() -> N
         with pytest.raises(MovingError):
             begin(control, WAVE)
         with pytest.raises(MovingError):
-            control.take_for("openarm-new")
+            control.choose_family("openarm-new")
         assert (await ended(control, job)).status == "done"
         await anna.send(BATTERY)
         await anna.send(RUN_WAVE)
@@ -175,7 +175,7 @@ async def test_it_is_refused_between_the_stops_of_a_change_of_driver_and_while_t
 @in_virtual_time
 async def test_a_group_of_this_gateway_is_over_after_its_time_where_the_board_says_nothing() -> None:
     async with gateway_on(AnsweringPort(QUICK * 2)) as control:
-        control.take_for("openarm-old")
+        control.choose_family("openarm-old")
         anna = Client(control)
         await ended(control, begin(control, WAVE))
         await anna.send(encode(Run(SLOT, 2), FAMILIES["openarm-old"]))

@@ -132,7 +132,7 @@ async def test_a_slot_that_is_wanted_twice_or_another_board_is_refused_before_an
         with pytest.raises(OutOfRangeError, match="Slot 8 is wanted twice"):
             begin(control, WAVE, BOW, WAVE)
         made = [made_of(WAVE, list(packets_of(WAVE, "doc")), "doc")]
-        control.take_for("openarm-new")
+        control.choose_family("openarm-new")
         with pytest.raises(CancelledError):
             control.download(made, ANNA, lambda: None)
         assert (port.packets(), broken(control)) == ([STOP], [])

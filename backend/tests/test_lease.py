@@ -198,11 +198,11 @@ def test_what_had_to_wait_for_an_end_may_begin_as_long_as_its_driver_is_heard() 
     lease, _ = new_lease()
     lease.request("anna", 0.0)
     lease.beat("anna", lease.issue(1.0))
-    lease.judge(lease.standing("anna", 1.0 + QUIET_S), 1.0 + QUIET_S)
+    lease.judge(lease.renewed_permit("anna", 1.0 + QUIET_S), 1.0 + QUIET_S)
     with pytest.raises(ExpiredError):
-        lease.standing("anna", 1.001 + QUIET_S)
+        lease.renewed_permit("anna", 1.001 + QUIET_S)
     with pytest.raises(NotDrivingError):
-        lease.standing("bert", 1.0)
+        lease.renewed_permit("bert", 1.0)
 
 
 def test_what_waits_at_the_port_does_not_outlive_its_epoch() -> None:

@@ -64,9 +64,9 @@ async def test_a_lost_update_is_412_and_says_so(tmp_path: Path) -> None:
         assert (await client.get("/api/library/a")).json()["text"] == '{"x":2}'
 
 
-@pytest.mark.parametrize(("size", "is_aside"), [(1_000, False), (1_000_000, True)])
+@pytest.mark.parametrize(("size", "is_set_aside"), [(1_000, False), (1_000_000, True)])
 async def test_a_large_text_is_parsed_where_no_stop_waits_for_it(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, size: int, is_aside: bool
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, size: int, is_set_aside: bool
 ) -> None:
     parse, threads = json.loads, []
 
@@ -79,7 +79,7 @@ async def test_a_large_text_is_parsed_where_no_stop_waits_for_it(
         answer = await client.put("/api/library/a", json=body(json.dumps({"x": "y" * size})))
         monkeypatch.undo()
         assert answer.status_code == 200
-        assert (threads[0] is not threading.main_thread()) == is_aside
+        assert (threads[0] is not threading.main_thread()) == is_set_aside
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from servodeck.api.websocket import hear, intake_of
+from servodeck.api.websocket import intake_of, take_text
 from servodeck.callers import THIS_COMPUTER
 from servodeck.errors import GatewayError
 from servodeck.intents import PacketMessage, client_message
@@ -124,7 +124,7 @@ async def test_nothing_of_it_moves_or_breaks_anything() -> None:
             intake = intake_of(anna, control)
             texts = malformed(chance, anna.nonce)
             for _ in range(100):
-                hear(next(texts), anna, intake)
+                take_text(next(texts), anna, intake)
             intake.close()
             await asyncio.sleep(0.3)  # whatever was let through leaves
             answers = await anna.heard()

@@ -8,14 +8,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
-from servodeck.api.websocket import hear, intake_of
+from servodeck.api.websocket import intake_of, take_text
 from servodeck.callers import THIS_COMPUTER
 from servodeck.events import DoneMessage, StateMessage, encode, gateway_message, json_schema
 from servodeck.intents import MoveMessage, PacketMessage, ResumeMessage, StopMessage, Target, client_message
 from servodeck.protocol.families import FAMILIES
 from servodeck.robot.control import Control
-from servodeck.robot.hub import Seat
-from servodeck.snapshots import IdentityTold, LinkState, NoiseTold, PortState
+from servodeck.robot.hub import Session
+from servodeck.snapshots import IdentityState, LinkState, NoiseEvidence, PortState
 from tests.amount import TIMES
 from tests.fake_port import FakePort, FakePorts
 from tests.samples import BATTERY, MOVE, RUN, STOP
@@ -69,7 +69,7 @@ def test_names_on_the_wire_are_camel_case() -> None:
         board="doc",
         port=port,
         link=LinkState(status="lost", code="lost", detail="Gone."),
-        identity=IdentityTold(evidence=[NoiseTold(byte_count=3)], candidates=[]),
+        identity=IdentityState(evidence=[NoiseEvidence(byte_count=3)], candidates=[]),
         latch=True,
         latched_by="person",
         stopped_by="Anna",
@@ -173,11 +173,11 @@ async def say_while_latched(asked: list[str]) -> None:
     control = Control(FakePorts(port), now, "doc")
     await control.use_port("/dev/board")
     await control.stop()
-    seat = Seat(THIS_COMPUTER)
-    control.join(seat)
+    session = Session(THIS_COMPUTER)
+    control.join(session)
     for text in asked:
-        hear(text, seat, intake_of(seat, control))
-    answers: list[dict[str, Any]] = [json.loads(await seat.next()) for _ in range(seat.waiting)]
+        take_text(text, session, intake_of(session, control))
+    answers: list[dict[str, Any]] = [json.loads(await session.next()) for _ in range(session.waiting)]
     await control.shut_down()
     assert {answer["type"] for answer in answers} <= {"welcome", "state", "refused"}
     assert set(port.packets()) <= {STOP, BATTERY}

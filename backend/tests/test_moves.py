@@ -127,7 +127,7 @@ async def test_what_waits_leaves_together_and_a_named_time_is_the_time_of_all() 
 async def test_more_servos_than_a_packet_takes_leave_in_several() -> None:
     port = FakePort()
     async with gateway_on(port) as control:
-        control.take_for("bus-ctrl")
+        control.choose_family("bus-ctrl")
         anna = Client(control)
         control.driving.act(anna, "request")
         await ask(anna, 1500, positions=dict.fromkeys(range(1, 31), 500))

@@ -82,7 +82,7 @@ async def test_a_run_says_whether_the_board_has_taken_it() -> None:
         assert await outcome(page, run(page)) == "acknowledged"
         # The one before was ended first.
         assert port.packets() == [STOP, RUN, *STOPS, RUN]
-        control.take_for("openarm-old")
+        control.choose_family("openarm-old")
         assert await outcome(page, run(page)) == "sent"
 
 
@@ -145,7 +145,7 @@ async def test_erasing_speed_and_release_are_sent_once_and_answered() -> None:
         assert await outcome(page, erase(page)) == "acknowledged"
         assert await outcome(page, erase(page)) == "noAnswer"
         assert await outcome(page, set_speed(page)) == "notSupported"  # of such a board
-        control.take_for("bus-ctrl")
+        control.choose_family("bus-ctrl")
         assert await outcome(page, set_speed(page)) == "sent"
         assert await outcome(page, release(page)) == "sent"
         assert [packet[3] for packet in port.packets()] == [7, 8, 8, 11, 20]
@@ -159,7 +159,7 @@ async def test_what_needs_rest_is_refused_while_something_moves_or_waits(
 ) -> None:
     port = FakePort()
     async with gateway_on(port) as control:
-        control.take_for(family)
+        control.choose_family(family)
         page = driver_on(control)
         await page.send(MOVE if family == "doc" else MOVE_TO_STEP)
         assert await outcome(page, make(page)) == "busy"
@@ -177,7 +177,7 @@ async def test_nothing_of_it_leaves_without_the_lease_the_role_or_while_stopped(
 ) -> None:
     port = FakePort()
     async with gateway_on(port) as control:
-        control.take_for(family)
+        control.choose_family(family)
         viewer, other = Client(control, VIEWER), Client(control)
         page = driver_on(control)
         for client, code in ((viewer, "forbidden"), (other, "notDriving")):

@@ -182,16 +182,16 @@ async def test_everybody_says_their_own_name_and_nothing_of_theirs_ends_by_it() 
         await ben.pair(secret=secret_of((await owner.invite("driver"))["link"]), name="Android")
         device = (await ben.you())["id"]
         entered = next(one for one in entrance.devices.all if one.id == device)
-        seat, other = Client(control, entered.caller), Client(control, Caller("x", "Cleo", "viewer"))
-        control.driving.act(seat, "request")
+        session, other = Client(control, entered.caller), Client(control, Caller("x", "Cleo", "viewer"))
+        control.driving.act(session, "request")
         said = await ben.ask("PATCH", "/api/me", json={"name": "Ben"})
         assert said.json() == await ben.you() == {"id": device, "name": "Ben", "role": "driver"}
         assert other.lease["driver"] == "Ben"
         renamed = await owner.ask("PATCH", f"/api/people/{device}", json={"name": "Benno"})
         assert renamed.json()["name"] == other.lease["driver"] == "Benno"
-        assert not seat.ended.is_set()
+        assert not session.ended.is_set()
         await owner.ask("PATCH", f"/api/people/{device}", json={"role": "viewer"})
-        assert seat.ended.is_set()
+        assert session.ended.is_set()
         for wrong in ({"name": ""}, {"name": "a\nb"}, {"name": "x" * 65}, {"name": "Ben", "role": "owner"}):
             assert (await ben.ask("PATCH", "/api/me", json=wrong)).status_code == 422
 
@@ -245,10 +245,10 @@ async def test_over_http_too_only_whoever_drives_or_an_owner_resumes() -> None:
 async def test_the_list_says_who_drives() -> None:
     async with lan_with_control() as (entrance, _, owner, control):
         ben, _secret = entrance.devices.admit("device", "Ben", "driver")
-        seat = Client(control, ben.caller)
+        session = Client(control, ben.caller)
         actions: list[tuple[LeaseAction, list[str]]] = [("request", ["Ben"]), ("release", [])]
         for action, drives in actions:
-            control.driving.act(seat, action)
+            control.driving.act(session, action)
             listed = (await owner.ask("GET", "/api/people")).json()["people"]
             assert [one["name"] for one in listed if one["drives"]] == drives
 

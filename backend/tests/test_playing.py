@@ -37,15 +37,15 @@ def frame(duration_ms: int, **positions: int) -> Frame:
 WAVE = [frame(200, s1=1000), frame(300, s1=2000), frame(250, s1=1500)]
 
 
-def ask(seat: Client, frames: Sequence[Frame] = WAVE, times: int = 1, loop_from: int = 0) -> None:
+def ask(session: Client, frames: Sequence[Frame] = WAVE, times: int = 1, loop_from: int = 0) -> None:
     """As a page, with the newest nonce; its answer has id 7."""
     bodies = [
         FrameBody(duration_ms=one.duration_ms, positions={str(to.servo): to.position for to in one.targets})
         for one in frames
     ]
-    nonce = seat.nonce or "none"
+    nonce = session.nonce or "none"
     wish = PlayMessage(type="play", id=7, frames=bodies, times=times, loop_from=loop_from, nonce=nonce)
-    take(wish, seat, seat.control)
+    take(wish, session, session.control)
 
 
 def moves(port: FakePort) -> list[tuple[float, Move]]:
@@ -55,9 +55,9 @@ def moves(port: FakePort) -> list[tuple[float, Move]]:
     return [(round(at_s - of_moves[0][0], 6), move) for at_s, move in of_moves]
 
 
-async def answer(seat: Client, kind: str = "played") -> Any:
+async def answer(session: Client, kind: str = "played") -> Any:
     """The newest of that kind, or None."""
-    return next((message for message in reversed(await seat.heard()) if message["type"] == kind), None)
+    return next((message for message in reversed(await session.heard()) if message["type"] == kind), None)
 
 
 @in_virtual_time
@@ -275,7 +275,7 @@ async def is_taken_over(control: Control, _: FakePort, anna: Client) -> None:
 
 
 async def is_revoked(control: Control, _: FakePort, anna: Client) -> None:
-    control.send_away(ANNA.id, "Revoked.", "Olga")
+    control.disconnect(ANNA.id, "Revoked.", "Olga")
 
 
 async def loses_the_port(control: Control, port: FakePort, anna: Client) -> None:
@@ -288,7 +288,7 @@ async def closes_the_port(control: Control, _: FakePort, anna: Client) -> None:
 
 
 async def names_another_board(control: Control, _: FakePort, anna: Client) -> None:
-    control.take_for("openarm-old")
+    control.choose_family("openarm-old")
 
 
 async def stops_playing(control: Control, _: FakePort, anna: Client) -> None:

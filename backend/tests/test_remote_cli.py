@@ -116,7 +116,7 @@ def test_what_is_out_of_range_is_told_in_the_gateways_words(served: Served) -> N
 @pytest.mark.exhaustive
 def test_on_a_board_that_nobody_named_motion_says_how_to_name_it(tmp_path: Path) -> None:
     """Nothing answers on this port, so that the gateway cannot know either."""
-    unnamed = Served("--data", str(tmp_path), *SILENT, asks_board=True)
+    unnamed = Served("--data", str(tmp_path), *SILENT, identifies_board=True)
     try:
         refused = run("move", "1=1500", "--url", unnamed.url)
         assert (refused.exit_code, refused.stdout) == (FAILURE, "")

@@ -28,7 +28,7 @@ REVOKE, DEMOTE = "DELETE", "PATCH"
 RUN_TWICE = encode(Run(8, 2), FAMILIES["doc"])
 
 
-async def send_away(here: Scripted, how: str, **params: Any) -> None:
+async def disconnect(here: Scripted, how: str, **params: Any) -> None:
     body = {"role": "viewer"} if how == DEMOTE else None
     path = f"/api/people/{here.token_id}"
     answer = await here.client.request(how, path, json=body, params=params, headers=here.owner)
@@ -56,7 +56,7 @@ async def test_a_run_that_waits_for_a_moves_end_ends_with_whoever_asked(how: str
         await here.move(3000, s1=2000)
         waiting = begin(here.post("slots/8/run"))
         await asyncio.sleep(after_ms / 1000)
-        await send_away(here, how)
+        await disconnect(here, how)
         assert waiting.done()
         assert here.control.driving.driver is None
         await asyncio.sleep(2)
@@ -71,7 +71,7 @@ async def test_first_moves_that_wait_for_the_one_before_end_before_the_answer(ho
     async with script() as here:
         waiting = begin(here.move(1500, s1=2000, s2=2000, s3=2000))
         await asyncio.sleep(0.1)
-        await send_away(here, how)
+        await disconnect(here, how)
         assert waiting.done()
         await asyncio.sleep(2)
         assert here.sent()[0] == move(1500, s1=2000)
@@ -82,7 +82,7 @@ async def test_first_moves_that_wait_for_the_one_before_end_before_the_answer(ho
 async def test_what_was_read_before_and_asked_after_the_revocation_is_refused() -> None:
     async with script() as here:
         caller = here.entrance.devices.get(here.token_id).caller
-        await send_away(here, REVOKE)
+        await disconnect(here, REVOKE)
         with pytest.raises(NotPairedError):
             scripts_of(here).act(caller, "request")
         assert here.control.driving.driver is None
@@ -95,7 +95,7 @@ async def test_a_page_drops_its_packets_and_is_not_heard_before_the_answer(how: 
         page = Client(here.control, here.entrance.devices.get(here.token_id).caller)
         await page.send(move(1500, s1=2000))
         waiting = [page.send(move(1500, s1=1000 + each)) for each in range(3)]
-        await send_away(here, how)
+        await disconnect(here, how)
         assert here.control.driving.driver is None
         take(LeaseMessage(type="lease", action="request"), page, here.control)
         assert here.control.driving.driver is None
@@ -116,7 +116,7 @@ async def test_every_loss_of_the_lease_raises_the_epoch(how: str) -> None:
         elif how == "silence":
             await asyncio.sleep(60)
         else:
-            await send_away(here, how)
+            await disconnect(here, how)
         assert here.control.driving.driver is None
         assert here.control.driving.epoch == before + 1
 
@@ -131,8 +131,8 @@ async def test_a_group_that_they_let_go_on_is_stopped_in_the_owners_name(how: st
         await here.post("slots/8/run", times=2, continueForMs=60_000)
         await asyncio.sleep(after_s)
         assert await unattended_slot(here) == 8
-        await send_away(here, how)
-        assert here.control.board.unattended.told() is None
+        await disconnect(here, how)
+        assert here.control.board.unattended.snapshot() is None
         await asyncio.sleep(1)
         assert here.sent() == [RUN_TWICE, *STOPS]
         assert (here.control.latch, (await latest_state(anna))["stoppedBy"]) == (True, "Olga")
@@ -145,7 +145,7 @@ async def test_the_owner_may_let_that_group_go_on(after_s: float) -> None:
         anna = Client(here.control, ANNA)
         await here.post("slots/8/run", times=2, continueForMs=60_000)
         await asyncio.sleep(after_s)
-        await send_away(here, REVOKE, groupGoesOn=True)
+        await disconnect(here, REVOKE, groupGoesOn=True)
         await asyncio.sleep(40)
         assert here.sent() == [RUN_TWICE]
         assert (await latest_state(anna))["unattended"]["by"] == "Dance"
@@ -157,7 +157,7 @@ async def test_the_owner_may_let_that_group_go_on(after_s: float) -> None:
 async def test_a_group_that_nobody_let_go_on_is_stopped_whatever_the_owner_says() -> None:
     async with script() as here:
         await here.post("slots/8/run", times=2)
-        await send_away(here, REVOKE, groupGoesOn=True)
+        await disconnect(here, REVOKE, groupGoesOn=True)
         await asyncio.sleep(1)
         assert here.sent() == [RUN_TWICE, *STOPS]
 
@@ -173,7 +173,7 @@ async def test_the_group_of_whoever_may_still_drive_goes_on_under_the_new_role()
         await asyncio.sleep(1)
         assert here.sent() == [RUN_TWICE]
         assert (await unattended_slot(here)) == 8
-        await send_away(here, REVOKE)
+        await disconnect(here, REVOKE)
         await asyncio.sleep(1)
         assert here.sent() == [RUN_TWICE, *STOPS]
 
@@ -213,7 +213,7 @@ async def test_their_download_ends_before_the_answer_and_its_slot_is_broken(how:
         assert begun.status_code == 202
         await asyncio.sleep(0.3)
         assert stored_by(here.port) == [(8, 0), (8, 1), (8, 2)]
-        await send_away(here, how)
+        await disconnect(here, how)
         found = here.control.board.jobs.find(begun.json()["id"])
         assert (found.status, found.code) == ("cancelled", "cancelled")
         state = await latest_state(anna)
@@ -227,7 +227,7 @@ async def test_of_their_groups_the_stored_ones_stay_and_those_behind_are_not_beg
     async with script(behind=AnsweringPort(ANSWERS_MS * 3)) as here:
         await here.post("download", groups=[{**STORES, "slot": slot} for slot in (8, 3, 200)])
         await asyncio.sleep(0.4)
-        await send_away(here, REVOKE)
+        await disconnect(here, REVOKE)
         board = here.control.board
         assert (board.broken_slots, list(board.slot_versions)) == ([3], ["8"])
         await asyncio.sleep(10)
@@ -264,8 +264,8 @@ async def unattended_slot(here: Scripted) -> object:
     return next(one["unattendedSlot"] for one in listed if one["id"] == here.token_id)
 
 
-async def latest_state(seat: Client) -> Any:
-    return next(told for told in reversed(await seat.heard()) if "unattended" in told)
+async def latest_state(session: Client) -> Any:
+    return next(told for told in reversed(await session.heard()) if "unattended" in told)
 
 
 @in_virtual_time

@@ -144,7 +144,7 @@ class History:
         self.parties = {name: self._admit(name) for name in NAMES}
         self._senders: dict[tuple[str, int], str] = {}
         # How much the port had been given when that sender was gone.
-        self._gone_behind: dict[str, int] = {}
+        self._gone_after: dict[str, int] = {}
         self._losses: list[asyncio.Task[None]] = []
 
     def _admit(self, name: str) -> Party:
@@ -219,7 +219,7 @@ class History:
         party.asked.append(asyncio.create_task(asking))
 
     def _gone(self, sender: str) -> None:
-        self._gone_behind.setdefault(sender, len(self.here.port.written))
+        self._gone_after.setdefault(sender, len(self.here.port.written))
 
     async def _send_away(self, party: Party, what: What) -> None:
         path, control = f"/api/people/{party.caller.id}", self.here.control
@@ -241,7 +241,7 @@ class History:
         await asyncio.sleep(8)
         for index, packet in enumerate(self.here.port.packets()):
             sender = self._sender_of(parse_command(packet))
-            behind = self._gone_behind.get(sender or "")
+            behind = self._gone_after.get(sender or "")
             assert behind is None or index < behind, f"{sender} was gone, and {packet.hex()} left"
 
     def _sender_of(self, command: Command | None) -> str | None:

@@ -5,14 +5,14 @@ import json
 
 import pytest
 
-from servodeck.api.websocket import hear, intake_of
+from servodeck.api.websocket import intake_of, take_text
 from servodeck.callers import Caller
 from servodeck.errors import OutOfRangeError
 from servodeck.protocol.packets import parse_command
 from servodeck.protocol.values import Frame, ServoTarget
 from servodeck.robot.board.packet_rules import Group
 from servodeck.robot.control import Control
-from servodeck.robot.hub import Seat
+from servodeck.robot.hub import Session
 from servodeck.snapshots import ServoLimits
 from tests.client import Client, gateway_on
 from tests.downloading import begin
@@ -26,8 +26,8 @@ PUPIL, OTHER_PUPIL = Caller("anna", "Anna", "driver"), Caller("bert", "Bert", "d
 REFUSAL = "Elbow (servo 1): position is 2000, allowed 600..1800"
 
 
-def say(control: Control, seat: Seat, **message: object) -> None:
-    hear(json.dumps(message), seat, intake_of(seat, control))
+def say(control: Control, session: Session, **message: object) -> None:
+    take_text(json.dumps(message), session, intake_of(session, control))
 
 
 @in_virtual_time
@@ -103,9 +103,9 @@ async def test_who_does_not_drive_names_no_board_for_whoever_does() -> None:
         await bert.heard()
         say(control, bert, type="board", id=1, board="lsc-6")
         told = await bert.heard()
-        assert control.board.taken_for == "doc"
+        assert control.board.family_id == "doc"
         assert [message["code"] for message in told if message["type"] == "refused"] == ["notDriving"]
         say(control, bert, type="board", id=1, board="doc")  # what it is taken for already
         assert "done" in [message["type"] for message in await bert.heard()]
         say(control, anna, type="board", id=1, board="lsc-6")
-        assert control.board.taken_for == "lsc-6"
+        assert control.board.family_id == "lsc-6"

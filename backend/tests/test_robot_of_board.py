@@ -29,7 +29,7 @@ def arm(*limits: ServoLimits, board: str = "doc") -> RobotFacts:
     return RobotFacts(kind="robot", name="Arm", board=board, updated_at_ms=0, limits=list(limits), poses=[])
 
 
-class Shelf:
+class DeviceStore:
     """What the library holds; `slow` holds every answer back."""
 
     def __init__(self, **robots: tuple[RobotFacts, int]) -> None:
@@ -45,13 +45,13 @@ class Shelf:
             raise NotFoundError("The library does not hold that.") from None
 
 
-def gateway_at(shelf: Shelf, remembered: Remembered | None = None, *ports: FakePort) -> Control:
+def gateway_at(store: DeviceStore, remembered: Remembered | None = None, *ports: FakePort) -> Control:
     return Control(
         FakePorts(*(ports or (FakePort(),))),
         time.monotonic,
         "doc",
         remembered=remembered,
-        read_robot=shelf.read,
+        read_robot=store.read,
     )
 
 
@@ -60,7 +60,7 @@ async def robots_told(client: Client) -> list[Any]:
 
 
 async def test_whoever_joins_is_told_the_robot_and_its_limits_hold_for_all() -> None:
-    control = gateway_at(Shelf(arm=(arm(ELBOW), 3)))
+    control = gateway_at(DeviceStore(arm=(arm(ELBOW), 3)))
     await control.use_port(PLACE)
     anna = Client(control)
     await anna.heard()
@@ -74,7 +74,7 @@ async def test_whoever_joins_is_told_the_robot_and_its_limits_hold_for_all() -> 
 
 
 async def test_an_edit_counts_at_once_and_an_older_answer_does_not() -> None:
-    control = gateway_at(Shelf(arm=(arm(ELBOW), 3)))
+    control = gateway_at(DeviceStore(arm=(arm(ELBOW), 3)))
     await control.use_port(PLACE)
     await control.robot.put("arm", None)
     anna = Client(control)
@@ -93,8 +93,8 @@ async def test_an_edit_counts_at_once_and_an_older_answer_does_not() -> None:
 
 
 async def test_only_the_robot_that_is_known_to_stand_there_is_replaced_and_by_one_that_fits() -> None:
-    shelf = Shelf(arm=(arm(), 1), hand=(arm(), 1), bus=(arm(board="lsc-6"), 1))
-    control = gateway_at(shelf, None, FakePort(), FakePort())
+    store = DeviceStore(arm=(arm(), 1), hand=(arm(), 1), bus=(arm(board="lsc-6"), 1))
+    control = gateway_at(store, None, FakePort(), FakePort())
     with pytest.raises(ConflictError):
         await control.robot.put("arm", None)  # no board
     await control.use_port(PLACE)
@@ -105,38 +105,38 @@ async def test_only_the_robot_that_is_known_to_stand_there_is_replaced_and_by_on
     with pytest.raises(ConflictError):
         await control.robot.put("hand", None)
     await control.robot.put("hand", "arm")
-    assert control.robot.told() is not None
-    control.take_for("lsc-6")
-    assert control.robot.told() is None
-    control.take_for("doc")
-    told = control.robot.told()
+    assert control.robot.snapshot() is not None
+    control.choose_family("lsc-6")
+    assert control.robot.snapshot() is None
+    control.choose_family("doc")
+    told = control.robot.snapshot()
     assert told is not None
     assert told.id == "hand"
     await control.use_port("/dev/other")
-    assert control.robot.told() is None
+    assert control.robot.snapshot() is None
     await control.close_port()
 
 
 async def test_after_a_restart_it_stands_there_again_and_until_its_limits_are_read_nothing_moves(
     tmp_path: Path,
 ) -> None:
-    shelf = Shelf(arm=(arm(ELBOW), 2))
-    control = gateway_at(shelf, Remembered(tmp_path))
+    store = DeviceStore(arm=(arm(ELBOW), 2))
+    control = gateway_at(store, Remembered(tmp_path))
     await control.use_port(PLACE)
     await control.robot.put("arm", None)
     await control.board.link.close()
 
-    shelf.slow.clear()
-    control = gateway_at(shelf, Remembered(tmp_path))
+    store.slow.clear()
+    control = gateway_at(store, Remembered(tmp_path))
     await control.use_port(PLACE)
-    told = control.robot.told()
+    told = control.robot.snapshot()
     assert told is not None
     assert (told.id, told.revision) == ("arm", 0)
     anna = Client(control)
     for packet in (MOVE, MOVE_ELSEWHERE):
         with pytest.raises(MovingError):
             anna.send(packet)
-    shelf.slow.set()
+    store.slow.set()
     assert await next_robot(anna) == {"id": "arm", "revision": 2}
     with pytest.raises(OutOfRangeError):
         anna.send(MOVE)
@@ -154,12 +154,12 @@ async def next_robot(client: Client) -> Any:
 async def test_a_robot_that_cannot_be_read_holds_nothing_up() -> None:
     remembered = Remembered()
     remembered.remember_robot(f"doc {PLACE}", "gone")
-    shelf = Shelf()
-    shelf.slow.clear()
-    control = gateway_at(shelf, remembered)
+    store = DeviceStore()
+    store.slow.clear()
+    control = gateway_at(store, remembered)
     await control.use_port(PLACE)
     anna = Client(control)
-    shelf.slow.set()
+    store.slow.set()
     assert await next_robot(anna) is None
     await anna.send(MOVE)
     await control.board.link.close()
@@ -180,7 +180,7 @@ def test_what_is_remembered_is_there_again_and_damage_is_nothing(tmp_path: Path)
 
 
 async def test_while_somebody_drives_only_they_and_owners_rule() -> None:
-    control = gateway_at(Shelf())
+    control = gateway_at(DeviceStore())
     await control.use_port(PLACE)
     anna = Client(control, PUPIL)
     bert = Caller("bert", "Bert", "driver")

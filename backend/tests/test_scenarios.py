@@ -55,7 +55,7 @@ class Player:
         self._control = control
         self._port = port
         self._scripts = Scripts(control, lambda _caller: True)
-        self._seat = Listener(control)
+        self._session = Listener(control)
         self._tasks: list[asyncio.Task[None]] = []
 
     def take(self, event: Event) -> None:
@@ -69,7 +69,7 @@ class Player:
         """Somebody is there as long as it is played: a group ends with whoever began it."""
         while True:
             await asyncio.sleep(1)
-            if self._control.driving.driver not in (None, self._seat):
+            if self._control.driving.driver not in (None, self._session):
                 self._scripts.act(ANNA, "beat")
 
     def leaves(self) -> list[tuple[float, str]]:
@@ -80,7 +80,7 @@ class Player:
         """Each field when it has changed."""
         known: dict[str, Any] = {}
         changes = []
-        for at_s, message in self._seat.told:
+        for at_s, message in self._session.told:
             told = fields_of(message)
             new = {field: value for field, value in told.items() if known.get(field, ...) != value}
             known |= new
@@ -106,7 +106,7 @@ class Player:
             case {"type": "stop"}:
                 await control.stop()
             case {"type": "resume"}:
-                control.resume(ANNA, self._seat)
+                control.resume(ANNA, self._session)
             case {"type": "readBattery"}:
                 await control.board.battery.read()
             case {"type": "board", "family": family}:
@@ -121,8 +121,8 @@ class Player:
 
     def _move(self, targets: list[ServoTarget], duration_ms: int) -> None:
         if self._control.driving.driver is None:
-            self._control.driving.act(self._seat, "request")
-        self._control.move(self._seat, targets, duration_ms, self._seat.nonce)
+            self._control.driving.act(self._session, "request")
+        self._control.move(self._session, targets, duration_ms, self._session.nonce)
 
     async def _run(self, slot: int, times: int) -> None:
         if await self._scripts.run(ANNA, slot, times, take=False) == "silent":
@@ -134,12 +134,12 @@ class Player:
         self._control.board.jobs.cancel(job.id)
 
     async def _download(self, groups: list[Group]) -> str:
-        jobs, family = self._control.board.jobs, self._control.board.taken_for
+        jobs, family = self._control.board.jobs, self._control.board.family_id
         parts = [made_of(group, list(packets_of(group, family)), family) for group in groups]
         job = self._control.download(parts, ANNA, lambda: None)
         while (state := jobs.find(job.id)).status == "running":
-            self._seat.told_something.clear()
-            await self._seat.told_something.wait()
+            self._session.told_something.clear()
+            await self._session.told_something.wait()
         return str(state.code or state.status)
 
     async def _play_or_stop(self, intent: Event) -> None:
@@ -149,10 +149,10 @@ class Player:
             return
         assert intent["type"] == "play", f"the gateway is not asked for {intent} here"
         if self._control.driving.driver is None:
-            self._control.driving.act(self._seat, "request")
+            self._control.driving.act(self._session, "request")
         group = FrameGroup(frames_of(intent), intent["times"], intent["loopFrom"])
         ended: asyncio.Future[PlayState] = asyncio.get_running_loop().create_future()
-        self._control.play(self._seat, group, self._seat.nonce, ended.set_result)
+        self._control.play(self._session, group, self._session.nonce, ended.set_result)
         await ended
 
     def _ms(self, at_s: float) -> float:
@@ -195,7 +195,7 @@ def is_like(events: list[tuple[Any, ...]], expected: list[tuple[Any, ...]]) -> N
 async def test_what_comes_of_it_is_what_is_written(scenario: Event) -> None:
     port, events = FakePort(), scenario["events"]
     identifies = scenario.get("identifies", False)
-    control = Control(FakePorts(port), now, scenario["family"], asks_board=identifies)
+    control = Control(FakePorts(port), now, scenario["family"], identifies_board=identifies)
     await control.use_port(DEVICE)
     if not identifies:
         await asyncio.sleep(OPEN_FOR_S)

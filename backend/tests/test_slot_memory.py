@@ -38,7 +38,7 @@ def test_what_is_known_outlives_the_gateway_for_its_own_board(tmp_path: Path) ->
         memory.breaks("/dev/a", 9)
         memory.breaks("/dev/b", 7)
         memory.store("/dev/a", 9, "v1", "Wave", "w", "Anna")
-        await memory.kept()
+        await memory.saved()
 
     asyncio.run(work())
     again = SlotMemory(tmp_path)
@@ -68,14 +68,14 @@ async def test_it_is_on_disk_before_the_first_byte_leaves_and_a_disk_that_takes_
     tmp_path: Path,
 ) -> None:
     (tmp_path / "file").touch()
-    for folder, kept in ((tmp_path / "new", [SLOT]), (tmp_path / "file", [])):
+    for folder, saved in ((tmp_path / "new", [SLOT]), (tmp_path / "file", [])):
         port = FakePort()
         loop = asyncio.get_running_loop()
         control = Control(FakePorts(port), loop.time, "doc", slot_memory=SlotMemory(folder))
         await control.use_port("/dev/board")
         begin(control, group("v1"))
         await port.until_written(2)
-        assert SlotMemory(folder).broken("/dev/board") == kept
+        assert SlotMemory(folder).broken("/dev/board") == saved
         assert control.board.broken_slots == [SLOT]
         await control.shut_down()
 

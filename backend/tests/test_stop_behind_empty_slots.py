@@ -37,10 +37,10 @@ Press = Callable[[Scripted], Awaitable[Unheld]]
 class Page:
     def __init__(self, here: Scripted) -> None:
         self._here = here
-        self._seat = Client(here.control, OLGA)
+        self._session = Client(here.control, OLGA)
 
     async def send(self, command: Command) -> None:
-        await self._seat.send(encode(command, self._here.control.board.family))
+        await self._session.send(encode(command, self._here.control.board.family))
 
     async def move(self, position: int, duration_ms: int) -> None:
         await self.send(Move(duration_ms, (ServoTarget(1, position),)))
@@ -72,10 +72,10 @@ async def press_over_http(here: Scripted) -> Unheld:
 
 
 async def press_on_a_page(here: Scripted) -> Unheld:
-    seat = Client(here.control, GUEST)
-    take(StopMessage(type="stop"), seat, here.control)
+    session = Client(here.control, GUEST)
+    take(StopMessage(type="stop"), session, here.control)
     await asyncio.sleep(0.3)
-    [halted] = [message for message in await seat.heard() if message["type"] == "halted"]
+    [halted] = [message for message in await session.heard() if message["type"] == "halted"]
     unheld: Unheld = halted["unheld"]
     return unheld
 

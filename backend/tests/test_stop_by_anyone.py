@@ -6,7 +6,7 @@ import random
 import pytest
 
 from servodeck.api.intake import Intake
-from servodeck.api.websocket import hear, intake_of, take
+from servodeck.api.websocket import intake_of, take, take_text
 from servodeck.callers import THIS_COMPUTER, Caller
 from servodeck.errors import GatewayError, LatchedError, PortLostError
 from servodeck.intents import StopMessage
@@ -74,7 +74,7 @@ async def stop_in_flood(chance: random.Random) -> None:
         ]
         await asyncio.sleep(chance.uniform(0, 0.25))
         pressed_s, before = now(), len(port.written)
-        hear('{"type":"stop"}', bert, intakes[0])
+        take_text('{"type":"stop"}', bert, intakes[0])
         await asyncio.sleep(0.6)
         first_s, first = port.written[before]
         assert first == STOP
@@ -91,7 +91,7 @@ async def shout(client: Client, intake: Intake, from_s: float) -> None:
     """Questions, which anybody may ask, far more than the rate and the wire take."""
     await asyncio.sleep(from_s)
     for number in range(SAID_EACH):
-        hear(f'{{"type":"packet","id":{number},"bytes":"{BATTERY.hex()}","nonce":null}}', client, intake)
+        take_text(f'{{"type":"packet","id":{number},"bytes":"{BATTERY.hex()}","nonce":null}}', client, intake)
 
 
 FILLER_HEAD = b"\x00\xfd"

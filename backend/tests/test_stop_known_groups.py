@@ -29,8 +29,8 @@ async def over_http(here: Scripted) -> None:
 
 def on_a_page(caller: Caller) -> Door:
     async def stop(here: Scripted) -> None:
-        seat = Client(here.control, caller)
-        take(StopMessage(type="stop"), seat, here.control)
+        session = Client(here.control, caller)
+        take(StopMessage(type="stop"), session, here.control)
         await asyncio.sleep(0.3)
 
     return stop

@@ -74,4 +74,4 @@ async def test_whatever_scripts_ask_it_ends_by_itself_and_the_lease_is_free() ->
                 await asyncio.sleep(5 + 5 + 2 + 0.5)
                 assert here.control.driving.driver is None
                 assert not here.control.board.may_move()
-                assert here.control.board.unattended.told() is None
+                assert here.control.board.unattended.snapshot() is None

@@ -3,7 +3,7 @@
 import asyncio
 from collections.abc import Callable
 
-from servodeck.access.rates import Turns
+from servodeck.access.rates import RequestQueue
 from servodeck.rate import Rate
 from tests.virtual_time import in_virtual_time, now
 
@@ -26,8 +26,8 @@ class Caller:
             lost()
 
 
-def turns_of_two_and_one_a_second() -> Turns:
-    return Turns(Rate(1, 2, now))
+def turns_of_two_and_one_a_second() -> RequestQueue:
+    return RequestQueue(Rate(1, 2, now))
 
 
 @in_virtual_time

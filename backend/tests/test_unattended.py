@@ -27,9 +27,11 @@ async def begin(control: Control, for_ms: int = 60_000) -> Client:
     return anna
 
 
-async def told(seat: Client) -> object:
+async def told(session: Client) -> object:
     """The newest word about it."""
-    return next(message["unattended"] for message in reversed(await seat.heard()) if "unattended" in message)
+    return next(
+        message["unattended"] for message in reversed(await session.heard()) if "unattended" in message
+    )
 
 
 @in_virtual_time
@@ -143,13 +145,13 @@ async def test_only_what_runs_may_go_on_and_only_its_driver_says_so() -> None:
     async with gateway_on() as control:
         anna, carl = Client(control, ANNA), Client(control)
         with pytest.raises(NotDrivingError):
-            control.let_go_on(anna, 60_000)
+            control.allow_unattended(anna, 60_000)
         await anna.send(MOVE)
         with pytest.raises(CancelledError):
-            control.let_go_on(anna, 60_000)
+            control.allow_unattended(anna, 60_000)
         await anna.send(RUN)
         with pytest.raises(NotDrivingError):
-            control.let_go_on(carl, 60_000)
+            control.allow_unattended(carl, 60_000)
 
 
 @in_virtual_time

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from servodeck.access import connections
 from servodeck.access.connections import MOST, MOST_OF_ONE, Unauthenticated
 from servodeck.api.process import WANTED
-from servodeck.robot.hub import SEATS
+from servodeck.robot.hub import SESSIONS_AT_MOST
 from tests.amount import TIMES
 
 FEW, FEW_OF_ONE = 5, 3
@@ -61,4 +61,4 @@ def test_the_least_used_of_one_address_ends_first_else_that_of_all(steps: list[t
 
 def test_all_of_them_and_every_seat_leave_descriptors_for_a_stop() -> None:
     assert MOST_OF_ONE < MOST
-    assert MOST + max(SEATS.values()) <= WANTED / 2
+    assert MOST + max(SESSIONS_AT_MOST.values()) <= WANTED / 2

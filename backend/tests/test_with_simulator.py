@@ -139,7 +139,7 @@ def test_without_a_page_and_without_an_option_the_command_line_finds_out_which_b
 ) -> None:
     for start in ("the first", "the next"):
         place = ("--serial", str(board.link), "--data", str(tmp_path / "data"))
-        served = Served(*place, pty=Pty(), is_named=False, asks_board=True)
+        served = Served(*place, pty=Pty(), is_named=False, identifies_board=True)
         at = ("--url", served.url)
         if start == "the first":
             refused = run("move", "1=500", *at)

@@ -76,7 +76,7 @@ MOST_WAITING = 600
 PING_S = 10.0
 PONG_S = 10.0
 # For the words of the end to arrive.
-FAREWELL_S = 2.0
+CLOSE_S = 2.0
 
 EXTENSION = "servodeck.connection"
 HEAD_REFUSED = b"""{"code":"tooLarge","detail":"The head of a request is at most 32 KiB and 100 headers."}"""
@@ -126,7 +126,7 @@ class Losable:
         else:
             self._lost = lost
 
-    def _tell_lost(self) -> None:
+    def _notify_lost(self) -> None:
         self._is_lost = True
         if self._lost:
             self._lost()
@@ -155,7 +155,7 @@ class ImpatientProtocol(Losable, HttpToolsProtocol):
     def connection_lost(self, exc: Exception | None) -> None:
         self._end_in(None)
         self._shared.unauthenticated.remove(self.transport)
-        self._tell_lost()
+        self._notify_lost()
         if self._answered:  # uvicorn looks at the request that came last, which may wait for its turn
             self._answered.disconnected = True
             self._answered.message_event.set()
@@ -288,7 +288,7 @@ class ImpatientSocket(Losable, WebSocketsSansIOProtocol):
 
     def connection_lost(self, exc: Exception | None) -> None:
         self._unauthenticated.remove(self.transport)
-        self._tell_lost()
+        self._notify_lost()
         if self._end:  # it would keep all of this in memory until then
             self._end.cancel()
         super().connection_lost(exc)
@@ -314,4 +314,4 @@ class ImpatientSocket(Losable, WebSocketsSansIOProtocol):
         self.scope["extensions"] = {**(self.scope["extensions"] or {}), EXTENSION: {"connection": self}}
         await super().run_asgi()
         if not self.disconnected:
-            self._end = self.loop.call_later(FAREWELL_S, self.transport.abort)
+            self._end = self.loop.call_later(CLOSE_S, self.transport.abort)

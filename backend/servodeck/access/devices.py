@@ -42,14 +42,14 @@ class Device:
         return Caller(self.id, self.name, self.role)
 
 
-class Shelf(Protocol):
+class DeviceStore(Protocol):
     def load(self) -> list[Device]: ...
 
     def save(self, devices: Callable[[], list[Device]]) -> None:
         """In place of what was there. May be called from any thread. Raises a StorageError."""
 
 
-class NoShelf:
+class NoDeviceStore:
     """Where nobody needs to be paired."""
 
     def load(self) -> list[Device]:
@@ -60,11 +60,11 @@ class NoShelf:
 
 
 class Devices:
-    def __init__(self, shelf: Shelf, now_ms: Callable[[], int]) -> None:
+    def __init__(self, store: DeviceStore, now_ms: Callable[[], int]) -> None:
         """Raises a StorageError where the shelf cannot be read: nobody shall come in by an old list."""
-        self._shelf = shelf
+        self._store = store
         self._now_ms = now_ms
-        self._devices = {one.id: one for one in shelf.load()}
+        self._devices = {one.id: one for one in store.load()}
 
     @property
     def all(self) -> list[Device]:
@@ -75,7 +75,7 @@ class Devices:
         if len(self._devices) >= MAX_DEVICES:
             raise OutOfRangeError(f"{MAX_DEVICES} devices are paired and no more can be. Revoke some.")
         secret = make_secret()
-        device = Device(make_id(), kind, self._told_apart(name), role, digest_of(secret), self._now_ms())
+        device = Device(make_id(), kind, self._unique_name(name), role, digest_of(secret), self._now_ms())
         self._put(device)
         return device, f"{device.id}.{secret}"
 
@@ -95,7 +95,7 @@ class Devices:
             if present.kind == "stopLink":
                 raise ForbiddenError("A stop-only link can only stop.")
             self._keep_an_owner(present)
-        own = self._told_apart(name, present) if name else present.name
+        own = self._unique_name(name, present) if name else present.name
         changed = replace(present, name=own, role=role or present.role)
         self._put(changed)
         return changed
@@ -107,11 +107,11 @@ class Devices:
 
     async def keep(self) -> None:
         """Writes what holds now. Raises a StorageError; in memory it holds all the same."""
-        await in_thread(lambda: self._shelf.save(lambda: self.all))
+        await in_thread(lambda: self._store.save(lambda: self.all))
 
     def close(self) -> None:
         """Writes when each was last seen. Raises a StorageError."""
-        self._shelf.save(lambda: self.all)
+        self._store.save(lambda: self.all)
 
     def get(self, device: str) -> Device:
         found = self._devices.get(device)
@@ -124,7 +124,7 @@ class Devices:
         found = self._devices.get(device)
         return found.role if found else None
 
-    def _told_apart(self, name: str, but: Device | None = None) -> str:
+    def _unique_name(self, name: str, but: Device | None = None) -> str:
         """With a number behind it where somebody else is called so: a class has more than one Android. Who
         comes in is never called as whoever sits at the gateway's computer.
         """

@@ -45,7 +45,7 @@ class Entrance:
         if caller is not THIS_COMPUTER:
             self._rates.take(self.devices.get(caller.id))
 
-    def come_in(self, invite: Invite, name: str, present: Caller | None) -> tuple[Caller, str | None]:
+    def accept_invite(self, invite: Invite, name: str, present: Caller | None) -> tuple[Caller, str | None]:
         """Uses the invitation up: who they are from now on, and their new credential. Whoever may do as much
         already stays who they are, and the invitation stays open for somebody else; whoever may less keeps
         their name.

@@ -71,7 +71,7 @@ def judge_body_size(headers: Headers, limit: int) -> None:
         raise TooLargeError(f"The request is larger than {limit} bytes.")
 
 
-def asks_for_socket(headers: Headers) -> bool:
+def is_upgrade(headers: Headers) -> bool:
     return any(name == b"upgrade" and value.lower() == b"websocket" for name, value in headers)
 
 

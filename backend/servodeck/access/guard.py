@@ -15,8 +15,8 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from servodeck.access.connections import connection_of
 from servodeck.access.entrance import Entrance
-from servodeck.access.gate import asks_for_socket, judge_body_size, judge_body_type, judge_handshake
-from servodeck.access.rates import Turns
+from servodeck.access.gate import is_upgrade, judge_body_size, judge_body_type, judge_handshake
+from servodeck.access.rates import RequestQueue
 from servodeck.errors import GatewayError, NotPairedError
 from servodeck.rate import Rate
 
@@ -30,7 +30,7 @@ def log_refusal(scope: Scope, error: GatewayError) -> None:
     client = scope.get("client")
     facts = {
         "from": client[0] if client else None,
-        "type": "websocket" if asks_for_socket(scope["headers"]) else scope["type"],
+        "type": "websocket" if is_upgrade(scope["headers"]) else scope["type"],
         "path": scope["path"][:MAX_CHARACTERS],
         "code": error.code,
         "reason": error.detail[:MAX_CHARACTERS],
@@ -71,13 +71,13 @@ class Guard:
         self.app = app
         self._entrance = entrance
         self._access = entrance.access
-        self._turns = Turns(Rate(*OF_UNKNOWN, time.monotonic))
+        self._queue_of_unknown = RequestQueue(Rate(*OF_UNKNOWN, time.monotonic))
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         if scope["type"] == "lifespan":
             return await self.app(scope, receive, send)
         own_address = scope["server"][0] if scope.get("server") else None
-        upgrades = asks_for_socket(scope["headers"])
+        upgrades = is_upgrade(scope["headers"])
         try:
             host = judge_handshake(scope["headers"], self._access, own_address)
             if scope["type"] == "http":
@@ -87,7 +87,7 @@ class Guard:
             if upgrades and not is_known:
                 raise NotPairedError("This device is not paired with the gateway.")
         except GatewayError as error:
-            if not await self._turn_of_unknown(scope):
+            if not await self._wait_of_unknown(scope):
                 return None
             log_refusal(scope, error)
             # The Host is not to be trusted here, so it does not appear in the policy.
@@ -95,7 +95,7 @@ class Guard:
             if upgrades:  # nobody reads what follows it
                 refusal.headers["Connection"] = "close"
             return await refusal(scope, receive, with_headers(send, "'self'"))
-        if not is_known and not await self._turn_of_unknown(scope):
+        if not is_known and not await self._wait_of_unknown(scope):
             return None
         limited = limit_body(receive, body_bytes(scope["path"])) if scope["type"] == "http" else receive
         socket = f"{'wss' if self._access.is_secure else 'ws'}://{host}"
@@ -109,10 +109,10 @@ class Guard:
         except GatewayError:
             return False
 
-    async def _turn_of_unknown(self, scope: Scope) -> bool:
+    async def _wait_of_unknown(self, scope: Scope) -> bool:
         """False where nobody hears an answer any more."""
         connection = connection_of(scope)
-        return connection is None or await self._turns.wait(connection)
+        return connection is None or await self._queue_of_unknown.wait(connection)
 
 
 def with_headers(send: Send, socket: str) -> Send:

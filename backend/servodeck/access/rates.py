@@ -21,7 +21,7 @@ class Connection(Protocol):
         """Once, and at once where it is lost already."""
 
 
-class Turns:
+class RequestQueue:
     def __init__(self, rate: Rate) -> None:
         self._rate = rate
         # The one that came first comes first.
@@ -32,16 +32,16 @@ class Turns:
         """In the order in which they came; false where it was lost before."""
         if not self._waiting and self._rate.take():
             return True
-        turn: asyncio.Future[bool] = asyncio.get_running_loop().create_future()
-        self._waiting[connection] = turn
+        place: asyncio.Future[bool] = asyncio.get_running_loop().create_future()
+        self._waiting[connection] = place
         connection.when_lost(lambda: self._give(connection, is_there=False))
         self._call_later()
-        return await turn
+        return await place
 
     def _give(self, connection: Connection, *, is_there: bool) -> None:
-        turn = self._waiting.pop(connection, None)
-        if turn is not None and not turn.done():
-            turn.set_result(is_there)
+        place = self._waiting.pop(connection, None)
+        if place is not None and not place.done():
+            place.set_result(is_there)
 
     def _call_later(self) -> None:
         if self._waiting and self._timer is None:

@@ -21,7 +21,7 @@ from servodeck.api.robot import Controlled, routes
 from servodeck.callers import Caller
 from servodeck.errors import BusyError
 from servodeck.robot.control import Control
-from servodeck.robot.hub import Seat
+from servodeck.robot.hub import Session
 
 # A line that says nothing: whoever is gone is found out, and nothing between closes a stream for its silence.
 SILENCE_S = 15.0
@@ -41,25 +41,25 @@ class EventStream(Response):
         super().__init__()
         self._name = secrets.token_hex(4)
         self._last_id = last_id
-        self._seat = Seat(caller, answers=False)
+        self._session = Session(caller, answers=False)
         self._control = control
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        self._control.join(self._seat)
+        self._control.join(self._session)
         tasks = [
             asyncio.create_task(self._write_all(send)),
             asyncio.create_task(until_gone(receive)),
-            asyncio.create_task(self._seat.ended.wait()),
+            asyncio.create_task(self._session.ended.wait()),
         ]
         try:
             done, _ = await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
             for task in done:
                 task.result()
         finally:
-            self._control.leave(self._seat)
+            self._control.leave(self._session)
             for task in tasks:
                 task.cancel()
-        if self._seat.farewell:
+        if self._session.close_reason:
             await end(scope, send)
 
     async def _write_all(self, send: Send) -> None:
@@ -77,7 +77,7 @@ class EventStream(Response):
         """None where nothing happens for a while."""
         with contextlib.suppress(TimeoutError):
             async with asyncio.timeout(SILENCE_S):
-                return await self._seat.next()
+                return await self._session.next()
         return None
 
 

@@ -80,7 +80,7 @@ async def download(
     """
     control.board.judge_known()
     groups = [await body.group() for body in wish.groups]
-    parts = await parts_of(groups, control.board.taken_for)
+    parts = await parts_of(groups, control.board.family_id)
     nonce = wish.nonce
     if nonce is None:
         return scripts.download(caller, parts, wish.behind, take=wish.take)

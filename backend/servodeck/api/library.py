@@ -51,13 +51,13 @@ def robots_in(library: Library) -> ReadFacts:
     return read
 
 
-Kept = Annotated[Library, Depends(library_of)]
+OfLibrary = Annotated[Library, Depends(library_of)]
 IdInPath = Annotated[str, Path(pattern=r"^[A-Za-z0-9-]{1,64}$")]
 library_api = routes("/api/library", "library")
 
 
 @library_api.get("", dependencies=[VIEWER])
-def list_documents(library: Kept) -> LibraryListing:
+def list_documents(library: OfLibrary) -> LibraryListing:
     """Every document, those in the trash too."""
     documents = [
         ListedDocument(
@@ -72,20 +72,20 @@ def list_documents(library: Kept) -> LibraryListing:
 
 
 @library_api.post("/remove", status_code=204, dependencies=[OWNER])
-async def remove(documents: DocumentIds, library: Kept, control: Controlled) -> None:
+async def remove(documents: DocumentIds, library: OfLibrary, control: Controlled) -> None:
     """Puts them into the trash for 30 days: all or none."""
     await run_in_threadpool(library.remove, documents.ids)
     control.robot.removed(documents.ids)
 
 
 @library_api.post("/restore", status_code=204, dependencies=[DRIVER])
-def restore(documents: DocumentIds, library: Kept) -> None:
+def restore(documents: DocumentIds, library: OfLibrary) -> None:
     """Takes them out of the trash: all or none."""
     library.restore(documents.ids)
 
 
 @library_api.get("/{document}", dependencies=[VIEWER])
-def read(document: IdInPath, library: Kept) -> StoredDocument:
+def read(document: IdInPath, library: OfLibrary) -> StoredDocument:
     """The text of a document, also of one in the trash."""
     text, revision = library.read(document)
     return StoredDocument(text=text, revision=revision)
@@ -95,7 +95,7 @@ def read(document: IdInPath, library: Kept) -> StoredDocument:
 async def write(
     document: IdInPath,
     wanted: DocumentWrite,
-    library: Kept,
+    library: OfLibrary,
     control: Controlled,
     caller: Annotated[Caller, DRIVER],
 ) -> DocumentWritten:
@@ -133,26 +133,26 @@ def keep(document: str, wanted: DocumentWrite, library: Library, caller: Caller)
 
 
 @library_api.get("/{document}/versions", dependencies=[VIEWER])
-def list_versions(document: IdInPath, library: Kept) -> list[ListedVersion]:
+def list_versions(document: IdInPath, library: OfLibrary) -> list[ListedVersion]:
     """Its named versions, oldest first."""
     return [ListedVersion(id=one.id, name=one.name, at_ms=one.at_ms) for one in library.versions(document)]
 
 
 @library_api.get("/{document}/versions/{version}", dependencies=[VIEWER])
-def read_version(document: IdInPath, version: IdInPath, library: Kept) -> VersionText:
+def read_version(document: IdInPath, version: IdInPath, library: OfLibrary) -> VersionText:
     """The text that was kept under that version's name."""
     return VersionText(text=library.read_version(document, version))
 
 
 @library_api.put("/{document}/versions/{version}", status_code=204, dependencies=[DRIVER])
-def keep_version(document: IdInPath, version: IdInPath, wanted: VersionWrite, library: Kept) -> None:
+def keep_version(document: IdInPath, version: IdInPath, wanted: VersionWrite, library: OfLibrary) -> None:
     """Keeps a text beside the document under a name."""
     check_document(wanted.text)
     library.keep_version(document, Version(version, wanted.name, wanted.at_ms), wanted.text)
 
 
 @library_api.delete("/{document}/versions/{version}", status_code=204, dependencies=[DRIVER])
-def remove_version(document: IdInPath, version: IdInPath, library: Kept) -> None:
+def remove_version(document: IdInPath, version: IdInPath, library: OfLibrary) -> None:
     """That version goes for good; the document and its other versions stay."""
     library.remove_version(document, version)
 

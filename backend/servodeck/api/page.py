@@ -32,7 +32,7 @@ METHODS = ("GET", "HEAD")
 
 
 @dataclass(frozen=True)
-class Kept:
+class CachedFile:
     body: bytes
     etag: str
 
@@ -44,7 +44,7 @@ class Page:
         self._version: tuple[int, ...] | None = None
         # What there is, and of that what was asked for, by its path in the folder.
         self._files: dict[str, Path] = {}
-        self._kept: dict[str, Kept] = {}
+        self._cached: dict[str, CachedFile] = {}
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         if scope["method"] not in METHODS:
@@ -58,7 +58,7 @@ class Page:
         version = version_of(self._index)
         if version != self._version:
             self._files = {} if version is None else await in_thread(lambda: files_in(self._folder))
-            self._kept = {}
+            self._cached = {}
             self._version = version
 
     async def _answer(self, path: str, asked: Headers) -> Response:
@@ -66,28 +66,28 @@ class Page:
             return PlainTextResponse(NOT_BUILT, 503)
         coded = {name: path + suffix for name, suffix in ENCODINGS.items() if path + suffix in self._files}
         encoding = next((name for name in taken(asked.get("accept-encoding", "")) if name in coded), None)
-        kept = await self._read(path if encoding is None else coded[encoding])
+        cached = await self._read(path if encoding is None else coded[encoding])
         headers = {
-            "ETag": kept.etag,
+            "ETag": cached.etag,
             "Cache-Control": FOR_EVER if path.startswith(HASHED_FOLDER) else ASK_AGAIN,
         }
         if coded:
             headers["Vary"] = "Accept-Encoding"
-        if kept.etag in asked.get("if-none-match", "").replace("W/", "").split(", "):
+        if cached.etag in asked.get("if-none-match", "").replace("W/", "").split(", "):
             return Response(None, 304, headers)
         if encoding is not None:
             headers["Content-Encoding"] = encoding
-        return Response(kept.body, 200, headers, media_type=guess_type(path)[0])
+        return Response(cached.body, 200, headers, media_type=guess_type(path)[0])
 
-    async def _read(self, path: str) -> Kept:
-        here = self._kept  # the page may be built again meanwhile
+    async def _read(self, path: str) -> CachedFile:
+        here = self._cached  # the page may be built again meanwhile
         if path not in here:
             try:
                 body = await in_thread(self._files[path].read_bytes)
             except (KeyError, FileNotFoundError):
                 raise HTTPException(404) from None
             # Never of size and time: an upgrade may leave them as they were.
-            here[path] = Kept(body, f'"{hashlib.blake2s(body).hexdigest()}"')
+            here[path] = CachedFile(body, f'"{hashlib.blake2s(body).hexdigest()}"')
         return here[path]
 
 

@@ -83,7 +83,7 @@ async def rename_me(
 def spread_name(device: Device, control: Control) -> None:
     """Nothing of theirs ends by it: whoever drives goes on under the new one."""
     control.hub.rename(device.id, device.name)
-    control.driving.tell_all()
+    control.driving.send_states()
 
 
 @people_api.post("/pair", dependencies=[Depends(called_by_browser)])
@@ -95,10 +95,10 @@ async def pair(
     scripts: Scripted,
 ) -> You:
     """Comes in by a link, a code or a stop-only link, for a cookie; whoever may do as much keeps theirs."""
-    caller, credential = come_in(wish, entrance, present)
+    caller, credential = accept_invite(wish, entrance, present)
     if present and not entrance.still_lets_in(present):
         reason = "This device was paired again."
-        await scripts.send_away(present.id, reason, caller.name, group_goes_on=True)
+        await scripts.disconnect(present.id, reason, caller.name, group_goes_on=True)
     if credential:
         access = entrance.access
         response.set_cookie(
@@ -115,14 +115,14 @@ async def pair(
     return you_of(caller)
 
 
-def come_in(wish: PairWish, entrance: Entrance, present: Caller | None) -> tuple[Caller, str | None]:
+def accept_invite(wish: PairWish, entrance: Entrance, present: Caller | None) -> tuple[Caller, str | None]:
     if wish.stop is not None:
         device = entrance.stop_link(wish.stop)
         return (present, None) if present else (device.caller, wish.stop)
     if wish.secret is not None:
-        return entrance.come_in(entrance.pairing.find_by_link(wish.secret), wish.name, present)
+        return entrance.accept_invite(entrance.pairing.find_by_link(wish.secret), wish.name, present)
     if wish.code is not None:
-        return entrance.come_in(entrance.pairing.find_by_code(wish.code), wish.name, present)
+        return entrance.accept_invite(entrance.pairing.find_by_code(wish.code), wish.name, present)
     raise MalformedError("Nothing to pair with: a link's secret, a code or a stop-only link is needed.")
 
 
@@ -138,7 +138,7 @@ async def people(entrance: Entered, control: Controlled) -> People:
 
 def person_of(device: Device, control: Control) -> Person:
     driver, unattended = control.driving.driver, control.board.unattended
-    own = unattended.told() if is_of(unattended.by, device.id) else None
+    own = unattended.snapshot() if is_of(unattended.by, device.id) else None
     return Person(
         id=device.id,
         kind=device.kind,
@@ -170,7 +170,7 @@ async def change(
         spread_name(changed, control)
     else:
         reason, still_drives = "Your role is another one now.", changed.caller.may("driver")
-        await scripts.send_away(person, reason, by.name, still_drives=still_drives)
+        await scripts.disconnect(person, reason, by.name, still_drives=still_drives)
     await entrance.devices.keep()
     return person_of(changed, control)
 
@@ -188,7 +188,7 @@ async def revoke(
     """
     entrance.devices.revoke(person)
     reason = "This device is not paired any more."
-    await scripts.send_away(person, reason, by.name, group_goes_on=group_goes_on)
+    await scripts.disconnect(person, reason, by.name, group_goes_on=group_goes_on)
     await entrance.devices.keep()
 
 

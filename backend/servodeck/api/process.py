@@ -34,7 +34,7 @@ class Pulse:
             self._each_beat()
 
 
-def tell(state: str) -> None:
+def notify_systemd(state: str) -> None:
     """`READY=1`, `WATCHDOG=1`, `STOPPING=1`."""
     address = os.environ.get("NOTIFY_SOCKET", "")
     if not address or not hasattr(socket, "AF_UNIX"):
@@ -51,7 +51,7 @@ def sign_of_life() -> Callable[[], None]:
     """To be called at each beat of the event loop: systemd starts us anew when it stays away."""
     is_awaited = os.environ.get("WATCHDOG_PID", str(os.getpid())) == str(os.getpid())
     if "WATCHDOG_USEC" in os.environ and is_awaited:
-        return lambda: tell("WATCHDOG=1")
+        return lambda: notify_systemd("WATCHDOG=1")
     return lambda: None
 
 

@@ -27,7 +27,7 @@ from servodeck.robot.control import Control
 from servodeck.robot.driving import name_of
 from servodeck.robot.latch import Cause
 from servodeck.schema import Message
-from servodeck.snapshots import IdentityTold, LinkState, PlayState, PortState, UnattendedRun, UnheldServos
+from servodeck.snapshots import IdentityState, LinkState, PlayState, PortState, UnattendedRun, UnheldServos
 from servodeck.threads import in_thread
 
 
@@ -60,7 +60,7 @@ class Status(Message):
     board: str
     port: PortState
     link: LinkState
-    identity: IdentityTold
+    identity: IdentityState
     latch: bool
     clients: int
     battery: BatteryAge | None
@@ -155,7 +155,7 @@ async def status(control: Controlled) -> Status:
     """How everything stands now."""
     return Status(
         version=__version__,
-        board=control.board.taken_for,
+        board=control.board.family_id,
         port=control.board.port,
         link=control.board.link_state,
         identity=control.board.identity,
@@ -165,7 +165,7 @@ async def status(control: Controlled) -> Status:
         driver=name_of(control.driving.driver),
         running=running_in(control),
         play=control.board.plays.latest,
-        unattended=control.board.unattended.told(),
+        unattended=control.board.unattended.snapshot(),
     )
 
 
@@ -213,7 +213,7 @@ async def use_port(choice: PortChoice, control: Controlled) -> PortState:
     await control.use_port(choice.device, choice.board)
     found = await in_thread(list_devices)
     control.remembered.remember_port(lasting_of(choice.device, found))
-    await control.remembered.kept()
+    await control.remembered.saved()
     return control.board.port
 
 
@@ -222,7 +222,7 @@ async def close_port(control: Controlled) -> PortState:
     """Closes the port and leaves it closed, also after the next start."""
     await control.close_port()
     control.remembered.remember_port(None)
-    await control.remembered.kept()
+    await control.remembered.saved()
     return control.board.port
 
 

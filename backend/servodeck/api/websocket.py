@@ -46,7 +46,7 @@ from servodeck.protocol.values import ServoTarget
 from servodeck.rate import Rate
 from servodeck.robot.board.playing import FrameGroup
 from servodeck.robot.control import Control
-from servodeck.robot.hub import AGAINST_THE_RULES, Seat
+from servodeck.robot.hub import AGAINST_THE_RULES, Session
 from servodeck.robot.latch import Cause
 from servodeck.robot.operations import PageClaim
 from servodeck.snapshots import Outcome, PlayState
@@ -88,16 +88,18 @@ async def serve_client(socket: WebSocket, caller: Caller, control: Control) -> N
         return
     if not control.hub.has_room_for(caller):
         raise BusyError("All seats are taken: close another window or stream.")
-    seat = Seat(caller)
-    control.join(seat)  # before anything is waited for: whoever is revoked now is found
+    session = Session(caller)
+    control.join(session)  # before anything is waited for: whoever is revoked now is found
     try:
         await socket.accept()
-        await serve_seat(socket, seat, control)
+        await serve_session(socket, session, control)
     finally:
-        control.leave(seat)
-    if seat.farewell:
+        control.leave(session)
+    if session.close_reason:
         with contextlib.suppress(TimeoutError, WebSocketDisconnect, RuntimeError):
-            await asyncio.wait_for(socket.close(seat.farewell.code, seat.farewell.reason), CLOSE_WAIT_S)
+            await asyncio.wait_for(
+                socket.close(session.close_reason.code, session.close_reason.reason), CLOSE_WAIT_S
+            )
 
 
 def is_outdated(socket: WebSocket) -> bool:
@@ -105,12 +107,12 @@ def is_outdated(socket: WebSocket) -> bool:
     return "origin" in socket.headers and socket.query_params.get("protocol") != str(PROTOCOL)
 
 
-async def serve_seat(socket: WebSocket, seat: Seat, control: Control) -> None:
+async def serve_session(socket: WebSocket, session: Session, control: Control) -> None:
     """Until the client leaves, breaks the rules, is sent away or stops reading."""
     tasks = [
-        asyncio.create_task(read_all(socket, seat, control)),
-        asyncio.create_task(write_all(socket, seat)),
-        asyncio.create_task(seat.ended.wait()),
+        asyncio.create_task(read_all(socket, session, control)),
+        asyncio.create_task(write_all(socket, session)),
+        asyncio.create_task(session.ended.wait()),
     ]
     try:
         done, _ = await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
@@ -121,28 +123,32 @@ async def serve_seat(socket: WebSocket, seat: Seat, control: Control) -> None:
             task.cancel()
 
 
-async def read_all(socket: WebSocket, seat: Seat, control: Control) -> None:
-    intake = intake_of(seat, control)
+async def read_all(socket: WebSocket, session: Session, control: Control) -> None:
+    intake = intake_of(session, control)
     try:
-        while (event := await socket.receive())["type"] != "websocket.disconnect" and not seat.ended.is_set():
+        while (event := await socket.receive())[
+            "type"
+        ] != "websocket.disconnect" and not session.ended.is_set():
             text = event.get("text")
             if text is None:
                 await socket.close(UNSUPPORTED_DATA, "Text only.")
                 return
-            hear(text, seat, intake)
+            take_text(text, session, intake)
             # What has come already is given without a pause: others' turn, a STOP may be among theirs.
             await asyncio.sleep(0)
     finally:
         intake.close()
 
 
-def intake_of(seat: Seat, control: Control) -> Intake:
+def intake_of(session: Session, control: Control) -> Intake:
     return Intake(
-        rate_of(seat.caller, control.now),
-        take=lambda message: take(message, seat, control),
+        rate_of(session.caller, control.now),
+        take=lambda message: take(message, session, control),
         merged=merged,
-        replaced=lambda message: refuse(seat, id_of(message), BusyError("A newer message took its place.")),
-        overrun=lambda: seat.end(AGAINST_THE_RULES, "Too many messages."),
+        replaced=lambda message: refuse(
+            session, id_of(message), BusyError("A newer message took its place.")
+        ),
+        overrun=lambda: session.end(AGAINST_THE_RULES, "Too many messages."),
     )
 
 
@@ -150,13 +156,13 @@ def rate_of(caller: Caller, now: Callable[[], float]) -> Rate:
     return Rate(*(DRIVER_RATE if caller.may("driver") else VIEWER_RATE), now)
 
 
-def hear(text: str, seat: Seat, intake: Intake) -> None:
+def take_text(text: str, session: Session, intake: Intake) -> None:
     """Whatever it says, the worst outcomes are a `refused` and, for too many, the end."""
     try:
         message = client_message.validate_json(text)
     except ValidationError as error:
         if intake.count():
-            refuse(seat, None, MalformedError(first_problem(error)))
+            refuse(session, None, MalformedError(first_problem(error)))
         return
     if isinstance(message, StopMessage):
         intake.take_at_once(message)
@@ -182,171 +188,171 @@ def merged(before: AnyClientMessage, message: AnyClientMessage) -> AnyClientMess
     return message.model_copy(update={"targets": list(newest.values())})
 
 
-async def write_all(socket: WebSocket, seat: Seat) -> None:
+async def write_all(socket: WebSocket, session: Session) -> None:
     with contextlib.suppress(WebSocketDisconnect):
         while True:
-            await socket.send_text(await seat.next())
+            await socket.send_text(await session.next())
 
 
-def take(message: AnyClientMessage, seat: Seat, control: Control) -> None:
+def take(message: AnyClientMessage, session: Session, control: Control) -> None:
     """Acts on one message of somebody who is here and may send it. A stop is never too late."""
-    if seat.ended.is_set() and not isinstance(message, StopMessage):
+    if session.ended.is_set() and not isinstance(message, StopMessage):
         return
-    with refusing(seat, id_of(message)):
-        seat.caller.require(ROLES.get(type(message), "owner"))
-        ACTS[type(message)](message, seat, control)
+    with refusing(session, id_of(message)):
+        session.caller.require(ROLES.get(type(message), "owner"))
+        ACTS[type(message)](message, session, control)
 
 
-def take_move(message: MoveMessage, seat: Seat, control: Control) -> None:
-    with refusing(seat, message.id):
-        left = control.move(seat, targets_of(message.targets), message.duration_ms, message.nonce)
-        left.add_done_callback(lambda left: answer_move(seat, message.id, left))
+def take_move(message: MoveMessage, session: Session, control: Control) -> None:
+    with refusing(session, message.id):
+        left = control.move(session, targets_of(message.targets), message.duration_ms, message.nonce)
+        left.add_done_callback(lambda left: answer_move(session, message.id, left))
 
 
 def targets_of(targets: Sequence[Target]) -> list[ServoTarget]:
     return [ServoTarget(target.servo, target.position) for target in targets]
 
 
-def answer_move(seat: Seat, message_id: int, left: Left) -> None:
+def answer_move(session: Session, message_id: int, left: Left) -> None:
     """`left` tells what has left."""
-    with refusing(seat, message_id):
+    with refusing(session, message_id):
         left.result()
 
 
-def take_play(message: PlayMessage, seat: Seat, control: Control) -> None:
+def take_play(message: PlayMessage, session: Session, control: Control) -> None:
     frames = [body.frame() for body in message.frames]
     group = FrameGroup(frames, message.times, message.loop_from)
-    with refusing(seat, message.id):
-        play(group, message.id, message.nonce, seat, control)
+    with refusing(session, message.id):
+        play(group, message.id, message.nonce, session, control)
 
 
-def play(group: FrameGroup, message_id: int, nonce: str, seat: Seat, control: Control) -> PlayState:
+def play(group: FrameGroup, message_id: int, nonce: str, session: Session, control: Control) -> PlayState:
     """Raises what keeps it from beginning. Whoever asked hears how it ended."""
     return control.play(
-        seat, group, nonce, lambda state: seat.put(encode(PlayedMessage(id=message_id, play=state)))
+        session, group, nonce, lambda state: session.put(encode(PlayedMessage(id=message_id, play=state)))
     )
 
 
-def take_packet(message: PacketMessage, seat: Seat, control: Control) -> None:
-    with refusing(seat, message.id):
-        left = control.send(seat, message.bytes, message.nonce)
-        left.add_done_callback(lambda left: answer(seat, message.id, left))
+def take_packet(message: PacketMessage, session: Session, control: Control) -> None:
+    with refusing(session, message.id):
+        left = control.send(session, message.bytes, message.nonce)
+        left.add_done_callback(lambda left: answer(session, message.id, left))
 
 
-def take_run(message: RunMessage, seat: Seat, control: Control) -> None:
-    claim = PageClaim(control, seat, message.nonce)
-    perform(seat, message.id, control.operations.run(claim, message.slot, message.times))
+def take_run(message: RunMessage, session: Session, control: Control) -> None:
+    claim = PageClaim(control, session, message.nonce)
+    perform(session, message.id, control.operations.run(claim, message.slot, message.times))
 
 
-def take_erase(message: EraseMessage, seat: Seat, control: Control) -> None:
-    perform(seat, message.id, control.operations.erase(PageClaim(control, seat, message.nonce)))
+def take_erase(message: EraseMessage, session: Session, control: Control) -> None:
+    perform(session, message.id, control.operations.erase(PageClaim(control, session, message.nonce)))
 
 
-def take_set_speed(message: SetSpeedMessage, seat: Seat, control: Control) -> None:
-    claim = PageClaim(control, seat, message.nonce)
-    perform(seat, message.id, control.operations.set_speed(claim, message.slot, message.percent))
+def take_set_speed(message: SetSpeedMessage, session: Session, control: Control) -> None:
+    claim = PageClaim(control, session, message.nonce)
+    perform(session, message.id, control.operations.set_speed(claim, message.slot, message.percent))
 
 
-def take_release(message: ReleaseMessage, seat: Seat, control: Control) -> None:
-    claim = PageClaim(control, seat, message.nonce)
-    perform(seat, message.id, control.operations.release(claim, message.servos))
+def take_release(message: ReleaseMessage, session: Session, control: Control) -> None:
+    claim = PageClaim(control, session, message.nonce)
+    perform(session, message.id, control.operations.release(claim, message.servos))
 
 
-def perform(seat: Seat, message_id: int, work: Coroutine[Any, Any, Outcome]) -> None:
+def perform(session: Session, message_id: int, work: Coroutine[Any, Any, Outcome]) -> None:
     async def answered() -> None:
-        with refusing(seat, message_id):
-            seat.put(encode(DoneMessage(id=message_id, outcome=await work)))
+        with refusing(session, message_id):
+            session.put(encode(DoneMessage(id=message_id, outcome=await work)))
 
-    seat.begin(answered())
+    session.begin(answered())
 
 
 @contextlib.contextmanager
-def telling(seat: Seat, control: Control) -> Iterator[None]:
+def answering_with_lease(session: Session, control: Control) -> Iterator[None]:
     """How the lease stands says why not; a `refused` without an id is a stop's."""
     try:
         yield
     except GatewayError:
-        control.driving.tell(seat)
+        control.driving.send_state(session)
 
 
-def take_stop(message: StopMessage, seat: Seat, control: Control) -> None:
-    with refusing(seat, None):
-        control.stop(Cause(message.why, seat.caller.name))
+def take_stop(message: StopMessage, session: Session, control: Control) -> None:
+    with refusing(session, None):
+        control.stop(Cause(message.why, session.caller.name))
 
 
-def let_go_on(message: ContinueMessage, seat: Seat, control: Control) -> None:
+def allow_unattended(message: ContinueMessage, session: Session, control: Control) -> None:
     with contextlib.suppress(GatewayError):  # how it stands says so: a `refused` without id is a stop's
-        control.let_go_on(seat, message.for_ms)
+        control.allow_unattended(session, message.for_ms)
 
 
-def act_on_lease(message: LeaseMessage, seat: Seat, control: Control) -> None:
-    with telling(seat, control):
-        control.driving.act(seat, message.action)
+def act_on_lease(message: LeaseMessage, session: Session, control: Control) -> None:
+    with answering_with_lease(session, control):
+        control.driving.act(session, message.action)
 
 
-def give(message: GiveMessage, seat: Seat, control: Control) -> None:
-    with telling(seat, control):
-        control.driving.give(seat, message.to)
+def give(message: GiveMessage, session: Session, control: Control) -> None:
+    with answering_with_lease(session, control):
+        control.driving.give(session, message.to)
 
 
-def name_board(message: BoardMessage, seat: Seat, control: Control) -> None:
-    control.name_board(seat.caller, message.board)
-    seat.put(encode(DoneMessage(id=message.id)))
+def name_board(message: BoardMessage, session: Session, control: Control) -> None:
+    control.name_board(session.caller, message.board)
+    session.put(encode(DoneMessage(id=message.id)))
 
 
-def read(message: ReadMessage, seat: Seat, control: Control) -> None:
+def read(message: ReadMessage, session: Session, control: Control) -> None:
     reading = asyncio.create_task(control.board.battery.read())
-    reading.add_done_callback(lambda read: answer_read(seat, message.id, read))
+    reading.add_done_callback(lambda read: answer_read(session, message.id, read))
 
 
-def answer_read(seat: Seat, message_id: int, reading: asyncio.Task[int]) -> None:
-    with refusing(seat, message_id):
+def answer_read(session: Session, message_id: int, reading: asyncio.Task[int]) -> None:
+    with refusing(session, message_id):
         reading.result()
-        seat.put(encode(DoneMessage(id=message_id)))
+        session.put(encode(DoneMessage(id=message_id)))
 
 
-ACTS: dict[type[AnyClientMessage], Callable[[Any, Seat, Control], None]] = {
+ACTS: dict[type[AnyClientMessage], Callable[[Any, Session, Control], None]] = {
     MoveMessage: take_move,
     PlayMessage: take_play,
-    StopPlayingMessage: lambda _, _seat, control: control.stop_playing(),
+    StopPlayingMessage: lambda _, _session, control: control.stop_playing(),
     RunMessage: take_run,
-    StopGroupMessage: lambda message, seat, control: perform(
-        seat, message.id, control.operations.end_group(seat)
+    StopGroupMessage: lambda message, session, control: perform(
+        session, message.id, control.operations.end_group(session)
     ),
     EraseMessage: take_erase,
     SetSpeedMessage: take_set_speed,
     ReleaseMessage: take_release,
     PacketMessage: take_packet,
     StopMessage: take_stop,
-    ResumeMessage: lambda _, seat, control: control.resume(seat.caller, seat),
+    ResumeMessage: lambda _, session, control: control.resume(session.caller, session),
     BoardMessage: name_board,
     ReadMessage: read,
-    CalibrateMessage: lambda message, seat, control: control.limits.calibrate(seat, message.servo),
+    CalibrateMessage: lambda message, session, control: control.limits.calibrate(session, message.servo),
     LeaseMessage: act_on_lease,
     GiveMessage: give,
-    ContinueMessage: let_go_on,
-    BeatMessage: lambda message, seat, control: control.driving.beat(seat, message.nonce),
+    ContinueMessage: allow_unattended,
+    BeatMessage: lambda message, session, control: control.driving.beat(session, message.nonce),
 }
 
 
-def answer(seat: Seat, message_id: int, left: Left) -> None:
-    with refusing(seat, message_id):
+def answer(session: Session, message_id: int, left: Left) -> None:
+    with refusing(session, message_id):
         left.result()
-        seat.put(encode(DoneMessage(id=message_id, outcome="sent")))
+        session.put(encode(DoneMessage(id=message_id, outcome="sent")))
 
 
 @contextlib.contextmanager
-def refusing(seat: Seat, message_id: int | None) -> Iterator[None]:
+def refusing(session: Session, message_id: int | None) -> Iterator[None]:
     """Turns a GatewayError into a `refused` for that seat."""
     try:
         yield
     except GatewayError as error:
-        refuse(seat, message_id, error)
+        refuse(session, message_id, error)
 
 
-def refuse(seat: Seat, message_id: int | None, error: GatewayError) -> None:
+def refuse(session: Session, message_id: int | None, error: GatewayError) -> None:
     metrics.refused.labels(error.code).inc()
-    seat.put(encode(RefusedMessage(id=message_id, code=error.code, detail=error.detail)))
+    session.put(encode(RefusedMessage(id=message_id, code=error.code, detail=error.detail)))
 
 
 def first_problem(error: ValidationError) -> str:

@@ -34,7 +34,7 @@ BEAT_S = 1.0
 LONGEST_ALONE_S = 3600
 # How long the end of a group is waited for where nobody said: until its computed end and a little more, or
 # where only the board could tell.
-BEHIND_ITS_END_S = 2.0
+AFTER_END_S = 2.0
 UNKNOWN_END_S = 30.0
 # Servos of unknown place start a quarter of a second apart.
 MOVE_WAIT_S = 90.0
@@ -180,7 +180,7 @@ def watch(remote: Remote, limit_s: float | None) -> float | None:
 
 
 def usual_limit_s(ends_in_ms: int | None) -> float:
-    return UNKNOWN_END_S if ends_in_ms is None else ends_in_ms / 1000 + BEHIND_ITS_END_S
+    return UNKNOWN_END_S if ends_in_ms is None else ends_in_ms / 1000 + AFTER_END_S
 
 
 def let_go(remote: Remote) -> None:

@@ -40,7 +40,7 @@ def download(
     as_json: AsJson = False,
 ) -> None:
     """Store groups on the board, one after the other. The gateway goes on by itself; Ctrl-C calls it off."""
-    job = handed_over(remote, [group_of(text) for text in groups], take=take)
+    job = delivered(remote, [group_of(text) for text in groups], take=take)
     if wait:
         job = followed(remote, job, tells=not as_json)
     show(job, as_json, download_words)
@@ -48,7 +48,7 @@ def download(
         raise typer.Exit(FAILURE)
 
 
-def handed_over(remote: Remote, groups: list[dict[str, Any]], *, take: bool) -> dict[str, Any]:
+def delivered(remote: Remote, groups: list[dict[str, Any]], *, take: bool) -> dict[str, Any]:
     """As one job, in as many requests as the gateway needs to read them."""
     first, *rest = portions_of(groups)
     when_asked(remote)

@@ -96,7 +96,7 @@ def show(answer: Any, as_json: bool, words: Callable[[Any], str]) -> None:
 
 
 # As long as a board may take that has just started.
-ASKED_WITHIN_S = 10.0
+IDENTIFIED_WITHIN_S = 10.0
 RETRY_S = 0.1
 QUESTIONS = {"readBattery": "battery", "readVersion": "version", "readPositions": "position of servo 1"}
 
@@ -118,7 +118,7 @@ def board(
 
 def when_asked(remote: Remote) -> dict[str, Any]:
     """How everything stands once the gateway does not ask the board who it is."""
-    until_s = time.monotonic() + ASKED_WITHIN_S
+    until_s = time.monotonic() + IDENTIFIED_WITHIN_S
     while True:
         state: dict[str, Any] = asked(remote, "GET", "/api/status")
         if state["link"]["status"] != "identifying" or time.monotonic() > until_s:

@@ -168,7 +168,7 @@ def serve(
         remembered=remembered,
         recalls_board=recalls_board,
         # A simulated one is what its starter says.
-        asks_board=not simulated,
+        identifies_board=not simulated,
         polls_battery=True,
         read_robot=robots_in(library),
     )
@@ -207,14 +207,14 @@ def serve(
 
 def entrance_to(where: "Access", folder: Path) -> "Entrance":
     """Ends the program with an explanation where nobody can tell who is paired."""
-    from servodeck.access.devices import DeviceFile, Devices, NoShelf
+    from servodeck.access.devices import DeviceFile, Devices, NoDeviceStore
     from servodeck.access.entrance import Entrance
     from servodeck.errors import StorageError
     from servodeck.library.library import wall_clock_ms
 
     try:
-        shelf = DeviceFile(folder) if where.needs_pairing else NoShelf()
-        return Entrance(where, Devices(shelf, wall_clock_ms), time.monotonic)
+        store = DeviceFile(folder) if where.needs_pairing else NoDeviceStore()
+        return Entrance(where, Devices(store, wall_clock_ms), time.monotonic)
     except StorageError as error:
         fail(error.detail)
 

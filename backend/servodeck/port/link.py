@@ -183,8 +183,8 @@ class Link:
 
 def log_change(before: PortState, now: PortState) -> None:
     """The same failure again is no news."""
-    is_news = (now.status, now.code) != (before.status, before.code)
-    level = (logging.WARNING if now.status == "lost" else logging.INFO) if is_news else logging.DEBUG
+    is_change = (now.status, now.code) != (before.status, before.code)
+    level = (logging.WARNING if now.status == "lost" else logging.INFO) if is_change else logging.DEBUG
     facts = {"device": now.device or before.device, "code": now.code, "detail": now.detail}
     log.log(level, "port %s", now.status, extra={"facts": facts})
 

@@ -9,7 +9,7 @@ from servodeck.protocol.packets import (
     read_offsets,
     read_position_entries,
     read_positions,
-    read_word,
+    read_uint16,
     whole_packet,
 )
 from servodeck.protocol.values import (
@@ -112,7 +112,7 @@ def describe_report(packet: Packet) -> str:
         case 6, 0:
             return "run command taken"
         case 6, 3:
-            return f"group {params[0]} started, {times_words(read_word(params, 1))}"
+            return f"group {params[0]} started, {times_words(read_uint16(params, 1))}"
         case 7, 0:
             return "the group ended by itself (OpenArm) or was stopped (LSC, bus servo boards)"
         case 8, 0:
@@ -120,7 +120,7 @@ def describe_report(packet: Packet) -> str:
         case 8, 3:
             return f"group {params[0]} ended by itself"
         case 15, 2:
-            return f"battery {read_word(params, 0)} mV"
+            return f"battery {read_uint16(params, 0)} mV"
         case 25, 0:
             return "download frame handled"
     return describe_family_report(packet) or f"no known report: {whole_words(packet)}"

@@ -130,7 +130,7 @@ def parse_command(packet: bytes) -> Command | None:
         case 3, _:
             return read_move(params)
         case 6, 3:
-            return Run(params[0], read_word(params, 1))
+            return Run(params[0], read_uint16(params, 1))
         case 7, 0:
             return Stop()
         case 8, 0 | 1:  # the reserved byte is not everywhere
@@ -147,7 +147,7 @@ def family_command(packet: Packet) -> Command | None:
     params = packet.params
     match packet.command, len(params):
         case 11, 3:
-            return SetSpeed(None if params[0] == ALL_GROUPS else params[0], read_word(params, 1))
+            return SetSpeed(None if params[0] == ALL_GROUPS else params[0], read_uint16(params, 1))
         case 20, size if size and size == 1 + params[0]:
             return Release(tuple(params[1:]))
         case 21, size if size and size == 1 + params[0]:
@@ -176,11 +176,11 @@ def read_frame(params: bytes) -> Frame | None:
     if len(params) < FRAME_HEAD or len(params) != FRAME_HEAD + ENTRY * params[0]:
         return None
     entries = range(FRAME_HEAD, len(params), ENTRY)
-    targets = tuple(ServoTarget(params[at], read_word(params, at + 1)) for at in entries)
-    return Frame(read_word(params, 1), targets)
+    targets = tuple(ServoTarget(params[at], read_uint16(params, at + 1)) for at in entries)
+    return Frame(read_uint16(params, 1), targets)
 
 
-def read_word(data: bytes, at: int, *, signed: bool = False) -> int:
+def read_uint16(data: bytes, at: int, *, signed: bool = False) -> int:
     return int.from_bytes(data[at : at + 2], "little", signed=signed)
 
 
@@ -209,9 +209,9 @@ def full_report(packet: Packet, family: Family) -> Report | None:
     params = packet.params
     match packet.command, len(params):
         case 15, 2 if "readBattery" in family.answers:
-            return Battery(read_word(params, 0))
+            return Battery(read_uint16(params, 0))
         case 6, 3 if family.run_reports_name_slot:
-            return RunStarted(params[0], read_word(params, 1))
+            return RunStarted(params[0], read_uint16(params, 1))
         case 8, 3 if family.run_reports_name_slot:
             return RunFinished(params[0])
         case 21, _ if "readPositions" in family.answers:
@@ -236,7 +236,7 @@ def read_positions(params: bytes) -> tuple[ServoTarget, ...]:
 def read_position_entries(data: bytes) -> tuple[ServoTarget, ...]:
     """Signed: turned by hand, a bus servo can stand a little below 0."""
     entries = range(0, len(data), ENTRY)
-    return tuple(ServoTarget(data[at], read_word(data, at + 1, signed=True)) for at in entries)
+    return tuple(ServoTarget(data[at], read_uint16(data, at + 1, signed=True)) for at in entries)
 
 
 def read_offsets(params: bytes) -> tuple[ServoOffset, ...]:

@@ -19,13 +19,13 @@ from servodeck.protocol.values import Move
 from servodeck.robot.board.board import Board
 from servodeck.robot.board.packet_rules import MOVE
 from servodeck.robot.driving import Driving
-from servodeck.robot.hub import Hub, Seat
+from servodeck.robot.hub import Hub, Session
 from servodeck.robot.latch import Latch
 from servodeck.robot.profile import RobotOfBoard
 from servodeck.schema import Message
 
 
-class Telling:
+class Broadcast:
     def __init__(
         self,
         hub: Hub,
@@ -42,31 +42,31 @@ class Telling:
         self._driving = driving
         self._now = now
 
-    def welcome(self, seat: Seat) -> None:
+    def welcome(self, session: Session) -> None:
         board = self._board
         welcome = WelcomeMessage(
             version=__version__,
-            robot=self._robot.told(),
-            lease=self._driving.state_for(seat),
+            robot=self._robot.snapshot(),
+            lease=self._driving.state_for(session),
             job=board.jobs.latest,
             play=board.plays.latest,
-            motion=board.motion.told(self._now()),
-            battery=board.battery.told(),
-            **self._standing(),
+            motion=board.motion.snapshot(self._now()),
+            battery=board.battery.snapshot(),
+            **self._state_fields(),
         )
-        seat.put(encode(welcome))
+        session.put(encode(welcome))
 
-    def state(self, but: Seat | None = None) -> None:
-        self.everybody(StateMessage(**self._standing()), but)
+    def state(self, but: Session | None = None) -> None:
+        self.everybody(StateMessage(**self._state_fields()), but)
 
-    def everybody(self, message: Message, but: Seat | None = None) -> None:
-        self._hub.tell_all(encode(message), but)
+    def everybody(self, message: Message, but: Session | None = None) -> None:
+        self._hub.send_all(encode(message), but)
 
-    def _standing(self) -> dict[str, Any]:
-        """The fields of `Standing`."""
+    def _state_fields(self) -> dict[str, Any]:
+        """The fields of `GatewayState`."""
         board, latch = self._board, self._latch
         return {
-            "board": board.taken_for,
+            "board": board.family_id,
             "port": board.port,
             "link": board.link_state,
             "identity": board.identity,
@@ -74,7 +74,7 @@ class Telling:
             "latched_by": latch.by,
             "stopped_by": latch.name,
             "clients": len(self._hub),
-            "unattended": board.unattended.told(),
+            "unattended": board.unattended.snapshot(),
             "broken_slots": board.broken_slots,
             "slot_versions": board.slot_versions,
             "waiting_to_start": board.moves.waiting_to_start,
@@ -92,37 +92,37 @@ class Leaving:
 
     packet: bytes
     at_s: float
-    known_to: Collection[Seat]
+    known_to: Collection[Session]
 
 
 class Relay:
-    def __init__(self, hub: Hub, now: Callable[[], float], driver: Callable[[], Seat | None]) -> None:
+    def __init__(self, hub: Hub, now: Callable[[], float], driver: Callable[[], Session | None]) -> None:
         self._hub = hub
         self._now = now
         self._driver = driver
         self._leaving: list[Leaving] = []
-        self._behind: dict[Seat, Packets] = {}
+        self._after: dict[Session, Packets] = {}
         self._timer: asyncio.TimerHandle | None = None
 
     def leaving(self, owner: Owner, packet: bytes, at_s: float) -> None:
         """Its last bit leaves then; it is told when it has: at once to its `owner`, and to the driver."""
         driver = self._driver()
-        known_to = [seat for seat in self._hub.seats if seat is owner or seat is driver]
-        for seat in known_to:
+        known_to = [session for session in self._hub.sessions if session is owner or session is driver]
+        for session in known_to:
             text = text_of((packet,))
-            asyncio.get_running_loop().call_later(max(0.0, at_s - self._now()), seat.put, text)
+            asyncio.get_running_loop().call_later(max(0.0, at_s - self._now()), session.put, text)
         self._leaving.append(Leaving(packet, at_s, known_to))
         if self._timer is None:
             self._plan()
 
-    def tell_left(self) -> None:
+    def send_left(self) -> None:
         """What has left by now is told before what follows from it."""
         if self._timer:
             self._timer.cancel()
             self._flush()
 
-    def forget(self, seat: Seat) -> None:
-        self._behind.pop(seat, None)
+    def forget(self, session: Session) -> None:
+        self._after.pop(session, None)
 
     def _plan(self) -> None:
         delay_s = max(FLUSH_S, self._leaving[0].at_s - self._now())
@@ -136,19 +136,19 @@ class Relay:
         if self._leaving:
             self._plan()
         told = newest(tuple(each.packet for each in left))
-        knowing = {seat for each in left for seat in each.known_to}
-        for seat in self._hub.seats:
-            known = seat in knowing
-            unheard = tuple(each.packet for each in left if seat not in each.known_to) if known else ()
-            self._tell(seat, newest(unheard) if known else told)
+        knowing = {session for each in left for session in each.known_to}
+        for session in self._hub.sessions:
+            known = session in knowing
+            unheard = tuple(each.packet for each in left if session not in each.known_to) if known else ()
+            self._publish(session, newest(unheard) if known else told)
 
-    def _tell(self, seat: Seat, packets: Packets) -> None:
+    def _publish(self, session: Session, packets: Packets) -> None:
         if not packets:
             return
-        behind = self._behind.get(seat)
-        self._behind[seat] = packets if behind is None else newest(behind + packets)
+        behind = self._after.get(session)
+        self._after[session] = packets if behind is None else newest(behind + packets)
         if behind is None:
-            seat.put_later(lambda: text_of(self._behind.pop(seat, ())))
+            session.put_later(lambda: text_of(self._after.pop(session, ())))
 
 
 @lru_cache(maxsize=16)

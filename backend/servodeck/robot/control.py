@@ -21,7 +21,7 @@ from servodeck.events import (
     HaltedMessage,
     JobMessage,
     NoiseMessage,
-    PlayToldMessage,
+    PlayStateMessage,
     ReceivedMessage,
     ResumedMessage,
     RobotMessage,
@@ -35,7 +35,7 @@ from servodeck.protocol.values import Command, Erase, Move, Run, ServoTarget
 from servodeck.robot.board.board import Board
 from servodeck.robot.board.estimate import Estimate
 from servodeck.robot.board.move_plan import judge_targets, packet_of
-from servodeck.robot.board.moves import Asked
+from servodeck.robot.board.moves import MoveRequest
 from servodeck.robot.board.packet_rules import (
     DOWNLOAD,
     HARMLESS,
@@ -44,17 +44,17 @@ from servodeck.robot.board.packet_rules import (
     STOP,
     Part,
     is_harmless,
-    judge_by_hand,
     judge_command,
     judge_latch,
     judge_parts,
+    judge_single_packet,
     role_for,
 )
 from servodeck.robot.board.playing import FrameGroup, judge_group
 from servodeck.robot.board.slots import SlotMemory
-from servodeck.robot.broadcast import Relay, Telling
+from servodeck.robot.broadcast import Broadcast, Relay
 from servodeck.robot.driving import Driving
-from servodeck.robot.hub import AGAINST_THE_RULES, Hub, Seat
+from servodeck.robot.hub import AGAINST_THE_RULES, Hub, Session
 from servodeck.robot.latch import Cause, Latch, Watch
 from servodeck.robot.lease import Permit
 from servodeck.robot.motion.halt_plan import Unheld
@@ -62,7 +62,7 @@ from servodeck.robot.operations import Operations
 from servodeck.robot.profile import ReadFacts, RecalledBoard, RobotLimits, RobotOfBoard, no_robot
 from servodeck.snapshots import JobState, PlayState, UnheldServos
 
-SOMEBODY = Cause("person")
+UNNAMED_PERSON = Cause("person")
 
 
 class Control:
@@ -78,7 +78,7 @@ class Control:
         slot_memory: SlotMemory | None = None,
         remembered: Remembered | None = None,
         recalls_board: bool = False,
-        asks_board: bool = False,
+        identifies_board: bool = False,
         polls_battery: bool = False,
         read_robot: ReadFacts = no_robot,
     ) -> None:
@@ -86,7 +86,7 @@ class Control:
         it. `simulated`: what is behind it is no real board. `epoch`: leases are counted on from there.
         Without `slot_memory` and `remembered` these are forgotten at the end.
         `recalls_board`: where nobody has said of which family the board is, it is as it was last.
-        `asks_board`: who it is, at each opening and before anything moves, and then whether it is still
+        `identifies_board`: who it is, at each opening and before anything moves, and then whether it is still
         there; otherwise it is what it is taken for. `polls_battery`: the battery is read for everybody.
         `read_robot` asks the library.
         """
@@ -108,11 +108,11 @@ class Control:
             simulated_device,
             slot_memory or SlotMemory(),
             self,
-            asks=asks_board,
+            identifies=identifies_board,
             polls_battery=polls_battery,
         )
         self._relay = Relay(self.hub, now, lambda: self.driving.driver)
-        self._telling = Telling(self.hub, self.board, self._latch, self.robot, self.driving, now)
+        self._broadcast = Broadcast(self.hub, self.board, self._latch, self.robot, self.driving, now)
         self.operations = Operations(self)
         self._halting: Left | None = None
         self._pressed_s = 0.0
@@ -137,27 +137,27 @@ class Control:
 
     # What clients ask
 
-    def join(self, seat: Seat) -> None:
+    def join(self, session: Session) -> None:
         """The welcome is the seat's first message."""
-        self.hub.join(seat)
-        self._telling.welcome(seat)
-        self._telling.state(but=seat)
+        self.hub.join(session)
+        self._broadcast.welcome(session)
+        self._broadcast.state(but=session)
         self.board.looked_at()
-        self.driving.seated(seat)
+        self.driving.presence_changed(session)
 
-    def leave(self, seat: Seat) -> None:
+    def leave(self, session: Session) -> None:
         """What waits of it does not leave, and what it still says is not heard. Twice is harmless."""
-        seat.ended.set()
-        seat.drop_pending()
-        self.board.drop(seat, CancelledError("The client has left."))
-        self.limits.forget(seat)
-        self.hub.leave(seat)
-        self.driving.leave(seat)
-        self.driving.seated(seat)
-        self._relay.forget(seat)
-        self._telling.state()
+        session.ended.set()
+        session.drop_pending()
+        self.board.drop(session, CancelledError("The client has left."))
+        self.limits.forget(session)
+        self.hub.leave(session)
+        self.driving.leave(session)
+        self.driving.presence_changed(session)
+        self._relay.forget(session)
+        self._broadcast.state()
 
-    def send_away(
+    def disconnect(
         self,
         caller_id: str,
         reason: str,
@@ -165,35 +165,37 @@ class Control:
         *,
         still_drives: bool = False,
         group_goes_on: bool = False,
-        also: Sequence[Seat] = (),
+        also: Sequence[Session] = (),
     ) -> None:
         """What they move stops, what they still say is not heard, and nothing that they asked for leaves any
         more but stops. `still_drives`: they may come back and drive, so their download goes on, and the group
         that they let go on. `also`: seats of theirs that are no client's.
         """
-        self._watch.sent_away(caller_id, by, group_goes_on=group_goes_on or still_drives)
+        self._watch.disconnected(caller_id, by, group_goes_on=group_goes_on or still_drives)
         if not still_drives:
             self.board.jobs.disown(caller_id, CancelledError(reason))
-        for seat in (*self.hub.seats, *also):
-            if seat.caller.id == caller_id:
-                seat.end(AGAINST_THE_RULES, reason)
-                self.board.drop(seat, CancelledError(reason))
-                self.leave(seat)
+        for session in (*self.hub.sessions, *also):
+            if session.caller.id == caller_id:
+                session.end(AGAINST_THE_RULES, reason)
+                self.board.drop(session, CancelledError(reason))
+                self.leave(session)
 
-    def move(self, seat: Seat, targets: Sequence[ServoTarget], duration_ms: int, nonce: str | None) -> Left:
+    def move(
+        self, session: Session, targets: Sequence[ServoTarget], duration_ms: int, nonce: str | None
+    ) -> Left:
         """The newest value of each servo counts; they leave together when the wire is free. `duration_ms` 0:
         as fast as the soft limit and the link allow. Resolves when each has left or a newer one has taken its
         place. Raises, or fails with, what keeps one from leaving.
         """
         board, driving = self.board, self.driving
-        seat.caller.require("driver")
+        session.caller.require("driver")
         board.judge_known()
         judge_targets(targets, duration_ms, board.family)
-        self.limits.judge(Move(duration_ms, tuple(targets)), seat)
+        self.limits.judge(Move(duration_ms, tuple(targets)), session)
         board.link.wire()
         judge_latch(MOVE, self.latch)
         board.jobs.judge_idle()
-        permit = driving.permit(seat, nonce)
+        permit = driving.permit(session, nonce)
         # Whoever waits to start may do so as long as the driver is heard.
         waiting = replace(permit, until_s=math.inf)
 
@@ -201,37 +203,37 @@ class Control:
             driving.judge(waiting if starts else permit)
             board.judge_known()
             judge_latch(MOVE, self.latch)
-            self.limits.judge(Move(duration_ms, (target,)), seat)
+            self.limits.judge(Move(duration_ms, (target,)), session)
 
-        return board.moves.put(targets, duration_ms, Asked(seat, judge))
+        return board.moves.put(targets, duration_ms, MoveRequest(session, judge))
 
-    def send(self, seat: Seat, packet_hex: str, nonce: str | None = None) -> Left:
+    def send(self, session: Session, packet_hex: str, nonce: str | None = None) -> Left:
         """Resolves when the packet has left the wire. Raises, or fails with, what keeps it from leaving. What
         is not harmless needs the lease and its `nonce`.
         """
-        packet, command = judge_command(packet_hex, self.board.taken_for)
-        seat.caller.require(role_for(packet))
-        self.limits.judge(command, seat)
+        packet, command = judge_command(packet_hex, self.board.family_id)
+        session.caller.require(role_for(packet))
+        self.limits.judge(command, session)
         wire = self.board.link.wire()
         if not is_harmless(packet):
             self.board.judge_known()
         judge_latch(packet[COMMAND_AT], self.latch)
-        judge_by_hand(packet)
+        judge_single_packet(packet)
         if packet[COMMAND_AT] == STOP:
-            return self.stop_once(seat)
+            return self.stop_once(session)
         self.board.jobs.judge_run(command, self.board.link.place)
         self.board.jobs.judge_idle()
         if isinstance(command, Run | Erase):
             self.board.plays.judge_idle()
-        judge = always if is_harmless(packet) else self._permitted(seat, nonce)
-        return wire.send(packet, seat, judge=judge)
+        judge = always if is_harmless(packet) else self._permitted(session, nonce)
+        return wire.send(packet, session, judge=judge)
 
-    def put(self, seat: Seat, command: Command, permit: Permit) -> Left:
+    def put(self, session: Session, command: Command, permit: Permit) -> Left:
         """As `send`, of somebody who may have that command sent."""
         board = self.board
         packet = packet_of(command, board.family)
-        seat.caller.require(role_for(packet))
-        self.limits.judge(command, seat)
+        session.caller.require(role_for(packet))
+        self.limits.judge(command, session)
         wire = board.link.wire()
         board.judge_known()
         judge_latch(packet[COMMAND_AT], self.latch)
@@ -239,9 +241,9 @@ class Control:
         board.jobs.judge_idle()
         if isinstance(command, Run | Erase):
             board.plays.judge_idle()
-        return wire.send(packet, seat, judge=lambda: self.driving.judge(permit))
+        return wire.send(packet, session, judge=lambda: self.driving.judge(permit))
 
-    def stop_once(self, seat: Seat) -> Left:
+    def stop_once(self, session: Session) -> Left:
         """Ends the running group behind its frame in progress. It overtakes all that waits, and a run that it
         overtook does not start the group again behind it.
         """
@@ -251,9 +253,9 @@ class Control:
         self.board.plays.end(CancelledError("A stop has ended it."))
         self.board.jobs.judge_idle()
         wire.purge(is_run, CancelledError("A stop has overtaken this run."))
-        return wire.send(STOP_PACKET, seat, urgent=True)
+        return wire.send(STOP_PACKET, session, urgent=True)
 
-    def stop(self, cause: Cause = SOMEBODY) -> Left:
+    def stop(self, cause: Cause = UNNAMED_PERSON) -> Left:
         """Latches in any case. Resolves when the stop sequence has left; raises when there is no port to
         stop. What may go on in spite of it `unheld` says.
         """
@@ -266,8 +268,8 @@ class Control:
             left.add_done_callback(self._halted)
         return left
 
-    def resume(self, caller: Caller, seat: Seat | None = None) -> None:
-        """Everybody but `seat` hears whose word it was. Raises NotDrivingError while somebody else drives.
+    def resume(self, caller: Caller, session: Session | None = None) -> None:
+        """Everybody but `session` hears whose word it was. Raises NotDrivingError while somebody else drives.
         Refused while the port is lost: whoever resumes shall see the robot's answer.
         """
         self.driving.judge_resume(caller)
@@ -275,27 +277,27 @@ class Control:
         if port.status == "lost":
             raise PortLostError(port.detail or "The serial port is gone.")
         if self._latch.open():
-            self._telling.everybody(ResumedMessage(by=caller.name), but=seat)
+            self._broadcast.everybody(ResumedMessage(by=caller.name), but=session)
 
     def name_board(self, caller: Caller, board: str) -> None:
         """Raises NotDrivingError where somebody else drives whatever else it was."""
-        if board != self.board.taken_for and not self.driving.may_rule(caller):
+        if board != self.board.family_id and not self.driving.may_rule(caller):
             raise NotDrivingError("Somebody else drives: which board it is changes only under their hands.")
-        self.take_for(board)
+        self.choose_family(board)
 
-    def take_for(self, board: str) -> None:
+    def choose_family(self, board: str) -> None:
         """What every later packet is judged by, where its answers do not contradict; `unknown` has it asked
         again, and lets only harmless questions pass.
         """
         if board not in FAMILIES:
             raise OutOfRangeError(f"board is {board}, allowed: {', '.join(FAMILIES)}")
-        self.board.take_for(board)
+        self.board.choose_family(board)
         self._recalled_board.said(self.board)
         self._see_robot()
 
-    def let_go_on(self, seat: Seat, for_ms: int | None) -> None:
+    def allow_unattended(self, session: Session, for_ms: int | None) -> None:
         """The run under way, without its driver; None: not any more."""
-        if self.driving.driver is not seat:
+        if self.driving.driver is not session:
             raise NotDrivingError("Only who drives may let a run go on.")
         if for_ms is None:
             self.board.unattended.end()
@@ -303,11 +305,11 @@ class Control:
         run = self.board.run
         if run is None:
             raise CancelledError("Nothing runs any more.")
-        self.board.unattended.allow(run, seat, for_ms / 1000)
+        self.board.unattended.allow(run, session, for_ms / 1000)
 
     def play(
         self,
-        seat: Seat,
+        session: Session,
         group: FrameGroup,
         nonce: str | None,
         ended: Callable[[PlayState], None],
@@ -319,7 +321,7 @@ class Control:
         what is driven by hand.
         """
         board = self.board
-        seat.caller.require("driver")
+        session.caller.require("driver")
         board.judge_known()
         self.limits.judge_targets(judge_group(group, board.family))
         wire = board.link.wire()
@@ -328,7 +330,7 @@ class Control:
         board.plays.judge_idle()
         if board.motion.group_may_run(self.now()) or wire.has_waiting(RUN):
             raise MovingError(end_of_group(board.motion.group_ends_in_s(self.now())))
-        permit = self.driving.permit(seat, nonce)
+        permit = self.driving.permit(session, nonce)
         if permit.issued_s < self._stopped_s:  # a large request may be slower than the STOP behind it
             raise CancelledError("It was stopped since it was asked for.")
 
@@ -336,10 +338,10 @@ class Control:
             judge_latch(MOVE, self.latch)
             if is_first:
                 self.driving.judge(permit)
-            elif board.unattended.by is not seat:
+            elif board.unattended.by is not session:
                 self.driving.judge(replace(permit, until_s=math.inf))
 
-        return board.plays.begin(group, seat, judge, ended, as_run=as_run)
+        return board.plays.begin(group, session, judge, ended, as_run=as_run)
 
     def stop_playing(self) -> None:
         """What the gateway plays ends with its frame in progress."""
@@ -353,7 +355,7 @@ class Control:
         """
         board = self.board
         before = board.jobs.parts_of(behind) if behind else ()
-        judge_parts((*before, *parts), board.taken_for)
+        judge_parts((*before, *parts), board.family_id)
         for part in parts:
             self.limits.judge_targets(part.extremes)
             board.jobs.judge_replaced(part, board.link.place)
@@ -388,7 +390,7 @@ class Control:
 
     async def shut_down(self) -> None:
         """Stops the robot whatever it does and lets go of the port. Twice is harmless."""
-        self._latch.cause = SOMEBODY  # nobody starts it again behind the stops
+        self._latch.cause = UNNAMED_PERSON  # nobody starts it again behind the stops
         await self.board.shut_down()
         self.hub.close()
 
@@ -404,26 +406,26 @@ class Control:
         return len(self.hub) > 0
 
     def board_changed(self) -> None:
-        self._telling.state()
+        self._broadcast.state()
         self._see_robot()
 
     def battery_changed(self) -> None:
-        self._telling.everybody(BatteryMessage(battery=self.board.battery.told()))
+        self._broadcast.everybody(BatteryMessage(battery=self.board.battery.snapshot()))
 
     def job_changed(self, state: JobState) -> None:
-        self._telling.everybody(JobMessage(job=state))
+        self._broadcast.everybody(JobMessage(job=state))
 
     def play_changed(self, state: PlayState) -> None:
-        self._telling.everybody(PlayToldMessage(play=state))
+        self._broadcast.everybody(PlayStateMessage(play=state))
 
-    def time_alone_over(self) -> None:
+    def unattended_time_over(self) -> None:
         self._watch.end_quietly(CancelledError("The time in which it might go on alone is over."))
 
     def received(self, event: DecoderEvent) -> None:
         is_packet = isinstance(event, PacketEvent)
         text = event.bytes.hex()
-        self._relay.tell_left()  # a question before its answer
-        self._telling.everybody(ReceivedMessage(packet=text) if is_packet else NoiseMessage(bytes=text))
+        self._relay.send_left()  # a question before its answer
+        self._broadcast.everybody(ReceivedMessage(packet=text) if is_packet else NoiseMessage(bytes=text))
 
     def may_have_missed_stops(self) -> None:
         if self.latch:
@@ -434,25 +436,25 @@ class Control:
 
     # Inside
 
-    def _permitted(self, seat: Seat, nonce: str | None) -> Callable[[], None]:
-        permit = self.driving.permit(seat, nonce)
+    def _permitted(self, session: Session, nonce: str | None) -> Callable[[], None]:
+        permit = self.driving.permit(session, nonce)
         return lambda: self.driving.judge(permit)
 
     def _see_robot(self) -> None:
         link = self.board.link
         if link.state.status == "open":
-            self.robot.stands_on(self.board.taken_for, link.place)
+            self.robot.use_board(self.board.family_id, link.place)
 
     def _latch_changed(self) -> None:
-        self._telling.state()
+        self._broadcast.state()
 
     def _robot_changed(self) -> None:
-        self._telling.everybody(RobotMessage(robot=self.robot.told()))
+        self._broadcast.everybody(RobotMessage(robot=self.robot.snapshot()))
 
     def _halted(self, left: Left) -> None:
         if not left.cancelled() and left.exception() is None:
             self._unheld = self.board.unheld_since(self._pressed_s)
-            self._telling.everybody(HaltedMessage(unheld=self.unheld))
+            self._broadcast.everybody(HaltedMessage(unheld=self.unheld))
 
 
 def still_moving(motion: Estimate, now: float) -> str:

@@ -11,11 +11,11 @@ from pathlib import Path
 
 from servodeck.callers import Caller
 from servodeck.errors import CancelledError, NotDrivingError, NotFoundError
-from servodeck.events import LeaseToldMessage, TickMessage, encode
+from servodeck.events import LeaseStateMessage, TickMessage, encode
 from servodeck.files import write_whole
 from servodeck.intents import LeaseAction
 from servodeck.rate import SHORTEST_WAIT_S
-from servodeck.robot.hub import Hub, Seat
+from servodeck.robot.hub import Hub, Session
 from servodeck.robot.lease import BEAT_S, GONE_S, Lease, LeaseEvents, Permit
 from servodeck.snapshots import Candidate, LeaseState
 
@@ -29,14 +29,14 @@ class Driving:
     def __init__(self, hub: Hub, now: Callable[[], float], epoch: int, events: LeaseEvents) -> None:
         self._hub = hub
         self._now = now
-        self._lease: Lease[Seat] = Lease(epoch, events)
+        self._lease: Lease[Session] = Lease(epoch, events)
         self._timer: asyncio.TimerHandle | None = None
         self._tick_s = 0.0
         self._wake_s = 0.0
         self._catches_up = False
 
     @property
-    def driver(self) -> Seat | None:
+    def driver(self) -> Session | None:
         return self._lease.driver
 
     @property
@@ -44,24 +44,24 @@ class Driving:
         """Another one with each driver, and while nobody drives."""
         return self._lease.epoch
 
-    def act(self, seat: Seat, action: LeaseAction) -> None:
+    def act(self, session: Session, action: LeaseAction) -> None:
         """Raises ForbiddenError, BusyError, NotDrivingError, or CancelledError for a seat that has ended."""
-        require_present(seat)
+        require_present(session)
         now = self._now()
         match action:
             case "request":
-                seat.caller.require("driver")
-                self._lease.request(seat, now)
+                session.caller.require("driver")
+                self._lease.request(session, now)
             case "take":
-                seat.caller.require("owner")
-                self._lease.take(seat, now)
+                session.caller.require("owner")
+                self._lease.take(session, now)
             case "release":
-                self._lease.release(seat, now)
+                self._lease.release(session, now)
             case "refuse":
-                self._lease.refuse(seat)
+                self._lease.refuse(session)
         self._plan()
 
-    def give(self, giver: Seat, to: str) -> None:
+    def give(self, giver: Session, to: str) -> None:
         """Hands it to somebody who is here and may drive. Raises ForbiddenError, NotDrivingError for whoever
         does not drive and is no owner, or NotFoundError.
         """
@@ -70,74 +70,78 @@ class Driving:
         driver = self._lease.driver
         if not giver.caller.may("owner") and (driver is None or driver.caller.id != giver.caller.id):
             raise NotDrivingError("Only who drives, or an owner, hands the robot on.")
-        self._lease.give(giver, self._heir(to), self._now())
+        self._lease.give(giver, self._candidate(to), self._now())
         self._plan()
 
-    def _heir(self, caller_id: str) -> Seat:
+    def _candidate(self, caller_id: str) -> Session:
         """Of several windows the one that asks, else the latest."""
-        found = [seat for seat in self._hub.seats if seat.caller.id == caller_id and could_drive(seat)]
+        found = [
+            session
+            for session in self._hub.sessions
+            if session.caller.id == caller_id and could_drive(session)
+        ]
         if not found:
             raise NotFoundError("Nobody of that id is here who may drive.")
         asker = self._lease.asker
         return asker if asker in found else found[-1]
 
-    def leave(self, seat: Seat) -> None:
-        self._lease.leave(seat, self._now())
+    def leave(self, session: Session) -> None:
+        self._lease.leave(session, self._now())
         self._plan()
 
-    def seated(self, seat: Seat) -> None:
+    def presence_changed(self, session: Session) -> None:
         """It came or went: whoever may hand the robot on hears whom to."""
-        if not could_drive(seat):
+        if not could_drive(session):
             return
-        for one in self._hub.seats:
-            if one.caller.id != seat.caller.id and self._may_give(one):
-                self.tell(one)
+        for one in self._hub.sessions:
+            if one.caller.id != session.caller.id and self._may_give(one):
+                self.send_state(one)
 
-    def _may_give(self, seat: Seat) -> bool:
-        return seat is self._lease.driver or seat.caller.may("owner")
+    def _may_give(self, session: Session) -> bool:
+        return session is self._lease.driver or session.caller.may("owner")
 
-    def _candidates(self, giver: Seat) -> list[Candidate]:
+    def _candidates(self, giver: Session) -> list[Candidate]:
         """Each once, whatever windows they have open."""
         if not self._may_give(giver):
             return []
         driver = self._lease.driver
         but = {giver.caller.id} | ({driver.caller.id} if driver else set())
-        found = {one.caller.id: one.caller.name for one in self._hub.seats if could_drive(one)}
+        found = {one.caller.id: one.caller.name for one in self._hub.sessions if could_drive(one)}
         return [Candidate(id=key, name=name) for key, name in found.items() if key not in but]
 
-    def beat(self, seat: Seat, nonce: str) -> None:
-        self._lease.beat(seat, nonce)
+    def beat(self, session: Session, nonce: str) -> None:
+        self._lease.beat(session, nonce)
 
-    def speak_for(self, seat: Seat, *, take: bool) -> str:
+    def claim_for(self, session: Session, *, take: bool) -> str:
         """For a program, which asks for one thing at a time: a nonce of now, with the lease where it is free
         or taken. Raises ForbiddenError, CancelledError, or NotDrivingError that names who drives.
         """
-        require_present(seat)
-        seat.caller.require("driver")
+        require_present(session)
+        session.caller.require("driver")
         driver = self._lease.driver
         if take:
-            self.act(seat, "take")
+            self.act(session, "take")
         elif driver is None:
-            self.act(seat, "request")
-        elif driver is not seat:
+            self.act(session, "request")
+        elif driver is not session:
             raise NotDrivingError(f'{driver.caller.name} drives. An owner may take it: "take": true.')
         return self._lease.issue(self._now())
 
-    def vouch(self, seat: Seat, for_s: float) -> None:
+    def vouch(self, session: Session, for_s: float) -> None:
         """What that program asked lasts for so long from now. One that was sent away cannot."""
-        if not seat.ended.is_set():
-            self._lease.vouch(seat, self._now() + for_s)
+        if not session.ended.is_set():
+            self._lease.vouch(session, self._now() + for_s)
             self._plan()
 
-    def permit(self, seat: Seat, nonce: str | None) -> Permit:
+    def permit(self, session: Session, nonce: str | None) -> Permit:
         """Raises NotDrivingError or ExpiredError."""
-        return self._lease.permit(seat, nonce, self._now())
+        return self._lease.permit(session, nonce, self._now())
 
-    def standing(self, seat: Seat) -> Permit:
+    def renewed_permit(self, session: Session) -> Permit:
         """For what its driver has asked for already, and what had to end first has ended. Raises
         NotDrivingError or ExpiredError.
         """
-        return self._lease.standing(seat, self._now())
+        return self._lease.renewed_permit(session, self._now())
 
     def judge_request(self, caller: Caller, nonce: str) -> None:
         """For what a page asks beside its WebSocket: only the driver's has the nonce. A large request takes
@@ -149,7 +153,7 @@ class Driving:
         """Raises NotDrivingError or ExpiredError."""
         self._lease.judge(permit, self._now())
 
-    def driving_page(self, caller: Caller) -> Seat:
+    def driving_page(self, caller: Caller) -> Session:
         """The page that drives, for what it asks beside its WebSocket. Raises NotDrivingError."""
         driver = self._lease.driver
         if driver is None or driver.caller.id != caller.id:
@@ -167,33 +171,33 @@ class Driving:
             name = self.driver.caller.name
             raise NotDrivingError(f"{name} drives: only {name} or an owner may resume.")
 
-    def state_for(self, seat: Seat) -> LeaseState:
+    def state_for(self, session: Session) -> LeaseState:
         lease = self._lease
         answer_in_s = lease.answer_in_s(self._now())
         return LeaseState(
-            you=seat.caller.name,
+            you=session.caller.name,
             driver=name_of(lease.driver),
-            drives=lease.driver is seat,
+            drives=lease.driver is session,
             asker=name_of(lease.asker),
-            asks=lease.asker is seat,
+            asks=lease.asker is session,
             answer_in_ms=None if answer_in_s is None else round(answer_in_s * 1000),
-            may_drive=seat.caller.may("driver"),
-            may_take=seat.caller.may("owner"),
-            given_by=name_of(lease.giver) if lease.driver is seat else None,
-            candidates=self._candidates(seat),
+            may_drive=session.caller.may("driver"),
+            may_take=session.caller.may("owner"),
+            given_by=name_of(lease.giver) if lease.driver is session else None,
+            candidates=self._candidates(session),
         )
 
-    def tell_all(self) -> None:
+    def send_states(self) -> None:
         """Each client its own view; the driver gets a nonce with it."""
-        for seat in self._hub.seats:
-            self.tell(seat)
+        for session in self._hub.sessions:
+            self.send_state(session)
         if self._lease.driver:
             self._tick(self._lease.driver)
 
-    def tell(self, seat: Seat) -> None:
-        seat.put(encode(LeaseToldMessage(lease=self.state_for(seat))))
+    def send_state(self, session: Session) -> None:
+        session.put(encode(LeaseStateMessage(lease=self.state_for(session))))
 
-    def _tick(self, driver: Seat) -> None:
+    def _tick(self, driver: Session) -> None:
         now = self._now()
         self._tick_s = now + BEAT_S
         driver.put(encode(TickMessage(nonce=self._lease.issue(now))))
@@ -227,18 +231,18 @@ class Driving:
         self._plan()
 
 
-def require_present(seat: Seat) -> None:
+def require_present(session: Session) -> None:
     """A client that was sent away gets nothing by what it still asks."""
-    if seat.ended.is_set():
+    if session.ended.is_set():
         raise CancelledError("Its client is not here any more.")
 
 
-def could_drive(seat: Seat) -> bool:
-    return seat.answers and seat.caller.may("driver")
+def could_drive(session: Session) -> bool:
+    return session.answers and session.caller.may("driver")
 
 
-def name_of(seat: Seat | None) -> str | None:
-    return None if seat is None else seat.caller.name
+def name_of(session: Session | None) -> str | None:
+    return None if session is None else session.caller.name
 
 
 GRANTS_PER_START = 2**32

@@ -16,9 +16,9 @@ from servodeck.callers import THIS_COMPUTER, Caller, Role
 OUTBOX_MESSAGES = 256
 # So many may sit when somebody of that role comes: viewers never take the seats of those who drive, nor these
 # the seats of whoever lets others in.
-SEATS: dict[Role, int] = {"stopper": 200, "viewer": 200, "driver": 208, "owner": 216}
+SESSIONS_AT_MOST: dict[Role, int] = {"stopper": 200, "viewer": 200, "driver": 208, "owner": 216}
 # Nobody needs more windows; a single phone shall not take every seat.
-SEATS_EACH = 8
+SESSIONS_EACH = 8
 TRY_AGAIN_LATER, AGAINST_THE_RULES, GOING_AWAY = 1013, 1008, 1012
 
 
@@ -26,14 +26,14 @@ T = TypeVar("T")
 
 
 @dataclass(frozen=True, slots=True)
-class Farewell:
+class CloseReason:
     """With which code and words the connection is closed."""
 
     code: int
     reason: str
 
 
-class Seat:
+class Session:
     """One client. Whoever serves it takes texts with `next`, and closes it once it has `ended`."""
 
     def __init__(self, caller: Caller, *, answers: bool = True) -> None:
@@ -42,7 +42,7 @@ class Seat:
         self.answers = answers
         self._outbox: asyncio.Queue[str | Callable[[], str]] = asyncio.Queue(OUTBOX_MESSAGES)
         self.ended = asyncio.Event()
-        self.farewell: Farewell | None = None
+        self.close_reason: CloseReason | None = None
         self._pending: set[asyncio.Task[Any]] = set()
 
     def put(self, text: str) -> None:
@@ -61,7 +61,7 @@ class Seat:
             self.end(TRY_AGAIN_LATER, "This client does not read.")
 
     def end(self, code: int, reason: str) -> None:
-        self.farewell = self.farewell or Farewell(code, reason)
+        self.close_reason = self.close_reason or CloseReason(code, reason)
         self.ended.set()
 
     def begin(self, work: Coroutine[Any, Any, T]) -> asyncio.Task[T]:
@@ -87,47 +87,49 @@ class Seat:
         return text if isinstance(text, str) else text()
 
 
-def is_of(seat: Seat | None, caller_id: str) -> bool:
-    return seat is not None and seat.caller.id == caller_id
+def is_of(session: Session | None, caller_id: str) -> bool:
+    return session is not None and session.caller.id == caller_id
 
 
 class Hub:
     def __init__(self) -> None:
         # In the order in which they came.
-        self._seats: dict[Seat, None] = {}
+        self._sessions: dict[Session, None] = {}
 
     def __len__(self) -> int:
-        return len(self._seats)
+        return len(self._sessions)
 
     @property
-    def seats(self) -> tuple[Seat, ...]:
-        return tuple(self._seats)
+    def sessions(self) -> tuple[Session, ...]:
+        return tuple(self._sessions)
 
     def has_room_for(self, caller: Caller) -> bool:
-        own = sum(seat.caller.id == caller.id for seat in self._seats)
-        return len(self._seats) < SEATS[caller.role] and (own < SEATS_EACH or caller is THIS_COMPUTER)
+        own = sum(session.caller.id == caller.id for session in self._sessions)
+        return len(self._sessions) < SESSIONS_AT_MOST[caller.role] and (
+            own < SESSIONS_EACH or caller is THIS_COMPUTER
+        )
 
     def holds(self, caller_id: str) -> bool:
-        return any(seat.caller.id == caller_id for seat in self._seats)
+        return any(session.caller.id == caller_id for session in self._sessions)
 
     def rename(self, caller_id: str, name: str) -> None:
         """They stay where they sit."""
-        for seat in self._seats:
-            if seat.caller.id == caller_id:
-                seat.caller = replace(seat.caller, name=name)
+        for session in self._sessions:
+            if session.caller.id == caller_id:
+                session.caller = replace(session.caller, name=name)
 
     def close(self) -> None:
         """Nobody sits here any more."""
-        for seat in self._seats:
-            seat.end(GOING_AWAY, "The gateway is ending.")
+        for session in self._sessions:
+            session.end(GOING_AWAY, "The gateway is ending.")
 
-    def join(self, seat: Seat) -> None:
-        self._seats[seat] = None
+    def join(self, session: Session) -> None:
+        self._sessions[session] = None
 
-    def leave(self, seat: Seat) -> None:
-        self._seats.pop(seat, None)
+    def leave(self, session: Session) -> None:
+        self._sessions.pop(session, None)
 
-    def tell_all(self, text: str, but: Seat | None = None) -> None:
-        for seat in self._seats:
-            if seat is not but:
-                seat.put(text)
+    def send_all(self, text: str, but: Session | None = None) -> None:
+        for session in self._sessions:
+            if session is not but:
+                session.put(text)

@@ -71,11 +71,11 @@ class Watch:
         if play and play.as_run:
             return
         if play or control.board.motion.is_moving(control.now()):
-            self._stop_for_nobody()
+            self._stop_unwatched()
 
     def driver_silent(self) -> None:
-        if self._control.board.may_move_on() and not self._control.board.unattended.by:
-            self._stop_for_nobody()
+        if self._control.board.may_still_move() and not self._control.board.unattended.by:
+            self._stop_unwatched()
 
     def driver_lost(self) -> None:
         self.driver_silent()
@@ -83,17 +83,17 @@ class Watch:
     def driver_changed(self) -> None:
         """What one driver began does not go on under the next; nobody has to resume for it."""
         board = self._control.board
-        goes_on_alone = board.unattended.by and self._control.driving.driver is None
-        if board.may_move() and not goes_on_alone:
+        is_unattended = board.unattended.by and self._control.driving.driver is None
+        if board.may_move() and not is_unattended:
             self.end_quietly(NotDrivingError("Somebody else drives now."))
 
     def lease_changed(self) -> None:
         driving = self._control.driving
         if driving.driver and self._control.board.unattended.by not in (None, driving.driver):
             self.end_quietly(NotDrivingError("Somebody else drives now."))
-        driving.tell_all()
+        driving.send_states()
 
-    def sent_away(self, caller_id: str, by: str, *, group_goes_on: bool) -> None:
+    def disconnected(self, caller_id: str, by: str, *, group_goes_on: bool) -> None:
         """`by` has revoked them: STOP for what they move, and for the group that they let go on unless it
         may. Nobody who is out answers for what moves.
         """
@@ -104,7 +104,7 @@ class Watch:
             board.unattended.end()
         elif not is_of(driver, caller_id):
             return
-        if board.may_move_on():
+        if board.may_still_move():
             with contextlib.suppress(GatewayError):
                 self._control.stop(Cause("person", by))
 
@@ -113,7 +113,7 @@ class Watch:
         with contextlib.suppress(GatewayError):
             self._control.board.halt(reason)
 
-    def _stop_for_nobody(self) -> None:
+    def _stop_unwatched(self) -> None:
         """STOP because nobody watches over what moves: whoever goes on has to look first. Not twice: a second
         hold would end later than was said of the first.
         """

@@ -151,7 +151,7 @@ class Lease(Generic[H]):
         self.beat(who, nonce)
         return Permit(self.epoch, issued_s, issued_s + within_s)
 
-    def standing(self, who: H, now: float) -> Permit:
+    def renewed_permit(self, who: H, now: float) -> Permit:
         """For what that driver has asked for already, and what had to end first has ended. Raises
         NotDrivingError, or ExpiredError where nothing was heard for so long that nothing may begin.
         """

@@ -18,7 +18,7 @@ from servodeck.protocol.values import Command, Erase, Erased, Release, Run, RunA
 from servodeck.robot.board.downloads import ERASE_TIMEOUT_S
 from servodeck.robot.board.move_plan import judge_command, portions_of
 from servodeck.robot.board.packet_rules import MOVE, judge_latch
-from servodeck.robot.hub import Seat
+from servodeck.robot.hub import Session
 from servodeck.robot.lease import Permit
 from servodeck.snapshots import Outcome
 
@@ -33,7 +33,7 @@ class Claim(Protocol):
     """How somebody shows that they may have it done."""
 
     @property
-    def seat(self) -> Seat: ...
+    def session(self) -> Session: ...
 
     def claim(self) -> None:
         """Raises what keeps them from driving."""
@@ -51,27 +51,27 @@ class Claim(Protocol):
 class PageClaim:
     """Of a page, whose heartbeat goes on by itself: the nonce of what it said."""
 
-    def __init__(self, control: "Control", seat: Seat, nonce: str | None) -> None:
-        self.seat = seat
+    def __init__(self, control: "Control", session: Session, nonce: str | None) -> None:
+        self.session = session
         self._driving = control.driving
         self._nonce = nonce
         self._permit: Permit | None = None
 
     def claim(self) -> None:
-        self.seat.caller.require("driver")
-        self._permit = self._driving.permit(self.seat, self._nonce)
+        self.session.caller.require("driver")
+        self._permit = self._driving.permit(self.session, self._nonce)
 
     def permit(self) -> Permit:
-        return self._permit or self._driving.permit(self.seat, self._nonce)
+        return self._permit or self._driving.permit(self.session, self._nonce)
 
     def renew(self) -> None:
-        self._permit = self._driving.standing(self.seat)
+        self._permit = self._driving.renewed_permit(self.session)
 
     def lasts(self, left: Left, for_s: float) -> None:
         """As long as it is heard."""
 
 
-class Turn:
+class Grant:
     """One request's leave to move the robot. It ends with the next stop, and with another driver."""
 
     def __init__(self, control: "Control", claim: Claim) -> None:
@@ -101,7 +101,7 @@ class Turn:
     def send(self, command: Command, lasts_s: float = 0.0) -> Left:
         """`lasts_s`: what it sets in motion."""
         self._judge()
-        left = self._control.put(self._claim.seat, command, self._claim.permit())
+        left = self._control.put(self._claim.session, command, self._claim.permit())
         self._claim.lasts(left, lasts_s)
         return left
 
@@ -116,21 +116,21 @@ class Turn:
 class Operations:
     def __init__(self, control: "Control") -> None:
         self._control = control
-        self._asks_the_board = False
+        self._has_request = False
         self._ending: asyncio.Task[None] | None = None
 
     async def run(self, claim: Claim, slot: int, times: int) -> Outcome:
         """What moves ends first."""
         command, family = Run(slot, times), self._family()
         judge_command(command, family)
-        async with self._asking_the_board():
-            turn = Turn(self._control, claim)
+        async with self._one_request():
+            grant = Grant(self._control, claim)
             self._control.board.plays.judge_idle()
             if self._ending:  # one that left between the repeats of a stop would be ended by the last one
                 await asyncio.shield(self._ending)
                 claim.renew()
-            await turn.end_what_moves()
-            left = turn.send(command)
+            await grant.end_what_moves()
+            left = grant.send(command)
             if "run" not in family.answers:
                 await left
                 return "sent"
@@ -138,24 +138,24 @@ class Operations:
             taken = await answers.to(left, RUN_WAIT_S, RunAccepted, RunStarted)
             return "silent" if taken is None else "acknowledged"
 
-    async def end_group(self, seat: Seat) -> Outcome:
+    async def end_group(self, session: Session) -> Outcome:
         """Behind its frame in progress; everything else is free to move. Said three times (S54), also where
         whoever asked has gone meanwhile.
         """
-        left = self._control.stop_once(seat)
+        left = self._control.stop_once(session)
         if self._ending is None:
-            self._ending = asyncio.create_task(self._end_again(seat))
+            self._ending = asyncio.create_task(self._end_again(session))
         ending = self._ending
         await left
         await asyncio.shield(ending)
         return "sent"
 
-    async def _end_again(self, seat: Seat) -> None:
+    async def _end_again(self, session: Session) -> None:
         try:
             with contextlib.suppress(GatewayError):  # a port that is lost takes no more of them
                 for _ in range(STOP.repeats):
                     await asyncio.sleep(STOP.repeat_every_ms / 1000)
-                    await self._control.stop_once(seat)
+                    await self._control.stop_once(session)
         finally:
             self._ending = None
 
@@ -164,8 +164,8 @@ class Operations:
         command = Erase()
         judge_command(command, self._family())
         self._judge_rest()
-        async with self._asking_the_board():
-            left = Turn(self._control, claim).send(command, ERASE_TIMEOUT_S)
+        async with self._one_request():
+            left = Grant(self._control, claim).send(command, ERASE_TIMEOUT_S)
             if await self._control.board.answers.to(left, ERASE_TIMEOUT_S, Erased) is None:
                 raise NoAnswerError("The board did not say whether its groups are erased.")
         return "acknowledged"
@@ -174,7 +174,7 @@ class Operations:
         """`slot` None: of every group."""
         command = SetSpeed(slot, percent)
         judge_command(command, self._family())
-        await Turn(self._control, claim).send(command)
+        await Grant(self._control, claim).send(command)
         return "sent"
 
     async def release(self, claim: Claim, servos: Sequence[int]) -> Outcome:
@@ -184,9 +184,9 @@ class Operations:
         for command in commands:
             judge_command(command, family)
         self._judge_rest()
-        turn = Turn(self._control, claim)
+        grant = Grant(self._control, claim)
         for command in commands:
-            await turn.send(command)
+            await grant.send(command)
         return "sent"
 
     def _family(self) -> Family:
@@ -199,12 +199,12 @@ class Operations:
             raise MovingError("The robot moves: wait for its end, or stop it first.")
 
     @contextlib.asynccontextmanager
-    async def _asking_the_board(self) -> AsyncIterator[None]:
+    async def _one_request(self) -> AsyncIterator[None]:
         """One at a time: the board's answers do not say to whom."""
-        if self._asks_the_board:
+        if self._has_request:
             raise MovingError("The board is being asked for something else.")
-        self._asks_the_board = True
+        self._has_request = True
         try:
             yield
         finally:
-            self._asks_the_board = False
+            self._has_request = False

@@ -14,7 +14,7 @@ from servodeck.port.wire import Owner
 from servodeck.protocol.families import FAMILIES, UNKNOWN
 from servodeck.protocol.values import Command, Move, ServoTarget
 from servodeck.robot.board.board import Board
-from servodeck.snapshots import RobotFacts, RobotTold, ServoLimits
+from servodeck.snapshots import RobotFacts, RobotState, ServoLimits
 from servodeck.threads import in_thread
 
 
@@ -99,14 +99,14 @@ class RobotOfBoard:
         self._board: tuple[str, str] | None = None
         self._document: str | None = None
         self._revision = 0
-        self._last_told: RobotTold | None = None
+        self._last_published: RobotState | None = None
         self._reading: asyncio.Task[None] | None = None
         self.facts: RobotFacts | None = None
 
-    def told(self) -> RobotTold | None:
-        return RobotTold(id=self._document, revision=self._revision) if self._document else None
+    def snapshot(self) -> RobotState | None:
+        return RobotState(id=self._document, revision=self._revision) if self._document else None
 
-    def stands_on(self, family: str, place: str) -> None:
+    def use_board(self, family: str, place: str) -> None:
         """That board is at hand: what was remembered of it holds from now on. Until the library has told its
         limits nothing moves.
         """
@@ -118,8 +118,8 @@ class RobotOfBoard:
         if self._document:
             self._limits.await_them()
             self._reading = asyncio.create_task(self._recall(self._document))
-        if self.told() != self._last_told:
-            self._tell()
+        if self.snapshot() != self._last_published:
+            self._publish()
 
     def leave(self) -> None:
         """No board is at hand. Clients hear that from the port."""
@@ -142,7 +142,7 @@ class RobotOfBoard:
             raise OutOfRangeError(f"{facts.name} is built on a board {facts.board}, not {board[0]}.")
         self._remembered.remember_robot(self._key(), document)
         self._hold(document, revision, facts)
-        await self._remembered.kept()
+        await self._remembered.saved()
 
     def changes_limits(self, document: str, facts: RobotFacts) -> bool:
         """Whether moves would be judged otherwise."""
@@ -154,14 +154,14 @@ class RobotOfBoard:
         if document == self._document and revision > self._revision:
             self._hold(document, revision, facts)
         else:
-            self._tell()
+            self._publish()
 
     def removed(self, documents: list[str]) -> None:
         if self._document in documents:
             self._remembered.remember_robot(self._key(), None)
-            self._remembered.keep_soon()
+            self._remembered.save_soon()
             self._forget()
-        self._tell()
+        self._publish()
 
     async def _recall(self, document: str) -> None:
         try:
@@ -169,7 +169,7 @@ class RobotOfBoard:
         except GatewayError as error:
             log.warning("robot not read", extra={"facts": {"detail": error.detail}})
             self._forget()
-            self._tell()
+            self._publish()
         else:
             if self.facts is None:  # nobody has written it meanwhile
                 self._hold(document, revision, facts)
@@ -177,10 +177,10 @@ class RobotOfBoard:
     def _hold(self, document: str, revision: int, facts: RobotFacts) -> None:
         self._document, self._revision, self.facts = document, revision, facts
         self._limits.set(facts.limits)
-        self._tell()
+        self._publish()
 
-    def _tell(self) -> None:
-        self._last_told = self.told()
+    def _publish(self) -> None:
+        self._last_published = self.snapshot()
         self._changed()
 
     def _forget(self) -> None:
@@ -215,4 +215,4 @@ class RecalledBoard:
         is_contradicted = status == "refused" and family is not UNKNOWN
         if board.port.status in ("open", "lost") and not board.port.simulated and not is_contradicted:
             self._remembered.remember_board(board.link.place, None if family is UNKNOWN else family.id)
-            self._remembered.keep_soon()
+            self._remembered.save_soon()

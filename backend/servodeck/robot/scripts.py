@@ -18,15 +18,15 @@ from servodeck.robot.board.move_plan import plan_move
 from servodeck.robot.board.packet_rules import Part
 from servodeck.robot.board.playing import FrameGroup
 from servodeck.robot.control import Control, end_of_group
-from servodeck.robot.hub import Seat
+from servodeck.robot.hub import Session
 from servodeck.robot.lease import Permit
-from servodeck.robot.operations import Turn
+from servodeck.robot.operations import Grant
 from servodeck.snapshots import JobState, LeaseState, Outcome, PlayState
 
 T = TypeVar("T")
 
 
-class ScriptSeat(Seat):
+class ScriptSession(Session):
     """Nobody is there to be told anything."""
 
     def put(self, text: str) -> None:
@@ -37,8 +37,8 @@ class ScriptSeat(Seat):
         try:
             return await self.begin(work)
         except asyncio.CancelledError:
-            if self.farewell:
-                raise CancelledError(self.farewell.reason) from None
+            if self.close_reason:
+                raise CancelledError(self.close_reason.reason) from None
             raise
 
     async def end_pending(self) -> None:
@@ -63,45 +63,45 @@ class ScriptClaim:
     and kept for as long as what it asked lasts.
     """
 
-    def __init__(self, control: Control, seat: Seat, *, take: bool) -> None:
-        self.seat = seat
+    def __init__(self, control: Control, session: Session, *, take: bool) -> None:
+        self.session = session
         self._driving = control.driving
         self._take = take
 
     def claim(self) -> None:
-        self._driving.speak_for(self.seat, take=self._take)
+        self._driving.claim_for(self.session, take=self._take)
 
     def permit(self) -> Permit:
-        return self._driving.permit(self.seat, self._driving.speak_for(self.seat, take=False))
+        return self._driving.permit(self.session, self._driving.claim_for(self.session, take=False))
 
     def renew(self) -> None:
         """Each of its packets asks anew."""
 
     def lasts(self, left: Left, for_s: float) -> None:
-        self._driving.vouch(self.seat, 0.0)
-        left.add_done_callback(lambda _: self._driving.vouch(self.seat, for_s))
+        self._driving.vouch(self.session, 0.0)
+        left.add_done_callback(lambda _: self._driving.vouch(self.session, for_s))
 
 
-class ScriptTurn(Turn):
+class ScriptGrant(Grant):
     """That may play a group, too."""
 
     def __init__(self, control: Control, claim: ScriptClaim) -> None:
         super().__init__(control, claim)
-        self._seat = claim.seat
+        self._session = claim.session
 
     def play(self, group: FrameGroup) -> PlayState:
         self._judge()
         driving = self._control.driving
-        nonce = driving.speak_for(self._seat, take=False)
-        state = self._control.play(self._seat, group, nonce, self._played, as_run=True)
-        driving.vouch(self._seat, 0.0)
+        nonce = driving.claim_for(self._session, take=False)
+        state = self._control.play(self._session, group, nonce, self._played, as_run=True)
+        driving.vouch(self._session, 0.0)
         return state
 
     def _played(self, state: PlayState) -> None:
         """The frame in progress goes on where somebody has ended it by hand."""
         if state.code in (None, "cancelled"):
             motion, now = self._control.board.motion, self._control.now()
-            self._control.driving.vouch(self._seat, motion.moves_for_s(now))
+            self._control.driving.vouch(self._session, motion.moves_for_s(now))
 
 
 class Scripts:
@@ -109,7 +109,7 @@ class Scripts:
         """`still_lets_in` is asked again when a request has been read: that may take a while."""
         self._control = control
         self._still_lets_in = still_lets_in
-        self._seats: dict[str, ScriptSeat] = {}
+        self._sessions: dict[str, ScriptSession] = {}
 
     async def move(
         self,
@@ -121,12 +121,12 @@ class Scripts:
         is_wanted: IsWanted,
     ) -> Moved:
         """Until its last packet has left; what is not wanted any more does not leave."""
-        seat = self._seat_of(caller)
-        return await seat.do(self._move(seat, duration_ms, positions, take=take, is_wanted=is_wanted))
+        session = self._session_of(caller)
+        return await session.do(self._move(session, duration_ms, positions, take=take, is_wanted=is_wanted))
 
     async def _move(
         self,
-        seat: ScriptSeat,
+        session: ScriptSession,
         duration_ms: int,
         positions: Mapping[int, int],
         *,
@@ -139,81 +139,81 @@ class Scripts:
             raise MovingError(end_of_group(control.board.motion.group_ends_in_s(now)))
         plan = plan_move(duration_ms, positions, family, control.board.motion, now, control.limits.name_of)
         for step in plan.steps:
-            control.limits.judge(step.move, seat)
-        turn = Turn(control, ScriptClaim(control, seat, take=take))
+            control.limits.judge(step.move, session)
+        grant = Grant(control, ScriptClaim(control, session, take=take))
         for step in plan.steps:
             await asyncio.sleep(step.after_s)
             if not await is_wanted():
                 raise CancelledError("The client has hung up.")
-            await turn.send(step.move, duration_ms / 1000)
+            await grant.send(step.move, duration_ms / 1000)
         return Moved(len(plan.steps), duration_ms, plan.first_moves)
 
     async def run(
         self, caller: Caller, slot: int, times: int, *, take: bool, continue_ms: int | None = None
     ) -> Outcome:
         """What moves ends first."""
-        seat = self._seat_of(caller)
-        return await seat.do(self._run(seat, slot, times, take=take, continue_ms=continue_ms))
+        session = self._session_of(caller)
+        return await session.do(self._run(session, slot, times, take=take, continue_ms=continue_ms))
 
     async def _run(
-        self, seat: ScriptSeat, slot: int, times: int, *, take: bool, continue_ms: int | None
+        self, session: ScriptSession, slot: int, times: int, *, take: bool, continue_ms: int | None
     ) -> Outcome:
-        claim = ScriptClaim(self._control, seat, take=take)
+        claim = ScriptClaim(self._control, session, take=take)
         outcome = await self._control.operations.run(claim, slot, times)
         if continue_ms is not None:
-            self._control.let_go_on(seat, continue_ms)
+            self._control.allow_unattended(session, continue_ms)
         return outcome
 
     async def play(
         self, caller: Caller, group: FrameGroup, *, take: bool, continue_ms: int | None = None
     ) -> PlayState:
         """Begins it."""
-        seat = self._seat_of(caller)
-        return await seat.do(self._play(seat, group, take=take, continue_ms=continue_ms))
+        session = self._session_of(caller)
+        return await session.do(self._play(session, group, take=take, continue_ms=continue_ms))
 
     async def _play(
-        self, seat: ScriptSeat, group: FrameGroup, *, take: bool, continue_ms: int | None
+        self, session: ScriptSession, group: FrameGroup, *, take: bool, continue_ms: int | None
     ) -> PlayState:
         self._family()
-        turn = ScriptTurn(self._control, ScriptClaim(self._control, seat, take=take))
-        await turn.after_the_stop()
-        state = turn.play(group)
+        grant = ScriptGrant(self._control, ScriptClaim(self._control, session, take=take))
+        await grant.after_the_stop()
+        state = grant.play(group)
         if continue_ms is not None:
-            self._control.let_go_on(seat, continue_ms)
+            self._control.allow_unattended(session, continue_ms)
         return state
 
     def download(self, caller: Caller, parts: Sequence[Part], behind: str | None, *, take: bool) -> JobState:
         """Needs the lease to begin with, and nobody from then on."""
-        seat, driving = self._seat_of(caller), self._control.driving
+        session, driving = self._session_of(caller), self._control.driving
 
         def claim() -> None:
-            driving.speak_for(seat, take=take)
+            driving.claim_for(session, take=take)
 
-        job = self._control.download(parts, seat.caller, claim, behind)
-        driving.vouch(seat, 0.0)
+        job = self._control.download(parts, session.caller, claim, behind)
+        driving.vouch(session, 0.0)
         return job
 
     async def erase(self, caller: Caller, *, take: bool) -> None:
         """Until the board says that it is done."""
-        seat = self._seat_of(caller)
-        claim = ScriptClaim(self._control, seat, take=take)
-        await seat.do(self._control.operations.erase(claim))
+        session = self._session_of(caller)
+        claim = ScriptClaim(self._control, session, take=take)
+        await session.do(self._control.operations.erase(claim))
 
     def act(self, caller: Caller, action: ScriptAction) -> LeaseState:
         """On the lease alone; `beat` says that somebody watches over what this script has begun."""
-        seat, driving = self._seat_of(caller), self._control.driving
+        session, driving = self._session_of(caller), self._control.driving
         if action != "beat":
-            driving.act(seat, action)
-        driving.vouch(seat, 0.0)
-        return driving.state_for(seat)
+            driving.act(session, action)
+        driving.vouch(session, 0.0)
+        return driving.state_for(session)
 
     def give(self, caller: Caller, to: str) -> LeaseState:
         """To somebody who is here with a page."""
-        seat = self._seat_of(caller)
-        self._control.driving.give(seat, to)
-        return self._control.driving.state_for(seat)
+        session = self._session_of(caller)
+        self._control.driving.give(session, to)
+        return self._control.driving.state_for(session)
 
-    async def send_away(
+    async def disconnect(
         self,
         caller_id: str,
         reason: str,
@@ -225,9 +225,9 @@ class Scripts:
         """They may not come in any more, or in another role: what they asked for on pages and over HTTP has
         ended when this returns. The group that they let go on is stopped in the name of `by`, or goes on.
         """
-        own = self._seats.pop(caller_id, None)
+        own = self._sessions.pop(caller_id, None)
         also = (own,) if own else ()
-        self._control.send_away(
+        self._control.disconnect(
             caller_id, reason, by, still_drives=still_drives, group_goes_on=group_goes_on, also=also
         )
         if own:
@@ -237,9 +237,9 @@ class Scripts:
         self._control.board.judge_known()
         return self._control.board.family
 
-    def _seat_of(self, caller: Caller) -> ScriptSeat:
+    def _session_of(self, caller: Caller) -> ScriptSession:
         if not self._still_lets_in(caller):
             raise NotPairedError("This device is not paired any more, or its role is another one now.")
-        seat = self._seats.setdefault(caller.id, ScriptSeat(caller))
-        seat.caller = as_script(caller)  # an owner may call it otherwise by now
-        return seat
+        session = self._sessions.setdefault(caller.id, ScriptSession(caller))
+        session.caller = as_script(caller)  # an owner may call it otherwise by now
+        return session

@@ -37,7 +37,7 @@ import {
   type GatewayMessage,
   type PlayState,
   type PortState,
-  type RobotTold,
+  type RobotState,
   type StateMessage,
 } from './messages.generated.ts';
 import { createTurn } from './turn.ts';
@@ -178,7 +178,7 @@ export function createGatewayTransport(url: string, clock: Clock, { mayDrive = t
     events?.battery?.(battery);
   }
 
-  function robotChanged(told: RobotTold | null): void {
+  function robotChanged(told: RobotState | null): void {
     robot = { document: told?.id ?? null };
     events?.described?.(robot);
   }

@@ -10,7 +10,7 @@ import type { Identity, SharedBoard } from '#shared/session/identity.ts';
 import { LinkError } from '#shared/session/linkError.ts';
 import type { SharedLatchReason } from '#shared/session/transport.ts';
 import { refusal } from './gatewayHttp.ts';
-import type { BatteryMessage, FrameBody, MotionTold, PortState, StateMessage } from './messages.generated.ts';
+import type { BatteryMessage, FrameBody, MotionState, PortState, StateMessage } from './messages.generated.ts';
 
 export const LATCHED_BY: Readonly<Record<NonNullable<StateMessage['latchedBy']>, SharedLatchReason>> = {
   person: 'elsewhere',
@@ -45,7 +45,7 @@ export function batteryTold(told: BatteryMessage['battery'], nowMs: number): Bat
   return { kind: 'read', batteryMv: told.batteryMv, atMs: nowMs - told.ageMs };
 }
 
-export function motionBefore({ servos, runSlot, released }: MotionTold): MotionBefore {
+export function motionBefore({ servos, runSlot, released }: MotionState): MotionBefore {
   const ways = servos.map(({ start, target, ...way }) => ({ ...way, from: start, to: target }));
   return { ways, runSlot, released };
 }

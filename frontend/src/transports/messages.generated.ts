@@ -31,11 +31,11 @@ export type GatewayMessage =
   | ResumedMessage
   | StateMessage
   | RobotMessage
-  | LeaseToldMessage
+  | LeaseStateMessage
   | TickMessage
   | LeftMessage
   | JobMessage
-  | PlayToldMessage
+  | PlayStateMessage
   | PlayedMessage;
 
 /**
@@ -267,7 +267,7 @@ export interface WelcomeMessage {
   board: string;
   port: PortState;
   link: LinkState;
-  identity: IdentityTold;
+  identity: IdentityState;
   latch: boolean;
   latchedBy: ('person' | 'battery' | 'silence' | 'loss') | null;
   stoppedBy: string | null;
@@ -280,11 +280,11 @@ export interface WelcomeMessage {
   waitingToStart: number[];
   type: 'welcome';
   version: string;
-  robot: RobotTold | null;
+  robot: RobotState | null;
   lease: LeaseState;
   job: JobState | null;
   play: PlayState | null;
-  motion: MotionTold;
+  motion: MotionState;
   battery: BatteryUnread | BatteryRead | BatterySilent;
 }
 /**
@@ -390,14 +390,14 @@ export interface LinkState {
 /**
  * What the board answered when it was asked who it is, and the families that answer like that.
  */
-export interface IdentityTold {
-  evidence: (AnsweredTold | SilentTold | EchoedTold | NoiseTold)[];
+export interface IdentityState {
+  evidence: (AnsweredEvidence | SilentEvidence | EchoedEvidence | NoiseEvidence)[];
   candidates: string[];
 }
 /**
  * The board answered that question when it was asked who it is.
  */
-export interface AnsweredTold {
+export interface AnsweredEvidence {
   kind: 'answered';
   question: 'readBattery' | 'readVersion' | 'readPositions';
   report: BatteryReport | VersionReport | PositionsReport;
@@ -428,20 +428,20 @@ export interface ServoPosition {
 /**
  * It did not answer that question.
  */
-export interface SilentTold {
+export interface SilentEvidence {
   kind: 'silent';
   question: 'readBattery' | 'readVersion' | 'readPositions';
 }
 /**
  * The question itself came back.
  */
-export interface EchoedTold {
+export interface EchoedEvidence {
   kind: 'echoed';
 }
 /**
  * Bytes came that are no packets.
  */
-export interface NoiseTold {
+export interface NoiseEvidence {
   kind: 'noise';
   byteCount: number;
 }
@@ -469,7 +469,7 @@ export interface StoredGroup {
 /**
  * The robot on the board: which document of the library, at which revision; 0 while it is read.
  */
-export interface RobotTold {
+export interface RobotState {
   id: string;
   revision: number;
 }
@@ -618,7 +618,7 @@ export interface PlayState {
  * Where packets have taken the servos since the port opened; of one that is not named nobody knows the
  * place. `runSlot`: the group that may run. `released`: they have no torque, so hands may have turned them.
  */
-export interface MotionTold {
+export interface MotionState {
   servos: ServoWay[];
   runSlot: number | null;
   released: number[];
@@ -755,7 +755,7 @@ export interface StateMessage {
   board: string;
   port: PortState;
   link: LinkState;
-  identity: IdentityTold;
+  identity: IdentityState;
   latch: boolean;
   latchedBy: ('person' | 'battery' | 'silence' | 'loss') | null;
   stoppedBy: string | null;
@@ -773,12 +773,12 @@ export interface StateMessage {
  */
 export interface RobotMessage {
   type: 'robot';
-  robot: RobotTold | null;
+  robot: RobotState | null;
 }
 /**
  * Something of the lease changed.
  */
-export interface LeaseToldMessage {
+export interface LeaseStateMessage {
   type: 'lease';
   lease: LeaseState;
 }
@@ -806,7 +806,7 @@ export interface JobMessage {
 /**
  * What the gateway plays began, came further or ended; the latest play, whoever began it.
  */
-export interface PlayToldMessage {
+export interface PlayStateMessage {
   type: 'play';
   play: PlayState;
 }

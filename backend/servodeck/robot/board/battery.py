@@ -19,7 +19,7 @@ from servodeck.protocol.families import Family
 from servodeck.protocol.timings import BATTERY
 from servodeck.protocol.values import Battery, Report
 from servodeck.robot.board.answers import Answers
-from servodeck.snapshots import BatteryRead, BatterySilent, BatteryTold, BatteryUnread
+from servodeck.snapshots import BatteryRead, BatterySilent, BatteryState, BatteryUnread
 
 BATTERY_PACKET = "5555020f"
 BATTERY_WAIT_S = BATTERY.timeout_ms / 1000
@@ -65,7 +65,7 @@ class BatteryWatch:
         if was_known:
             self._board.battery_changed()
 
-    def told(self) -> BatteryTold:
+    def snapshot(self) -> BatteryState:
         newest = self.newest
         if self.is_silent:
             return BatterySilent(last_mv=newest.battery_mv if newest else None)
@@ -77,7 +77,7 @@ class BatteryWatch:
         """In mV. Whoever asks while a question is under way shares its answer."""
         if self._question is None:
             self._question = asyncio.create_task(self._read())
-            self._question.add_done_callback(self._asked)
+            self._question.add_done_callback(self._read_done)
         return await asyncio.shield(self._question)
 
     async def _read(self) -> int:
@@ -97,7 +97,7 @@ class BatteryWatch:
             self.is_silent = True
             self._board.battery_changed()
 
-    def _asked(self, question: asyncio.Task[int]) -> None:
+    def _read_done(self, question: asyncio.Task[int]) -> None:
         self._question = None
         if not question.cancelled():
             question.exception()  # whoever asked has it; nobody may be left to take it

@@ -36,7 +36,7 @@ from servodeck.robot.board.downloads import Jobs
 from servodeck.robot.board.estimate import Estimate
 from servodeck.robot.board.heartbeat import Silence
 from servodeck.robot.board.identification import Identification, Status
-from servodeck.robot.board.identity import QUESTIONS, told_identity
+from servodeck.robot.board.identity import QUESTIONS, identity_state
 from servodeck.robot.board.moves import Moves
 from servodeck.robot.board.packet_rules import STOP, Part, is_harmless, judge_packet
 from servodeck.robot.board.playing import Playing, Plays
@@ -44,7 +44,7 @@ from servodeck.robot.board.recovery import StopAgain, filler_for
 from servodeck.robot.board.slots import SlotMemory
 from servodeck.robot.board.unattended import Unattended
 from servodeck.robot.motion.halt_plan import Unheld
-from servodeck.snapshots import IdentityTold, JobState, LinkState, PlayState, PortState, StoredGroup
+from servodeck.snapshots import IdentityState, JobState, LinkState, PlayState, PortState, StoredGroup
 
 DRAIN_S = 0.5
 
@@ -68,7 +68,7 @@ class BoardEvents(Protocol):
 
     def play_changed(self, state: PlayState) -> None: ...
 
-    def time_alone_over(self) -> None:
+    def unattended_time_over(self) -> None:
         """The run that was let go on may not any more."""
 
     def received(self, event: DecoderEvent) -> None: ...
@@ -88,20 +88,20 @@ class Board:
         self,
         ports: Ports,
         now: Callable[[], float],
-        taken_for: str,
+        family_id: str,
         simulated_device: str | None,
         slot_memory: SlotMemory,
         events: BoardEvents,
         *,
-        asks: bool = False,
+        identifies: bool = False,
         polls_battery: bool = False,
     ) -> None:
-        """`taken_for` is a family's name; `asks` has that checked at each opening, and watched.
+        """`family_id` is a family's name; `identifies` has that checked at each opening, and watched.
         `polls_battery`: it is asked for its battery now and then. `simulated_device`: what is behind that
         port is no real board.
         """
-        self.taken_for = taken_for
-        self.identification = Identification(self, FAMILIES[taken_for], asks=asks)
+        self.family_id = family_id
+        self.identification = Identification(self, FAMILIES[family_id], identifies=identifies)
         self._polls_battery = polls_battery
         self._simulated_device = simulated_device
         self._events = events
@@ -119,13 +119,13 @@ class Board:
         """The packet that a loss has cut on its way to the board at that place, until filler has ended it."""
         self._stop_again = StopAgain(now, lambda: self._motion.deaf_until_s, self._stop_unheard)
         self._run: Run | Playing | None = None
-        self.unattended = Unattended(now, events.time_alone_over, events.board_changed)
+        self.unattended = Unattended(now, events.unattended_time_over, events.board_changed)
         self.halts = 0
         """How often what was under way has been ended."""
 
     @property
     def family(self) -> Family:
-        return FAMILIES[self.taken_for]
+        return FAMILIES[self.family_id]
 
     @property
     def motion(self) -> Estimate:
@@ -163,8 +163,8 @@ class Board:
         )
 
     @property
-    def identity(self) -> IdentityTold:
-        return told_identity(self.identification.evidence)
+    def identity(self) -> IdentityState:
+        return identity_state(self.identification.evidence)
 
     def judge_known(self) -> None:
         """Raises what keeps it from being told anything that moves or stores: nobody knows which board it is,
@@ -194,11 +194,11 @@ class Board:
     def _is_moving(self) -> bool:
         return self.motion.group_may_run(self._now()) or self.motion.is_moving(self._now())
 
-    def may_move_on(self) -> bool:
+    def may_still_move(self) -> bool:
         """Also with the last frame of a group that its driver has ended."""
-        return self.may_move() or self.motion.last_frame_may_go_on(self._now())
+        return self.may_move() or self.motion.last_frame_may_move(self._now())
 
-    def take_for(self, family: str) -> None:
+    def choose_family(self, family: str) -> None:
         """A person has said so; `unknown` has it asked again. Raises MovingError while it stores."""
         self.jobs.judge_idle()
         self.identification.choose(FAMILIES[family])
@@ -206,7 +206,7 @@ class Board:
     def recall(self, family: str) -> None:
         """What is connected next is taken for that until somebody says otherwise."""
         self.identification.claim = FAMILIES[family]
-        self.taken_for = family
+        self.family_id = family
 
     def _drop_all(self, reason: GatewayError) -> None:
         """What waits for the wire does not leave any more, but stops."""
@@ -309,13 +309,13 @@ class Board:
         return self._events.is_watched() and self.is_idle()
 
     def is_idle(self) -> bool:
-        return not (self.jobs.is_busy() or self.may_move_on())
+        return not (self.jobs.is_busy() or self.may_still_move())
 
     def drive(self, family: Family) -> None:
         """What was asked of the one it was taken for does not leave."""
-        if family.id == self.taken_for:
+        if family.id == self.family_id:
             return
-        self.taken_for = family.id
+        self.family_id = family.id
         self.battery.forget()
         self._forget_motion()
         self._drop_all(CancelledError("The board is taken for another one now."))
@@ -347,7 +347,7 @@ class Board:
         wire = self.link.wire()
         if self.identification.state.status != "stale":
             self.judge_known()
-        packet = judge_packet(question, self.taken_for)
+        packet = judge_packet(question, self.family_id)
         self.jobs.judge_idle()
         return wire.send(packet, self)
 

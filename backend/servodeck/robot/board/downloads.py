@@ -31,7 +31,7 @@ from servodeck.snapshots import JobState, StoredGroup
 
 REMEMBERED = 16
 # Often enough for a bar that moves, seldom enough for 200 who look on.
-TOLD_EVERY_S = 0.1
+PUBLISH_EVERY_S = 0.1
 # Count table only: 46 ms typical, 403 ms worst (boards.md section 3, flash times).
 ERASE_TIMEOUT_S = ERASE.timeout_ms / 1000
 log = logging.getLogger("servodeck.robot")
@@ -56,7 +56,7 @@ class Jobs:
         self._answers = answers
         self._known: dict[str, Job] = {}
         self._current: Job | None = None
-        self._told_s = float("-inf")
+        self._published_s = float("-inf")
         self._teller: asyncio.TimerHandle | None = None
         # Until then the board may acknowledge a frame that nobody waits for any more.
         self._owed_until_s = float("-inf")
@@ -78,7 +78,7 @@ class Jobs:
             del self._known[old]
         facts = {"slots": job.state.slots, "frames": job.state.frame_count}
         log.info("download begun", extra={"facts": facts})
-        self._tell(job)
+        self._publish(job)
         job.task = asyncio.create_task(self._run(job))
         return job.state
 
@@ -95,7 +95,7 @@ class Jobs:
         if job.by.id != by.id:
             raise NotDrivingError(f"{job.state.by} began that download: only they add to it.")
         job.add(parts)
-        self._tell(job)
+        self._publish(job)
         return job.state
 
     def cancel(self, job_id: str) -> JobState:
@@ -152,14 +152,14 @@ class Jobs:
         if isinstance(command, Erase):
             self._erasing_until_s = at_s + ERASE_TIMEOUT_S
             self._memory.forget(board)
-            self._memory.keep_soon()
+            self._memory.save_soon()
             self._events.slots_changed()
 
     def heard(self, report: Report, board: str) -> None:
         if isinstance(report, Erased) and self._now() < self._erasing_until_s:
             self._erasing_until_s = float("-inf")
             self._memory.clear(board)
-            self._memory.keep_soon()
+            self._memory.save_soon()
             self._events.slots_changed()
 
     async def _run(self, job: Job) -> None:
@@ -187,16 +187,16 @@ class Jobs:
         job.broke = slot not in self._memory.broken(job.board)
         self._memory.breaks(job.board, slot)
         self._events.slots_changed()
-        await self._memory.kept()  # before the first byte leaves: a crash must not forget it
+        await self._memory.saved()  # before the first byte leaves: a crash must not forget it
         job.has_begun = True
         await download.store()
         self._owed_until_s = float("-inf")
         self._memory.store(job.board, slot, part.version, part.name, part.document, job.state.by)
-        self._memory.keep_soon()
+        self._memory.save_soon()
         job.note_whole()
         self._events.group_stored(part)
         self._events.slots_changed()
-        self._tell(job)
+        self._publish(job)
 
     def _finish(self, job: Job, error: GatewayError | None) -> None:
         self._current = None
@@ -204,23 +204,23 @@ class Jobs:
             self._owed_until_s = self._now() + EDGE_FRAME_TIMEOUT_S
         if job.broke and not job.has_begun:
             self._memory.mend(job.board, job.part.slot)
-            self._memory.keep_soon()
+            self._memory.save_soon()
         job.conclude(error)
         facts = {"slot": job.state.slot, "code": job.state.code, "detail": job.state.detail}
         log.info("download %s", job.state.status, extra={"facts": facts})
         self._events.slots_changed()
-        self._tell(job)
+        self._publish(job)
 
     def _progressed(self, job: Job, frames: int) -> None:
         job.note(frames)
         if self._teller is None:
-            delay_s = max(0.0, self._told_s + TOLD_EVERY_S - self._now())
-            self._teller = asyncio.get_running_loop().call_later(delay_s, self._tell, job)
+            delay_s = max(0.0, self._published_s + PUBLISH_EVERY_S - self._now())
+            self._teller = asyncio.get_running_loop().call_later(delay_s, self._publish, job)
 
-    def _tell(self, job: Job) -> None:
+    def _publish(self, job: Job) -> None:
         if self._teller:
             self._teller.cancel()
-        self._teller, self._told_s = None, self._now()
+        self._teller, self._published_s = None, self._now()
         self._events.job_changed(job.state)
 
     def _found(self, job_id: str) -> Job:

@@ -27,8 +27,8 @@ from servodeck.protocol.values import (
     Stop,
 )
 from servodeck.robot.board.slots import GroupMemory
-from servodeck.robot.motion.halt_plan import HaltPlan, Unheld, halt_plan, hold_behind_stop, unheld_since
-from servodeck.robot.motion.model import UNKNOWN_MOTION, UnknownRun, held_at, only_let_go
+from servodeck.robot.motion.halt_plan import HaltPlan, Unheld, halt_plan, hold_after_stop, unheld_since
+from servodeck.robot.motion.model import UNKNOWN_MOTION, UnknownRun, held_at, only_released
 from servodeck.robot.motion.motion import (
     advance,
     after_command,
@@ -46,14 +46,14 @@ from servodeck.robot.motion.motion import (
     without_servos,
 )
 from servodeck.robot.motion.reports import after_cut, after_end, after_report
-from servodeck.snapshots import MotionTold, ServoWay
+from servodeck.snapshots import MotionState, ServoWay
 
 # Longer than the start or the end of a run takes to be told: neither shall be taken for the next one's.
-RUN_TOLD_MS = 500
+RUN_REPORT_MS = 500
 # Seconds and milliseconds of one instant may differ by so much.
 CLOCK_GRAIN_MS = 0.001
 # An end later than that nobody waits for: it is a bound and no news.
-LONGEST_TOLD_MS = 3_600_000
+LONGEST_SHOWN_MS = 3_600_000
 
 
 class Estimate:
@@ -120,7 +120,7 @@ class Estimate:
     def silent(self, now: float) -> None:
         """The board may have moved or restarted unseen; what ran may still run."""
         motion = self._motion
-        if motion.tracks or any(held_at(motion.told, servo) is not None for servo in motion.told):
+        if motion.tracks or any(held_at(motion.readings, servo) is not None for servo in motion.readings):
             self._forget(self._advance(now))
 
     def lost(self, now: float, cut: bytes | None = None) -> None:
@@ -165,7 +165,7 @@ class Estimate:
         now_ms = self._advance(now)
         end_ms = latest_end_ms(self._motion, self) + RUN.end_grace_ms if self._motion.run else self._over_ms
         left_ms = max(0.0, end_ms - now_ms)
-        return None if left_ms > LONGEST_TOLD_MS else left_ms / 1000
+        return None if left_ms > LONGEST_SHOWN_MS else left_ms / 1000
 
     def moves_for_s(self, now: float) -> float:
         """At most, as far as the moves go that it knows; a group is another matter."""
@@ -178,7 +178,7 @@ class Estimate:
         is_on_its_way = self._run is None and remaining_ms(self._motion, now_ms) > CLOCK_GRAIN_MS
         return is_on_its_way or now_ms < self._unheard_until_ms
 
-    def last_frame_may_go_on(self, now: float) -> bool:
+    def last_frame_may_move(self, now: float) -> bool:
         """Of a group that was ended, where nobody knows how long that takes."""
         now_ms = self._advance(now)
         return now_ms < min(self._last_frame_until_ms, self._motion.restless_until_ms)
@@ -208,18 +208,18 @@ class Estimate:
 
     def hold(self, now: float) -> Move | None:
         """What holds the robot, as a move that begins to leave now, a gap behind a stop."""
-        return hold_behind_stop(self._motion, self._advance(now) - self.family.service_gap_ms, self)
+        return hold_after_stop(self._motion, self._advance(now) - self.family.service_gap_ms, self)
 
     def unheld_since(self, pressed_s: float, now: float) -> Unheld | None:
         """What goes on in spite of a STOP pressed then, whose last packet left just now."""
         return unheld_since(pressed_s * 1000, self._motion, self._advance(now), self)
 
-    def told(self, now: float) -> MotionTold:
+    def snapshot(self, now: float) -> MotionState:
         """As whoever comes now is told of it."""
         self._advance(now)
-        released = list(only_let_go(self._motion.told))
+        released = list(only_released(self._motion.readings))
         if self._run:
-            return MotionTold(servos=[], run_slot=self._run.slot, released=released)
+            return MotionState(servos=[], run_slot=self._run.slot, released=released)
         ways = [
             ServoWay(
                 servo=servo,
@@ -231,7 +231,7 @@ class Estimate:
             for servo, track in self._motion.tracks.items()
             if track.to_leeway < inf
         ]
-        return MotionTold(servos=ways, run_slot=None, released=released)
+        return MotionState(servos=ways, run_slot=None, released=released)
 
     def _forget(self, at_ms: float) -> None:
         self._memory.forget_speeds()
@@ -261,7 +261,7 @@ class Estimate:
     def _started(self, report: RunStarted, at_ms: float) -> None:
         """By a key or a pad at the board; one that was asked for may have been stopped since."""
         is_ours = self._asked is not None and self._asked.slot == report.slot
-        if is_ours and self._run is None and at_ms - self._run_at_ms < RUN_TOLD_MS:
+        if is_ours and self._run is None and at_ms - self._run_at_ms < RUN_REPORT_MS:
             return
         self._motion = after_report(self._motion, report, at_ms, self)
         if self._run is None or self._run.slot != report.slot:
@@ -274,7 +274,7 @@ class Estimate:
         run, end_ms = self._motion.run, latest_end_ms(self._motion, self)
         chained_slot = self.family.motion.chained_slot
         is_in_doubt = isinstance(run, UnknownRun) and (
-            at_ms - self._run_at_ms < RUN_TOLD_MS
+            at_ms - self._run_at_ms < RUN_REPORT_MS
             or (
                 isinstance(report, RunFinished)
                 and chained_slot is not None

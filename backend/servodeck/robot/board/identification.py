@@ -52,15 +52,15 @@ class IdentifiedBoard(Protocol):
 
 
 class Identification:
-    def __init__(self, board: IdentifiedBoard, claim: Family, *, asks: bool) -> None:
-        """`claim`: what it is taken for until somebody says otherwise. `asks`: that is checked by harmless
-        questions at each opening, and then whether it is still there; otherwise its word is enough.
+    def __init__(self, board: IdentifiedBoard, claim: Family, *, identifies: bool) -> None:
+        """`claim`: the family that the board is driven as until a person names another. `identifies`: that is
+        checked by harmless questions at each opening, and the board is watched afterwards.
         """
         self.claim = claim
         self.evidence: Sequence[Evidence] = ()
         self.state = BoardStatus("closed")
         self._board = board
-        self._asks = asks
+        self._identifies = identifies
         self._noise_bytes = 0
         self._echoes = 0
         self._check: asyncio.Task[None] | None = None
@@ -79,7 +79,7 @@ class Identification:
     def begin(self) -> None:
         """The line is open."""
         self.evidence = ()
-        if self._asks:
+        if self._identifies:
             self._begin_check()
         else:
             self._judge()
@@ -101,7 +101,7 @@ class Identification:
         if family is UNKNOWN or status == "closed":
             self._board.drive(family)
         # What a board that is silent answered once says nothing of what is there now.
-        if self._asks and (family is UNKNOWN or status == "stale") and status != "closed":
+        if self._identifies and (family is UNKNOWN or status == "stale") and status != "closed":
             self._begin_check()
         elif status not in ("closed", "identifying"):
             self._judge()
@@ -111,7 +111,7 @@ class Identification:
         self._heartbeat.heard()
         if self.state.status != "stale" or isinstance(report, UnknownReport):
             return
-        if self._asks:
+        if self._identifies:
             self._begin_check()
         else:
             self._accept(is_silent=False)
@@ -181,7 +181,7 @@ class Identification:
             self._enter(BoardStatus("stale", silence()))
 
     def _heartbeat_question(self) -> Question | None:
-        if not self._asks:
+        if not self._identifies:
             return None
         # A board that is silent is asked for whoever comes, also over HTTP.
         may_ask = self._board.may_ask() or (self.state.status == "stale" and self._board.is_idle())

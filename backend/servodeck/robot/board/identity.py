@@ -23,15 +23,15 @@ from servodeck.protocol.values import (
     Version,
 )
 from servodeck.snapshots import (
-    AnsweredTold,
+    AnsweredEvidence,
     BatteryReport,
-    EchoedTold,
-    EvidenceTold,
-    IdentityTold,
-    NoiseTold,
+    EchoedEvidence,
+    EvidenceState,
+    IdentityState,
+    NoiseEvidence,
     PositionsReport,
     ServoPosition,
-    SilentTold,
+    SilentEvidence,
     VersionReport,
 )
 
@@ -99,24 +99,26 @@ def is_missing(family: Family, evidence: Evidence) -> bool:
     return isinstance(evidence, Silent) and evidence.question in family.certain_answers
 
 
-def told_identity(evidence: Sequence[Evidence]) -> IdentityTold:
+def identity_state(evidence: Sequence[Evidence]) -> IdentityState:
     """As clients are told."""
-    return IdentityTold(evidence=[told_evidence(one) for one in evidence], candidates=candidates_of(evidence))
+    return IdentityState(
+        evidence=[evidence_state(one) for one in evidence], candidates=candidates_of(evidence)
+    )
 
 
-def told_evidence(evidence: Evidence) -> EvidenceTold:
+def evidence_state(evidence: Evidence) -> EvidenceState:
     match evidence:
         case Answered(question, report):
-            return AnsweredTold(question=question, report=told_answer(report))
+            return AnsweredEvidence(question=question, report=report_state(report))
         case Silent(question):
-            return SilentTold(question=question)
+            return SilentEvidence(question=question)
         case Echoed():
-            return EchoedTold()
+            return EchoedEvidence()
         case Noise(byte_count):
-            return NoiseTold(byte_count=byte_count)
+            return NoiseEvidence(byte_count=byte_count)
 
 
-def told_answer(report: Report) -> BatteryReport | VersionReport | PositionsReport:
+def report_state(report: Report) -> BatteryReport | VersionReport | PositionsReport:
     match report:
         case Battery(battery_mv):
             return BatteryReport(battery_mv=battery_mv)
@@ -131,26 +133,26 @@ def told_answer(report: Report) -> BatteryReport | VersionReport | PositionsRepo
 
 
 @dataclass(frozen=True, slots=True)
-class Asked:
+class QuestionPacket:
     """A question as a packet, and what answers it."""
 
     packet: bytes
     answer: type[Report]
 
 
-QUESTIONS: Mapping[Question, Asked] = {
-    "readBattery": Asked(encode(ReadBattery(), UNKNOWN), Battery),
-    "readVersion": Asked(encode(ReadVersion(), UNKNOWN), Version),
+QUESTIONS: Mapping[Question, QuestionPacket] = {
+    "readBattery": QuestionPacket(encode(ReadBattery(), UNKNOWN), Battery),
+    "readVersion": QuestionPacket(encode(ReadVersion(), UNKNOWN), Version),
     # One servo's is enough: bus boards answer, the others do not know the question.
-    "readPositions": Asked(encode(ReadPositions((1,)), UNKNOWN), Positions),
+    "readPositions": QuestionPacket(encode(ReadPositions((1,)), UNKNOWN), Positions),
 }
 
-Ask = Callable[[Question], Awaitable[Report | None]]
+SendQuestion = Callable[[Question], Awaitable[Report | None]]
 """Puts it to the board once. None where no answer came; raises where it could not be asked."""
 
 
 async def identify(
-    ask_once: Ask, noise_bytes: Callable[[], int], echoes: Callable[[], int]
+    send_question: SendQuestion, noise_bytes: Callable[[], int], echoes: Callable[[], int]
 ) -> Sequence[Evidence]:
     """`noise_bytes`: heard so far that were no packets; `echoes`: packets heard so far that were our own
     question. Raises when the link goes meanwhile.
@@ -159,7 +161,7 @@ async def identify(
 
     async def ask(question: Question) -> Evidence:
         for _ in range(IDENTIFY.attempts):
-            if report := await ask_once(question):
+            if report := await send_question(question):
                 return Answered(question, report)
         return Silent(question)
 

@@ -32,7 +32,7 @@ class MovedBoard(Protocol):
 
 
 @dataclass(eq=False, slots=True)
-class Asked:
+class MoveRequest:
     """One request. `judge` raises what keeps that target from leaving now; `starts`: it is the servo's first
     move, for which it may have waited. `left` resolves when each value has left or a newer one has taken its
     place.
@@ -53,7 +53,7 @@ class Asked:
 class Wish:
     target: ServoTarget
     duration_ms: int
-    asked: Asked
+    request: MoveRequest
 
 
 class Moves:
@@ -73,9 +73,9 @@ class Moves:
     def is_empty(self) -> bool:
         return not self._wishes
 
-    def is_waiting(self, asked: Asked) -> bool:
+    def is_waiting(self, request: MoveRequest) -> bool:
         """Something of it has not begun to leave."""
-        return any(wish.asked is asked for wish in self._wishes.values())
+        return any(wish.request is request for wish in self._wishes.values())
 
     def starts_within_s(self, servos: Collection[int]) -> float:
         """Until the last of them has started, if no others are asked for; others may be waiting already."""
@@ -83,22 +83,22 @@ class Moves:
         count = sum(motion.is_unknown(servo, now) for servo in {*self._wishes, *servos})
         return max(0.0, self._next_start_s - now) + (count - 1) * FIRST_MOVE_STAGGER_S if count else 0.0
 
-    def put(self, targets: Sequence[ServoTarget], duration_ms: int, asked: Asked) -> Left:
+    def put(self, targets: Sequence[ServoTarget], duration_ms: int, request: MoveRequest) -> Left:
         """`duration_ms` 0: as fast as the soft limit and the link allow. Raises where no port is open."""
         self._board.link.wire()
         for target in targets:
             before = self._wishes.get(target.servo)
-            asked.open.add(target.servo)
-            self._wishes[target.servo] = Wish(target, duration_ms, asked)
-            if before and before.asked is not asked:
-                before.asked.done(target.servo)
+            request.open.add(target.servo)
+            self._wishes[target.servo] = Wish(target, duration_ms, request)
+            if before and before.request is not request:
+                before.request.done(target.servo)
         self._queue_up()
-        return asked.left
+        return request.left
 
     def drop(self, reason: GatewayError, owner: Owner = None) -> None:
         """Those of `owner`, or all: they do not leave any more."""
         for servo, wish in list(self._wishes.items()):
-            if owner is None or wish.asked.owner is owner:
+            if owner is None or wish.request.owner is owner:
                 self._refuse(servo, reason)
         self._plan_starts()
 
@@ -154,14 +154,14 @@ class Moves:
     def _may_leave(self, servo: int, *, starts: bool) -> bool:
         wish = self._wishes[servo]
         try:
-            wish.asked.judge(wish.target, starts)
+            wish.request.judge(wish.target, starts)
         except GatewayError as error:
             self._refuse(servo, error)
             return False
         return True
 
     def _refuse(self, servo: int, reason: GatewayError) -> None:
-        fail(self._wishes.pop(servo).asked.left, reason)
+        fail(self._wishes.pop(servo).request.left, reason)
 
     def _plan_starts(self) -> None:
         """Says who waits to start, and comes back when the next one may."""
@@ -182,6 +182,6 @@ def settle_all(taken: Sequence[Wish], left: Left) -> None:
     error = None if left.cancelled() else left.exception()
     for wish in taken:
         if isinstance(error, GatewayError):
-            fail(wish.asked.left, error)
+            fail(wish.request.left, error)
         else:
-            wish.asked.done(wish.target.servo)
+            wish.request.done(wish.target.servo)

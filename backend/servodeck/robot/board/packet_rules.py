@@ -55,7 +55,7 @@ def judge_frame(command: Download, board: str) -> bytes:
         raise refusal_of(error) from error
 
 
-def judge_by_hand(packet: bytes) -> None:
+def judge_single_packet(packet: bytes) -> None:
     """A frame alone only breaks the slot it goes to (S33, S35). Raises NotSupportedError."""
     if packet[COMMAND_AT] == DOWNLOAD:
         raise NotSupportedError("Groups are stored as a whole: POST /api/download.")

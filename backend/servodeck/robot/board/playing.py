@@ -16,14 +16,14 @@ from servodeck.port.wire import Left
 from servodeck.protocol.families import Family
 from servodeck.protocol.limits import PacketError, check, check_range
 from servodeck.protocol.values import Frame, Move, ServoTarget
-from servodeck.robot.board.moves import Asked, Moves
+from servodeck.robot.board.moves import MoveRequest, Moves
 from servodeck.robot.board.packet_rules import extremes_of, refusal_of
 from servodeck.robot.board.player import Player
-from servodeck.robot.hub import Seat
+from servodeck.robot.hub import Session
 from servodeck.snapshots import PlayState
 
 # As often as others are told what left.
-TOLD_EVERY_S = 0.05
+PUBLISH_EVERY_S = 0.05
 log = logging.getLogger("servodeck.robot")
 
 
@@ -65,7 +65,7 @@ class Playing:
     def __init__(
         self,
         group: FrameGroup,
-        by: Seat,
+        by: Session,
         moves: Moves,
         now: Callable[[], float],
         judge: Judge,
@@ -92,7 +92,7 @@ class Playing:
         self._changed = changed
         self._over = over
         self._player = Player(group.frames, group.times, group.loop_from, self, now, lambda: over(self, None))
-        self._asked: Asked | None = None
+        self._request: MoveRequest | None = None
         """The present frame."""
         self._lead = {target.servo for target in group.frames[0].targets}
         """Those of them that have not begun to leave."""
@@ -103,7 +103,7 @@ class Playing:
     def end(self) -> None:
         """Nothing of it leaves any more."""
         self._player.stop()
-        self._asked = None
+        self._request = None
         self._moves.drop(CancelledError("What it was a part of has ended."), self)
 
     def note_end(self, error: GatewayError | None) -> None:
@@ -118,16 +118,16 @@ class Playing:
     def move(self, frame: Frame) -> None:
         is_lead = not self._has_moved
         self._has_moved = True
-        asked = self._asked = Asked(self, self._target_leaves)
+        request = self._request = MoveRequest(self, self._target_leaves)
         try:
-            self._moves.put(frame.targets, frame.duration_ms, asked)
+            self._moves.put(frame.targets, frame.duration_ms, request)
         except GatewayError as error:
             self._over(self, error)
         else:
-            asked.left.add_done_callback(lambda left: self._left(left, is_lead=is_lead))
+            request.left.add_done_callback(lambda left: self._left(left, is_lead=is_lead))
 
     def is_waiting(self) -> bool:
-        return self._asked is not None and self._moves.is_waiting(self._asked)
+        return self._request is not None and self._moves.is_waiting(self._request)
 
     def frame_began(self, index: int) -> None:
         self._update({"frame_index": index})
@@ -146,7 +146,7 @@ class Playing:
     def _left(self, left: Left, *, is_lead: bool) -> None:
         """The way to the first frame is what makes the others gentle: without it none of them leaves."""
         error = None if left.cancelled() else left.exception()
-        if self._asked is None or not isinstance(error, GatewayError):
+        if self._request is None or not isinstance(error, GatewayError):
             return
         self._player.refused()
         if is_lead:
@@ -166,18 +166,18 @@ class Plays:
     def __init__(self, moves: Moves, events: Callable[[PlayState], None], now: Callable[[], float]) -> None:
         """`events` hears how far the latest one is."""
         self._moves = moves
-        self._tell = events
+        self._publish = events
         self._now = now
         self.present: Playing | None = None
         self.latest: PlayState | None = None
         self._ended: Callable[[PlayState], None] = lambda _: None
-        self._told_s = float("-inf")
+        self._published_s = float("-inf")
         self._teller: asyncio.TimerHandle | None = None
 
     def begin(
         self,
         group: FrameGroup,
-        by: Seat,
+        by: Session,
         judge: Judge,
         ended: Callable[[PlayState], None],
         *,
@@ -214,11 +214,11 @@ class Plays:
         """At once, and not more often than anybody can see."""
         self.latest = state
         if self._teller is None:
-            delay_s = max(0.0, self._told_s + TOLD_EVERY_S - self._now())
+            delay_s = max(0.0, self._published_s + PUBLISH_EVERY_S - self._now())
             if delay_s:
-                self._teller = asyncio.get_running_loop().call_later(delay_s, self._tell_latest)
+                self._teller = asyncio.get_running_loop().call_later(delay_s, self._publish_latest)
             else:
-                self._tell_latest()
+                self._publish_latest()
 
     def _finish(self, play: Playing, error: GatewayError | None) -> None:
         if play is not self.present:
@@ -229,12 +229,12 @@ class Plays:
         log.info("play %s", play.state.status, extra={"facts": {"code": play.state.code}})
         self.latest, ended = play.state, self._ended
         self._ended = lambda _: None
-        self._tell_latest()
+        self._publish_latest()
         ended(play.state)
 
-    def _tell_latest(self) -> None:
+    def _publish_latest(self) -> None:
         if self._teller:
             self._teller.cancel()
-        self._teller, self._told_s = None, self._now()
+        self._teller, self._published_s = None, self._now()
         if self.latest:
-            self._tell(self.latest)
+            self._publish(self.latest)

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, overload
 
-from servodeck.files import FileBehind
+from servodeck.files import BackgroundFile
 from servodeck.protocol.packets import parse_command
 from servodeck.protocol.timings import RUN
 from servodeck.protocol.values import Download, Frame
@@ -114,9 +114,9 @@ class SlotMemory:
         """Without a folder they are forgotten with the gateway. `today`: seconds since 1970."""
         self._today = today
         self._boards = read(folder) if folder else {}
-        behind = FileBehind(folder / FILE if folder else None, self._text)
-        self.kept = behind.kept
-        self.keep_soon = behind.keep_soon
+        behind = BackgroundFile(folder / FILE if folder else None, self._text)
+        self.saved = behind.saved
+        self.save_soon = behind.save_soon
 
     def broken(self, board: str) -> list[int]:
         return sorted(self._of(board).broken)

@@ -10,14 +10,14 @@ from dataclasses import dataclass
 
 from servodeck.protocol.values import Run
 from servodeck.robot.board.playing import Playing
-from servodeck.robot.hub import Seat
+from servodeck.robot.hub import Session
 from servodeck.snapshots import UnattendedRun
 
 
 @dataclass(frozen=True, slots=True)
-class GoingOn:
+class AllowedRun:
     run: Run | Playing
-    by: Seat
+    by: Session
     until_s: float
 
 
@@ -29,14 +29,14 @@ class Unattended:
         self._now = now
         self._over = over
         self._changed = changed
-        self._present: GoingOn | None = None
+        self._present: AllowedRun | None = None
         self._timer: asyncio.TimerHandle | None = None
 
     @property
-    def by(self) -> Seat | None:
+    def by(self) -> Session | None:
         return self._present.by if self._present else None
 
-    def told(self) -> UnattendedRun | None:
+    def snapshot(self) -> UnattendedRun | None:
         if self._present is None:
             return None
         run, left_s = self._present.run, max(0.0, self._present.until_s - self._now())
@@ -45,8 +45,8 @@ class Unattended:
             slot=slot, times=run.times, by=self._present.by.caller.name, ends_in_ms=round(left_s * 1000)
         )
 
-    def allow(self, run: Run | Playing, by: Seat, for_s: float) -> None:
-        self._show(GoingOn(run, by, self._now() + for_s))
+    def allow(self, run: Run | Playing, by: Session, for_s: float) -> None:
+        self._show(AllowedRun(run, by, self._now() + for_s))
 
     def end(self) -> None:
         """It is nobody's any more, or watched again."""
@@ -58,11 +58,11 @@ class Unattended:
         if self._present and self._present.run is not run:
             self._show(None)
 
-    def _show(self, going_on: GoingOn | None) -> None:
+    def _show(self, allowed: AllowedRun | None) -> None:
         if self._timer:
             self._timer.cancel()
-        self._present, self._timer = going_on, None
-        if going_on:
-            delay_s = going_on.until_s - self._now()
+        self._present, self._timer = allowed, None
+        if allowed:
+            delay_s = allowed.until_s - self._now()
             self._timer = asyncio.get_running_loop().call_later(delay_s, self._over)
         self._changed()

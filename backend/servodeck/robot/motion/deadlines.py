@@ -26,7 +26,7 @@ from servodeck.robot.motion.tracks import (
     ordered,
     retarget,
     stopped_before,
-    unrest_behind,
+    unrest_after,
 )
 
 BARE_PACKET_MS = wire_ms(4)
@@ -109,7 +109,7 @@ def begin_frame(motion: Motion, run: DeadlineRun, board: KnownBoard) -> Motion:
     tracks = retarget(motion.tracks, frame.targets, frame.duration_ms, run.next_at_ms, family)
     unrest = [motion.restless_until_ms, motion.inherited_until_ms]
     if frame.targets:
-        unrest = [unrest_behind(each, frame.duration_ms, run.next_at_ms, family) for each in unrest]
+        unrest = [unrest_after(each, frame.duration_ms, run.next_at_ms, family) for each in unrest]
     return replace(
         motion,
         recent=recent,

@@ -49,18 +49,18 @@ def halt_plan(motion: Motion, now_ms: float, board: KnownBoard) -> HaltPlan:
     """As of the press of STOP at `now_ms`: the first hold, and what goes on behind the last one."""
     stopped_ms = now_ms + wire_ms(4)
     stopped = after_command(advance(motion, now_ms, board), Stop(), stopped_ms, board)
-    hold = hold_behind_stop(stopped, stopped_ms, board)
+    hold = hold_after_stop(stopped, stopped_ms, board)
     current = after_hold(stopped, hold, stopped_ms, board)
     for offset_ms in STOP_OFFSETS_MS:
         current = after_command(current, Stop(), stopped_ms + offset_ms, board)
     last_stop_ms = stopped_ms + max(STOP_OFFSETS_MS)
-    last_hold = hold_behind_stop(current, last_stop_ms, board)
+    last_hold = hold_after_stop(current, last_stop_ms, board)
     last_ms = hold_leaves_ms(last_hold, last_stop_ms, board.family)
     held = after_hold(current, last_hold, last_stop_ms, board)
     return HaltPlan(hold, unheld_since(now_ms, held, last_ms, board))
 
 
-def hold_behind_stop(motion: Motion, stopped_ms: float, board: KnownBoard) -> Move | None:
+def hold_after_stop(motion: Motion, stopped_ms: float, board: KnownBoard) -> Move | None:
     """The hold that follows a stop whose last bit left at `stopped_ms`."""
     arrives_ms = stopped_ms + board.family.service_gap_ms + move_ms(len(motion.tracks))
     return hold_at(advance(motion, arrives_ms, board), arrives_ms, board.family)

@@ -21,42 +21,42 @@ class Reading:
     is_released: bool = False
 
 
-Told = Mapping[int, Reading]
+Readings = Mapping[int, Reading]
 
 RELEASED = Reading(None, is_released=True)
 
 
-def after_positions(told: Told, positions: Sequence[ServoTarget]) -> Told:
+def after_positions(readings: Readings, positions: Sequence[ServoTarget]) -> Readings:
     new = {
-        each.servo: Reading(each.position, each.servo in told and told[each.servo].is_released)
+        each.servo: Reading(each.position, each.servo in readings and readings[each.servo].is_released)
         for each in positions
     }
-    return {**told, **new}
+    return {**readings, **new}
 
 
-def after_order(told: Told, command: Command, *, is_heard: bool) -> Told:
+def after_order(readings: Readings, command: Command, *, is_heard: bool) -> Readings:
     """After the command left the wire; `is_heard` False where the board may not have taken it up."""
     match command:
         case Release(servos):
-            return {**told, **dict.fromkeys(servos, RELEASED)}
+            return {**readings, **dict.fromkeys(servos, RELEASED)}
         case Run():
-            return only_let_go(told)
+            return only_released(readings)
         case Move(_, targets):
             moved = {target.servo for target in targets}
-            still_free = moved & only_let_go(told).keys() if not is_heard else set[int]()
-            rest = {servo: reading for servo, reading in told.items() if servo not in moved}
+            still_free = moved & only_released(readings).keys() if not is_heard else set[int]()
+            rest = {servo: reading for servo, reading in readings.items() if servo not in moved}
             return {**rest, **dict.fromkeys(still_free, RELEASED)}
-    return told
+    return readings
 
 
-def only_let_go(told: Told) -> dict[int, Reading]:
+def only_released(readings: Readings) -> dict[int, Reading]:
     """What the board said before is no longer so."""
-    return {servo: RELEASED for servo, reading in told.items() if reading.is_released}
+    return {servo: RELEASED for servo, reading in readings.items() if reading.is_released}
 
 
-def held_at(told: Told, servo: int) -> int | None:
+def held_at(readings: Readings, servo: int) -> int | None:
     """Where the board said that it stands; None where it has not, or where hands may have turned it since."""
-    reading = told.get(servo)
+    reading = readings.get(servo)
     return None if reading is None or reading.is_released else reading.position
 
 
@@ -111,7 +111,7 @@ AnyRun = UnknownRun | DeadlineRun | PolledRun
 @dataclass(frozen=True, slots=True)
 class Motion:
     tracks: Tracks = field(default_factory=dict)
-    told: Told = field(default_factory=dict)
+    readings: Readings = field(default_factory=dict)
     """Of servos without a track."""
     run: AnyRun | None = None
     recent: tuple[Order, ...] = ()
@@ -177,4 +177,4 @@ def running_unknown(motion: Motion, slot: int | None, ends_to_hear: int = 1, unt
     the moves go on.
     """
     run = UnknownRun(slot, ends_to_hear, until_ms)
-    return replace(motion, tracks=doubted(motion.tracks), told=only_let_go(motion.told), run=run)
+    return replace(motion, tracks=doubted(motion.tracks), readings=only_released(motion.readings), run=run)

@@ -51,7 +51,7 @@ from servodeck.robot.motion.model import (
     UnknownRun,
     after_order,
     held_at,
-    only_let_go,
+    only_released,
     running_unknown,
 )
 from servodeck.robot.motion.polled import polled
@@ -72,7 +72,7 @@ from servodeck.robot.motion.tracks import (
     share,
     standing_at,
     stands,
-    unrest_behind,
+    unrest_after,
 )
 
 PLAYBACKS: dict[str, Playback] = {"deadlines": deadlines, "polled": polled}
@@ -120,7 +120,7 @@ def after_command(motion: Motion, command: Command, at_ms: float, board: KnownBo
         after = restless(current, after_heard(current, command, at_ms, board), at_ms)
     else:
         after = maybe_swallowed(after_unheard(current, command, at_ms, board), at_ms)
-    return replace(after, told=after_order(after.told, command, is_heard=is_heard))
+    return replace(after, readings=after_order(after.readings, command, is_heard=is_heard))
 
 
 def maybe_swallowed(motion: Motion, at_ms: float) -> Motion:
@@ -130,7 +130,7 @@ def maybe_swallowed(motion: Motion, at_ms: float) -> Motion:
     return replace(
         motion,
         tracks={},
-        told=only_let_go(motion.told),
+        readings=only_released(motion.readings),
         may_swallow=motion.may_swallow - 1,
         restless_until_ms=max(at_ms, motion.deaf_until_ms) + LONGEST_MOVE_MS,
     )
@@ -187,16 +187,16 @@ def moved(motion: Motion, move: Move, at_ms: float, board: KnownBoard) -> Motion
         motion,
         recent=recent,
         tracks=contested(tracks, recent),
-        restless_until_ms=unrest_behind(motion.restless_until_ms, move.duration_ms, at_ms, board.family),
-        inherited_until_ms=unrest_behind(motion.inherited_until_ms, move.duration_ms, at_ms, board.family),
+        restless_until_ms=unrest_after(motion.restless_until_ms, move.duration_ms, at_ms, board.family),
+        inherited_until_ms=unrest_after(motion.inherited_until_ms, move.duration_ms, at_ms, board.family),
     )
 
 
 def with_start(motion: Motion, targets: Sequence[ServoTarget]) -> Tracks:
     """Those of the targets that stand where the board said begin there."""
-    told = {target.servo: held_at(motion.told, target.servo) for target in targets}
-    standing = {servo: standing_at(at) for servo, at in told.items() if at is not None}
-    return {**motion.tracks, **standing}
+    readings = {target.servo: held_at(motion.readings, target.servo) for target in targets}
+    at_rest = {servo: standing_at(at) for servo, at in readings.items() if at is not None}
+    return {**motion.tracks, **at_rest}
 
 
 def released(motion: Motion, servos: Collection[int]) -> Motion:
@@ -280,7 +280,7 @@ def forgotten(motion: Motion, at_ms: float, board: KnownBoard) -> Motion:
         still_ms = last_end_ms(motion.tracks, at_ms) - at_ms + ESTIMATE.last_ticks_ms
     return replace(
         UNKNOWN_MOTION,
-        told=only_let_go(motion.told),
+        readings=only_released(motion.readings),
         run=UnknownRun(None, until_ms=latest_end_ms(motion, board)) if motion.run else None,
         deaf_until_ms=motion.deaf_until_ms,
         may_swallow=motion.may_swallow,
@@ -308,9 +308,9 @@ def either_of(one: Motion, other: Motion) -> Motion:
 
 def position_at(motion: Motion, servo: int, now_ms: float) -> int | None:
     """Present position of a servo in board units, or None while it is unknown."""
-    told = held_at(motion.told, servo)
-    if told is not None:
-        return told
+    readings = held_at(motion.readings, servo)
+    if readings is not None:
+        return readings
     track = motion.tracks.get(servo)
     position = position_of(track, now_ms) if track else None
     return None if position is None else rounded(position)
@@ -325,7 +325,7 @@ def leeway_at(motion: Motion, servo: int, now_ms: float, family: Family) -> floa
     """How far off `position_at` may be, in board units: the way of one tick, and more for a servo redirected
     on its way.
     """
-    if held_at(motion.told, servo) is not None:
+    if held_at(motion.readings, servo) is not None:
         return 0
     track = motion.tracks.get(servo)
     return leeway_of(track, now_ms, family) if track else inf

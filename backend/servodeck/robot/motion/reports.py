@@ -14,7 +14,7 @@ from servodeck.robot.motion.model import (
     KnownBoard,
     Motion,
     after_positions,
-    only_let_go,
+    only_released,
     running_unknown,
 )
 from servodeck.robot.motion.motion import advance, playback_of, restless
@@ -28,22 +28,22 @@ def after_report(motion: Motion, report: Report, at_ms: float, board: KnownBoard
         return after_start(current, report, at_ms, board)
     answered = after_answer(current, type(report), at_ms, board)
     if isinstance(report, Positions | AllPositions):
-        return after_word(answered, report.positions, at_ms)
+        return after_positions_report(answered, report.positions, at_ms)
     return answered
 
 
-def after_word(motion: Motion, positions: Sequence[ServoTarget], at_ms: float) -> Motion:
+def after_positions_report(motion: Motion, positions: Sequence[ServoTarget], at_ms: float) -> Motion:
     """It read them a while ago: what may have moved meanwhile it may have read on its way."""
     if motion.run is not None:
         return motion
     if at_ms < motion.restless_until_ms + ESTIMATE.longest_deafness_ms:
         # Without torque it is on no way.
-        free = only_let_go(motion.told)
-        standing = [each for each in positions if each.servo in free]
+        free = only_released(motion.readings)
+        at_rest = [each for each in positions if each.servo in free]
     else:
         moving = {servo for servo, track in motion.tracks.items() if not stands(track, at_ms)}
-        standing = [each for each in positions if each.servo not in moving]
-    return replace(motion, told=after_positions(motion.told, standing))
+        at_rest = [each for each in positions if each.servo not in moving]
+    return replace(motion, readings=after_positions(motion.readings, at_rest))
 
 
 def after_answer(motion: Motion, report: type[Report], at_ms: float, board: KnownBoard) -> Motion:

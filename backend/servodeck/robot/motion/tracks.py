@@ -99,7 +99,7 @@ def leeway_of(track: Track, now_ms: float, family: Family) -> float:
     return way * tick + track.to_leeway + (track.start_leeway - track.to_leeway) * left
 
 
-def unrest_behind(until_ms: float, requested_ms: float, at_ms: float, family: Family) -> float:
+def unrest_after(until_ms: float, requested_ms: float, at_ms: float, family: Family) -> float:
     """Where the board re-times every servo, also what nobody knows of, which may move until then, arrives
     with what takes effect at `at_ms` (S26).
     """
