@@ -5,24 +5,10 @@ import { sleep } from '#shared/clock.ts';
 import { BAUD, wireMs } from '#shared/codec/packet.ts';
 import { LinkError, type LinkErrorCode } from '#shared/session/linkError.ts';
 import { LINE_IDLE_MS } from '#shared/session/timings.ts';
+import type { Connection, ConnectionEvents } from './tabChannel.ts';
 import { browserClock } from './browserClock.ts';
 import { isGone } from './portFinder.ts';
 import { nameOf } from './serialPorts.ts';
-
-export interface ConnectionEvents {
-  received(bytes: Uint8Array): void;
-  /** At most once, never after `close`. */
-  lost(error: LinkError): void;
-}
-
-export interface PortConnection {
-  /** Resolves when the packet's last bit has left the wire. Any failure ends the connection. */
-  send(packet: Uint8Array): Promise<void>;
-  /** Hands the packet over before it returns, behind what is leaving. Resolves when it has left, or never will. */
-  sendAtOnce(packet: Uint8Array): Promise<void>;
-  /** Never rejects and never hangs. */
-  close(): Promise<void>;
-}
 
 /**
  * Longer than a session waits for the rest of a packet: what the error cut is given up before anything is read that came
@@ -39,7 +25,7 @@ const HELD_BACK_MS = 100;
 /** A port that does not let itself be closed is given up, so that another attempt can begin. */
 const CLOSE_WITHIN_MS = 250;
 
-export async function openPort(port: SerialPort, events: ConnectionEvents): Promise<PortConnection> {
+export async function openPort(port: SerialPort, events: ConnectionEvents): Promise<Connection> {
   try {
     await port.open({ baudRate: BAUD });
   } catch (error) {
@@ -53,7 +39,7 @@ function openFailure(port: SerialPort, error: unknown): LinkErrorCode {
   return isGone(port) || nameOf(error) === 'NotFoundError' ? 'portMissing' : 'portBusy';
 }
 
-function connect(port: SerialPort, events: ConnectionEvents): PortConnection {
+function connect(port: SerialPort, events: ConnectionEvents): Connection {
   let reader: ReadableStreamDefaultReader<Uint8Array> | null = null;
   let writer: WritableStreamDefaultWriter<Uint8Array> | null = null;
   let closing: Promise<void> | null = null;
