@@ -56,6 +56,15 @@ const pythonFormat = {
 };
 /** @type {Task} */
 const pythonTypes = { name: 'types, Python', command: pythonModule('mypy') };
+/** @type {Task} */
+const pythonLayers = {
+  name: 'layer rule, Python',
+  command: [
+    ...[python, '-c', 'from importlinter.cli import lint_imports_command as run; run()'], // no module to run by its name
+    ...['--no-logo', '--no-cache'],
+  ],
+  env: { PYTHONPATH: at('backend') },
+};
 
 /** @type {Task} */
 const wheel = { name: 'wheel', command: [python, 'scripts/wheel_check.py'] };
@@ -122,7 +131,7 @@ function endToEnd(amount) {
   };
 }
 
-const still = [lint, pythonTypes, layers, messages, format, pythonLint, pythonFormat];
+const still = [lint, pythonTypes, layers, pythonLayers, messages, format, pythonLint, pythonFormat];
 
 /** @param {Task} task @returns {Task} */
 function givingWay(task) {

@@ -9,6 +9,7 @@ import asyncio
 import logging
 import os
 import shutil
+import sqlite3
 import tempfile
 import threading
 from collections.abc import Callable, Mapping
@@ -18,6 +19,7 @@ from typing import Annotated
 
 from pydantic import Field, ValidationError
 
+from servodeck.errors import StorageBusyError, StorageError, StorageFullError
 from servodeck.schema import Message
 from servodeck.threads import in_thread
 
@@ -173,3 +175,22 @@ def read(file: Path) -> Memory:
         return Memory.model_validate_json(file.read_text("utf-8"))
     except (OSError, ValueError, ValidationError):
         return Memory()
+
+
+def storage_error(error: sqlite3.Error) -> StorageError:
+    """For a SQLite file of the data folder: the library, or the list of paired devices."""
+    code = sqlite_code(error)
+    if code == sqlite3.SQLITE_FULL:
+        return StorageFullError("The disk of the data folder is full. Nothing that was stored is lost.")
+    if code in (sqlite3.SQLITE_BUSY, sqlite3.SQLITE_LOCKED):
+        return StorageBusyError("Another program is using the file. Try again.")
+    if code == sqlite3.SQLITE_READONLY:
+        return StorageError(
+            "A file in the data folder cannot be written: it or its disk is read-only. Nothing in it is lost."
+        )
+    return StorageError(f"A file in the data folder cannot be used: {error}.")
+
+
+def sqlite_code(error: sqlite3.Error) -> int:
+    """Without what SQLite adds to some codes in the higher bits."""
+    return getattr(error, "sqlite_errorcode", sqlite3.SQLITE_ERROR) & 0xFF

@@ -17,7 +17,7 @@ from typing import Literal, Protocol
 from servodeck.access.credentials import digest_of, make_id, make_secret, matches
 from servodeck.callers import LOCAL_NAMES, Caller, Role
 from servodeck.errors import ForbiddenError, NotFoundError, OutOfRangeError, StorageError
-from servodeck.library.library_file import storage_error
+from servodeck.files import storage_error
 from servodeck.threads import in_thread
 
 Kind = Literal["device", "token", "stopLink"]

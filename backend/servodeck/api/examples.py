@@ -310,7 +310,7 @@ PROBLEMS: dict[ErrorCode, str] = {
     "slotBroken": "Slot 5 holds half a group: download it again.",
     "slotChanged": "Something else was stored in slot 5 meanwhile.",
     "storageBusy": "The library is busy.",
-    "storageFailed": "The library's file cannot be used: disk I/O error.",
+    "storageFailed": "A file in the data folder cannot be used: disk I/O error.",
     "storageFull": "The disk is full.",
     "wrongBoard": "The board does not answer like lsc-6.",
     "tooMany": "Dance asks too often: come again in 0.4 s.",

@@ -14,14 +14,13 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from servodeck.errors import ConflictError, DamagedTextError, ForbiddenError, NotFoundError, OutOfRangeError
+from servodeck.files import sqlite_code, storage_error
 from servodeck.library.library_file import (
     FACTS_SUM,
     STEPS,
     TEXT_SUM,
     VERSION_SUM,
-    code_of,
     open_library,
-    storage_error,
 )
 from servodeck.protocol.timings import LIBRARY
 
@@ -206,7 +205,7 @@ class Library:
                     if db.in_transaction:
                         db.execute("ROLLBACK")
             except sqlite3.Error as error:
-                if code_of(error) not in PASSING:
+                if sqlite_code(error) not in PASSING:
                     self._forget()
                 raise storage_error(error) from error
 

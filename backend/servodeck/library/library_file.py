@@ -11,7 +11,8 @@ from pathlib import Path
 from typing import NamedTuple
 from zlib import crc32
 
-from servodeck.errors import StorageBusyError, StorageError, StorageFullError
+from servodeck.errors import StorageError
+from servodeck.files import sqlite_code, storage_error
 
 FILE = "library.sqlite"
 BUSY_S = 2.0
@@ -175,23 +176,4 @@ def set_aside(path: Path) -> str:
 
 
 def damaged_or(error: sqlite3.Error) -> Exception:
-    return DamagedError(str(error)) if code_of(error) in DAMAGED else storage_error(error)
-
-
-def storage_error(error: sqlite3.Error) -> StorageError:
-    code = code_of(error)
-    if code == sqlite3.SQLITE_FULL:
-        return StorageFullError("The disk of the library is full. What was kept before is unharmed.")
-    if code in (sqlite3.SQLITE_BUSY, sqlite3.SQLITE_LOCKED):
-        return StorageBusyError("Another program holds the library's file. It is tried again.")
-    if code == sqlite3.SQLITE_READONLY:
-        return StorageError(
-            f"{FILE} in the data folder cannot be written: it or its disk is read-only. "
-            "Nothing in it is lost."
-        )
-    return StorageError(f"The library's file cannot be used: {error}.")
-
-
-def code_of(error: sqlite3.Error) -> int:
-    """Without what SQLite adds to some codes in the higher bits."""
-    return getattr(error, "sqlite_errorcode", sqlite3.SQLITE_ERROR) & 0xFF
+    return DamagedError(str(error)) if sqlite_code(error) in DAMAGED else storage_error(error)
