@@ -28,7 +28,7 @@ test('a way that is not possible here says why', async ({ page, url }) => {
   await page.goto(url);
   await dashboard.button('Connect').click();
   const dialog = dashboard.connectDialog;
-  await expect(dialog.getByRole('group', { name: 'This computer’s port' })).toContainText(
+  await expect(dialog.getByRole('group', { name: 'USB serial cable' })).toContainText(
     'This address is not secure, so the browser hides its serial ports.',
   );
   await expect(dialog.getByRole('group', { name: 'Gateway' })).toContainText(
@@ -48,6 +48,23 @@ test('the simulated robot that is open is not offered once more, another board i
   await dashboard.button('Connect').click();
   await expect(simulated.getByRole('combobox')).toHaveValue('lsc-24');
   await expect(simulated.getByRole('button', { name: 'The simulated robot is open' })).toBeDisabled();
+});
+
+test('who has a hexapod says so, and has one described', async ({ page, url }) => {
+  const dashboard = dashboardOf(page);
+  await page.goto(url);
+  await expect(dashboard.link).toHaveText(/Ready/);
+  await dashboard.button('Connect').click();
+  const { connectDialog } = dashboard;
+  await expect(connectDialog.getByRole('radio', { name: 'Arm' })).toBeChecked();
+  await connectDialog.getByRole('radio', { name: 'Hexapod' }).check();
+  await expect(dashboard.slider(18)).toBeAttached();
+  await connectDialog.getByRole('combobox').selectOption('lsc-24');
+  await connectDialog.getByRole('button', { name: 'Use the simulated robot' }).click();
+  await expect(dashboard.bar).toContainText('Hexapod');
+  await expect(dashboard.slider(18)).toBeAttached();
+  await dashboard.button('Connect').click();
+  await expect(connectDialog.getByRole('radio', { name: 'Hexapod' })).toBeChecked();
 });
 
 test('a chooser that is closed without a choice is no failure of the page', async ({ page, url }) => {

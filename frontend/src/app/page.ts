@@ -124,7 +124,7 @@ export async function openPage({ me, problem }: Arrival): Promise<Page> {
     isWatched,
     role: me?.you?.role ?? 'owner',
     isAtGateway: me !== null,
-    robot: () => robots.current().robot,
+    robots,
   });
   if (problem !== null) notices.tell('warning', peopleProblem(problem.code, problem.message));
   if (me?.you) beginAnewAsAnother(device.store, me.you, () => location.reload());

@@ -884,7 +884,7 @@ export interface Messages {
     readonly reconnects: string;
     readonly webSerial: {
       readonly title: string;
-      readonly about: string;
+      readonly about: (values: { readonly body: string }) => string;
       readonly choose: string;
       readonly inUse: string;
       readonly secureLink: string;
@@ -896,6 +896,8 @@ export interface Messages {
       readonly none: string;
       readonly refresh: string;
       readonly inUse: (values: { readonly hasOthers: boolean }) => string;
+      readonly simulated: string;
+      readonly noneHere: string;
     };
     readonly simulated: {
       readonly title: string;
@@ -903,7 +905,18 @@ export interface Messages {
       readonly board: string;
       readonly open: string;
       readonly isOpen: string;
+      readonly anyBoard: string;
     };
+    readonly which: string;
+    readonly bodies: {
+      readonly arm: string;
+      readonly hand: string;
+      readonly humanoid: string;
+      readonly hexapod: string;
+      readonly plain: string;
+    };
+    readonly how: string;
+    readonly notHere: string;
   };
   readonly body: {
     readonly allUnknown: string;

@@ -2,8 +2,8 @@
 // The only place that knows transports; hands a session to the device store and forgets it.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
-import type { Robot } from '#shared/profile/robot.ts';
-import { FAMILIES, UNKNOWN_BOARD, type FamilyId } from '#shared/codec/families.ts';
+import type { BodyKind } from '#shared/profile/robot.ts';
+import { FAMILIES, UNKNOWN_BOARD, type BoardId, type FamilyId } from '#shared/codec/families.ts';
 import {
   createLocalRobot,
   createSession,
@@ -16,6 +16,7 @@ import type { Boards } from './boards.ts';
 import type { Device, Way } from './device.ts';
 import type { TextStorage } from '../state/textStorage.ts';
 import type { Notices } from '../state/notices.ts';
+import type { RobotStore } from '../features/profiles/robots.ts';
 import type { You } from './people.generated.ts';
 import { createGatewayTransport } from '../transports/gateway.ts';
 import { choosePort, grantedPorts, portLabel, webSerialObstacle } from '../transports/serialPorts.ts';
@@ -48,6 +49,8 @@ export interface ConnectState {
   /** `looking` until the page's own address has answered or not. */
   readonly gateway: 'looking' | 'absent' | GatewayStatus;
   readonly gatewayPorts: readonly GatewayPort[];
+  /** What the person has said the robot is; null: nothing. */
+  readonly body: BodyKind | null;
 }
 
 export interface GrantedPort {
@@ -64,6 +67,8 @@ export interface Connector {
   look(): Promise<void>;
   simulate(board: FamilyId): Promise<void>;
   setReconnects(reconnects: boolean): void;
+  /** What the robot is: so it is described, here and at the next link that is chosen. */
+  setBody(body: BodyKind): void;
   useGateway(): void;
   /** Has the gateway open that port first. Rejects with a LinkError. */
   useGatewayPort(device: string): Promise<void>;
@@ -93,7 +98,7 @@ export interface ConnectorOptions {
   /** It has answered already. */
   readonly isAtGateway: boolean;
   /** The one at hand. */
-  robot(): Robot;
+  readonly robots: RobotStore;
   isWatched(): boolean;
 }
 
@@ -102,7 +107,7 @@ const loadSimulated = () => import('../transports/simulated.ts');
 later(loadSimulated);
 
 export function createConnector(options: ConnectorOptions): Connector {
-  const { device, notices, boards, storage, role, isWatched } = options;
+  const { device, notices, boards, robots, storage, role, isWatched } = options;
   const store = createStore<ConnectState>(() => ({
     board: 'doc',
     reconnects: recallReconnects(storage),
@@ -111,6 +116,7 @@ export function createConnector(options: ConnectorOptions): Connector {
     openPort: null,
     gateway: 'looking',
     gatewayPorts: [],
+    body: null,
   }));
 
   let current: { readonly session: Session; way(): Way } | null = null;
@@ -150,9 +156,14 @@ export function createConnector(options: ConnectorOptions): Connector {
     current = { session, way };
     // Before the page itself hears that it is ready: where somebody has changed the gateway's port, it leads to another board.
     let wasReady = false;
+    let isNew = true;
     session.subscribe({
-      state({ link: { status } }) {
-        if (status === 'ready' && !wasReady) device.describe(session, way());
+      state({ link: { status }, family }) {
+        if (status === 'ready' && !wasReady) {
+          device.describe(session, way());
+          if (isNew) describeRobot(family.id);
+          isNew = false;
+        }
         wasReady = status === 'ready';
       },
     });
@@ -161,6 +172,16 @@ export function createConnector(options: ConnectorOptions): Connector {
     await session.open().catch(() => undefined);
     // The gateway tells what it leads to only once it is open.
     device.describe(session, way());
+  }
+
+  /** As what the person has said it is. */
+  function describeRobot(family: BoardId): void {
+    const { body } = store.getState();
+    if (body === null || family === 'unknown') return;
+    void import('../features/connect/robotOfKind.ts').then(
+      ({ takeUpKind }) => takeUpKind(robots, body, family),
+      notices.tellError,
+    );
   }
 
   function chosen(link: Link): void {
@@ -217,7 +238,7 @@ export function createConnector(options: ConnectorOptions): Connector {
   /** Until a way is chosen the simulated arm rises, so that the page is alive; no real robot ever moves by itself. */
   function greet(): void {
     const { unit, usualServoCount } = FAMILIES[store.getState().board];
-    if (unit === 'us' && usualServoCount === 6) device.move(greetingOf(options.robot()), GREETING_MS);
+    if (unit === 'us' && usualServoCount === 6) device.move(greetingOf(robots.current().robot), GREETING_MS);
   }
 
   device.setAutoReconnect(store.getState().reconnects);
@@ -226,6 +247,11 @@ export function createConnector(options: ConnectorOptions): Connector {
     store,
     start,
     look,
+    setBody(body) {
+      store.setState({ body });
+      const { family, snapshot } = device.store.getState();
+      if (snapshot.link.status === 'ready') describeRobot(family.id);
+    },
     setReconnects(reconnects) {
       store.setState({ reconnects });
       rememberReconnects(storage, reconnects);

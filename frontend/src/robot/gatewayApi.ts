@@ -9,6 +9,8 @@ import { askGateway } from '../transports/gatewayHttp.ts';
 export interface GatewayStatus {
   /** The port in use, null when none is. */
   readonly device: string | null;
+  /** The device was declared to be no real board. */
+  readonly isSimulated: boolean;
 }
 
 export interface GatewayPort {
@@ -31,9 +33,12 @@ export async function readGateway(withinMs = ANSWER_WITHIN_MS): Promise<GatewayS
   try {
     const status: unknown = await askGateway('api/status', { withinMs });
     if (!isRecord(status) || !isRecord(status.port)) return null;
-    const { device, code } = status.port;
+    const { device, code, simulated } = status.port;
     // Whatever has its name now is one to be chosen like any other.
-    return { device: typeof device === 'string' && code !== 'otherDevice' ? device : null };
+    return {
+      device: typeof device === 'string' && code !== 'otherDevice' ? device : null,
+      isSimulated: simulated === true,
+    };
   } catch {
     return null;
   }

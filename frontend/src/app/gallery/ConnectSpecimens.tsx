@@ -13,6 +13,7 @@ const BASE: ConnectState = {
   openPort: null,
   gateway: 'absent',
   gatewayPorts: [],
+  body: null,
 };
 
 /** Ports that nobody opens: only which is which counts. */
@@ -46,7 +47,7 @@ const CASES: readonly {
     current: { kind: 'gateway', label: '/dev/ttyUSB0', isSimulated: false },
     state: {
       ...BASE,
-      gateway: { device: '/dev/ttyUSB0' },
+      gateway: { device: '/dev/ttyUSB0', isSimulated: false },
       gatewayPorts: [
         { device: '/dev/ttyUSB0', description: 'USB Serial', inUse: true },
         { device: '/dev/ttyACM1', description: 'Arduino', inUse: false },
@@ -59,7 +60,7 @@ const CASES: readonly {
     state: {
       ...BASE,
       serialObstacle: 'insecureAddress',
-      gateway: { device: null },
+      gateway: { device: null, isSimulated: false },
     },
   },
   {
@@ -78,6 +79,8 @@ export const CONNECT: readonly Exhibit[] = CASES.map(({ name, state, current }) 
     <ConnectWays
       state={state}
       current={current}
+      body="arm"
+      onBody={nothing}
       isReady={current !== null}
       onLook={nothing}
       onSimulate={nothing}

@@ -15,11 +15,12 @@ const ConnectWays = laterComponent(
 );
 
 export function ConnectDialog({ connector }: { readonly connector: Connector }) {
-  const { view, notices } = useStores();
+  const { view, notices, robots } = useStores();
   const isOpen = useView((state) => state.connectOpen);
   const way = useDevice((state) => state.way);
   const isReady = useSnapshot(({ link }) => link.status === 'ready');
   const state = useStore(connector.store);
+  const robotBody = useStore(robots.store, () => robots.current().robot.body);
   const close = (): void => view.setState({ connectOpen: false });
 
   useEffect(() => {
@@ -36,7 +37,9 @@ export function ConnectDialog({ connector }: { readonly connector: Connector }) 
       <ConnectWays
         state={state}
         current={way}
+        body={state.body ?? robotBody}
         isReady={isReady}
+        onBody={connector.setBody}
         onLook={() => void connector.look().catch(notices.tellError)}
         onSimulate={(board) => choose(() => connector.simulate(board))}
         onReconnects={connector.setReconnects}

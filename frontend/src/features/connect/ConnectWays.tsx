@@ -1,26 +1,33 @@
-// What the connect dialog shows: the board, and three ways, each with its buttons or with the sentence why it is not
-// possible here. Plain values in, choices out; so every case can be shown without a link.
+// What the connect dialog shows: which robot it is, the ways that can lead to it from here, and of the others why they cannot.
+// Plain values in, choices out; so every case can be shown without a link.
 
-import { useState, type ReactNode } from 'react';
+import { useId, useState, type ReactNode } from 'react';
 import { FAMILIES, type FamilyId } from '#shared/codec/families.ts';
-import type { Way } from '../../robot/device.ts';
-import { Button } from '../../ui/Button.tsx';
-import { ThisBoard } from './identity/ThisBoard.tsx';
-import { Chip } from '../../ui/Chip.tsx';
-import { Toggle } from '../../ui/Toggle.tsx';
-import { errorSentence } from '../../i18n/sentences/errors.ts';
+import type { BodyKind } from '#shared/profile/robot.ts';
+import { isProfileName } from '#shared/simulator/profileNames.ts';
 import { boardName } from '../../i18n/sentences/boards.ts';
+import { errorSentence } from '../../i18n/sentences/errors.ts';
 import { words } from '../../i18n/whole.ts';
 import type { ConnectState } from '../../robot/connector.ts';
-import { isProfileName } from '#shared/simulator/profileNames.ts';
+import type { Way } from '../../robot/device.ts';
+import type { GatewayPort } from '../../robot/gatewayApi.ts';
+import { isWithoutGateway } from '../../robot/request.ts';
+import { Button } from '../../ui/Button.tsx';
+import { Chip } from '../../ui/Chip.tsx';
+import { Toggle } from '../../ui/Toggle.tsx';
+import { ThisBoard } from './identity/ThisBoard.tsx';
 import { PortGuide } from './PortGuide.tsx';
+import { RobotQuestion } from './RobotQuestion.tsx';
 import styles from './ConnectWays.module.css';
 
 export interface ConnectWaysProps {
   readonly state: ConnectState;
   readonly current: Way | null;
+  /** What the robot in use is. */
+  readonly body: BodyKind;
   /** What is open by the current way answers. */
   readonly isReady: boolean;
+  onBody(body: BodyKind): void;
   onLook(): void;
   onSimulate(board: FamilyId): void;
   onReconnects(reconnects: boolean): void;
@@ -31,38 +38,44 @@ export interface ConnectWaysProps {
   onDisconnect(): void;
 }
 
+interface WayOffer {
+  readonly kind: Way['kind'];
+  readonly title: string;
+  /** Whose way it is, and what the person will meet. */
+  readonly about: string;
+  /** Why it cannot be used here, and what may be done about it; null where it can. */
+  readonly obstacle: ReactNode | null;
+  readonly choices: ReactNode;
+  readonly guide?: ReactNode;
+}
+
 export function ConnectWays(props: ConnectWaysProps) {
-  const { state, current } = props;
+  const { state, current, body } = props;
+  const headingId = useId();
+  const offers = offersOf(props);
+  const usable = offers.filter(({ obstacle }) => obstacle === null);
+  const others = offers.filter(({ obstacle }) => obstacle !== null);
   return (
     <div className={styles.ways}>
       <ThisBoard />
-      <WayCard
-        title={words.connect.webSerial.title}
-        about={words.connect.webSerial.about}
-        isCurrent={current?.kind === 'webSerial'}
-        more={state.serialObstacle === null && <PortGuide />}
-      >
-        <SerialWay {...props} />
-      </WayCard>
-      <WayCard
-        title={words.connect.gateway.title}
-        about={words.connect.gateway.about}
-        isCurrent={current?.kind === 'gateway'}
-        more={typeof state.gateway === 'object' && <PortGuide />}
-      >
-        <GatewayWay {...props} />
-      </WayCard>
-      <WayCard
-        title={words.connect.simulated.title}
-        about={words.connect.simulated.about}
-        isCurrent={current?.kind === 'simulated'}
-      >
-        <SimulatedWay
-          board={state.board}
-          isOpen={props.isReady && current?.kind === 'simulated'}
-          onSimulate={props.onSimulate}
-        />
-      </WayCard>
+      <RobotQuestion body={body} onBody={props.onBody} />
+      <section className={styles.list} aria-labelledby={headingId}>
+        <h3 id={headingId}>{words.connect.how}</h3>
+        {usable.map((offer) => (
+          <WayCard key={offer.kind} {...offer} isCurrent={current?.kind === offer.kind} />
+        ))}
+      </section>
+      {others.length > 0 && (
+        <section className={styles.list} aria-label={words.connect.notHere}>
+          <h3>{words.connect.notHere}</h3>
+          {others.map(({ kind, title, obstacle }) => (
+            <div key={kind} className={styles.obstacle} role="group" aria-label={title}>
+              <h4>{title}</h4>
+              {obstacle}
+            </div>
+          ))}
+        </section>
+      )}
       <footer className={styles.foot}>
         <p className={styles.dim}>{words.connect.intro}</p>
         <Toggle label={words.connect.reconnects} isOn={state.reconnects} onChange={props.onReconnects} />
@@ -74,41 +87,71 @@ export function ConnectWays(props: ConnectWaysProps) {
   );
 }
 
-interface WayCardProps {
-  readonly title: string;
-  readonly about: string;
-  readonly isCurrent: boolean;
-  /** Below both columns. */
-  readonly more?: ReactNode;
-  readonly children: ReactNode;
+function offersOf(props: ConnectWaysProps): readonly WayOffer[] {
+  const { state, current, body, isReady } = props;
+  return [
+    {
+      kind: 'webSerial',
+      title: words.connect.webSerial.title,
+      about: words.connect.webSerial.about({ body }),
+      obstacle: state.serialObstacle === null ? null : <SerialObstacle {...props} />,
+      choices: <SerialChoices {...props} />,
+      guide: <PortGuide />,
+    },
+    {
+      kind: 'gateway',
+      title: words.connect.gateway.title,
+      about: words.connect.gateway.about,
+      obstacle: typeof state.gateway === 'object' ? null : <GatewayObstacle {...props} />,
+      choices: typeof state.gateway === 'object' && <GatewayChoices {...props} gateway={state.gateway} />,
+      guide: <PortGuide />,
+    },
+    {
+      kind: 'simulated',
+      title: words.connect.simulated.title,
+      about: words.connect.simulated.about,
+      obstacle: null,
+      choices: (
+        <SimulatedChoices
+          board={state.board}
+          isOpen={isReady && current?.kind === 'simulated'}
+          onSimulate={props.onSimulate}
+        />
+      ),
+    },
+  ];
 }
 
-function WayCard({ title, about, isCurrent, more, children }: WayCardProps) {
+interface WayCardProps extends Omit<WayOffer, 'kind' | 'obstacle'> {
+  readonly isCurrent: boolean;
+}
+
+function WayCard({ title, about, isCurrent, guide, choices }: WayCardProps) {
   return (
     <div className={styles.card} role="group" aria-label={title}>
       <div className={styles.cardText}>
-        <h3>
+        <h4>
           {title}{' '}
           {isCurrent && (
             <span className={styles.here}>
               <Chip truth="confirmed">{words.connect.here}</Chip>
             </span>
           )}
-        </h3>
+        </h4>
         <p className={styles.dim}>{about}</p>
       </div>
-      <div className={styles.choices}>{children}</div>
-      {more}
+      <div className={styles.choices}>{choices}</div>
+      {guide}
     </div>
   );
 }
 
-interface SimulatedWayProps extends Pick<ConnectWaysProps, 'onSimulate'> {
+interface SimulatedChoicesProps extends Pick<ConnectWaysProps, 'onSimulate'> {
   readonly board: FamilyId;
   readonly isOpen: boolean;
 }
 
-function SimulatedWay({ board, isOpen, onSimulate }: SimulatedWayProps) {
+function SimulatedChoices({ board, isOpen, onSimulate }: SimulatedChoicesProps) {
   const [chosen, setChosen] = useState(board);
   const isThisOpen = isOpen && chosen === board;
   return (
@@ -123,7 +166,7 @@ function SimulatedWay({ board, isOpen, onSimulate }: SimulatedWayProps) {
           .filter(({ id }) => isProfileName(id))
           .map((family) => (
             <option key={family.id} value={family.id}>
-              {boardName(family)}
+              {family.id === 'doc' ? words.connect.simulated.anyBoard : boardName(family)}
             </option>
           ))}
       </select>
@@ -134,19 +177,21 @@ function SimulatedWay({ board, isOpen, onSimulate }: SimulatedWayProps) {
   );
 }
 
-function SerialWay({ state, current, isReady, onSerialPort, onChooseSerial }: ConnectWaysProps) {
-  if (state.serialObstacle !== null) {
-    return (
-      <>
-        <p className={styles.why}>{errorSentence(state.serialObstacle)}</p>
-        {state.serialObstacle === 'insecureAddress' && (
-          <a className={styles.link} href={localAddress()}>
-            {words.connect.webSerial.secureLink}
-          </a>
-        )}
-      </>
-    );
-  }
+function SerialObstacle({ state: { serialObstacle } }: ConnectWaysProps) {
+  if (serialObstacle === null) return null;
+  return (
+    <>
+      <p className={styles.dim}>{errorSentence(serialObstacle)}</p>
+      {serialObstacle === 'insecureAddress' && (
+        <a className={styles.link} href={localAddress()}>
+          {words.connect.webSerial.secureLink}
+        </a>
+      )}
+    </>
+  );
+}
+
+function SerialChoices({ state, current, isReady, onSerialPort, onChooseSerial }: ConnectWaysProps) {
   const isOpen = isReady && current?.kind === 'webSerial';
   return (
     <>
@@ -158,7 +203,7 @@ function SerialWay({ state, current, isReady, onSerialPort, onChooseSerial }: Co
           onPress={() => onSerialPort(port)}
         />
       ))}
-      {isOpen && <p className={styles.why}>{words.connect.webSerial.inUse}</p>}
+      {isOpen && <p className={styles.dim}>{words.connect.webSerial.inUse}</p>}
       <Button tone={state.granted.length === 0 ? 'plain' : 'quiet'} onPress={onChooseSerial}>
         {words.connect.webSerial.choose}
       </Button>
@@ -181,41 +226,66 @@ function OpenButton({ label, isOpen, onPress }: OpenButtonProps) {
   );
 }
 
-function GatewayWay({ state, current, isReady, onGateway, onGatewayPort, onLook }: ConnectWaysProps) {
-  const { gateway, gatewayPorts } = state;
-  const look = (
+function LookButton({ onLook }: Pick<ConnectWaysProps, 'onLook'>) {
+  return (
     <Button tone="quiet" icon="refresh" onPress={onLook}>
       {words.connect.gateway.refresh}
     </Button>
   );
-  if (gateway === 'looking') return <p className={styles.why}>{words.connect.gateway.looking}</p>;
-  if (gateway === 'absent') {
-    return (
-      <>
-        <p className={styles.why}>{errorSentence('gatewayUnreachable')}</p>
-        {look}
-      </>
-    );
-  }
+}
+
+function GatewayObstacle({ state, onLook }: ConnectWaysProps) {
+  if (state.gateway === 'looking') return <p className={styles.dim}>{words.connect.gateway.looking}</p>;
+  if (isWithoutGateway()) return <p className={styles.dim}>{words.connect.gateway.noneHere}</p>;
+  return (
+    <>
+      <p className={styles.dim}>{errorSentence('gatewayUnreachable')}</p>
+      <LookButton onLook={onLook} />
+    </>
+  );
+}
+
+interface GatewayChoicesProps extends ConnectWaysProps {
+  readonly gateway: Exclude<ConnectState['gateway'], string>;
+}
+
+function GatewayChoices({ state: { gatewayPorts }, gateway, current, isReady, ...on }: GatewayChoicesProps) {
   const others = gatewayPorts.filter((port) => !port.inUse || gateway.device === null);
   const isOpen = isReady && current?.kind === 'gateway';
   return (
     <>
-      {gateway.device !== null && <OpenButton label={gateway.device} isOpen={isOpen} onPress={onGateway} />}
+      {gateway.device !== null && (
+        <OpenButton
+          label={gateway.isSimulated ? words.connect.gateway.simulated : nameIn(gatewayPorts, gateway.device)}
+          isOpen={isOpen}
+          onPress={on.onGateway}
+        />
+      )}
       {isOpen && (
-        <p className={styles.why}>{words.connect.gateway.inUse({ hasOthers: others.length > 0 })}</p>
+        <p className={styles.dim}>{words.connect.gateway.inUse({ hasOthers: others.length > 0 })}</p>
       )}
       {others.map((port) => (
-        <Button key={port.device} tone="quiet" onPress={() => onGatewayPort(port.device)}>
-          {words.connect.open({ label: port.device })}
+        <Button key={port.device} tone="quiet" onPress={() => on.onGatewayPort(port.device)}>
+          {words.connect.open({ label: nameOf(port) })}
         </Button>
       ))}
       {gatewayPorts.length === 0 && gateway.device === null && (
-        <p className={styles.why}>{words.connect.gateway.none}</p>
+        <p className={styles.dim}>{words.connect.gateway.none}</p>
       )}
-      {look}
+      <LookButton onLook={on.onLook} />
     </>
   );
+}
+
+/** What the system calls the device, and the short end of its path, which tells two of one kind apart. */
+function nameOf({ device, description }: GatewayPort): string {
+  const end = device.split('/').at(-1) ?? device;
+  return description === '' || description === 'n/a' ? end : `${description} (${end})`;
+}
+
+function nameIn(ports: readonly GatewayPort[], device: string): string {
+  const port = ports.find(({ inUse }) => inUse);
+  return nameOf(port ?? { device, description: '', inUse: true });
 }
 
 /** The same page by the loopback address: right whenever the server runs on this very computer. */
