@@ -124,7 +124,12 @@ export async function openPage({ me, problem }: Arrival): Promise<Page> {
     isWatched,
     role: me?.you?.role ?? 'owner',
     isAtGateway: me !== null,
-    robots,
+    robot: () => robots.current().robot,
+    describeRobot: (body, board) =>
+      void import('../features/connect/robotOfKind.ts').then(
+        ({ takeUpKind }) => takeUpKind(robots, body, board),
+        notices.tellError,
+      ),
   });
   if (problem !== null) notices.tell('warning', peopleProblem(problem.code, problem.message));
   if (me?.you) beginAnewAsAnother(device.store, me.you, () => location.reload());

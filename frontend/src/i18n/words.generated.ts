@@ -905,7 +905,6 @@ export interface Messages {
       readonly board: string;
       readonly open: string;
       readonly isOpen: string;
-      readonly anyBoard: string;
     };
     readonly which: string;
     readonly bodies: {

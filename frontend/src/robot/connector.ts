@@ -2,7 +2,7 @@
 // The only place that knows transports; hands a session to the device store and forgets it.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
-import type { BodyKind } from '#shared/profile/robot.ts';
+import type { BodyKind, Robot } from '#shared/profile/robot.ts';
 import { FAMILIES, UNKNOWN_BOARD, type BoardId, type FamilyId } from '#shared/codec/families.ts';
 import {
   createLocalRobot,
@@ -16,7 +16,6 @@ import type { Boards } from './boards.ts';
 import type { Device, Way } from './device.ts';
 import type { TextStorage } from '../state/textStorage.ts';
 import type { Notices } from '../state/notices.ts';
-import type { RobotStore } from '../features/profiles/robots.ts';
 import type { You } from './people.generated.ts';
 import { createGatewayTransport } from '../transports/gateway.ts';
 import { choosePort, grantedPorts, portLabel, webSerialObstacle } from '../transports/serialPorts.ts';
@@ -98,7 +97,9 @@ export interface ConnectorOptions {
   /** It has answered already. */
   readonly isAtGateway: boolean;
   /** The one at hand. */
-  readonly robots: RobotStore;
+  robot(): Robot;
+  /** Of that build, on that board. */
+  describeRobot(body: BodyKind, board: FamilyId): void;
   isWatched(): boolean;
 }
 
@@ -107,7 +108,7 @@ const loadSimulated = () => import('../transports/simulated.ts');
 later(loadSimulated);
 
 export function createConnector(options: ConnectorOptions): Connector {
-  const { device, notices, boards, robots, storage, role, isWatched } = options;
+  const { device, notices, boards, storage, role, isWatched } = options;
   const store = createStore<ConnectState>(() => ({
     board: 'doc',
     reconnects: recallReconnects(storage),
@@ -178,10 +179,7 @@ export function createConnector(options: ConnectorOptions): Connector {
   function describeRobot(family: BoardId): void {
     const { body } = store.getState();
     if (body === null || family === 'unknown') return;
-    void import('../features/connect/robotOfKind.ts').then(
-      ({ takeUpKind }) => takeUpKind(robots, body, family),
-      notices.tellError,
-    );
+    options.describeRobot(body, family);
   }
 
   function chosen(link: Link): void {
@@ -238,7 +236,7 @@ export function createConnector(options: ConnectorOptions): Connector {
   /** Until a way is chosen the simulated arm rises, so that the page is alive; no real robot ever moves by itself. */
   function greet(): void {
     const { unit, usualServoCount } = FAMILIES[store.getState().board];
-    if (unit === 'us' && usualServoCount === 6) device.move(greetingOf(robots.current().robot), GREETING_MS);
+    if (unit === 'us' && usualServoCount === 6) device.move(greetingOf(options.robot()), GREETING_MS);
   }
 
   device.setAutoReconnect(store.getState().reconnects);

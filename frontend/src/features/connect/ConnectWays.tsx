@@ -166,7 +166,7 @@ function SimulatedChoices({ board, isOpen, onSimulate }: SimulatedChoicesProps) 
           .filter(({ id }) => isProfileName(id))
           .map((family) => (
             <option key={family.id} value={family.id}>
-              {family.id === 'doc' ? words.connect.simulated.anyBoard : boardName(family)}
+              {boardName(family)}
             </option>
           ))}
       </select>
