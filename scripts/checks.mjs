@@ -60,7 +60,9 @@ const pythonTypes = { name: 'types, Python', command: pythonModule('mypy') };
 const pythonLayers = {
   name: 'layer rule, Python',
   command: [
-    ...[python, '-c', 'from importlinter.cli import lint_imports_command as run; run()'], // no module to run by its name
+    python,
+    '-c', // no module to run by its name
+    'from importlinter.cli import lint_imports_command as run; run()',
     ...['--no-logo', '--no-cache'],
   ],
   env: { PYTHONPATH: at('backend') },
