@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest';
 import { fromHex } from '#shared/codec/hex.ts';
-import type { BusLogEntry } from '#shared/simulator/busLog.ts';
+import type { BusLogEntry } from '#shared/simulator/line.ts';
 import { packetsInto } from './busPackets.ts';
 
 /** One byte a millisecond from `fromMs` on. */

@@ -5,7 +5,7 @@ import type { Command } from '#shared/codec/commands.ts';
 import { createDecoder } from '#shared/codec/decoder.ts';
 import { parseCommand } from '#shared/codec/parse.ts';
 import { COMMAND_SHAPES } from '#shared/codec/shapes.ts';
-import type { BusLogEntry } from '#shared/simulator/busLog.ts';
+import type { BusLogEntry } from '#shared/simulator/line.ts';
 
 export interface BusPacket {
   readonly command: Command;

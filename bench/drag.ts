@@ -15,7 +15,7 @@ import { family as familyOf } from '#shared/codec/families.ts';
 import { wireMs } from '#shared/codec/packet.ts';
 import { firstMovesMs } from '#shared/session/rig.ts';
 import { createLocalRobot } from '#shared/session/session.ts';
-import type { BusLogEntry } from '#shared/simulator/busLog.ts';
+import type { BusLogEntry } from '#shared/simulator/line.ts';
 import { createSimulatedChannel } from '#shared/simulator/channel.ts';
 import { createVirtualClock } from '#shared/testing/virtualClock.ts';
 import { amount } from './amounts.ts';

@@ -6,7 +6,7 @@ import type { Frame } from '#shared/codec/commands.ts';
 import { family as familyOf } from '#shared/codec/families.ts';
 import { createLocalRobot, createSession, type Session } from '#shared/session/session.ts';
 import { createSimulatedChannel } from '#shared/simulator/channel.ts';
-import type { BusLogEntry } from '#shared/simulator/busLog.ts';
+import type { BusLogEntry } from '#shared/simulator/line.ts';
 import { createGatewayTransport } from '../frontend/src/transports/gateway.ts';
 import { amount } from './amounts.ts';
 import { packetsInto } from './busPackets.ts';

@@ -5,7 +5,7 @@ import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import path from 'node:path';
 import { chromium, type Browser, type Page } from '@playwright/test';
-import type { BusLogEntry } from '#shared/simulator/busLog.ts';
+import type { BusLogEntry } from '#shared/simulator/line.ts';
 import { browserForTests, findBrowser } from '../scripts/browser.mjs';
 import { simulatedBoard } from '../scripts/cable.mjs';
 import { endChild, startChild } from '../scripts/children.mjs';

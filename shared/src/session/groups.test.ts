@@ -1,6 +1,6 @@
 import { describe, expect, test } from 'vitest';
 import { wireMs } from '../codec/packet.ts';
-import { createFlashChip } from '../simulator/flashChip.ts';
+import { createFlashChip } from '../simulator/groupStore.ts';
 import { createRig, type Rig } from './rig.ts';
 
 const WAVE = [

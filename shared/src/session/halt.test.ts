@@ -3,7 +3,7 @@ import type { Frame } from '../codec/commands.ts';
 import { family } from '../codec/families.ts';
 import { encodeCommand } from '../codec/encode.ts';
 import { wireMs } from '../codec/packet.ts';
-import { createFlashChip } from '../simulator/flashChip.ts';
+import { createFlashChip } from '../simulator/groupStore.ts';
 import { createSimulatedTransport } from '../testing/simulatedTransport.ts';
 import { createVirtualClock } from '../testing/virtualClock.ts';
 import { createRig, type Rig } from './rig.ts';

@@ -5,11 +5,15 @@ import type { Unheld } from '../motion/haltPlan.ts';
 import type { Frame } from '../codec/commands.ts';
 import { family as familyOf } from '../codec/families.ts';
 import type { Fault } from '../simulator/faults.ts';
-import { createFlashChip, type FlashChip } from '../simulator/flashChip.ts';
-import { createGroupStore, openLayout } from '../simulator/groupStore.ts';
+import {
+  createFlashChip,
+  type FlashChip,
+  createGroupStore,
+  openLayout,
+  encodeFrame,
+} from '../simulator/groupStore.ts';
 import { LEARM_LAYOUT } from '../simulator/learm/engine.ts';
 import type { ProfileName } from '../simulator/profileNames.ts';
-import { encodeFrame } from '../simulator/storedFrame.ts';
 import { createRig, type Rig } from './rig.ts';
 import {
   CUT_SLOT,

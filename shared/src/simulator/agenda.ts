@@ -3,6 +3,16 @@
 
 import type { Clock } from '../clock.ts';
 
+// Work that takes the board's processor time: yields how many milliseconds the main loop is blocked, then goes on.
+// Bytes keep arriving meanwhile, because an interrupt takes them (S41).
+
+export type Work = Generator<number, void, undefined>;
+
+/** Nothing to do, in no time. */
+export function* noWork(): Work {
+  yield* [];
+}
+
 /** Something that happens by itself at a time. */
 export interface Source {
   /** When it wants to go on; Infinity while there is nothing to do. */
@@ -10,7 +20,7 @@ export interface Source {
   fire(): void;
 }
 
-export interface Agenda {
+interface Agenda {
   /** Milliseconds since power-up; while a source fires, exactly the time it was due. */
   readonly now: () => number;
   /** Runs what is due, then `act`, then what `act` made due. */
@@ -93,4 +103,19 @@ export function createAgenda(
   }
 
   return { now: () => nowMs, turn, end };
+}
+
+// Things that happen to a board at a chosen time, each once.
+
+export interface Happening {
+  readonly atMs: number;
+  readonly happen: () => void;
+}
+
+export function createSchedule(happenings: readonly Happening[]): Source {
+  const ahead = happenings.filter(({ atMs }) => atMs < Infinity).sort((a, b) => a.atMs - b.atMs);
+  return {
+    dueMs: () => ahead[0]?.atMs ?? Infinity,
+    fire: () => ahead.shift()?.happen(),
+  };
 }

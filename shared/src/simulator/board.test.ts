@@ -13,7 +13,7 @@ import {
   run,
   STOP,
 } from '../testing/boardUnderTest.ts';
-import type { BusLogEntry } from './busLog.ts';
+import type { BusLogEntry } from './line.ts';
 
 const ANSWER = '55 55 04 0F 4C 1D';
 const BYTE_MS = 10 / 9.6;

@@ -4,16 +4,13 @@
 import type { Clock } from '../clock.ts';
 import { BAUD, wireMs } from '../codec/packet.ts';
 import type { Frame } from '../codec/commands.ts';
-import { createAgenda, type Source } from './agenda.ts';
-import type { BusLogEntry } from './busLog.ts';
+import { createAgenda, type Source, createSchedule } from './agenda.ts';
+import { type BusLogEntry, createLine, type Line, createSender } from './line.ts';
 import type { Engine } from './engine.ts';
 import { planFaults, type Fault, type Incident } from './faults.ts';
-import { createFlashChip, type FlashChip } from './flashChip.ts';
-import { createLine, type Line } from './line.ts';
+import { createFlashChip, type FlashChip } from './groupStore.ts';
 import type { ProfileName } from './profileNames.ts';
 import { PROFILES, type BoardProfile } from './profiles.ts';
-import { createSchedule } from './schedule.ts';
-import { createSender } from './sender.ts';
 
 export interface BoardOptions {
   readonly clock: Clock;
@@ -67,7 +64,7 @@ export interface Board {
   readonly powerOff: () => void;
 }
 
-export interface BoardSnapshot {
+interface BoardSnapshot {
   /** Servo 1 first. */
   readonly pulses: readonly number[];
   readonly targets: readonly number[];

@@ -1,23 +1,104 @@
-// LSC, Bus Servo Controller and xArm by their documents (boards.md chapter 5): their firmware is closed, so what nobody
-// wrote down is the open firmware's way (parser, mailbox, runner) and proves nothing about a real board.
+// LSC, Bus Servo Controller and xArm by their documents (boards.md chapter 5), with the commands that only they have (2.3): their
+// firmware is closed, so what nobody wrote down is the open firmware's way (parser, mailbox, runner) and proves nothing about a
+// real board.
 
+import {
+  PARAMS_AT,
+  type Handlers,
+  type Reply,
+  batteryHandler,
+  createDispatch,
+  motionHandlers,
+  createParser,
+} from './dispatch.ts';
+import { type OwnTimeServos, createOwnTimeServos } from './ownTimeServos.ts';
+import { readUint16, uint16, createGroupStore, openLayout, decodeFrame } from './groupStore.ts';
+import type { Work } from './agenda.ts';
 import { COMMAND_NUMBER, type Frame } from '../codec/commands.ts';
-import { createBatterySampler } from './battery.ts';
-import { closedHandlers, torqueHandlers } from './closedHandlers.ts';
-import { batteryHandler, createDispatch, motionHandlers } from './dispatch.ts';
+import { createBatterySampler, createMailbox, createMainLoop, createSlots } from './mainLoop.ts';
 import type { Engine, EngineParts } from './engine.ts';
-import { createGroupStore, openLayout } from './groupStore.ts';
-import { createMailbox } from './mailbox.ts';
-import { createMainLoop } from './mainLoop.ts';
-import { createOwnTimeServos } from './ownTimeServos.ts';
 import { createPanel } from './panel.ts';
-import { createParser } from './parser.ts';
 import { createRunner, type RunReports } from './runner.ts';
 import { TICK_MS } from './servos.ts';
-import { createSlots } from './slots.ts';
-import { createSpeeds } from './speeds.ts';
-import { decodeFrame, uint16 } from './storedFrame.ts';
-import type { Work } from './work.ts';
+
+// How fast groups are played (X3): a percentage for each, lost at power-off.
+
+export interface Speeds {
+  /** `group` 255 means all. A speed of 0 is not documented and changes nothing. */
+  readonly set: (group: number, percent: number) => void;
+  /** What becomes of a frame's time. */
+  readonly played: (group: number, durationMs: number) => number;
+}
+
+const ALL_GROUPS = 255;
+const GROUP_COUNT = 256;
+const USUAL_PERCENT = 100;
+
+function createSpeeds(): Speeds {
+  const percents = new Array<number>(GROUP_COUNT).fill(USUAL_PERCENT);
+  return {
+    set(group, percent) {
+      if (percent === 0) return;
+      if (group === ALL_GROUPS) percents.fill(percent);
+      else percents[group] = percent;
+    },
+    played: (group, durationMs) =>
+      Math.round((durationMs * USUAL_PERCENT) / (percents[group] ?? USUAL_PERCENT)),
+  };
+}
+
+// The commands that only the closed boards have (boards.md 2.3): speed of a group, release of servos, their
+// positions.
+
+const SET_SPEED = 11;
+const RELEASE = 20;
+const READ_POSITIONS = 21;
+/** Asking six servos takes up to 450 ms (X7). */
+const READ_POSITION_MS = 75;
+
+function closedHandlers(slot: Uint8Array, speeds: Speeds): Handlers {
+  function* setSpeed(): Work {
+    yield* [];
+    speeds.set(slot[PARAMS_AT] ?? 0, readUint16(slot, PARAMS_AT + 1));
+  }
+
+  return new Map([[SET_SPEED, setSpeed]]);
+}
+
+interface TorqueParts {
+  readonly slot: Uint8Array;
+  readonly servos: OwnTimeServos;
+  readonly servoCount: number;
+  readonly reply: Reply;
+}
+
+function torqueHandlers({ slot, servos, servoCount, reply }: TorqueParts): Handlers {
+  /** Those of the packet's servos that are there. */
+  function named(): number[] {
+    const listAt = PARAMS_AT + 1;
+    const list = slot.slice(listAt, listAt + (slot[PARAMS_AT] ?? 0));
+    return [...list].filter((servo) => servo >= 1 && servo <= servoCount);
+  }
+
+  /** The simulated arm has no weight: it stays where it is until a hand turns it. */
+  function* release(): Work {
+    yield* [];
+    named().forEach(servos.release);
+  }
+
+  function* readPositions(): Work {
+    const present = named();
+    if (present.length === 0) return;
+    yield present.length * READ_POSITION_MS;
+    const entries = present.flatMap((servo) => [servo, ...uint16(servos.pulse(servo))]);
+    yield* reply(READ_POSITIONS, [present.length, ...entries]);
+  }
+
+  return new Map([
+    [RELEASE, release],
+    [READ_POSITIONS, readPositions],
+  ]);
+}
 
 /** What differs between the closed boards. */
 export interface ClosedTraits {

@@ -1,19 +1,56 @@
-// What the open firmware does with a packet (S13-S21): the handlers read the mailbox's slot in place and never compare LEN
-// with what they need. Which of them a build has is data of the build.
+// From bytes to what the open firmware does with a packet: its parser with its real weaknesses (S1-S5), and handlers that read
+// the mailbox's slot in place and never compare LEN with what they need (S13-S21). Which handlers a build has is data of the build.
 
+import { HEADER, MIN_LENGTH } from '../codec/packet.ts';
 import { COMMAND_NUMBER } from '../codec/commands.ts';
-import type { GroupStore } from './groupStore.ts';
+import { type GroupStore, readUint16, uint16 } from './groupStore.ts';
 import type { Runner } from './runner.ts';
 import type { Servos } from './servos.ts';
-import { readUint16, uint16 } from './storedFrame.ts';
-import type { Work } from './work.ts';
+import type { Work } from './agenda.ts';
+
+// The board's byte parser, with its real weaknesses: it waits for ever, never resynchronises inside a packet and jams
+// on LEN 254 and 255 (S1-S5).
+
+const BUFFER_BYTES = 256;
+const LENGTH_AT = 2;
+
+/** `complete` gets a view of the parser's buffer, valid during the call: LEN + 2 bytes. */
+export function createParser(complete: (packet: Uint8Array) => void): (byte: number) => void {
+  const buffer = new Uint8Array(BUFFER_BYTES).fill(HEADER, 0, LENGTH_AT);
+  let headersSeen = 0;
+  let index = 0;
+  let length = 0;
+
+  function hunt(byte: number): void {
+    headersSeen = byte === HEADER ? headersSeen + 1 : 0;
+    index = LENGTH_AT;
+  }
+
+  return (byte) => {
+    if (headersSeen < 2) {
+      hunt(byte);
+      return;
+    }
+    buffer[index] = byte;
+    // Also after the 8-bit index has wrapped: LEN is taken again from whatever lands here (S3).
+    if (index === LENGTH_AT) length = byte;
+    if (index === LENGTH_AT && length < MIN_LENGTH) {
+      headersSeen = 0;
+      return;
+    }
+    index = (index + 1) % BUFFER_BYTES;
+    if (index !== length + 2) return;
+    headersSeen = 0;
+    complete(buffer.subarray(0, index));
+  };
+}
 
 /** How long each piece of the answer blocks the loop; empty for what takes no time. */
 type Handler = () => Iterable<number>;
 export type Handlers = ReadonlyMap<number, Handler>;
 export type Reply = (command: number, params: readonly number[]) => Work;
 
-export interface HandlerParts {
+interface HandlerParts {
   readonly slot: Uint8Array;
   readonly servos: Servos;
   readonly runner: Runner;
@@ -22,7 +59,7 @@ export interface HandlerParts {
   readonly copyMs?: (entries: number) => number;
 }
 
-export interface StoreParts {
+interface StoreParts {
   readonly slot: Uint8Array;
   readonly store: GroupStore;
   readonly reply: Reply;

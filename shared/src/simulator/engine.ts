@@ -1,10 +1,9 @@
 // What every simulated firmware is, seen from its cable, and what it gets to be built from. Knows no firmware.
 
 import type { Frame } from '../codec/commands.ts';
-import type { Source } from './agenda.ts';
-import type { FlashChip } from './flashChip.ts';
+import type { Source, Work } from './agenda.ts';
+import type { FlashChip } from './groupStore.ts';
 import type { Press } from './panel.ts';
-import type { Work } from './work.ts';
 
 export interface EngineParts {
   /** Milliseconds since this firmware was switched on. */

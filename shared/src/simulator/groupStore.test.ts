@@ -12,7 +12,7 @@ import {
   RUN_ACK,
   STOP,
 } from '../testing/boardUnderTest.ts';
-import { createFlashChip } from './flashChip.ts';
+import { createFlashChip } from './groupStore.ts';
 
 const ENOUGH_MS = 1000;
 

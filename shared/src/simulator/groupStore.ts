@@ -1,13 +1,83 @@
-// Where action groups lie in flash, and how long writing them blocks the board (S32-S41). Knows the layout and the chip's
-// times, not what a frame means to the servos.
+// Action groups in flash: a frame's bytes, the chip, and how long writing blocks the board (S32-S41). Knows the layout and the
+// chip's times, not what a frame means to the servos.
 
 import type { Frame } from '../codec/commands.ts';
-import { SECTOR_BYTES, type FlashChip } from './flashChip.ts';
-import { encodeFrame } from './storedFrame.ts';
-import type { Work } from './work.ts';
+import type { Work } from './agenda.ts';
+
+// One frame as the board keeps it: count, time, then servo and position of each entry.
+
+/** Little-endian, as everything on this board; what lies behind the end reads as 0. */
+export function readUint16(bytes: Uint8Array, at: number): number {
+  return (bytes[at] ?? 0) | ((bytes[at + 1] ?? 0) << 8);
+}
+
+/** Two bytes, low first. */
+export function uint16(value: number): number[] {
+  return [value & 0xff, value >> 8];
+}
+
+export function encodeFrame({ durationMs, targets }: Frame): number[] {
+  const entries = targets.flatMap(({ servo, position }) => [servo, ...uint16(position)]);
+  return [targets.length, ...uint16(durationMs), ...entries];
+}
+
+/** Null where the count is larger than the board plays: an erased frame reads 255 (S35, S38). */
+export function decodeFrame(bytes: Uint8Array, servosPlayed: number): Frame | null {
+  const count = bytes[0] ?? 0;
+  if (count > servosPlayed) return null;
+  const targets = Array.from({ length: count }, (_, entry) => ({
+    servo: bytes[3 + entry * 3] ?? 0,
+    position: readUint16(bytes, 4 + entry * 3),
+  }));
+  return { durationMs: readUint16(bytes, 1), targets };
+}
+
+// The flash chip: bytes that survive power-off, erased in sectors to FF, programmed by clearing bits (NOR). Changes
+// are instant here; the group store says how long they block the board.
+
+export interface FlashChip {
+  /** A copy of `length` bytes. */
+  read(address: number, length: number): Uint8Array;
+  /** Bits can only be cleared: what was there and what comes are ANDed (S36). */
+  program(address: number, bytes: Uint8Array): void;
+  /** Erases the sector that holds `address`. */
+  eraseSector(address: number): void;
+}
+
+const SECTOR_BYTES = 4096;
+const ERASED = 0xff;
+
+export function createFlashChip(): FlashChip {
+  /** Only what was ever programmed takes memory: the chip has 8 MiB. */
+  const sectors = new Map<number, Uint8Array>();
+
+  function sectorOf(address: number): number {
+    return Math.floor(address / SECTOR_BYTES);
+  }
+
+  function byteAt(address: number): number {
+    return sectors.get(sectorOf(address))?.[address % SECTOR_BYTES] ?? ERASED;
+  }
+
+  function read(address: number, length: number): Uint8Array {
+    return Uint8Array.from({ length }, (_, index) => byteAt(address + index));
+  }
+
+  function programByte(address: number, byte: number): void {
+    const sector = sectors.get(sectorOf(address)) ?? new Uint8Array(SECTOR_BYTES).fill(ERASED);
+    sectors.set(sectorOf(address), sector);
+    sector[address % SECTOR_BYTES] = byteAt(address) & byte;
+  }
+
+  function program(address: number, bytes: Uint8Array): void {
+    for (const [index, byte] of bytes.entries()) programByte(address + index, byte);
+  }
+
+  return { read, program, eraseSector: (address) => void sectors.delete(sectorOf(address)) };
+}
 
 /** Which frame of which group a download packet names. */
-export interface FramePlace {
+interface FramePlace {
   readonly slot: number;
   readonly frameIndex: number;
   readonly frameCount: number;
@@ -27,7 +97,7 @@ export interface GroupStore {
 }
 
 /** How much room a frame and a group have. */
-export interface StoreLayout {
+interface StoreLayout {
   readonly frameBytes: number;
   readonly groupBytes: number;
   readonly groupCount: number;

@@ -1,12 +1,60 @@
-// The serial line at the board's pins: bytes take their time on the wire, in both directions, and may be damaged on it.
-// Knows bytes and a baud rate; does not know packets. What it logs is what the board's pins saw.
+// The serial line at the board's pins: bytes take their time on the wire, in both directions, and may be damaged, late or lost on
+// it; what the board sends, and what becomes of an acknowledgement on purpose. Does not know why something is sent. The log has
+// what the board's pins saw.
 
-import type { Source } from './agenda.ts';
-import type { BusLogEntry } from './busLog.ts';
-import type { AckFate, FaultPlan } from './faults.ts';
-import { createOutbox } from './outbox.ts';
+import type { Source, Work } from './agenda.ts';
+import { type AckFate, type FaultPlan, UNHARMED } from './faults.ts';
+import { COMMAND_NUMBER } from '../codec/commands.ts';
+import { packetBytes } from '../codec/packet.ts';
 
-export interface LineParts {
+// One byte on the bus with its time, as the board's pins saw it: the oracle of tests.
+
+export interface BusLogEntry {
+  /** On the clock the board was given: when the byte's last bit was there. */
+  readonly atMs: number;
+  /** `in`: into the board. */
+  readonly direction: 'in' | 'out';
+  readonly byte: number;
+}
+
+// What the board has sent and the host has not got yet: late bytes hold up all behind them, as on any line.
+
+export interface Outbox extends Source {
+  /** The byte reaches the host `lateMs` from now, or when those before it have. */
+  readonly put: (byte: number, lateMs: number) => void;
+  /** What is on its way gets lost. */
+  readonly drop: () => void;
+  /** What has reached the host since the last call. */
+  readonly take: () => Uint8Array;
+}
+
+const NOTHING = new Uint8Array(0);
+
+export function createOutbox(now: () => number): Outbox {
+  let onTheWay: { readonly atMs: number; readonly byte: number }[] = [];
+  let arrived: number[] = [];
+
+  function put(byte: number, lateMs: number): void {
+    if (lateMs === 0 && onTheWay.length === 0) arrived.push(byte);
+    else onTheWay.push({ atMs: Math.max(now() + lateMs, onTheWay.at(-1)?.atMs ?? 0), byte });
+  }
+
+  function take(): Uint8Array {
+    if (arrived.length === 0) return NOTHING;
+    const bytes = Uint8Array.from(arrived);
+    arrived = [];
+    return bytes;
+  }
+
+  function fire(): void {
+    arrived.push(...onTheWay.filter(({ atMs }) => atMs <= now()).map(({ byte }) => byte));
+    onTheWay = onTheWay.filter(({ atMs }) => atMs > now());
+  }
+
+  return { put, take, drop: () => void (onTheWay = []), dueMs: () => onTheWay[0]?.atMs ?? Infinity, fire };
+}
+
+interface LineParts {
   readonly now: () => number;
   readonly byteMs: number;
   readonly plan: FaultPlan;
@@ -105,5 +153,53 @@ export function createLine({ now, byteMs, plan, arrived, log }: LineParts): Line
     waitingBytes: () => waiting,
     isPlugged: () => plugged,
     plug,
+  };
+}
+
+// What the board says, byte by byte onto its line, and what becomes of an acknowledgement on purpose.
+
+interface Sender {
+  readonly reply: (command: number, params: readonly number[]) => Work;
+  /** Plain ASCII. */
+  readonly print: (text: string) => Work;
+}
+
+/** Replies that say no more than "taken" (S18-S20), each with another one's number for a foreign one. */
+const FOREIGN_ACK: ReadonlyMap<number, number> = new Map([
+  [COMMAND_NUMBER.run, COMMAND_NUMBER.erase],
+  [COMMAND_NUMBER.erase, COMMAND_NUMBER.download],
+  [COMMAND_NUMBER.download, COMMAND_NUMBER.run],
+]);
+
+export function createSender(line: () => Line, plan: FaultPlan): Sender {
+  /** Sent by busy-waiting: each byte blocks the loop for its time on the wire (S21). */
+  function* transmit(bytes: Iterable<number>, fate: AckFate): Work {
+    for (const byte of bytes) {
+      yield line().byteMs;
+      line().transmit(byte, fate);
+    }
+  }
+
+  function* acknowledge(command: number, foreign: number): Work {
+    const fate = plan.nextAck();
+    if (fate.foreign) yield* transmit(packetBytes(foreign, []), UNHARMED);
+    yield* transmit(packetBytes(command, []), fate);
+    if (fate.doubled) yield* transmit(packetBytes(command, []), fate);
+  }
+
+  function reply(command: number, params: readonly number[]): Work {
+    const foreign = params.length === 0 ? FOREIGN_ACK.get(command) : undefined;
+    return foreign === undefined
+      ? transmit(packetBytes(command, params), UNHARMED)
+      : acknowledge(command, foreign);
+  }
+
+  return {
+    reply,
+    print: (text) =>
+      transmit(
+        Array.from(text, (letter) => letter.charCodeAt(0)),
+        UNHARMED,
+      ),
   };
 }

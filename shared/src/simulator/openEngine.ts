@@ -2,20 +2,14 @@
 // section 3). What differs between its builds is a value. Knows no pacing and no clock.
 
 import { COMMAND_NUMBER, type Frame } from '../codec/commands.ts';
-import { createBatterySampler } from './battery.ts';
-import { batteryHandler, createDispatch, motionHandlers, storeHandlers } from './dispatch.ts';
+import { createBatterySampler, createMailbox, createMainLoop, createSlots } from './mainLoop.ts';
+import { batteryHandler, createDispatch, motionHandlers, storeHandlers, createParser } from './dispatch.ts';
 import type { Engine, EngineParts } from './engine.ts';
-import { createGroupStore, openLayout } from './groupStore.ts';
-import { createMailbox } from './mailbox.ts';
-import { createMainLoop } from './mainLoop.ts';
-import { createPadPoll, NO_PAD_POLL } from './padPoll.ts';
-import { createPanel } from './panel.ts';
-import { createParser } from './parser.ts';
+import { createGroupStore, openLayout, decodeFrame } from './groupStore.ts';
+import { createPadPoll, NO_PAD_POLL, createPanel } from './panel.ts';
 import { createRunner } from './runner.ts';
 import { createServos } from './servos.ts';
-import { createSlots } from './slots.ts';
-import { decodeFrame } from './storedFrame.ts';
-import { noWork, type Work } from './work.ts';
+import { noWork, type Work } from './agenda.ts';
 
 /** What differs between the builds of the open firmware (boards.md 3.2). */
 export interface OpenBuild {

@@ -8,7 +8,7 @@ import type { Readable } from 'node:stream';
 import { parseArgs } from 'node:util';
 import type { Clock } from '../clock.ts';
 import { createBoard, type Board, type BoardOptions } from './board.ts';
-import type { BusLogEntry } from './busLog.ts';
+import type { BusLogEntry } from './line.ts';
 import { parseFault } from './faults.ts';
 import { isProfileName, type ProfileName } from './profileNames.ts';
 import { PROFILES } from './profiles.ts';

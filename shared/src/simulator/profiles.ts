@@ -3,7 +3,7 @@
 import { createClosedEngine, type ClosedTraits } from './closedEngine.ts';
 import type { CreateEngine } from './engine.ts';
 import { createLearmEngine } from './learm/engine.ts';
-import { BUS_LEARM, PWM_LEARM, type LearmTraits } from './learm/traits.ts';
+import { BUS_LEARM, PWM_LEARM, type LearmTraits } from './learm/commands.ts';
 import { createOpenEngine, type OpenBuild } from './openEngine.ts';
 import type { ProfileName } from './profileNames.ts';
 

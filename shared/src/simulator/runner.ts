@@ -1,7 +1,7 @@
 // Plays stored groups on deadlines (S42-S50). Knows frames and the loop's time; does not know packets or servo motion.
 
 import type { Frame } from '../codec/commands.ts';
-import type { Work } from './work.ts';
+import type { Work } from './agenda.ts';
 
 export interface Runner {
   /** A run command: what it does depends on what runs already (S44-S47). */
@@ -23,7 +23,7 @@ export interface RunReports {
   readonly ended: (slot: number, times: number) => Work;
 }
 
-export interface RunnerParts {
+interface RunnerParts {
   readonly now: () => number;
   readonly frameCount: (slot: number) => number;
   /** Null where the frame cannot be played. */

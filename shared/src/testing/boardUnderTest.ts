@@ -3,8 +3,8 @@
 
 import { createBoard, type Board, type BoardOptions } from '../simulator/board.ts';
 
-import type { BusLogEntry } from '../simulator/busLog.ts';
-import { uint16 } from '../simulator/storedFrame.ts';
+import type { BusLogEntry } from '../simulator/line.ts';
+import { uint16 } from '../simulator/groupStore.ts';
 import { createVirtualClock, type VirtualClock } from './virtualClock.ts';
 
 export interface BoardUnderTest {

@@ -3,8 +3,8 @@
 // and what the boards' documents say frees them does.
 
 import { describe, expect, test } from 'vitest';
-import { createLearmParser } from '../../simulator/learm/parser.ts';
-import { createParser } from '../../simulator/parser.ts';
+import { createLearmParser } from '../../simulator/learm/engine.ts';
+import { createParser } from '../../simulator/dispatch.ts';
 import { createRandom } from '../../simulator/random.ts';
 import { named, seeds } from './amount.ts';
 import { belowFrom, bytesOf, commandSource, DAMAGES, packetsOf, textOf, type Random } from './streams.ts';

@@ -1,7 +1,7 @@
 // F6 of safety.md section 5: the chip takes 0 to 30 s for a sector, or never answers. Every wait has a named end.
 
 import { expect, test } from 'vitest';
-import { createFlashChip, type FlashChip } from '../../simulator/flashChip.ts';
+import { createFlashChip, type FlashChip } from '../../simulator/groupStore.ts';
 import { createRandom } from '../../simulator/random.ts';
 import { LinkError } from '../linkError.ts';
 import { createRig, type Rig } from '../rig.ts';

@@ -1,16 +1,48 @@
-// What LeArm does with a command: the numbers of the other boards and its own ones (boards.md 2.3), with its delays before
-// each answer (L13). Knows no bytes on the line and no loop.
+// The two LeArms as values, and what LeArm does with a command: the numbers of the other boards and its own ones (boards.md 2.3),
+// with its delays before each answer (L13). Knows no bytes on the line and no loop.
 
 import { COMMAND_NUMBER } from '../../codec/commands.ts';
 import type { Reply } from '../dispatch.ts';
-import type { GroupStore } from '../groupStore.ts';
+import { type GroupStore, readUint16, uint16 } from '../groupStore.ts';
 import type { OwnTimeServos } from '../ownTimeServos.ts';
-import { readUint16, uint16 } from '../storedFrame.ts';
-import type { Work } from '../work.ts';
-import type { LearmTraits } from './traits.ts';
+import type { Work } from '../agenda.ts';
 import type { LearmRunner } from './runner.ts';
 
-export interface LearmCommandParts {
+// The two LeArms as values: with PWM servos and with bus servos (boards.md chapter 4).
+
+export interface LearmTraits {
+  /** What it says of its servos when it is asked for its version (boards.md 2.3). */
+  readonly servoType: 1 | 2;
+  /** Its first line of text (L1). */
+  readonly greeting: string;
+  readonly range: { readonly min: number; readonly max: number };
+  /** Of servo 1, the gripper, which would break itself beyond (boards.md 2.1). */
+  readonly gripper: { readonly min: number; readonly max: number };
+  /** Where the servos go at power-up and after a reset (L1). */
+  readonly resetPose: readonly number[];
+  /** PWM servos are asked whether they have arrived; of bus servos it counts the frame's time (L7). */
+  readonly endsFrames: 'arrived' | 'counted';
+}
+
+export const PWM_LEARM: LearmTraits = {
+  servoType: 1,
+  greeting: 'pwm servo',
+  range: { min: 500, max: 2500 },
+  gripper: { min: 500, max: 1500 },
+  resetPose: [770, 1500, 644, 511, 1255, 1500],
+  endsFrames: 'arrived',
+};
+
+export const BUS_LEARM: LearmTraits = {
+  servoType: 2,
+  greeting: 'serial servo',
+  range: { min: 125, max: 875 },
+  gripper: { min: 200, max: 700 },
+  resetPose: [226, 500, 177, 129, 408, 500],
+  endsFrames: 'counted',
+};
+
+interface LearmCommandParts {
   readonly traits: LearmTraits;
   readonly servos: OwnTimeServos;
   readonly store: GroupStore;

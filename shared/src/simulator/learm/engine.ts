@@ -1,18 +1,96 @@
 // LeArm AI with its ESP32 (boards.md chapter 4), PWM or bus servos, without its cable: parser, mode, loop, servos and store put
 // together. Knows no pacing and no clock.
 
+import type { Source, Work } from '../agenda.ts';
+import type { Servos } from '../servos.ts';
+import { HEADER } from '../../codec/packet.ts';
 import type { Frame } from '../../codec/commands.ts';
 import type { Engine, EngineParts } from '../engine.ts';
-import { createGroupStore } from '../groupStore.ts';
+import { createGroupStore, decodeFrame } from '../groupStore.ts';
 import { createOwnTimeServos } from '../ownTimeServos.ts';
-import { createProcessor } from '../processor.ts';
-import { decodeFrame } from '../storedFrame.ts';
-import type { Work } from '../work.ts';
-import { createLearmCommands, LEARM_SERVOS } from './commands.ts';
-import { createLearmParser } from './parser.ts';
+import { createProcessor } from '../mainLoop.ts';
+import { createLearmCommands, LEARM_SERVOS, type LearmTraits } from './commands.ts';
 import { createLearmRunner } from './runner.ts';
-import type { LearmTraits } from './traits.ts';
-import { createTicker, LEARM_TICK_MS } from './ticker.ts';
+
+// Moves LeArm's servos every 10 ms, whatever its loop is busy with. Sleeps while nothing moves.
+
+const LEARM_TICK_MS = 10;
+
+function createTicker(now: () => number, servos: Pick<Servos, 'moving' | 'tick'>): Source {
+  let lastMs = -Infinity;
+  let asleep = true;
+
+  const gridAfter = (atMs: number) => (Math.floor(atMs / LEARM_TICK_MS) + 1) * LEARM_TICK_MS;
+
+  function dueMs(): number {
+    if (!servos.moving()) {
+      asleep = true;
+      return Infinity;
+    }
+    if (asleep) lastMs = now();
+    asleep = false;
+    return gridAfter(lastMs);
+  }
+
+  function fire(): void {
+    lastMs = dueMs();
+    servos.tick();
+  }
+
+  return { dueMs, fire };
+}
+
+// LeArm's byte parser (L3): no time-out, numbers from 26 on refused, a buffer of 60 bytes that is filled without
+// looking. What the real one does to its memory then is not imitated: it says `overrun` and the board jams.
+
+interface ParserEvents {
+  readonly complete: (command: number, params: Uint8Array) => void;
+  /** A byte was written behind the end of the buffer. */
+  readonly overrun: () => void;
+}
+
+const BUFFER_BYTES = 60;
+const FIRST_REFUSED = 26;
+const BARE_LENGTH = 2;
+
+export function createLearmParser({ complete, overrun }: ParserEvents): (byte: number) => void {
+  let take = hunt();
+
+  type State = (byte: number) => State;
+
+  function hunt(headersSeen = 0): State {
+    if (headersSeen === 2) return length;
+    return (byte) => hunt(byte === HEADER ? headersSeen + 1 : 0);
+  }
+
+  function length(byte: number): State {
+    return byte === 0 ? hunt() : (next) => command(byte, next);
+  }
+
+  function command(len: number, byte: number): State {
+    if (len === BARE_LENGTH) {
+      complete(byte, new Uint8Array());
+      return hunt();
+    }
+    // LEN 1 cannot be, yet it waits for a byte.
+    return byte >= FIRST_REFUSED ? hunt() : data(byte, Math.max(len - BARE_LENGTH, 1), []);
+  }
+
+  function data(number: number, wanted: number, params: number[]): State {
+    return (byte) => {
+      params.push(byte);
+      if (params.length > BUFFER_BYTES) {
+        overrun();
+        return hunt();
+      }
+      if (params.length < wanted) return data(number, wanted, params);
+      complete(number, Uint8Array.from(params));
+      return hunt();
+    };
+  }
+
+  return (byte) => void (take = take(byte));
+}
 
 /** 21 bytes a frame, 8 KiB a group, 255 groups (L12). */
 export const LEARM_LAYOUT = { frameBytes: 21, groupBytes: 8192, groupCount: 255 };
