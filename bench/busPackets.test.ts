@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { fromHex } from '#shared/codec/hex.ts';
+import { fromHex } from '#shared/codec/packet.ts';
 import type { BusLogEntry } from '#shared/simulator/line.ts';
 import { packetsInto } from './busPackets.ts';
 

@@ -3,9 +3,8 @@
 // grid with an element for each key, in the same browser, right before.
 
 import type { Page } from '@playwright/test';
-import { emptyGroup, type ActionGroup } from '#shared/group/group.ts';
+import { emptyGroup, type ActionGroup, groupToText } from '#shared/group/group.ts';
 import { insertFrame } from '#shared/group/groupEdits.ts';
-import { groupToText } from '#shared/group/groupText.ts';
 import { amount } from './amounts.ts';
 import type { Figure } from './figure.ts';
 import { drawing, DUE, ROBOTS, SLOWER, type Drawing } from './frames.ts';

@@ -2,9 +2,8 @@
 // the timeline and the dialog is gone, and what that costs the page's main thread.
 
 import type { ElementHandle, Page } from '@playwright/test';
-import { emptyGroup, type ActionGroup } from '#shared/group/group.ts';
+import { emptyGroup, type ActionGroup, groupToText } from '#shared/group/group.ts';
 import { insertFrame } from '#shared/group/groupEdits.ts';
-import { groupToText } from '#shared/group/groupText.ts';
 import { factsOf } from '#shared/files/facts.ts';
 import { amount } from './amounts.ts';
 import type { Figure } from './figure.ts';

@@ -2,7 +2,7 @@ import { expect, test } from 'vitest';
 import { createDecoder } from '#shared/codec/decoder.ts';
 import { encodeCommand } from '#shared/codec/encode.ts';
 import { family } from '#shared/codec/families.ts';
-import { toHex } from '#shared/codec/hex.ts';
+import { toHex } from '#shared/codec/packet.ts';
 import { boardWords, chunksOf, hostCommands, toNaive } from './codecInputs.ts';
 import { createNaiveDecoder, naiveEncode } from './naive.ts';
 

@@ -7,7 +7,7 @@ import { parseArgs } from 'node:util';
 import { setUp } from './setup.mjs';
 import { at, main, say, SetupProblem } from './steps.mjs';
 
-/** @typedef {typeof import('../shared/src/testing/program.ts')} Program */
+/** @typedef {typeof import('../shared/src/testing/replay.ts')} Program */
 
 /** @returns {Promise<Program>} */
 async function load() {
@@ -17,7 +17,7 @@ async function load() {
     root: at(''),
     logLevel: 'warn',
     build: {
-      ssr: 'shared/src/testing/program.ts',
+      ssr: 'shared/src/testing/replay.ts',
       outDir: 'build',
       // Stamps and the simulator live there too.
       emptyOutDir: false,

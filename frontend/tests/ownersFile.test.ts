@@ -2,8 +2,7 @@
 // what the preview showed.
 
 import { compile } from '#shared/group/compile.ts';
-import { totalDurationMs, type ActionGroup } from '#shared/group/group.ts';
-import { groupFromText } from '#shared/group/groupText.ts';
+import { totalDurationMs, type ActionGroup, groupFromText } from '#shared/group/group.ts';
 import { positionAt, tracksOf, type Track } from '#shared/group/tracks.ts';
 import { encodeCommand } from '#shared/codec/encode.ts';
 import { FAMILIES } from '#shared/codec/families.ts';

@@ -3,11 +3,7 @@
 // link.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
-import {
-  calibrationFromText,
-  calibrationToText,
-  type KeptCalibration,
-} from '#shared/profile/calibrationText.ts';
+import { calibrationFromText, calibrationToText, type KeptCalibration } from '#shared/profile/calibration.ts';
 import { LANGUAGE_CODES, type Language } from '../i18n/words.ts';
 import type { TextStorage } from '../state/textStorage.ts';
 import { GENTLE_MOVE_MS, type MoveTime } from '../robot/moveTime.ts';

@@ -3,7 +3,7 @@
 
 import type { Clock } from '#shared/clock.ts';
 import type { MotionBefore } from '#shared/motion/before.ts';
-import { fromHex } from '#shared/codec/hex.ts';
+import { fromHex } from '#shared/codec/packet.ts';
 import { LinkError } from '#shared/session/linkError.ts';
 import type { Battery } from '#shared/session/battery.ts';
 import type { SharedBoard } from '#shared/session/identity.ts';

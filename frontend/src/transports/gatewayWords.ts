@@ -3,14 +3,20 @@
 import type { MotionBefore } from '#shared/motion/before.ts';
 import { isHarmless, type Frame } from '#shared/codec/commands.ts';
 import { FAMILIES, type BoardId } from '#shared/codec/families.ts';
-import { toHex } from '#shared/codec/hex.ts';
+import { toHex } from '#shared/codec/packet.ts';
 import { commandIn } from '#shared/codec/parse.ts';
 import type { Battery } from '#shared/session/battery.ts';
 import type { Identity, SharedBoard } from '#shared/session/identity.ts';
 import { LinkError } from '#shared/session/linkError.ts';
 import type { SharedLatchReason } from '#shared/session/transport.ts';
 import { refusal } from './gatewayHttp.ts';
-import type { BatteryMessage, FrameBody, MotionState, PortState, StateMessage } from './messages.generated.ts';
+import type {
+  BatteryMessage,
+  FrameBody,
+  MotionState,
+  PortState,
+  StateMessage,
+} from './messages.generated.ts';
 
 export const LATCHED_BY: Readonly<Record<NonNullable<StateMessage['latchedBy']>, SharedLatchReason>> = {
   person: 'elsewhere',

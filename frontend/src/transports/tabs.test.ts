@@ -2,7 +2,7 @@
 // was asked for in a page reaches the robot after it was left.
 
 import { expect, test } from 'vitest';
-import { toHex } from '#shared/codec/hex.ts';
+import { toHex } from '#shared/codec/packet.ts';
 import type { FakePort } from './serialUnderTest.ts';
 import {
   expectUse,

@@ -4,7 +4,7 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import { createDecoder, type DecoderEvent } from './decoder.ts';
-import { fromHex, toHex } from './hex.ts';
+import { fromHex, toHex } from './packet.ts';
 import { COMMAND_SHAPES, REPORT_SHAPES, type ShapeRule } from './shapes.ts';
 
 const SHAPES: readonly (readonly [string, ShapeRule])[] = [

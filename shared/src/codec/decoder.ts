@@ -3,16 +3,15 @@
 // for longer than bytes of one packet usually are apart (20 ms), or ever are (60 ms covers every adapter).
 
 import timings from '../../protocol/timings.json' with { type: 'json' };
-import { judge, judgeLast, NO, WAIT } from './judge.ts';
+import { judge, judgeLast, NO, WAIT, REPORT_SHAPES, type ShapeRule } from './shapes.ts';
 import { HEADER, type Packet } from './packet.ts';
-import { REPORT_SHAPES, type ShapeRule } from './shapes.ts';
 
 export type DecoderEvent =
   | { readonly kind: 'packet'; readonly packet: Packet; readonly bytes: Uint8Array }
   /** `garbage` belongs to no packet; `truncated` began like one that the silence cut short. */
   | { readonly kind: 'noise'; readonly reason: 'garbage' | 'truncated'; readonly bytes: Uint8Array };
 
-export interface Decoder {
+interface Decoder {
   push(bytes: Uint8Array): void;
   /** The line has paused for longer than its bytes are apart, yet may go on: what is complete is believed, half packets wait. */
   pause(): void;

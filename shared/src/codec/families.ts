@@ -1,6 +1,6 @@
-// Board families: what a board of each kind takes, answers and means. One table for codec, session, simulator and page, and the same for
-// the gateway: shared/protocol/families.json, with the source of each figure. What differs between boards is a field there, never
-// an `if` on a family elsewhere.
+// Board families: what a board of each kind takes, answers and means, and which slots it plays by itself. One table for codec,
+// session, simulator and page, and the same for the gateway: shared/protocol/families.json, with the source of each figure. What
+// differs between boards is a field there, never an `if` on a family elsewhere.
 
 import data from '../../protocol/families.json' with { type: 'json' };
 import type { CommandKind } from './commands.ts';
@@ -74,7 +74,7 @@ export interface Family {
 }
 
 /** How a board turns its servos and plays its groups: what the motion estimate has to know of it. */
-export interface MotionTraits {
+interface MotionTraits {
   readonly tickMs: number;
   /**
    * The longest that its loop is busy without being deaf to us: with what it says (S21), a pad's poll (S52), entries handed on to
@@ -99,7 +99,7 @@ export type BoardId = FamilyId | 'unknown';
 
 export type FamilyId = keyof typeof data.families;
 
-export type PadButton =
+type PadButton =
   | ('start' | 'up' | 'down' | 'left' | 'right')
   | ('triangle' | 'cross' | 'square' | 'circle')
   | ('l1' | 'r1' | 'l2' | 'r2');
@@ -134,4 +134,37 @@ export function family(id: BoardId): Family {
 /** How far this servo may be turned. */
 export function positionRange({ position, servoPosition }: Family, servo: number): Range {
   return servoPosition[servo] ?? position;
+}
+
+// Which slots a board plays by itself, and what makes it: buttons of the wireless pad, the board's own key, the end
+// of another group. Source: S49, S55, S56, X8, L2 in boards.md.
+
+export type SlotTrigger =
+  | { readonly kind: 'pad'; readonly button: PadButton }
+  /** A button together with SELECT; the manual does not say which. */
+  | { readonly kind: 'select' }
+  | { readonly kind: 'key' }
+  /** Played once when the slot before it has ended by itself. */
+  | { readonly kind: 'chain'; readonly after: number };
+
+/**
+ * What some board plays without being asked, or comes filled with from its maker: pad buttons and factory groups (S56, X8, boards.md
+ * chapter 9), the key and the slots that follow it by themselves (S49, S55). Of which board one has is not sure enough to differ.
+ */
+const LIVE: readonly Range[] = [
+  { min: 0, max: 20 },
+  { min: 100, max: 110 },
+];
+
+export const isLiveSlot = (slot: number): boolean => LIVE.some(({ min, max }) => slot >= min && slot <= max);
+
+/** null: only a run on purpose plays it. */
+export function slotTrigger(board: BoardId, slot: number): SlotTrigger | null {
+  const { padButtons, selectSlots, keySlot, motion } = family(board);
+  const button = padButtons[slot] ?? null;
+  if (button !== null) return { kind: 'pad', button };
+  if (selectSlots.includes(slot)) return { kind: 'select' };
+  if (keySlot === null) return null;
+  if (slot === keySlot) return { kind: 'key' };
+  return keySlot === motion.chainedSlot && slot === keySlot + 1 ? { kind: 'chain', after: keySlot } : null;
 }

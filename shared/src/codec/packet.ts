@@ -1,5 +1,5 @@
-// One unit on the wire: `55 55 LEN CMD …`. LEN counts itself and CMD, so a packet is LEN + 2 bytes; there is no checksum
-// and no escape. Knows bytes only: no command's meaning, no board, no time.
+// One unit on the wire: `55 55 LEN CMD …`. LEN counts itself and CMD, so a packet is LEN + 2 bytes; there is no checksum and no
+// escape. Its bytes as people write them. Knows bytes only: no command's meaning, no board, no time.
 
 import timings from '../../protocol/timings.json' with { type: 'json' };
 
@@ -35,4 +35,20 @@ export function packetBytes(command: number, params: Uint8Array | readonly numbe
 /** Milliseconds that `byteCount` bytes spend on the wire at `baud`. */
 export function wireMs(byteCount: number, baud = BAUD): number {
   return (byteCount * 10_000) / baud;
+}
+
+const PAIRS = Array.from({ length: 256 }, (_, byte) => byte.toString(16).toUpperCase().padStart(2, '0'));
+
+/** Upper case, one space between bytes; the empty string for no bytes. */
+export function toHex(bytes: Uint8Array): string {
+  return Array.from(bytes, (byte) => PAIRS[byte]).join(' ');
+}
+
+/** Any case, white space optional between bytes. Throws SyntaxError on anything that is not whole bytes. */
+export function fromHex(text: string): Uint8Array {
+  if (!/^\s*([0-9a-f]{2}\s*)*$/i.test(text)) throw new SyntaxError(`not hexadecimal bytes: ${text}`);
+  const digits = text.replace(/\s+/g, '');
+  const bytes = new Uint8Array(digits.length / 2);
+  for (let i = 0; i < bytes.length; i++) bytes[i] = parseInt(digits.slice(2 * i, 2 * i + 2), 16);
+  return bytes;
 }

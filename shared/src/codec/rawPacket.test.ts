@@ -3,8 +3,7 @@ import { describe, expect, test } from 'vitest';
 import { COMMAND_NUMBER } from './commands.ts';
 import { encodeCommand } from './encode.ts';
 import { FAMILIES, UNKNOWN_BOARD, type Family } from './families.ts';
-import { fromHex } from './hex.ts';
-import { packetBytes } from './packet.ts';
+import { fromHex, packetBytes } from './packet.ts';
 import { judgeRaw } from './rawPacket.ts';
 
 const judge = (hex: string, family: Family = FAMILIES.doc) => judgeRaw(fromHex(hex), family);

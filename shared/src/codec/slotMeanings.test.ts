@@ -1,5 +1,5 @@
 import { describe, expect, test } from 'vitest';
-import { slotTrigger } from './slotMeanings.ts';
+import { slotTrigger } from './families.ts';
 
 describe('what plays a slot', () => {
   test('is a button of the pad, the key, the group before it, or nothing', () => {

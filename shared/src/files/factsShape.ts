@@ -1,7 +1,7 @@
 // What a list says of a document, as it comes from elsewhere: one schema for each kind. Knows no keeper.
 
 import * as v from 'valibot';
-import { count, targetSchema, whole } from '../document/schemas.ts';
+import { count, targetSchema, whole } from '../document/schema.ts';
 
 const name = v.pipe(v.string(), v.maxLength(64));
 

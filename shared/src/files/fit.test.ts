@@ -4,7 +4,7 @@ import { emptyGroup, type ActionGroup } from '../group/group.ts';
 import { insertFrame } from '../group/groupEdits.ts';
 import { readyRobot } from '../profile/readyRobots.ts';
 import { misfitsOf } from './fit.ts';
-import { inUnit, meaningIn, onlyFittingUnit } from './units.ts';
+import { inUnit, meaningIn, onlyFittingUnit } from './reading.ts';
 
 const family = FAMILIES['openarm-new'];
 const ready = readyRobot('arm', 'openarm-new', {

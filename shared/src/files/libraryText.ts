@@ -1,10 +1,25 @@
-// A whole library as one text with a version, and back, all or nothing. Reading trusts nothing and names the document it
-// stumbles over. Knows no keeper's place.
+// A whole library as one text with a version, and back, all or nothing; and tags as a person writes them. Reading trusts nothing
+// and names the document it stumbles over. Knows no place where documents are stored.
 
 import * as v from 'valibot';
 import { flawOfGroup, groupSchema, type ActionGroup } from '../group/group.ts';
-import { readVersioned, versionedText, type Read, type TextFlaw } from '../document/versionedText.ts';
-import { count } from '../document/schemas.ts';
+import { readVersioned, versionedText, type Read, type TextFlaw, count } from '../document/schema.ts';
+
+// Tags as a person writes them, and back.
+
+const MAX_TAGS = 20;
+const MAX_TAG_LENGTH = 64;
+
+export const tagsToText = (tags: readonly string[]): string => tags.join(', ');
+
+/** Each once, in the order written; the commas of Chinese text count too. */
+export function tagsFromText(text: string): readonly string[] {
+  const written = text
+    .split(/[,，、]/u)
+    .map((tag) => tag.trim().slice(0, MAX_TAG_LENGTH))
+    .filter((tag) => tag !== '');
+  return [...new Set(written)].slice(0, MAX_TAGS);
+}
 
 const FORMAT = 'servodeck-library';
 
@@ -20,7 +35,7 @@ const documentSchema = v.strictObject({
   versions: v.pipe(v.array(versionSchema), v.maxLength(200)),
 });
 
-export const libraryFileSchema = v.strictObject({
+const libraryFileSchema = v.strictObject({
   format: v.literal(FORMAT),
   version: v.literal(1),
   content: v.strictObject({ documents: v.pipe(v.array(documentSchema), v.maxLength(5000)) }),
@@ -39,7 +54,7 @@ export interface BundledDocument {
   readonly versions: readonly BundledVersion[];
 }
 
-export interface Bundle {
+interface Bundle {
   readonly documents: readonly BundledDocument[];
 }
 

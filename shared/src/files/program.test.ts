@@ -9,7 +9,7 @@ import { afterAll, describe, expect, test } from 'vitest';
 import { python } from '../../../scripts/python.mjs';
 import { encodeCommand } from '../codec/encode.ts';
 import { FAMILIES, type Family } from '../codec/families.ts';
-import { toHex } from '../codec/hex.ts';
+import { toHex } from '../codec/packet.ts';
 import { compile } from '../group/compile.ts';
 import { emptyGroup, type ActionGroup } from '../group/group.ts';
 import { insertFrame } from '../group/groupEdits.ts';

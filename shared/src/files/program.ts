@@ -6,11 +6,9 @@ import type { Frame } from '../codec/commands.ts';
 import { encodeCommand } from '../codec/encode.ts';
 import type { Family } from '../codec/families.ts';
 import { compile } from '../group/compile.ts';
-import type { ActionGroup } from '../group/group.ts';
-import { maxErrorOf } from '../group/maxError.ts';
+import { type ActionGroup, maxErrorOf } from '../group/group.ts';
 import { onBoard, type Robot } from '../profile/robot.ts';
-import { filled } from './filled.ts';
-import { misfitsOf, type Misfit } from './fit.ts';
+import { filled, misfitsOf, type Misfit } from './fit.ts';
 
 export interface Program {
   readonly group: ActionGroup;

@@ -1,14 +1,19 @@
 // A file of action groups, whatever its format, read as a whole or not at all. The content tells the format; where it does
 // not, the name does. Never throws. Bytes of text and databases are opened by what is handed in.
 
-import { emptyGroup, GROUP_NAME_LENGTH, type ActionGroup } from '../group/group.ts';
-import { groupFromText } from '../group/groupText.ts';
-import { isCsv, readCsv } from './csv.ts';
+import { emptyGroup, GROUP_NAME_LENGTH, type ActionGroup, groupFromText } from '../group/group.ts';
+import { isCsv, readCsv, framesOfSheet, type Sheet } from './csv.ts';
 import { namedByFile } from './fileName.ts';
-import { Unreadable, type Drawn, type Reading, type Remark, type Unit } from './reading.ts';
+import {
+  Unreadable,
+  type Drawn,
+  type Reading,
+  type Remark,
+  type Unit,
+  textOf,
+  type Decode,
+} from './reading.ts';
 import { isRob, readRob } from './rob.ts';
-import { framesOfSheet, type Sheet } from './sheet.ts';
-import { textOf, type Decode } from './text.ts';
 import { readXml } from './xml.ts';
 
 /** Ten times the longest group as XML. */

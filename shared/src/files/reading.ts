@@ -1,16 +1,18 @@
-// What reading a file of action groups comes to: groups with what is to be asked and told of them, or one problem with its
-// place. Nothing is half read. Knows no format; the sentences are the page's.
+// What reading a file of action groups comes to: groups with what is to be asked about them, or one problem with its place.
+// Nothing is half read. Text in the encodings such files come in, and what numbers mean in either unit. Knows no format; the
+// sentences are the page's.
 
 import type { Frame } from '../codec/commands.ts';
 import type { ActionGroup } from '../group/group.ts';
-import type { TextFlawCode } from '../document/versionedText.ts';
+import type { TextFlawCode } from '../document/schema.ts';
+import type { Range } from '../codec/families.ts';
 
 export type Unit = ActionGroup['unit'];
 
 /** Counted from 1. */
 export type Place = { readonly line: number } | { readonly frame: number };
 
-export type ProblemCode =
+type ProblemCode =
   | ('empty' | 'tooLarge' | 'unreadable' | 'unknownFormat')
   | TextFlawCode
   | ('noFrames' | 'tooManyFrames' | 'cutShort')
@@ -25,7 +27,7 @@ export interface Problem {
   readonly found: string;
 }
 
-export type RemarkCode =
+type RemarkCode =
   | ('otherEncoding' | 'unknownType' | 'columnIgnored' | 'indexOrder')
   | ('servoTwice' | 'bytesBehind' | 'nameCut');
 
@@ -78,3 +80,65 @@ export function wholeNumber(text: string, code: keyof typeof FIELDS, place: Plac
   if (value > FIELDS[code]) throw new Unreadable(code, text, place);
   return value;
 }
+
+// Bytes as text, in the encodings such files come in. What decodes them is handed in: it belongs to the browser.
+
+/** `gb2312` is left out: what decodes `gbk` reads it too. */
+const ENCODINGS = ['utf-8', 'utf-16le', 'gbk'] as const;
+type Encoding = (typeof ENCODINGS)[number];
+
+/** Without its byte order mark; null where the bytes are none of this encoding. */
+export type Decode = (bytes: Uint8Array, encoding: Encoding) => string | null;
+
+export interface Text {
+  readonly text: string;
+  readonly remarks: readonly Remark[];
+}
+
+export function textOf(bytes: Uint8Array, decode: Decode): Text {
+  const isUtf16 = bytes[0] === 0xff && bytes[1] === 0xfe;
+  for (const encoding of isUtf16 ? (['utf-16le'] as const) : (['utf-8', 'gbk'] as const)) {
+    const text = decode(bytes, encoding);
+    if (text !== null && !text.includes('\0')) return { text, remarks: remarksOn(encoding) };
+  }
+  throw new Unreadable('unknownFormat');
+}
+
+/** Which of the Chinese encodings it was is a guess, and names may come out wrong. */
+const remarksOn = (encoding: Encoding): readonly Remark[] =>
+  encoding === 'gbk' ? [{ code: 'otherEncoding', place: null, found: 'GBK' }] : [];
+
+// What a group's numbers would mean in either unit, and which of them is left.
+
+export const UNIT_RANGE: Readonly<Record<Unit, Range>> = {
+  us: { min: 500, max: 2500 },
+  steps: { min: 0, max: 1000 },
+};
+
+export interface Meaning {
+  /** null where no servo is named. */
+  readonly positions: Range | null;
+  /** How many positions no servo can take. */
+  readonly outside: number;
+}
+
+export function meaningIn(unit: Unit, { frames }: ActionGroup): Meaning {
+  const { min, max } = UNIT_RANGE[unit];
+  let [lowest, highest, outside] = [Infinity, -Infinity, 0];
+  for (const { targets } of frames)
+    for (const { position } of targets) {
+      lowest = Math.min(lowest, position);
+      highest = Math.max(highest, position);
+      if (position < min || position > max) outside += 1;
+    }
+  return { positions: lowest > highest ? null : { min: lowest, max: highest }, outside };
+}
+
+/** Where the numbers leave no choice; null: both units can be meant, or neither. */
+export function onlyFittingUnit(group: ActionGroup): Unit | null {
+  const fitting = (['us', 'steps'] as const).filter((unit) => meaningIn(unit, group).outside === 0);
+  return fitting.length === 1 ? (fitting[0] ?? null) : null;
+}
+
+export const inUnit = (group: ActionGroup, unit: Unit): ActionGroup =>
+  group.unit === unit ? group : { ...group, unit };

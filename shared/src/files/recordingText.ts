@@ -1,17 +1,25 @@
 // A recording as a text file: a header of `key: value` lines, then one line per entry. Strict about what it cannot read and
 // lenient about line ends, a byte order mark, empty lines and comments. Linear in the size of the text.
 
-import { LineProblem, readBoard, readLine, withoutNote, writeLine } from './line.ts';
-import type { Entry, Header, Recording } from './recording.ts';
+import {
+  LineProblem,
+  readBoard,
+  readLine,
+  withoutNote,
+  writeLine,
+  type Entry,
+  type Header,
+  type Recording,
+} from './recording.ts';
 
-export interface TextProblem {
+interface TextProblem {
   /** From 1; 0 where it is the whole text. */
   readonly line: number;
   readonly reason: string;
 }
 
 /** Not one entry of a text with problems is given: half a log proves nothing. */
-export type ReadResult =
+type ReadResult =
   { readonly recording: Recording } | { readonly recording: null; readonly problems: readonly TextProblem[] };
 
 const FORMAT = '1';

@@ -4,7 +4,7 @@ import { EMPTY_BOOK, type PoseBook } from '../profile/pose.ts';
 import { readyRobot } from '../profile/readyRobots.ts';
 import { changeServo } from '../profile/robotEdits.ts';
 import { factsSchema } from './factsShape.ts';
-import { robotFactsOf } from './robotFacts.ts';
+import { robotFactsOf } from './facts.ts';
 
 const ARM = changeServo(
   readyRobot('arm', 'doc', { robot: 'Arm\ud800', role: (role) => role, limb: (limb) => limb }),

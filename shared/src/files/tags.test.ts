@@ -2,7 +2,7 @@ import fc from 'fast-check';
 import { is } from 'valibot';
 import { expect, test } from 'vitest';
 import { emptyGroup, groupSchema } from '../group/group.ts';
-import { tagsFromText, tagsToText } from './tags.ts';
+import { tagsFromText, tagsToText } from './libraryText.ts';
 
 test.each([
   ['', []],

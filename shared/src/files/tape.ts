@@ -2,8 +2,7 @@
 // of the memory of the same entry as values. Numbers them from 1. Knows no session.
 
 import type { BoardId } from '../codec/families.ts';
-import { readLine, writeLine } from './line.ts';
-import type { Entry, Recording } from './recording.ts';
+import { readLine, writeLine, type Entry, type Recording } from './recording.ts';
 
 export interface Tape {
   /** `board`: whose bytes they are; a change of it is an entry of its own. */

@@ -5,16 +5,14 @@ import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import publishedFile from '../../../docs/group.schema.json' with { type: 'json' };
 import { FAMILIES } from '../codec/families.ts';
-import { emptyGroup, totalDurationMs, type ActionGroup } from '../group/group.ts';
+import { emptyGroup, totalDurationMs, type ActionGroup, groupFileSchema } from '../group/group.ts';
 import { insertFrame } from '../group/groupEdits.ts';
-import { groupFileSchema } from '../group/groupText.ts';
 import { readyRobot } from '../profile/readyRobots.ts';
 import { fileNameOf, namedByFile } from './fileName.ts';
-import { filled } from './filled.ts';
-import { lossesIn } from './losses.ts';
+import { filled } from './fit.ts';
+import { lossesIn, SAVE_FORMATS, writeGroupFile, type SaveFormat } from './writeGroupFile.ts';
 import { readGroupFile } from './readGroupFile.ts';
-import type { Sheet } from './sheet.ts';
-import { SAVE_FORMATS, writeGroupFile, type SaveFormat } from './writeGroupFile.ts';
+import type { Sheet } from './csv.ts';
 
 const family = FAMILIES['openarm-new'];
 const robot = readyRobot('arm', 'openarm-new', {

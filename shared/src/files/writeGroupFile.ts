@@ -1,18 +1,15 @@
-// A group as a file of any format, with what that format cannot hold. Databases are made by what is handed in.
+// A group as a file of any format, and what that format cannot hold. Databases are made by what is handed in.
 
 import type { Family } from '../codec/families.ts';
-import type { ActionGroup } from '../group/group.ts';
-import { groupToFile } from '../group/groupText.ts';
+import { type ActionGroup, groupToFile } from '../group/group.ts';
 import type { Robot } from '../profile/robot.ts';
 import { arduinoOf } from './arduino.ts';
-import { writeCsv } from './csv.ts';
+import { writeCsv, sheetOf, type Sheet } from './csv.ts';
 import { fileNameOf } from './fileName.ts';
-import { filled } from './filled.ts';
-import { OTHER_UNIT, type Misfit } from './fit.ts';
+import { filled, OTHER_UNIT, type Misfit } from './fit.ts';
 import { programOf, type Program } from './program.ts';
 import { pythonOf } from './python.ts';
 import { ROB_SERVOS, writeRob } from './rob.ts';
-import { sheetOf, type Sheet } from './sheet.ts';
 import { writeXml } from './xml.ts';
 
 export const SAVE_FORMATS = ['json', 'xml', 'd6a', 'rob', 'csv', 'python', 'arduino'] as const;
@@ -78,4 +75,36 @@ function robOf(group: ActionGroup): Uint8Array<ArrayBuffer> | { readonly misfits
   const values = { min: first.servo, max: first.servo };
   const allowed = { min: 1, max: ROB_SERVOS };
   return { misfits: [{ code: 'servo', servo: first.servo, frames, values, allowed }] };
+}
+
+// What a format other than ours does not keep of a group, told before saving.
+
+const LOSS_CODES = ['easings', 'marks', 'about', 'times', 'completed', 'lacking'] as const;
+type LossCode = (typeof LOSS_CODES)[number];
+
+/** What another format does not keep, or has to be given; with the frames it is about, counted from 1. */
+export interface Loss {
+  readonly code: LossCode;
+  readonly frames: readonly number[];
+}
+
+/** Told before saving, so that nobody finds out later. */
+export function lossesIn(format: SaveFormat, group: ActionGroup): readonly Loss[] {
+  if (format === 'json') return [];
+  const { frames, markers, robot, tags, times } = group;
+  const { completed, lacking } = filled(group);
+  const isProgram = format === 'python' || format === 'arduino';
+  const found: Readonly<Record<LossCode, boolean | readonly number[]>> = {
+    easings: isProgram ? [] : frames.flatMap(({ easing }, index) => (easing === 'linear' ? [] : [index + 1])),
+    marks: markers.length > 0 || frames.some(({ note, colour }) => note !== '' || colour !== null),
+    about: robot !== '' || tags.length > 0,
+    times: times !== 1 && !isProgram,
+    completed,
+    lacking: isProgram ? [] : lacking,
+  };
+  return LOSS_CODES.flatMap((code) => {
+    const where = found[code];
+    if (typeof where === 'boolean') return where ? [{ code, frames: [] }] : [];
+    return where.length === 0 ? [] : [{ code, frames: where }];
+  });
 }

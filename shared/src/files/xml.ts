@@ -1,10 +1,21 @@
 // The vendors' XML (uHand 2.0, LeArm): ID, Move and Time, repeated flat in one table. As tolerant as their own program, which
 // counts the three tags wherever they stand, but servo numbers are read and any count of servos is taken (boards.md section 7).
 
-import type { Frame, ServoTarget } from '../codec/commands.ts';
-import { MAX_FRAMES, type ActionGroup } from '../group/group.ts';
-import { Unreadable, wholeNumber, type Drawn, type Place, type Remark, type Unit } from './reading.ts';
-import { targetsOf } from './targets.ts';
+import type { ServoTarget, Frame } from '../codec/commands.ts';
+import { sortedTargets, MAX_FRAMES, type ActionGroup } from '../group/group.ts';
+import { type Remark, Unreadable, wholeNumber, type Drawn, type Place, type Unit } from './reading.ts';
+
+// The servos of one frame as a file names them, brought into a group's order.
+
+/** In ascending servo order. Of a servo that is named twice the last position counts, and `remarks` gets it. */
+function targetsOf(named: readonly ServoTarget[], frame: number, remarks: Remark[]): readonly ServoTarget[] {
+  const targets = sortedTargets(named);
+  if (targets.length < named.length) {
+    const twice = named.find(({ servo }, index) => named.findIndex((one) => one.servo === servo) < index);
+    remarks.push({ code: 'servoTwice', place: { frame }, found: String(twice?.servo) });
+  }
+  return targets;
+}
 
 interface Tag {
   readonly content: string;

@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { isAbout, withBegun, withNews, type DownloadNews } from './arrivals.ts';
+import { isAbout, withBegun, withNews, type DownloadNews } from './slotPlaces.ts';
 import { EMPTY_SLOT_BOOK, withStored, type SlotBook, type SlotRecord } from './slotBook.ts';
 
 const record = (slot: number, name: string): SlotRecord => ({

@@ -5,7 +5,7 @@ import type { ServoTarget } from '../codec/commands.ts';
 import type { Range } from '../codec/families.ts';
 import { emptyGroup, MAX_FRAMES, type ActionGroup, type GroupFrame } from './group.ts';
 import { changed, insertFrames } from './groupEdits.ts';
-import { lifted } from './lifted.ts';
+import { lifted } from './keyRanges.ts';
 import { momentsOf, newMoment, placed, wholeMs, withMoments, type Moment } from './moments.ts';
 import { insertTime, type Ripple } from './timeEdits.ts';
 import type { KeyRef } from './tracks.ts';
@@ -36,7 +36,7 @@ export interface Pasted {
 /** How far a servo may be turned; null where nobody knows. */
 type RangeOf = (servo: number) => Range | null;
 
-export interface PasteOptions extends Ripple {
+interface PasteOptions extends Ripple {
   /** Without it no position is a problem. */
   readonly rangeOf?: RangeOf;
 }

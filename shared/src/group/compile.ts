@@ -8,8 +8,17 @@
 import type { Frame, ServoTarget } from '../codec/commands.ts';
 import type { Family } from '../codec/families.ts';
 import { reportOf, type CompileOptions, type CompileReport } from './compileReport.ts';
-import { courseAt, coursesOf, gridMs, onGrid, type Course } from './courses.ts';
-import { missOf, ROUNDING, type Deviation, type Straight } from './deviation.ts';
+import {
+  courseAt,
+  coursesOf,
+  gridMs,
+  onGrid,
+  type Course,
+  missOf,
+  ROUNDING,
+  type Deviation,
+  type Straight,
+} from './courses.ts';
 import { totalDurationMs, type ActionGroup } from './group.ts';
 import { tracksOf } from './tracks.ts';
 

@@ -6,13 +6,12 @@ import { positionRange, type Family, type Range } from '../codec/families.ts';
 import { wireMs } from '../codec/packet.ts';
 import { DEGREES_PER_UNIT } from '../profile/readyRobots.ts';
 import { servoOf, type Robot } from '../profile/robot.ts';
-import type { Course, Leg } from './courses.ts';
-import { ROUNDING, type Deviation } from './deviation.ts';
-import { CURVES } from './easings.ts';
+import { type Course, type Leg, ROUNDING, type Deviation } from './courses.ts';
+import { CURVES } from './tracks.ts';
 import { totalDurationMs, type ActionGroup } from './group.ts';
 
 /** Common servos of these robots need 0.2 s for 60 degrees, some a little less. */
-export const SERVO_DEGREES_PER_S = 300;
+const SERVO_DEGREES_PER_S = 300;
 
 export interface CompileOptions {
   readonly family: Family;
@@ -62,7 +61,7 @@ export interface CompileReport {
   readonly problems: readonly CompileProblem[];
 }
 
-export interface CompiledParts {
+interface CompiledParts {
   readonly group: ActionGroup;
   readonly options: CompileOptions;
   readonly courses: readonly Course[];

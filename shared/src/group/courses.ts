@@ -1,10 +1,9 @@
-// Each servo's way as a board can go it: its keys on the board's ticks, no jump faster than a move can be. Continuous from the
-// beginning of the group to its end. Knows a board's time; no frame, no error bound.
+// Each servo's way as a board can go it: its keys on the board's ticks, no jump faster than a move can be; and how far a straight
+// way misses it, exactly. Continuous from the beginning of the group to its end. Knows a board's time; no frame.
 
 import type { Family } from '../codec/families.ts';
-import { CURVES } from './easings.ts';
+import { CURVES, type Key, type Track, type Tracks } from './tracks.ts';
 import type { Easing } from './group.ts';
-import type { Key, Track, Tracks } from './tracks.ts';
 
 export interface Leg {
   readonly fromMs: number;
@@ -89,12 +88,12 @@ export function courseAt({ legs, restPosition }: Course, atMs: number): number {
   return leg === undefined ? restPosition : legAt(leg, atMs);
 }
 
-export function legAt({ fromMs, toMs, from, to, easing }: Leg, atMs: number): number {
+function legAt({ fromMs, toMs, from, to, easing }: Leg, atMs: number): number {
   return from + (to - from) * CURVES[easing].at((atMs - fromMs) / (toMs - fromMs));
 }
 
 /** The first leg that ends later. */
-export function legAfter(legs: readonly Leg[], atMs: number): number {
+function legAfter(legs: readonly Leg[], atMs: number): number {
   let low = 0;
   let high = legs.length;
   while (low < high) {
@@ -103,4 +102,60 @@ export function legAfter(legs: readonly Leg[], atMs: number): number {
     else high = middle;
   }
   return low;
+}
+
+// How far a straight way misses a servo's course, exactly: courses are lines and parabolas, so what counts are the
+// ends of their legs and where a leg is as steep as the way.
+
+/** Of fractions: a miss that is less is none. */
+export const ROUNDING = 1e-6;
+
+/** A straight way from one place to another. */
+export interface Straight {
+  readonly fromMs: number;
+  readonly toMs: number;
+  readonly from: number;
+  readonly to: number;
+}
+
+interface Miss {
+  readonly units: number;
+  readonly atMs: number;
+}
+
+/** Of a whole group. */
+export interface Deviation extends Miss {
+  readonly servo: number;
+}
+
+/** The greatest one, or the first beyond `enough`. */
+export function missOf({ legs, restPosition }: Course, way: Straight, enough = Infinity): Miss {
+  const slope = (way.to - way.from) / (way.toMs - way.fromMs);
+  let worst: Miss = { units: 0, atMs: way.fromMs };
+  const look = (position: number, atMs: number): void => {
+    const units = Math.abs(position - (way.from + slope * (atMs - way.fromMs)));
+    if (units > worst.units) worst = { units, atMs };
+  };
+  let index = legAfter(legs, way.fromMs);
+  for (let atMs = way.fromMs; atMs < way.toMs && worst.units <= enough; index += 1) {
+    const leg = legs[index];
+    const untilMs = Math.min(way.toMs, leg?.toMs ?? Infinity);
+    for (const at of leg === undefined ? [atMs, untilMs] : turns(leg, slope, atMs, untilMs))
+      look(leg === undefined ? restPosition : legAt(leg, at), at);
+    atMs = untilMs;
+  }
+  return worst;
+}
+
+/** Where the leg can be farthest from a way of `slope`, between two instants. */
+function turns(
+  { fromMs, toMs, from, to, easing }: Leg,
+  slope: number,
+  sinceMs: number,
+  untilMs: number,
+): number[] {
+  const lengthMs = toMs - fromMs;
+  const steep = to === from ? [] : CURVES[easing].asSteepAs((slope * lengthMs) / (to - from));
+  const within = steep.map((share) => fromMs + share * lengthMs).filter((at) => at > sinceMs && at < untilMs);
+  return [sinceMs, ...within, untilMs];
 }

@@ -5,13 +5,21 @@ import fc from 'fast-check';
 import { safeParse } from 'valibot';
 import { describe, expect, test } from 'vitest';
 import { copyKeys, duplicateKeys, pasteKeys } from './clip.ts';
-import { mirror, setColour, setEasing, setNote } from './frameEdits.ts';
+import {
+  mirror,
+  setColour,
+  setEasing,
+  setNote,
+  addMarker,
+  deleteMarker,
+  moveMarker,
+  renameMarker,
+} from './frameEdits.ts';
 import { flawOfGroup, groupSchema, type ActionGroup } from './group.ts';
 import { setMeta } from './groupEdits.ts';
 import { sampled, someGroup, someRange, someRefs, withGroup } from '../testing/groupsUnderTest.ts';
 import { deleteKeys, moveKeys, scaleAmplitude, setKey, setPositions } from './keyEdits.ts';
-import { addMarker, deleteMarker, moveMarker, renameMarker } from './markerEdits.ts';
-import { reverseKeys } from './reverseKeys.ts';
+import { reverseKeys } from './keyRanges.ts';
 import {
   deleteTime,
   insertTime,

@@ -1,11 +1,12 @@
-// Edits of whole frames that leave their times alone: easing, note, colour, left and right. Pure functions, the very same object
-// where nothing changes. What left and right is, the robot's description says.
+// Edits of whole frames that leave their times alone (easing, note, colour, left and right), and of markers. Pure functions, the
+// very same object where nothing changes. What left and right is, the robot profile says.
 
-import type { Colour } from '../document/colours.ts';
+import type { Colour } from '../document/schema.ts';
 import { mirroredTargets } from '../profile/poseShapes.ts';
 import type { Robot, RobotServo } from '../profile/robot.ts';
-import type { ActionGroup, Easing, GroupFrame } from './group.ts';
+import type { ActionGroup, Easing, GroupFrame, Marker } from './group.ts';
 import { changed, sameList, samePose } from './groupEdits.ts';
+import { wholeMs } from './moments.ts';
 
 export function setEasing(group: ActionGroup, frameIds: readonly number[], easing: Easing): ActionGroup {
   return changeFrames(group, frameIds, (frame) => changed(frame, { easing }));
@@ -23,7 +24,7 @@ export function setColour(
   return changeFrames(group, frameIds, (frame) => changed(frame, { colour }));
 }
 
-export interface Mirrored {
+interface Mirrored {
   readonly group: ActionGroup;
   /** Servos that would have had to go beyond their limits, and now stand at them. */
   readonly held: readonly RobotServo[];
@@ -48,4 +49,37 @@ function changeFrames(
   const meant = new Set(frameIds);
   const frames = group.frames.map((frame) => (meant.has(frame.id) ? change(frame) : frame));
   return changed(group, { frames: sameList(group.frames, frames) });
+}
+
+// Edits of a group's markers, as pure functions, the very same object where nothing changes.
+
+export function addMarker(group: ActionGroup, atMs: number, text: string): ActionGroup {
+  const marker: Marker = { id: group.nextId, atMs: wholeMs(atMs), text };
+  return { ...group, nextId: group.nextId + 1, markers: [...group.markers, marker] };
+}
+
+export function moveMarker(group: ActionGroup, id: number, atMs: number): ActionGroup {
+  return changeMarker(group, id, { atMs: wholeMs(atMs) });
+}
+
+export function renameMarker(group: ActionGroup, id: number, text: string): ActionGroup {
+  return changeMarker(group, id, { text });
+}
+
+export function deleteMarker(group: ActionGroup, id: number): ActionGroup {
+  return withMarkers(
+    group,
+    group.markers.filter((marker) => marker.id !== id),
+  );
+}
+
+function changeMarker(group: ActionGroup, id: number, change: Partial<Marker>): ActionGroup {
+  return withMarkers(
+    group,
+    group.markers.map((marker) => (marker.id === id ? changed(marker, change) : marker)),
+  );
+}
+
+function withMarkers(group: ActionGroup, markers: readonly Marker[]): ActionGroup {
+  return changed(group, { markers: sameList(group.markers, markers) });
 }

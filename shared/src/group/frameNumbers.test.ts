@@ -1,6 +1,6 @@
 import fc from 'fast-check';
 import { expect, test } from 'vitest';
-import { framesOf, numbersOf } from './frameNumbers.ts';
+import { framesOf, numbersOf } from './fingerprint.ts';
 
 const frame = fc.record({
   durationMs: fc.integer({ min: 0, max: 30_000 }),

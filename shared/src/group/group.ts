@@ -6,10 +6,19 @@
 // goes on towards its next key: its way spans the frames between. `easing` is how the servos keyed in a frame come into it.
 
 import * as v from 'valibot';
-import { COLOURS } from '../document/colours.ts';
+import {
+  COLOURS,
+  type TextFlaw,
+  runningId,
+  targetSchema,
+  whole,
+  readVersioned,
+  versionedLine,
+  versionedText,
+  type Read,
+} from '../document/schema.ts';
 import type { Frame, ServoTarget } from '../codec/commands.ts';
-import type { TextFlaw } from '../document/versionedText.ts';
-import { runningId, targetSchema, whole } from '../document/schemas.ts';
+import type { Family } from '../codec/families.ts';
 
 /** `hold`: stays at the key before and jumps at the end, as fast as the servo can. */
 export const EASINGS = ['linear', 'in', 'out', 'inOut', 'hold'] as const;
@@ -117,4 +126,40 @@ export function changedServos(frames: readonly Frame[], index: number): readonly
 export function sortedTargets(targets: readonly ServoTarget[]): readonly ServoTarget[] {
   const byServo = new Map(targets.map((target) => [target.servo, target]));
   return [...byServo.values()].sort((one, other) => one.servo - other.servo);
+}
+
+// How far a servo may be off its way when a group becomes frames of a board.
+
+/** As good as nobody can see: half a degree. */
+const USUAL_ERROR = { us: 5, steps: 2 } as const;
+
+/** What the group says, in its own unit. */
+export function maxErrorOf({ unit, maxErrorUnits }: ActionGroup, family: Family): number {
+  return (unit === family.unit ? maxErrorUnits : undefined) ?? USUAL_ERROR[family.unit];
+}
+
+// An action group as text with a version, and back; the same for storage and files. Reading trusts nothing and says
+// what is wrong.
+
+const FORMAT = 'servodeck-group';
+
+/** Other programs may use it: docs/group.schema.json. */
+export const groupFileSchema = v.strictObject({
+  format: v.literal(FORMAT),
+  version: v.literal(1),
+  content: groupSchema,
+});
+
+export const groupToText = (group: ActionGroup): string => versionedLine(FORMAT, group);
+
+/** The same, for people to read. */
+export const groupToFile = (group: ActionGroup): string => versionedText(FORMAT, group);
+
+/** By what they say, whoever made the objects. */
+export const sameGroup = (one: ActionGroup, other: ActionGroup): boolean => plain(one) === plain(other);
+
+const plain = (group: ActionGroup): string => JSON.stringify(v.safeParse(groupSchema, group).output);
+
+export function groupFromText(text: string): Read<ActionGroup> {
+  return readVersioned(text, groupFileSchema, flawOfGroup);
 }

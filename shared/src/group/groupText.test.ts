@@ -1,9 +1,8 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
-import { COLOURS } from '../document/colours.ts';
-import { EASINGS, emptyGroup, type ActionGroup } from './group.ts';
+import { COLOURS } from '../document/schema.ts';
+import { EASINGS, emptyGroup, type ActionGroup, groupFromText, groupToText } from './group.ts';
 import { insertFrame } from './groupEdits.ts';
-import { groupFromText, groupToText } from './groupText.ts';
 
 const frames = fc.array(
   fc.record({

@@ -4,7 +4,7 @@
 import type { ActionGroup, GroupFrame } from './group.ts';
 import { changed, sameList, samePose } from './groupEdits.ts';
 import { momentsOf, newMoment, placed, wholeMs, withMoments, type Moment } from './moments.ts';
-import { lifted, servosByFrame } from './lifted.ts';
+import { lifted, servosByFrame } from './keyRanges.ts';
 import { closeFrames, setDuration, type Ripple } from './timeEdits.ts';
 import type { KeyRef } from './tracks.ts';
 
@@ -30,7 +30,7 @@ export function setKey(group: ActionGroup, servo: number, atMs: number, position
 }
 
 /** A key with its new position. */
-export interface KeyPosition extends KeyRef {
+interface KeyPosition extends KeyRef {
   readonly position: number;
 }
 
@@ -115,7 +115,7 @@ function rippled(group: ActionGroup, refs: readonly KeyRef[], deltaMs: number): 
 }
 
 /** About where each servo's swing grows or shrinks: the mean of its keys that are meant, or the positions given. */
-export type AmplitudeCentre = 'mean' | ReadonlyMap<number, number>;
+type AmplitudeCentre = 'mean' | ReadonlyMap<number, number>;
 
 /** Servos without a centre stay as they are. */
 export function scaleAmplitude(

@@ -1,7 +1,7 @@
 import { describe, expect, test } from 'vitest';
 import { emptyGroup } from './group.ts';
 import { setKey } from './keyEdits.ts';
-import { addMarker, deleteMarker, moveMarker, renameMarker } from './markerEdits.ts';
+import { addMarker, deleteMarker, moveMarker, renameMarker } from './frameEdits.ts';
 import { deleteTime, insertTime, setDuration } from './timeEdits.ts';
 
 const RIPPLE = { ripple: true };

@@ -1,8 +1,7 @@
 import fc from 'fast-check';
 import { expect, test } from 'vitest';
-import { FAMILIES, type FamilyId } from '../codec/families.ts';
-import { slotTrigger } from '../codec/slotMeanings.ts';
-import { freeSlot, ownSlot, slotFor, type KnownSlots } from './placing.ts';
+import { FAMILIES, type FamilyId, slotTrigger } from '../codec/families.ts';
+import { freeSlot, ownSlot, slotFor, type KnownSlots } from './slotPlaces.ts';
 import type { SlotRecord } from './slotBook.ts';
 
 const record = (slot: number, documentId: string, storedAtMs = 0): SlotRecord => ({

@@ -3,8 +3,8 @@ import { describe, expect, test } from 'vitest';
 import { emptyGroup, type ActionGroup } from './group.ts';
 import { refsOf, shapeOf, someGroup, someRefs, withGroup } from '../testing/groupsUnderTest.ts';
 import { insertFrame } from './groupEdits.ts';
-import { addMarker } from './markerEdits.ts';
-import { reverseKeys } from './reverseKeys.ts';
+import { addMarker } from './frameEdits.ts';
+import { reverseKeys } from './keyRanges.ts';
 import { reverse } from './timeEdits.ts';
 import { keysAt, tracksOf, type Key, type KeyRef } from './tracks.ts';
 

@@ -4,8 +4,7 @@
 import * as v from 'valibot';
 import type { Frame } from '../codec/commands.ts';
 import { GROUP_NAME_LENGTH } from './group.ts';
-import { readVersioned, type Read } from '../document/versionedText.ts';
-import { whole } from '../document/schemas.ts';
+import { readVersioned, type Read, whole } from '../document/schema.ts';
 
 const recordSchema = v.strictObject({
   slot: whole(0, 255),

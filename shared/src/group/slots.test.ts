@@ -1,6 +1,6 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
-import { withBegun } from './arrivals.ts';
+import { withBegun } from './slotPlaces.ts';
 import { compareFrames } from './compareFrames.ts';
 import { fingerprintOf } from './fingerprint.ts';
 import {

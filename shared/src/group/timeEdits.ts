@@ -1,7 +1,7 @@
 // Edits of a group's time: frames and stretches of it take longer or shorter, go or turn round. Pure functions, the very same
 // object where nothing changes. Markers go along with what they stand on. Knows no key's position.
 
-import { BACKWARDS } from './easings.ts';
+import { BACKWARDS } from './tracks.ts';
 import type { ActionGroup, GroupFrame, Marker } from './group.ts';
 import { indexOfFrame } from './groupEdits.ts';
 import { momentsOf, wholeMs, withMoments, type Moment } from './moments.ts';

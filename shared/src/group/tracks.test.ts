@@ -1,14 +1,9 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import { evenly } from '../testing/evenlyUnderTest.ts';
-import { BACKWARDS, CURVES } from './easings.ts';
-import { EASINGS, emptyGroup, totalDurationMs, type Easing } from './group.ts';
-import { insertFrame, setTargets } from './groupEdits.ts';
-import { setDuration } from './timeEdits.ts';
-import { setEasing } from './frameEdits.ts';
-import { someGroup } from '../testing/groupsUnderTest.ts';
-import { setPositions } from './keyEdits.ts';
 import {
+  BACKWARDS,
+  CURVES,
   arePlacedAlike,
   frameEnds,
   keyIn,
@@ -18,6 +13,12 @@ import {
   repositioned,
   tracksOf,
 } from './tracks.ts';
+import { EASINGS, emptyGroup, totalDurationMs, type Easing } from './group.ts';
+import { insertFrame, setTargets } from './groupEdits.ts';
+import { setDuration } from './timeEdits.ts';
+import { setEasing } from './frameEdits.ts';
+import { someGroup } from '../testing/groupsUnderTest.ts';
+import { setPositions } from './keyEdits.ts';
 
 type Row = readonly [durationMs: number, targets: Readonly<Record<number, number>>, easing?: Easing];
 

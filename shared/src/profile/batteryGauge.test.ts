@@ -12,8 +12,8 @@ import {
   readingKind,
   type Gauge,
   type Reading,
-} from './batteryGauge.ts';
-import type { Supply } from './batterySupply.ts';
+  type Supply,
+} from './battery.ts';
 
 const TWO_CELLS: Supply = {
   ...{ cells: 2, lowMv: 6200, highMv: 8400 },

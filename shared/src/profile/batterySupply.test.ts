@@ -3,7 +3,7 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import type { FamilyId } from '../codec/families.ts';
-import { fedBy, gaugeFraction, percentOf, supplyOf } from './batterySupply.ts';
+import { fedBy, gaugeFraction, percentOf, supplyOf } from './battery.ts';
 import { readyRobot } from './readyRobots.ts';
 import { flawOf, type BatteryKind, type Robot } from './robot.ts';
 

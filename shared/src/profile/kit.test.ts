@@ -1,6 +1,6 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
-import { KIT_PARTS, kitFromText, kitToText, mergedKits, sameKit, type Kit } from './kit.ts';
+import { KIT_PARTS, kitFromText, kitToText, mergedKits, sameKit, type Kit } from './robotText.ts';
 
 const BASE: Kit = { robot: 'arm', poses: null, buttons: '[]', pad: null };
 const word = fc.constantFrom('one', 'two', 'three');

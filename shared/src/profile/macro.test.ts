@@ -2,8 +2,16 @@
 
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
-import { COLOURS } from '../document/colours.ts';
-import { EMPTY_PAGE, keyOf, macroOf, type MacroPage, type MacroStep } from './macro.ts';
+import { COLOURS } from '../document/schema.ts';
+import {
+  EMPTY_PAGE,
+  keyOf,
+  macroOf,
+  type MacroPage,
+  type MacroStep,
+  macroPageFromText,
+  macroPageToText,
+} from './macro.ts';
 import {
   addMacro,
   addStep,
@@ -14,7 +22,6 @@ import {
   removeStep,
   setStep,
 } from './macroEdits.ts';
-import { macroPageFromText, macroPageToText } from './macroText.ts';
 
 const HOME: MacroStep = { kind: 'pose', pose: 'home', durationMs: 1500 };
 const SLOT: MacroStep = { kind: 'slot', slot: 5, times: 1 };

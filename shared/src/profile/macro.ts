@@ -2,11 +2,17 @@
 // One immutable page of a robot, checked by one schema. Poses are named by reference. Knows no session and no storage.
 
 import * as v from 'valibot';
-import { COLOURS } from '../document/colours.ts';
+import {
+  COLOURS,
+  type TextFlaw,
+  runningId,
+  whole,
+  readVersioned,
+  versionedText,
+  type Read,
+} from '../document/schema.ts';
 import { POSE_MS, poseRefSchema } from './pose.ts';
 import { NAME_LENGTH } from './robot.ts';
-import type { TextFlaw } from '../document/versionedText.ts';
-import { runningId, whole } from '../document/schemas.ts';
 
 export const WAIT_MS = { min: 100, max: 600_000 } as const;
 export const SLOT = { min: 0, max: 255 } as const;
@@ -40,7 +46,7 @@ const macroSchema = v.strictObject({
   steps: v.pipe(v.array(stepSchema), v.maxLength(MAX_STEPS)),
 });
 
-export const macroPageSchema = v.strictObject({
+const macroPageSchema = v.strictObject({
   macros: v.pipe(v.array(macroSchema), v.maxLength(MAX_MACROS)),
   nextId: runningId,
 });
@@ -69,7 +75,7 @@ export function keyOf(pressed: string): string | null {
 }
 
 /** What cannot be on a page; null where nothing is wrong. */
-export function flawOfPage({ macros, nextId }: MacroPage): TextFlaw | null {
+function flawOfPage({ macros, nextId }: MacroPage): TextFlaw | null {
   const ids = macros.map((macro) => macro.id);
   if (new Set(ids).size < ids.length || ids.some((one) => one >= nextId))
     return { code: 'sameNumber', at: '' };
@@ -80,4 +86,20 @@ export function flawOfPage({ macros, nextId }: MacroPage): TextFlaw | null {
     if (first !== undefined) return { code: 'sameKey', at: `${key?.toUpperCase()}: ${first.name}, ${name}` };
   }
   return null;
+}
+
+// A page of buttons as text with a version, and back; for storage. Reading trusts nothing.
+
+const FORMAT = 'servodeck-buttons';
+
+const fileSchema = v.strictObject({
+  format: v.literal(FORMAT),
+  version: v.literal(1),
+  content: macroPageSchema,
+});
+
+export const macroPageToText = (page: MacroPage): string => versionedText(FORMAT, page);
+
+export function macroPageFromText(text: string): Read<MacroPage> {
+  return readVersioned(text, fileSchema, flawOfPage);
 }

@@ -1,7 +1,7 @@
 // Every change of a page of buttons, as pure functions: (page, arguments) → page. One that changes nothing returns the very
 // same object, so that a history can leave it out.
 
-import { COLOURS } from '../document/colours.ts';
+import { COLOURS } from '../document/schema.ts';
 import { macroOf, type Macro, type MacroPage, type MacroStep } from './macro.ts';
 
 /** In the colour that comes next, so that neighbours differ. */

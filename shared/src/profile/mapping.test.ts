@@ -9,10 +9,16 @@ import {
   type Binding,
   type Input,
   type Mapping,
+  movedInput,
+  NO_INPUTS,
+  shaped,
+  smoothed,
+  valueOf,
+  READY_FEEL,
+  readyMapping,
+  mappingFromText,
+  mappingToText,
 } from './mapping.ts';
-import { movedInput, NO_INPUTS, shaped, smoothed, valueOf } from './mappingInputs.ts';
-import { READY_FEEL, readyMapping } from './mappingReady.ts';
-import { mappingFromText, mappingToText } from './mappingText.ts';
 import { readyRobot } from './readyRobots.ts';
 
 const names = { robot: 'Arm', role: (role: string) => role, limb: (limb: string) => limb };

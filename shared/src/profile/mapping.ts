@@ -1,12 +1,13 @@
 // What the inputs of a pad and of a keyboard do to a robot: a list of bindings and how the sticks feel. One immutable value with
-// one schema, and what two bindings have against each other. Knows no pad, no time and no session.
+// one schema, as text and back, and what two bindings have against each other. Knows no pad, no time and no session.
 
 import * as v from 'valibot';
 import { POSE_MS, poseRefSchema } from './pose.ts';
-import { whole } from '../document/schemas.ts';
+import { whole, readVersioned, versionedText, type Read } from '../document/schema.ts';
+import type { Robot } from './robot.ts';
 
 /** Which part of an axis counts: all of it with its sign, or one side as if it were a button. */
-export const SIDES = ['whole', 'minus', 'plus'] as const;
+const SIDES = ['whole', 'minus', 'plus'] as const;
 
 const index = whole(0, 63);
 const servo = whole(1, 253);
@@ -56,7 +57,7 @@ const feelSchema = v.strictObject({
   speedPercent: whole(10, 100),
 });
 
-export const mappingSchema = v.strictObject({
+const mappingSchema = v.strictObject({
   bindings: v.pipe(v.array(bindingSchema), v.maxLength(256)),
   feel: feelSchema,
 });
@@ -111,4 +112,123 @@ export function overlaps(one: Input, other: Input): boolean {
   if (one.kind !== other.kind || one.index !== other.index) return false;
   if (one.kind === 'button' || other.kind === 'button') return true;
   return one.side === other.side || one.side === 'whole' || other.side === 'whole';
+}
+
+// A mapping as text with a version, and back; for storage. Reading trusts nothing.
+
+const FORMAT = 'servodeck-mapping';
+
+const fileSchema = v.strictObject({
+  format: v.literal(FORMAT),
+  version: v.literal(1),
+  content: mappingSchema,
+});
+
+export const mappingToText = (mapping: Mapping): string => versionedText(FORMAT, mapping);
+
+export function mappingFromText(text: string): Read<Mapping> {
+  return readVersioned(text, fileSchema, () => null);
+}
+
+// What fingers do at one moment, as plain numbers, and how a stick's way becomes a wish: dead zone, curve, smoothing.
+
+export interface Inputs {
+  /** -1 to 1 each. */
+  readonly axes: readonly number[];
+  /** 0 to 1 each: triggers know how far. */
+  readonly buttons: readonly number[];
+  /** Codes of the keys that are down. */
+  readonly keys: ReadonlySet<string>;
+}
+
+export const NO_INPUTS: Inputs = { axes: [], buttons: [], keys: new Set() };
+
+/** From here on a button or half an axis counts as pressed. */
+const PRESSED = 0.5;
+
+/** How far an input is from rest, -1 to 1. What is not there rests. */
+export function valueOf(input: Input, { axes, buttons, keys }: Inputs): number {
+  if (input.kind === 'key') return keys.has(input.code) ? 1 : 0;
+  if (input.kind === 'button') return clamped(buttons[input.index] ?? 0, 0, 1);
+  const way = clamped(axes[input.index] ?? 0, -1, 1);
+  if (input.side === 'whole') return way;
+  return Math.max(0, input.side === 'plus' ? way : -way);
+}
+
+export const isPressed = (input: Input, inputs: Inputs): boolean =>
+  Math.abs(valueOf(input, inputs)) > PRESSED;
+
+/** What a finger has moved on the pad since `before`: a button, or the half of an axis; null while nothing is clear. */
+export function movedInput(before: Inputs, now: Inputs): Input | null {
+  const button = now.buttons.findIndex((value, at) => value - (before.buttons[at] ?? 0) > PRESSED);
+  if (button >= 0) return { kind: 'button', index: button };
+  const axis = now.axes.findIndex((value, at) => Math.abs(value - (before.axes[at] ?? 0)) > PRESSED);
+  if (axis < 0) return null;
+  const side = (now.axes[axis] ?? 0) > (before.axes[axis] ?? 0) ? 'plus' : 'minus';
+  return { kind: 'axis', index: axis, side };
+}
+
+/** An input's way as the person wants it felt: odd, growing, 0 in the dead zone, full at the end. */
+export function shaped(way: number, { deadZonePercent, curvePercent }: Feel): number {
+  const dead = deadZonePercent / 100;
+  const past = Math.max(0, Math.abs(way) - dead) / (1 - dead);
+  const bend = curvePercent / 100;
+  return Math.sign(way) * ((1 - bend) * past + bend * past ** 3);
+}
+
+/** Nearer than this is there: an exponential approach would never end. */
+const ARRIVED = 1e-3;
+
+/** From `from` towards `to`, never past it. */
+export function smoothed(from: number, to: number, dtMs: number, { smoothingMs }: Feel): number {
+  if (smoothingMs === 0) return to;
+  const next = from + (to - from) * (1 - Math.exp(-dtMs / smoothingMs));
+  return Math.abs(to - next) < ARRIVED ? to : next;
+}
+
+export function clamped(value: number, min: number, max: number): number {
+  return Math.min(max, Math.max(min, value));
+}
+
+// The mapping a robot has until somebody makes another: sticks, triggers and bumpers for its first six servos in the
+// order of an arm (servo 1 the gripper, 6 the base), and a pair of keys for each. Moves nothing until it is switched
+// on. T is nobody's: it keeps what the hand has just done.
+
+export const READY_FEEL: Feel = { deadZonePercent: 15, curvePercent: 30, smoothingMs: 80, speedPercent: 100 };
+
+/** Of a servo's range, in a second: slow enough to let go in time. */
+const RANGE_PERCENT_PER_S = 40;
+
+const axis = (index: number): Input => ({ kind: 'axis', index, side: 'whole' });
+const button = (index: number): Input => ({ kind: 'button', index });
+const key = (code: string): Input => ({ kind: 'key', code });
+
+/** What turns the servo at that place of the list one way, and what the other; numbers are those of the standard pad. */
+const TURNS: readonly { readonly more: readonly Input[]; readonly less: readonly Input[] }[] = [
+  { more: [button(7), key('KeyQ')], less: [button(6), key('KeyA')] },
+  { more: [button(5), key('KeyW')], less: [button(4), key('KeyS')] },
+  { more: [axis(2), key('KeyE')], less: [key('KeyD')] },
+  { more: [key('KeyR')], less: [axis(3), key('KeyF')] },
+  { more: [key('KeyY')], less: [axis(1), key('KeyH')] },
+  { more: [axis(0), key('KeyU')], less: [key('KeyJ')] },
+];
+
+/** B on most pads, the circle on some. */
+const STOP: Binding = { input: button(1), action: { kind: 'stop' } };
+
+export function readyMapping({ servos }: Robot): Mapping {
+  const turning = servos.slice(0, TURNS.length).flatMap(({ servo, min, max }, at): readonly Binding[] => {
+    const unitsPerS = usualUnitsPerS({ min, max });
+    const turn = (input: Input, sign: number): Binding => ({
+      input,
+      action: { kind: 'rate', servo, unitsPerS: sign * unitsPerS },
+    });
+    const { more = [], less = [] } = TURNS[at] ?? {};
+    return [...more.map((input) => turn(input, 1)), ...less.map((input) => turn(input, -1))];
+  });
+  return { bindings: [...turning, STOP], feel: READY_FEEL };
+}
+
+export function usualUnitsPerS({ min, max }: { readonly min: number; readonly max: number }): number {
+  return Math.max(1, Math.round(((max - min) * RANGE_PERCENT_PER_S) / 100));
 }

@@ -1,8 +1,7 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import { evenly } from '../testing/evenlyUnderTest.ts';
-import type { Action, Feel, Input } from './mapping.ts';
-import { NO_INPUTS, type Inputs } from './mappingInputs.ts';
+import { type Action, type Feel, type Input, NO_INPUTS, type Inputs } from './mapping.ts';
 import { AT_REST, step, type Driven, type Moment } from './mappingStep.ts';
 import { readyRobot } from './readyRobots.ts';
 

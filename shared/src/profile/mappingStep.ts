@@ -5,8 +5,17 @@
 // moves anything. AT_REST forgets what was seen: after it every input has to begin anew.
 
 import type { ServoTarget } from '../codec/commands.ts';
-import type { Action, Binding, Mapping } from './mapping.ts';
-import { clamped, isPressed, shaped, smoothed, valueOf, type Inputs } from './mappingInputs.ts';
+import {
+  type Action,
+  type Binding,
+  type Mapping,
+  clamped,
+  isPressed,
+  shaped,
+  smoothed,
+  valueOf,
+  type Inputs,
+} from './mapping.ts';
 import { servoOf, type Robot, type RobotServo } from './robot.ts';
 
 type ActionOf<Kind extends Action['kind']> = Extract<Action, { kind: Kind }>;
@@ -14,7 +23,7 @@ type ActionOf<Kind extends Action['kind']> = Extract<Action, { kind: Kind }>;
 /** Begun by a press, and done without a finger. */
 export type Begun = ActionOf<'pose' | 'run'>;
 
-export interface ServoPlace {
+interface ServoPlace {
   readonly target: number | null;
   readonly estimated: number | null;
 }

@@ -4,8 +4,10 @@ import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import { evenly } from '../testing/evenlyUnderTest.ts';
 import type { ServoTarget } from '../codec/commands.ts';
-import { EMPTY_BOOK, flawOfBook, type PoseBook } from './pose.ts';
 import {
+  EMPTY_BOOK,
+  flawOfBook,
+  type PoseBook,
   addPose,
   duplicatePose,
   markApplied,
@@ -15,9 +17,10 @@ import {
   renamePose,
   setPose,
   withPosesOf,
-} from './poseEdits.ts';
+  poseBookFromText,
+  poseBookToText,
+} from './pose.ts';
 import { blended, flippedTargets, homeTargets, mirroredTargets, sameTargets } from './poseShapes.ts';
-import { poseBookFromText, poseBookToText } from './poseText.ts';
 import { readyRobot, type RobotNames } from './readyRobots.ts';
 import { refusedTarget } from './robot.ts';
 

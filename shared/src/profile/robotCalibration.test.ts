@@ -11,8 +11,9 @@ import {
   settled,
   stepDone,
   stepsOf,
-} from './robotCalibration.ts';
-import { changeServo, removeServo } from './robotEdits.ts';
+  changeServo,
+  removeServo,
+} from './robotEdits.ts';
 import { servoOf, type Robot } from './robot.ts';
 
 const ready = (id: ReadyRobotId, board: Robot['board']): Robot =>

@@ -14,7 +14,7 @@ import { poseAtMs, tracksOf } from '../group/tracks.ts';
 import { readyRobot } from '../profile/readyRobots.ts';
 import { encodeCommand } from '../codec/encode.ts';
 import { FAMILIES } from '../codec/families.ts';
-import { toHex } from '../codec/hex.ts';
+import { toHex } from '../codec/packet.ts';
 import { createBoardUnderTest } from '../testing/boardUnderTest.ts';
 
 const STEP_MS = 10;

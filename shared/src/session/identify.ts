@@ -5,7 +5,7 @@ import { sleep, type Clock } from '../clock.ts';
 import type { Command } from '../codec/commands.ts';
 import { encodeCommand } from '../codec/encode.ts';
 import { UNKNOWN_BOARD, type Question } from '../codec/families.ts';
-import { toHex } from '../codec/hex.ts';
+import { toHex } from '../codec/packet.ts';
 import type { ReportKind } from '../codec/reports.ts';
 import { isNoAnswer, type Exchange } from './exchange.ts';
 import type { Evidence } from './identity.ts';

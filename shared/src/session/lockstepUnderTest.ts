@@ -4,7 +4,7 @@
 import { createInterface } from 'node:readline';
 import fc from 'fast-check';
 import type { Clock } from '../clock.ts';
-import { fromHex, toHex } from '../codec/hex.ts';
+import { fromHex, toHex } from '../codec/packet.ts';
 import { createBoard, type Board } from '../simulator/board.ts';
 import type { Fault } from '../simulator/faults.ts';
 import { isProfileName, type ProfileName } from '../simulator/profileNames.ts';

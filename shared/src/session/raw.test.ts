@@ -1,6 +1,6 @@
 import { describe, expect, test } from 'vitest';
 import { family } from '../codec/families.ts';
-import { fromHex, toHex } from '../codec/hex.ts';
+import { fromHex, toHex } from '../codec/packet.ts';
 import { createRig, type Rig } from './rig.ts';
 
 /** Sends and lets time pass; gives the code it was refused with, or null. */

@@ -4,8 +4,7 @@
 import { sleep } from '../clock.ts';
 import type { Frame, ServoTarget } from '../codec/commands.ts';
 import { family as familyOf, type BoardId, type FamilyId } from '../codec/families.ts';
-import { fromHex, toHex } from '../codec/hex.ts';
-import { wireMs } from '../codec/packet.ts';
+import { fromHex, toHex, wireMs } from '../codec/packet.ts';
 import { createVirtualClock } from '../testing/virtualClock.ts';
 import { LinkError } from './linkError.ts';
 import { createLocalRobot, type Session } from './session.ts';

@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { fromHex } from '../codec/hex.ts';
+import { fromHex } from '../codec/packet.ts';
 import { compare, tally } from './compare.ts';
 import type { PacketEntry } from '../files/recorder.ts';
 

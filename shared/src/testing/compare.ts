@@ -1,10 +1,10 @@
 // Two lists of packets side by side: what is in both, what differs in its values, what only one of them has. Knows packets by
 // command number and LEN; not who sent them.
 
-import { toHex } from '../codec/hex.ts';
+import { toHex } from '../codec/packet.ts';
 import type { PacketEntry } from '../files/recorder.ts';
 
-export type Verdict = 'same' | 'different' | 'missing' | 'extra';
+type Verdict = 'same' | 'different' | 'missing' | 'extra';
 
 export interface Row {
   readonly atMs: number;
@@ -17,7 +17,7 @@ export interface Row {
   readonly laterMs: number;
 }
 
-export type Tally = Readonly<Record<Verdict, number>>;
+type Tally = Readonly<Record<Verdict, number>>;
 
 /** Longer than any board works on one packet (a flash erase at its worst). */
 const WINDOW_MS = 2_500;

@@ -1,14 +1,14 @@
 // Action groups generated for tests, and ways to look at their motion. Knows documents; no board.
 
 import fc from 'fast-check';
-import { COLOURS } from '../document/colours.ts';
+import { COLOURS } from '../document/schema.ts';
 import { EASINGS, emptyGroup, type ActionGroup, type Easing } from '../group/group.ts';
 import { insertFrame } from '../group/groupEdits.ts';
-import { addMarker } from '../group/markerEdits.ts';
+import { addMarker } from '../group/frameEdits.ts';
 import type { TimeRange } from '../group/timeEdits.ts';
 import { frameEnds, positionAt, tracksOf, type KeyRef, type Tracks } from '../group/tracks.ts';
 
-export interface GroupTraits {
+interface GroupTraits {
   readonly servos?: readonly number[];
   /** Every frame names every servo. */
   readonly isFull?: boolean;
@@ -64,7 +64,7 @@ export function refsOf({ frames }: ActionGroup): readonly KeyRef[] {
 export const someRefs = (group: ActionGroup): fc.Arbitrary<KeyRef[]> => fc.subarray([...refsOf(group)]);
 
 /** Often just where a frame ends. */
-export function someInstant({ frames }: ActionGroup): fc.Arbitrary<number> {
+function someInstant({ frames }: ActionGroup): fc.Arbitrary<number> {
   const ends = frameEnds(frames);
   return fc.oneof(fc.constantFrom(0, ...ends), fc.integer({ min: 0, max: (ends.at(-1) ?? 0) + 500 }));
 }

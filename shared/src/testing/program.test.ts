@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { replayText } from './program.ts';
+import { replayText } from './replay.ts';
 
 const LOG = 'servodeck-log: 1\nboard: doc\nexpect: session battery 7500 mV\n1.0 > 55 55 02 0F\n';
 

@@ -1,18 +1,100 @@
 // What a session makes of a recording: the host's wishes and the board's bytes at their recorded times, in virtual time. A bug
 // that a log shows happens here again. Knows the session by its public face.
 
-import type { Clock } from '../clock.ts';
-import { family, type BoardId } from '../codec/families.ts';
+import { type Session, createSession } from '../session/session.ts';
+import { type Intent, intentsOf } from './intents.ts';
+import { sleep, type Clock } from '../clock.ts';
+import { wireMs } from '../codec/packet.ts';
 import { LinkError, type LinkErrorCode } from '../session/linkError.ts';
-import { createSession, type Session } from '../session/session.ts';
+import type { Transport, TransportEvents } from '../session/transport.ts';
+import { family, type BoardId } from '../codec/families.ts';
 import type { SessionState, Traffic } from '../session/state.ts';
 import { createVirtualClock } from './virtualClock.ts';
-import { createHost } from './host.ts';
-import { intentsOf } from './intents.ts';
 import type { Entry, Happening } from '../files/recording.ts';
-import { createReplayTransport, type ReplayTransport } from './replayTransport.ts';
 
-export interface Failure {
+// Asks a session for what the host of a recording wanted.
+
+type Perform<K extends Intent['kind']> = (intent: Extract<Intent, { kind: K }>) => Promise<unknown>;
+
+/** `failed` hears of each wish that was refused or came to nothing. */
+function createHost(
+  session: Session,
+  failed: (what: Intent['kind'], error: unknown) => void,
+): (intent: Intent) => void {
+  const perform: { readonly [K in Intent['kind']]: Perform<K> } = {
+    async move({ targets, durationMs }) {
+      session.move(targets, durationMs);
+      await Promise.resolve();
+    },
+    run: ({ slot, times }) => session.run(slot, times),
+    stopGroup: () => session.stopGroup(),
+    halt: () => session.halt(),
+    resume: () => session.resume(),
+    close: () => session.close(),
+    erase: () => session.erase(),
+    readBattery: () => session.readBattery(),
+    raw: ({ bytes }) => session.sendRaw(bytes),
+    download: ({ slot, frames }) => session.download([{ slot, frames }]),
+    cancelDownload: () => session.cancelDownload(),
+  };
+
+  return (intent) => {
+    const work = perform[intent.kind] as Perform<typeof intent.kind>;
+    work(intent as never).catch((error: unknown) => failed(intent.kind, error));
+  };
+}
+
+// A link whose other end is a recording: it says what the board said, when it is told to.
+
+interface ReplayTransport extends Transport {
+  /** `whole` where they are packets, as the recording has them. */
+  say(bytes: Uint8Array, whole: boolean): void;
+  /** Another screen or a loss latched the shared link. */
+  latch(): void;
+  lose(): void;
+  comeBack(): void;
+}
+
+function createReplayTransport(clock: Clock): ReplayTransport {
+  let events: TransportEvents | null = null;
+  let isThere = true;
+  let notifyAvailable = (): void => undefined;
+
+  return {
+    kind: 'simulated',
+    isSimulated: true,
+    longestPacket: Infinity,
+    label: 'Recording',
+    open(next) {
+      if (!isThere) return Promise.reject(new LinkError('portMissing', 'the recording has no link here'));
+      events = next;
+      return Promise.resolve();
+    },
+    send: (packet) => sleep(clock, wireMs(packet.length)),
+    whenAvailable(notify) {
+      notifyAvailable = notify;
+      return () => (notifyAvailable = () => undefined);
+    },
+    close() {
+      events = null;
+      return Promise.resolve();
+    },
+    say: (bytes, whole) => events?.received(bytes, whole),
+    latch: () => events?.latched?.('elsewhere'),
+    lose() {
+      const told = events;
+      events = null;
+      isThere = false;
+      told?.lost(new LinkError('lost', 'the link went'));
+    },
+    comeBack() {
+      isThere = true;
+      notifyAvailable();
+    },
+  };
+}
+
+interface Failure {
   readonly atMs: number;
   /** What was asked for; `link` where nobody asked. */
   readonly what: string;

@@ -4,7 +4,7 @@
 import { readFileSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { describe, expect, test } from 'vitest';
-import { partsOf, replay } from './report.ts';
+import { partsOf, replay } from './replay.ts';
 import { readRecording } from '../files/recordingText.ts';
 
 const folder = join(import.meta.dirname, '../../protocol/vectors/recordings');

@@ -1,7 +1,6 @@
 // The whole dashboard, or the parts of it that a state is about, with a frozen session behind it.
 
-import { gaugeOf, type Reading } from '#shared/profile/batteryGauge.ts';
-import { fedBy } from '#shared/profile/batterySupply.ts';
+import { gaugeOf, type Reading, fedBy } from '#shared/profile/battery.ts';
 import { totalDurationMs } from '#shared/group/group.ts';
 import { insertFrame, setMeta } from '#shared/group/groupEdits.ts';
 import { FAMILIES, UNKNOWN_BOARD, type Family } from '#shared/codec/families.ts';

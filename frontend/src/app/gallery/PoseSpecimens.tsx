@@ -2,8 +2,7 @@
 
 import type { ReactNode } from 'react';
 import { addMacro, changeMacro } from '#shared/profile/macroEdits.ts';
-import { addPose, markApplied, markRest } from '#shared/profile/poseEdits.ts';
-import type { PoseBook } from '#shared/profile/pose.ts';
+import { addPose, markApplied, markRest, type PoseBook } from '#shared/profile/pose.ts';
 import { CaptureStrip } from '../../features/animate/frames/CaptureStrip.tsx';
 import { ButtonsPage } from '../../features/buttons/ButtonsPage.tsx';
 import { Kiosk } from '../Kiosk.tsx';

@@ -1,6 +1,6 @@
 // The action group's timeline in each of its states, fed by plain values.
 
-import { addMarker } from '#shared/group/markerEdits.ts';
+import { addMarker } from '#shared/group/frameEdits.ts';
 import type { ActionGroup } from '#shared/group/group.ts';
 import { insertFrame, type NewFrame } from '#shared/group/groupEdits.ts';
 import { moveKeys } from '#shared/group/keyEdits.ts';

@@ -3,7 +3,7 @@
 import { encodeCommand } from '#shared/codec/encode.ts';
 import type { Command } from '#shared/codec/commands.ts';
 import { FAMILIES } from '#shared/codec/families.ts';
-import { fromHex } from '#shared/codec/hex.ts';
+import { fromHex } from '#shared/codec/packet.ts';
 import type { Report } from '#shared/codec/reports.ts';
 import type { Traffic } from '#shared/session/state.ts';
 

@@ -1,6 +1,6 @@
 // What feeds the robot at hand, when that is low, and what is to happen then. Each change is one step of the robot's undo.
 
-import { fedBy, type Supply } from '#shared/profile/batterySupply.ts';
+import { fedBy, type Supply } from '#shared/profile/battery.ts';
 import { BATTERY_KINDS, BATTERY_MV, BATTERY_POLICIES, type Robot } from '#shared/profile/robot.ts';
 import { useBattery, useStores } from '../stores.ts';
 import { Button } from '../../ui/Button.tsx';

@@ -1,8 +1,7 @@
 // The battery in full: volts on a gauge, what is left, what that means, how old the reading is, how it went in this visit.
 
 import { useState } from 'react';
-import { isPlain, readingKind } from '#shared/profile/batteryGauge.ts';
-import { percentOf } from '#shared/profile/batterySupply.ts';
+import { isPlain, readingKind, percentOf } from '#shared/profile/battery.ts';
 import { canReadBattery } from './batteryPoll.ts';
 import { useBattery, useDevice, useRobot, useSnapshot, useStores } from '../stores.ts';
 import { IconButton } from '../../ui/Button.tsx';

@@ -1,7 +1,7 @@
 // The volts of this visit as a line, with what it shows in words for those who do not see it.
 
 import { useEffect, useRef } from 'react';
-import { isPlain } from '#shared/profile/batteryGauge.ts';
+import { isPlain } from '#shared/profile/battery.ts';
 import { useBattery, useStores } from '../stores.ts';
 import { words } from '../../i18n/whole.ts';
 import { drawPlot } from './plot.ts';

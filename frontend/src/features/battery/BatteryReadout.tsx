@@ -1,7 +1,6 @@
 // The battery in the top bar: volts and how old they are, with a small picture of what feeds the robot, or a word where there are none.
 
-import { readingKind } from '#shared/profile/batteryGauge.ts';
-import { percentOf, type Supply } from '#shared/profile/batterySupply.ts';
+import { readingKind, percentOf, type Supply } from '#shared/profile/battery.ts';
 import { useBattery, useSnapshot, useStores } from '../stores.ts';
 import { Mark, type Truth } from '../../ui/Chip.tsx';
 import { useNow } from '../../ui/useNow.ts';

@@ -1,7 +1,6 @@
 // The voltage along the range of what feeds the robot, with the two thresholds as marks.
 
-import { readingKind } from '#shared/profile/batteryGauge.ts';
-import { gaugeFraction, type Supply } from '#shared/profile/batterySupply.ts';
+import { readingKind, gaugeFraction, type Supply } from '#shared/profile/battery.ts';
 import { words } from '../../i18n/whole.ts';
 import { voltsText } from './readings.ts';
 import styles from './VoltMeter.module.css';

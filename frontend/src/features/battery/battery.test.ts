@@ -1,8 +1,8 @@
 // The battery of a visit: what is kept of its readings, and what happens when it is low, on a simulated board.
 
 import { describe, expect, test } from 'vitest';
-import { fedBy } from '#shared/profile/batterySupply.ts';
-import { addPose, markRest } from '#shared/profile/poseEdits.ts';
+import { fedBy } from '#shared/profile/battery.ts';
+import { addPose, markRest } from '#shared/profile/pose.ts';
 import type { BatteryPolicy } from '#shared/profile/robot.ts';
 import { FAMILIES } from '#shared/codec/families.ts';
 import { createRig } from '#shared/session/rig.ts';

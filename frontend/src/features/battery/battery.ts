@@ -2,8 +2,15 @@
 // them, and when something ran. Listens to the device and the robot; asks and moves nothing.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
-import { EMPTY_GAUGE, gaugeAfter, gaugeOf, type Gauge, type Reading } from '#shared/profile/batteryGauge.ts';
-import { supplyOf, type Supply } from '#shared/profile/batterySupply.ts';
+import {
+  EMPTY_GAUGE,
+  gaugeAfter,
+  gaugeOf,
+  type Gauge,
+  type Reading,
+  supplyOf,
+  type Supply,
+} from '#shared/profile/battery.ts';
 import { nameOf } from '../../robot/boards.ts';
 import type { Device, DeviceState } from '../../robot/device.ts';
 import type { RobotStore } from '../profiles/robots.ts';

@@ -2,7 +2,7 @@
 // rest and is stopped. The one place where the battery acts, only on readings that agree and are fresh, and on
 // a shared robot only where it is driven from.
 
-import { isActionable, type Level } from '#shared/profile/batteryGauge.ts';
+import { isActionable, type Level } from '#shared/profile/battery.ts';
 import { homeTargets } from '#shared/profile/poseShapes.ts';
 import type { BatteryPolicy } from '#shared/profile/robot.ts';
 import type { ServoTarget } from '#shared/codec/commands.ts';

@@ -3,7 +3,7 @@
 
 import UPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
-import { isPlain } from '#shared/profile/batteryGauge.ts';
+import { isPlain } from '#shared/profile/battery.ts';
 import type { BatteryState, BatteryStore } from './battery.ts';
 import { words } from '../../i18n/whole.ts';
 

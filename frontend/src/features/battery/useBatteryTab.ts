@@ -1,7 +1,7 @@
 // A low battery in the browser's tab: in the title and as the icon, for whoever looks at another page. Gone when it is fine.
 
 import { useEffect } from 'react';
-import { isPlain, type Level } from '#shared/profile/batteryGauge.ts';
+import { isPlain, type Level } from '#shared/profile/battery.ts';
 import { useBattery, useSnapshot } from '../stores.ts';
 import { useWords, words } from '../../i18n/words.ts';
 

@@ -9,7 +9,7 @@ import { Chip } from '../../ui/Chip.tsx';
 import { NumberField } from '../../ui/NumberField.tsx';
 import { triggerInBar, heldText } from '../../i18n/sentences/slots.ts';
 import { words } from '../../i18n/words.ts';
-import { slotTrigger } from '#shared/codec/slotMeanings.ts';
+import { slotTrigger } from '#shared/codec/families.ts';
 import type { Activity } from '#shared/session/state.ts';
 import { DownloadControl } from './DownloadControl.tsx';
 import { DownloadProgress } from './DownloadProgress.tsx';

@@ -1,6 +1,6 @@
 // What the selected button is called, looks like and does.
 
-import { COLOURS } from '#shared/document/colours.ts';
+import { COLOURS } from '#shared/document/schema.ts';
 import { macroOf, type Macro } from '#shared/profile/macro.ts';
 import { changeMacro, moveMacro, removeMacro } from '#shared/profile/macroEdits.ts';
 import { useId, useState, type KeyboardEvent } from 'react';

@@ -1,7 +1,7 @@
 import { describe, expect, test } from 'vitest';
 import { addMacro } from '#shared/profile/macroEdits.ts';
 import { macroOf, type Macro, type MacroStep } from '#shared/profile/macro.ts';
-import { addPose } from '#shared/profile/poseEdits.ts';
+import { addPose } from '#shared/profile/pose.ts';
 import { createDesk } from '../deskUnderTest.ts';
 
 const GO = (pose: number, durationMs = 1500): MacroStep => ({ kind: 'pose', pose, durationMs });

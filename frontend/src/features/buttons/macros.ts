@@ -1,7 +1,6 @@
 // The page of buttons of the robot at hand. Never moves anything; macroRun.ts does what a button says.
 
-import { EMPTY_PAGE, type MacroPage } from '#shared/profile/macro.ts';
-import { macroPageFromText, macroPageToText } from '#shared/profile/macroText.ts';
+import { EMPTY_PAGE, type MacroPage, macroPageFromText, macroPageToText } from '#shared/profile/macro.ts';
 import { flawSentence } from '../../i18n/sentences/errors.ts';
 import { words } from '../../i18n/words.ts';
 import type { TextStorage } from '../../state/textStorage.ts';

@@ -3,9 +3,7 @@
 
 import type { Label } from '#shared/document/history.ts';
 import { useEffect, useRef, useState } from 'react';
-import type { Binding, Input } from '#shared/profile/mapping.ts';
-import { shaped, valueOf } from '#shared/profile/mappingInputs.ts';
-import { readyMapping } from '#shared/profile/mappingReady.ts';
+import { type Binding, type Input, shaped, valueOf, readyMapping } from '#shared/profile/mapping.ts';
 import { useMapping, usePoses, useRobot, useStores } from '../stores.ts';
 import { Button } from '../../ui/Button.tsx';
 import { useEachFrame } from '../../ui/useEachFrame.ts';

@@ -2,8 +2,7 @@
 // of the history.
 
 import { useRef, useState } from 'react';
-import type { Feel } from '#shared/profile/mapping.ts';
-import { shaped } from '#shared/profile/mappingInputs.ts';
+import { type Feel, shaped } from '#shared/profile/mapping.ts';
 import { useMapping, usePad, useStores } from '../stores.ts';
 import { useEachFrame } from '../../ui/useEachFrame.ts';
 import { words } from '../../i18n/whole.ts';

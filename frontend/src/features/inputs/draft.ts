@@ -1,7 +1,12 @@
 // A binding while it is being written: every field has a value, whatever the binding will do. Knows no drawing.
 
-import { FASTEST_UNITS_PER_S, type Action, type Binding, type Input } from '#shared/profile/mapping.ts';
-import { usualUnitsPerS } from '#shared/profile/mappingReady.ts';
+import {
+  FASTEST_UNITS_PER_S,
+  type Action,
+  type Binding,
+  type Input,
+  usualUnitsPerS,
+} from '#shared/profile/mapping.ts';
 import type { PoseRef } from '#shared/profile/pose.ts';
 import type { Robot } from '#shared/profile/robot.ts';
 import { GENTLE_MOVE_MS } from '../../robot/moveTime.ts';

@@ -1,6 +1,5 @@
 import { describe, expect, test } from 'vitest';
-import type { Mapping } from '#shared/profile/mapping.ts';
-import { readyMapping } from '#shared/profile/mappingReady.ts';
+import { type Mapping, readyMapping } from '#shared/profile/mapping.ts';
 import { createVirtualClock } from '#shared/testing/virtualClock.ts';
 import { createMappings } from './mappings.ts';
 import { createNotices } from '../../state/notices.ts';

@@ -1,9 +1,7 @@
 // What pad and keys do to the robot at hand; a robot without an entry has its ready mapping. Moves nothing; pad.ts does what a
 // mapping says.
 
-import type { Mapping } from '#shared/profile/mapping.ts';
-import { readyMapping } from '#shared/profile/mappingReady.ts';
-import { mappingFromText, mappingToText } from '#shared/profile/mappingText.ts';
+import { type Mapping, readyMapping, mappingFromText, mappingToText } from '#shared/profile/mapping.ts';
 import { flawSentence } from '../../i18n/sentences/errors.ts';
 import { words } from '../../i18n/words.ts';
 import type { TextStorage } from '../../state/textStorage.ts';

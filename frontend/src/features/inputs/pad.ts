@@ -3,8 +3,14 @@
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { Clock } from '#shared/clock.ts';
-import type { Input, Mapping } from '#shared/profile/mapping.ts';
-import { isPressed, movedInput, NO_INPUTS, type Inputs } from '#shared/profile/mappingInputs.ts';
+import {
+  type Input,
+  type Mapping,
+  isPressed,
+  movedInput,
+  NO_INPUTS,
+  type Inputs,
+} from '#shared/profile/mapping.ts';
 import { AT_REST, step, type Begun, type DriveState } from '#shared/profile/mappingStep.ts';
 import type { RobotServo } from '#shared/profile/robot.ts';
 import { servoLabel, stayingSentence } from '../../i18n/sentences/servos.ts';

@@ -1,7 +1,7 @@
 // The table of bindings: who has a row of his own.
 
 import { expect, test } from 'vitest';
-import { readyMapping } from '#shared/profile/mappingReady.ts';
+import { readyMapping } from '#shared/profile/mapping.ts';
 import { EMPTY_BOOK } from '#shared/profile/pose.ts';
 import { readyRobot } from '#shared/profile/readyRobots.ts';
 import { robotNames } from '../../i18n/sentences/robots.ts';

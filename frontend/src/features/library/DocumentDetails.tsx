@@ -2,7 +2,7 @@
 
 import type { Listed } from '#shared/files/keeper.ts';
 import { rename } from '#shared/group/groupEdits.ts';
-import { tagsFromText, tagsToText } from '#shared/files/tags.ts';
+import { tagsFromText, tagsToText } from '#shared/files/libraryText.ts';
 import { useStores } from '../stores.ts';
 import { Button } from '../../ui/Button.tsx';
 import { NameField } from '../../ui/NameField.tsx';

@@ -1,7 +1,6 @@
 // A group out of the text the library keeps of it.
 
-import type { ActionGroup } from '#shared/group/group.ts';
-import { groupFromText } from '#shared/group/groupText.ts';
+import { type ActionGroup, groupFromText } from '#shared/group/group.ts';
 import { LibraryError } from '#shared/files/keeper.ts';
 
 /** Throws a LibraryError where this version cannot read it. */

@@ -1,7 +1,6 @@
 import { describe, expect, test } from 'vitest';
 import { rename } from '#shared/group/groupEdits.ts';
-import { groupFromText, groupToText } from '#shared/group/groupText.ts';
-import { emptyGroup, GROUP_NAME_LENGTH } from '#shared/group/group.ts';
+import { groupFromText, groupToText, emptyGroup, GROUP_NAME_LENGTH } from '#shared/group/group.ts';
 import { LibraryError, type Keeper } from '#shared/files/keeper.ts';
 import { libraryFromText, type BundledDocument } from '#shared/files/libraryText.ts';
 import { createVirtualClock, type VirtualClock } from '#shared/testing/virtualClock.ts';

@@ -4,9 +4,8 @@
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import { sleep, type Clock } from '#shared/clock.ts';
-import { emptyGroup, type ActionGroup } from '#shared/group/group.ts';
+import { emptyGroup, type ActionGroup, groupFromText, groupToText } from '#shared/group/group.ts';
 import { rename } from '#shared/group/groupEdits.ts';
-import { groupFromText, groupToText } from '#shared/group/groupText.ts';
 import type { Label } from '#shared/document/history.ts';
 import { factsOf } from '#shared/files/facts.ts';
 import type { GroupFacts } from '#shared/files/factsShape.ts';

@@ -1,8 +1,7 @@
 // The whole library as one file, and a file into the library: all of it or nothing, beside what is there. Knows no place.
 
 import type { Clock } from '#shared/clock.ts';
-import type { ActionGroup } from '#shared/group/group.ts';
-import { groupToText, sameGroup } from '#shared/group/groupText.ts';
+import { type ActionGroup, groupToText, sameGroup } from '#shared/group/group.ts';
 import type { GroupFacts } from '#shared/files/factsShape.ts';
 import {
   asLibraryError,

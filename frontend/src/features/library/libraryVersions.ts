@@ -1,7 +1,6 @@
 // Versions of a group that were kept under a name, and the way back to them. What cannot be done is told; nothing rejects.
 
-import type { ActionGroup } from '#shared/group/group.ts';
-import { groupToText } from '#shared/group/groupText.ts';
+import { type ActionGroup, groupToText } from '#shared/group/group.ts';
 import type { Keeper, Version } from '#shared/files/keeper.ts';
 import { words } from '../../i18n/words.ts';
 import type { Document } from '../animate/group/document.ts';

@@ -2,8 +2,7 @@
 // Knows no keeper.
 
 import * as v from 'valibot';
-import type { ActionGroup } from '#shared/group/group.ts';
-import { sameGroup } from '#shared/group/groupText.ts';
+import { type ActionGroup, sameGroup } from '#shared/group/group.ts';
 import { record, startHistory, type History, type Label } from '#shared/document/history.ts';
 import type { Document } from '../animate/group/document.ts';
 import type { TextStorage } from '../../state/textStorage.ts';

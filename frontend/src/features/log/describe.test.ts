@@ -2,7 +2,7 @@ import { describe, expect, test } from 'vitest';
 import { encodeCommand } from '#shared/codec/encode.ts';
 import type { Command } from '#shared/codec/commands.ts';
 import { FAMILIES, type FamilyId } from '#shared/codec/families.ts';
-import { fromHex } from '#shared/codec/hex.ts';
+import { fromHex } from '#shared/codec/packet.ts';
 import type { ByteMark } from '#shared/files/recording.ts';
 import { arrowOf, bytesText, kindOf, lineText, meaning } from './describe.ts';
 import { searchTest } from './search.ts';

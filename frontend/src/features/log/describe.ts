@@ -2,11 +2,10 @@
 
 import type { CommandKind } from '#shared/codec/commands.ts';
 import { family } from '#shared/codec/families.ts';
-import { toHex } from '#shared/codec/hex.ts';
+import { toHex } from '#shared/codec/packet.ts';
 import type { ReportKind } from '#shared/codec/reports.ts';
-import { writeLine } from '#shared/files/line.ts';
+import { writeLine, type Entry } from '#shared/files/recording.ts';
 import { trafficOf } from '#shared/files/recorder.ts';
-import type { Entry } from '#shared/files/recording.ts';
 import type { Traffic } from '#shared/session/state.ts';
 import type { LogEntry } from '../../robot/traffic.ts';
 import type { LogKind } from '../view.ts';

@@ -1,7 +1,7 @@
 // What a text that is being typed as a packet means: the packet, if it may go, and the words for it. Pure.
 
 import type { Family } from '#shared/codec/families.ts';
-import { fromHex } from '#shared/codec/hex.ts';
+import { fromHex } from '#shared/codec/packet.ts';
 import { judgeRaw } from '#shared/codec/rawPacket.ts';
 import { isHarmless } from '#shared/codec/commands.ts';
 import type { SessionState } from '#shared/session/state.ts';

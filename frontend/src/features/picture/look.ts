@@ -1,6 +1,6 @@
 // The page's colours for a canvas, which cannot read them from a style sheet by itself.
 
-import { COLOURS, type Colour } from '#shared/document/colours.ts';
+import { COLOURS, type Colour } from '#shared/document/schema.ts';
 
 const NAMES = [
   ...([

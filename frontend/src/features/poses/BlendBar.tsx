@@ -2,8 +2,7 @@
 // when asked to, or follows the slider as long as that is switched on.
 
 import { useEffect, useState } from 'react';
-import type { Pose } from '#shared/profile/pose.ts';
-import { addPose } from '#shared/profile/poseEdits.ts';
+import { type Pose, addPose } from '#shared/profile/pose.ts';
 import { blended } from '#shared/profile/poseShapes.ts';
 import { PoseThumb } from '../picture/PoseThumb.tsx';
 import { motionHindrance } from '../../robot/readiness.ts';

@@ -1,8 +1,7 @@
 // One pose as a card: its picture, its name, the way to it. The face selects; the grip drags.
 
-import type { Pose } from '#shared/profile/pose.ts';
+import { type Pose, movePose, renamePose } from '#shared/profile/pose.ts';
 import { strangersTo } from '#shared/profile/poseShapes.ts';
-import { movePose, renamePose } from '#shared/profile/poseEdits.ts';
 import { PoseThumb } from '../picture/PoseThumb.tsx';
 import { motionHindrance } from '../../robot/readiness.ts';
 import { useDevice, useRobot, useSnapshot, useStores, useView } from '../stores.ts';

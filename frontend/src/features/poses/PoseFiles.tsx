@@ -1,7 +1,7 @@
 // Poses to a file and from one. An import adds to what is there.
 
 import { useRef } from 'react';
-import { poseBookToText } from '#shared/profile/poseText.ts';
+import { poseBookToText } from '#shared/profile/pose.ts';
 import { saveFile } from '../../ui/saveFile.ts';
 import { usePoses, useRobot, useStores } from '../stores.ts';
 import { IconButton } from '../../ui/Button.tsx';

@@ -1,7 +1,6 @@
 // The poses in order, one card each; they wrap like a contact sheet.
 
-import type { Pose } from '#shared/profile/pose.ts';
-import { movePose, removePose } from '#shared/profile/poseEdits.ts';
+import { type Pose, movePose, removePose } from '#shared/profile/pose.ts';
 import { useCards } from '../animate/frames/useCards.ts';
 import { poseName } from './poses.ts';
 import { usePoses, useStores, useView } from '../stores.ts';

@@ -1,8 +1,14 @@
 // What can be done with the selected pose, in words. Always in its place, so that nothing jumps when a pose is selected.
 
 import { addMacro } from '#shared/profile/macroEdits.ts';
-import type { PoseBook } from '#shared/profile/pose.ts';
-import { duplicatePose, markRest, movePose, removePose, setPose } from '#shared/profile/poseEdits.ts';
+import {
+  type PoseBook,
+  duplicatePose,
+  markRest,
+  movePose,
+  removePose,
+  setPose,
+} from '#shared/profile/pose.ts';
 import { flippedTargets, mirroredTargets } from '#shared/profile/poseShapes.ts';
 import { servoOf } from '#shared/profile/robot.ts';
 import { putFrame } from '../animate/frames/capture.ts';

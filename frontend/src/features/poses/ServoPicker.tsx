@@ -1,8 +1,7 @@
 // Which servos a pose is about. One that is put in takes the place it is commanded to now; one that is left out stays where
 // it is when the pose is gone to.
 
-import type { Pose } from '#shared/profile/pose.ts';
-import { setPose } from '#shared/profile/poseEdits.ts';
+import { type Pose, setPose } from '#shared/profile/pose.ts';
 import { strangersTo } from '#shared/profile/poseShapes.ts';
 import type { RobotServo } from '#shared/profile/robot.ts';
 import { limbsOf } from '../picture/limbs.ts';

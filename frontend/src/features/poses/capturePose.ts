@@ -1,6 +1,6 @@
 // Keeps the pose that the robot was asked for in the book of poses, under a name of its own. Moves nothing.
 
-import { addPose } from '#shared/profile/poseEdits.ts';
+import { addPose } from '#shared/profile/pose.ts';
 import type { Stores } from '../stores.ts';
 import { words } from '../../i18n/words.ts';
 

@@ -1,8 +1,6 @@
 import { describe, expect, test } from 'vitest';
-import { EMPTY_BOOK } from '#shared/profile/pose.ts';
-import { addPose, markRest } from '#shared/profile/poseEdits.ts';
+import { EMPTY_BOOK, addPose, markRest, poseBookToText } from '#shared/profile/pose.ts';
 import { undoLabel } from '#shared/document/history.ts';
-import { poseBookToText } from '#shared/profile/poseText.ts';
 import { createDesk } from '../deskUnderTest.ts';
 import { words } from '../../i18n/words.ts';
 import { INITIAL_SERVO_VIEW } from '../drive/servoView.ts';

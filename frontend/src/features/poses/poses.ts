@@ -2,10 +2,17 @@
 // a pose is noted as a step of the book; undoing it changes the note and moves nothing.
 
 import type { Label } from '#shared/document/history.ts';
-import { EMPTY_BOOK, poseOf, type PoseBook, type PoseRef } from '#shared/profile/pose.ts';
-import { markApplied, withPosesOf } from '#shared/profile/poseEdits.ts';
+import {
+  EMPTY_BOOK,
+  poseOf,
+  type PoseBook,
+  type PoseRef,
+  markApplied,
+  withPosesOf,
+  poseBookFromText,
+  poseBookToText,
+} from '#shared/profile/pose.ts';
 import { homeTargets, strangersTo } from '#shared/profile/poseShapes.ts';
-import { poseBookFromText, poseBookToText } from '#shared/profile/poseText.ts';
 import type { ServoTarget } from '#shared/codec/commands.ts';
 import { flawSentence } from '../../i18n/sentences/errors.ts';
 import { words } from '../../i18n/words.ts';

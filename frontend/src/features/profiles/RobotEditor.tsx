@@ -1,6 +1,6 @@
 // The description of the robot at hand: its name, what it looks like, what feeds it, its servos.
 
-import { fedBy } from '#shared/profile/batterySupply.ts';
+import { fedBy } from '#shared/profile/battery.ts';
 import { BATTERY_KINDS, BODIES, NAME_LENGTH } from '#shared/profile/robot.ts';
 import { addServo } from '#shared/profile/robotEdits.ts';
 import { FAMILIES } from '#shared/codec/families.ts';

@@ -2,7 +2,7 @@
 // to the next: what both sides can be compared with. Knows no library.
 
 import * as v from 'valibot';
-import { kitFromText, kitToText, type Kit } from '#shared/profile/kit.ts';
+import { kitFromText, kitToText, type Kit } from '#shared/profile/robotText.ts';
 import type { TextStorage } from '../../state/textStorage.ts';
 
 /** What the library had of a robot when it was last read or written. */

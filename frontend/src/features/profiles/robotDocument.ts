@@ -3,7 +3,7 @@
 
 import { startHistory, type History } from '#shared/document/history.ts';
 import type { Robot } from '#shared/profile/robot.ts';
-import type { Read, TextFlaw } from '#shared/document/versionedText.ts';
+import type { Read, TextFlaw } from '#shared/document/schema.ts';
 import type { TextStorage } from '../../state/textStorage.ts';
 import type { Notices } from '../../state/notices.ts';
 import type { OwnRobot, RobotStore } from './robots.ts';

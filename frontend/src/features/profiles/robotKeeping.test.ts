@@ -1,6 +1,6 @@
 import { describe, expect, test } from 'vitest';
 import { LibraryError, type Keeper } from '#shared/files/keeper.ts';
-import { addPose, markApplied } from '#shared/profile/poseEdits.ts';
+import { addPose, markApplied } from '#shared/profile/pose.ts';
 import type { Robot } from '#shared/profile/robot.ts';
 import { changeServo } from '#shared/profile/robotEdits.ts';
 import { createVirtualClock, type VirtualClock } from '#shared/testing/virtualClock.ts';

@@ -6,12 +6,19 @@ import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { Clock } from '#shared/clock.ts';
 import type { RobotFacts } from '#shared/files/factsShape.ts';
 import { asLibraryError, LibraryError, listedOf, type Keeper, type Listed } from '#shared/files/keeper.ts';
-import { robotFactsOf } from '#shared/files/robotFacts.ts';
+import { robotFactsOf } from '#shared/files/facts.ts';
 import type { MacroPage } from '#shared/profile/macro.ts';
 import type { Mapping } from '#shared/profile/mapping.ts';
 import type { PoseBook } from '#shared/profile/pose.ts';
-import { kitFromText, kitToText, mergedKits, sameKit, type Kit } from '#shared/profile/kit.ts';
-import { robotFromText, robotToText } from '#shared/profile/robotText.ts';
+import {
+  kitFromText,
+  kitToText,
+  mergedKits,
+  sameKit,
+  type Kit,
+  robotFromText,
+  robotToText,
+} from '#shared/profile/robotText.ts';
 import { libraryProblem } from '../../i18n/sentences/errors.ts';
 import { words } from '../../i18n/words.ts';
 import type { TextStorage } from '../../state/textStorage.ts';

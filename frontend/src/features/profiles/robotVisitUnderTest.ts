@@ -1,7 +1,7 @@
 // A page's robots at one keeper, in virtual time, for tests; `texts` is what its browser kept.
 
 import type { Keeper } from '#shared/files/keeper.ts';
-import { addPose } from '#shared/profile/poseEdits.ts';
+import { addPose } from '#shared/profile/pose.ts';
 import type { Robot } from '#shared/profile/robot.ts';
 import { FAMILIES } from '#shared/codec/families.ts';
 import type { VirtualClock } from '#shared/testing/virtualClock.ts';

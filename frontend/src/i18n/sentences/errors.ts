@@ -1,7 +1,7 @@
 // What went wrong, in a sentence: links, values out of range, the library, documents. No panel writes its own.
 
 import type { LibraryErrorCode } from '#shared/files/keeper.ts';
-import type { TextFlaw } from '#shared/document/versionedText.ts';
+import type { TextFlaw } from '#shared/document/schema.ts';
 import type { RangeRefusal } from '#shared/codec/limits.ts';
 import type { LinkErrorCode } from '#shared/session/linkError.ts';
 import { words } from '../words.ts';

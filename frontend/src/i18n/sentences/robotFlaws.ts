@@ -8,8 +8,9 @@ import {
   NAME_LENGTH,
   type RobotFlaw,
   type ServoFlaw,
+  type RobotField,
+  type ServoInList,
 } from '#shared/profile/robot.ts';
-import type { RobotField, ServoInList } from '#shared/profile/robotShape.ts';
 import type { RobotFileFlaw } from '#shared/profile/robotText.ts';
 import { words } from '../whole.ts';
 import { say } from './say.ts';

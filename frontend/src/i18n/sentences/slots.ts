@@ -1,7 +1,7 @@
 // Slots of the board: what they hold and what plays them.
 
 import type { SlotFate } from '#shared/group/slotBook.ts';
-import type { SlotTrigger } from '#shared/codec/slotMeanings.ts';
+import type { SlotTrigger } from '#shared/codec/families.ts';
 import { words } from '../words.ts';
 
 export function downloadedSentence(slots: readonly number[]): string {

@@ -1,9 +1,8 @@
 // What the group becomes on the board: whether it fits, what it costs, how far off it is and where, and what does not fit. A click
 // on a place goes there.
 
-import { MOST_ERROR_UNITS } from '#shared/group/group.ts';
+import { MOST_ERROR_UNITS, maxErrorOf } from '#shared/group/group.ts';
 import { setMeta } from '#shared/group/groupEdits.ts';
-import { maxErrorOf } from '#shared/group/maxError.ts';
 import { obstacles } from './compiled.ts';
 import { useCompiled, useDocument, useKnownFamily, useStores } from '../../stores.ts';
 import { servoName } from '../../profiles/servoName.ts';

@@ -1,7 +1,7 @@
 // Has groups worked out beside the page, in a worker: a large one takes as long as ten frames of the screen. Knows no group.
 
-import { groupToText } from '#shared/group/groupText.ts';
-import { framesOf } from '#shared/group/frameNumbers.ts';
+import { groupToText } from '#shared/group/group.ts';
+import { framesOf } from '#shared/group/fingerprint.ts';
 import type { Source, WorkedOut } from './workedOut.ts';
 import type { Answer, Order } from './asideWorker.ts';
 

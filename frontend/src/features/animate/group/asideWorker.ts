@@ -1,7 +1,7 @@
 // The worker beside the page: each message is a group as text, and is answered with its frames as numbers.
 
-import { groupFromText } from '#shared/group/groupText.ts';
-import { numbersOf } from '#shared/group/frameNumbers.ts';
+import { groupFromText } from '#shared/group/group.ts';
+import { numbersOf } from '#shared/group/fingerprint.ts';
 import { workedOut, type Source, type WorkedOut } from './workedOut.ts';
 
 export interface Order {

@@ -1,6 +1,6 @@
 import { describe, expect, test } from 'vitest';
 import { insertFrame, setMeta } from '#shared/group/groupEdits.ts';
-import { groupFromText, groupToText } from '#shared/group/groupText.ts';
+import { groupFromText, groupToText } from '#shared/group/group.ts';
 import { createCompiled, obstacles } from './compiled.ts';
 import { createDesk } from '../../deskUnderTest.ts';
 import { workedOut, type Source } from './workedOut.ts';

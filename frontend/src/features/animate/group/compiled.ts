@@ -3,8 +3,7 @@
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { CompileProblem } from '#shared/group/compileReport.ts';
-import type { ActionGroup } from '#shared/group/group.ts';
-import { maxErrorOf } from '#shared/group/maxError.ts';
+import { type ActionGroup, maxErrorOf } from '#shared/group/group.ts';
 import type { Clock } from '#shared/clock.ts';
 import type { Device } from '../../../robot/device.ts';
 import type { Document } from './document.ts';

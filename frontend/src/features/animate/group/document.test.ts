@@ -1,7 +1,7 @@
 import { describe, expect, test } from 'vitest';
 import { insertFrame, moveFrames } from '#shared/group/groupEdits.ts';
 import { setDuration } from '#shared/group/timeEdits.ts';
-import { groupFromText } from '#shared/group/groupText.ts';
+import { groupFromText } from '#shared/group/group.ts';
 import { createVirtualClock } from '#shared/testing/virtualClock.ts';
 import { words } from '../../../i18n/words.ts';
 import { createDocument } from './document.ts';

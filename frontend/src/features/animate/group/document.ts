@@ -1,8 +1,7 @@
 // The action group being written: undoable, saved in the browser's storage soon after each edit. Text that cannot be read is
 // never thrown away: it is set aside under another key and the person is told. Never moves the robot.
 
-import { emptyGroup, type ActionGroup } from '#shared/group/group.ts';
-import { groupFromText, groupToText } from '#shared/group/groupText.ts';
+import { emptyGroup, type ActionGroup, groupFromText, groupToText } from '#shared/group/group.ts';
 import type { History } from '#shared/document/history.ts';
 import type { Clock } from '#shared/clock.ts';
 import { words } from '../../../i18n/words.ts';

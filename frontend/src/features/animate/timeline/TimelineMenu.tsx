@@ -4,7 +4,7 @@ import { memo } from 'react';
 import { Menu, MenuItem, MenuSection, SubmenuTrigger } from 'react-aria-components/Menu';
 import { Popover } from 'react-aria-components/Popover';
 import { Separator } from 'react-aria-components/Separator';
-import { COLOURS } from '#shared/document/colours.ts';
+import { COLOURS } from '#shared/document/schema.ts';
 import { EASINGS } from '#shared/group/group.ts';
 import { toggled, type ServoView } from '../../drive/servoView.ts';
 import { editServoView, useServoView, useStores } from '../../stores.ts';

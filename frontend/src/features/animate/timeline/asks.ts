@@ -1,10 +1,9 @@
 // What a person is asked for in place, one field at a time: what stands in it at first, and what is done with the answer.
 
-import { renameMarker, addMarker } from '#shared/group/markerEdits.ts';
+import { renameMarker, addMarker, setNote } from '#shared/group/frameEdits.ts';
 import { GROUP_NAME_LENGTH, NOTE_LENGTH } from '#shared/group/group.ts';
 import { scaleAmplitude, setPositions } from '#shared/group/keyEdits.ts';
-import { setNote } from '#shared/group/frameEdits.ts';
-import type { KeyStretch } from '#shared/group/stretchKeys.ts';
+import type { KeyStretch } from '#shared/group/keyRanges.ts';
 import { insertTime } from '#shared/group/timeEdits.ts';
 import type { Ask } from './timeline.ts';
 import { numberIn } from '../../../ui/NumberField.tsx';

@@ -1,13 +1,12 @@
 // The verbs that change the group: keys set, deleted, copied, turned round, eased. Each is one step of the history.
 
-import type { Colour } from '#shared/document/colours.ts';
+import type { Colour } from '#shared/document/schema.ts';
 import { duplicateKeys, copyKeys, pasteKeys, type Clip, type Pasted } from '#shared/group/clip.ts';
-import { mirror, setColour, setEasing } from '#shared/group/frameEdits.ts';
+import { mirror, setColour, setEasing, deleteMarker } from '#shared/group/frameEdits.ts';
 import type { Easing } from '#shared/group/group.ts';
 import { deleteKeys, setKey } from '#shared/group/keyEdits.ts';
 import type { ServoTarget } from '#shared/codec/commands.ts';
-import { deleteMarker } from '#shared/group/markerEdits.ts';
-import { reverseKeys } from '#shared/group/reverseKeys.ts';
+import { reverseKeys } from '#shared/group/keyRanges.ts';
 import { deleteTime } from '#shared/group/timeEdits.ts';
 import type { Label } from '#shared/document/history.ts';
 import { servoOf } from '#shared/profile/robot.ts';

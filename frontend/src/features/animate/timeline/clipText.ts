@@ -2,7 +2,7 @@
 // of a small action group: what was copied can be kept as a file, and a file can be pasted.
 
 import { clipGroup, copyFrames, type Clip } from '#shared/group/clip.ts';
-import { groupFromText, groupToText } from '#shared/group/groupText.ts';
+import { groupFromText, groupToText } from '#shared/group/group.ts';
 
 /** What was copied here is mostly pasted here: to read it again takes longer than to paste it. */
 let latest: { readonly text: string; readonly clip: Clip } | null = null;

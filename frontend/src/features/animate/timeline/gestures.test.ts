@@ -1,5 +1,5 @@
 import { describe, expect, test } from 'vitest';
-import { addMarker } from '#shared/group/markerEdits.ts';
+import { addMarker } from '#shared/group/frameEdits.ts';
 import { editServoView } from '../../stores.ts';
 import type { Timeline } from './timeline.ts';
 import { words } from '../../../i18n/whole.ts';

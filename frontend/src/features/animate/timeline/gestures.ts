@@ -1,7 +1,7 @@
 // A table from what a press hit to what then follows the pointer. An edit of the document is one gesture of it, shown while it
 // lasts, kept at its end or called off.
 
-import { moveMarker } from '#shared/group/markerEdits.ts';
+import { moveMarker } from '#shared/group/frameEdits.ts';
 import { setDuration } from '#shared/group/timeEdits.ts';
 import { keySet, withKeys } from './keySet.ts';
 import type { KeyRef } from '#shared/group/tracks.ts';

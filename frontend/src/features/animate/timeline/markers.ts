@@ -1,6 +1,6 @@
 // Markers without a pointer: from one to the next, and moved by the board's ticks. One that is selected is what the verbs mean.
 
-import { moveMarker } from '#shared/group/markerEdits.ts';
+import { moveMarker } from '#shared/group/frameEdits.ts';
 import type { Marker } from '#shared/group/group.ts';
 import { instantText } from './instantText.ts';
 import { words } from '../../../i18n/whole.ts';

@@ -2,7 +2,7 @@
 
 import { duplicateKeys } from '#shared/group/clip.ts';
 import { moveKeys, boundedMove, type KeyMove } from '#shared/group/keyEdits.ts';
-import { boundedFactor, stretchedMs, stretchKeys, type KeyStretch } from '#shared/group/stretchKeys.ts';
+import { boundedFactor, stretchedMs, stretchKeys, type KeyStretch } from '#shared/group/keyRanges.ts';
 import type { TimeRange } from '#shared/group/timeEdits.ts';
 import { keysAt, type Key, type KeyRef } from '#shared/group/tracks.ts';
 import type { ActionGroup } from '#shared/group/group.ts';

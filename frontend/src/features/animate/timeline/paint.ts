@@ -1,7 +1,6 @@
 // Draws the lanes on a canvas: only what is seen, all of it at once. Draws what it is given; changes nothing.
 
-import type { Key } from '#shared/group/tracks.ts';
-import { CURVES } from '#shared/group/easings.ts';
+import { type Key, CURVES } from '#shared/group/tracks.ts';
 import { keyName } from './keySet.ts';
 import { handleX, HANDLES, stretchOf } from './hit.ts';
 import type { Brush } from './brush.ts';

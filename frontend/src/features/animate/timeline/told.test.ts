@@ -1,5 +1,5 @@
 import { describe, expect, test } from 'vitest';
-import { addMarker } from '#shared/group/markerEdits.ts';
+import { addMarker } from '#shared/group/frameEdits.ts';
 import { createTimelineDesk } from './timelineUnderTest.ts';
 
 const HEADS_Y = 33;

@@ -1,7 +1,7 @@
 // Asked before a download takes the place of another group on the board: what is there, whether it is lost, and which slot is free.
 
 import { useStore } from 'zustand';
-import { slotTrigger } from '#shared/codec/slotMeanings.ts';
+import { slotTrigger } from '#shared/codec/families.ts';
 import { startHindrance } from '../../../robot/readiness.ts';
 import type { Conflict, ReplaceQuestion as Question } from './replacing.ts';
 import { useDevice, useLibrary, useSnapshot, useStores } from '../../stores.ts';

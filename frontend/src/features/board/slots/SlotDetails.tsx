@@ -3,7 +3,7 @@
 import { useState } from 'react';
 import { totalDurationMs } from '#shared/group/group.ts';
 import { recordOf } from '#shared/group/slotBook.ts';
-import { slotTrigger } from '#shared/codec/slotMeanings.ts';
+import { slotTrigger } from '#shared/codec/families.ts';
 import { DownloadControl } from '../DownloadControl.tsx';
 import { motionHindrance, startHindrance } from '../../../robot/readiness.ts';
 import { useDevice, useSlots, useSnapshot, useStores, useSlot } from '../../stores.ts';

@@ -3,7 +3,7 @@
 
 import type { SlotFate } from '#shared/group/slotBook.ts';
 import { useEffect, useRef, type KeyboardEvent } from 'react';
-import { slotTrigger, type SlotTrigger } from '#shared/codec/slotMeanings.ts';
+import { slotTrigger, type SlotTrigger } from '#shared/codec/families.ts';
 import { useDevice, useStores, useSlot } from '../../stores.ts';
 import { Mark } from '../../../ui/Chip.tsx';
 import { cx } from '../../../ui/cx.ts';

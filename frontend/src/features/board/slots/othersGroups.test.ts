@@ -1,8 +1,7 @@
 import { expect, test } from 'vitest';
 import { createStore } from 'zustand/vanilla';
-import { emptyGroup, type ActionGroup } from '#shared/group/group.ts';
+import { emptyGroup, type ActionGroup, groupToText } from '#shared/group/group.ts';
 import { insertFrame } from '#shared/group/groupEdits.ts';
-import { groupToText } from '#shared/group/groupText.ts';
 import { factsOf } from '#shared/files/facts.ts';
 import type { Listed } from '#shared/files/keeper.ts';
 import { createMemoryKeeper } from '../../library/memoryKeeper.ts';

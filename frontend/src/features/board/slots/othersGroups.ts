@@ -1,7 +1,7 @@
 // What others stored in the slots of the board at hand, looked up in the library: a version that it holds is known as one's own is.
 // Writes nothing to the library and tells nobody; what is not found stays what the link says of it.
 
-import { groupFromText } from '#shared/group/groupText.ts';
+import { groupFromText } from '#shared/group/group.ts';
 import type { Keeper } from '#shared/files/keeper.ts';
 import { recordOf } from '#shared/group/slotBook.ts';
 import type { StoredGroup } from '#shared/session/transport.ts';

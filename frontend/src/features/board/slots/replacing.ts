@@ -3,7 +3,7 @@
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import { fateOf, recordOf, type SlotRecord } from '#shared/group/slotBook.ts';
-import { freeSlot } from '#shared/group/placing.ts';
+import { freeSlot } from '#shared/group/slotPlaces.ts';
 import type { Device } from '../../../robot/device.ts';
 import { boardFingerprint } from '../../animate/group/workedOut.ts';
 import type { RobotStore } from '../../profiles/robots.ts';

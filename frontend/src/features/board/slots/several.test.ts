@@ -1,7 +1,7 @@
 import { expect, test } from 'vitest';
 import { emptyGroup } from '#shared/group/group.ts';
 import { insertFrame } from '#shared/group/groupEdits.ts';
-import { slotFor } from '#shared/group/placing.ts';
+import { slotFor } from '#shared/group/slotPlaces.ts';
 import { EMPTY_SLOT_BOOK } from '#shared/group/slotBook.ts';
 import { createDesk } from '../../deskUnderTest.ts';
 import { downloadOf, hindranceOf, thoseThatCan, type Wanted } from './several.ts';

@@ -2,7 +2,7 @@
 // page is new at each link, any other is remembered in the browser's storage. Knows no panel.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
-import { isAbout, withBegun, withNews, type DownloadNews } from '#shared/group/arrivals.ts';
+import { isAbout, withBegun, withNews, type DownloadNews } from '#shared/group/slotPlaces.ts';
 import {
   EMPTY_SLOT_BOOK,
   slotBookFromText,

@@ -3,7 +3,7 @@
 
 import { useMemo, useState } from 'react';
 import type { ActionGroup } from '#shared/group/group.ts';
-import { ownSlot, slotFor } from '#shared/group/placing.ts';
+import { ownSlot, slotFor } from '#shared/group/slotPlaces.ts';
 import { useDevice, useRobot, useStores } from '../../stores.ts';
 import { hindranceOf, thoseThatCan, type Wanted } from './several.ts';
 

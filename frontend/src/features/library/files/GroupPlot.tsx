@@ -1,7 +1,7 @@
 // A group as lines over time, one for each servo: a wave looks like a wave. A picture to recognise it by, without a scale.
 
-import { filled } from '#shared/files/filled.ts';
-import { UNIT_RANGE } from '#shared/files/units.ts';
+import { filled } from '#shared/files/fit.ts';
+import { UNIT_RANGE } from '#shared/files/reading.ts';
 import { totalDurationMs, type ActionGroup } from '#shared/group/group.ts';
 import styles from './GroupPlot.module.css';
 

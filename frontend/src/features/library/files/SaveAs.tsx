@@ -3,8 +3,13 @@
 import { useMemo, useState } from 'react';
 import { fileNameOf } from '#shared/files/fileName.ts';
 import type { Misfit } from '#shared/files/fit.ts';
-import { lossesIn } from '#shared/files/losses.ts';
-import { EXTENSIONS, SAVE_FORMATS, writeGroupFile, type SaveFormat } from '#shared/files/writeGroupFile.ts';
+import {
+  lossesIn,
+  EXTENSIONS,
+  SAVE_FORMATS,
+  writeGroupFile,
+  type SaveFormat,
+} from '#shared/files/writeGroupFile.ts';
 import { useGroup, useKnownFamily, useRobot, useStores } from '../../stores.ts';
 import { Button } from '../../../ui/Button.tsx';
 import { saveBlob } from '../../../ui/saveFile.ts';

@@ -1,7 +1,6 @@
 // Which unit a file's positions are in, where it does not say: two buttons, each with what it would mean here.
 
-import type { Unit } from '#shared/files/reading.ts';
-import { meaningIn } from '#shared/files/units.ts';
+import { type Unit, meaningIn } from '#shared/files/reading.ts';
 import type { ActionGroup } from '#shared/group/group.ts';
 import { meaningText } from './fileText.ts';
 import { words } from '../../../i18n/whole.ts';

@@ -1,9 +1,8 @@
 // What a person says of a group that stands in a file: the unit of its positions, and whether they become those of the board; and the group
 // as it is taken over then. Pure.
 
-import type { Reading, Unit } from '#shared/files/reading.ts';
+import { type Reading, type Unit, inUnit, meaningIn, onlyFittingUnit } from '#shared/files/reading.ts';
 import { convertGroup } from '#shared/profile/counterpart.ts';
-import { inUnit, meaningIn, onlyFittingUnit } from '#shared/files/units.ts';
 import type { ActionGroup } from '#shared/group/group.ts';
 
 export interface Answer {

@@ -1,10 +1,16 @@
 // What is said of a file of action groups: what is wrong with it, what does not fit, what a format does not keep.
 
 import type { Misfit } from '#shared/files/fit.ts';
-import type { Loss } from '#shared/files/losses.ts';
-import type { Place, Problem, Remark, Unit } from '#shared/files/reading.ts';
-import type { TextFlaw } from '#shared/document/versionedText.ts';
-import { UNIT_RANGE, type Meaning } from '#shared/files/units.ts';
+import type { Loss } from '#shared/files/writeGroupFile.ts';
+import {
+  type Place,
+  type Problem,
+  type Remark,
+  type Unit,
+  UNIT_RANGE,
+  type Meaning,
+} from '#shared/files/reading.ts';
+import type { TextFlaw } from '#shared/document/schema.ts';
 import type { Range } from '#shared/codec/families.ts';
 import { flawSentence } from '../../../i18n/sentences/errors.ts';
 import { say } from '../../../i18n/sentences/say.ts';

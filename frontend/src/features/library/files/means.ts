@@ -2,11 +2,10 @@
 // the first such file is opened or saved. Knows tables, no action group.
 
 import type { Means } from '#shared/files/readGroupFile.ts';
-import { Unreadable } from '#shared/files/reading.ts';
-import { INDEX_COLUMN, type Sheet } from '#shared/files/sheet.ts';
+import { Unreadable, type Decode } from '#shared/files/reading.ts';
+import { INDEX_COLUMN, type Sheet } from '#shared/files/csv.ts';
 import type { MakeDatabase } from '#shared/files/writeGroupFile.ts';
 import { MAX_FRAMES } from '#shared/group/group.ts';
-import type { Decode } from '#shared/files/text.ts';
 
 /** What of SQLite is used, however it is loaded. */
 export interface Sqlite {

@@ -3,7 +3,7 @@
 
 import { useEffect, useId, useRef } from 'react';
 import type { CalibrationStep } from '#shared/profile/calibration.ts';
-import { isDone, isServoDone, stepsOf } from '#shared/profile/robotCalibration.ts';
+import { isDone, isServoDone, stepsOf } from '#shared/profile/robotEdits.ts';
 import { RobotHead } from '../RobotHead.tsx';
 import { useStores } from '../../stores.ts';
 import { Button } from '../../../ui/Button.tsx';

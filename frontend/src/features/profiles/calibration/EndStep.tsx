@@ -2,8 +2,7 @@
 
 import type { RobotServo } from '#shared/profile/robot.ts';
 import type { Calibration } from '#shared/profile/calibration.ts';
-import { endFound, noteFound } from '#shared/profile/robotCalibration.ts';
-import { changeServo, reachOf } from '#shared/profile/robotEdits.ts';
+import { endFound, noteFound, changeServo, reachOf } from '#shared/profile/robotEdits.ts';
 import { FAMILIES } from '#shared/codec/families.ts';
 import { ReachBar } from '../ReachBar.tsx';
 import { GENTLE_MOVE_MS } from '../../../robot/moveTime.ts';

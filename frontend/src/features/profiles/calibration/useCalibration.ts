@@ -10,7 +10,7 @@ import {
   servoDone,
   settled,
   stepDone,
-} from '#shared/profile/robotCalibration.ts';
+} from '#shared/profile/robotEdits.ts';
 import { useRobot, useServoView, useStores, useView } from '../../stores.ts';
 import { robotFlawSentence } from '../../../i18n/sentences/robotFlaws.ts';
 import { servoLabel } from '../../../i18n/sentences/servos.ts';

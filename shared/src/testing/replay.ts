@@ -9,6 +9,11 @@ import { entryOf, type PacketEntry } from '../files/recorder.ts';
 import type { Entry, Recording } from '../files/recording.ts';
 import { replayToBoard } from './replayBoard.ts';
 import { replayToSession, type SessionReplay } from './replaySession.ts';
+import { PROFILES } from '../simulator/profiles.ts';
+import { readRecording } from '../files/recordingText.ts';
+
+// A recording replayed both ways, as facts and as text for people. A fact is a short line; a log's `expect:` lines
+// are facts that must come true, so that a bug report becomes a test.
 
 export interface ReplayReport {
   /** Of the last part: before it stands how the board was found, or another board. */
@@ -114,4 +119,29 @@ function rowLine({ atMs, verdict, recorded, replayed }: Row): string {
   const time = (atMs / 1000).toFixed(3).padStart(10);
   const bytes = [recorded, replayed].filter((hex) => hex !== null).join('  ->  ');
   return `${time}  ${verdict.padEnd(9)}  ${bytes}`;
+}
+
+// A saved log in, a report out, as text: what the command line shows.
+
+export interface ProgramResult {
+  readonly output: string;
+  /** The log could be read, and what it expects came true. */
+  readonly isGood: boolean;
+}
+
+/** `board` names the simulated board to compare with; without it, the one the log names. */
+export async function replayText(text: string, board?: string): Promise<ProgramResult> {
+  if (board !== undefined && !isProfileName(board)) {
+    const names = Object.keys(PROFILES).join(', ');
+    return { output: `No simulated board is called "${board}"; there are ${names}.`, isGood: false };
+  }
+  const result = readRecording(text);
+  if (result.recording === null) {
+    const lines = result.problems.map(({ line, reason }) =>
+      line === 0 ? reason : `line ${line}: ${reason}`,
+    );
+    return { output: ['This log cannot be read.', ...lines].join('\n'), isGood: false };
+  }
+  const report = await replay(result.recording, board);
+  return { output: report.text, isGood: report.failed.length === 0 };
 }

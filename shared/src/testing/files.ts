@@ -1,11 +1,30 @@
-// Files of action groups in every format that can be opened, as large as real ones are (boards.md section 9), for tests and
-// measurements.
+// Files of action groups for tests and measurements: the made-up ones of shared/protocol/vectors/files with what they mean, and as
+// many in every format as are wanted, as large as real ones are (boards.md section 9).
 
+import meanings from '../../protocol/vectors/files/meanings.json' with { type: 'json' };
+import type { Reading } from '../files/reading.ts';
 import { FAMILIES, type Family } from '../codec/families.ts';
 import { emptyGroup, type ActionGroup } from '../group/group.ts';
 import { insertFrame } from '../group/groupEdits.ts';
 import { readyRobot } from '../profile/readyRobots.ts';
 import { writeGroupFile, type MakeDatabase, type SavedFile } from '../files/writeGroupFile.ts';
+
+// The made-up files of shared/protocol/vectors/files with what they mean, for tests.
+
+export const MEANINGS = meanings;
+
+/** As the twin of a fixture says it. */
+export function meaningOf(reading: Reading) {
+  if ('problem' in reading) return reading;
+  const { groups, asksUnit, remarks } = reading;
+  return groups.map(({ name, slot, unit, frames }) => ({
+    ...{ name, slot, unit, asksUnit, remarks: remarks.map(({ code }) => code) },
+    frames: frames.map(({ durationMs, targets }) => ({ durationMs, targets })),
+  }));
+}
+
+// Files of action groups in every format that can be opened, as large as real ones are (boards.md section 9), for
+// tests and measurements.
 
 const SERVOS = 16;
 /** From the median of a real collection to its largest. */
