@@ -30,7 +30,7 @@ from servodeck.snapshots import (
     UnheldServos,
 )
 
-PROTOCOL = 5
+PROTOCOL = 6
 """Counted up with each change that a page of before would not understand: it is told to load itself again."""
 
 

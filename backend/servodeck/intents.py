@@ -151,11 +151,14 @@ class BoardMessage(Message):
 
 
 class ReadMessage(Message):
-    """Ask the board now; what it says is told to everybody, and `done` once it has. Needs no lease."""
+    """Ask the board now; what it says is told to everybody, and `done` once it has. Needs no lease. `servos`:
+    whose positions; some boards tell all of them, whichever are meant.
+    """
 
     type: Literal["read"]
     id: MessageId
-    what: Literal["battery"]
+    what: Literal["battery", "positions", "version", "offsets"]
+    servos: Annotated[list[ServoNumber], Field(max_length=253)]
 
 
 class CalibrateMessage(Message):

@@ -70,9 +70,9 @@ class Client(Session):
 
 
 @asynccontextmanager
-async def gateway_on(*ports: FakePort) -> AsyncIterator[Control]:
+async def gateway_on(*ports: FakePort, board: str = "doc") -> AsyncIterator[Control]:
     """A gateway whose port is open and whose first stop has left."""
-    control = Control(FakePorts(*(ports or (FakePort(),))), now, "doc")
+    control = Control(FakePorts(*(ports or (FakePort(),))), now, board)
     await control.use_port("/dev/board")
     await asyncio.sleep(0.1)
     try:

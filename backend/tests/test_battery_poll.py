@@ -122,7 +122,7 @@ async def test_a_board_that_stays_silent_is_asked_again_only_by_a_person(simulat
         await asyncio.sleep(READY_S + 20)
         assert told(await anna.heard())[-1] == {"kind": "silent", "lastMv": None}
         assert await batteries(here, 30) == 0
-        take(ReadMessage(type="read", id=7, what="battery"), anna, here.control)
+        take(ReadMessage(type="read", id=7, what="battery", servos=[]), anna, here.control)
         assert await batteries(here, 1) == 1
         assert [(one["type"], one.get("code")) for one in await anna.heard()] == [("refused", "noAnswer")]
 
@@ -135,7 +135,7 @@ async def test_a_person_asks_for_everybody(simulator: Simulator) -> None:
         await anna.heard()
         await bert.heard()
         for session, number in ((anna, 1), (bert, 2)):
-            take(ReadMessage(type="read", id=number, what="battery"), session, here.control)
+            take(ReadMessage(type="read", id=number, what="battery", servos=[]), session, here.control)
         assert await batteries(here, 0.5) == 1
         for session in (anna, bert):
             kinds = [message["type"] for message in await session.heard()]
@@ -148,6 +148,6 @@ async def test_a_board_that_does_not_tell_its_battery_is_not_asked(simulator: Si
         anna = Client(here.control)
         await asyncio.sleep(READY_S)
         assert await batteries(here, 30) == 0
-        take(ReadMessage(type="read", id=1, what="battery"), anna, here.control)
+        take(ReadMessage(type="read", id=1, what="battery", servos=[]), anna, here.control)
         await asyncio.sleep(1)
         assert (await anna.heard())[-1]["code"] == "notSupported"

@@ -11,6 +11,7 @@ from servodeck.callers import Caller
 from servodeck.intents import (
     AnyClientMessage,
     EraseMessage,
+    ReadMessage,
     ReleaseMessage,
     RunMessage,
     SetSpeedMessage,
@@ -20,11 +21,13 @@ from servodeck.intents import (
 from servodeck.robot.control import Control
 from tests.client import ANNA, Client, gateway_on
 from tests.fake_port import FakePort
-from tests.samples import ERASE, MOVE, MOVE_S, RUN, STOP, STOPS
+from tests.samples import BATTERY, BATTERY_REPORT, ERASE, MOVE, MOVE_S, RUN, STOP, STOPS
 from tests.virtual_time import in_virtual_time, now
 
 RUN_ACCEPTED = bytes.fromhex("55550206")
 ERASED = bytes.fromhex("55550208")
+READ_POSITIONS = bytes.fromhex("55550515020102")
+POSITIONS = bytes.fromhex("55550915020190010290" + "01")
 # Servo 1 to 500 in a second.
 MOVE_TO_STEP = bytes.fromhex("5555080301e80301f401")
 VIEWER = Caller("guest", "Bert", "viewer")
@@ -217,3 +220,38 @@ async def test_what_was_asked_ends_with_its_seat() -> None:
         control.leave(page)
         await asyncio.sleep(2)
         assert RUN not in port.packets()
+
+
+@in_virtual_time
+async def test_questions_reach_the_board_one_at_a_time() -> None:
+    """A bus board that asks its servos keeps one packet and drops the others (S52)."""
+    port = FakePort()
+    async with gateway_on(port, board="xarm") as control:
+        page, other = Client(control), Client(control)
+        take(ReadMessage(type="read", id=1, what="positions", servos=[1, 2]), page, control)
+        take(ReadMessage(type="read", id=2, what="positions", servos=[1, 2]), other, control)
+        take(ReadMessage(type="read", id=3, what="battery", servos=[]), other, control)
+        await asyncio.sleep(0.1)
+        assert port.packets()[1:] == [READ_POSITIONS]
+        port.say(POSITIONS)
+        await asyncio.sleep(0.1)
+        assert port.packets()[1:] == [READ_POSITIONS, BATTERY]
+        assert [answer["id"] for answer in await answers(page)] == [1]
+        assert [answer["id"] for answer in await answers(other)] == [2]
+        port.say(BATTERY_REPORT)
+        await asyncio.sleep(0.1)
+        assert [answer["id"] for answer in await answers(other)] == [3]
+
+
+@in_virtual_time
+async def test_a_question_that_is_not_answered_is_refused_and_the_next_one_is_asked() -> None:
+    port = FakePort()
+    async with gateway_on(port, board="xarm") as control:
+        page = Client(control)
+        take(ReadMessage(type="read", id=1, what="positions", servos=[1, 2]), page, control)
+        take(ReadMessage(type="read", id=2, what="version", servos=[]), page, control)
+        take(ReadMessage(type="read", id=3, what="battery", servos=[]), page, control)
+        await asyncio.sleep(0.5)
+        assert port.packets()[1:] == [READ_POSITIONS, BATTERY]
+        codes = {answer["id"]: answer["code"] for answer in await answers(page)}
+        assert codes == {1: "noAnswer", 2: "notSupported"}

@@ -301,14 +301,15 @@ def name_board(message: BoardMessage, session: Session, control: Control) -> Non
 
 
 def read(message: ReadMessage, session: Session, control: Control) -> None:
-    reading = asyncio.create_task(control.board.battery.read())
-    reading.add_done_callback(lambda read: answer_read(session, message.id, read))
+    async def answered() -> None:
+        with refusing(session, message.id):
+            if message.what == "battery":
+                await control.board.battery.read()
+            else:
+                await control.board.readings.read(message.what, message.servos)
+            session.put(encode(DoneMessage(id=message.id)))
 
-
-def answer_read(session: Session, message_id: int, reading: asyncio.Task[int]) -> None:
-    with refusing(session, message_id):
-        reading.result()
-        session.put(encode(DoneMessage(id=message_id)))
+    session.begin(answered())
 
 
 ACTS: dict[type[AnyClientMessage], Callable[[Any, Session, Control], None]] = {

@@ -311,13 +311,14 @@ export function createGatewayTransport(url: string, clock: Clock, { mayDrive = t
       erase: () => askDriving((id, nonce) => ({ type: 'erase', id, nonce })),
       setSpeed: (slot, percent) =>
         askDriving((id, nonce) => ({ type: 'setSpeed', id, slot, percent, nonce })),
+      read: (what, servos = []) => ask((id) => ({ type: 'read', id, what, servos: [...servos] })),
       release: (servos) => askDriving((id, nonce) => ({ type: 'release', id, servos: [...servos], nonce })),
     },
     get isSimulated() {
       return port?.simulated ?? false;
     },
     async readBattery() {
-      await ask((id) => ({ type: 'read', id, what: 'battery' }));
+      await ask((id) => ({ type: 'read', id, what: 'battery', servos: [] }));
       return battery.kind === 'read' ? battery.batteryMv : 0;
     },
     async setBoard(next) {

@@ -210,7 +210,8 @@ export interface BoardMessage {
   board: string;
 }
 /**
- * Ask the board now; what it says is told to everybody, and `done` once it has. Needs no lease.
+ * Ask the board now; what it says is told to everybody, and `done` once it has. Needs no lease. `servos`:
+ * whose positions; some boards tell all of them, whichever are meant.
  */
 export interface ReadMessage {
   type: 'read';
@@ -218,7 +219,11 @@ export interface ReadMessage {
    * Chosen by the client; comes back in the answer.
    */
   id: number;
-  what: 'battery';
+  what: 'battery' | 'positions' | 'version' | 'offsets';
+  /**
+   * @maxItems 253
+   */
+  servos: number[];
 }
 /**
  * This client looks for the limits of `servo` and may pass the present ones with it, until `null` or the
@@ -822,4 +827,4 @@ export interface PlayedMessage {
   play: PlayState;
 }
 /** Of these messages. */
-export const PROTOCOL = 5;
+export const PROTOCOL = 6;

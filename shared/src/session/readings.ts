@@ -20,10 +20,14 @@ export interface Readings {
 }
 
 export function createReadings(core: Core): Readings {
-  const { family, clock, store, exchange } = core;
+  const { family, clock, store, exchange, commands } = core;
 
   async function readPositions(servos: readonly number[]): Promise<void> {
     requireQuestion(core);
+    if (commands !== undefined) {
+      await commands.read('positions', servos);
+      return;
+    }
     if (family.commands.includes('readAllPositions')) {
       await exchange.ask({ kind: 'readAllPositions' }, 'allPositions', DETAIL_TIMEOUT_MS);
       return;
@@ -42,11 +46,13 @@ export function createReadings(core: Core): Readings {
     readPositions,
     async readVersion() {
       requireQuestion(core);
-      await exchange.ask({ kind: 'readVersion' }, 'version', DETAIL_TIMEOUT_MS);
+      await (commands?.read('version') ??
+        exchange.ask({ kind: 'readVersion' }, 'version', DETAIL_TIMEOUT_MS));
     },
     async readOffsets() {
       requireQuestion(core);
-      await exchange.ask({ kind: 'readOffsets' }, 'offsets', DETAIL_TIMEOUT_MS);
+      await (commands?.read('offsets') ??
+        exchange.ask({ kind: 'readOffsets' }, 'offsets', DETAIL_TIMEOUT_MS));
     },
     heard(report) {
       if (report.kind === 'version') store.update({ version: report.version });

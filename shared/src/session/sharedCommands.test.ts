@@ -29,6 +29,7 @@ async function shared(outcome: () => Promise<Outcome>) {
     erase: note('erase'),
     setSpeed: note('setSpeed'),
     release: note('release'),
+    read: note('read'),
   };
   const session = createSession({
     clock,

@@ -121,6 +121,8 @@ export interface SharedCommands {
   erase(): Promise<Outcome>;
   setSpeed(slot: number | null, percent: number): Promise<Outcome>;
   release(servos: readonly number[]): Promise<Outcome>;
+  /** Resolves when the board has said it, behind `received`. */
+  read(what: 'positions' | 'version' | 'offsets', servos?: readonly number[]): Promise<unknown>;
 }
 
 /** How a shared link moves servos: it merges, keeps the board's pace and lets servos of unknown place start gently. */

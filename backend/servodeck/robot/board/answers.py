@@ -1,10 +1,11 @@
-"""Waits for what the board says to a question. Knows kinds of reports and time; no packet and no port.
+"""Puts questions to the board one at a time, and waits for what it says. Knows kinds of reports and time; no
+packet and no port.
 
 Boards number nothing: an answer is told apart by its kind alone.
 """
 
 import asyncio
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from math import inf
@@ -25,12 +26,23 @@ class Expected:
 class Answers:
     def __init__(self) -> None:
         self._expected: list[Expected] = []
+        self.asking = asyncio.Lock()
+        """Held by the one question that is under way: a board that talks to its servos keeps one packet and
+        drops the others (S9, S52).
+        """
 
     def heard(self, report: Report, at_s: float) -> None:
         for expected in self._expected:
             is_it = isinstance(report, expected.kinds) and at_s >= expected.not_before_s
             if is_it and not expected.answer.done():
                 expected.answer.set_result(report)
+
+    async def ask(self, put: Callable[[], Left], wait_s: float, *kinds: type[Report]) -> Report | None:
+        """As `to`, once all that was asked before has been answered or given up. `put` puts the question on
+        the wire.
+        """
+        async with self.asking:
+            return await self.to(put(), wait_s, *kinds)
 
     async def to(
         self, left: Left, wait_s: float, *kinds: type[Report], not_before_s: float = -inf

@@ -17,11 +17,10 @@ from servodeck.errors import GatewayError, NoAnswerError
 from servodeck.port.wire import Left
 from servodeck.protocol.families import Family
 from servodeck.protocol.timings import BATTERY
-from servodeck.protocol.values import Battery, Report
+from servodeck.protocol.values import Battery, Command, ReadBattery, Report
 from servodeck.robot.board.answers import Answers
 from servodeck.snapshots import BatteryRead, BatterySilent, BatteryState, BatteryUnread
 
-BATTERY_PACKET = "5555020f"
 BATTERY_WAIT_S = BATTERY.timeout_ms / 1000
 
 
@@ -35,8 +34,8 @@ class PoweredBoard(Protocol):
     @property
     def family(self) -> Family: ...
 
-    def ask_battery(self, question: str) -> Left:
-        """Puts that packet on the wire. Raises what keeps it from being asked."""
+    def put_question(self, question: Command) -> Left:
+        """Puts it on the wire. Raises what keeps it from being asked."""
 
     def battery_changed(self) -> None: ...
 
@@ -81,8 +80,9 @@ class BatteryWatch:
         return await asyncio.shield(self._question)
 
     async def _read(self) -> int:
-        left = self._board.ask_battery(BATTERY_PACKET)
-        report = await self._answers.to(left, BATTERY_WAIT_S, Battery)
+        report = await self._answers.ask(
+            lambda: self._board.put_question(ReadBattery()), BATTERY_WAIT_S, Battery
+        )
         if not isinstance(report, Battery):
             self._count_silence()
             raise NoAnswerError("The board did not tell its battery voltage. Not every board can.")

@@ -29,7 +29,7 @@ from servodeck.protocol.decoder import COMMAND_AT, DecoderEvent, PacketEvent
 from servodeck.protocol.families import FAMILIES, UNKNOWN, Family, Question
 from servodeck.protocol.packets import encode, parse_command, parse_report
 from servodeck.protocol.timings import BATTERY, IDENTIFY, wire_s
-from servodeck.protocol.values import Battery, Report, Run, RunAccepted, RunStarted
+from servodeck.protocol.values import Battery, Command, Report, Run, RunAccepted, RunStarted
 from servodeck.robot.board.answers import Answers
 from servodeck.robot.board.battery import BatteryPoll, BatteryWatch
 from servodeck.robot.board.downloads import Jobs
@@ -37,9 +37,11 @@ from servodeck.robot.board.estimate import Estimate
 from servodeck.robot.board.heartbeat import Silence
 from servodeck.robot.board.identification import Identification, Status
 from servodeck.robot.board.identity import QUESTIONS, identity_state
+from servodeck.robot.board.move_plan import packet_of
 from servodeck.robot.board.moves import Moves
-from servodeck.robot.board.packet_rules import STOP, Part, is_harmless, judge_packet
+from servodeck.robot.board.packet_rules import STOP, Part, is_harmless
 from servodeck.robot.board.playing import Playing, Plays
+from servodeck.robot.board.readings import Readings
 from servodeck.robot.board.recovery import StopAgain, filler_for
 from servodeck.robot.board.slots import SlotMemory
 from servodeck.robot.board.unattended import Unattended
@@ -109,6 +111,7 @@ class Board:
         self.link = Link(ports, self._make_wire, self, now)
         self.answers = Answers()
         self.battery = BatteryWatch(self, self.answers, now)
+        self.readings = Readings(self, self.answers)
         self._battery_poll = BatteryPoll(self._may_poll_battery, self.battery.read)
         self.jobs = Jobs(self, self.answers, now, slot_memory)
         self.moves = Moves(self, now, events.board_changed)
@@ -297,13 +300,15 @@ class Board:
             except NoAnswerError:
                 return None
         packet, answer = QUESTIONS[question].packet, QUESTIONS[question].answer
-        # No board answers what has not reached it yet.
-        earliest_s = self._now() + wire_s(len(packet))
-        try:
-            left = self.link.wire().send(packet, self)
-            return await self.answers.to(left, IDENTIFY.timeout_ms / 1000, answer, not_before_s=earliest_s)
-        except (LatchedError, CancelledError):
-            return None  # a stop empties the queue; it does not answer the question
+        async with self.answers.asking:
+            # No board answers what has not reached it yet.
+            earliest_s = self._now() + wire_s(len(packet))
+            try:
+                left = self.link.wire().send(packet, self)
+                timeout_s = IDENTIFY.timeout_ms / 1000
+                return await self.answers.to(left, timeout_s, answer, not_before_s=earliest_s)
+            except (LatchedError, CancelledError):
+                return None  # a stop empties the queue; it does not answer the question
 
     def may_ask(self) -> bool:
         return self._events.is_watched() and self.is_idle()
@@ -341,13 +346,13 @@ class Board:
         if status == "stale":
             self._events.board_lost()
 
-    # What its battery asks and tells
+    # What its battery and its readings ask and tell
 
-    def ask_battery(self, question: str) -> Left:
+    def put_question(self, question: Command) -> Left:
         wire = self.link.wire()
         if self.identification.state.status != "stale":
             self.judge_known()
-        packet = judge_packet(question, self.family_id)
+        packet = packet_of(question, self.family)
         self.jobs.judge_idle()
         return wire.send(packet, self)
 
