@@ -185,7 +185,7 @@ describe('the first load', () => {
     const first = comesWith(join('app', 'main.tsx'));
     expect(first).toContain(join('i18n', 'words.ts'));
     expect(first).not.toContain(join('i18n', 'whole.ts'));
-    expect(comesWith(join('features', 'library', 'files', 'FilesContent.tsx'))).toContain(
+    expect(comesWith(join('features', 'library', 'files', 'FilesDialog.tsx'))).toContain(
       join('i18n', 'whole.ts'),
     );
   });

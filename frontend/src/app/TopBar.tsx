@@ -1,22 +1,47 @@
 // The slim bar: which robot, how it is linked, what goes on, the battery. The right end is kept free for STOP.
 
 import { useStore } from 'zustand';
+import { useStores, useView, useDevice } from '../features/stores.ts';
+import type { LanguageChoice, Theme } from '../features/view.ts';
+import { Icon, type IconName } from '../ui/Icon.tsx';
+import { LANGUAGE_CODES, LANGUAGES, words } from '../i18n/words.ts';
 import { nameOf } from '../robot/boards.ts';
-import { useDevice, useStores, useView } from '../features/stores.ts';
-import type { Theme } from '../features/view.ts';
 import { RobotButton } from '../features/profiles/RobotButton.tsx';
 import { BatteryReadout } from '../features/battery/BatteryReadout.tsx';
 import { IconButton } from '../ui/Button.tsx';
-import type { IconName } from '../ui/Icon.tsx';
 import { PeopleButton } from '../features/people/PeopleDialog.tsx';
 import { PageSwitch } from '../features/buttons/PageSwitch.tsx';
 import { boardName } from '../i18n/sentences/boards.ts';
-import { words } from '../i18n/words.ts';
-import { LanguageControl } from './LanguageControl.tsx';
 import { LinkChip } from '../features/connect/LinkChip.tsx';
 import { StatusLine, type StatusLineProps } from '../features/connect/StatusLine.tsx';
 import { PART } from '../ui/useParts.ts';
+import languageControlStyles from './LanguageControl.module.css';
 import styles from './TopBar.module.css';
+
+// Which language the page speaks. Each is called by its own name, for whoever cannot read the others.
+
+function LanguageControl() {
+  const { view } = useStores();
+  const language = useView((state) => state.language);
+  return (
+    <div className={languageControlStyles.control} title={words.language.label}>
+      <Icon name="globe" />
+      <select
+        className={languageControlStyles.select}
+        aria-label={words.language.label}
+        value={language}
+        onChange={(event) => view.setState({ language: event.target.value as LanguageChoice })}
+      >
+        <option value="system">{words.language.system}</option>
+        {LANGUAGE_CODES.map((one) => (
+          <option key={one} value={one} lang={one}>
+            {LANGUAGES[one].name}
+          </option>
+        ))}
+      </select>
+    </div>
+  );
+}
 
 export function TopBar({ onMoveHere }: Pick<StatusLineProps, 'onMoveHere'>) {
   const isShared = useDevice((state) => state.way?.kind === 'gateway');

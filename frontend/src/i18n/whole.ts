@@ -1,8 +1,49 @@
 // All words in use, for parts that come later than the first load and bring theirs with them.
 
 import { words as english } from 'virtual:words/en/rest';
-import { datesIn, type Dates } from './dates.ts';
 import { spoken, type Words as FirstWords } from './words.ts';
+
+// Days, times of day and long ages as people of a language read them, through Intl. For parts that come later than
+// the first load.
+
+const LONGER: readonly (readonly [Intl.RelativeTimeFormatUnit, number])[] = [
+  ['day', 86_400_000],
+  ['hour', 3_600_000],
+  ['minute', 60_000],
+];
+
+type Dates = ReturnType<typeof datesIn>;
+
+/** `locale` as Intl takes it. */
+export function datesIn(locale: string) {
+  const timeOfDay = new Intl.DateTimeFormat(locale, { hour: '2-digit', minute: '2-digit', hourCycle: 'h23' });
+  const moment = new Intl.DateTimeFormat(locale, {
+    dateStyle: 'medium',
+    timeStyle: 'short',
+    hourCycle: 'h23',
+  });
+  const elapsed = new Intl.DateTimeFormat(locale, {
+    timeZone: 'UTC',
+    minute: '2-digit',
+    second: '2-digit',
+    fractionalSecondDigits: 3,
+  });
+  const ago = new Intl.RelativeTimeFormat(locale, { style: 'short' });
+
+  return {
+    /** `14:05`, from milliseconds since 1970. */
+    formatTimeOfDay: (epochMs: number): string => timeOfDay.format(epochMs),
+    /** `21 Nov 2026, 14:05`, from milliseconds since 1970. */
+    formatMoment: (epochMs: number): string => moment.format(epochMs),
+    /** Time since the page was opened, `02:07.345`. */
+    formatElapsed: (ms: number): string => elapsed.format(ms),
+    /** `3 min. ago`, `2 days ago`, in the largest unit that fits. */
+    formatLongAge: (ms: number): string => {
+      const [unit, unitMs] = LONGER.find(([, each]) => ms >= each) ?? ['second', 1000];
+      return ago.format(-Math.max(0, Math.floor(ms / unitMs)), unit);
+    },
+  };
+}
 
 export interface Words extends FirstWords {
   readonly dates: Dates;

@@ -5,10 +5,9 @@ import { join } from 'node:path';
 import { afterEach, describe, expect, test } from 'vitest';
 import { FAMILIES } from '#shared/codec/families.ts';
 import { LINK_ERROR_CODES } from '#shared/session/linkError.ts';
-import { datesIn } from './dates.ts';
+import { datesIn, words as wholeWords } from './whole.ts';
 import { boardName } from './sentences/boards.ts';
 import { errorSentence, flawSentence } from './sentences/errors.ts';
-import { words as wholeWords } from './whole.ts';
 import { LANGUAGE_CODES, preferredLanguage, speak, words } from './words.ts';
 
 afterEach(() => speak('en'));

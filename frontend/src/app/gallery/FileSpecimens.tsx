@@ -4,7 +4,7 @@ import type { Reading } from '#shared/files/reading.ts';
 import { emptyGroup, type ActionGroup } from '#shared/group/group.ts';
 import { insertFrame } from '#shared/group/groupEdits.ts';
 import { FAMILIES } from '#shared/codec/families.ts';
-import { FilesContent } from '../../features/library/files/FilesContent.tsx';
+import { FilesContent } from '../../features/library/files/FilesDialog.tsx';
 import { firstAnswers } from '../../features/library/files/answers.ts';
 import {
   createOpenedFiles,

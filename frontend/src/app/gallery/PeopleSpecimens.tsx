@@ -1,11 +1,9 @@
 // Coming in and letting in, in each state: a stranger's card, the stop-only page, and what an owner sees.
 
 import type { ReactNode } from 'react';
-import { NameCard } from '../../features/people/NameCard.tsx';
+import { NameCard, PairCard, StopFace, type StopOutcome } from '../../features/people/Outside.tsx';
 import { OwnView } from '../../features/people/OwnView.tsx';
-import { PairCard } from '../../features/people/PairCard.tsx';
 import { PeopleView } from '../../features/people/PeopleView.tsx';
-import { StopFace, type StopOutcome } from '../../features/people/StopPage.tsx';
 import { PeopleError, type PeopleState } from '../../features/people/people.ts';
 import type { Exhibit } from './exhibit.ts';
 

@@ -1,7 +1,7 @@
 // The sender of packets by hand in each of its cases.
 
 import { FAMILIES, type FamilyId } from '#shared/codec/families.ts';
-import { RawForm } from '../../features/log/RawSender.tsx';
+import { RawForm } from '../../features/log/LogPanel.tsx';
 import { judgeText } from '../../features/log/judgeText.ts';
 import { words } from '../../i18n/whole.ts';
 import type { Exhibit } from './exhibit.ts';

@@ -1,19 +1,73 @@
 // The battery in full: volts on a gauge, what is left, what that means, how old the reading is, how it went in this visit.
 
 import { useState } from 'react';
-import { isPlain, readingKind, percentOf } from '#shared/profile/battery.ts';
+import { readingKind, gaugeFraction, type Supply, isPlain, percentOf } from '#shared/profile/battery.ts';
+import { useRobot, useBattery, useDevice, useSnapshot, useStores } from '../stores.ts';
+import { Dialog } from '../../ui/Dialog.tsx';
+import { laterComponent } from '../../ui/later.tsx';
+import { words } from '../../i18n/whole.ts';
+import { voltsText, lastMv, levelWord, LEVEL_TRUTH } from './readings.ts';
 import { canReadBattery } from './batteryPoll.ts';
-import { useBattery, useDevice, useRobot, useSnapshot, useStores } from '../stores.ts';
 import { IconButton } from '../../ui/Button.tsx';
 import { Chip } from '../../ui/Chip.tsx';
-import { laterComponent } from '../../ui/later.tsx';
 import { Panel } from '../../ui/Panel.tsx';
 import { useNow } from '../../ui/useNow.ts';
-import { words } from '../../i18n/whole.ts';
-import { BatterySettings } from './BatterySettings.tsx';
-import { lastMv, levelWord, LEVEL_TRUTH, voltsText } from './readings.ts';
-import { VoltMeter } from './VoltMeter.tsx';
+import voltMeterStyles from './VoltMeter.module.css';
 import styles from './BatteryPanel.module.css';
+
+// The dialog about what feeds the robot; what stands in it comes when it is wanted.
+
+const BatteryForm = laterComponent(async () => (await import('./BatteryForm.tsx')).BatteryForm, '40vh');
+
+interface BatterySettingsProps {
+  readonly isOpen: boolean;
+  onClose(): void;
+}
+
+function BatterySettings({ isOpen, onClose }: BatterySettingsProps) {
+  const robot = useRobot();
+  return (
+    <Dialog
+      title={words.battery.settingsOf({ robot: robot.name })}
+      closeLabel={words.close}
+      {...{ isOpen, onClose }}
+    >
+      <BatteryForm robot={robot} />
+    </Dialog>
+  );
+}
+
+// The voltage along the range of what feeds the robot, with the two thresholds as marks.
+
+const WIDTH = 200;
+
+interface VoltMeterProps {
+  readonly batteryMv: number | null;
+  readonly supply: Supply;
+}
+
+function VoltMeter({ batteryMv, supply }: VoltMeterProps) {
+  const mark = (mv: number): number => gaugeFraction(mv, supply) * WIDTH;
+  const isPlain = batteryMv !== null && readingKind(batteryMv, supply) === 'plain';
+  return (
+    <svg
+      className={voltMeterStyles.meter}
+      viewBox={`0 0 ${WIDTH} 20`}
+      preserveAspectRatio="none"
+      role="meter"
+      aria-label={words.battery.gauge}
+      aria-valuemin={supply.lowMv / 1000}
+      aria-valuemax={supply.highMv / 1000}
+      aria-valuenow={(batteryMv ?? supply.lowMv) / 1000}
+      aria-valuetext={batteryMv === null ? words.battery.unread : voltsText(batteryMv, supply)}
+    >
+      <rect className={voltMeterStyles.scale} y="6" width={WIDTH} height="8" />
+      {isPlain && <rect className={voltMeterStyles.charge} y="6" width={mark(batteryMv)} height="8" />}
+      <rect className={voltMeterStyles.alarm} x={mark(supply.alarmMv)} width="2" height="20" />
+      <rect className={voltMeterStyles.warn} x={mark(supply.warnMv)} width="2" height="20" />
+    </svg>
+  );
+}
 
 const BatteryPlot = laterComponent(async () => (await import('./BatteryPlot.tsx')).BatteryPlot, '112px');
 

@@ -1,11 +1,164 @@
 // The volts of this visit as a line, with what it shows in words for those who do not see it.
 
+import UPlot from 'uplot';
+import 'uplot/dist/uPlot.min.css';
 import { useEffect, useRef } from 'react';
 import { isPlain } from '#shared/profile/battery.ts';
-import { useBattery, useStores } from '../stores.ts';
+import type { BatteryState, BatteryStore } from './battery.ts';
 import { words } from '../../i18n/whole.ts';
-import { drawPlot } from './plot.ts';
+import { useBattery, useStores } from '../stores.ts';
 import styles from './BatteryPlot.module.css';
+
+// Draws readings over the time of day: the line, bands where something ran, the two thresholds. Follows the store,
+// its own place's width and the page's colours.
+
+/** Readings further apart are not joined: what was between, nobody measured. */
+const GAP_MS = 20_000;
+const SHORTEST_MS = 120_000;
+const MINUTE_MS = 60_000;
+/** Steps of the time axis, in minutes. */
+const STEPS = [1, 2, 5, 10, 15, 30, 60, 120, 240];
+/** Volts above and below what is shown. */
+const MARGIN_V = 0.2;
+
+/** Returns a function that takes it away. `epochMs` is the time of day at 0 of the readings' clock. */
+function drawPlot(place: HTMLElement, battery: BatteryStore, epochMs: number): () => void {
+  const plot = new UPlot(optionsFor(place, battery, epochMs), dataOf(battery.getState(), epochMs), place);
+  const unsubscribe = battery.subscribe((state) => plot.setData(dataOf(state, epochMs)));
+  const resized = new ResizeObserver(() => plot.setSize(sizeOf(place)));
+  resized.observe(place);
+  const forgetColours = watchColours(() => plot.redraw());
+  return () => {
+    unsubscribe();
+    resized.disconnect();
+    forgetColours();
+    plot.destroy();
+  };
+}
+
+function optionsFor(place: HTMLElement, battery: BatteryStore, epochMs: number): UPlot.Options {
+  const colour = (name: string): string => getComputedStyle(place).getPropertyValue(name);
+  const axis = {
+    font: `12px ${colour('--sans')}`,
+    stroke: () => colour('--ink-dim'),
+    ticks: { show: false },
+  };
+  const grid = { stroke: () => colour('--line'), width: 1 };
+  return {
+    ...sizeOf(place),
+    cursor: { show: false },
+    legend: { show: false },
+    padding: [6, 16, 0, 0],
+    series: [
+      {},
+      { stroke: () => colour('--ink'), width: 1.5, points: { size: 3, fill: () => colour('--ink') } },
+    ],
+    scales: {
+      x: { time: false, range: ({ data: [times] }) => timeRange(times) },
+      y: { range: (_, lowest, highest) => voltRange(battery.getState(), lowest, highest) },
+    },
+    axes: [
+      {
+        ...axis,
+        size: 20,
+        gap: 4,
+        space: 64,
+        grid: { show: false },
+        incrs: STEPS.map((minutes) => minutes * MINUTE_MS),
+        values: (_, splits) => splits.map(words.dates.formatTimeOfDay),
+      },
+      {
+        ...axis,
+        grid,
+        size: 30,
+        gap: 4,
+        space: 24,
+        values: (_, splits) => splits.map(words.numbers.formatTick),
+      },
+    ],
+    hooks: { drawAxes: [(plot) => drawMarks(plot, battery.getState(), epochMs, colour)] },
+  };
+}
+
+const sizeOf = ({ clientWidth, clientHeight }: HTMLElement): { width: number; height: number } => ({
+  width: clientWidth,
+  height: clientHeight,
+});
+
+function timeRange(times: ArrayLike<number>): [number, number] {
+  const from = times[0] ?? 0;
+  return [from, Math.max(times[times.length - 1] ?? 0, from + SHORTEST_MS)];
+}
+
+/** Both thresholds are in sight. uPlot has no lowest and highest where there is no reading. */
+function voltRange(
+  { supply }: BatteryState,
+  lowest: number | null,
+  highest: number | null,
+): [number, number] {
+  const low = Math.min(lowest ?? Infinity, supply.alarmMv / 1000);
+  const high = Math.max(highest ?? -Infinity, supply.warnMv / 1000);
+  return [low - MARGIN_V, high + MARGIN_V];
+}
+
+function dataOf({ readings, supply }: BatteryState, epochMs: number): UPlot.AlignedData {
+  const times: number[] = [];
+  const volts: (number | null)[] = [];
+  const put = (atMs: number, value: number | null): void => {
+    times.push(epochMs + atMs);
+    volts.push(value);
+  };
+  let lastMs = Infinity;
+  for (const { atMs, batteryMv } of readings.filter((one) => isPlain(one, supply))) {
+    if (atMs - lastMs > GAP_MS) put((atMs + lastMs) / 2, null);
+    put(atMs, batteryMv / 1000);
+    lastMs = atMs;
+  }
+  return [times, volts];
+}
+
+function drawMarks(
+  plot: UPlot,
+  { runs, supply }: BatteryState,
+  epochMs: number,
+  colour: (name: string) => string,
+): void {
+  const { ctx, bbox } = plot;
+  const right = bbox.left + bbox.width;
+  const across = (atMs: number): number =>
+    Math.min(right, Math.max(bbox.left, plot.valToPos(epochMs + atMs, 'x', true)));
+  ctx.save();
+  ctx.fillStyle = colour('--well');
+  for (const { fromMs, toMs } of runs) {
+    const from = across(fromMs);
+    ctx.fillRect(from, bbox.top, (toMs === null ? right : across(toMs)) - from, bbox.height);
+  }
+  ctx.setLineDash([4, 4]);
+  for (const [mv, name] of [
+    [supply.warnMv, '--warning'],
+    [supply.alarmMv, '--danger'],
+  ] as const) {
+    const y = plot.valToPos(mv / 1000, 'y', true);
+    ctx.strokeStyle = colour(name);
+    ctx.beginPath();
+    ctx.moveTo(bbox.left, y);
+    ctx.lineTo(right, y);
+    ctx.stroke();
+  }
+  ctx.restore();
+}
+
+/** The theme of the system, or the one chosen in the page. */
+function watchColours(changed: () => void): () => void {
+  const system = matchMedia('(prefers-color-scheme: dark)');
+  const chosen = new MutationObserver(changed);
+  system.addEventListener('change', changed);
+  chosen.observe(document.documentElement, { attributeFilter: ['data-theme'] });
+  return () => {
+    system.removeEventListener('change', changed);
+    chosen.disconnect();
+  };
+}
 
 export function BatteryPlot() {
   const { battery, device } = useStores();

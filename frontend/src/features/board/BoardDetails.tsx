@@ -1,21 +1,153 @@
 // What is done with the board now and then: what the slot holds and the group becomes there, how often it runs, how fast, the map of
 // the slots, erasing all. Boards cannot be read, so a slot is known only as far as this page filled it.
 
-import { useDevice, useStores, useSlot } from '../stores.ts';
+import { useState } from 'react';
+import { setMeta } from '#shared/group/groupEdits.ts';
+import { notRestored } from '#shared/group/slotBook.ts';
+import { chosenTimes } from './slots/groupPlace.ts';
+import { useDocument, useSlot, useStores, useView, useDevice, useSlots, useSnapshot } from '../stores.ts';
+import { Button } from '../../ui/Button.tsx';
+import { words } from '../../i18n/whole.ts';
+import { startHindrance, motionHindrance } from '../../robot/readiness.ts';
+import { Confirm } from '../../ui/Confirm.tsx';
+import { NumberField } from '../../ui/NumberField.tsx';
+import { Toggle } from '../../ui/Toggle.tsx';
 import { SlotsControl } from './slots/SlotsControl.tsx';
 import { FATE_TRUTH, useFates } from './slots/useFates.ts';
 import { useHeldName } from './slots/useHeldName.ts';
-import { Button } from '../../ui/Button.tsx';
 import { Chip } from '../../ui/Chip.tsx';
 import { CompileRow } from '../animate/group/CompileRow.tsx';
 import { boardName } from '../../i18n/sentences/boards.ts';
-import { words } from '../../i18n/whole.ts';
-import { Absent } from './Absent.tsx';
-import { EraseControl } from './EraseControl.tsx';
-import { PlaceControl } from './PlaceControl.tsx';
 import { RunSettings } from './RunSettings.tsx';
-import { SpeedControl } from './SpeedControl.tsx';
 import styles from './BoardPanel.module.css';
+import field from '../../ui/Field.module.css';
+
+// In place of a control whose command this board lacks: what is absent, and what to do without it.
+
+interface AbsentProps {
+  readonly what: string;
+  readonly why: string;
+}
+
+function Absent({ what, why }: AbsentProps) {
+  return (
+    <div className={styles.row}>
+      <span className={styles.label}>{what}</span>
+      <p className={styles.absent}>{why}</p>
+    </div>
+  );
+}
+
+// Where the group at hand belongs and how often it is run, as it says itself; what is chosen above can be kept in it.
+
+function PlaceControl() {
+  const { document, view } = useStores();
+  const slot = useDocument(({ present }) => present.slot);
+  const times = useDocument(({ present }) => present.times);
+  const isEmpty = useDocument(({ present }) => present.frames.length === 0);
+  const chosenSlot = useSlot();
+  const isKept = useView((state) => chosenTimes(state) === times) && chosenSlot === slot;
+  const keep = (): void =>
+    document.edit(
+      () => words.board.steps.place,
+      (group) => setMeta(group, { slot: chosenSlot, times: chosenTimes(view.getState()) }),
+    );
+  return (
+    <div className={styles.place}>
+      <p className={styles.hint}>
+        {slot === null ? words.board.placeNone({ times }) : words.board.place({ slot, times })}
+      </p>
+      <Button
+        tone="quiet"
+        icon="save"
+        hint={words.board.keepPlaceHint}
+        isDisabled={isKept || isEmpty}
+        onPress={keep}
+      >
+        {words.board.keepPlace}
+      </Button>
+    </div>
+  );
+}
+
+// Erases every slot, after a dialog that names what is lost, and what of it can come back.
+
+function EraseControl() {
+  const { slots } = useStores();
+  const book = useSlots((state) => state.book);
+  const versions = useSnapshot((snapshot) => snapshot.slotVersions) ?? {};
+  const broken = useSnapshot((snapshot) => snapshot.brokenSlots);
+  const held = book.stored;
+  const lost = notRestored(book, { versions, broken });
+  const { min, max } = useDevice((state) => state.family.slot);
+  const mayErase = useSnapshot((snapshot) => startHindrance(snapshot) === null);
+  return (
+    <Confirm
+      tone="quiet"
+      icon="erase"
+      isDisabled={!mayErase}
+      label={words.board.erase}
+      title={words.board.eraseTitle}
+      text={[
+        words.board.eraseText({ slots: max - min + 1 }),
+        ...(held.length > 0 ? [words.slots.willGo({ groups: namesOf(held) })] : []),
+        ...(lost.length > 0 ? [words.slots.notRestored({ groups: namesOf(lost) })] : []),
+      ].join(' ')}
+      keepLabel={words.board.eraseKeep}
+      confirmLabel={words.board.eraseConfirm}
+      closeLabel={words.close}
+      onConfirm={() => slots.erase()}
+    />
+  );
+}
+
+function namesOf(groups: readonly { readonly slot: number; readonly name: string }[]): string {
+  const { formatNames, formatWhole } = words.numbers;
+  return formatNames(groups.map(({ slot, name }) => `${formatWhole(slot)} ${name}`.trim()));
+}
+
+// How fast the board plays its groups, in percent, for the chosen slot or every one. Nobody can ask a board for its
+// speed, so the field shows what will be set.
+
+const AS_STORED = 100;
+
+function SpeedControl() {
+  const { device, notices } = useStores();
+  const slot = useSlot();
+  const { min, max } = useDevice((state) => state.family.speedPercent);
+  const isAllowed = useSnapshot((snapshot) => motionHindrance(snapshot) === null);
+  const [percent, setPercent] = useState(AS_STORED);
+  const [isEverySlot, setEverySlot] = useState(false);
+  return (
+    <div className={styles.row}>
+      <div className={field.named}>
+        <span className={styles.label} aria-hidden="true">
+          {words.board.speed}
+        </span>
+        <NumberField
+          label={words.board.speedField}
+          value={percent}
+          min={min}
+          max={max}
+          step={10}
+          unit={words.board.percent}
+          onChange={setPercent}
+          onRefused={(value) => notices.refuse(words.refused({ name: words.board.speed, value, min, max }))}
+        />
+      </div>
+      <div className={styles.running}>
+        <Toggle label={words.board.everySlot} isOn={isEverySlot} onChange={setEverySlot} />
+        <Button
+          hint={words.board.speedHint}
+          isDisabled={!isAllowed}
+          onPress={() => device.setSpeed(isEverySlot ? null : slot, percent)}
+        >
+          {words.board.setSpeed}
+        </Button>
+      </div>
+    </div>
+  );
+}
 
 export function BoardDetails() {
   const { commands, id } = useDevice((state) => state.family);

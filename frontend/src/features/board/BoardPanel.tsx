@@ -1,17 +1,152 @@
 // What lives on the board: the strip of what is done with it again and again, and below it the details.
 
 import { useId, useRef, type RefObject } from 'react';
+import { slotTrigger } from '#shared/codec/families.ts';
+import type { Activity } from '#shared/session/state.ts';
+import { runAsChosen } from '../animate/play/goOn.ts';
+import { motionHindrance } from '../../robot/readiness.ts';
+import { useSnapshot, useStores, useCompiled, useDevice, useDocument, useSlot } from '../stores.ts';
 import { Button } from '../../ui/Button.tsx';
-import { laterComponent } from '../../ui/later.tsx';
 import { words } from '../../i18n/words.ts';
-import { BoardStrip } from './BoardStrip.tsx';
-import panel from '../../ui/Panel.module.css';
+import { useFates, FATE_TRUTH } from './slots/useFates.ts';
+import { useRunSettings } from './useRunSettings.ts';
+import { obstacles } from '../animate/group/compiled.ts';
+import { useHeldName } from './slots/useHeldName.ts';
+import { Chip } from '../../ui/Chip.tsx';
+import { NumberField } from '../../ui/NumberField.tsx';
+import { triggerInBar, heldText } from '../../i18n/sentences/slots.ts';
+import { DownloadControl } from './DownloadControl.tsx';
+import { DownloadProgress } from './DownloadProgress.tsx';
+import { laterComponent } from '../../ui/later.tsx';
 import { PART } from '../../ui/useParts.ts';
+import boardStripStyles from './BoardStrip.module.css';
+import panel from '../../ui/Panel.module.css';
 import styles from './BoardPanel.module.css';
+
+// Runs the chosen slot, and ends the group that runs.
+
+function RunControl() {
+  const { device, view, notices } = useStores();
+  const { slot, times } = useRunSettings();
+  const isEmpty = useFates()(slot) === 'empty';
+  const isPlaying = useSnapshot(({ activity }) => activity.kind === 'playing');
+  const isReady = useSnapshot((snapshot) => snapshot.link.status === 'ready');
+  const mayRun = useSnapshot(
+    (snapshot) => motionHindrance(snapshot) === null && !snapshot.brokenSlots.includes(slot),
+  );
+  const run = (): void => {
+    runAsChosen({ device, view }, slot, times);
+    if (isEmpty) notices.tell('info', words.board.runsNothing({ slot }));
+  };
+  return (
+    <>
+      <Button
+        icon="play"
+        hint={words.board.runHint({ slot, times })}
+        isDisabled={!mayRun || isPlaying}
+        onPress={run}
+      >
+        {words.board.run}
+      </Button>
+      <Button
+        icon="end"
+        hint={words.board.stopGroupHint}
+        isDisabled={!isReady}
+        onPress={() => device.stopGroup()}
+      >
+        {words.board.stopGroup}
+      </Button>
+    </>
+  );
+}
+
+// What is done with the board in every round of trying a motion: choose the slot, download to it, run it, end it.
+// Between the two, what is known of the slot, or how far a download or a run has come.
+
+function BoardStrip() {
+  const { commands } = useDevice((state) => state.family);
+  return (
+    <>
+      <SlotField />
+      <div className={boardStripStyles.now}>
+        <Now />
+      </div>
+      <div className={boardStripStyles.verbs}>
+        {commands.includes('download') && <DownloadControl />}
+        {commands.includes('run') && <RunControl />}
+      </div>
+    </>
+  );
+}
+
+function SlotField() {
+  const { view, notices } = useStores();
+  const slot = useSlot();
+  const { min, max } = useDevice((state) => state.family.slot);
+  return (
+    <div className={boardStripStyles.slot}>
+      <span className={boardStripStyles.label} aria-hidden="true">
+        {words.board.slot}
+      </span>
+      <NumberField
+        label={words.board.slot}
+        value={slot}
+        min={min}
+        max={max}
+        size="small"
+        onChange={(value) => view.setState({ slot: value })}
+        onRefused={(value) => notices.refuse(words.refused({ name: words.board.slot, value, min, max }))}
+      />
+    </div>
+  );
+}
+
+function Now() {
+  const activity = useSnapshot((snapshot) => snapshot.activity);
+  if (activity.kind === 'downloading') return <DownloadProgress />;
+  if (activity.kind === 'running') return <Running activity={activity} />;
+  return <AtAGlance />;
+}
+
+/** What the details below say in full. */
+function AtAGlance() {
+  const slot = useSlot();
+  const unit = useDocument(({ present }) => present.unit);
+  const { id, unit: boardUnit } = useDevice((state) => state.family);
+  const fate = useFates()(slot);
+  const held = useHeldName()(slot) ?? '';
+  const trigger = slotTrigger(id, slot);
+  const { frames, report } = useCompiled((state) => state.latest);
+  const isOfOther = boardUnit !== unit;
+  const fits = !isOfOther && obstacles(report, 'board').length === 0;
+  if (frames.length === 0) return <p className={boardStripStyles.hint}>{words.board.nothingToDownload}</p>;
+  return (
+    <span className={boardStripStyles.glance} aria-hidden="true">
+      <Chip truth={FATE_TRUTH[fate]}>{heldText(fate, held)}</Chip>
+      <Chip truth={fits ? 'confirmed' : 'danger'}>
+        {isOfOther ? words.compile.ofOther : fits ? words.compile.fits : words.compile.fitsNot}
+      </Chip>
+      {trigger !== null && <Chip truth="warning">{triggerInBar(trigger)}</Chip>}
+    </span>
+  );
+}
+
+const TRUTH = { requested: 'commanded', acknowledged: 'confirmed', unknown: 'unknown' } as const;
+
+function Running({ activity }: { readonly activity: Extract<Activity, { kind: 'running' }> }) {
+  return (
+    <div className={boardStripStyles.run}>
+      <Chip truth={TRUTH[activity.truth]}>
+        {words.activity.running({ slot: activity.slot, times: activity.times })}
+      </Chip>
+      <p>{words.activity.runTruth[activity.truth]}</p>
+    </div>
+  );
+}
 
 const BoardDetails = laterComponent(async () => (await import('./BoardDetails.tsx')).BoardDetails, '240px');
 
-export interface BoardPanelProps {
+interface BoardPanelProps {
   /** Its two parts stand in the column around it, as wide as that: the strip stays in sight, the details scroll. */
   readonly isSpread?: boolean;
 }

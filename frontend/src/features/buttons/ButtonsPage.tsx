@@ -1,17 +1,134 @@
 // The page of buttons: in use by anybody, or being changed. The kiosk is the same page with nothing around it.
 
-import { useMacros, useStores, useView } from '../stores.ts';
+import { addMacro, moveMacro, removeMacro } from '#shared/profile/macroEdits.ts';
+import type { Macro } from '#shared/profile/macro.ts';
+import { useStores, useMacros, useView } from '../stores.ts';
+import { words } from '../../i18n/whole.ts';
+import { useCards } from '../animate/frames/useCards.ts';
 import { Button } from '../../ui/Button.tsx';
+import { cx } from '../../ui/cx.ts';
+import { Icon } from '../../ui/Icon.tsx';
+import { useDragOrder, type DragOrder } from '../../ui/useDragOrder.ts';
+import { nameAndKey } from './macroText.ts';
+import { MacroFace } from './MacroFace.tsx';
 import { EmptyState, type EmptyStateProps } from '../../ui/EmptyState.tsx';
 import { Panel } from '../../ui/Panel.tsx';
 import { Toggle } from '../../ui/Toggle.tsx';
 import { UndoTools } from '../undo/UndoTools.tsx';
-import { words } from '../../i18n/whole.ts';
-import { EditGrid } from './EditGrid.tsx';
 import { MacroEditor } from './MacroEditor.tsx';
 import { MacroGrid } from './MacroGrid.tsx';
 import styles from './Macros.module.css';
-import { useAddMacro } from './useAddMacro.ts';
+
+// A new button at the end of the page, open to be filled.
+
+function useAddMacro(): () => void {
+  const { macros, view } = useStores();
+  return () => {
+    const { nextId } = macros.store.getState().present;
+    const name = words.macros.newName({ number: nextId });
+    macros.edit(
+      () => words.macros.edits.add({ name }),
+      (page) => addMacro(page, name, []),
+    );
+    view.setState({ selectedButton: nextId, editsButtons: true });
+  };
+}
+
+// The buttons while they are changed: a press selects, a drag or Alt with an arrow moves. Nothing starts.
+
+function EditGrid() {
+  const { macros, view, notices } = useStores();
+  const add = useAddMacro();
+  const list = useMacros(({ present }) => present.macros);
+  const selected = useView((state) => state.selectedButton);
+  const ids = list.map(({ id }) => id);
+  const nameOf = (id: number): string => list.find((macro) => macro.id === id)?.name ?? '';
+  const cards = useCards<HTMLUListElement>({
+    ...{ ids, selected, attribute: 'data-macro' },
+    select: (id) => view.setState({ selectedButton: id }),
+    move(id, to) {
+      macros.edit(
+        () => words.macros.edits.move({ name: nameOf(id) }),
+        (page) => moveMacro(page, id, to),
+      );
+      view.setState({ selectedButton: id });
+      notices.say(words.macros.moved({ from: ids.indexOf(id) + 1, to: to + 1 }));
+    },
+    remove(id, next) {
+      macros.edit(
+        () => words.macros.edits.delete({ name: nameOf(id) }),
+        (page) => removeMacro(page, id),
+      );
+      view.setState({ selectedButton: next });
+    },
+  });
+  const { list: gridRef, tabStop, key } = cards;
+
+  return (
+    <ul ref={gridRef} className={styles.grid} aria-label={words.macros.list} onKeyDown={key}>
+      {list.map((macro) => (
+        <EditCard
+          key={macro.id}
+          macro={macro}
+          isSelected={macro.id === selected}
+          isTabStop={macro.id === tabStop}
+        />
+      ))}
+      <li className={styles.add}>
+        <Button icon="plus" wide onPress={add}>
+          {words.macros.add}
+        </Button>
+      </li>
+    </ul>
+  );
+}
+
+interface EditCardProps {
+  readonly macro: Macro;
+  readonly isSelected: boolean;
+  readonly isTabStop: boolean;
+}
+
+function EditCard({ macro, isSelected, isTabStop }: EditCardProps) {
+  const { view } = useStores();
+  const { isDragged, startDrag } = useMacroDrag(macro);
+  return (
+    <li data-macro={macro.id} className={cx(styles.card, isDragged && styles.dragged)}>
+      <button
+        type="button"
+        data-card-face=""
+        className={styles.button}
+        data-colour={macro.colour}
+        aria-label={nameAndKey(macro)}
+        aria-pressed={isSelected}
+        tabIndex={isTabStop ? 0 : -1}
+        onClick={() => view.setState({ selectedButton: macro.id })}
+      >
+        <MacroFace macro={macro} progress={null} />
+      </button>
+      <span className={styles.grip} aria-hidden="true" onPointerDown={startDrag}>
+        <Icon name="grip" />
+      </span>
+    </li>
+  );
+}
+
+function useMacroDrag({ id, name }: Macro): DragOrder {
+  const { macros, view } = useStores();
+  return useDragOrder({
+    attribute: 'data-macro',
+    begin() {
+      macros.begin(() => words.macros.edits.move({ name }));
+      view.setState({ selectedButton: id });
+    },
+    over(other) {
+      const to = macros.store.getState().present.macros.findIndex((macro) => macro.id === other);
+      if (to >= 0) macros.preview((page) => moveMacro(page, id, to));
+    },
+    commit: () => macros.commit(),
+    cancel: () => macros.cancel(),
+  });
+}
 
 export function ButtonsPage() {
   const edits = useView((state) => state.editsButtons);

@@ -1,15 +1,52 @@
 // The buttons in use: large, for fingers, keys and children. One is at work at a time.
 
+import { useEffect, useEffectEvent } from 'react';
 import { useStore } from 'zustand';
 import type { Macro } from '#shared/profile/macro.ts';
+import { useStores, useMacros, useSnapshot } from '../stores.ts';
+import { macroKey } from './macroKey.ts';
 import { startHindrance } from '../../robot/readiness.ts';
-import { useMacros, useSnapshot, useStores } from '../stores.ts';
 import { nameAndKey } from './macroText.ts';
 import { words } from '../../i18n/whole.ts';
 import { MacroFace } from './MacroFace.tsx';
-import { useMacroKeys } from './useMacroKeys.ts';
-import { useMacroPress } from './useMacroPress.ts';
 import styles from './Macros.module.css';
+
+// What pressing a button does: it starts, or ends where it is at work already.
+
+function useMacroPress(): (macro: Macro) => void {
+  const { macroRun } = useStores();
+  return (macro) => {
+    if (macroRun.store.getState()?.macroId === macro.id) macroRun.end();
+    else macroRun.start(macro);
+  };
+}
+
+// Keys that start buttons, from anywhere on the page but a field or a dialog. A key counts once until it is let go;
+// when the window loses the focus all are, because their release is never heard of.
+
+const TYPING =
+  'input:not([type=radio], [type=checkbox], [type=range]), select, textarea, [role=dialog], [role=alertdialog]';
+
+function useMacroKeys(pressed: (key: string) => void): void {
+  const press = useEffectEvent(pressed);
+  useEffect(() => {
+    const held = new Set<string>();
+    const ended = new AbortController();
+    const { signal } = ended;
+    window.addEventListener('keydown', (event) => down(event, held, press), { signal });
+    window.addEventListener('keyup', ({ key }) => held.delete(key.toLowerCase()), { signal });
+    window.addEventListener('blur', () => held.clear(), { signal });
+    return () => ended.abort();
+  }, []);
+}
+
+function down(event: KeyboardEvent, held: Set<string>, press: (key: string) => void): void {
+  const key = macroKey(event);
+  const isTyping = event.target instanceof Element && event.target.closest(TYPING) !== null;
+  if (key === null || isTyping || event.defaultPrevented || held.has(key)) return;
+  held.add(key);
+  press(key);
+}
 
 export function MacroGrid() {
   const macros = useMacros(({ present }) => present.macros);

@@ -2,22 +2,93 @@
 // of its own: its marks are drawn, and its value is written past React.
 
 import { useRef, type KeyboardEvent } from 'react';
+import type { RobotServo } from '#shared/profile/robot.ts';
+import type { Range, Family } from '#shared/codec/families.ts';
+import { cx } from '../../ui/cx.ts';
+import { between, figuresAt } from './limitPlaces.ts';
+import { type Scale, stepped } from './scale.ts';
+import type { Size } from '../picture/Canvas.tsx';
+import { Drawing } from '../picture/Drawing.tsx';
 import { motionInFrame } from '../picture/motionInFrame.ts';
 import { fraction } from '../picture/pose.ts';
-import type { RobotServo } from '#shared/profile/robot.ts';
-import type { Family, Range } from '#shared/codec/families.ts';
 import { useStores } from '../stores.ts';
-import { cx } from '../../ui/cx.ts';
+import { paintMarks, thumbOf, type Thumb } from './paintMarks.ts';
 import { words } from '../../i18n/words.ts';
-import { Limits } from './Limits.tsx';
-import { between } from './limitPlaces.ts';
-import { stepped, type Scale } from './scale.ts';
-import { SliderMarks } from './SliderMarks.tsx';
 import { useDrag } from './useDrag.ts';
 import { targetOf, useSaidTarget } from './useTarget.ts';
+import limitsStyles from './Limits.module.css';
+import sliderMarksStyles from './SliderMarks.module.css';
 import styles from './PositionSlider.module.css';
 
-export interface PositionSliderProps {
+// A servo's limits in figures, at the ends of the way between them, or as near as they have room beside each other
+// and the estimate.
+
+interface LimitsProps {
+  readonly servo: RobotServo;
+  readonly range: Range;
+  readonly scale: Scale;
+}
+
+function Limits({ servo, range, scale }: LimitsProps) {
+  const ends = [scale.digits(servo.min), scale.digits(servo.max)] as const;
+  return (
+    <div
+      className={cx(limitsStyles.limits, limitsStyles[figuresAt(servo, range, ends)])}
+      style={between(servo, range)}
+      aria-hidden="true"
+    >
+      {ends.map((end, index) => (
+        <span key={index}>{end}</span>
+      ))}
+    </div>
+  );
+}
+
+// The marks that move on a slider: the thumb is the target, the bar below it the estimate. On a canvas, because
+// dozens of them change in each frame.
+
+interface SliderMarksProps {
+  readonly servo: number;
+  /** From the track's one end to its other. */
+  readonly range: Range;
+  readonly isKnown: boolean;
+  readonly isBlocked: boolean;
+  thumbAt(): number;
+  isHeld(): boolean;
+}
+
+function SliderMarks({ servo, range, isKnown, isBlocked, thumbAt, isHeld }: SliderMarksProps) {
+  const { device } = useStores();
+  const place = useRef<HTMLDivElement>(null);
+  const measured = useRef<{ readonly size: Size; readonly thumb: Thumb } | null>(null);
+
+  /** Its measures are the style sheet's, and another only where the size of all of it is. */
+  function thumbIn(size: Size): Thumb | null {
+    if (place.current === null) return null;
+    if (measured.current?.size !== size) measured.current = { size, thumb: thumbOf(place.current) };
+    return measured.current.thumb;
+  }
+
+  return (
+    <div ref={place} className={sliderMarksStyles.marks}>
+      <Drawing
+        className={sliderMarksStyles.canvas}
+        shown={() => {
+          const { estimated } = motionInFrame(device, servo);
+          const estimate = estimated === null ? null : fraction(estimated, range);
+          return [fraction(thumbAt(), range), estimate, isHeld(), isKnown, isBlocked] as const;
+        }}
+        paint={(pen, [target, estimate, isHeldNow, isKnownNow, isBlockedNow]) => {
+          const thumb = thumbIn(pen.size);
+          const state = { isHeld: isHeldNow, isKnown: isKnownNow, isBlocked: isBlockedNow };
+          if (thumb !== null) paintMarks(pen, thumb, { target, estimate, ...state });
+        }}
+      />
+    </div>
+  );
+}
+
+interface PositionSliderProps {
   readonly servo: RobotServo;
   readonly family: Family;
   readonly scale: Scale;

@@ -1,27 +1,47 @@
 // One servo: dial, name, slider, value. Its target and its estimate are drawn past React, so that dozens may move in each frame.
 
 import { memo, useRef } from 'react';
-import { servoOf, type RobotServo } from '#shared/profile/robot.ts';
+import { fromBoard, servoOf, type RobotServo } from '#shared/profile/robot.ts';
+import { useRobot, useSnapshot, useStores, useDevice, useGuess, useServoView, useView } from '../stores.ts';
+import { Chip } from '../../ui/Chip.tsx';
+import { useNow } from '../../ui/useNow.ts';
+import { words, useWords } from '../../i18n/words.ts';
+import { type Scale, scaleOf, stepped } from './scale.ts';
 import { MovingText } from '../picture/MovingText.tsx';
 import { mayBrush, motionHindrance, tellsPositions } from '../../robot/readiness.ts';
 import { isHeld } from './servoView.ts';
-import { useDevice, useGuess, useServoView, useSnapshot, useStores, useView } from '../stores.ts';
 import { cx } from '../../ui/cx.ts';
 import { Sight, useSight } from '../../ui/sight.ts';
 import { NumberField } from '../../ui/NumberField.tsx';
 import { servoLabel } from '../../i18n/sentences/servos.ts';
-import { useWords, words } from '../../i18n/words.ts';
 import { Estimate } from './Estimate.tsx';
 import { PositionSlider } from './PositionSlider.tsx';
-import { Reported } from './Reported.tsx';
-import { scaleOf, stepped, type Scale } from './scale.ts';
 import { ServoName } from './ServoName.tsx';
 import { useHand } from './useHand.ts';
 import { targetOf } from './useTarget.ts';
 import { useWheelSteps } from './useWheelSteps.ts';
+import reportedStyles from './Reported.module.css';
 import styles from './ServoRow.module.css';
 
-export interface ServoRowProps {
+// Where the board says that a servo stands, and how long ago it said so: the one figure here that nobody computed.
+
+const AGE_REFRESH_MS = 1000;
+
+function Reported({ servo, scale }: { readonly servo: number; readonly scale: Scale }) {
+  const { device } = useStores();
+  const robot = useRobot();
+  const reading = useSnapshot((snapshot) => snapshot.reported[servo]);
+  const nowMs = useNow(device.clock.now, AGE_REFRESH_MS);
+  if (reading === undefined) return null;
+  return (
+    <span className={reportedStyles.reported} role="group" title={words.truth.confirmed}>
+      <Chip truth="confirmed">{scale.digits(fromBoard(robot, servo, reading.position))}</Chip>
+      <span className={reportedStyles.age}>{words.numbers.formatAge(nowMs - reading.atMs)}</span>
+    </span>
+  );
+}
+
+interface ServoRowProps {
   readonly servo: RobotServo;
   /** All servos of the list from top to bottom, for selecting a stretch of it. */
   readonly order: readonly number[];

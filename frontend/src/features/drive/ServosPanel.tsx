@@ -1,25 +1,218 @@
 // Live control: the picture of the robot and a row per servo, or the servos on the body and a row for the one at hand. Where moving is not possible now it says why, and keeps every
 // control in its place.
 
-import { Body } from '../picture/Body.tsx';
-import { motionHindrance } from '../../robot/readiness.ts';
-import { GENTLE_MOVE_MS } from '../../robot/moveTime.ts';
-import { useIsTeaching, useRobot, useSnapshot, useStores, useView } from '../stores.ts';
-import { Button } from '../../ui/Button.tsx';
-import { cx } from '../../ui/cx.ts';
-import { laterComponent } from '../../ui/later.tsx';
-import { Panel } from '../../ui/Panel.tsx';
-import { Choice } from '../../ui/Toggle.tsx';
-import { useLayout } from '../../ui/useLayout.ts';
+import { useState } from 'react';
+import { servoOf } from '#shared/profile/robot.ts';
+import {
+  useStores,
+  useRobot,
+  useServoView,
+  useDevice,
+  useIsGuessing,
+  useView,
+  editServoView,
+  useIsTeaching,
+  useSnapshot,
+} from '../stores.ts';
+import { LiveText } from '../../ui/LiveText.tsx';
 import { words } from '../../i18n/words.ts';
-import { Legend } from './Legend.tsx';
-import { MoveTimeControl } from './MoveTimeControl.tsx';
-import { SelectionBar } from './SelectionBar.tsx';
-import { ServoAtHand } from './ServoAtHand.tsx';
+import { sentSince } from './sentSince.ts';
+import { SharedSheet } from '../picture/SharedSheet.tsx';
+import { ServoRow } from './ServoRow.tsx';
+import { tellsPositions, motionHindrance } from '../../robot/readiness.ts';
+import { Chip } from '../../ui/Chip.tsx';
+import { Choice } from '../../ui/Toggle.tsx';
+import { select, type ServoView } from './servoView.ts';
+import { Button } from '../../ui/Button.tsx';
+import { laterComponent } from '../../ui/later.tsx';
+import { NumberField } from '../../ui/NumberField.tsx';
+import { Body } from '../picture/Body.tsx';
+import { GENTLE_MOVE_MS } from '../../robot/moveTime.ts';
+import { cx } from '../../ui/cx.ts';
+import { Panel } from '../../ui/Panel.tsx';
+import { useLayout } from '../../ui/useLayout.ts';
 import { ServoList } from './ServoList.tsx';
 import { ServoTalk } from './ServoTalk.tsx';
 import { useHand } from './useHand.ts';
+import moveTimeControlStyles from './MoveTimeControl.module.css';
+import servoAtHandStyles from './ServoAtHand.module.css';
+import legendStyles from './Legend.module.css';
+import selectionBarStyles from './SelectionBar.module.css';
 import styles from './ServosPanel.module.css';
+
+// How busy the wire is: packets sent in the last second, and servos whose newest target still waits for it. For the
+// eye only.
+
+const WINDOW_MS = 1000;
+
+function SendRate() {
+  const { device } = useStores();
+  return (
+    <LiveText
+      isSilent
+      text={() =>
+        words.servoPanel.sending({
+          packetsPerSecond: sentSince(device.traffic, device.clock.now() - WINDOW_MS),
+          waiting: device.waiting(),
+        })
+      }
+      eachMs={WINDOW_MS}
+      className={moveTimeControlStyles.rate}
+      title={words.servoPanel.sendingHint}
+    />
+  );
+}
+
+// Beside the body: the controls of the servo that was selected last. Others that are selected move with it.
+
+const ALONE: readonly number[] = [];
+
+function ServoAtHand() {
+  const robot = useRobot();
+  const last = useServoView(({ selected }) => selected.at(-1));
+  const servo = last === undefined ? undefined : servoOf(robot, last);
+  return (
+    <div className={servoAtHandStyles.place}>
+      {servo === undefined ? (
+        <p className={servoAtHandStyles.hint}>{words.servoPanel.atHandHint}</p>
+      ) : (
+        <SharedSheet>
+          <ol>
+            <ServoRow key={servo.servo} servo={servo} order={ALONE} />
+          </ol>
+        </SharedSheet>
+      )}
+    </div>
+  );
+}
+
+// The marks of a position in words, once, where they are used most, and the unit positions are shown in.
+
+function Legend() {
+  const { view } = useStores();
+  const isTelling = useDevice((state) => tellsPositions(state.family));
+  const isGuessing = useIsGuessing();
+  const unit = useDevice((state) => state.family.unit);
+  const positionsIn = useView((state) => state.positionsIn);
+  return (
+    <div className={legendStyles.line}>
+      <ul className={legendStyles.legend} aria-label={words.truth.legend}>
+        {(isTelling ? ALL : COMPUTED).map((truth) => (
+          <li key={truth}>
+            <Chip truth={truth}>{words.truth[truth]}</Chip>
+          </li>
+        ))}
+        {isGuessing && (
+          <li>
+            <Chip truth="guessed">{words.firstMoves.guess}</Chip>
+          </li>
+        )}
+      </ul>
+      <Choice
+        label={words.servoPanel.positionsIn}
+        value={positionsIn}
+        options={[
+          { value: 'board', label: words.units[unit] },
+          { value: 'degrees', label: words.servoPanel.degrees },
+        ]}
+        onChange={(wanted) => view.setState({ positionsIn: wanted })}
+      />
+    </div>
+  );
+}
+
+const COMPUTED = ['commanded', 'estimated', 'unknown'] as const;
+const ALL = ['commanded', 'estimated', 'confirmed', 'unknown'] as const;
+
+// What is selected, or what may be. As high in both cases.
+
+const Selected = laterComponent(
+  async () => (await import('./Selected.tsx')).Selected,
+  'calc(var(--control) + 2px)',
+);
+
+/** `hint` is what is said while nothing is selected. */
+function SelectionBar({ hint }: { readonly hint: string }) {
+  const selected = useServoView((view) => view.selected);
+  return (
+    <div className={selectionBarStyles.bar} role="group" aria-label={words.servoPanel.selection}>
+      {selected.length === 0 ? <NothingSelected hint={hint} /> : <Selected selected={selected} />}
+    </div>
+  );
+}
+
+function NothingSelected({ hint }: { readonly hint: string }) {
+  const stores = useStores();
+  const { servos } = useRobot();
+  const hidden = useServoView((view) => view.hidden);
+  const isSomeHeld = useServoView(({ locked, solo }) => locked.length + solo.length > 0);
+  const edit = (change: Partial<ServoView>): void =>
+    editServoView(stores, (view) => ({ ...view, ...change }));
+  const shown = servos.map(({ servo }) => servo).filter((servo) => !hidden.includes(servo));
+  return (
+    <div className={selectionBarStyles.line}>
+      <Button tone="quiet" onPress={() => editServoView(stores, (view) => select(view, shown))}>
+        {words.servoPanel.selectAll}
+      </Button>
+      {isSomeHeld && (
+        <Button tone="quiet" icon="lock" onPress={() => edit({ locked: [], solo: [] })}>
+          {words.servoPanel.unlockAll}
+        </Button>
+      )}
+      {hidden.length > 0 && (
+        <Button tone="quiet" onPress={() => edit({ hidden: [] })}>
+          {words.servoPanel.showHidden({ count: hidden.length })}
+        </Button>
+      )}
+      {!isSomeHeld && hidden.length === 0 && <span className={selectionBarStyles.hint}>{hint}</span>}
+    </div>
+  );
+}
+
+// How long a move from the sliders takes: following the hand, or a set time.
+
+const USUAL_MS = 1000;
+
+function MoveTimeControl() {
+  const { view, notices } = useStores();
+  const moveTime = useView((state) => state.moveTime);
+  const { min, max } = useDevice((state) => state.family.durationMs);
+  const [lastMs, setLastMs] = useState(USUAL_MS);
+  const isTimed = moveTime !== 'hand';
+  const setMs = (durationMs: number): void => {
+    setLastMs(durationMs);
+    view.setState({ moveTime: durationMs });
+  };
+  return (
+    <div className={moveTimeControlStyles.control}>
+      <span className={moveTimeControlStyles.label} aria-hidden="true">
+        {words.servos.moveTime}
+        <SendRate />
+      </span>
+      <Choice
+        label={words.servos.moveTime}
+        value={isTimed ? 'timed' : 'hand'}
+        options={(['hand', 'timed'] as const).map((value) => ({
+          value,
+          label: words.servos.moveTimes[value],
+        }))}
+        onChange={(choice) => view.setState({ moveTime: choice === 'hand' ? 'hand' : lastMs })}
+      />
+      <NumberField
+        label={words.servos.moveTimeField}
+        value={isTimed ? moveTime : lastMs}
+        min={min}
+        max={max}
+        step={100}
+        unit={words.servos.ms}
+        isDisabled={!isTimed}
+        onChange={setMs}
+        onRefused={(value) => notices.refuse(words.refused({ name: words.servos.moveTime, value, min, max }))}
+      />
+      <p className={moveTimeControlStyles.about}>{words.servos.moveTimeAbout[isTimed ? 'timed' : 'hand']}</p>
+    </div>
+  );
+}
 
 const BodyMap = laterComponent(async () => (await import('../picture/BodyMap.tsx')).BodyMap, '100%');
 

@@ -4,7 +4,7 @@ import { evenly } from '#shared/testing/evenlyUnderTest.ts';
 import { readyRobot } from '#shared/profile/readyRobots.ts';
 import { degreesOf, type RobotServo } from '#shared/profile/robot.ts';
 import { robotNames } from '../../i18n/sentences/robots.ts';
-import { moveGang, weightOf, type Member } from './gang.ts';
+import { moveGang, weightOf, type Member } from './useHand.ts';
 
 const servos = readyRobot('arm', 'doc', robotNames('arm')).servos;
 const member = (servo: number, weight = 1, change: Partial<RobotServo> = {}): Member => ({

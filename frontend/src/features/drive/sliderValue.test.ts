@@ -1,7 +1,7 @@
 import fc from 'fast-check';
 import { expect, test } from 'vitest';
 import { evenly } from '#shared/testing/evenlyUnderTest.ts';
-import { gripOf, isSideways, placeOf, valueAt } from './sliderValue.ts';
+import { gripOf, isSideways, placeOf, valueAt } from './useDrag.ts';
 
 const way = { fromPx: 100, lengthPx: 200, min: 500, max: 2_500 };
 const px = evenly(-500, 2_000);

@@ -1,21 +1,174 @@
 // Driving by keys and pad: the switch, the picture of what is held, how it feels, and which input does what.
 
-import { servoBoundBy } from '#shared/profile/mapping.ts';
+import { useRef } from 'react';
+import { conflicts, type Conflict, type Mapping, servoBoundBy } from '#shared/profile/mapping.ts';
+import type { PoseBook } from '#shared/profile/pose.ts';
+import type { Robot } from '#shared/profile/robot.ts';
+import {
+  useMapping,
+  usePoses,
+  useRobot,
+  usePad,
+  useStores,
+  useDevice,
+  useServoView,
+  useSnapshot,
+} from '../stores.ts';
+import { Mark } from '../../ui/Chip.tsx';
+import { inputName } from './inputText.ts';
+import { words } from '../../i18n/whole.ts';
+import { rowTitle, servoTitle } from './rows.ts';
+import { useEachFrame } from '../../ui/useEachFrame.ts';
 import { GENTLE_MOVE_MS } from '../../robot/moveTime.ts';
 import { motionHindrance } from '../../robot/readiness.ts';
 import { isHeld } from '../drive/servoView.ts';
-import { useDevice, useMapping, usePad, useRobot, useServoView, useSnapshot, useStores } from '../stores.ts';
 import { Button } from '../../ui/Button.tsx';
 import type { PanelParts } from '../../ui/Panel.tsx';
 import { Toggle } from '../../ui/Toggle.tsx';
 import { UndoTools } from '../undo/UndoTools.tsx';
 import { servoLabel } from '../../i18n/sentences/servos.ts';
-import { words } from '../../i18n/whole.ts';
 import { Bindings } from './Bindings.tsx';
-import { Conflicts } from './Conflicts.tsx';
 import { FeelControls } from './FeelControls.tsx';
-import { PadPicture } from './PadPicture.tsx';
+import conflictsStyles from './Conflicts.module.css';
+import padPictureStyles from './PadPicture.module.css';
 import styles from './PadPanel.module.css';
+
+// What two bindings have against each other, in words. Nothing is shown where all is well.
+
+function Conflicts() {
+  const mapping = useMapping();
+  const robot = useRobot();
+  const book = usePoses(({ present }) => present);
+  const found = conflicts(mapping);
+  if (found.length === 0) return null;
+  return (
+    <ul className={conflictsStyles.list} aria-label={words.pad.conflicts}>
+      {found.map((conflict) => {
+        const sentence = sentenceOf(conflict, mapping, robot, book);
+        return (
+          <li key={sentence} className={conflictsStyles.conflict}>
+            <Mark truth="warning" />
+            {sentence}
+          </li>
+        );
+      })}
+    </ul>
+  );
+}
+
+function sentenceOf(conflict: Conflict, { bindings }: Mapping, robot: Robot, book: PoseBook): string {
+  if (conflict.kind === 'sharedServo')
+    return words.pad.sharedServo({ name: servoTitle(robot, conflict.servo) });
+  const [one, other] = [bindings[conflict.one], bindings[conflict.other]];
+  if (one === undefined || other === undefined) return '';
+  const [first, second] = [one, other].map((binding) => rowTitle(binding, robot, book));
+  const input = inputName(other.input);
+  return first === second
+    ? words.pad.sameInputTwice({ input, one: first ?? '' })
+    : words.pad.sameInput({ input, one: first ?? '', other: second ?? '' });
+}
+
+// A standard pad, alive: sticks move, buttons light up, triggers fill. Painted once a frame past React; for the eye
+// only, the list of bindings says the same in words.
+
+/** Places by the number of the browser's standard pad. */
+const ROUND: readonly (readonly [index: number, x: number, y: number, radius: number])[] = [
+  [0, 178, 84, 9],
+  [1, 196, 68, 9],
+  [2, 160, 68, 9],
+  [3, 178, 52, 9],
+  [8, 104, 58, 5],
+  [9, 136, 58, 5],
+  [16, 120, 74, 7],
+];
+const SQUARE: readonly (readonly [index: number, x: number, y: number, width: number, height: number])[] = [
+  [4, 38, 27, 48, 9],
+  [5, 154, 27, 48, 9],
+  [12, 56, 47, 12, 14],
+  [13, 56, 75, 12, 14],
+  [14, 41, 62, 14, 12],
+  [15, 69, 62, 14, 12],
+];
+const TRIGGERS: readonly (readonly [index: number, x: number])[] = [
+  [6, 42],
+  [7, 162],
+];
+const STICKS: readonly (readonly [axis: number, button: number, x: number])[] = [
+  [0, 10, 90],
+  [2, 11, 150],
+];
+const STICK_Y = 108;
+/** How far a knob goes from the middle. */
+const THROW = 11;
+
+function PadPicture() {
+  const { pad } = useStores();
+  const seen = usePad((state) => state.pad);
+  const drawing = useRef<SVGSVGElement>(null);
+
+  useEachFrame(() => {
+    const { axes, buttons } = pad.inputs();
+    for (const part of drawing.current?.querySelectorAll<SVGElement>('[data-button]') ?? []) {
+      const value = buttons[Number(part.dataset.button)] ?? 0;
+      part.dataset.held = String(value > 0.1);
+      part.style.setProperty('--value', value.toFixed(2));
+    }
+    for (const knob of drawing.current?.querySelectorAll<SVGElement>('[data-axis]') ?? []) {
+      const axis = Number(knob.dataset.axis);
+      const [x, y] = [axes[axis] ?? 0, axes[axis + 1] ?? 0].map((way) => (way * THROW).toFixed(1));
+      knob.style.translate = `${x}px ${y}px`;
+    }
+  });
+
+  return (
+    <figure className={padPictureStyles.figure} data-absent={seen === null}>
+      <svg
+        ref={drawing}
+        className={padPictureStyles.drawing}
+        viewBox="0 0 240 160"
+        role="img"
+        aria-label={words.pad.picture}
+      >
+        <path className={padPictureStyles.body} d={BODY} />
+        {TRIGGERS.map(([index, x]) => (
+          <g key={index} data-button={index}>
+            <rect x={x} y={6} width={36} height={16} rx={5} className={padPictureStyles.part} />
+            <rect x={x} y={6} width={36} height={16} rx={5} className={padPictureStyles.fill} />
+          </g>
+        ))}
+        {SQUARE.map(([index, x, y, width, height]) => (
+          <rect
+            key={index}
+            data-button={index}
+            {...{ x, y, width, height }}
+            rx={3}
+            className={padPictureStyles.part}
+          />
+        ))}
+        {ROUND.map(([index, cx, cy, r]) => (
+          <circle key={index} data-button={index} {...{ cx, cy, r }} className={padPictureStyles.part} />
+        ))}
+        {STICKS.map(([axis, button, cx]) => (
+          <g key={axis}>
+            <circle cx={cx} cy={STICK_Y} r={20} className={padPictureStyles.well} />
+            <g data-axis={axis}>
+              <circle cx={cx} cy={STICK_Y} r={12} data-button={button} className={padPictureStyles.part} />
+            </g>
+          </g>
+        ))}
+      </svg>
+      <figcaption className={padPictureStyles.caption}>{captionOf(seen)}</figcaption>
+    </figure>
+  );
+}
+
+const BODY =
+  'M62 30h116c26 0 40 18 47 50 7 33 10 62-8 68-16 5-26-20-38-20H61c-12 0-22 25-38 20-18-6-15-35-8-68 7-32 21-50 47-50z';
+
+function captionOf(seen: { readonly name: string; readonly isStandard: boolean } | null): string {
+  if (seen === null) return words.pad.noPad;
+  return seen.isStandard ? seen.name : words.pad.otherPad;
+}
 
 export const padParts: PanelParts = {
   title: () => words.pad.title,

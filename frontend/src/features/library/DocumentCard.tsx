@@ -1,16 +1,38 @@
 // One group of the library: its picture opens it, and more about it unfolds in place.
 
+import { useStore } from 'zustand';
 import { memo, type Ref } from 'react';
+import type { GroupFacts } from '#shared/files/factsShape.ts';
+import { familyOfUnit } from '#shared/profile/counterpart.ts';
+import { FAMILIES } from '#shared/codec/families.ts';
 import type { Listed } from '#shared/files/keeper.ts';
-import { useLibrary, useStores } from '../stores.ts';
+import { BarThumb, RobotThumb } from '../picture/PoseThumb.tsx';
+import { useStores, useLibrary } from '../stores.ts';
 import { Button, IconButton } from '../../ui/Button.tsx';
 import { cx } from '../../ui/cx.ts';
 import { words } from '../../i18n/whole.ts';
 import { DocumentDetails } from './DocumentDetails.tsx';
-import { DocumentThumb } from './DocumentThumb.tsx';
 import styles from './Library.module.css';
 
-export interface DocumentCardProps {
+// The picture of a group: its robot in the pose of the middle frame, or bars where that robot is not known here.
+
+function DocumentThumb({ facts }: { readonly facts: GroupFacts }) {
+  const { robots } = useStores();
+  const robot = useStore(
+    robots.store,
+    ({ present }) => present.own.find((one) => one.robot.name === facts.robot)?.robot,
+  );
+  const pose = new Map(facts.pose.map(({ servo, position }) => [servo, position]));
+  const isFitting = robot !== undefined && FAMILIES[robot.board].unit === facts.unit;
+  const rest = { pose, changed: [...pose.keys()], family: familyOfUnit(facts.unit) };
+  return isFitting ? (
+    <RobotThumb {...rest} robot={robot} family={FAMILIES[robot.board]} />
+  ) : (
+    <BarThumb {...rest} />
+  );
+}
+
+interface DocumentCardProps {
   /** Where its height stands for that of its row. */
   readonly ref?: Ref<HTMLLIElement>;
   readonly row: number;

@@ -1,16 +1,108 @@
 // The groups of the library: found by name, robot or tag, opened by their picture. While it is open it shows what others
 // change, too.
 
-import { useEffect, useMemo, useState } from 'react';
+import { useState, useEffect, useMemo } from 'react';
+import { createLibraryFiles } from './libraryFiles.ts';
 import { useLibrary, useStores } from '../stores.ts';
+import { Button } from '../../ui/Button.tsx';
+import { FileButton } from '../../ui/FileButton.tsx';
+import { saveFile } from '../../ui/saveFile.ts';
+import { words } from '../../i18n/whole.ts';
+import { Select } from '../../ui/Select.tsx';
+import { Toggle } from '../../ui/Toggle.tsx';
+import { SORTS, type Wish, arranged, tagsIn } from './arrange.ts';
+import { cx } from '../../ui/cx.ts';
 import { useNow } from '../../ui/useNow.ts';
 import { EmptyState } from '../../ui/EmptyState.tsx';
-import { words } from '../../i18n/whole.ts';
-import { arranged, tagsIn, type Wish } from './arrange.ts';
 import { DocumentList } from './DocumentList.tsx';
-import { LibraryFinder } from './LibraryFinder.tsx';
-import { LibraryFiles } from './LibraryFiles.tsx';
 import styles from './Library.module.css';
+import field from '../../ui/Field.module.css';
+
+// A new group, and the whole library to a file and from one. An import adds to what is there.
+
+function LibraryFiles({ onDone }: { onDone(): void }) {
+  const { library, notices } = useStores();
+  const [files] = useState(() => createLibraryFiles(library.forFiles));
+  const isEmpty = useLibrary(({ documents }) => documents.every(({ isRemoved }) => isRemoved));
+
+  const take = ([file]: readonly File[]): void =>
+    void file?.text().then(files.importText, () => notices.tell('warning', words.library.unreadableFile));
+
+  async function save(): Promise<void> {
+    const text = await files.exportText();
+    if (text !== null) saveFile({ name: `${words.library.fileName}.json`, text });
+  }
+
+  return (
+    <div className={styles.files}>
+      <Button
+        tone="primary"
+        icon="plus"
+        onPress={() => {
+          library.create();
+          onDone();
+        }}
+      >
+        {words.library.create}
+      </Button>
+      <span className={styles.gap} />
+      <FileButton accept=".json,application/json" onChoose={take}>
+        {words.library.import}
+      </FileButton>
+      <Button icon="save" isDisabled={isEmpty} onPress={() => void save()}>
+        {words.library.export}
+      </Button>
+    </div>
+  );
+}
+
+// What is looked for in the library: words, a tag, an order, the trash.
+
+interface LibraryFinderProps {
+  readonly wish: Wish;
+  readonly tags: readonly string[];
+  onWish(wish: Wish): void;
+}
+
+function LibraryFinder({ wish, tags, onWish }: LibraryFinderProps) {
+  // A tag whose last group has gone leads nowhere.
+  const offered = tags.includes(wish.tag) || wish.tag === '' ? tags : [wish.tag, ...tags];
+  return (
+    <div className={styles.finder} role="search">
+      <input
+        type="search"
+        className={cx(field.field, styles.field)}
+        aria-label={words.library.search}
+        placeholder={words.library.searchHint}
+        autoComplete="off"
+        value={wish.search}
+        onChange={({ target }) => onWish({ ...wish, search: target.value })}
+      />
+      {offered.length > 0 && (
+        <Select
+          label={words.library.tag}
+          value={wish.tag}
+          options={[
+            { value: '', label: words.library.everyTag },
+            ...offered.map((tag) => ({ value: tag, label: tag })),
+          ]}
+          onChange={(tag) => onWish({ ...wish, tag })}
+        />
+      )}
+      <Select
+        label={words.library.sort}
+        value={wish.sort}
+        options={SORTS.map((sort) => ({ value: sort, label: words.library.sorts[sort] }))}
+        onChange={(sort) => onWish({ ...wish, sort })}
+      />
+      <Toggle
+        label={words.library.showRemoved}
+        isOn={wish.isRemoved}
+        onChange={(isRemoved) => onWish({ ...wish, isRemoved })}
+      />
+    </div>
+  );
+}
 
 /** As cheap as a list is, and as soon as two people beside each other want to see it. */
 const LOOK_EVERY_MS = 3000;

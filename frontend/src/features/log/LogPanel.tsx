@@ -1,23 +1,115 @@
 // The packet log: what went over the link, in words and in bytes, newest last. It can be held, searched, thinned out by kind,
 // saved and cleared; held, packets go on being collected. Below it packets are sent by hand.
 
-import { useDeferredValue, useMemo, useState, useSyncExternalStore } from 'react';
+import { useId, useState, type SyntheticEvent, useDeferredValue, useMemo, useSyncExternalStore } from 'react';
 import { useStore } from 'zustand';
-import { useStores, useView } from '../stores.ts';
 import type { LogEntry } from '../../robot/traffic.ts';
-import type { LogKind } from '../view.ts';
+import { bytesText, meaning, kindOf, lineText } from './describe.ts';
+import { useDevice, useSnapshot, useStores, useView } from '../stores.ts';
 import { Button, IconButton } from '../../ui/Button.tsx';
+import { Toggle } from '../../ui/Toggle.tsx';
+import { cx } from '../../ui/cx.ts';
 import { words } from '../../i18n/whole.ts';
+import { judgeText, obstacleFor, type Judged } from './judgeText.ts';
+import type { LogKind } from '../view.ts';
 import { useWords } from '../../i18n/words.ts';
 import { LogList } from './LogList.tsx';
-import { RawSender } from './RawSender.tsx';
-import { kindOf, lineText } from './describe.ts';
 import { createLogView } from './logView.ts';
 import { saveFile } from '../../ui/saveFile.ts';
 import { logFile } from './savedLog.ts';
-import { searchTest } from './search.ts';
 import { PART } from '../../ui/useParts.ts';
+import rawSenderStyles from './RawSender.module.css';
 import styles from './LogPanel.module.css';
+
+// Finds a line of the log by words or by bytes.
+
+/** Whole bytes in hex, with or without spaces, are looked for in the bytes; everything in the words. Case is no matter. */
+export function searchTest(query: string, locale: string): (entry: LogEntry) => boolean {
+  const wanted = query.trim().toLocaleLowerCase(locale);
+  if (wanted === '') return () => true;
+  const bytes = bytesIn(wanted);
+  return (entry) =>
+    meaning(entry).toLocaleLowerCase(locale).includes(wanted) ||
+    (bytes !== null && bytesText(entry).includes(bytes));
+}
+
+function bytesIn(query: string): string | null {
+  const digits = query.replace(/\s+/gu, '');
+  if (!/^(?:[0-9a-f]{2})+$/u.test(digits)) return null;
+  return digits.toUpperCase().replace(/(..)(?!$)/gu, '$1 ');
+}
+
+// A packet written by hand: says while it is typed what the board would make of it, and sends it only behind a switch
+// that is off whenever the log is opened anew. The session has the last word.
+
+function RawSender() {
+  const { device } = useStores();
+  const family = useDevice((state) => state.family);
+  const snapshot = useSnapshot((state) => state);
+  const [text, setText] = useState('');
+  const [isConsented, setConsented] = useState(false);
+  const judged = judgeText(text, family);
+  const obstacle = obstacleFor(judged, snapshot);
+  const packet = isConsented && obstacle === null ? judged.packet : null;
+  return (
+    <RawForm
+      {...{ text, judged, obstacle, isConsented }}
+      maySend={packet !== null}
+      onText={setText}
+      onConsent={setConsented}
+      onSend={() => {
+        if (packet !== null) device.sendRaw(packet);
+      }}
+    />
+  );
+}
+
+interface RawFormProps {
+  readonly text: string;
+  readonly judged: Judged;
+  /** Why it cannot go now, whatever it says. */
+  readonly obstacle: string | null;
+  readonly isConsented: boolean;
+  readonly maySend: boolean;
+  onText(text: string): void;
+  onConsent(isConsented: boolean): void;
+  onSend(): void;
+}
+
+export function RawForm({ text, judged, obstacle, isConsented, maySend, ...on }: RawFormProps) {
+  const explanationId = useId();
+  function submit(event: SyntheticEvent): void {
+    event.preventDefault();
+    on.onSend();
+  }
+  return (
+    <form className={rawSenderStyles.form} aria-label={words.raw.title} onSubmit={submit}>
+      <input
+        className={rawSenderStyles.field}
+        aria-label={words.raw.field}
+        aria-describedby={explanationId}
+        placeholder={words.raw.example}
+        autoComplete="off"
+        autoCapitalize="characters"
+        spellCheck={false}
+        value={text}
+        onChange={(event) => on.onText(event.target.value)}
+      />
+      <p
+        id={explanationId}
+        className={cx(rawSenderStyles.explanation, judged.isRefused && rawSenderStyles.refused)}
+        aria-live="polite"
+      >
+        {judged.explanation}
+        {obstacle !== null && <span className={rawSenderStyles.obstacle}> {obstacle}</span>}
+      </p>
+      <Toggle label={words.raw.consent} isOn={isConsented} onChange={on.onConsent} />
+      <Button type="submit" isDisabled={!maySend}>
+        {words.raw.send}
+      </Button>
+    </form>
+  );
+}
 
 const KINDS = ['move', 'group', 'battery', 'link', 'noise'] as const satisfies readonly LogKind[];
 

@@ -5,7 +5,7 @@ import { FAMILIES, type FamilyId } from '#shared/codec/families.ts';
 import { fromHex } from '#shared/codec/packet.ts';
 import type { ByteMark } from '#shared/files/recording.ts';
 import { arrowOf, bytesText, kindOf, lineText, meaning } from './describe.ts';
-import { searchTest } from './search.ts';
+import { searchTest } from './LogPanel.tsx';
 
 const line = (mark: ByteMark, hex: string, board: FamilyId = 'doc') =>
   ({ id: 1, board, entry: { atMs: 1_500, mark, bytes: fromHex(hex) } }) as const;

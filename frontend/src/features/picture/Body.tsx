@@ -1,11 +1,113 @@
 // The picture of the robot above its servos: as an arm, by bones, or, where nobody described the body, its dials.
 
-import { useRobot } from '../stores.ts';
+import { useRef } from 'react';
+import type { Family } from '#shared/codec/families.ts';
+import { select } from '../drive/servoView.ts';
+import { editServoView, useDevice, useRobot, useServoView, useStores } from '../stores.ts';
 import { cx } from '../../ui/cx.ts';
-import { Dials } from './Dials.tsx';
+import { Canvas, type Size } from './Canvas.tsx';
+import { words } from '../../i18n/words.ts';
+import { DialFace } from './Dial.tsx';
+import { paintHands, type Spot } from './hands.ts';
+import { motionInFrame } from './motionInFrame.ts';
+import { dialDegrees, halfDegree, type Pose } from './pose.ts';
+import { usePreview } from './usePreview.ts';
 import { LiveArm, LiveBones } from './pictures.ts';
 import { UnknownNote } from './UnknownNote.tsx';
+import overlay from './overlay.module.css';
+import dialsStyles from './Dials.module.css';
 import styles from './Body.module.css';
+
+// The picture of a robot whose body nobody described: a dial for each servo. All hands are one drawing over the
+// faces: dozens of them turn in each frame.
+
+/** So many find room at a size that is read across the room. */
+const FEW = 12;
+
+function Dials() {
+  const stores = useStores();
+  const family = useDevice((state) => state.family);
+  const selected = useServoView((view) => view.selected);
+  const { servos } = useRobot();
+  const list = useRef<HTMLOListElement>(null);
+  return (
+    <div className={dialsStyles.room}>
+      <div className={dialsStyles.board}>
+        <ol ref={list} className={cx(dialsStyles.dials, servos.length > FEW && dialsStyles.many)}>
+          {servos.map(({ servo }) => (
+            <li
+              key={servo}
+              className={cx(dialsStyles.dial, selected.includes(servo) && dialsStyles.selected)}
+              onPointerDown={() => editServoView(stores, (view) => select(view, [servo]))}
+            >
+              <DialFace servo={servo} />
+              {words.numbers.formatWhole(servo)}
+            </li>
+          ))}
+        </ol>
+        <AllHands list={list} servos={servos.map(({ servo }) => servo)} family={family} />
+      </div>
+    </div>
+  );
+}
+
+/** Where the faces are: they move with the size of the board alone. */
+interface Faces {
+  readonly size: Size | null;
+  readonly diameter: number;
+  readonly spots: readonly Spot[];
+}
+
+interface AllHandsProps {
+  readonly list: React.RefObject<HTMLElement | null>;
+  readonly servos: readonly number[];
+  readonly family: Family;
+}
+
+function AllHands({ list, servos, family }: AllHandsProps) {
+  const { device } = useStores();
+  const pose = useRef<Pose | null>(null);
+  const faces = useRef<Faces>({ size: null, diameter: 0, spots: [] });
+  usePreview((now) => (pose.current = now));
+  const turn = (position: number | null): number | null =>
+    position === null ? null : halfDegree(dialDegrees(position, family));
+
+  function facesAt(size: Size): Faces {
+    const isMeasured = faces.current.size === size && faces.current.spots.length === servos.length;
+    if (!isMeasured && list.current !== null) faces.current = { size, ...facesIn(list.current) };
+    return faces.current;
+  }
+
+  return (
+    <Canvas
+      className={overlay.over}
+      shown={() =>
+        servos.flatMap((servo) => {
+          const { target, estimated } = motionInFrame(device, servo);
+          return [turn(target), turn(estimated), turn(pose.current?.(servo) ?? null)];
+        })
+      }
+      paint={({ ctx, look, size }, shown) => {
+        const { diameter, spots } = facesAt(size);
+        const dials = spots.map((spot, index) => {
+          const [target = null, needle = null, preview = null] = shown.slice(3 * index, 3 * index + 3);
+          return { spot, hands: { target, needle, preview } };
+        });
+        paintHands(ctx, look, diameter, dials);
+      }}
+    />
+  );
+}
+
+function facesIn(list: HTMLElement): Pick<Faces, 'diameter' | 'spots'> {
+  const from = list.getBoundingClientRect();
+  const boxes = [...list.querySelectorAll('svg')].map((face) => face.getBoundingClientRect());
+  const spots = boxes.map(({ left, top, width, height }) => ({
+    x: left - from.left + width / 2,
+    y: top - from.top + height / 2,
+  }));
+  return { diameter: boxes[0]?.width ?? 0, spots };
+}
 
 export function Body() {
   const isPlain = useRobot().body === 'plain';

@@ -1,20 +1,58 @@
 // The foot of the poses: keep the pose at hand, and the ways home and to rest, in the time that holds for every pose.
 
-import type { MouseEvent } from 'react';
-import { POSE_VERBS } from '#shared/profile/pose.ts';
+import { useRef, type MouseEvent } from 'react';
+import { poseBookToText, POSE_VERBS } from '#shared/profile/pose.ts';
+import { saveFile } from '../../ui/saveFile.ts';
+import { usePoses, useRobot, useStores, useDevice, useSnapshot, useView } from '../stores.ts';
+import { IconButton, Button, isByKey } from '../../ui/Button.tsx';
+import { words } from '../../i18n/whole.ts';
 import { CaptureButton } from '../animate/frames/CaptureButton.tsx';
 import { poseName } from './poses.ts';
 import { motionHindrance } from '../../robot/readiness.ts';
-import { useDevice, usePoses, useSnapshot, useStores, useView } from '../stores.ts';
-import { Button, isByKey } from '../../ui/Button.tsx';
 import { NumberField } from '../../ui/NumberField.tsx';
-import { words } from '../../i18n/whole.ts';
 import { capturePose } from './capturePose.ts';
-import { PoseFiles } from './PoseFiles.tsx';
 import type { Captured } from './useNaming.ts';
 import styles from './PosesPanel.module.css';
 
-export interface PoseVerbsProps {
+// Poses to a file and from one. An import adds to what is there.
+
+function PoseFiles() {
+  const { poses, notices } = useStores();
+  const book = usePoses(({ present }) => present);
+  const { name } = useRobot();
+  const input = useRef<HTMLInputElement>(null);
+
+  function take(files: FileList | null): void {
+    files?.[0]?.text().then(poses.importText, () => notices.tell('warning', words.poses.unreadableFile));
+  }
+
+  return (
+    <>
+      <input
+        ref={input}
+        type="file"
+        accept=".json,application/json"
+        hidden
+        onChange={({ target }) => {
+          take(target.files);
+          // The same file may be chosen again.
+          target.value = '';
+        }}
+      />
+      <IconButton icon="upload" label={words.poses.import} onPress={() => input.current?.click()} />
+      <IconButton
+        icon="save"
+        label={words.poses.export}
+        isDisabled={book.poses.length === 0}
+        onPress={() =>
+          saveFile({ name: `${words.poses.fileName({ robot: name })}.json`, text: poseBookToText(book) })
+        }
+      />
+    </>
+  );
+}
+
+interface PoseVerbsProps {
   /** A pose that was captured by a key has its name typed next; while keys drive, they go on driving. */
   onNew(captured: Captured): void;
 }

@@ -2,19 +2,165 @@
 // moves only by the buttons that say so.
 
 import { useRef, useState } from 'react';
-import { usePoses, useStores } from '../stores.ts';
+import { type Pose, movePose, removePose, setPose } from '#shared/profile/pose.ts';
+import { strangersTo } from '#shared/profile/poseShapes.ts';
+import type { RobotServo } from '#shared/profile/robot.ts';
+import { useDevice, useRobot, usePoses, useStores, useView } from '../stores.ts';
+import { PoseThumb } from '../picture/PoseThumb.tsx';
+import { EmptyState } from '../../ui/EmptyState.tsx';
+import { words } from '../../i18n/whole.ts';
+import { useCards } from '../animate/frames/useCards.ts';
+import { poseName } from './poses.ts';
+import { PoseCard } from './PoseCard.tsx';
+import { limbsOf } from '../picture/limbs.ts';
 import type { PanelParts } from '../../ui/Panel.tsx';
 import { UndoTools } from '../undo/UndoTools.tsx';
-import { words } from '../../i18n/whole.ts';
 import { BlendBar } from './BlendBar.tsx';
-import { EmptyPoses } from './EmptyPoses.tsx';
-import { PoseList } from './PoseList.tsx';
 import { PoseTools, type Drawer } from './PoseTools.tsx';
 import { PoseVerbs } from './PoseVerbs.tsx';
-import { ServoPicker } from './ServoPicker.tsx';
 import { useNaming } from './useNaming.ts';
 import { useSelectedPose } from './useSelectedPose.ts';
+import emptyPosesStyles from './EmptyPoses.module.css';
 import styles from './PosesPanel.module.css';
+
+// Where there is no pose yet: how some would look, on the robot at hand.
+
+function EmptyPoses() {
+  return <EmptyState title={words.poses.empty} hint={words.poses.emptyHint} sketch={<Sketch />} />;
+}
+
+/** How far each servo is from home, of the way to its limit. */
+const SHARES = [-0.4, 0, 0.4];
+
+function Sketch() {
+  const { servos } = useRobot();
+  const family = useDevice((state) => state.family);
+  return (
+    <div className={emptyPosesStyles.sketch} aria-hidden="true">
+      {SHARES.map((share) => (
+        <span key={share} className={emptyPosesStyles.card}>
+          <PoseThumb
+            pose={new Map(servos.map((one) => [one.servo, turned(one, share)]))}
+            changed={[]}
+            family={family}
+          />
+        </span>
+      ))}
+    </div>
+  );
+}
+
+function turned({ home, min, max }: Record<'home' | 'min' | 'max', number>, share: number): number {
+  return Math.round(home + share * (share < 0 ? home - min : max - home));
+}
+
+// The poses in order, one card each; they wrap like a contact sheet.
+
+function PoseList() {
+  const { poses, view, notices } = useStores();
+  const book = usePoses(({ present }) => present);
+  const selected = useView((state) => state.selectedPose);
+  const ids = book.poses.map(({ id }) => id);
+  const { list, tabStop, key } = useCards<HTMLOListElement>({
+    ...{ ids, selected, attribute: 'data-pose' },
+    select: (id) => view.setState({ selectedPose: id }),
+    move(id, to) {
+      poses.book.edit(
+        () => words.poses.steps.move({ name: poseName(book, id) }),
+        (before) => movePose(before, id, to),
+      );
+      view.setState({ selectedPose: id });
+      notices.say(words.poses.moved({ from: ids.indexOf(id) + 1, to: to + 1 }));
+    },
+    remove(id, next) {
+      poses.book.edit(
+        () => words.poses.steps.delete({ name: poseName(book, id) }),
+        (before) => removePose(before, id),
+      );
+      view.setState({ selectedPose: next });
+    },
+  });
+
+  const marks = ({ id }: Pose): string =>
+    [
+      book.restId === id ? words.poses.resting : '',
+      book.applied === id || (book.applied === 'rest' && book.restId === id) ? words.poses.applied : '',
+    ]
+      .filter((mark) => mark !== '')
+      .join(words.comma);
+
+  return (
+    <ol ref={list} className={styles.list} aria-label={words.poses.list} onKeyDown={key}>
+      {book.poses.map((pose) => (
+        <PoseCard
+          key={pose.id}
+          pose={pose}
+          marks={marks(pose)}
+          isSelected={pose.id === selected}
+          isTabStop={pose.id === tabStop}
+        />
+      ))}
+    </ol>
+  );
+}
+
+// Which servos a pose is about. One that is put in takes the place it is commanded to now; one that is left out stays
+// where it is when the pose is gone to.
+
+function ServoPicker({ pose }: { readonly pose: Pose }) {
+  const { device, poses } = useStores();
+  const robot = useRobot();
+  const { servos } = robot;
+  const known = useDevice((state) => state.known);
+  const sameUnit = useDevice((state) => state.family.unit === pose.unit);
+  const included = new Set(pose.targets.map(({ servo }) => servo));
+  /** Of a file: they can be left out. */
+  const strangers = strangersTo(robot, pose.targets);
+
+  function choose(servo: number, isIn: boolean): void {
+    const { target: position } = device.motion(servo);
+    const others = pose.targets.filter((target) => target.servo !== servo);
+    const targets = isIn && position !== null ? [...others, { servo, position }] : others;
+    poses.book.edit(
+      () => words.poses.steps.servos({ name: pose.name }),
+      (book) => setPose(book, pose.id, targets),
+    );
+  }
+
+  const choice = ({ servo, name }: Pick<RobotServo, 'servo' | 'name'>) => {
+    const isIn = included.has(servo);
+    const isLast = isIn && included.size === 1;
+    return (
+      <label key={servo} className={styles.servo}>
+        <input
+          type="checkbox"
+          checked={isIn}
+          disabled={isIn ? isLast : !sameUnit || !known.includes(servo)}
+          onChange={({ target }) => choose(servo, target.checked)}
+        />
+        {name}
+      </label>
+    );
+  };
+
+  return (
+    <fieldset
+      className={styles.drawer}
+      aria-label={words.poses.servosOf({ count: included.size, all: servos.length + strangers.length })}
+    >
+      <p className={styles.hint}>{words.poses.servosHint}</p>
+      <div className={styles.limbs}>
+        {limbsOf(servos).map(({ group, servos: members }) => (
+          <fieldset key={group} className={styles.limb}>
+            {group !== '' && <legend className={styles.limbName}>{group}</legend>}
+            <div className={styles.servos}>{members.map(choice)}</div>
+          </fieldset>
+        ))}
+        {strangers.map((servo) => choice({ servo, name: words.robots.absent({ servo }) }))}
+      </div>
+    </fieldset>
+  );
+}
 
 export const posesParts: PanelParts = {
   title: () => words.poses.title,

@@ -1,19 +1,46 @@
 // The description of the robot at hand: its name, what it looks like, what feeds it, its servos.
 
+import { useId, useRef } from 'react';
 import { fedBy } from '#shared/profile/battery.ts';
 import { BATTERY_KINDS, BODIES, NAME_LENGTH } from '#shared/profile/robot.ts';
 import { addServo } from '#shared/profile/robotEdits.ts';
 import { FAMILIES } from '#shared/codec/families.ts';
+import { ArrangedPlace } from '../picture/ArrangedPlace.tsx';
 import { useRobot, useStores } from '../stores.ts';
+import { words } from '../../i18n/whole.ts';
+import { RobotPicture } from './RobotPicture.tsx';
 import { Button } from '../../ui/Button.tsx';
 import { Select } from '../../ui/Select.tsx';
 import { boardName } from '../../i18n/sentences/boards.ts';
-import { words } from '../../i18n/whole.ts';
 import { CellField } from './CellField.tsx';
-import { PlaceEditor } from './PlaceEditor.tsx';
 import { RobotHead } from './RobotHead.tsx';
 import { ServoTable } from './ServoTable.tsx';
+import placeEditorStyles from './PlaceEditor.module.css';
 import styles from './RobotEditor.module.css';
+
+// Where each servo sits on the robot, on the drawing of its build: dragged, or pushed by arrow keys. Moves nothing.
+
+function PlaceEditor() {
+  const robot = useRobot();
+  const stage = useRef<HTMLDivElement>(null);
+  const headingId = useId();
+  return (
+    <section className={placeEditorStyles.editor} aria-labelledby={headingId}>
+      <div className={placeEditorStyles.words}>
+        <h3 id={headingId}>{words.robotEditor.places}</h3>
+        <p>{words.robotEditor.placesHint}</p>
+      </div>
+      <div ref={stage} className={placeEditorStyles.stage}>
+        <RobotPicture robot={robot} />
+        <ul aria-label={words.robotEditor.places}>
+          {robot.servos.map((servo) => (
+            <ArrangedPlace key={servo.servo} servo={servo} stage={stage} />
+          ))}
+        </ul>
+      </div>
+    </section>
+  );
+}
 
 export function RobotEditor() {
   const { robots } = useStores();

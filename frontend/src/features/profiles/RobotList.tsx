@@ -1,23 +1,176 @@
 // The robots a person has, those of the connected board first, the ready ones to begin with, and files. What is done here is
 // taken back by Undo above.
 
-import { useId, useRef } from 'react';
+import { useEffect, useRef, type RefObject, useState, useId } from 'react';
 import { useStore } from 'zustand';
-import { FAMILIES } from '#shared/codec/families.ts';
-import { currentOf, type OwnRobot } from './robots.ts';
-import { useDevice, useSnapshot, useStores } from '../stores.ts';
+import { type ReadyRobotId, READY_ROBOTS } from '#shared/profile/readyRobots.ts';
+import { robotToText, robotFromText } from '#shared/profile/robotText.ts';
+import { FAMILIES, type FamilyId } from '#shared/codec/families.ts';
+import { type Robots, type OwnRobot, freshRobot, currentOf } from './robots.ts';
+import { useStores, useDevice, useSnapshot } from '../stores.ts';
 import { Button, IconButton } from '../../ui/Button.tsx';
-import { Chip } from '../../ui/Chip.tsx';
-import { boardName } from '../../i18n/sentences/boards.ts';
+import { saveFile } from '../../ui/saveFile.ts';
 import { words } from '../../i18n/whole.ts';
-import { ImportRobot } from './ImportRobot.tsx';
-import { NewRobot } from './NewRobot.tsx';
+import { FileButton } from '../../ui/FileButton.tsx';
+import { robotFlawText } from '../../i18n/sentences/robotFlaws.ts';
+import { boardName } from '../../i18n/sentences/boards.ts';
+import { pressOnce } from '../../ui/pressOnce.ts';
 import { RobotPicture } from './RobotPicture.tsx';
-import { RobotTools } from './RobotTools.tsx';
+import { Chip } from '../../ui/Chip.tsx';
 import { UndoTools } from '../undo/UndoTools.tsx';
-import { useNewcomerSeen } from './useNewcomerSeen.ts';
-import dialog from './RobotDialog.module.css';
 import styles from './RobotList.module.css';
+import dialog from './RobotDialog.module.css';
+
+// What is sold under its own name and built like a ready robot (boards.md section 9). Names of products are the same
+// in every language.
+
+const PRODUCTS: Partial<Readonly<Record<ReadyRobotId, string>>> = {
+  arm: 'LeArm, OpenArm, xArm',
+  hand: 'uHand',
+  humanoid16: 'Tonybot',
+  humanoid18: 'TonyPi',
+  hexapod18: 'SpiderPi',
+};
+
+// A robot that came is seen, wherever in the dialog the hand was. The one at hand gets the focus too, at what is done
+// with it next; also where another was deleted under the hand. Whoever undoes stays at Undo.
+
+type Place = RefObject<HTMLElement | null>;
+
+function useNewcomerSeen(
+  list: Place,
+  undo: Place,
+  { own, currentId }: Pick<Robots, 'own' | 'currentId'>,
+): void {
+  const before = useRef({ own, currentId });
+  useEffect(() => {
+    const former = before.current;
+    before.current = { own, currentId };
+    if (own.length === former.own.length && currentId === former.currentId) return;
+    const came = own.findLast(({ id }) => !former.own.some((one) => one.id === id))?.id ?? currentId;
+    const card = list.current?.querySelector<HTMLElement>(`[data-robot='${came}']`);
+    card?.scrollIntoView({ block: 'nearest' });
+    if (came === currentId && undo.current?.contains(document.activeElement) === false)
+      card?.querySelector('button')?.focus({ preventScroll: true });
+  }, [list, undo, own, currentId]);
+}
+
+// What can be done with the robot at hand.
+
+function RobotTools({ id, robot, isLast }: OwnRobot & { readonly isLast: boolean }) {
+  const { robots, view } = useStores();
+  return (
+    <div className={styles.tools}>
+      <Button tone="primary" icon="dial" onPress={() => view.setState({ robotView: 'calibrate' })}>
+        {words.robots.calibrate}
+      </Button>
+      <Button icon="edit" onPress={() => view.setState({ robotView: 'edit' })}>
+        {words.robots.edit}
+      </Button>
+      <Button tone="quiet" icon="copy" onPress={robots.duplicate}>
+        {words.robots.duplicate}
+      </Button>
+      <Button
+        tone="quiet"
+        icon="download"
+        onPress={() => saveFile({ name: fileName(robot.name), text: robotToText(robot) })}
+      >
+        {words.robots.export}
+      </Button>
+      <Button tone="quiet" icon="trash" isDisabled={isLast} onPress={() => robots.remove(id)}>
+        {words.robots.remove}
+      </Button>
+    </div>
+  );
+}
+
+/** Whatever file systems do not bear is left out. */
+function fileName(robot: string): string {
+  const plain = robot.replaceAll(/[^\p{L}\p{N} ._-]/gu, '').trim();
+  return `${plain === '' ? 'robot' : plain}.json`;
+}
+
+// Robot files come in by choosing or dropping them. One that cannot be read changes nothing and says why.
+
+function ImportRobot({ connected }: { readonly connected: FamilyId | null }) {
+  const { robots } = useStores();
+  const [outcomes, setOutcomes] = useState<readonly string[]>([]);
+
+  async function take(files: readonly File[]): Promise<void> {
+    const read = await Promise.all(files.map(async (file) => ({ file: file.name, text: await file.text() })));
+    setOutcomes(read.flatMap(({ file, text }) => imported(file, text) ?? []));
+  }
+
+  /** null where the store says itself why not. */
+  function imported(file: string, text: string): string | null {
+    const found = robotFromText(text);
+    if ('problem' in found) return words.robots.notImported({ file, flaw: robotFlawText(found.problem) });
+    if (!robots.add(() => words.robots.steps.import, found.robot)) return null;
+    const { name, board } = robots.current().robot;
+    return connected === null || board === connected
+      ? words.robots.imported({ name })
+      : words.robots.importedElsewhere({ name, board: boardName(FAMILIES[board]) });
+  }
+
+  return (
+    <div
+      className={styles.zone}
+      onDragOver={(event) => event.preventDefault()}
+      onDrop={(event) => {
+        event.preventDefault();
+        void take([...event.dataTransfer.files]);
+      }}
+    >
+      <FileButton accept=".json,application/json" multiple onChoose={(files) => void take(files)}>
+        {words.robots.import}
+      </FileButton>
+      <span className={styles.dim}>{words.robots.importHint}</span>
+      <ul className={styles.outcomes} aria-live="polite">
+        {outcomes.map((outcome) => (
+          <li key={outcome}>{outcome}</li>
+        ))}
+      </ul>
+    </div>
+  );
+}
+
+// The ready robots that can be built on a board, each with its picture. Adding one takes it up.
+
+function NewRobot({ board }: { readonly board: FamilyId }) {
+  const { robots } = useStores();
+  const headingId = useId();
+  return (
+    <section aria-labelledby={headingId}>
+      <h3 id={headingId}>{words.robots.fresh}</h3>
+      <p className={styles.dim}>{words.robots.freshHint({ board: boardName(FAMILIES[board]) })}</p>
+      <ul className={styles.ready}>
+        {fitting(board).map((id) => (
+          <li key={id}>
+            <button
+              type="button"
+              className={styles.card}
+              aria-label={words.robots.add({ name: words.robots.ready[id] })}
+              aria-describedby={`${headingId}-${id}`}
+              onClick={() => robots.add(() => words.robots.steps.add, freshRobot(id, board))}
+              onKeyDown={pressOnce}
+            >
+              <RobotPicture robot={freshRobot(id, board)} />
+              {words.robots.ready[id]}
+              <span id={`${headingId}-${id}`} className={styles.dim}>
+                {PRODUCTS[id]}
+              </span>
+            </button>
+          </li>
+        ))}
+      </ul>
+    </section>
+  );
+}
+
+function fitting(board: FamilyId): readonly ReadyRobotId[] {
+  const ids = Object.keys(READY_ROBOTS) as ReadyRobotId[];
+  return ids.filter((id) => (READY_ROBOTS[id].boards as readonly FamilyId[]).includes(board));
+}
 
 export function RobotList() {
   const { robots, keeping } = useStores();

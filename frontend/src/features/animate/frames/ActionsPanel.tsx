@@ -3,12 +3,18 @@
 // pose.
 
 import { Fragment, useCallback } from 'react';
+import { totalDurationMs } from '#shared/group/group.ts';
 import { rename } from '#shared/group/groupEdits.ts';
 import { convertGroup } from '#shared/profile/counterpart.ts';
+import { ExamplesControl } from '../group/ExamplesControl.tsx';
+import { RecordControl } from '../play/RecordControl.tsx';
+import { useDocument, useStores, useGroupBoard, useKnownFamily } from '../../stores.ts';
+import { words } from '../../../i18n/whole.ts';
+import { captureFrame } from './capture.ts';
+import { CaptureButton } from './CaptureButton.tsx';
 import { BodyPicture } from '../../picture/Body.tsx';
 import { FilesButton } from '../../library/files/FilesButton.tsx';
 import { LibraryButton } from '../../library/LibraryButton.tsx';
-import { useDocument, useGroupBoard, useKnownFamily, useStores } from '../../stores.ts';
 import { Button } from '../../../ui/Button.tsx';
 import { EmptyState } from '../../../ui/EmptyState.tsx';
 import { useIsPainted } from '../../../ui/useIsPainted.ts';
@@ -18,12 +24,37 @@ import type { PanelParts } from '../../../ui/Panel.tsx';
 import { PlayBar } from '../play/PlayBar.tsx';
 import { usePlayer } from '../play/usePlayer.ts';
 import { UndoTools } from '../../undo/UndoTools.tsx';
-import { words } from '../../../i18n/whole.ts';
-import { CaptureBar } from './CaptureBar.tsx';
 import { FrameStrip } from './FrameStrip.tsx';
 import { FrameTools } from './FrameTools.tsx';
 import { Timeline } from '../timeline/Timeline.tsx';
+import captureBarStyles from './CaptureBar.module.css';
 import styles from './ActionsPanel.module.css';
+
+// How frames come into the group: the pose captured, a recording, an example. And how long the group is.
+
+function CaptureBar() {
+  const stores = useStores();
+  return (
+    <div className={captureBarStyles.bar}>
+      <CaptureButton
+        label={words.actions.capture}
+        hint={words.actions.captureHint}
+        onPress={() => captureFrame(stores, 'after')}
+      />
+      <RecordControl />
+      <ExamplesControl />
+      <Total />
+    </div>
+  );
+}
+
+function Total() {
+  const count = useDocument(({ present }) => present.frames.length);
+  const totalMs = useDocument(({ present }) => totalDurationMs(present.frames));
+  return (
+    <p className={captureBarStyles.total}>{count === 0 ? '' : words.actions.total({ count, ms: totalMs })}</p>
+  );
+}
 
 export const actionsParts: PanelParts = {
   title: () => words.actions.title,

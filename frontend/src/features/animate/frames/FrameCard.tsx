@@ -1,21 +1,45 @@
 // One frame as a card: its number, its pose, the servos it moves, its time. The face selects; the grip drags.
 
 import { memo } from 'react';
+import { indexOfFrame, moveFrames } from '#shared/group/groupEdits.ts';
 import type { GroupFrame } from '#shared/group/group.ts';
 import { setDuration } from '#shared/group/timeEdits.ts';
+import { useStores, useDevice, useGroupBoard } from '../../stores.ts';
+import { useDragOrder, type DragOrder } from '../../../ui/useDragOrder.ts';
+import { useWords } from '../../../i18n/words.ts';
+import { counted, numbersOf, togetherNow } from './frameVerbs.ts';
 import { GroupThumb } from '../../picture/PoseThumb.tsx';
-import { useDevice, useGroupBoard, useStores } from '../../stores.ts';
 import { cx } from '../../../ui/cx.ts';
 import { Icon } from '../../../ui/Icon.tsx';
 import { NumberField } from '../../../ui/NumberField.tsx';
 import { pressFrame } from '../timeline/inStep.ts';
 import { words } from '../../../i18n/whole.ts';
-import { useWords } from '../../../i18n/words.ts';
-import { useFrameDrag } from './useFrameDrag.ts';
 import card from '../../../ui/Card.module.css';
 import styles from './FrameCard.module.css';
 
-export interface FrameCardProps {
+// Reordering frames by drag: one gesture of the document, the frames in between make room at once. Of several that
+// are selected all go along.
+
+function useFrameDrag(id: number): DragOrder {
+  const stores = useStores();
+  const { document, view } = stores;
+  return useDragOrder({
+    attribute: 'data-frame',
+    begin() {
+      const numbers = numbersOf(stores, togetherNow(stores, id));
+      document.begin(() => words.actions.steps.move(counted(numbers)));
+      view.setState({ selectedFrame: id });
+    },
+    over(other) {
+      const to = indexOfFrame(document.store.getState().present, other);
+      if (to >= 0) document.preview((group) => moveFrames(group, togetherNow(stores, id), id, to));
+    },
+    commit: () => document.commit(),
+    cancel: () => document.cancel(),
+  });
+}
+
+interface FrameCardProps {
   readonly frame: GroupFrame;
   readonly index: number;
   readonly pose: ReadonlyMap<number, number>;

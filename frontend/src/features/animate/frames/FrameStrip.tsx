@@ -1,22 +1,119 @@
 // The frames in order, one card each, for people who think in poses. The frame that plays is marked, and those that are selected
 // in the timeline.
 
-import { useMemo, useState, type CSSProperties, type KeyboardEvent } from 'react';
+import {
+  useEffect,
+  useEffectEvent,
+  type RefObject,
+  useState,
+  useMemo,
+  type CSSProperties,
+  type KeyboardEvent,
+} from 'react';
 import { indexOfFrame } from '#shared/group/groupEdits.ts';
-import { usePlayedFrame } from '../play/usePlayedFrame.ts';
 import { useStores } from '../../stores.ts';
+import { clipFromText, clipToText } from '../timeline/clipText.ts';
+import { copy, cut, paste, togetherNow, moveBy, removeFrames } from './frameVerbs.ts';
+import { cardOf, useCards } from './useCards.ts';
+import { usePlayedFrame } from '../play/usePlayedFrame.ts';
 import { showFrame } from '../timeline/inStep.ts';
 import { useWholeFrames } from '../timeline/wholeFrames.ts';
 import { useInFrame } from '../../../ui/useInFrame.ts';
 import { words } from '../../../i18n/whole.ts';
 import { FrameCard } from './FrameCard.tsx';
 import { framePoses } from './framePoses.ts';
-import { moveBy, removeFrames, togetherNow } from './frameVerbs.ts';
 import { createStripKeys } from './stripKeys.ts';
-import { cardOf, useCards } from './useCards.ts';
-import { useStripClipboard } from './useStripClipboard.ts';
-import { useStripWindow } from './useStripWindow.ts';
 import styles from './FrameStrip.module.css';
+
+// Copy, cut and paste of the system while a card of the strip has the focus. The events go to wherever the browser
+// thinks text would be, so they are heard for the whole page.
+
+/** `changed`: a card may have gone that had the focus. */
+function useStripClipboard(list: RefObject<HTMLElement | null>, changed: () => void): void {
+  const stores = useStores();
+  const tellChanged = useEffectEvent(changed);
+  useEffect(() => {
+    const { document } = window;
+    const ended = new AbortController();
+    const hear = (type: 'copy' | 'cut' | 'paste', act: (data: DataTransfer, id: number) => void): void =>
+      document.addEventListener(
+        type,
+        (event) => {
+          const { activeElement } = document;
+          const id = list.current?.contains(activeElement) ? cardOf(activeElement, 'data-frame') : null;
+          if (id === null || event.clipboardData === null) return;
+          act(event.clipboardData, id);
+          event.preventDefault();
+          tellChanged();
+        },
+        { signal: ended.signal },
+      );
+    const put = (data: DataTransfer, clip: ReturnType<typeof copy>): void => {
+      if (clip !== null) data.setData('text/plain', clipToText(clip));
+    };
+    hear('copy', (data, id) => put(data, copy(stores, togetherNow(stores, id))));
+    hear('cut', (data, id) => put(data, cut(stores, togetherNow(stores, id))));
+    hear('paste', (data) => {
+      const text = data.getData('text/plain');
+      paste(stores, (text === '' ? null : clipFromText(text)) ?? stores.timeline.getState().clip);
+    });
+    return () => ended.abort();
+  }, [stores, list]);
+}
+
+// Which cards of a long strip are there: those in sight and some on both sides, so that a few hundred cost no more
+// than a few dozen. The room of the others is kept.
+
+/** A card and the gap behind it; the style sheet says the same. */
+const STEP_PX = 140;
+const BESIDE = 4;
+/** So many are always there: what is short need not be clever. */
+const SHORT = 40;
+/** The window moves in steps: not each pixel that is scrolled draws the strip again. */
+const CHUNK = 8;
+
+interface StripWindow {
+  readonly first: number;
+  readonly end: number;
+  readonly roomBeforePx: number;
+  readonly roomBehindPx: number;
+}
+
+function useStripWindow(strip: RefObject<HTMLElement | null>, count: number, shown: number): StripWindow {
+  const [seen, setSeen] = useState({ first: 0, end: CHUNK });
+
+  useEffect(() => {
+    const element = strip.current;
+    if (element === null) return undefined;
+    const measure = (): void => {
+      const chunks = (px: number): number => px / STEP_PX / CHUNK;
+      const first = Math.floor(chunks(element.scrollLeft)) * CHUNK;
+      const end = Math.ceil(chunks(element.scrollLeft + element.clientWidth)) * CHUNK;
+      setSeen((before) => (before.first === first && before.end === end ? before : { first, end }));
+    };
+    const observer = new ResizeObserver(measure);
+    observer.observe(element);
+    element.addEventListener('scroll', measure);
+    return () => {
+      observer.disconnect();
+      element.removeEventListener('scroll', measure);
+    };
+  }, [strip]);
+
+  useEffect(() => {
+    const element = strip.current;
+    if (element === null || shown < 0) return;
+    const left = shown * STEP_PX;
+    const right = left + 1.25 * STEP_PX - element.clientWidth;
+    if (left < element.scrollLeft || right > element.scrollLeft)
+      element.scrollTo({ left: left < element.scrollLeft ? left : right });
+  }, [strip, shown]);
+
+  const isShort = count <= SHORT;
+  const first = isShort ? 0 : Math.max(0, Math.min(seen.first, count) - BESIDE);
+  const end = isShort ? count : Math.min(count, seen.end + BESIDE);
+  return { first, end, roomBeforePx: first * STEP_PX, roomBehindPx: (count - end) * STEP_PX };
+}
 
 const ATTRIBUTE = 'data-frame';
 

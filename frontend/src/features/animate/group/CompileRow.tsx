@@ -1,19 +1,92 @@
 // What the group becomes on the board: whether it fits, what it costs, how far off it is and where, and what does not fit. A click
 // on a place goes there.
 
-import { MOST_ERROR_UNITS, maxErrorOf } from '#shared/group/group.ts';
+import { useState } from 'react';
+import type { CompileProblem } from '#shared/group/compileReport.ts';
+import { type ActionGroup, MOST_ERROR_UNITS, maxErrorOf } from '#shared/group/group.ts';
+import { tracksOf, type KeyRef } from '#shared/group/tracks.ts';
 import { setMeta } from '#shared/group/groupEdits.ts';
+import { select } from '../../drive/servoView.ts';
+import {
+  editServoView,
+  type Stores,
+  useCompiled,
+  useStores,
+  useDocument,
+  useKnownFamily,
+} from '../../stores.ts';
+import { showKey } from '../timeline/inStep.ts';
 import { obstacles } from './compiled.ts';
-import { useCompiled, useDocument, useKnownFamily, useStores } from '../../stores.ts';
+import { problemText } from './problemText.ts';
+import { words } from '../../../i18n/whole.ts';
 import { servoName } from '../../profiles/servoName.ts';
 import { Chip } from '../../../ui/Chip.tsx';
 import { NumberField } from '../../../ui/NumberField.tsx';
 import { useInFrame } from '../../../ui/useInFrame.ts';
-import { words } from '../../../i18n/whole.ts';
-import { goToPlace } from './places.ts';
-import { Problems } from './Problems.tsx';
-import field from '../../../ui/Field.module.css';
 import styles from './CompileRow.module.css';
+import field from '../../../ui/Field.module.css';
+
+// Where a line about the compiled group leads: the timeline comes to the front, the servo is selected, and its key
+// where the line is about one, so that what is typed next mends it.
+
+type Place = CompileProblem | { readonly servo: number; readonly atMs: number };
+
+function goToPlace(stores: Stores, place: Place, group: ActionGroup): void {
+  stores.view.setState({ tab: 'actions', authoring: 'group' });
+  if ('servo' in place) editServoView(stores, (view) => select(view, [place.servo]));
+  const key = keyOf(place, group);
+  if (key !== null) showKey(stores, key);
+  else if ('atMs' in place) stores.playhead.show(Math.round(place.atMs));
+}
+
+/** Of a way that is too fast the key where it ends. */
+function keyOf(place: Place, group: ActionGroup): KeyRef | null {
+  if ('frameId' in place) return place;
+  if (!('kind' in place) || place.kind !== 'tooFast') return null;
+  const { servo, atMs } = place;
+  const keys = tracksOf(group).get(servo)?.keys ?? [];
+  const offMs = (key: { readonly atMs: number }): number => Math.abs(key.atMs - atMs);
+  return keys.toSorted((one, other) => offMs(one) - offMs(other))[0] ?? null;
+}
+
+// The list of what the board cannot do with the group, what is about all of it first; each line leads to its place.
+
+const SHOWN = 4;
+/** With each press; a group may have thousands. */
+const MORE = 100;
+
+function Problems() {
+  const stores = useStores();
+  const { report, source } = useCompiled((state) => state.latest);
+  const [shown, setShown] = useState(SHOWN);
+  const must = new Set(obstacles(report, 'board'));
+  const rankOf = (problem: CompileProblem): number => (must.has(problem) ? Number('servo' in problem) : 2);
+  const problems = report.problems.toSorted((one, other) => rankOf(one) - rankOf(other));
+  const more = problems.length - shown;
+  if (problems.length === 0) return null;
+  return (
+    <ul className={styles.problems} aria-label={words.compile.problems}>
+      {problems.slice(0, shown).map((problem, index) => (
+        <li key={index}>
+          <button
+            type="button"
+            className={styles.place}
+            onClick={() => goToPlace(stores, problem, source.group)}
+          >
+            {problemText(problem, source)}
+          </button>
+        </li>
+      ))}
+      {more > 0 && (
+        <li>
+          <button type="button" className={styles.place} onClick={() => setShown(shown + MORE)}>
+            {words.compile.more({ count: more })}
+          </button>
+        </li>
+      )}
+    </ul>
+  );
+}
 
 export function CompileRow() {
   const { compiled } = useStores();

@@ -3,10 +3,26 @@
 
 import { useEffect, useEffectEvent } from 'react';
 import { useStore } from 'zustand';
+import { Dialog } from '../../../ui/Dialog.tsx';
+import { laterComponent } from '../../../ui/later.tsx';
+import { words } from '../../../i18n/words.ts';
+import type { TakeProps } from './Take.tsx';
 import { useStores } from '../../stores.ts';
 import { isTextField } from '../../../ui/textField.ts';
-import { TakeDialog } from './TakeDialog.tsx';
 import { useOffer } from './useOffer.ts';
+
+// The dialog about what was recorded; what stands in it comes when it is wanted.
+
+const Take = laterComponent(async () => (await import('./Take.tsx')).Take, '160px');
+
+/** Without samples it is closed. */
+function TakeDialog({ samples, onClose }: TakeProps) {
+  return (
+    <Dialog title={words.record.title} closeLabel={words.close} isOpen={samples.length > 0} onClose={onClose}>
+      <Take samples={samples} onClose={onClose} />
+    </Dialog>
+  );
+}
 
 const TAKE_KEY = 't';
 /** Letters mean other things there. */

@@ -1,24 +1,66 @@
 // One line that says where what is dragged is by now, what keys and pointer do right now, and what is selected.
 
 import { memo } from 'react';
-import { useServoView, useStores, editServoView } from '../../stores.ts';
-import { Button } from '../../../ui/Button.tsx';
+import type { IconName } from '../../../ui/Icon.tsx';
+import { useStores, useServoView, editServoView } from '../../stores.ts';
+import { IconButton, Button } from '../../../ui/Button.tsx';
+import { words, type Words } from '../../../i18n/whole.ts';
+import { deskOf, changeable, whyHeld } from './desk.ts';
+import { selectedKeys } from './groupTimes.ts';
+import { nudgeMarker, selectedMarker } from './markers.ts';
+import { nudge, servoAtHand } from './moving.ts';
+import { turnText } from './positions.ts';
+import { type SeenDesk, useDesk } from './useDesk.ts';
 import { LiveText } from '../../../ui/LiveText.tsx';
 import { isTouch } from '../../../ui/touch.ts';
 import { READABLE_MS } from '../../../ui/useFollow.ts';
 import { instantText } from './instantText.ts';
-import { words } from '../../../i18n/whole.ts';
 import { cellName } from './cellName.ts';
 import type { StatusName } from './gesture.ts';
-import { changeable, whyHeld } from './desk.ts';
-import { selectedKeys } from './groupTimes.ts';
-import { selectedMarker } from './markers.ts';
-import { servoAtHand } from './moving.ts';
-import { NudgeTools } from './NudgeTools.tsx';
-import { turnText } from './positions.ts';
 import { servoRowId } from './rows.ts';
-import { useDesk, type SeenDesk } from './useDesk.ts';
+import nudgeToolsStyles from './NudgeTools.module.css';
 import styles from './StatusText.module.css';
+
+// For hands without arrow keys: what is selected goes by the board's tick, or by one of what is shown. Seen only
+// where fingers are.
+
+interface Step {
+  readonly name: keyof Words['timeline']['nudges'];
+  readonly icon: IconName;
+  readonly ticks: number;
+  readonly turns: number;
+}
+
+const STEPS: readonly Step[] = [
+  { name: 'earlier', icon: 'earlier', ticks: -1, turns: 0 },
+  { name: 'later', icon: 'later', ticks: 1, turns: 0 },
+  { name: 'lower', icon: 'down', ticks: 0, turns: -1 },
+  { name: 'higher', icon: 'up', ticks: 0, turns: 1 },
+];
+
+function NudgeTools({ desk }: { readonly desk: SeenDesk }) {
+  const stores = useStores();
+  const { state, times, family } = desk;
+  const hasMarker = state.marker !== null;
+  const turn = turnText(desk, servoAtHand(desk, selectedKeys(times, state.selected)) ?? 0);
+  return (
+    <div className={nudgeToolsStyles.tools} role="group" aria-label={words.timeline.nudge}>
+      {STEPS.map(({ name, icon, ticks, turns }) => (
+        <IconButton
+          key={name}
+          icon={icon}
+          label={words.timeline.nudges[name]({
+            by: turns === 0 ? words.numbers.formatMs(family.motion.tickMs) : turn,
+          })}
+          isDisabled={hasMarker ? ticks === 0 : state.selected.size === 0}
+          onPress={() =>
+            hasMarker ? nudgeMarker(deskOf(stores), ticks) : nudge(deskOf(stores), ticks, turns)
+          }
+        />
+      ))}
+    </div>
+  );
+}
 
 export interface Said {
   readonly status: StatusName | null;

@@ -2,19 +2,21 @@
 // playhead moves nothing but the picture of a pose.
 
 import {
+  useLayoutEffect,
+  type RefObject,
   memo,
   useCallback,
   useEffect,
   useId,
-  useLayoutEffect,
   useRef,
   useState,
   type ClipboardEvent,
   type KeyboardEvent,
   type ReactNode,
 } from 'react';
+import { useTimeline, useDocument, useStores } from '../../stores.ts';
+import { cellId, Rows } from './Rows.tsx';
 import { MovingLabel } from '../../picture/MovingLabel.tsx';
-import { useDocument, useStores, useTimeline } from '../../stores.ts';
 import { instantText } from './instantText.ts';
 import { words } from '../../../i18n/whole.ts';
 import { AskBox } from './AskBox.tsx';
@@ -25,17 +27,39 @@ import { keepInStep } from './inStep.ts';
 import { actionOf } from './keymap.ts';
 import { bringToLife, sizesNow } from './lanes.ts';
 import { Minimap } from './Minimap.tsx';
-import { cellId, Rows } from './Rows.tsx';
 import { PlayheadLine } from './PlayheadLine.tsx';
 import { heightOf, placedRows } from './rows.ts';
 import { topOfRows } from './sizes.ts';
 import { StatusText, type Said } from './StatusText.tsx';
 import { TimelineMenu, type OpenMenu } from './TimelineMenu.tsx';
 import { TimelineTools } from './TimelineTools.tsx';
-import { useActiveCell } from './useActiveCell.ts';
 import { useRows } from './useRows.ts';
 import { PART } from '../../../ui/useParts.ts';
 import styles from './Timeline.module.css';
+
+// Which cell of the grid the keys are at, for ears. Only one that is there may be named: where the key itself is out
+// of sight it is its row, and where that is, too, none. Cells come and go with every scroll, so this looks whenever
+// they do.
+
+const NAMES = 'aria-activedescendant';
+
+function useActiveCell(grid: RefObject<HTMLElement | null>, id: string): void {
+  const cell = useTimeline(({ cursor }) => cellId(id, cursor.row, cursor.frameId));
+  const row = useTimeline(({ cursor }) => cellId(id, cursor.row, null));
+  useLayoutEffect(() => {
+    const { current } = grid;
+    if (current === null) return undefined;
+    const name = (): void => {
+      const there = [cell, row].find((one) => window.document.getElementById(one) !== null);
+      if (there === undefined) current.removeAttribute(NAMES);
+      else if (current.getAttribute(NAMES) !== there) current.setAttribute(NAMES, there);
+    };
+    name();
+    const observer = new MutationObserver(name);
+    observer.observe(current, { childList: true, subtree: true });
+    return () => observer.disconnect();
+  }, [grid, cell, row]);
+}
 
 /** `onPlay`: the play key was pressed here, with Shift to play on the drawing alone. */
 export const Timeline = memo(function Timeline({ onPlay }: { onPlay(isPreview: boolean): void }) {

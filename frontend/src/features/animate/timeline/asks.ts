@@ -5,16 +5,42 @@ import { GROUP_NAME_LENGTH, NOTE_LENGTH } from '#shared/group/group.ts';
 import { scaleAmplitude, setPositions } from '#shared/group/keyEdits.ts';
 import type { KeyStretch } from '#shared/group/keyRanges.ts';
 import { insertTime } from '#shared/group/timeEdits.ts';
-import type { Ask } from './timeline.ts';
 import { numberIn } from '../../../ui/NumberField.tsx';
+import type { Ask } from './timeline.ts';
 import type { Scale } from '../../drive/scale.ts';
 import { servoName } from '../../profiles/servoName.ts';
 import { words } from '../../../i18n/whole.ts';
 import { apply, changeable, hasChangeable, rangeOf, selectedFrames, type Desk } from './desk.ts';
-import { changeIn } from './changeIn.ts';
 import { keyOf, selectedKeys, spanOf, timesOf } from './groupTimes.ts';
 import { stretchingOf } from './moving.ts';
 import { scaleAt } from './positions.ts';
+
+// A number that is typed with a sign before it: not a new one, but what becomes of the one that is there. A minus
+// alone begins a number below zero.
+
+const CHANGE = /^(\+=?|[-−]=|[*×/÷])(.+)$/u;
+/** Of a factor. */
+const EXACT = 3;
+
+const BY: Readonly<Record<string, (by: number) => (value: number) => number>> = {
+  '+': (by) => (value) => value + by,
+  '-': (by) => (value) => value - by,
+  '*': (by) => (value) => value * by,
+  '/': (by) => (value) => value / by,
+};
+const SIGNS: Readonly<Record<string, string>> = { '−': '-', '×': '*', '÷': '/' };
+
+/** `+10`, `-=10`, `*1.2`, `/2`; null where it is no change. */
+function changeIn(text: string, decimals: 0 | 1): ((value: number) => number) | null {
+  const [, sign = '', written = ''] = CHANGE.exec(text.replaceAll(/\s/gu, '')) ?? [];
+  const name = SIGNS[sign.charAt(0)] ?? sign.charAt(0);
+  const isFactor = name === '*' || name === '/';
+  const by = isFactor
+    ? Number(Number(written.replace(',', '.')).toFixed(EXACT))
+    : numberIn(written, decimals);
+  const isMeant = written !== '' && Number.isFinite(by) && !(name === '/' && by === 0);
+  return isMeant ? (BY[name]?.(by) ?? null) : null;
+}
 
 interface Range {
   readonly min: number;

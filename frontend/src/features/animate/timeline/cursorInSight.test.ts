@@ -1,7 +1,7 @@
 import { expect, test } from 'vitest';
 import { editServoView } from '../../stores.ts';
 import { ALL_ROW } from './timeline.ts';
-import { keepCursorInSight } from './cursorInSight.ts';
+import { keepCursorInSight } from './lanes.ts';
 import { sizesOf, topOfRows } from './sizes.ts';
 import { createTimelineDesk } from './timelineUnderTest.ts';
 

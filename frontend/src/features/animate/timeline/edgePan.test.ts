@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { edgeStep } from './edgePan.ts';
+import { edgeStep } from './pointer.ts';
 
 test('lanes rest below what is on them, and go on the faster the farther it is past their ends', () => {
   expect([0, 400, 800].map((x) => edgeStep(x, 800))).toEqual([0, 0, 0]);

@@ -9,7 +9,31 @@ import type { Desk, DeskStores } from './desk.ts';
 import type { Spot } from './hit.ts';
 import type { Sizes } from './sizes.ts';
 import { msAt } from './timeScale.ts';
-import { snapped } from './snap.ts';
+
+// Where a thing that is dragged in time comes to rest: at something near, else on the board's own raster.
+
+interface SnapField {
+  /** Frame ends, other keys, playhead, markers. */
+  readonly placesMs: readonly number[];
+  /** The raster of the board; what is between its steps would be rounded there anyway. */
+  readonly tickMs: number;
+  /** How near is near. */
+  readonly reachMs: number;
+}
+
+/** null: nothing holds it, each millisecond may be meant. */
+export function snapped(atMs: number, field: SnapField | null): number {
+  if (field === null) return Math.round(atMs);
+  const { placesMs, tickMs, reachMs } = field;
+  let nearest = Math.round(atMs / tickMs) * tickMs;
+  let distance = reachMs;
+  for (const placeMs of placesMs) {
+    if (Math.abs(placeMs - atMs) > distance) continue;
+    nearest = placeMs;
+    distance = Math.abs(placeMs - atMs);
+  }
+  return nearest;
+}
 
 export type StatusName = keyof Words['timeline']['status'];
 

@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { hoverAt } from './hover.ts';
+import { hoverAt } from './lanes.ts';
 import { createTimelineDesk } from './timelineUnderTest.ts';
 import { sizesOf } from './sizes.ts';
 

@@ -1,31 +1,132 @@
 // Brings the lanes to life outside of React's rounds: paints them when something changed, follows pointer and wheel. Knows
 // elements and stores, no edit.
 
-import { setKeysAt } from './changes.ts';
-import { keepCursorInSight } from './cursorInSight.ts';
-import { deskOf, select, type DeskStores } from './desk.ts';
+import { deskOf, type DeskStores, rowOf, select } from './desk.ts';
 import type { StatusName } from './gesture.ts';
-import { hasAll, hitAt, type Spot } from './hit.ts';
-import { hoverAt } from './hover.ts';
+import { hasAll, hitAt, type Hit, type Spot } from './hit.ts';
+import { sceneOf, type Scene } from './scene.ts';
+import { type Sizes, topOfRows, sizesOf } from './sizes.ts';
 import { keySet } from './keySet.ts';
+import { ALL_ROW } from './timeline.ts';
+import { selectedKeys } from './groupTimes.ts';
+import { placedRows, scrolledTo } from './rows.ts';
+import { setKeysAt } from './changes.ts';
 import { lookOf, SCHEMES, type Look } from '../../picture/look.ts';
 import { selectFrame, setTime, shownKeys } from './looking.ts';
 import { paint } from './paint.ts';
 import { followPointer } from './pointer.ts';
-import { sceneOf, type Scene } from './scene.ts';
-import { sizesOf, type Sizes } from './sizes.ts';
 import { panned, pinched, zoomedAt } from './timeScale.ts';
 import { isTouch } from '../../../ui/touch.ts';
-import { followWheel } from './wheel.ts';
 
-export interface LaneParts {
+// The wheel over the lanes: it zooms where the pointer is, with Shift it goes through time, and a touch pad's two
+// fingers pan.
+
+interface WheelHost {
+  zoom(x: number, factor: number): void;
+  pan(byPx: number): void;
+  scroll(byPx: number): void;
+}
+
+/** Mice turn in notches of about a hundred pixels; touch pads send less at a time, or sideways too. */
+const NOTCH_PX = 50;
+const ZOOM_PER_PX = 0.002;
+
+function followWheel(lanes: HTMLElement, host: WheelHost): () => void {
+  function turn(event: WheelEvent): void {
+    event.preventDefault();
+    const unit = event.deltaMode === WheelEvent.DOM_DELTA_PIXEL ? 1 : NOTCH_PX / 2;
+    const [x, y] = [event.deltaX * unit, event.deltaY * unit];
+    const isPad = event.deltaMode === WheelEvent.DOM_DELTA_PIXEL && (x !== 0 || Math.abs(y) < NOTCH_PX);
+    if (event.shiftKey) host.pan(x + y);
+    else if (isPad && !event.ctrlKey) {
+      host.pan(x);
+      host.scroll(y);
+    } else
+      host.zoom(
+        event.clientX - lanes.getBoundingClientRect().left,
+        Math.exp(y * (isPad ? 5 : 1) * ZOOM_PER_PX),
+      );
+  }
+  lanes.addEventListener('wheel', turn, { passive: false });
+  return () => lanes.removeEventListener('wheel', turn);
+}
+
+// What a mouse that presses nothing is over: how its pointer looks there, and what the status line says of a press.
+// Changes nothing.
+
+interface Hover {
+  readonly status: StatusName;
+  readonly cursor: string;
+}
+
+const HOVERS: Readonly<Record<Hit['kind'], Hover>> = {
+  ruler: { status: 'scrub', cursor: 'ew-resize' },
+  marker: { status: 'move', cursor: 'grab' },
+  edge: { status: 'duration', cursor: 'col-resize' },
+  head: { status: 'box', cursor: 'pointer' },
+  handle: { status: 'stretch', cursor: 'col-resize' },
+  key: { status: 'move', cursor: 'move' },
+  empty: { status: 'nothing', cursor: 'crosshair' },
+};
+
+export function hoverAt(stores: DeskStores, sizes: Sizes, spot: Spot): Hover {
+  const desk = deskOf(stores);
+  const hit = hitAt(sceneOf(desk, sizes), spot);
+  const hover = HOVERS[hit.kind];
+  if (hit.kind === 'handle' && hit.end === 'first') return { ...hover, status: 'stretchBack' };
+  // What can be done with the selected keys is said instead.
+  const isSelected = hit.kind === 'key' && hasAll(desk.state.selected, hit.refs);
+  return isSelected ? { ...hover, status: 'selected' } : hover;
+}
+
+// Rows scroll so far that the cursor's is in sight, whoever moved it there; a row that is gone leaves the cursor to
+// that of all servos, on the same frame, and keys on hidden rows are no longer selected.
+
+export function keepCursorInSight(
+  scroller: Pick<HTMLElement, 'scrollTop' | 'clientHeight'>,
+  stores: DeskStores,
+  sizes: () => Sizes,
+): () => void {
+  function scroll(): void {
+    const { rows, state } = deskOf(stores);
+    const placed = placedRows(rows.slice(1), sizes()).find(({ row }) => row.id === state.cursor.row);
+    if (placed === undefined) return;
+    const { scrollTop, clientHeight } = scroller;
+    const next = scrolledTo(placed, scrollTop, clientHeight - topOfRows(sizes()));
+    if (next !== scrollTop) scroller.scrollTop = next;
+  }
+
+  function leaveGoneRow(): void {
+    const desk = deskOf(stores);
+    const { cursor, selected } = desk.state;
+    const shown = new Set(rowOf(desk, ALL_ROW)?.servos);
+    const left = selectedKeys(desk.times, selected).filter(({ servo }) => shown.has(servo));
+    if (left.length < selected.size) select(stores, keySet(left));
+    if (rowOf(desk, cursor.row) === undefined)
+      stores.timeline.setState({ cursor: { ...cursor, row: ALL_ROW } });
+  }
+
+  const ends = [
+    stores.timeline.subscribe(({ cursor }, before) => {
+      if (cursor.row !== before.cursor.row) scroll();
+    }),
+    stores.view.subscribe(({ servos }, before) => {
+      if (servos.hidden !== before.servos.hidden || servos.folded !== before.servos.folded) leaveGoneRow();
+    }),
+  ];
+  return () => {
+    for (const end of ends) end();
+  };
+}
+
+interface LaneParts {
   readonly scroller: HTMLElement;
   readonly lanes: HTMLElement;
   readonly canvas: HTMLCanvasElement;
   readonly box: HTMLElement;
 }
 
-export interface LaneHost {
+interface LaneHost {
   openMenu(spot: Spot): void;
   say(status: StatusName | null, tells?: () => string): void;
 }

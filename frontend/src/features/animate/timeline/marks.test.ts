@@ -1,6 +1,6 @@
 import fc from 'fast-check';
 import { expect, test } from 'vitest';
-import { marksWithin, markStep } from './marks.ts';
+import { marksWithin, markStep } from './paintHeads.ts';
 
 test('labels never touch and are never far apart, however far one zooms', () => {
   fc.assert(

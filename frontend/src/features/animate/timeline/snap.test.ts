@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { snapped } from './snap.ts';
+import { snapped } from './gesture.ts';
 
 const field = { placesMs: [505, 512, 990], tickMs: 20, reachMs: 15 };
 

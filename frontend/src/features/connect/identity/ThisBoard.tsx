@@ -1,15 +1,36 @@
 // The board at hand: the name the person gave it, what it is taken for and why, and the way to say otherwise.
 
 import { useStore } from 'zustand';
-import { nameOf, NICKNAME_LENGTH } from '../../../robot/boards.ts';
+import { mayAsk } from '../../../robot/readiness.ts';
 import { useDevice, useSnapshot, useStores } from '../../stores.ts';
 import { Button } from '../../../ui/Button.tsx';
-import { boardName } from '../../../i18n/sentences/boards.ts';
+import { offsetsText } from './answerText.ts';
 import { words } from '../../../i18n/whole.ts';
-import { BoardDetails } from './BoardDetails.tsx';
+import { nameOf, NICKNAME_LENGTH } from '../../../robot/boards.ts';
+import { boardName } from '../../../i18n/sentences/boards.ts';
 import { EvidenceList } from './EvidenceList.tsx';
 import field from '../../../ui/Field.module.css';
 import styles from './ThisBoard.module.css';
+
+// Firmware and trims of boards that can tell them, once a person has asked.
+
+export function BoardDetails() {
+  const { device } = useStores();
+  const family = useDevice((state) => state.family);
+  const version = useSnapshot((snapshot) => snapshot.version);
+  const offsets = useSnapshot((snapshot) => snapshot.offsets);
+  const isAllowed = useSnapshot((snapshot) => mayAsk(snapshot, family));
+  if (!family.commands.includes('readOffsets')) return null;
+  return (
+    <>
+      {version !== null && <p>{words.identity.version({ version })}</p>}
+      {offsets !== null && <p>{offsetsText(offsets)}</p>}
+      <Button tone="quiet" isDisabled={!isAllowed} onPress={device.readDetails}>
+        {words.identity.askDetails}
+      </Button>
+    </>
+  );
+}
 
 export function ThisBoard() {
   const { device, boards } = useStores();

@@ -1,16 +1,200 @@
 // The dialog about files, with those that were opened and not yet taken over: it is there while it is closed.
 
-import { useCallback, useEffect, useRef, useState } from 'react';
+import { memo, useCallback, useEffect, useRef, useState } from 'react';
 import { useStore } from 'zustand';
 import type { ActionGroup } from '#shared/group/group.ts';
-import { useStores } from '../../stores.ts';
-import { Dialog } from '../../../ui/Dialog.tsx';
+import type { Remark } from '#shared/files/reading.ts';
+import { Button, IconButton } from '../../../ui/Button.tsx';
+import { ProgressBar } from '../../../ui/ProgressBar.tsx';
 import { words } from '../../../i18n/whole.ts';
-import { countsOf, type FileCounts, type ReadyGroup } from './answers.ts';
+import { type Progress, type OpenedFile, type OpenedFiles, createOpenedFiles } from './openedFiles.ts';
+import { problemText, remarkText } from './fileText.ts';
+import { type Answer, readyGroups, type ReadyGroup, countsOf, type FileCounts } from './answers.ts';
+import { FoundGroup } from './FoundGroup.tsx';
+import { useKnownFamily, useStores } from '../../stores.ts';
+import { FileButton } from '../../../ui/FileButton.tsx';
+import { SaveAs } from './SaveAs.tsx';
+import { Dialog } from '../../../ui/Dialog.tsx';
 import { createFileReader } from './fileReader.ts';
-import { FilesContent } from './FilesContent.tsx';
-import { createOpenedFiles } from './openedFiles.ts';
 import { takeGroup, takeGroups } from './takeGroups.ts';
+import styles from './FileProgress.module.css';
+import openedFileItemStyles from './OpenedFileItem.module.css';
+import filesContentStyles from './FilesContent.module.css';
+
+// How far the reading of files or the taking over of their groups has come, and a way to cancel it.
+
+interface FileProgressProps {
+  readonly label: string;
+  readonly progress: Progress;
+  readonly text: string;
+  onCancel(): void;
+}
+
+function FileProgress({ label, progress, text, onCancel }: FileProgressProps) {
+  return (
+    <div className={styles.progress}>
+      <div>
+        <ProgressBar label={label} {...progress} text={text} />
+        <p className={styles.text}>{text}</p>
+      </div>
+      <Button onPress={onCancel}>{words.files.cancel}</Button>
+    </div>
+  );
+}
+
+// One opened file: each group in it with its picture, what has to be asked and told, and the way to take it over. A
+// file that cannot be read says where and why.
+
+interface OpenedFileItemProps {
+  readonly file: OpenedFile;
+  readonly files: Pick<OpenedFiles, 'answer' | 'drop'>;
+  onTake(id: number, group: ActionGroup): void;
+}
+
+/** Drawn again only where its file has changed: there may be hundreds, and each draws its groups. */
+const OpenedFileItem = memo(function OpenedFileItem({ file, files, onTake }: OpenedFileItemProps) {
+  const { id, name, reading, answers } = file;
+  return (
+    <li className={openedFileItemStyles.file} aria-label={name}>
+      <div className={openedFileItemStyles.head}>
+        {'problem' in reading ? (
+          <div>
+            <p className={openedFileItemStyles.refused}>{words.files.refused({ file: name })}</p>
+            <p>{problemText(reading.problem)}</p>
+          </div>
+        ) : (
+          <p className={openedFileItemStyles.dim}>{words.files.from({ file: name })}</p>
+        )}
+        <IconButton icon="close" label={words.files.drop({ file: name })} onPress={() => files.drop(id)} />
+      </div>
+      {'groups' in reading && (
+        <>
+          {reading.groups.map((group, index) => (
+            <FoundGroup
+              key={index}
+              found={group}
+              asksUnit={reading.asksUnit}
+              answer={answers[index] ?? NOT_ANSWERED}
+              onAnswer={(change) => files.answer(id, index, change)}
+              onTake={(taken) => onTake(id, taken)}
+            />
+          ))}
+          <Remarks remarks={reading.remarks} />
+        </>
+      )}
+    </li>
+  );
+});
+
+const NOT_ANSWERED: Answer = { unit: null, converts: false };
+
+/** A file may give the same reason for each of its frames. */
+const SHOWN_REMARKS = 6;
+
+function Remarks({ remarks }: { readonly remarks: readonly Remark[] }) {
+  if (remarks.length === 0) return null;
+  return (
+    <ul className={openedFileItemStyles.remarks}>
+      {remarks.slice(0, SHOWN_REMARKS).map((remark, index) => (
+        <li key={index}>{remarkText(remark)}</li>
+      ))}
+      {remarks.length > SHOWN_REMARKS && (
+        <li>{words.files.moreRemarks({ count: remarks.length - SHOWN_REMARKS })}</li>
+      )}
+    </ul>
+  );
+}
+
+// What stands in the dialog about files: what was opened, each with what it holds or what is wrong with it, and
+// saving the group at hand.
+
+interface FilesContentProps {
+  readonly files: OpenedFiles;
+  onTake(group: ActionGroup): void;
+  onTakeAll(ready: readonly ReadyGroup[]): void;
+}
+
+export function FilesContent({ files, onTake, onTakeAll }: FilesContentProps) {
+  const list = useStore(files.store, (state) => state.list);
+  const take = useCallback(
+    (id: number, group: ActionGroup) => {
+      files.drop(id);
+      onTake(group);
+    },
+    [files, onTake],
+  );
+  return (
+    <>
+      <section className={filesContentStyles.part}>
+        <h3 className={filesContentStyles.heading}>{words.files.open}</h3>
+        <div className={filesContentStyles.choose}>
+          <FileButton multiple onChoose={files.open}>
+            {words.files.choose}
+          </FileButton>
+          <span className={filesContentStyles.dim}>{words.files.hint}</span>
+        </div>
+        <Reading files={files} />
+        <TakeAll files={files} onTakeAll={onTakeAll} />
+        <ul className={filesContentStyles.list} aria-label={words.files.list} aria-live="polite">
+          {list.map((file) => (
+            <OpenedFileItem key={file.id} file={file} files={files} onTake={take} />
+          ))}
+        </ul>
+      </section>
+      <section className={filesContentStyles.part}>
+        <h3 className={filesContentStyles.heading}>{words.files.save}</h3>
+        <SaveAs />
+      </section>
+    </>
+  );
+}
+
+function Reading({ files }: Pick<FilesContentProps, 'files'>) {
+  const reading = useStore(files.store, (state) => state.reading);
+  const unread = useStore(files.store, (state) => state.unread);
+  return (
+    <>
+      {reading !== null && (
+        <FileProgress
+          label={words.files.reading}
+          progress={reading}
+          text={words.files.readSoFar({ done: reading.done, total: reading.total })}
+          onCancel={files.cancelReading}
+        />
+      )}
+      <div aria-live="polite">
+        {unread > 0 && <p className={filesContentStyles.dim}>{words.files.unread({ count: unread })}</p>}
+      </div>
+    </>
+  );
+}
+
+/** Whoever has a folder of groups takes them in one go. Files that still ask something stay in the list. */
+function TakeAll({ files, onTakeAll }: Pick<FilesContentProps, 'files' | 'onTakeAll'>) {
+  const unit = useKnownFamily().unit;
+  const list = useStore(files.store, (state) => state.list);
+  const taking = useStore(files.store, (state) => state.taking);
+  if (taking !== null)
+    return (
+      <FileProgress
+        label={words.files.taking}
+        progress={taking}
+        text={words.files.takenSoFar({ done: taking.done, total: taking.total })}
+        onCancel={files.cancelTaking}
+      />
+    );
+  const ready = readyGroups(list, unit);
+  const [first] = ready;
+  if (first === undefined || ready.length < 2) return null;
+  return (
+    <div className={filesContentStyles.all}>
+      <Button icon="library" onPress={() => onTakeAll(ready)}>
+        {words.files.takeAll({ count: ready.length })}
+      </Button>
+      <span className={filesContentStyles.dim}>{words.files.takeAllHint({ name: first.group.name })}</span>
+    </div>
+  );
+}
 
 interface FilesDialogProps {
   /** Each list of them is opened once. */

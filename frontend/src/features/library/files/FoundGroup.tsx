@@ -2,21 +2,97 @@
 // over as it is, or converted where the person says so.
 
 import { useMemo } from 'react';
-import { misfitsOf } from '#shared/files/fit.ts';
-import { poseAt, totalDurationMs, type ActionGroup } from '#shared/group/group.ts';
+import { type Unit, meaningIn, UNIT_RANGE } from '#shared/files/reading.ts';
+import { type ActionGroup, totalDurationMs, poseAt } from '#shared/group/group.ts';
+import { filled, misfitsOf } from '#shared/files/fit.ts';
+import { meaningText, misfitText } from './fileText.ts';
+import { words } from '../../../i18n/whole.ts';
 import { GroupThumb } from '../../picture/PoseThumb.tsx';
 import { boardOfGroup } from '../../animate/group/groupBoard.ts';
 import { useKnownFamily, useRobot } from '../../stores.ts';
 import { Button } from '../../../ui/Button.tsx';
 import { Toggle } from '../../../ui/Toggle.tsx';
-import { misfitText } from './fileText.ts';
-import { words } from '../../../i18n/whole.ts';
 import { convertedOf, takenAs, type Answer } from './answers.ts';
-import { GroupPlot } from './GroupPlot.tsx';
-import { UnitQuestion } from './UnitQuestion.tsx';
+import unitQuestionStyles from './UnitQuestion.module.css';
+import groupPlotStyles from './GroupPlot.module.css';
 import styles from './FoundGroup.module.css';
 
-export interface FoundGroupProps {
+// Which unit a file's positions are in, where it does not say: two buttons, each with what it would mean here.
+
+const UNITS: readonly Unit[] = ['us', 'steps'];
+
+interface UnitQuestionProps {
+  readonly group: ActionGroup;
+  readonly unit: Unit | null;
+  onUnit(unit: Unit): void;
+}
+
+function UnitQuestion({ group, unit, onUnit }: UnitQuestionProps) {
+  return (
+    <div role="group" aria-label={words.files.askUnit}>
+      <p className={unitQuestionStyles.question}>{words.files.askUnit}</p>
+      <div className={unitQuestionStyles.answers}>
+        {UNITS.map((one) => (
+          <button
+            key={one}
+            type="button"
+            className={unitQuestionStyles.answer}
+            aria-pressed={unit === one}
+            onClick={() => onUnit(one)}
+          >
+            <span>{words.files.units[one]}</span>
+            <span className={unitQuestionStyles.meaning}>{meaningText(one, meaningIn(one, group))}</span>
+          </button>
+        ))}
+      </div>
+    </div>
+  );
+}
+
+// A group as lines over time, one for each servo: a wave looks like a wave. A picture to recognise it by, without a
+// scale.
+
+const WIDTH = 100;
+const HEIGHT = 40;
+/** Beyond that a small picture shows no more. */
+const SHOWN_FRAMES = 300;
+const SHOWN_SERVOS = 32;
+
+function GroupPlot({ group }: { readonly group: ActionGroup }) {
+  return (
+    <svg
+      className={groupPlotStyles.plot}
+      viewBox={`0 0 ${WIDTH} ${HEIGHT}`}
+      preserveAspectRatio="none"
+      aria-hidden="true"
+    >
+      {linesOf(group).map((points) => (
+        <polyline key={points} points={points} className={groupPlotStyles.line} />
+      ))}
+    </svg>
+  );
+}
+
+function linesOf(group: ActionGroup): readonly string[] {
+  const { frames } = filled({ ...group, frames: group.frames.slice(0, SHOWN_FRAMES) });
+  const lengthMs = Math.max(1, totalDurationMs(frames.slice(1)));
+  const { min, max } = UNIT_RANGE[group.unit];
+  const lines = new Map<number, string[]>();
+  let atMs = 0;
+  frames.forEach(({ durationMs, targets }, index) => {
+    if (index > 0) atMs += durationMs;
+    for (const { servo, position } of targets) {
+      const share = Math.min(1, Math.max(0, (position - min) / (max - min)));
+      const point = `${((atMs / lengthMs) * WIDTH).toFixed(1)},${((1 - share) * HEIGHT).toFixed(1)}`;
+      const line = lines.get(servo);
+      if (line === undefined) lines.set(servo, [point]);
+      else line.push(point);
+    }
+  });
+  return [...new Set([...lines.values()].slice(0, SHOWN_SERVOS).map((points) => points.join(' ')))];
+}
+
+interface FoundGroupProps {
   readonly found: ActionGroup;
   readonly asksUnit: boolean;
   readonly answer: Answer;

@@ -2,23 +2,96 @@
 // worked out. It can be left anywhere: what was set is in the robot, and the place is kept.
 
 import { useEffect, useId, useRef } from 'react';
+import { flawOf, servoOf, TRIM, type Robot, type RobotServo } from '#shared/profile/robot.ts';
+import {
+  changeServo,
+  fromPartner,
+  homeAtCentre,
+  isDone,
+  isServoDone,
+  stepsOf,
+} from '#shared/profile/robotEdits.ts';
+import { FAMILIES } from '#shared/codec/families.ts';
 import type { CalibrationStep } from '#shared/profile/calibration.ts';
-import { isDone, isServoDone, stepsOf } from '#shared/profile/robotEdits.ts';
+import { servoLabel } from '../../../i18n/sentences/servos.ts';
+import { words } from '../../../i18n/whole.ts';
+import { Answer } from './Answer.tsx';
+import { Ask } from './Ask.tsx';
+import { type CalibrationAtHand, useCalibration } from './useCalibration.ts';
 import { RobotHead } from '../RobotHead.tsx';
 import { useStores } from '../../stores.ts';
 import { Button } from '../../../ui/Button.tsx';
 import { Mark } from '../../../ui/Chip.tsx';
 import { cx } from '../../../ui/cx.ts';
-import { servoLabel } from '../../../i18n/sentences/servos.ts';
-import { words } from '../../../i18n/whole.ts';
-import { Answer } from './Answer.tsx';
 import { DirectionStep } from './DirectionStep.tsx';
 import { EndStep } from './EndStep.tsx';
 import { MotionGate } from './MotionGate.tsx';
-import { PartnerStep } from './PartnerStep.tsx';
-import { TrimStep } from './TrimStep.tsx';
-import { useCalibration, type CalibrationAtHand } from './useCalibration.ts';
 import styles from './CalibrationWizard.module.css';
+
+// Offers the servo on the other side the mirror image of what was set.
+
+function PartnerStep({ at: { robot, servo, accept, keep } }: { readonly at: CalibrationAtHand }) {
+  const partner = servo.mirror === null ? undefined : servoOf(robot, servo.mirror);
+  if (partner === undefined) return null;
+  const change = fromPartner(robot, servo);
+  const { min, home, max } = { ...partner, ...change };
+  const fits = flawOf(changeServo(robot, partner.servo, change)) === null;
+  return (
+    <>
+      <Ask>{words.calibration.partner({ name: servoLabel(partner) })}</Ask>
+      <p className={styles.figures}>
+        {fits ? words.calibration.partnerFigures({ min, home, max }) : words.calibration.partnerNot}
+      </p>
+      <div className={styles.actions}>
+        <Answer
+          tone="primary"
+          isDisabled={!fits}
+          onPress={() => accept((all) => changeServo(all, partner.servo, change), { partner: partner.servo })}
+        >
+          {words.calibration.takeOver({ name: servoLabel(partner) })}
+        </Answer>
+        <Answer tone="quiet" onPress={keep}>
+          {words.calibration.leaveAsIs}
+        </Answer>
+      </div>
+    </>
+  );
+}
+
+// Gives home the figure that it has on every robot of this build, and the trim what it is off by.
+
+function TrimStep({ at: { robot, servo, isFinished, accept, keep } }: { readonly at: CalibrationAtHand }) {
+  const { centre } = FAMILIES[robot.board];
+  const change = servo.home === centre ? null : homeAtCentre(robot, servo);
+  return (
+    <>
+      <Ask>{sentence(robot, servo, change)}</Ask>
+      <div className={styles.actions}>
+        {change !== null && (
+          <Answer
+            tone={isFinished ? 'plain' : 'primary'}
+            onPress={() => accept((all) => changeServo(all, servo.servo, change))}
+          >
+            {words.calibration.trimSet({ centre })}
+          </Answer>
+        )}
+        {!isFinished && (
+          <Answer tone={change === null ? 'primary' : 'quiet'} onPress={keep}>
+            {change === null ? words.calibration.goOn : words.calibration.leaveAsIs}
+          </Answer>
+        )}
+      </div>
+    </>
+  );
+}
+
+function sentence({ board }: Robot, { home }: RobotServo, change: Partial<RobotServo> | null): string {
+  const { centre } = FAMILIES[board];
+  if (home === centre) return words.calibration.trimNone;
+  return change === null
+    ? words.calibration.trimFar({ home, centre, reach: TRIM.max })
+    : words.calibration.trim({ home, centre, trim: change.trim ?? 0 });
+}
 
 export function CalibrationWizard() {
   const at = useCalibration();

@@ -1,22 +1,122 @@
 // Lowest, highest and home: the servo is crept there and the commanded position becomes the figure.
 
+import { useEffect, useRef, useState } from 'react';
+import { Button } from 'react-aria-components/Button';
 import type { RobotServo } from '#shared/profile/robot.ts';
+import { type Range, type Family, FAMILIES } from '#shared/codec/families.ts';
 import type { Calibration } from '#shared/profile/calibration.ts';
 import { endFound, noteFound, changeServo, reachOf } from '#shared/profile/robotEdits.ts';
-import { FAMILIES } from '#shared/codec/families.ts';
+import { Estimate } from '../../drive/Estimate.tsx';
+import { scaleOf } from '../../drive/scale.ts';
+import { motionHindrance } from '../../../robot/readiness.ts';
+import { useStores } from '../../stores.ts';
+import { Mark } from '../../../ui/Chip.tsx';
+import { Icon } from '../../../ui/Icon.tsx';
+import { words } from '../../../i18n/whole.ts';
+import { startCreeping } from './creeping.ts';
 import { ReachBar } from '../ReachBar.tsx';
 import { GENTLE_MOVE_MS } from '../../../robot/moveTime.ts';
 import { useTarget } from '../../drive/useTarget.ts';
-import { useStores } from '../../stores.ts';
-import { words } from '../../../i18n/whole.ts';
 import { Answer } from './Answer.tsx';
 import { Ask } from './Ask.tsx';
-import { CreepControl } from './CreepControl.tsx';
 import { sightOf } from './sight.ts';
 import type { CalibrationAtHand } from './useCalibration.ts';
+import creepControlStyles from './CreepControl.module.css';
 import styles from './CalibrationWizard.module.css';
 
-export interface EndStepProps {
+// Two large buttons that a servo creeps by as long as one is held, and where it was sent to.
+
+interface CreepControlProps {
+  readonly servo: RobotServo;
+  readonly reach: Range;
+  readonly target: number;
+  readonly unit: Family['unit'];
+}
+
+const WAYS = [
+  { direction: -1, icon: 'minus', name: 'lower' },
+  { direction: 1, icon: 'plus', name: 'higher' },
+] as const;
+
+function CreepControl({ servo, reach, target, unit }: CreepControlProps) {
+  const { start, end } = useCreeping(servo.servo, reach);
+  const scale = scaleOf(servo, { unit }, 'board');
+  // Told when a button is let go, not at each of the many steps.
+  const [said, setSaid] = useState('');
+  const value = scale.text(target);
+
+  function letGo(): void {
+    end();
+    setSaid(value);
+  }
+
+  const [lower, higher] = WAYS.map(({ direction, icon, name }) => (
+    <Button
+      key={name}
+      className={creepControlStyles.creep ?? ''}
+      aria-label={words.calibration[name]}
+      onPressStart={() => start(direction)}
+      onPressEnd={letGo}
+    >
+      <Icon name={icon} />
+    </Button>
+  ));
+  return (
+    <div className={creepControlStyles.control}>
+      {lower}
+      <div className={creepControlStyles.now}>
+        <output
+          className={creepControlStyles.value}
+          aria-label={words.calibration.now}
+          aria-live="off"
+          title={words.truth.commanded}
+        >
+          <Mark truth="commanded" /> {value}
+        </output>
+        <Estimate servo={servo.servo} scale={scale} />
+      </div>
+      {higher}
+      <p className={creepControlStyles.said} role="status">
+        {said}
+      </p>
+    </div>
+  );
+}
+
+interface Creep {
+  start(direction: 1 | -1): void;
+  end(): void;
+}
+
+/** A page that goes out of sight has let go. */
+function useCreeping(servo: number, reach: Range): Creep {
+  const { device } = useStores();
+  const ending = useRef<() => void>(() => undefined);
+  const end = (): void => ending.current();
+
+  useEffect(() => {
+    window.addEventListener('blur', end);
+    return () => {
+      window.removeEventListener('blur', end);
+      end();
+    };
+  }, []);
+
+  return {
+    end,
+    start(direction) {
+      end();
+      const motion = () => device.motion(servo);
+      const mayMove = (): boolean => motionHindrance(device.store.getState().snapshot) === null;
+      ending.current = startCreeping(
+        { clock: device.clock, reach, motion, mayMove, move: device.creep },
+        direction,
+      );
+    },
+  };
+}
+
+interface EndStepProps {
   readonly at: CalibrationAtHand;
   readonly end: 'min' | 'max' | 'home';
 }
