@@ -21,6 +21,12 @@ class Line(NamedTuple):
     reconnect_ms: tuple[int, ...]
 
 
+class Hid(NamedTuple):
+    report_bytes: int
+    shortest_ms: int
+    send_timeout_ms: int
+
+
 class Decoding(NamedTuple):
     noise_bytes: int
     most_servos: int
@@ -124,6 +130,7 @@ def _section(name: str, shape: Callable[..., Section]) -> Section:
 
 
 LINE: Final = _section("line", Line)
+HID: Final = _section("hid", Hid)
 DECODER: Final = _section("decoder", Decoding)
 STOP: Final = _section("stop", Stop)
 MOVE: Final = _section("move", Move)

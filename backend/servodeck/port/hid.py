@@ -1,0 +1,152 @@
+"""Boards on their own USB cable, which is HID: which there are, how they are called, one of them as a port.
+
+`hid:SERIAL` names a board for good, `hid` the only one that is there. Knows one packet a report; no packet's
+meaning. hid_devices.py knows the systems.
+"""
+
+import errno
+import sys
+from collections import Counter
+from collections.abc import Awaitable, Callable
+from dataclasses import dataclass
+from typing import TypeVar
+
+from servodeck.errors import (
+    OtherDeviceError,
+    PortBusyError,
+    PortDeniedError,
+    PortError,
+    PortLostError,
+    PortMissingError,
+)
+from servodeck.port import hid_devices
+from servodeck.port.hid_devices import HidDevice, OpenDevice
+from servodeck.port.hid_reports import report_of
+from servodeck.port.whereabouts import SHARED_NUMBERS, UsbDevice
+from servodeck.threads import in_thread
+
+ANY = "hid"
+PREFIX = "hid:"
+VENDOR, PRODUCT = 0x0483, 0x5750
+# Unrelated devices share the numbers; boards call themselves by the first name, newer ones by the other.
+PRODUCT_NAMES = ("lobot", "hiwonder")
+UDEV_RULE = (
+    f'SUBSYSTEM=="hidraw", ATTRS{{idVendor}}=="{VENDOR:04x}", ATTRS{{idProduct}}=="{PRODUCT:04x}", '
+    'GROUP="dialout", MODE="0660", TAG+="uaccess"'
+)
+DENIED = frozenset({errno.EACCES, errno.EPERM})
+BUSY = frozenset({errno.EBUSY, errno.EAGAIN, errno.EWOULDBLOCK})
+
+T = TypeVar("T")
+
+
+@dataclass(frozen=True, slots=True)
+class HidBoard:
+    name: str
+    device: HidDevice
+
+    @property
+    def is_likely(self) -> bool:
+        return any(name in self.device.product.lower() for name in PRODUCT_NAMES)
+
+    @property
+    def usb_device(self) -> UsbDevice:
+        return UsbDevice(self.name, VENDOR, PRODUCT, self.device.serial, self.device.location)
+
+
+def is_hid(name: str) -> bool:
+    return name == ANY or name.startswith(PREFIX)
+
+
+def list_boards() -> list[HidBoard]:
+    devices = hid_devices.find_devices(VENDOR, PRODUCT)
+    numbers = Counter(device.serial for device in devices)
+    return [HidBoard(PREFIX + own_name(device, numbers), device) for device in devices]
+
+
+def own_name(device: HidDevice, numbers: Counter[str]) -> str:
+    """Its serial number where that is its own, else its socket, else its node."""
+    is_own = device.serial not in SHARED_NUMBERS and numbers[device.serial] == 1
+    return device.serial if is_own else device.location or device.node
+
+
+def find_board(name: str) -> HidBoard:
+    """Raises a PortError where it is not there, or where `hid` may be one of several."""
+    boards = list_boards()
+    if name != ANY:
+        found = [board for board in boards if board.name == name]
+    else:
+        found = [board for board in boards if board.is_likely] or boards
+    if len(found) > 1:
+        names = ", ".join(board.name for board in found)
+        raise OtherDeviceError(f"Several boards are plugged in. Name one of them: {names}.")
+    if not found:
+        raise PortMissingError(missing(name))
+    return found[0]
+
+
+def missing(name: str) -> str:
+    if not hid_devices.IS_LINUX and not hid_devices.has_hidapi():
+        return "For a board's own USB cable this system needs hidapi: pip install 'servodeck[hid]'"
+    which = "board on its own USB cable" if name == ANY else name
+    return f"There is no {which}. Is the cable plugged in and the board switched on?"
+
+
+def open_board(name: str) -> "HidPort":
+    """Raises a PortError with a sentence."""
+    board = find_board(name)
+    try:
+        return HidPort(board.name, hid_devices.open_device(board.device.node))
+    except (OSError, ValueError) as error:
+        raise explain(board, error) from error
+
+
+def explain(board: HidBoard, error: Exception) -> PortError:
+    number = getattr(error, "errno", None)
+    name = f"{board.name} ({board.device.node})"
+    if number in DENIED:
+        return PortDeniedError(
+            f"This account may not open {name}. Allow it once, then plug the cable in again: "
+            f"sudo {sys.executable} -m servodeck udev-rule --install"
+        )
+    if number in BUSY or not hid_devices.IS_LINUX:
+        return PortBusyError(
+            f"Another program uses {name}. Close it: another Servodeck, the maker's program."
+        )
+    return PortMissingError(f"{name} cannot be opened. Is the cable plugged in and the board switched on?")
+
+
+class HidPort:
+    """An open board with the face of a serial port. It reads whole reports."""
+
+    def __init__(self, name: str, device: OpenDevice) -> None:
+        self._name = name
+        self._device = device
+
+    def fileno(self) -> int | None:
+        return self._device.fileno()
+
+    def read(self) -> bytes:
+        return self._guarded(self._device.read)
+
+    def read_now(self) -> bytes:
+        return self._guarded(self._device.read_now)
+
+    def write(self, packet: bytes) -> Awaitable[None]:
+        """In a thread: the system returns when the device has polled for the report, or after seconds."""
+        report = report_of(packet)
+        return in_thread(lambda: self._guarded(lambda: self._device.write(report)))
+
+    def close(self) -> None:
+        try:
+            self._device.close()
+        except (OSError, ValueError):
+            return  # it is gone; that is what was asked for
+
+    def _guarded(self, action: Callable[[], T]) -> T:
+        try:
+            return action()
+        except (OSError, ValueError) as error:
+            raise PortLostError(
+                f"The connection to {self._name} broke off. Is the cable still plugged in?"
+            ) from error
