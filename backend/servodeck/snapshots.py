@@ -9,7 +9,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from servodeck.errors import ErrorCode
-from servodeck.protocol.families import Question
+from servodeck.protocol.families import Question, Withheld
 from servodeck.schema import Message
 
 PortStatus = Literal["closed", "opening", "open", "lost"]
@@ -43,12 +43,14 @@ class LeaseState(Message):
 
 class PortState(Message):
     """How the serial port stands. `code` and `detail` say why it is lost, `retryInMs` when the next attempt
-    follows. `simulated` where the device was declared to be no real board.
+    follows. `simulated` where the device was declared to be no real board. `withheld`: what this way to the
+    board is not to carry, although the board may know it.
     """
 
     device: str | None
     status: PortStatus
     simulated: bool = False
+    withheld: list[Withheld] = Field(default_factory=list)
     code: ErrorCode | None = None
     detail: str | None = None
     retry_in_ms: int | None = None

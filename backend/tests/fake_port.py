@@ -5,12 +5,20 @@ import socket
 from collections.abc import Awaitable, Callable
 
 from servodeck.errors import PortError, PortLostError, PortMissingError
+from servodeck.port.hid import HidPort
 from servodeck.port.ports import OpenPort
 from servodeck.port.whereabouts import UsbDevice
+from servodeck.protocol.decoder import LONGEST_PACKET
+from servodeck.protocol.families import Withheld
 
 
 class FakePort:
     """Bytes to us come through a real socket pair, so that the event loop sees them as it sees a port's."""
+
+    longest_packet = LONGEST_PACKET
+    shortest_s = 0.0
+    in_reports = False
+    withheld: frozenset[Withheld] = frozenset()
 
     def __init__(self) -> None:
         self._ours, self._boards = socket.socketpair()
@@ -61,6 +69,26 @@ class FakePort:
     def times_ms(self) -> list[float]:
         """When each packet's first byte was written."""
         return [round(at_s * 1000, 3) for at_s, _ in self.written]
+
+
+class FakeHidPort(FakePort):
+    """A cable with reports: what the board says comes padded, and it takes its time to take a packet."""
+
+    longest_packet = HidPort.longest_packet
+    shortest_s = HidPort.shortest_s
+    in_reports = True
+    withheld = HidPort.withheld
+    takes_s = 0.0
+
+    def read_now(self) -> bytes:
+        return self._ours.recv(self.longest_packet)
+
+    def write(self, data: bytes) -> Awaitable[None]:
+        super().write(data)
+        return asyncio.sleep(self.takes_s)
+
+    def say(self, data: bytes) -> None:
+        super().say(data.ljust(self.longest_packet, b"\0"))
 
 
 class FakePorts:

@@ -2,6 +2,7 @@
 
 import errno
 import sys
+import threading
 from collections.abc import Iterator
 from pathlib import Path
 from types import SimpleNamespace
@@ -11,8 +12,10 @@ import pytest
 
 from servodeck.errors import OtherDeviceError, PortBusyError, PortDeniedError, PortLostError, PortMissingError
 from servodeck.port.hid import HidPort, explain, is_hid, list_boards, open_board
-from servodeck.port.whereabouts import UsbDevice
+from servodeck.port.ports import PortInfo, is_same_port, list_devices, list_usb, open_port
+from servodeck.port.whereabouts import UsbDevice, Whereabouts
 from tests.hid_board import FakeHidraw
+from tests.virtual_time import in_virtual_time
 
 BATTERY = bytes.fromhex("5555020f")
 ANSWER = bytes.fromhex("5555040f4c1d")
@@ -116,6 +119,19 @@ async def test_an_unplugged_board_is_lost_whatever_is_done_with_it(hidraw: FakeH
     port.close()
 
 
+@in_virtual_time
+async def test_a_board_that_takes_nothing_for_a_second_is_lost(
+    hidraw: FakeHidraw, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    hidraw.plug()
+    port, goes_on = open_board("hid"), threading.Event()
+    monkeypatch.setattr(port._device, "write", lambda _report: goes_on.wait())
+    with pytest.raises(PortLostError):
+        await port.write(BATTERY)
+    goes_on.set()
+    port.close()
+
+
 def test_a_board_without_permission_says_what_allows_it(
     hidraw: FakeHidraw, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -154,6 +170,42 @@ def test_a_node_that_cannot_be_opened_otherwise_is_missing(hidraw: FakeHidraw) -
     hidraw.plug()
     (board,) = list_boards()
     assert isinstance(explain(board, OSError(errno.ENODEV, "gone")), PortMissingError)
+
+
+def test_boards_are_listed_beside_serial_ports_and_asked_for_by_name(hidraw: FakeHidraw) -> None:
+    hidraw.plug()
+    ports = [port for port in list_devices("hid", "hid:497223563535") if is_hid(port.device)]
+    assert ports == [PortInfo("hid:497223563535", "LOBOT, USB cable of the board", likely=True)]
+    assert list_usb() == [board.usb_device for board in list_boards()]
+    assert isinstance(open_port("hid"), HidPort)
+
+
+@pytest.mark.parametrize(
+    ("one", "other", "expected"),
+    [
+        ("hid", "hid:A", True),
+        ("hid:A", "hid", True),
+        ("hid:A", "hid:A", True),
+        ("hid:A", "hid:B", False),
+        ("hid", "/dev/ttyUSB0", False),
+    ],
+)
+def test_the_name_of_the_only_board_is_that_of_any(one: str, other: str, expected: bool) -> None:
+    assert is_same_port(one, other) is expected
+
+
+def test_the_only_board_is_found_again_by_its_number_under_another_node(hidraw: FakeHidraw) -> None:
+    whereabouts = Whereabouts("hid")
+    board = hidraw.plug("1-1")
+    whereabouts.opened("hid", list_usb())
+    assert (whereabouts.path, whereabouts.lasting) == ("hid:497223563535", "0483:5750 497223563535")
+    board.unplug()
+    whereabouts.note_others(list_usb())
+    hidraw.plug("1-2", serial="another", node="hidraw1")
+    with pytest.raises(PortMissingError):
+        whereabouts.find(list_usb())
+    hidraw.plug("1-3", node="hidraw2")
+    assert whereabouts.find(list_usb()) == "hid:497223563535"
 
 
 class FakeHidapi(SimpleNamespace):

@@ -10,10 +10,17 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from servodeck.errors import BusyError, ClosedError, GatewayError, LatchedError, PortLostError
-from servodeck.port.wire import QUEUE_PER_OWNER, Wire, no_hold
+from servodeck.errors import (
+    BusyError,
+    ClosedError,
+    GatewayError,
+    LatchedError,
+    OutOfRangeError,
+    PortLostError,
+)
+from servodeck.port.wire import QUEUE_PER_OWNER, Hold, Wire, no_hold
 from tests.amount import TIMES
-from tests.fake_port import FakePort
+from tests.fake_port import FakeHidPort, FakePort
 from tests.samples import BATTERY, GAP_MS, MOVE, MOVE_ELSEWHERE, RUN, STOP, wire_ms
 from tests.virtual_time import at, in_virtual_time, now
 
@@ -34,6 +41,11 @@ async def open_wire(port: FakePort, gap_ms: float = GAP_MS) -> AsyncIterator[Wir
         life.cancel()
         await asyncio.gather(life, return_exceptions=True)
         port.close()
+
+
+def once(hold: bytes) -> Hold:
+    """All is held by that packet."""
+    return lambda held: None if held else hold
 
 
 def approx_ms(*times_ms: float) -> object:
@@ -75,9 +87,8 @@ async def test_a_stop_waits_for_the_packet_on_the_wire_and_for_nothing_else() ->
     port = FakePort()
     async with open_wire(port) as wire:
         waiting = [wire.send(packet, ANNA) for packet in (MOVE, RUN, MOVE_ELSEWHERE)]
-        at(
-            0.015, lambda: wire.halt(lambda: MOVE_ELSEWHERE, STOPPED)
-        )  # the first move is on the wire since 10 ms
+        # The first move is on the wire since 10 ms.
+        at(0.015, lambda: wire.halt(once(MOVE_ELSEWHERE), STOPPED))
         await waiting[0]
         for left in waiting[1:]:
             with pytest.raises(LatchedError):
@@ -119,7 +130,7 @@ async def test_a_stop_keeps_its_distance_even_from_a_board_that_needs_less() -> 
 async def test_nothing_slips_in_between_the_stops_and_the_pose() -> None:
     port = FakePort()
     async with open_wire(port) as wire:
-        halted = wire.halt(lambda: MOVE_ELSEWHERE, STOPPED)
+        halted = wire.halt(once(MOVE_ELSEWHERE), STOPPED)
         wire.send(BATTERY, ANNA)
         wire.send(STOP, ANNA, urgent=True)
         await halted
@@ -131,8 +142,8 @@ async def test_nothing_slips_in_between_the_stops_and_the_pose() -> None:
 async def test_pressing_stop_again_joins_the_sequence_and_brings_the_newer_pose() -> None:
     port = FakePort()
     async with open_wire(port) as wire:
-        first = wire.halt(lambda: MOVE, STOPPED)
-        at(0.03, lambda: wire.halt(lambda: MOVE_ELSEWHERE, STOPPED))
+        first = wire.halt(once(MOVE), STOPPED)
+        at(0.03, lambda: wire.halt(once(MOVE_ELSEWHERE), STOPPED))
         await first
     assert port.packets() == [STOP, MOVE, STOP, STOP, MOVE_ELSEWHERE]
 
@@ -142,7 +153,7 @@ async def test_hammering_stop_never_puts_off_the_pose_and_each_press_is_followed
     port = FakePort()
     async with open_wire(port) as wire:
         for press in range(100):
-            at(press * 0.05, lambda: wire.halt(lambda: MOVE, STOPPED))
+            at(press * 0.05, lambda: wire.halt(once(MOVE), STOPPED))
         await asyncio.sleep(6)
     poses = [at_s for at_s, packet in port.written if packet == MOVE]
     stops = [at_s for at_s, packet in port.written if packet == STOP]
@@ -303,3 +314,39 @@ def run_script(asked: list[tuple[int, str]]) -> list[tuple[float, bytes]]:
     port = FakePort()
     play(asked, port)
     return port.written
+
+
+@in_virtual_time
+async def test_a_hold_of_several_packets_leaves_whole_after_the_first_stop_and_the_last() -> None:
+    port = FakePort()
+    parts = [MOVE, MOVE_ELSEWHERE]
+    async with open_wire(port) as wire:
+        await wire.halt(lambda held: parts[len(held)] if len(held) < len(parts) else None, STOPPED)
+    assert port.packets() == [STOP, *parts, STOP, STOP, *parts]
+
+
+@in_virtual_time
+async def test_a_packet_that_the_port_cannot_carry_is_refused_and_never_split() -> None:
+    port = FakeHidPort()
+    async with open_wire(port) as wire:
+        with pytest.raises(OutOfRangeError, match="65 bytes, this port carries 64"):
+            wire.send(bytes(65), ANNA)
+        await wire.send(bytes(64), ANNA)
+    assert port.packets() == [bytes(64)]
+
+
+@in_virtual_time
+async def test_short_packets_are_as_far_apart_as_the_port_needs() -> None:
+    port = FakeHidPort()
+    async with open_wire(port, gap_ms=2) as wire:
+        await asyncio.gather(*(wire.send(BATTERY, ANNA) for _ in range(3)))
+    assert port.times_ms() == approx_ms(GAP_MS, GAP_MS + 20 + GAP_MS, 2 * (GAP_MS + 20) + GAP_MS)
+
+
+@in_virtual_time
+async def test_a_packet_that_is_taken_late_keeps_the_next_one_back() -> None:
+    port = FakeHidPort()
+    port.takes_s = 0.255
+    async with open_wire(port) as wire:
+        await asyncio.gather(*(wire.send(BATTERY, ANNA) for _ in range(2)))
+    assert port.times_ms() == approx_ms(GAP_MS, GAP_MS + 255 + GAP_MS)

@@ -187,8 +187,8 @@ def age_of(control: Control) -> BatteryAge | None:
 
 @api.get("/ports", dependencies=[OWNER])
 def ports(control: Controlled, bluetooth: bool = False) -> list[Device]:
-    """The serial ports of this computer and the one in use, the likely ones first. `bluetooth`: also the
-    modules that are heard within a few seconds.
+    """The ports of this computer, serial and HID, and the one in use, the likely ones first. `bluetooth`:
+    also the modules that are heard within a few seconds.
     """
     present = control.board.link.state.device
     heard = this_computer().scan() if bluetooth else []

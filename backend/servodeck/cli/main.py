@@ -14,6 +14,7 @@ from servodeck.cli.config import PREFIX, commands_of, settings_of, toml_line
 from servodeck.cli.groups import download, play
 from servodeck.cli.options import USAGE, Token, TokenFile, asked, fail, remote_at
 from servodeck.cli.serve import serve
+from servodeck.cli.udev import udev_rule
 from servodeck.port.ports import PortInfo, list_devices
 from servodeck.protocol.describe import describe
 from servodeck.protocol.limits import PacketError
@@ -46,7 +47,7 @@ def main_options(
 
 
 app.command(context_settings={"auto_envvar_prefix": PREFIX})(serve)
-for command in (*COMMANDS, pose, poses, download, play, library):
+for command in (*COMMANDS, pose, poses, download, play, library, udev_rule):
     app.command()(command)
 
 
@@ -71,7 +72,7 @@ def ports(
         bool, typer.Option("--bluetooth", help="Listen for Bluetooth modules, too; takes a few seconds.")
     ] = False,
 ) -> None:
-    """List the serial ports of this computer, the likely ones first."""
+    """List the ports of this computer, serial and HID, the likely ones first."""
     if url:
         remote = remote_at(url, token, token_file)
         names = [field.name for field in fields(PortInfo)]
@@ -83,7 +84,7 @@ def ports(
     if as_json:
         print(json.dumps([asdict(port) for port in found]))
     elif not found:
-        print("No serial port found. Is the cable plugged in?")
+        print("No port found. Is the cable plugged in?")
     for port in () if as_json else found:
         print(f"{port.device}  {port.description}{'  (likely)' if port.likely else ''}")
         if port.lasting:

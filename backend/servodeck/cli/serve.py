@@ -92,7 +92,12 @@ def serve(
     invite: Annotated[
         bool, typer.Option("--invite", help="Show a link for one more owner, also where there is one.")
     ] = False,
-    serial: Annotated[str, typer.Option(help="Serial device, or socket://HOST:PORT.")] = "",
+    serial: Annotated[
+        str,
+        typer.Option(
+            help="Serial device, socket://HOST:PORT, hid:SERIAL, or hid for the only board on its USB cable."
+        ),
+    ] = "",
     board: Annotated[
         str, typer.Option(help=f"Board family: {', '.join(FAMILIES)}. Left out: as it was last, else ask it.")
     ] = "",

@@ -23,6 +23,8 @@ from servodeck.errors import (
     PortMissingError,
 )
 from servodeck.port.ports import READ_WAIT_S, PortInfo
+from servodeck.protocol.decoder import LONGEST_PACKET
+from servodeck.protocol.families import Withheld
 from servodeck.protocol.shared_data import load_shared
 from servodeck.protocol.timings import wire_s
 
@@ -228,6 +230,11 @@ def is_module(device: "BLEDevice", advertisement: "AdvertisementData") -> bool:
 
 class BluetoothPort:
     """One connected module, with the face of a serial port. Every failure of it is a PortLostError."""
+
+    longest_packet = LONGEST_PACKET
+    shortest_s = 0.0
+    in_reports = False
+    withheld: frozenset[Withheld] = frozenset()
 
     def __init__(self, device: str, bluetooth: Bluetooth) -> None:
         self._device = device

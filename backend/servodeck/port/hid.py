@@ -7,7 +7,7 @@ meaning. hid_devices.py knows the systems.
 import errno
 import sys
 from collections import Counter
-from collections.abc import Awaitable, Callable
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TypeVar
 
@@ -23,7 +23,8 @@ from servodeck.port import hid_devices
 from servodeck.port.hid_devices import HidDevice, OpenDevice
 from servodeck.port.hid_reports import report_of
 from servodeck.port.whereabouts import SHARED_NUMBERS, UsbDevice
-from servodeck.threads import in_thread
+from servodeck.protocol.families import Withheld
+from servodeck.protocol.timings import HID
 
 ANY = "hid"
 PREFIX = "hid:"
@@ -36,6 +37,8 @@ UDEV_RULE = (
 )
 DENIED = frozenset({errno.EACCES, errno.EPERM})
 BUSY = frozenset({errno.EBUSY, errno.EAGAIN, errno.EWOULDBLOCK})
+
+TAKEN_WITHIN_S = HID.send_timeout_ms / 1000
 
 T = TypeVar("T")
 
@@ -117,7 +120,13 @@ def explain(board: HidBoard, error: Exception) -> PortError:
 
 
 class HidPort:
-    """An open board with the face of a serial port. It reads whole reports."""
+    """An open board with the face of a serial port."""
+
+    longest_packet = HID.report_bytes
+    shortest_s = HID.shortest_ms / 1000
+    in_reports = True
+    # Commands of their own do these on HID, and only others' programs tell of those (boards.md chapter 6).
+    withheld: frozenset[Withheld] = frozenset({"download", "erase"})
 
     def __init__(self, name: str, device: OpenDevice) -> None:
         self._name = name
@@ -132,10 +141,18 @@ class HidPort:
     def read_now(self) -> bytes:
         return self._guarded(self._device.read_now)
 
-    def write(self, packet: bytes) -> Awaitable[None]:
+    async def write(self, packet: bytes) -> None:
         """In a thread: the system returns when the device has polled for the report, or after seconds."""
+        import asyncio  # which a small command does without
+
+        from servodeck.threads import in_thread
+
         report = report_of(packet)
-        return in_thread(lambda: self._guarded(lambda: self._device.write(report)))
+        try:
+            async with asyncio.timeout(TAKEN_WITHIN_S):
+                await in_thread(lambda: self._guarded(lambda: self._device.write(report)))
+        except TimeoutError:
+            raise self._lost() from None
 
     def close(self) -> None:
         try:
@@ -147,6 +164,7 @@ class HidPort:
         try:
             return action()
         except (OSError, ValueError) as error:
-            raise PortLostError(
-                f"The connection to {self._name} broke off. Is the cable still plugged in?"
-            ) from error
+            raise self._lost() from error
+
+    def _lost(self) -> PortLostError:
+        return PortLostError(f"The connection to {self._name} broke off. Is the cable still plugged in?")

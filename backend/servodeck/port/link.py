@@ -17,6 +17,8 @@ from servodeck.port.bluetooth import is_bluetooth, this_computer
 from servodeck.port.ports import OpenPort, list_usb, open_port
 from servodeck.port.whereabouts import UsbDevice, Whereabouts
 from servodeck.port.wire import Wire, fail, settle
+from servodeck.protocol.decoder import LONGEST_PACKET
+from servodeck.protocol.families import Withheld
 from servodeck.protocol.timings import LINE
 from servodeck.snapshots import PortState
 from servodeck.threads import in_thread
@@ -86,6 +88,16 @@ class Link:
     def place(self) -> str:
         """What the board on it is remembered by."""
         return self._whereabouts.lasting if self._whereabouts else ""
+
+    @property
+    def longest_packet(self) -> int:
+        """In bytes, of the port that is open."""
+        return self._wire.longest_packet if self._wire else LONGEST_PACKET
+
+    @property
+    def withheld(self) -> frozenset[Withheld]:
+        """What the port that is open is not to carry."""
+        return self._wire.withheld if self._wire else frozenset()
 
     def wire(self) -> Wire:
         """The open wire. Raises what keeps it from being open."""

@@ -1,4 +1,4 @@
-"""Serial ports: list them, open one, and say in a sentence why it cannot be had.
+"""Ports of this computer, serial or HID: list them, open one, and say in a sentence why it cannot be had.
 
 The only module that imports pyserial, so that another library can take its place. Knows no packet and no
 event loop: every call here may block for a moment.
@@ -18,7 +18,10 @@ import serial
 from serial.tools import list_ports
 
 from servodeck.errors import PortBusyError, PortDeniedError, PortError, PortLostError, PortMissingError
+from servodeck.port import hid
 from servodeck.port.whereabouts import SHARED_NUMBERS, UsbDevice
+from servodeck.protocol.decoder import LONGEST_PACKET
+from servodeck.protocol.families import Withheld
 from servodeck.protocol.timings import LINE
 
 POSIX = os.name == "posix"
@@ -37,6 +40,14 @@ FURTHER_PORT = re.compile(r"-(port[1-9][0-9]*)$")
 
 class OpenPort(Protocol):
     """A port that is open. Every failure of it is a PortLostError."""
+
+    longest_packet: int
+    """In bytes."""
+    shortest_s: float
+    """Every packet takes at least that long."""
+    in_reports: bool
+    """What it reads are HID reports, one packet in each; else bytes in pieces of any size."""
+    withheld: frozenset[Withheld]
 
     def fileno(self) -> int | None:
         """The descriptor to watch for input; None where the platform has none."""
@@ -69,6 +80,11 @@ class PortInfo:
 
 class SerialPort:
     """pyserial with its zoo of exceptions reduced to one."""
+
+    longest_packet = LONGEST_PACKET
+    shortest_s = 0.0
+    in_reports = False
+    withheld: frozenset[Withheld] = frozenset()
 
     def __init__(self, device: str, port: serial.Serial) -> None:
         self._device = device
@@ -119,7 +135,11 @@ def write_all(descriptor: int, data: bytes) -> None:
 
 
 def open_port(device: str) -> OpenPort:
-    """Opens a device path or `socket://HOST:PORT`, for us alone. Raises a PortError with a sentence."""
+    """Opens a device path, `socket://HOST:PORT` or `hid:SERIAL`, for us alone. Raises a PortError with a
+    sentence.
+    """
+    if hid.is_hid(device):
+        return hid.open_board(device)
     refuse_other_schemes(device)
     try:
         port = serial.serial_for_url(
@@ -179,7 +199,7 @@ def group_of(device: str) -> str:
 
 def list_devices(*also: str | None) -> list[PortInfo]:
     """All ports of this computer, the likely ones first, and `also` those known by name alone."""
-    found = [describe(port) for port in list_ports.comports()]
+    found = [*map(describe, list_ports.comports()), *map(describe_hid, hid.list_boards())]
     extra = [
         PortInfo(name, "Named at the start", likely=True)
         for name in dict.fromkeys(also)
@@ -190,12 +210,15 @@ def list_devices(*also: str | None) -> list[PortInfo]:
 
 def is_same_port(one: str, other: str) -> bool:
     """By whichever of its names, as far as the system keeps several."""
+    if hid.is_hid(one) or hid.is_hid(other):
+        return one == other or (hid.ANY in (one, other) and hid.is_hid(one) and hid.is_hid(other))
     return one == other or os.path.realpath(one) == os.path.realpath(other)
 
 
 def list_usb() -> list[UsbDevice]:
     """The ports on the USB bus, as far as the system tells them apart."""
-    return [usb_device(port) for port in list_ports.comports() if port.vid is not None]
+    serial_ports = [usb_device(port) for port in list_ports.comports() if port.vid is not None]
+    return serial_ports + [board.usb_device for board in hid.list_boards()]
 
 
 def usb_device(port: Any) -> UsbDevice:
@@ -214,6 +237,12 @@ def describe(port: Any) -> PortInfo:
     has_number = (port.serial_number or "") not in SHARED_NUMBERS
     lasting = lasting_name(device, has_number=has_number)
     return PortInfo(device, str(text), likely=port.vid in LIKELY_VENDORS, lasting=lasting)
+
+
+def describe_hid(board: hid.HidBoard) -> PortInfo:
+    """Its name is one that lasts."""
+    product = board.device.product or "HID device"
+    return PortInfo(board.name, f"{product}, USB cable of the board", likely=board.is_likely)
 
 
 def lasting_of(device: str, found: Iterable[PortInfo]) -> str:

@@ -10,6 +10,8 @@ from dataclasses import dataclass
 
 from servodeck.errors import OtherDeviceError, PortMissingError
 
+# The name of the only board on a HID cable; the names of single ones begin with it.
+HID = "hid"
 # None, and what adapters bear as they come from the factory.
 SHARED_NUMBERS = frozenset({"", "0", "0001"})
 
@@ -91,11 +93,11 @@ class Whereabouts:
         """Raises where something else came in between: what was opened must be closed again."""
         devices = list(listed)
         real = os.path.realpath(path)
-        device = next((one for one in devices if one.path in (path, real)), None)
+        device = next((one for one in devices if one.path in (path, real)), None) or only_hid(path, devices)
         if self._ours and (device is None or device.kind != self._ours.kind):
             raise OtherDeviceError(f"{path} became the name of another device just now.")
         self._ours = device
-        self.path = path
+        self.path = device.path if device and path == HID else path
         self._others = set()
         self.note_others(devices)
 
@@ -106,6 +108,12 @@ class Whereabouts:
 
     def _called(self, device: UsbDevice) -> str:
         return self._name if os.path.realpath(self._name) == device.path else device.path
+
+
+def only_hid(path: str, devices: Iterable[UsbDevice]) -> UsbDevice | None:
+    """What `hid` has opened. None where that is none, or may be one of several."""
+    found = [one for one in devices if path == HID and one.path.startswith(f"{HID}:")]
+    return found[0] if len(found) == 1 else None
 
 
 def names(devices: Iterable[UsbDevice]) -> str:

@@ -8,14 +8,15 @@ wait for.
 import asyncio
 import contextlib
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 from servodeck import metrics
-from servodeck.errors import BusyError, ClosedError, GatewayError
+from servodeck.errors import BusyError, ClosedError, GatewayError, OutOfRangeError
 from servodeck.port.ports import OpenPort
 from servodeck.port.reader import start_reading
 from servodeck.protocol.decoder import COMMAND_AT
+from servodeck.protocol.families import Withheld
 from servodeck.protocol.timings import STOP, wire_s
 
 STOP_PACKET = bytes.fromhex("55550207")
@@ -23,10 +24,11 @@ QUEUE_PER_OWNER = 8
 CLOCK_GRAIN_S = 1e-6
 
 Owner = object
-Hold = Callable[[], bytes | None]
+# The next packet of the hold that those packets began, None where all is held.
+Hold = Callable[[Sequence[bytes]], bytes | None]
 
 
-def no_hold() -> None:
+def no_hold(_held: Sequence[bytes]) -> None:
     """Nothing is held."""
 
 
@@ -55,12 +57,14 @@ class Halt:
     """A stop sequence under way: what is still to be sent of it, and from when on the next stop may go.
 
     `hold` follows the first stop at once, because a stop never ends the move in progress (S50), and the last
-    one, because the first stop may have been lost (S52): each time that of the moment.
+    one, because the first stop may have been lost (S52): each time that of the moment. It is several packets
+    where the port carries none that is long enough; `held` are those that left.
     """
 
     hold: Hold
     left: Left
     stops_to_go: int = 1 + STOP.repeats
+    held: list[bytes] = field(default_factory=list)
     hold_now: bool = False
     due: float = field(default=float("-inf"))
 
@@ -111,6 +115,10 @@ class Wire:
         """Queues a packet, an urgent one before all others. Raises BusyError when this owner has too many
         waiting. `judge` is asked when its turn has come, and raises what keeps it from leaving.
         """
+        if len(packet) > self._port.longest_packet:
+            raise OutOfRangeError(
+                f"The packet has {len(packet)} bytes, this port carries {self._port.longest_packet}."
+            )
         lane = self._urgent if urgent else self._queue
         if sum(other.owner is owner for other in lane) >= QUEUE_PER_OWNER:
             raise BusyError(f"{QUEUE_PER_OWNER} packets wait already; send the next one when one has left.")
@@ -153,6 +161,15 @@ class Wire:
                 self._halt.stops_to_go, self._halt.due = 1, self._now()
         self._work.set()
         return self._halt.left
+
+    @property
+    def longest_packet(self) -> int:
+        """In bytes."""
+        return self._port.longest_packet
+
+    @property
+    def withheld(self) -> frozenset[Withheld]:
+        return self._port.withheld
 
     @property
     def is_halting(self) -> bool:
@@ -212,15 +229,18 @@ class Wire:
         """Sends the next packet of a stop sequence; nothing else may leave between them."""
         if halt.hold_now:
             halt.hold_now = False
-            if hold := halt.hold():
+            if hold := halt.hold(halt.held):
                 await self._put(hold, None)
+                halt.held.append(hold)
+                halt.hold_now = halt.hold(halt.held) is not None
         elif halt.stops_to_go:
             await self._until(halt.due)
             is_edge = halt.stops_to_go in (1 + STOP.repeats, 1)
             halt.stops_to_go -= 1
             halt.due = self._now() + STOP.repeat_every_ms / 1000
             await self._put(STOP_PACKET, None)
-            halt.hold_now = is_edge and halt.hold() is not None
+            halt.held = []
+            halt.hold_now = is_edge and halt.hold(halt.held) is not None
         if halt.stops_to_go == 0 and not halt.hold_now:
             self._halt = None
             settle(halt.left)
@@ -246,7 +266,7 @@ class Wire:
         handed_over = self._port.write(packet)
         self._last_command = packet[COMMAND_AT]
         metrics.sent.labels(metrics.name_of(self._last_command)).inc()
-        self._left_at = self._now() + wire_s(len(packet))
+        self._left_at = self._now() + max(wire_s(len(packet)), self._port.shortest_s)
         self._free_at = self._left_at + self._gap_s
         self._leaving(owner, packet, self._left_at)
         if handed_over:

@@ -16,6 +16,7 @@ Buffer = bytes | bytearray
 
 HEADER: Final = 0x55
 MAX_LENGTH: Final = 253
+LONGEST_PACKET: Final = MAX_LENGTH + 2
 # Two headers, LEN, CMD: a packet without parameters is no longer.
 HEAD_SIZE: Final = 4
 LENGTH_AT: Final = 2

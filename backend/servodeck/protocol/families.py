@@ -6,7 +6,8 @@ there, never an `if` on a family elsewhere.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cache
 from typing import Any, Final, Literal
 
 from servodeck.protocol.shared_data import load_shared, snake
@@ -25,8 +26,15 @@ CommandKind = Literal[
     "readAllPositions",
     "readOffsets",
 ]
+# What a way to the board may not carry although the board knows it: no hardware has confirmed how.
+Withheld = Literal["download", "erase"]
 # What may be asked of any board: it moves nothing, stores nothing and makes nothing drop.
 Question = Literal["readBattery", "readVersion", "readPositions"]
+
+
+HEADER_BYTES: Final = 2  # which LEN does not count
+MOVE_BYTES: Final = 7  # of a move of no servo
+BYTES_PER_SERVO: Final = 3
 
 
 @dataclass(frozen=True, slots=True)
@@ -140,6 +148,16 @@ def _table() -> dict[str, Family]:
     data = load_shared("families")
     rows = {**data["families"], "unknown": data["unknown"]}
     return {name: _family(name, _expanded(row, data["bases"])) for name, row in rows.items()}
+
+
+@cache
+def carried(family_id: str, longest_packet: int) -> Family:
+    """As much of what such a board takes as a port carries whose packets have so many bytes at most."""
+    family = FAMILIES[family_id]
+    servos_per_move = min(family.servos_per_move, (longest_packet - MOVE_BYTES) // BYTES_PER_SERVO)
+    if servos_per_move == family.servos_per_move:
+        return family
+    return replace(family, servos_per_move=servos_per_move, max_length=longest_packet - HEADER_BYTES)
 
 
 FAMILIES: Final = _table()

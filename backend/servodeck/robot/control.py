@@ -212,6 +212,8 @@ class Control:
         is not harmless needs the lease and its `nonce`.
         """
         packet, command = judge_command(packet_hex, self.board.family_id)
+        if isinstance(command, Erase):
+            self.board.judge_carried("erase")
         session.caller.require(role_for(packet))
         self.limits.judge(command, session)
         wire = self.board.link.wire()
@@ -355,6 +357,7 @@ class Control:
         """
         board = self.board
         before = board.jobs.parts_of(behind) if behind else ()
+        board.judge_carried("download")
         judge_parts((*before, *parts), board.family_id)
         for part in parts:
             self.limits.judge_targets(part.extremes)

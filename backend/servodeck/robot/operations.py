@@ -162,6 +162,7 @@ class Operations:
     async def erase(self, claim: Claim) -> Outcome:
         """Until the board says that it is done."""
         command = Erase()
+        self._control.board.judge_carried("erase")
         judge_command(command, self._family())
         self._judge_rest()
         async with self._one_request():

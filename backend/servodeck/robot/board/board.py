@@ -6,7 +6,8 @@ Knows packets and the link. Must not know clients, nor who may ask for what.
 
 import asyncio
 import contextlib
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import Protocol
 
 from servodeck import metrics
@@ -19,17 +20,19 @@ from servodeck.errors import (
     LatchedError,
     MovingError,
     NoAnswerError,
+    NotSupportedError,
     PortLostError,
 )
+from servodeck.port.hid_reports import ReportInbox
 from servodeck.port.link import Link, Ports
 from servodeck.port.ports import OpenPort
 from servodeck.port.reader import Inbox
 from servodeck.port.wire import STOP_PACKET, Job, Left, Owner, Wire
 from servodeck.protocol.decoder import COMMAND_AT, DecoderEvent, PacketEvent
-from servodeck.protocol.families import FAMILIES, UNKNOWN, Family, Question
+from servodeck.protocol.families import FAMILIES, UNKNOWN, Family, Question, Withheld, carried
 from servodeck.protocol.packets import encode, parse_command, parse_report
 from servodeck.protocol.timings import BATTERY, IDENTIFY, wire_s
-from servodeck.protocol.values import Battery, Command, Report, Run, RunAccepted, RunStarted
+from servodeck.protocol.values import Battery, Command, Move, Report, Run, RunAccepted, RunStarted
 from servodeck.robot.board.answers import Answers
 from servodeck.robot.board.battery import BatteryPoll, BatteryWatch
 from servodeck.robot.board.downloads import Jobs
@@ -116,7 +119,7 @@ class Board:
         self.jobs = Jobs(self, self.answers, now, slot_memory)
         self.moves = Moves(self, now, events.board_changed)
         self.plays = Plays(self.moves, self._play_changed, now)
-        self._motion = Estimate(self.family)
+        self._motion = Estimate(FAMILIES[family_id])
         self._silence = Silence()
         self._cut: tuple[str, bytes] | None = None
         """The packet that a loss has cut on its way to the board at that place, until filler has ended it."""
@@ -128,7 +131,16 @@ class Board:
 
     @property
     def family(self) -> Family:
-        return FAMILIES[self.family_id]
+        """As far as the port carries what it takes."""
+        return carried(self.family_id, self.link.longest_packet)
+
+    def judge_carried(self, kind: Withheld) -> None:
+        """Raises where no hardware has confirmed how such a cable carries it."""
+        if kind in self.link.withheld:
+            raise NotSupportedError(
+                f"The board's own USB cable carries no {kind} yet: no hardware has confirmed how. "
+                "Use its serial header with an adapter."
+            )
 
     @property
     def motion(self) -> Estimate:
@@ -142,7 +154,8 @@ class Board:
         """How the port stands, as clients are told."""
         state = self.link.state
         is_simulated = state.device is not None and state.device == self._simulated_device
-        return state.model_copy(update={"simulated": is_simulated})
+        withheld = sorted(self.link.withheld)
+        return state.model_copy(update={"simulated": is_simulated, "withheld": withheld})
 
     @property
     def broken_slots(self) -> list[int]:
@@ -394,11 +407,20 @@ class Board:
         if self._is_moving():
             self.halt_again()
 
-    def _hold(self) -> bytes | None:
-        """As the robot stands when it leaves; of a board that nobody knows nothing is held."""
-        hold = self.motion.hold(self._now())
+    def _hold(self, held: Sequence[bytes]) -> bytes | None:
+        """As the robot stands when it leaves; of a board that nobody knows nothing is held. Where the port
+        carries no packet that holds all servos, the others follow those that are `held`.
+        """
+        hold, family = self.motion.hold(self._now()), self.family
         is_known = self.identification.state.status in ("ready", "stale")
-        return encode(hold, self.family) if hold and is_known else None
+        if not (hold and is_known) or (held and family is FAMILIES[self.family_id]):
+            return None
+        moves = [command for packet in held if isinstance(command := parse_command(packet), Move)]
+        servos = {target.servo for move in moves for target in move.targets}
+        others = [target for target in hold.targets if target.servo not in servos]
+        if not others:
+            return None
+        return encode(replace(hold, targets=tuple(others[: family.servos_per_move])), family)
 
     def _follow_run(self) -> None:
         run, before = self.run, self._run
@@ -409,7 +431,7 @@ class Board:
 
     def _forget_motion(self) -> None:
         """It may be another board, and whoever had the port before may have set something in motion."""
-        self._motion = Estimate(self.family)
+        self._motion = Estimate(FAMILIES[self.family_id])
         self._motion.opened(self._now())
         self._lose_motion()
 
@@ -429,7 +451,7 @@ class Board:
 
     def _make_wire(self, port: OpenPort) -> Wire:
         gap_s = self.family.service_gap_ms / 1000
-        inbox = Inbox(self._take)
+        inbox = ReportInbox(self._take) if port.in_reports else Inbox(self._take)
         return Wire(
             port,
             gap_s=gap_s,
