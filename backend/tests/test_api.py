@@ -11,7 +11,7 @@ from tests.running import DEVICE, http_to
 from tests.samples import BATTERY, BATTERY_REPORT, MOVE, STOP
 from tests.virtual_time import at, in_virtual_time, now
 
-QUIET = {"simulated": False, "code": None, "detail": None, "retryInMs": None}
+QUIET = {"simulated": False, "withheld": [], "code": None, "detail": None, "retryInMs": None}
 OPEN = {"device": DEVICE, "status": "open", **QUIET}
 CLOSED = {"device": None, "status": "closed", **QUIET}
 

@@ -294,12 +294,14 @@ export interface WelcomeMessage {
 }
 /**
  * How the serial port stands. `code` and `detail` say why it is lost, `retryInMs` when the next attempt
- * follows. `simulated` where the device was declared to be no real board.
+ * follows. `simulated` where the device was declared to be no real board. `withheld`: what this way to the
+ * board is not to carry, although the board may know it.
  */
 export interface PortState {
   device: string | null;
   status: 'closed' | 'opening' | 'open' | 'lost';
   simulated: boolean;
+  withheld: ('download' | 'erase')[];
   code:
     | (
         | 'closed'
