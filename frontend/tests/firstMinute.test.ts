@@ -67,6 +67,18 @@ test('who has a hexapod says so, and has one described', async ({ page, url }) =
   await expect(connectDialog.getByRole('radio', { name: 'Hexapod' })).toBeChecked();
 });
 
+test('whoever looks for what does not work finds what is there', async ({ page, url }) => {
+  const dashboard = dashboardOf(page);
+  await page.goto(url);
+  await expect(dashboard.link).toHaveText(/Ready/);
+  await dashboard.button('Connect').click();
+  const { connectDialog } = dashboard;
+  await connectDialog.getByText('Something does not work?').click();
+  await expect(connectDialog).toContainText('Serial ports: this browser can use them.');
+  await expect(connectDialog).toContainText('Simulated board: Ready.');
+  await expect(connectDialog).toContainText(/packets? of the board arrived/);
+});
+
 test('a chooser that is closed without a choice is no failure of the page', async ({ page, url }) => {
   vi.spyOn(navigator.serial, 'requestPort').mockRejectedValue(
     new DOMException('No port selected.', 'NotFoundError'),

@@ -2152,4 +2152,20 @@ export interface Messages {
     readonly updateMoving: string;
     readonly updateOthers: string;
   };
+  readonly doctor: {
+    readonly title: string;
+    readonly secure: string;
+    readonly insecure: string;
+    readonly interface: (values: { readonly cable: string; readonly sight: string }) => string;
+    readonly allowedPorts: (values: { readonly count: number }) => string;
+    readonly gateway: (values: { readonly answers: boolean }) => string;
+    readonly noWay: string;
+    readonly link: (values: { readonly way: string; readonly status: string; readonly why: string }) => string;
+    readonly heardPackets: (values: { readonly count: number }) => string;
+    readonly heardNoise: (values: { readonly count: number; readonly kind: string }) => string;
+    readonly heardNothing: string;
+    readonly battery: (values: { readonly mv: number }) => string;
+    readonly copy: string;
+    readonly copied: string;
+  };
 }

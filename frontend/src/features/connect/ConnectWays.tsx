@@ -16,6 +16,7 @@ import { Button } from '../../ui/Button.tsx';
 import { Chip } from '../../ui/Chip.tsx';
 import { Toggle } from '../../ui/Toggle.tsx';
 import { ThisBoard } from './identity/ThisBoard.tsx';
+import { Doctor } from './Doctor.tsx';
 import { PortGuide } from './PortGuide.tsx';
 import { RobotQuestion } from './RobotQuestion.tsx';
 import styles from './ConnectWays.module.css';
@@ -76,6 +77,7 @@ export function ConnectWays(props: ConnectWaysProps) {
           ))}
         </section>
       )}
+      <Doctor state={state} />
       <footer className={styles.foot}>
         <p className={styles.dim}>{words.connect.intro}</p>
         <Toggle label={words.connect.reconnects} isOn={state.reconnects} onChange={props.onReconnects} />

@@ -1,0 +1,136 @@
+// "Something does not work?": what was looked at, what was found, what to do, and all of it as text to send to somebody who helps.
+
+import { useEffect, useState } from 'react';
+import { useDevice, useSnapshot, useStores } from '../stores.ts';
+import { Button } from '../../ui/Button.tsx';
+import { Mark, type Truth } from '../../ui/Chip.tsx';
+import { errorSentence } from '../../i18n/sentences/errors.ts';
+import { words } from '../../i18n/whole.ts';
+import type { ConnectState } from '../../robot/connector.ts';
+import { findingsOf, heardIn, interfacesHere, type Facts, type Finding } from './doctor.ts';
+import styles from './Doctor.module.css';
+
+export function Doctor({ state }: { readonly state: ConnectState }) {
+  const [isOpen, setOpen] = useState(false);
+  return (
+    <details className={styles.doctor} onToggle={(event) => setOpen(event.currentTarget.open)}>
+      <summary>{words.doctor.title}</summary>
+      {isOpen && <Findings state={state} />}
+    </details>
+  );
+}
+
+function Findings({ state }: { readonly state: ConnectState }) {
+  const { device, notices } = useStores();
+  const interfaces = useInterfaces();
+  const link = useSnapshot((snapshot) => snapshot.link);
+  const battery = useSnapshot((snapshot) => snapshot.battery);
+  const way = useDevice((known) => known.way);
+  if (interfaces === null) return null;
+  const facts: Facts = {
+    browser: navigator.userAgent,
+    isSecure: window.isSecureContext,
+    interfaces,
+    allowedPorts: state.granted.length,
+    gateway: typeof state.gateway === 'object' ? 'answers' : state.gateway,
+    ...{ link, way: way?.label ?? null },
+    heard: heardIn(device.traffic),
+    batteryMv: battery.kind === 'read' ? battery.batteryMv : null,
+  };
+  const findings = findingsOf(facts);
+  const report = [
+    facts.browser,
+    ...findings.map((finding) => `${signOf(finding)} ${sentenceOf(finding)}`),
+    ...(facts.heard.noise.length > 0 ? [hexOf(facts.heard.noise)] : []),
+  ].join('\n');
+  const copy = (): void =>
+    void navigator.clipboard
+      .writeText(report)
+      .then(() => notices.tell('info', words.doctor.copied), notices.tellError);
+  return (
+    <>
+      <ul className={styles.findings}>
+        {findings.map((finding, index) => (
+          <li key={index}>
+            <Mark truth={truthOf(finding)} />
+            <span>{sentenceOf(finding)}</span>
+          </li>
+        ))}
+      </ul>
+      {window.isSecureContext && (
+        <Button tone="quiet" icon="copy" onPress={copy}>
+          {words.doctor.copy}
+        </Button>
+      )}
+    </>
+  );
+}
+
+function useInterfaces(): Facts['interfaces'] | null {
+  const [interfaces, setInterfaces] = useState<Facts['interfaces'] | null>(null);
+  useEffect(() => {
+    let isShown = true;
+    void interfacesHere().then((found) => {
+      if (isShown) setInterfaces(found);
+    });
+    return () => {
+      isShown = false;
+    };
+  }, []);
+  return interfaces;
+}
+
+function sentenceOf(finding: Finding): string {
+  switch (finding.id) {
+    case 'interface':
+      return words.doctor.interface({ cable: finding.cable, sight: finding.sight });
+    case 'allowedPorts':
+      return words.doctor.allowedPorts({ count: finding.count });
+    case 'gateway':
+      return words.doctor.gateway({ answers: finding.answers });
+    case 'link': {
+      const { status } = finding.link;
+      const why =
+        'error' in finding.link ? errorSentence(finding.link.error.code, finding.link.error.message) : '';
+      return words.doctor.link({ way: finding.way, status: words.link.status[status], why });
+    }
+    case 'heardPackets':
+      return words.doctor.heardPackets({ count: finding.count });
+    case 'heardNoise':
+      return words.doctor.heardNoise({ count: finding.count, kind: finding.kind });
+    case 'battery':
+      return words.doctor.battery({ mv: finding.batteryMv });
+    default:
+      return words.doctor[finding.id];
+  }
+}
+
+function truthOf(finding: Finding): Truth {
+  switch (finding.id) {
+    case 'interface':
+      return finding.sight === 'seen' ? 'confirmed' : 'warning';
+    case 'allowedPorts':
+      return finding.count > 0 ? 'confirmed' : 'neutral';
+    case 'gateway':
+      return finding.answers ? 'confirmed' : 'neutral';
+    case 'link':
+      return finding.link.status === 'ready' ? 'confirmed' : 'warning';
+    case 'secure':
+    case 'heardPackets':
+    case 'battery':
+      return 'confirmed';
+    case 'noWay':
+      return 'neutral';
+    case 'insecure':
+    case 'heardNoise':
+    case 'heardNothing':
+      return 'warning';
+  }
+}
+
+const SIGNS: Partial<Record<Truth, string>> = { confirmed: 'ok  ', warning: 'look' };
+
+const signOf = (finding: Finding): string => SIGNS[truthOf(finding)] ?? '    ';
+
+const hexOf = (bytes: readonly number[]): string =>
+  bytes.map((byte) => byte.toString(16).padStart(2, '0')).join(' ');

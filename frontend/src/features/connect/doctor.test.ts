@@ -1,0 +1,62 @@
+import { describe, expect, test } from 'vitest';
+import { createTrafficLog } from '../../robot/traffic.ts';
+import { findingsOf, heardIn, kindOfNoise, type Facts } from './doctor.ts';
+
+const FACTS: Facts = {
+  browser: 'Chrome',
+  isSecure: true,
+  interfaces: { serial: 'seen', hid: 'missing', bluetooth: 'blocked' },
+  allowedPorts: 1,
+  gateway: 'absent',
+  link: { status: 'ready' },
+  way: 'USB serial',
+  heard: { packets: 3, noise: [] },
+  batteryMv: 7400,
+};
+
+const idsOf = (facts: Partial<Facts>) => findingsOf({ ...FACTS, ...facts }).map(({ id }) => id);
+
+describe('findings', () => {
+  test('a robot that works: what is there, that it is heard, and its battery', () => {
+    expect(idsOf({})).toEqual([
+      ...['secure', 'interface', 'interface', 'interface', 'allowedPorts', 'gateway', 'link'],
+      ...['heardPackets', 'battery'],
+    ]);
+  });
+
+  test('no packet of an open link is a finding, of one that is not open it is none', () => {
+    const heard = { packets: 0, noise: [] };
+    expect(idsOf({ heard, link: { status: 'stale', sinceMs: 0 }, batteryMv: null })).toContain(
+      'heardNothing',
+    );
+    expect(idsOf({ heard, link: { status: 'opening' }, batteryMv: null })).not.toContain('heardNothing');
+    expect(idsOf({ heard, way: null, batteryMv: null })).toContain('noWay');
+  });
+
+  test('a browser without serial ports is not blamed for ports that nobody allowed', () => {
+    const interfaces = { ...FACTS.interfaces, serial: 'missing' } as const;
+    expect(idsOf({ interfaces })).not.toContain('allowedPorts');
+  });
+});
+
+test.each([
+  ['text', [...new TextEncoder().encode('rst:0x1 (POWERON_RESET),boot:0x13\r\n')]],
+  ['rate', [0x00, 0xff, 0xfe, 0x80, 0xe0, 0x00, 0xf8, 0x12]],
+  ['other', [0x55, 0x12, 0x9a, 0x34, 0xd1, 0x07, 0xc3]],
+] as const)('noise that looks like %s', (kind, bytes) => {
+  expect(kindOfNoise(bytes)).toBe(kind);
+});
+
+test('what was heard before the link was lost does not count for the present one', () => {
+  const traffic = createTrafficLog();
+  const report = { kind: 'battery', batteryMv: 7500 } as const;
+  const bytes = Uint8Array.of(0x55, 0x55, 4, 0x0f, 0x4c, 0x1d);
+  traffic.add({ atMs: 1, direction: 'in', bytes, report }, 'doc');
+  expect(heardIn(traffic)).toEqual({ packets: 1, noise: [] });
+  const opened = { link: { status: 'ready' }, latch: null } as const;
+  traffic.note(opened, 1, 'doc');
+  traffic.note({ link: { status: 'closed' }, latch: null }, 2, 'doc');
+  traffic.note(opened, 3, 'doc');
+  traffic.add({ atMs: 4, direction: 'in', bytes: Uint8Array.of(0xff, 0xfe), noise: 'garbage' }, 'doc');
+  expect(heardIn(traffic)).toEqual({ packets: 0, noise: [0xff, 0xfe] });
+});
