@@ -15,7 +15,6 @@ from servodeck.port.hid import HidPort, explain, is_hid, list_boards, open_board
 from servodeck.port.ports import PortInfo, is_same_port, list_devices, list_usb, open_port
 from servodeck.port.whereabouts import UsbDevice, Whereabouts
 from tests.hid_board import FakeHidraw
-from tests.virtual_time import in_virtual_time
 
 BATTERY = bytes.fromhex("5555020f")
 ANSWER = bytes.fromhex("5555040f4c1d")
@@ -119,12 +118,13 @@ async def test_an_unplugged_board_is_lost_whatever_is_done_with_it(hidraw: FakeH
     port.close()
 
 
-@in_virtual_time
-async def test_a_board_that_takes_nothing_for_a_second_is_lost(
+async def test_a_board_that_takes_nothing_in_time_is_lost(
     hidraw: FakeHidraw, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     hidraw.plug()
     port, goes_on = open_board("hid"), threading.Event()
+    # In real time, shortened: the virtual clock waits for threads.
+    monkeypatch.setattr("servodeck.port.hid.TAKEN_WITHIN_S", 0.02)
     monkeypatch.setattr(port._device, "write", lambda _report: goes_on.wait())
     with pytest.raises(PortLostError):
         await port.write(BATTERY)
