@@ -1,4 +1,4 @@
-// The layer rule: codec < motion < session < robot < features < app, with documents and the simulator beside the session.
+// The layer rule: codec < motion < robot < features < app, with documents and the simulator beside the robot.
 // Types count as imports. Say a change of this file in docs/adr/.
 
 // A rig or a board under test exists for tests, measurements and replays of saved logs.
@@ -41,7 +41,7 @@ module.exports = {
     ),
     forbid(
       'codec-knows-bytes',
-      'The codec knows no time, no motion, no session, no board.',
+      'The codec knows no time, no motion, no robot, no board.',
       { path: '^shared/src/codec/' },
       { path: '^shared/src/', pathNot: '^shared/src/codec/' },
     ),
@@ -52,44 +52,44 @@ module.exports = {
       { path: '^shared/src/', pathNot: '^shared/src/(motion|codec)/' },
     ),
     forbid(
-      'session-knows-no-documents',
-      'A session sends; what a group or pose is belongs to documents, and no real board is a simulator.',
-      { path: '^shared/src/session/', pathNot: test },
+      'shared-robot-knows-no-documents',
+      'A robot sends; what a group or pose is belongs to documents, and no real board is a simulator.',
+      { path: '^shared/src/robot/', pathNot: test },
       { path: [documents, '^shared/src/simulator/'] },
     ),
     forbid(
-      'documents-know-no-session',
+      'documents-know-no-robot',
       'A document never moves the robot by itself. A saved log has the types of what it saves.',
       { path: documents, pathNot: [test, '^shared/src/files/recorder[.]ts$'] },
-      { path: '^shared/src/(session|simulator)/' },
+      { path: '^shared/src/(robot|simulator)/' },
     ),
     forbid(
       'simulator-knows-the-codec',
       'The simulator is the other side of the wire: it may share the codec, never the code it puts to the test.',
       { path: '^shared/src/simulator/', pathNot: test },
       {
-        path: ['^shared/src/(session|motion)/', documents],
-        pathNot: '^shared/src/session/(byteChannel|linkError)[.]ts$',
+        path: ['^shared/src/(robot|motion)/', documents],
+        pathNot: '^shared/src/robot/(byteChannel|linkError)[.]ts$',
       },
     ),
     forbid(
       'simulated-channel-knows-the-interface',
       'One file of the simulator is the byte channel of a simulated board; the board itself has never heard of it.',
       { path: '^shared/src/simulator/', pathNot: [test, '^shared/src/simulator/channel[.]ts$'] },
-      { path: '^shared/src/session/' },
+      { path: '^shared/src/robot/' },
     ),
 
     forbid(
-      'only-robot-picks-a-transport',
+      'only-robot-picks-a-link',
       'Features, state and widgets do not know which way leads to the board.',
-      { path: page, pathNot: `${page}(transports|robot|app)/` },
-      { path: `${page}transports/` },
+      { path: page, pathNot: `${page}(robot|app)/` },
+      { path: `${page}robot/links/` },
     ),
     forbid(
-      'transports-know-no-page',
-      'A transport carries bytes.',
-      { path: `${page}transports/` },
-      { path: page, pathNot: `${page}(transports/|robot/request[.]ts$)` },
+      'links-know-no-page',
+      'A link is a cable, a radio or a socket.',
+      { path: `${page}robot/links/` },
+      { path: page, pathNot: `${page}robot/(links/|request[.]ts$)` },
     ),
     forbid(
       'robot-knows-no-feature',
@@ -97,7 +97,7 @@ module.exports = {
       { path: `${page}robot/`, pathNot: test },
       {
         path: page,
-        pathNot: `${page}((robot|transports|state|ui|i18n)/|features/(drive/servoView|profiles/robots)[.]ts$)`,
+        pathNot: `${page}((robot|state|ui|i18n)/|features/(drive/servoView|profiles/robots)[.]ts$)`,
       },
     ),
     forbid(

@@ -5,7 +5,7 @@ import type { Frame } from '#shared/codec/commands.ts';
 import { encodeCommand, encodeReport } from '#shared/codec/encode.ts';
 import { family as familyOf } from '#shared/codec/families.ts';
 import { wireMs } from '#shared/codec/packet.ts';
-import { createRig } from '#shared/session/rig.ts';
+import { createRig } from '#shared/robot/rig.ts';
 import type { Figure } from './figure.ts';
 
 /** A short arm group and the longest dance of the known collections (boards.md chapter 9). */

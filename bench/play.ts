@@ -4,10 +4,10 @@
 import { sleep } from '#shared/clock.ts';
 import type { Frame } from '#shared/codec/commands.ts';
 import { family as familyOf } from '#shared/codec/families.ts';
-import { createLocalRobot, createSession, type Session } from '#shared/session/session.ts';
+import { createLocalRobot, createSession, type Session } from '#shared/robot/robot.ts';
 import { createSimulatedChannel } from '#shared/simulator/channel.ts';
 import type { BusLogEntry } from '#shared/simulator/line.ts';
-import { createGatewayTransport } from '../frontend/src/transports/gateway.ts';
+import { createGatewayTransport } from '../frontend/src/robot/links/gateway.ts';
 import { amount } from './amounts.ts';
 import { packetsInto } from './busPackets.ts';
 import type { Figure } from './figure.ts';

@@ -33,7 +33,7 @@ await main(async () => {
   await Promise.all([
     buildPage(),
     buildForNode('shared/src/simulator/process.ts', 'simulator.mjs'),
-    buildForNode('shared/src/session/lockstepUnderTest.ts', 'lockstep.mjs'),
+    buildForNode('shared/src/robot/lockstepUnderTest.ts', 'lockstep.mjs'),
   ]);
   writeStamp(buildStamp, inputs);
   return 0;

@@ -8,7 +8,7 @@ import { SetupProblem, at, main, mustRun, say } from './steps.mjs';
 import { readTree, typesText } from './words.mjs';
 
 const TARGETS = [
-  { module: 'events', target: 'frontend/src/transports/messages.generated.ts' },
+  { module: 'events', target: 'frontend/src/robot/links/messages.generated.ts' },
   { module: 'library.library_messages', target: 'frontend/src/features/library/library.generated.ts' },
   { module: 'api.people_messages', target: 'frontend/src/robot/people.generated.ts' },
 ];

@@ -1,5 +1,5 @@
 """The simulated board itself behind the gateway's port, both in virtual time: bytes in at a time, bytes out
-at theirs, and when each servo's pulse changed last. Board: shared/src/session/lockstepUnderTest.ts.
+at theirs, and when each servo's pulse changed last. Board: shared/src/robot/lockstepUnderTest.ts.
 
 Bytes go to the board's process when it may answer, and not before: most histories need few round trips.
 """

@@ -1,5 +1,5 @@
 """A gateway on the simulated board itself, driven through a generated history and then stopped at one of its
-doors: what STOP said and what the robot did. Twin of shared/src/session/stopUnderTest.ts, from which the
+doors: what STOP said and what the robot did. Twin of shared/src/robot/stopUnderTest.ts, from which the
 histories come.
 """
 

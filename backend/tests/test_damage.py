@@ -1,6 +1,6 @@
 """What one damaged byte costs, what garbage does, how a stream may be cut: F2, F3 and F4 of the fault table.
 
-The same amounts and limits as in shared/src/session/faults, for the gateway's own decoder.
+The same amounts and limits as in shared/src/robot/faults, for the gateway's own decoder.
 """
 
 from collections.abc import Callable, Iterable, Sequence

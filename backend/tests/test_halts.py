@@ -1,5 +1,5 @@
 """The gateway's estimate against shared/protocol/vectors/halts.json: what a STOP holds and what not, in
-histories of a simulated board. The page's session (shared/src/session/halts.test.ts) runs the same file.
+histories of a simulated board. The page's session (shared/src/robot/halts.test.ts) runs the same file.
 """
 
 from dataclasses import replace

@@ -1,6 +1,6 @@
 """Who is at the other end of the gateway's port: what it asks, what the answers mean, what may be sent before
 somebody knows, and what happens when the board falls silent. Real simulated boards, virtual time; the page's
-session does the same on a link of its own: shared/src/session/identification.test.ts.
+session does the same on a link of its own: shared/src/robot/identification.test.ts.
 """
 
 import asyncio

@@ -1,6 +1,6 @@
 """Every file of shared/protocol/scenarios, played at the gateway in virtual time: its inputs come at their
 times, and what leaves, what is told and how each intent ends must be as written. The page's session plays the
-same (shared/src/session/scenarios.test.ts) and writes the files; README.md there says what an event is.
+same (shared/src/robot/scenarios.test.ts) and writes the files; README.md there says what an event is.
 """
 
 import asyncio

@@ -1,7 +1,7 @@
 """What STOP says at each door of the gateway, against what the simulated board does: over generated
 histories, "all is held" means that no pulse changes later than 150 ms after the last byte, and what is named
 is all that moves, for no longer than is said. The page's session does the same:
-shared/src/session/stopSays.test.ts.
+shared/src/robot/stopSays.test.ts.
 """
 
 import json

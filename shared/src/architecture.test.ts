@@ -14,7 +14,7 @@ const mayKnow: Record<string, readonly string[]> = {
   'shared/codec': [],
   'shared/document': [],
   'shared/motion': ['shared/codec', 'shared/clock'],
-  'shared/session': ['shared/motion', 'shared/codec', 'shared/clock'],
+  'shared/robot': ['shared/motion', 'shared/codec', 'shared/clock'],
   'shared/profile': ['shared/group', 'shared/document', 'shared/codec'],
   'shared/group': ['shared/profile', 'shared/document', 'shared/codec'],
   'shared/files': ['shared/group', 'shared/profile', 'shared/document', 'shared/codec'],
@@ -22,15 +22,7 @@ const mayKnow: Record<string, readonly string[]> = {
   'frontend/i18n': ['shared'],
   'frontend/ui': ['frontend/i18n'],
   'frontend/state': ['frontend/i18n', 'shared'],
-  'frontend/transports': ['frontend/robot', 'shared'],
-  'frontend/robot': [
-    'frontend/features',
-    'frontend/transports',
-    'frontend/state',
-    'frontend/ui',
-    'frontend/i18n',
-    'shared',
-  ],
+  'frontend/robot': ['frontend/features', 'frontend/state', 'frontend/ui', 'frontend/i18n', 'shared'],
 };
 const importStatement =
   /^(?:import|export)\s[^;'=]*?from\s+'([^']+)'|^import\s+'([^']+)'|\bimport\('([^']+)'\)/gm;
@@ -77,7 +69,7 @@ function strangersIn(part: string): string[] {
   return files.flatMap((file) =>
     importsOf(file)
       .filter((imported) => inside(imported) && !knows(part, imported))
-      .filter((imported) => !(sessionUsers.includes(file) && partOf(imported) === 'shared/session'))
+      .filter((imported) => !(sessionUsers.includes(file) && partOf(imported) === 'shared/robot'))
       .map((imported) => `${file} imports ${imported}`),
   );
 }
@@ -95,11 +87,11 @@ test('shared code imports nothing from outside shared but valibot, which is as p
   expect(strangers).toEqual([]);
 });
 
-test('only robot and app know the transports', () => {
+test('only robot and app know the links', () => {
   const users = sourcesOf('frontend').filter((file) =>
-    importsOf(file).some((imported) => partOf(imported) === 'frontend/transports'),
+    importsOf(file).some((imported) => imported.startsWith('frontend/src/robot/links/')),
   );
-  expect(users.map(partOf).filter((part) => !/^frontend\/(transports|robot|app)$/.test(part))).toEqual([]);
+  expect(users.map(partOf).filter((part) => !/^frontend\/(robot|app)$/.test(part))).toEqual([]);
 });
 
 test('no `if` asks which family a board is of: what it would know is a field of shared/protocol/families.json', () => {

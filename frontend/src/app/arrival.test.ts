@@ -1,8 +1,8 @@
 import { expect, test } from 'vitest';
 import { createStore } from 'zustand/vanilla';
-import { LinkError } from '#shared/session/linkError.ts';
-import type { LinkState } from '#shared/session/state.ts';
-import { INITIAL_STATE } from '#shared/session/store.ts';
+import { LinkError } from '#shared/robot/linkError.ts';
+import type { LinkState } from '#shared/robot/state.ts';
+import { INITIAL_STATE } from '#shared/robot/store.ts';
 import { beginAnewAsAnother, deviceName, isAnother, sentAway, wishIn } from './arrival.ts';
 
 test.each([

@@ -43,7 +43,7 @@ import { createTimeline } from '../features/animate/timeline/timeline.ts';
 import { createView } from '../features/view.ts';
 import { bringSelectionBack } from '../features/animate/timeline/selectionBack.ts';
 import { peopleProblem } from '../features/people/problem.ts';
-import { browserClock } from '../transports/browserClock.ts';
+import { browserClock } from '../robot/links/browserClock.ts';
 import { hasGateway } from '../robot/gatewayApi.ts';
 import { beginAnewAsAnother, type Arrival } from './arrival.ts';
 import { peopleApi } from '../features/people/peopleApi.ts';

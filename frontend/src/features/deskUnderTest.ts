@@ -2,7 +2,7 @@
 
 import { createStore } from 'zustand/vanilla';
 import { FAMILIES } from '#shared/codec/families.ts';
-import { createRig } from '#shared/session/rig.ts';
+import { createRig } from '#shared/robot/rig.ts';
 import { createBlend } from './poses/blend.ts';
 import { createCompiled } from './animate/group/compiled.ts';
 import { createDevice, type Way } from '../robot/device.ts';

@@ -4,7 +4,7 @@ import { readFileSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { afterEach, describe, expect, test } from 'vitest';
 import { FAMILIES } from '#shared/codec/families.ts';
-import { LINK_ERROR_CODES } from '#shared/session/linkError.ts';
+import { LINK_ERROR_CODES } from '#shared/robot/linkError.ts';
 import { datesIn, words as wholeWords } from './whole.ts';
 import { boardName } from './sentences/boards.ts';
 import { errorSentence, flawSentence } from './sentences/errors.ts';

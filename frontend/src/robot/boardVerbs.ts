@@ -3,9 +3,9 @@
 
 import type { Frame } from '#shared/codec/commands.ts';
 import type { Family } from '#shared/codec/families.ts';
-import { LinkError } from '#shared/session/linkError.ts';
-import type { Session } from '#shared/session/session.ts';
-import type { HaltReason, SlotGroup } from '#shared/session/transport.ts';
+import { LinkError } from '#shared/robot/linkError.ts';
+import type { Session } from '#shared/robot/robot.ts';
+import type { HaltReason, SlotGroup } from '#shared/robot/transport.ts';
 import { downloadedSentence, downloadCancelled } from '../i18n/sentences/slots.ts';
 import { words } from '../i18n/words.ts';
 import type { Notices } from '../state/notices.ts';

@@ -9,17 +9,17 @@ import {
   createSession,
   type LocalRobotOptions,
   type Session,
-} from '#shared/session/session.ts';
+} from '#shared/robot/robot.ts';
 import { isProfileName } from '#shared/simulator/profileNames.ts';
-import type { Transport } from '#shared/session/transport.ts';
+import type { Transport } from '#shared/robot/transport.ts';
 import type { Boards } from './boards.ts';
 import type { Device, Way } from './device.ts';
 import type { TextStorage } from '../state/textStorage.ts';
 import type { Notices } from '../state/notices.ts';
 import type { You } from './people.generated.ts';
-import { createGatewayTransport } from '../transports/gateway.ts';
-import { choosePort, grantedPorts, portLabel, webSerialObstacle } from '../transports/serialPorts.ts';
-import { createWebSerialChannel } from '../transports/webSerial.ts';
+import { createGatewayTransport } from './links/gateway.ts';
+import { choosePort, grantedPorts, portLabel, webSerialObstacle } from './links/serialPorts.ts';
+import { createWebSerialChannel } from './links/webSerial.ts';
 import { later } from '../ui/later.tsx';
 import { words } from '../i18n/words.ts';
 import {
@@ -103,7 +103,7 @@ export interface ConnectorOptions {
   isWatched(): boolean;
 }
 
-const loadSimulated = () => import('../transports/simulated.ts');
+const loadSimulated = () => import('./links/simulated.ts');
 // It needs no gateway: it is there before it is wanted.
 later(loadSimulated);
 

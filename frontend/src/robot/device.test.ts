@@ -1,9 +1,9 @@
 import { describe, expect, test, vi } from 'vitest';
 import type { Robot } from '#shared/profile/robot.ts';
 import { FAMILIES } from '#shared/codec/families.ts';
-import { LinkError, type LinkErrorCode } from '#shared/session/linkError.ts';
-import { createRig } from '#shared/session/rig.ts';
-import type { SessionEvents } from '#shared/session/state.ts';
+import { LinkError, type LinkErrorCode } from '#shared/robot/linkError.ts';
+import { createRig } from '#shared/robot/rig.ts';
+import type { SessionEvents } from '#shared/robot/state.ts';
 import { downloadedSentence, downloadCancelled } from '../i18n/sentences/slots.ts';
 import { errorSentence } from '../i18n/sentences/errors.ts';
 import { words } from '../i18n/words.ts';

@@ -2,9 +2,9 @@
 // does it have, open that port. Trusts no answer's shape; every failure is a LinkError.
 
 import type { Clock } from '#shared/clock.ts';
-import { LinkError } from '#shared/session/linkError.ts';
+import { LinkError } from '#shared/robot/linkError.ts';
 import { isRecord, isWithoutGateway } from './request.ts';
-import { askGateway } from '../transports/gatewayHttp.ts';
+import { askGateway } from './links/gatewayHttp.ts';
 
 export interface GatewayStatus {
   /** The port in use, null when none is. */

@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest';
 import { FAMILIES } from '#shared/codec/families.ts';
-import { createRig, firstMovesMs } from '#shared/session/rig.ts';
+import { createRig, firstMovesMs } from '#shared/robot/rig.ts';
 import { createDevice, type Way } from './device.ts';
 import { createLastPoses, guessesOf } from './lastPoses.ts';
 import { createNotices } from '../state/notices.ts';

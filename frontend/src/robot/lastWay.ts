@@ -1,7 +1,7 @@
 // Remembers which way to the robot was chosen last, which board was simulated, and whether links come back by themselves. Storage that is forbidden means: nothing remembered.
 
 import { FAMILIES, type FamilyId } from '#shared/codec/families.ts';
-import type { Transport } from '#shared/session/transport.ts';
+import type { Transport } from '#shared/robot/transport.ts';
 import type { TextStorage } from '../state/textStorage.ts';
 
 export interface LastWay {

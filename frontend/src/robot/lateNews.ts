@@ -2,7 +2,7 @@
 // Knows the messages and no session.
 
 import type { Clock } from '#shared/clock.ts';
-import { LinkError, type LinkErrorCode } from '#shared/session/linkError.ts';
+import { LinkError, type LinkErrorCode } from '#shared/robot/linkError.ts';
 import { errorSentence } from '../i18n/sentences/errors.ts';
 import type { Notices } from '../state/notices.ts';
 

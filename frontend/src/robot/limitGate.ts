@@ -4,7 +4,7 @@
 import { fromBoard, onBoard, refusedTarget, type Robot } from '#shared/profile/robot.ts';
 import type { Frame, ServoTarget } from '#shared/codec/commands.ts';
 import { commandIn } from '#shared/codec/parse.ts';
-import type { SlotGroup } from '#shared/session/transport.ts';
+import type { SlotGroup } from '#shared/robot/transport.ts';
 import { refusalText } from './limits.ts';
 
 /** Each gives what the board is told, or null where a limit forbids it. */

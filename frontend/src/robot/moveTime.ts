@@ -4,8 +4,8 @@
 
 import type { ServoTarget } from '#shared/codec/commands.ts';
 import type { Family } from '#shared/codec/families.ts';
-import type { Motions } from '#shared/session/state.ts';
-import { FIRST_MOVE_MS } from '#shared/session/timings.ts';
+import type { Motions } from '#shared/robot/state.ts';
+import { FIRST_MOVE_MS } from '#shared/robot/timings.ts';
 
 /** `hand`: as fast as the session's soft limit allows; or milliseconds set by the person. */
 export type MoveTime = 'hand' | number;

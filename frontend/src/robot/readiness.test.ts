@@ -1,7 +1,7 @@
 import { describe, expect, test } from 'vitest';
-import type { Lease } from '#shared/session/lease.ts';
-import { INITIAL_STATE } from '#shared/session/store.ts';
-import type { SessionState } from '#shared/session/state.ts';
+import type { Lease } from '#shared/robot/lease.ts';
+import { INITIAL_STATE } from '#shared/robot/store.ts';
+import type { SessionState } from '#shared/robot/state.ts';
 import { mayBrush, motionHindrance } from './readiness.ts';
 
 const READY: SessionState = { ...INITIAL_STATE, link: { status: 'ready' } };

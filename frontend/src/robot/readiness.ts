@@ -1,9 +1,9 @@
 // Whether something may move or be asked of the board now, judged from one snapshot, with the reason where it may not.
 // Pure; the session refuses by itself, this only lets the panels say so beforehand.
 
-import { isWatching } from '#shared/session/lease.ts';
+import { isWatching } from '#shared/robot/lease.ts';
 import type { Family } from '#shared/codec/families.ts';
-import { wasCommanded, type ServoMotion, type SessionState } from '#shared/session/state.ts';
+import { wasCommanded, type ServoMotion, type SessionState } from '#shared/robot/state.ts';
 
 export type Hindrance =
   'closed' | 'identifying' | 'stale' | 'latched' | 'watching' | 'asking' | 'viewing' | 'busy';

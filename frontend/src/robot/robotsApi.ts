@@ -1,6 +1,6 @@
 // Puts a robot of the library on the gateway's board, for everybody. Knows the one route; not what a robot is.
 
-import { askGateway } from '../transports/gatewayHttp.ts';
+import { askGateway } from './links/gatewayHttp.ts';
 
 const ANSWER_WITHIN_MS = 4000;
 

@@ -5,7 +5,7 @@ import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { BoardId } from '#shared/codec/families.ts';
 import { createHappeningsReader, entryOf } from '#shared/files/recorder.ts';
 import { createTape, type Tape, type TapeEntry } from '#shared/files/tape.ts';
-import type { SessionState, Traffic } from '#shared/session/state.ts';
+import type { SessionState, Traffic } from '#shared/robot/state.ts';
 
 export type LogEntry = TapeEntry;
 

@@ -1,6 +1,6 @@
 import { describe, expect, test } from 'vitest';
 import { RangeRefusal } from '#shared/codec/limits.ts';
-import { LinkError } from '#shared/session/linkError.ts';
+import { LinkError } from '#shared/robot/linkError.ts';
 import { createVirtualClock } from '#shared/testing/virtualClock.ts';
 import { errorSentence } from '../i18n/sentences/errors.ts';
 import { speak } from '../i18n/words.ts';

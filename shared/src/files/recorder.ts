@@ -3,7 +3,7 @@
 
 import type { Family } from '../codec/families.ts';
 import { parseCommand, parseReport } from '../codec/parse.ts';
-import type { SessionState, Traffic } from '../session/state.ts';
+import type { SessionState, Traffic } from '../robot/state.ts';
 import type { Entry, Happening } from './recording.ts';
 
 export type PacketEntry = Extract<Entry, { readonly bytes: Uint8Array }>;

@@ -2,8 +2,8 @@
 
 import { sleep, type Clock } from '../clock.ts';
 import { wireMs } from '../codec/packet.ts';
-import type { ByteChannel } from '../session/byteChannel.ts';
-import { LinkError } from '../session/linkError.ts';
+import type { ByteChannel } from '../robot/byteChannel.ts';
+import { LinkError } from '../robot/linkError.ts';
 import { createBoard, type Board, type BoardOptions } from './board.ts';
 
 export interface SimulatedChannel extends ByteChannel {

@@ -1,6 +1,6 @@
 // A session on a simulated board whose log is kept, for tests: what a person would save after doing something there.
 
-import { createRig, type Rig } from '../session/rig.ts';
+import { createRig, type Rig } from '../robot/rig.ts';
 import { createHappeningsReader, entryOf } from '../files/recorder.ts';
 import type { Entry } from '../files/recording.ts';
 

@@ -1,6 +1,6 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
-import type { Session } from '../session/session.ts';
+import type { Session } from '../robot/robot.ts';
 import { compare, tally, type Row } from './compare.ts';
 import { entryOf, type PacketEntry } from '../files/recorder.ts';
 import type { Entry } from '../files/recording.ts';

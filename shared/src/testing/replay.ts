@@ -2,7 +2,7 @@
 // must come true, so that a bug report becomes a test. Knows replays; no file.
 
 import type { BoardId } from '../codec/families.ts';
-import type { SessionState } from '../session/state.ts';
+import type { SessionState } from '../robot/state.ts';
 import { isProfileName, type ProfileName } from '../simulator/profileNames.ts';
 import { compare, tally, type Row } from './compare.ts';
 import { entryOf, type PacketEntry } from '../files/recorder.ts';

@@ -1,14 +1,14 @@
 // What a session makes of a recording: the host's wishes and the board's bytes at their recorded times, in virtual time. A bug
 // that a log shows happens here again. Knows the session by its public face.
 
-import { type Session, createSession } from '../session/session.ts';
+import { type Session, createSession } from '../robot/robot.ts';
 import { type Intent, intentsOf } from './intents.ts';
 import { sleep, type Clock } from '../clock.ts';
 import { wireMs } from '../codec/packet.ts';
-import { LinkError, type LinkErrorCode } from '../session/linkError.ts';
-import type { Transport, TransportEvents } from '../session/transport.ts';
+import { LinkError, type LinkErrorCode } from '../robot/linkError.ts';
+import type { Transport, TransportEvents } from '../robot/transport.ts';
 import { family, type BoardId } from '../codec/families.ts';
-import type { SessionState, Traffic } from '../session/state.ts';
+import type { SessionState, Traffic } from '../robot/state.ts';
 import { createVirtualClock } from './virtualClock.ts';
 import type { Entry, Happening } from '../files/recording.ts';
 

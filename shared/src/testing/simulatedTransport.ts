@@ -6,8 +6,8 @@ import {
   type SimulatedChannel,
   type SimulatedChannelOptions,
 } from '../simulator/channel.ts';
-import { overChannel } from '../session/channelTransport.ts';
-import type { Transport } from '../session/transport.ts';
+import { overChannel } from '../robot/channelTransport.ts';
+import type { Transport } from '../robot/transport.ts';
 
 export type SimulatedTransport = Transport & Pick<SimulatedChannel, 'board' | 'unplug' | 'plugIn'>;
 

@@ -3,7 +3,7 @@ for.
 
 It is read when a board becomes ready, soon after something has ended, and every few seconds while nothing
 moves: on some boards any packet disturbs what runs, and under load the voltage sags anyway. A board that
-stayed silent is asked again only on request. Twin of shared/src/session/batteryReader.ts and
+stayed silent is asked again only on request. Twin of shared/src/robot/batteryReader.ts and
 frontend/src/features/battery/batteryPoll.ts.
 """
 

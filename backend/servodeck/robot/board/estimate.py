@@ -1,5 +1,5 @@
 """What the gateway believes of the robot: the motion estimate fed with what left the wire and what the board
-said, and the groups it stored itself. Twin of shared/src/session/robot.ts.
+said, and the groups it stored itself. Twin of shared/src/robot/estimate.ts.
 
 Pure: time comes in, in seconds. Knows packets; no wire, no client.
 """

@@ -1,5 +1,5 @@
 """Whether the board still answers: asks an idle board by the cheapest harmless question that such a board
-always answers, and counts the questions that stayed unanswered. Twin of shared/src/session/heartbeat.ts.
+always answers, and counts the questions that stayed unanswered. Twin of shared/src/robot/heartbeat.ts.
 
 Knows when it may ask and how much silence means that the board is gone; not what follows from that.
 """

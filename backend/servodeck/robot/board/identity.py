@@ -1,5 +1,5 @@
 """Which family the board is of: the questions, in the order of boards.md 2.5, and what the answers mean, by
-the family table. Twin of shared/src/session/identify.ts and identity.ts.
+the family table. Twin of shared/src/robot/identify.ts and identity.ts.
 
 The questions move nothing and store nothing on any board; on a LeArm any question ends a running group (L8).
 Answers never name one family for certain, so a person chooses among those that fit.

@@ -2,7 +2,7 @@
 and servos of unknown place slowly and one after another. Pure: time comes in.
 
 Knows what a board can take and where its servos are; not who may move them, nor how a packet leaves. Twin of
-shared/src/session/robot.ts (`softened`) and moveBuffer.ts.
+shared/src/robot/estimate.ts (`softened`) and moveBuffer.ts.
 """
 
 import math

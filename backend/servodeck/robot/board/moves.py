@@ -2,7 +2,7 @@
 when the wire is free. Servos of unknown place start one after another (safety.md section 2).
 
 Knows targets, time and the wire. Who may move a servo is judged when it is asked and when it leaves, by
-whoever asks. Twin of shared/src/session/moveBuffer.ts and turns.ts.
+whoever asks. Twin of shared/src/robot/moveBuffer.ts and turns.ts.
 """
 
 import asyncio

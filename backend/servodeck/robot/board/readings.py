@@ -1,5 +1,5 @@
 """Asks the board what it can say of itself: where its servos stand, its firmware, its trims. Twin of
-shared/src/session/readings.ts.
+shared/src/robot/readings.ts.
 
 Knows the questions and how long each may take; no client, and not how a packet leaves.
 """

@@ -1,5 +1,5 @@
 """What is sent because the board may have missed something: filler that ends a packet which a lost port has
-cut, and one more stop after flash work. Twin of shared/src/session/resync.ts.
+cut, and one more stop after flash work. Twin of shared/src/robot/resync.ts.
 
 A cut packet leaves the board waiting for the rest of it, for ever: it would swallow the stop that comes after
 the return (S2, docs/adr/0007). While the board works on its flash it keeps one packet and drops the others

@@ -1,6 +1,6 @@
 // What stands around the work in its states: messages, the bar of whoever owns a shared robot, places being arranged.
 
-import type { SessionState } from '#shared/session/state.ts';
+import type { SessionState } from '#shared/robot/state.ts';
 import { BodyMap } from '../../features/picture/BodyMap.tsx';
 import { Messages } from '../../features/log/Messages.tsx';
 import type { Stores } from '../../features/stores.ts';

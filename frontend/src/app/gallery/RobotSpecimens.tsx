@@ -4,7 +4,7 @@ import type { Keeper } from '#shared/files/keeper.ts';
 import type { Calibration } from '#shared/profile/calibration.ts';
 import { changeServo } from '#shared/profile/robotEdits.ts';
 import type { Range } from '#shared/codec/families.ts';
-import type { SessionState } from '#shared/session/state.ts';
+import type { SessionState } from '#shared/robot/state.ts';
 import { CalibrationWizard } from '../../features/profiles/calibration/CalibrationWizard.tsx';
 import { RobotEditor } from '../../features/profiles/RobotEditor.tsx';
 import { RobotList } from '../../features/profiles/RobotList.tsx';

@@ -3,7 +3,7 @@
 import type { ReactNode } from 'react';
 import type { Keeper } from '#shared/files/keeper.ts';
 import { FAMILIES, type FamilyId } from '#shared/codec/families.ts';
-import type { SessionState } from '#shared/session/state.ts';
+import type { SessionState } from '#shared/robot/state.ts';
 import type { Way } from '../../robot/device.ts';
 import type { Gamepadlike } from '../../features/inputs/pad.ts';
 import type { Stores } from '../../features/stores.ts';

@@ -1,9 +1,9 @@
 // A session that stays in one state and does nothing: it holds a panel still so that it can be looked at.
 
-import { LinkError } from '#shared/session/linkError.ts';
+import { LinkError } from '#shared/robot/linkError.ts';
 import type { Family } from '#shared/codec/families.ts';
-import type { Session } from '#shared/session/session.ts';
-import type { ServoMotion, SessionState } from '#shared/session/state.ts';
+import type { Session } from '#shared/robot/robot.ts';
+import type { ServoMotion, SessionState } from '#shared/robot/state.ts';
 
 export function frozenSession(
   family: Family,

@@ -2,11 +2,11 @@
 // out is usual: a cable, a board that is ready, servos at rest, no frame.
 
 import type { FamilyId } from '#shared/codec/families.ts';
-import { identityFrom } from '#shared/session/identity.ts';
-import { LINK_ERROR_CODES } from '#shared/session/linkError.ts';
+import { identityFrom } from '#shared/robot/identity.ts';
+import { LINK_ERROR_CODES } from '#shared/robot/linkError.ts';
 import type { Unheld } from '#shared/motion/haltPlan.ts';
-import type { Latch, SessionState } from '#shared/session/state.ts';
-import { INITIAL_STATE } from '#shared/session/store.ts';
+import type { Latch, SessionState } from '#shared/robot/state.ts';
+import { INITIAL_STATE } from '#shared/robot/store.ts';
 import type { Way } from '../../robot/device.ts';
 import { SERVO_SPECIMENS, type ServoSpecimen } from './servoSpecimens.ts';
 import {

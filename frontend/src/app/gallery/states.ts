@@ -2,11 +2,11 @@
 
 import { FAMILIES, type FamilyId } from '#shared/codec/families.ts';
 import type { BatteryKind } from '#shared/profile/robot.ts';
-import type { Evidence } from '#shared/session/identity.ts';
-import type { Lease, Unattended } from '#shared/session/lease.ts';
-import { LinkError } from '#shared/session/linkError.ts';
-import type { ServoMotion, SessionState } from '#shared/session/state.ts';
-import { INITIAL_STATE } from '#shared/session/store.ts';
+import type { Evidence } from '#shared/robot/identity.ts';
+import type { Lease, Unattended } from '#shared/robot/lease.ts';
+import { LinkError } from '#shared/robot/linkError.ts';
+import type { ServoMotion, SessionState } from '#shared/robot/state.ts';
+import { INITIAL_STATE } from '#shared/robot/store.ts';
 import type { Way } from '../../robot/device.ts';
 
 /** What feeds the robot, and what was read until now, one reading every five seconds. */

@@ -5,7 +5,7 @@ import type { Command } from '#shared/codec/commands.ts';
 import { FAMILIES } from '#shared/codec/families.ts';
 import { fromHex } from '#shared/codec/packet.ts';
 import type { Report } from '#shared/codec/reports.ts';
-import type { Traffic } from '#shared/session/state.ts';
+import type { Traffic } from '#shared/robot/state.ts';
 
 const POSE = [1200, 1500, 1950, 2050, 1150, 1500].map((position, index) => ({ servo: index + 1, position }));
 

@@ -6,7 +6,7 @@ import { isActionable, type Level } from '#shared/profile/battery.ts';
 import { homeTargets } from '#shared/profile/poseShapes.ts';
 import type { BatteryPolicy } from '#shared/profile/robot.ts';
 import type { ServoTarget } from '#shared/codec/commands.ts';
-import { wasCommanded } from '#shared/session/state.ts';
+import { wasCommanded } from '#shared/robot/state.ts';
 import { words } from '../../i18n/words.ts';
 import type { BatteryStore } from './battery.ts';
 import type { Device } from '../../robot/device.ts';

@@ -1,8 +1,8 @@
 import { describe, expect, test } from 'vitest';
 import { FAMILIES } from '#shared/codec/families.ts';
-import { createRig } from '#shared/session/rig.ts';
-import { createSession } from '#shared/session/session.ts';
-import type { Transport } from '#shared/session/transport.ts';
+import { createRig } from '#shared/robot/rig.ts';
+import { createSession } from '#shared/robot/robot.ts';
+import type { Transport } from '#shared/robot/transport.ts';
 import { canReadBattery, pollBattery } from './batteryPoll.ts';
 import { createDevice } from '../../robot/device.ts';
 import { createNotices } from '../../state/notices.ts';

@@ -2,7 +2,7 @@
 // any packet disturbs what runs, and under load the voltage sags anyway. A board that stayed silent is asked again only by a
 // person, and a shared one by its link.
 
-import { BATTERY_AFTER_RUN_MS, BATTERY_EVERY_MS } from '#shared/session/timings.ts';
+import { BATTERY_AFTER_RUN_MS, BATTERY_EVERY_MS } from '#shared/robot/timings.ts';
 import type { Device, DeviceState } from '../../robot/device.ts';
 
 /** Returns a function that ends it. `visible` is asked before each question: a hidden page asks nothing. */

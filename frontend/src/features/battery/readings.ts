@@ -1,7 +1,7 @@
 // How a battery is shown: the truth mark of its level, the last known voltage, the words for both. Pure.
 
 import { readingKind, type Level, type Supply } from '#shared/profile/battery.ts';
-import type { Battery } from '#shared/session/battery.ts';
+import type { Battery } from '#shared/robot/battery.ts';
 import type { Truth } from '../../ui/Chip.tsx';
 import { words } from '../../i18n/words.ts';
 

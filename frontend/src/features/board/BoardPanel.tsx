@@ -2,7 +2,7 @@
 
 import { useId, useRef, type RefObject } from 'react';
 import { slotTrigger } from '#shared/codec/families.ts';
-import type { Activity } from '#shared/session/state.ts';
+import type { Activity } from '#shared/robot/state.ts';
 import { runAsChosen } from '../animate/play/goOn.ts';
 import { motionHindrance } from '../../robot/readiness.ts';
 import { useSnapshot, useStores, useCompiled, useDevice, useDocument, useSlot } from '../stores.ts';

@@ -1,6 +1,6 @@
 // How far a download has come, in frames, bytes and seconds over all that is being downloaded, and a way to call it off.
 
-import { isWatching } from '#shared/session/lease.ts';
+import { isWatching } from '#shared/robot/lease.ts';
 import { useSnapshot, useStores } from '../stores.ts';
 import { Button } from '../../ui/Button.tsx';
 import { ProgressBar } from '../../ui/ProgressBar.tsx';

@@ -4,9 +4,9 @@
 import type { Unheld } from '#shared/motion/haltPlan.ts';
 import { usePlayedFrame } from '../animate/play/usePlayedFrame.ts';
 import { useDevice, useDocument, useIsTeaching, useSnapshot, useStores } from '../stores.ts';
-import { mayResume } from '#shared/session/lease.ts';
-import type { LinkErrorCode } from '#shared/session/linkError.ts';
-import type { Activity, Latch, LinkState } from '#shared/session/state.ts';
+import { mayResume } from '#shared/robot/lease.ts';
+import type { LinkErrorCode } from '#shared/robot/linkError.ts';
+import type { Activity, Latch, LinkState } from '#shared/robot/state.ts';
 import { Button } from '../../ui/Button.tsx';
 import { Mark, type Truth } from '../../ui/Chip.tsx';
 import { cx } from '../../ui/cx.ts';

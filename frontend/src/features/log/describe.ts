@@ -6,7 +6,7 @@ import { toHex } from '#shared/codec/packet.ts';
 import type { ReportKind } from '#shared/codec/reports.ts';
 import { writeLine, type Entry } from '#shared/files/recording.ts';
 import { trafficOf } from '#shared/files/recorder.ts';
-import type { Traffic } from '#shared/session/state.ts';
+import type { Traffic } from '#shared/robot/state.ts';
 import type { LogEntry } from '../../robot/traffic.ts';
 import type { LogKind } from '../view.ts';
 import { commandText, reportText } from './packetText.ts';

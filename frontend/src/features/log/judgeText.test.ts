@@ -1,6 +1,6 @@
 import { describe, expect, test } from 'vitest';
 import { FAMILIES, type FamilyId } from '#shared/codec/families.ts';
-import { INITIAL_STATE } from '#shared/session/store.ts';
+import { INITIAL_STATE } from '#shared/robot/store.ts';
 import { words } from '../../i18n/whole.ts';
 import { judgeText, obstacleFor } from './judgeText.ts';
 

@@ -4,7 +4,7 @@ import type { Family } from '#shared/codec/families.ts';
 import { fromHex } from '#shared/codec/packet.ts';
 import { judgeRaw } from '#shared/codec/rawPacket.ts';
 import { isHarmless } from '#shared/codec/commands.ts';
-import type { SessionState } from '#shared/session/state.ts';
+import type { SessionState } from '#shared/robot/state.ts';
 import { rawText } from './packetText.ts';
 import { boardName } from '../../i18n/sentences/boards.ts';
 import { words } from '../../i18n/whole.ts';

@@ -1,8 +1,8 @@
 import { expect, test } from 'vitest';
 import type { Command } from '#shared/codec/commands.ts';
-import { LinkError } from '#shared/session/linkError.ts';
-import type { SessionState } from '#shared/session/state.ts';
-import { INITIAL_STATE } from '#shared/session/store.ts';
+import { LinkError } from '#shared/robot/linkError.ts';
+import type { SessionState } from '#shared/robot/state.ts';
+import { INITIAL_STATE } from '#shared/robot/store.ts';
 import { createTrafficLog } from '../../robot/traffic.ts';
 import { meaning } from './describe.ts';
 import { createStrip } from './strip.ts';

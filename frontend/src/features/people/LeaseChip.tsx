@@ -3,7 +3,7 @@
 
 import { useState } from 'react';
 import { useSnapshot, useStores } from '../stores.ts';
-import { isWatching, type Lease } from '#shared/session/lease.ts';
+import { isWatching, type Lease } from '#shared/robot/lease.ts';
 import { Button } from '../../ui/Button.tsx';
 import { Mark } from '../../ui/Chip.tsx';
 import { cx } from '../../ui/cx.ts';

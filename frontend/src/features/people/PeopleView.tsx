@@ -1,7 +1,7 @@
 // Whom an owner lets in and who may come in already. Plain values in, wishes out; so every case can be shown.
 
 import { useState } from 'react';
-import type { Candidate } from '#shared/session/lease.ts';
+import type { Candidate } from '#shared/robot/lease.ts';
 import { type PeopleWishes, type Shown, PERSON_ROLES, type PeopleState, type PersonRole } from './people.ts';
 import { Button } from '../../ui/Button.tsx';
 import { words } from '../../i18n/whole.ts';

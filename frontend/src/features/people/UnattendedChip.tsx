@@ -2,7 +2,7 @@
 
 import { useState } from 'react';
 import { useSnapshot, useStores } from '../stores.ts';
-import type { Unattended } from '#shared/session/lease.ts';
+import type { Unattended } from '#shared/robot/lease.ts';
 import { Button } from '../../ui/Button.tsx';
 import { Mark } from '../../ui/Chip.tsx';
 import { cx } from '../../ui/cx.ts';

@@ -1,7 +1,7 @@
 import { expect, test } from 'vitest';
 import { createStore } from 'zustand/vanilla';
-import type { Lease } from '#shared/session/lease.ts';
-import { INITIAL_STATE } from '#shared/session/store.ts';
+import type { Lease } from '#shared/robot/lease.ts';
+import { INITIAL_STATE } from '#shared/robot/store.ts';
 import { FAMILIES } from '#shared/codec/families.ts';
 import type { DeviceState } from '../../robot/device.ts';
 import { tellHandedOver } from './handedOver.ts';

@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import type { Lease } from '#shared/session/lease.ts';
+import type { Lease } from '#shared/robot/lease.ts';
 import { turnOf } from './turn.ts';
 
 const LOOKS_ON: Lease = {

@@ -1,6 +1,6 @@
 // What is said of the turn to drive, and what may be done about it, as each of the people there sees it. Pure.
 
-import type { Lease, LeaseAction } from '#shared/session/lease.ts';
+import type { Lease, LeaseAction } from '#shared/robot/lease.ts';
 import type { Truth } from '../../ui/Chip.tsx';
 import { personName } from '../../i18n/sentences/people.ts';
 import { words } from '../../i18n/words.ts';

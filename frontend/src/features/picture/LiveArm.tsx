@@ -2,7 +2,7 @@
 // where it is by the estimate, the outline is where it was asked to go, the dotted one where the group at hand would have it.
 
 import { useRef } from 'react';
-import type { ServoMotion } from '#shared/session/state.ts';
+import type { ServoMotion } from '#shared/robot/state.ts';
 import { cx } from '../../ui/cx.ts';
 import { words } from '../../i18n/whole.ts';
 import { type ArmPicture, armPicture, JOINT, samePicture, type Pose } from './pose.ts';

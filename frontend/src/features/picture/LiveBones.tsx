@@ -3,7 +3,7 @@
 
 import { useRef } from 'react';
 import type { Robot } from '#shared/profile/robot.ts';
-import type { Motions } from '#shared/session/state.ts';
+import type { Motions } from '#shared/robot/state.ts';
 import { usePlayback, useRobot, useStores } from '../stores.ts';
 import { cx } from '../../ui/cx.ts';
 import { words } from '../../i18n/words.ts';

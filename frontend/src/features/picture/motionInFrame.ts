@@ -1,6 +1,6 @@
 // The motion as of the frame that is being drawn: asked of the session once, however many needles show it.
 
-import type { Motions, ServoMotion } from '#shared/session/state.ts';
+import type { Motions, ServoMotion } from '#shared/robot/state.ts';
 import type { Device } from '../../robot/device.ts';
 import { frameAtHand } from '../../ui/useEachFrame.ts';
 

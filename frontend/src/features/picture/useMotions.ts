@@ -1,7 +1,7 @@
 // Calls a function on each animation frame in which one of several servos moved that are drawn as one: past React, and a robot at rest
 // costs nothing.
 
-import type { ServoMotion } from '#shared/session/state.ts';
+import type { ServoMotion } from '#shared/robot/state.ts';
 import { useStores } from '../stores.ts';
 import { useFollow } from '../../ui/useFollow.ts';
 import { motionInFrame } from './motionInFrame.ts';

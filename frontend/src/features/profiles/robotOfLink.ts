@@ -3,10 +3,10 @@
 
 import { limitsOnBoard, type Robot } from '#shared/profile/robot.ts';
 import type { FamilyId } from '#shared/codec/families.ts';
-import type { Lease } from '#shared/session/lease.ts';
-import { INITIAL_STATE } from '#shared/session/store.ts';
-import type { SessionState } from '#shared/session/state.ts';
-import type { RobotOnBoard } from '#shared/session/transport.ts';
+import type { Lease } from '#shared/robot/lease.ts';
+import { INITIAL_STATE } from '#shared/robot/store.ts';
+import type { SessionState } from '#shared/robot/state.ts';
+import type { RobotOnBoard } from '#shared/robot/transport.ts';
 import { words } from '../../i18n/words.ts';
 import type { Notices } from '../../state/notices.ts';
 import type { RobotKeeping } from './robotKeeping.ts';

@@ -3,7 +3,7 @@
 import type { LibraryErrorCode } from '#shared/files/keeper.ts';
 import type { TextFlaw } from '#shared/document/schema.ts';
 import type { RangeRefusal } from '#shared/codec/limits.ts';
-import type { LinkErrorCode } from '#shared/session/linkError.ts';
+import type { LinkErrorCode } from '#shared/robot/linkError.ts';
 import { words } from '../words.ts';
 import { say } from './say.ts';
 

@@ -5,8 +5,8 @@ import { passageOf, type Passage, type PassageOptions } from '#shared/group/pass
 import { poseAtMs, tracksOf } from '#shared/group/tracks.ts';
 import type { Frame, ServoTarget } from '#shared/codec/commands.ts';
 import type { Family } from '#shared/codec/families.ts';
-import { startsKnown } from '#shared/session/state.ts';
-import { RANGE_MS } from '#shared/session/timings.ts';
+import { startsKnown } from '#shared/robot/state.ts';
+import { RANGE_MS } from '#shared/robot/timings.ts';
 import type { CompiledGroup } from '../group/compiled.ts';
 import type { Device } from '../../../robot/device.ts';
 import type { Document } from '../group/document.ts';

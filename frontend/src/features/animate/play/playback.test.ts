@@ -3,7 +3,7 @@ import { emptyGroup, type ActionGroup } from '#shared/group/group.ts';
 import { insertFrame, setMeta, type NewFrame } from '#shared/group/groupEdits.ts';
 import { startHistory } from '#shared/document/history.ts';
 import { positionAt, tracksOf } from '#shared/group/tracks.ts';
-import type { Lease } from '#shared/session/lease.ts';
+import type { Lease } from '#shared/robot/lease.ts';
 import { downloadCancelled } from '../../../i18n/sentences/slots.ts';
 import { createDesk } from '../../deskUnderTest.ts';
 import { createSharedSlots } from '../../board/slots/sharedSlotsUnderTest.ts';

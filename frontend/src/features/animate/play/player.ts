@@ -4,7 +4,7 @@
 import type { StoreApi } from 'zustand/vanilla';
 import { totalDurationMs } from '#shared/group/group.ts';
 import { frameEnds } from '#shared/group/tracks.ts';
-import type { Activity } from '#shared/session/state.ts';
+import type { Activity } from '#shared/robot/state.ts';
 import { words } from '../../../i18n/words.ts';
 import { createBoardRun } from './boardRun.ts';
 import { obstacles, type CompiledGroup } from '../group/compiled.ts';

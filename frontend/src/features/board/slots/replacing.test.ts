@@ -1,7 +1,7 @@
 import fc from 'fast-check';
 import { expect, test } from 'vitest';
 import { isLiveSlot } from '#shared/codec/families.ts';
-import { TIMES } from '#shared/session/faults/amount.ts';
+import { TIMES } from '#shared/robot/faults/amount.ts';
 import { createDesk } from '../../deskUnderTest.ts';
 import type { ReplaceAnswer } from './replacing.ts';
 

@@ -1,14 +1,14 @@
 // A board's slots as a gateway shares them, for tests: stores at once what is seen as it is, and others may store there too.
 
 import { fingerprintOf } from '#shared/group/fingerprint.ts';
-import { LinkError } from '#shared/session/linkError.ts';
+import { LinkError } from '#shared/robot/linkError.ts';
 import type {
   SharedDownload,
   SharedSlots,
   SlotGroup,
   SlotVersions,
   StoredGroup,
-} from '#shared/session/transport.ts';
+} from '#shared/robot/transport.ts';
 
 export function createSharedSlots(before: SlotVersions = {}) {
   let versions = before;

@@ -1,6 +1,6 @@
 // What a board answered when it was asked who it is, a line for each question.
 
-import type { Evidence } from '#shared/session/identity.ts';
+import type { Evidence } from '#shared/robot/identity.ts';
 import { Mark, type Truth } from '../../../ui/Chip.tsx';
 import { answerText } from './answerText.ts';
 import { words } from '../../../i18n/whole.ts';

@@ -2,7 +2,7 @@
 // servos will be until somebody has said so.
 
 import { FAMILIES, type Family } from '#shared/codec/families.ts';
-import { fitOf, type Fit } from '#shared/session/identity.ts';
+import { fitOf, type Fit } from '#shared/robot/identity.ts';
 import { useDevice, useSnapshot, useStores } from '../../stores.ts';
 import { Button } from '../../../ui/Button.tsx';
 import { Panel } from '../../../ui/Panel.tsx';

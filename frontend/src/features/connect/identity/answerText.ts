@@ -2,7 +2,7 @@
 
 import type { Family } from '#shared/codec/families.ts';
 import type { ServoOffset } from '#shared/codec/reports.ts';
-import type { Evidence } from '#shared/session/identity.ts';
+import type { Evidence } from '#shared/robot/identity.ts';
 import { words } from '../../../i18n/whole.ts';
 
 export function answerText(evidence: Evidence): string {

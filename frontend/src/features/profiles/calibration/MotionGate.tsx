@@ -4,7 +4,7 @@
 import type { ReactNode } from 'react';
 import type { Robot, RobotServo } from '#shared/profile/robot.ts';
 import { reachOf } from '#shared/profile/robotEdits.ts';
-import { isWatching, mayResume, type Lease } from '#shared/session/lease.ts';
+import { isWatching, mayResume, type Lease } from '#shared/robot/lease.ts';
 import { FAMILIES } from '#shared/codec/families.ts';
 import { GENTLE_MOVE_MS } from '../../../robot/moveTime.ts';
 import { motionHindrance } from '../../../robot/readiness.ts';

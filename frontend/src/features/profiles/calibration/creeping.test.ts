@@ -1,5 +1,5 @@
 import { describe, expect, test } from 'vitest';
-import type { ServoMotion } from '#shared/session/state.ts';
+import type { ServoMotion } from '#shared/robot/state.ts';
 import { createVirtualClock } from '#shared/testing/virtualClock.ts';
 import { startCreeping } from './creeping.ts';
 

@@ -4,7 +4,7 @@
 
 import type { Clock } from '#shared/clock.ts';
 import type { Range } from '#shared/codec/families.ts';
-import type { ServoMotion } from '#shared/session/state.ts';
+import type { ServoMotion } from '#shared/robot/state.ts';
 
 export interface Creeping {
   readonly clock: Clock;

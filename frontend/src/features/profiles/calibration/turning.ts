@@ -3,7 +3,7 @@
 
 import type { RobotServo } from '#shared/profile/robot.ts';
 import type { Clock } from '#shared/clock.ts';
-import type { ServoMotion } from '#shared/session/state.ts';
+import type { ServoMotion } from '#shared/robot/state.ts';
 
 export interface Turning {
   readonly clock: Clock;

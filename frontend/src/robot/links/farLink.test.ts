@@ -1,0 +1,236 @@
+// A page whose gateway is far away, which merges its moves: how much of the wire it uses, how old what leaves is, and that nothing is
+// lost, said late or left behind a stop. In the gateway's place stands a session of its own, which does with moves what it does.
+
+import fc from 'fast-check';
+import { expect, test } from 'vitest';
+import { sleep, type Clock } from '#shared/clock.ts';
+import { family as familyOf } from '#shared/codec/families.ts';
+import { wireMs } from '#shared/codec/packet.ts';
+import { TIMES } from '#shared/robot/faults/amount.ts';
+import { LinkError } from '#shared/robot/linkError.ts';
+import { firstMovesMs } from '#shared/robot/rig.ts';
+import { createSession } from '#shared/robot/robot.ts';
+import type { Traffic } from '#shared/robot/state.ts';
+import type { Transport, TransportEvents } from '#shared/robot/transport.ts';
+import { createSimulatedTransport, type SimulatedTransport } from '#shared/testing/simulatedTransport.ts';
+import { createVirtualClock } from '#shared/testing/virtualClock.ts';
+import { createGatewayMoves, HAND_OVER_MS } from './gatewayMoves.ts';
+import type { ClientMessage } from './messages.generated.ts';
+
+const GAP_MS = familyOf('doc').serviceGapMs;
+const POINTER_MS = 4;
+
+interface Left {
+  readonly atMs: number;
+  readonly durationMs: number;
+  readonly targets: ReadonlyMap<number, number>;
+}
+
+/** So many milliseconds away each way. */
+function farGateway(clock: Clock, delayMs: number, line: SimulatedTransport) {
+  const left: Left[] = [];
+  const there = createSession({ transport: line, clock, family: familyOf('doc') });
+  let events: TransportEvents | null = null;
+  const later = (run: () => void): void => void clock.after(delayMs, run);
+
+  function seen(entry: Traffic): void {
+    if (entry.direction === 'in') return later(() => events?.received(entry.bytes, true));
+    const { command } = entry;
+    if (command?.kind === 'move')
+      left.push({
+        ...{ atMs: entry.atMs, durationMs: command.durationMs },
+        targets: new Map(command.targets.map(({ servo, position }) => [servo, position])),
+      });
+    // Told when its last bit has left.
+    clock.after(wireMs(entry.bytes.length) + delayMs, () => events?.followed?.(entry.bytes));
+  }
+
+  there.subscribe({
+    traffic: seen,
+    problem: (error) => later(() => events?.moveFailed?.(error)),
+    state: ({ waitingToStart }) => later(() => events?.waiting?.(waitingToStart)),
+  });
+
+  function arrived(message: ClientMessage): void {
+    if (message.type !== 'move') throw new TypeError(message.type);
+    try {
+      there.move(message.targets, message.durationMs);
+    } catch (error) {
+      if (error instanceof LinkError) later(() => moves.refused(message.id, error));
+      else throw error;
+    }
+  }
+
+  let lastId = 0;
+  const moves = createGatewayMoves({
+    clock,
+    begin: () => Promise.resolve('1-1'),
+    nextId: () => (lastId += 1),
+    post: (message) => later(() => arrived(message)),
+    failed: (error) => events?.moveFailed?.(error),
+  });
+  const transport: Transport = {
+    ...{ kind: 'gateway', label: 'far away', isSimulated: true, longestPacket: Infinity, moves },
+    async open(heard) {
+      await there.open();
+      events = heard;
+    },
+    send: () => Promise.reject(new TypeError('nothing but moves is sent here')),
+    async halt() {
+      await sleep(clock, delayMs);
+      await there.halt();
+      await sleep(clock, delayMs);
+    },
+    close: () => there.close(),
+  };
+  return { transport, left };
+}
+
+async function farSession(delayMs: number, servoCount: number) {
+  const clock = createVirtualClock();
+  const line = createSimulatedTransport(clock, { servoCount, onForMs: 60_000 });
+  const gateway = farGateway(clock, delayMs, line);
+  const problems: string[] = [];
+  const session = createSession({ transport: gateway.transport, clock, family: familyOf('doc') });
+  session.subscribe({ problem: ({ code }) => problems.push(code) });
+  await session.open();
+  const servos = Array.from({ length: servoCount }, (_, index) => index + 1);
+  const move = (position: number, only = servos): void =>
+    session.move(
+      only.map((servo) => ({ servo, position })),
+      0,
+    );
+  move(500);
+  await clock.advance(firstMovesMs(servoCount));
+  gateway.left.length = 0;
+  return { ...gateway, clock, line, session, move, problems };
+}
+
+test.each([0, 5, 20, 50].flatMap((delayMs) => [6, 32].map((servoCount) => [delayMs, servoCount] as const)))(
+  'a wire %i ms away is used for %i sliders as if it were here, and what leaves is of now',
+  async (delayMs, servoCount) => {
+    const { clock, left, move, problems } = await farSession(delayMs, servoCount);
+    const eventsMs: number[] = [];
+    for (let event = 0; event < 500; event += 1) {
+      eventsMs.push(clock.now());
+      move(1_000 + event);
+      await clock.advance(POINTER_MS);
+    }
+    await clock.advance(500);
+    const last = left.at(-1);
+    expect(last?.targets.get(1)).toBe(1_499);
+    const cycleMs = wireMs(7 + 3 * servoCount) + GAP_MS;
+    const wholeMs = (last?.atMs ?? 0) - (left[0]?.atMs ?? 0);
+    expect(((left.length - 1) * cycleMs) / wholeMs).toBeGreaterThan(0.95);
+    const ages = left.map(({ atMs, targets }) => atMs - (eventsMs[(targets.get(1) ?? 0) - 1_000] ?? NaN));
+    expect(Math.max(...ages.slice(0, -1))).toBeLessThanOrEqual(delayMs + HAND_OVER_MS + POINTER_MS);
+    expect(problems).toEqual([]);
+  },
+);
+
+test('a first move is slow and waits for nobody, however many moves follow it', async () => {
+  const clock = createVirtualClock();
+  const line = createSimulatedTransport(clock, { servoCount: 6, onForMs: 60_000 });
+  const { transport, left } = farGateway(clock, 50, line);
+  const session = createSession({ transport, clock, family: familyOf('doc') });
+  await session.open();
+  for (let event = 0; event < 100; event += 1) {
+    session.move([{ servo: 1, position: 1_000 + event }], 0);
+    await clock.advance(POINTER_MS);
+  }
+  await clock.advance(500);
+  expect(left[0]?.durationMs).toBe(1_500);
+  // Each as slow as what is left of the first one.
+  expect(left.every(({ durationMs }) => durationMs > 500)).toBe(true);
+  expect(left.at(-1)?.targets.get(1)).toBe(1_099);
+});
+
+test('servos of unknown place start one after another, and the page hears who waits', async () => {
+  const clock = createVirtualClock();
+  const line = createSimulatedTransport(clock, { servoCount: 6, onForMs: 60_000 });
+  const { transport, left } = farGateway(clock, 20, line);
+  const session = createSession({ transport, clock, family: familyOf('doc') });
+  await session.open();
+  session.move(
+    [3, 1, 2].map((servo) => ({ servo, position: 1_000 })),
+    0,
+  );
+  await clock.advance(100);
+  expect(session.state.waitingToStart).toEqual([1, 2]);
+  await clock.advance(1_000);
+  expect(session.state.waitingToStart).toEqual([]);
+  expect(left.map(({ targets }) => [...targets.keys()])).toEqual([[3], [1], [2]]);
+});
+
+test('STOP: nothing of the gesture leaves once it has arrived, and its refusals are no news', async () => {
+  const { clock, session, left, move, problems } = await farSession(50, 6);
+  for (let event = 0; event < 40; event += 1) {
+    move(1_000 + event);
+    await clock.advance(POINTER_MS);
+  }
+  const halted = session.halt();
+  await clock.advance(50);
+  const before = left.length;
+  const newest = left.at(-1)?.targets.get(1) ?? NaN;
+  expect(newest).toBeLessThan(1_039);
+  await clock.advance(1_000);
+  await halted;
+  // What holds it is on the way to what has left.
+  expect(left.slice(before).filter(({ targets }) => !((targets.get(1) ?? NaN) <= newest))).toEqual([]);
+  expect(problems).toEqual([]);
+});
+
+test('STOP while frames are played: whatever was under way, the robot is taken to be where it is held', async () => {
+  for (let afterMs = 0; afterMs < 200; afterMs += 5) {
+    const { clock, session, line, problems } = await farSession(20, 2);
+    const frames = Array.from({ length: 40 }, (_, index) => ({
+      durationMs: 100,
+      targets: [{ servo: 1, position: 600 + 30 * index }],
+    }));
+    session.play(frames).catch((error: unknown) => expect(error).toMatchObject({ code: 'latched' }));
+    await clock.advance(3_000 + afterMs);
+    const halted = session.halt();
+    await clock.advance(1_000);
+    await halted;
+    expect(session.motions()(1).estimated, `stopped ${afterMs} ms later`).toBe(line.board.pulse(1));
+    expect(problems).toEqual([]);
+  }
+});
+
+test('whichever sliders are moved and when, each ends where it was asked, and nothing old is said', () =>
+  fc.assert(
+    fc.asyncProperty(
+      fc.integer({ min: 0, max: 120 }),
+      fc.array(
+        fc.record({
+          servos: fc.uniqueArray(fc.integer({ min: 1, max: 6 }), { minLength: 1, maxLength: 6 }),
+          pauseMs: fc.integer({ min: 0, max: 60 }),
+        }),
+        { minLength: 1, maxLength: 40 },
+      ),
+      async (delayMs, gestures) => {
+        const { clock, session, left, move, problems } = await farSession(delayMs, 6);
+        const asked = new Map<number, number>();
+        const askedMs = new Map<number, number>();
+        for (const [index, { servos, pauseMs }] of gestures.entries()) {
+          const position = 600 + index;
+          move(position, servos);
+          askedMs.set(position, clock.now());
+          servos.forEach((servo) => asked.set(servo, position));
+          await clock.advance(pauseMs);
+        }
+        await clock.advance(3_000);
+        const ended = new Map<number, number>();
+        for (const { atMs, targets } of left)
+          for (const [servo, position] of targets) {
+            expect(position).toBeGreaterThanOrEqual(ended.get(servo) ?? 0);
+            expect(atMs - (askedMs.get(position) ?? NaN)).toBeLessThanOrEqual(1_000);
+            ended.set(servo, position);
+          }
+        expect(ended).toEqual(asked);
+        expect(problems).toEqual([]);
+        for (const [servo, position] of asked) expect(session.motions()(servo).target).toBe(position);
+      },
+    ),
+    { numRuns: 60 * TIMES },
+  ));

@@ -1,0 +1,21 @@
+// The gateway's HTTP interface for a link: every failure is a LinkError. Knows no route.
+
+import { isLinkErrorCode, LinkError } from '#shared/robot/linkError.ts';
+import { GatewayProblem, request, type Asking } from '../request.ts';
+
+/** Rejects where nobody answers in time, and with what the gateway says it refuses for. */
+export async function askGateway(path: string, asking: Asking): Promise<unknown> {
+  try {
+    return await request(path, asking);
+  } catch (error) {
+    if (!(error instanceof GatewayProblem)) throw error;
+    const { code, message } = error;
+    throw code === null
+      ? new LinkError('gatewayUnreachable', message, { cause: error })
+      : refusal(code, message);
+  }
+}
+
+export function refusal(code: string, detail: string): LinkError {
+  return new LinkError(isLinkErrorCode(code) ? code : 'gatewayRefused', detail);
+}

@@ -1,0 +1,74 @@
+// What the gateway says in its own words, as the session has it, and the other way round. Pure: knows no socket.
+
+import type { MotionBefore } from '#shared/motion/before.ts';
+import { isHarmless, type Frame } from '#shared/codec/commands.ts';
+import { FAMILIES, type BoardId } from '#shared/codec/families.ts';
+import { toHex } from '#shared/codec/packet.ts';
+import { commandIn } from '#shared/codec/parse.ts';
+import type { Battery } from '#shared/robot/battery.ts';
+import type { Identity, SharedBoard } from '#shared/robot/identity.ts';
+import { LinkError } from '#shared/robot/linkError.ts';
+import type { SharedLatchReason } from '#shared/robot/transport.ts';
+import { refusal } from './gatewayHttp.ts';
+import type {
+  BatteryMessage,
+  FrameBody,
+  MotionState,
+  PortState,
+  StateMessage,
+} from './messages.generated.ts';
+
+export const LATCHED_BY: Readonly<Record<NonNullable<StateMessage['latchedBy']>, SharedLatchReason>> = {
+  person: 'elsewhere',
+  battery: 'battery',
+  silence: 'unwatched',
+  loss: 'reconnected',
+};
+
+/** null while nothing is known of one: its port is not open. */
+export function boardTold({ board, link, identity }: Omit<StateMessage, 'type'>): SharedBoard | null {
+  const { status, code, detail } = link;
+  if (status === 'closed' || status === 'opening' || status === 'lost') return null;
+  // A newer gateway may know boards that this page does not.
+  const known = {
+    board: board in FAMILIES ? (board as BoardId) : 'unknown',
+    identity: identity as Identity,
+  } as const;
+  if (status === 'refused') return { ...known, status, error: refusal(code ?? 'internal', detail ?? '') };
+  return known.board === 'unknown' && status !== 'identifying'
+    ? { ...known, status: 'refused', error: refusal('boardUnknown', '') }
+    : { ...known, status, error: null };
+}
+
+/** Needs nobody's leave. */
+export function isHarmlessPacket(packet: Uint8Array): boolean {
+  const command = commandIn(packet);
+  return command !== null && isHarmless(command);
+}
+
+export function batteryTold(told: BatteryMessage['battery'], nowMs: number): Battery {
+  if (told.kind !== 'read') return told;
+  return { kind: 'read', batteryMv: told.batteryMv, atMs: nowMs - told.ageMs };
+}
+
+export function motionBefore({ servos, runSlot, released }: MotionState): MotionBefore {
+  const ways = servos.map(({ start, target, ...way }) => ({ ...way, from: start, to: target }));
+  return { ways, runSlot, released };
+}
+
+export function frameBody({ durationMs, targets }: Frame): FrameBody {
+  return {
+    durationMs,
+    positions: Object.fromEntries(targets.map(({ servo, position }) => [servo, position])),
+  };
+}
+
+export function portError(port: PortState | null): LinkError {
+  if (port === null) return new LinkError('gatewayUnreachable', 'the gateway does not answer');
+  return refusal(port.code ?? 'closed', port.detail ?? 'the port of the gateway is closed');
+}
+
+/** The gateway's spelling of bytes: lower case, no spaces. */
+export function compactHex(bytes: Uint8Array): string {
+  return toHex(bytes).replaceAll(' ', '').toLowerCase();
+}

@@ -1,0 +1,89 @@
+// This page's turn to drive, as the gateway tells it: asks for a lease that nobody has, answers each tick, and keeps the
+// nonce that shows that what is said is of now. Knows no packet. It needs no timer, which a browser would slow down.
+
+import { isWatching, notDriving, type Lease, type Unattended } from '#shared/robot/lease.ts';
+import { LinkError } from '#shared/robot/linkError.ts';
+import type { ClientMessage, LeaseState } from './messages.generated.ts';
+
+export interface Turn {
+  readonly lease: Lease | null;
+  /** Of the latest tick. */
+  readonly nonce: string | null;
+  told(state: LeaseState): void;
+  /** How many are at the gateway, this page among them, and what goes on without anybody. */
+  counted(clients: number, unattended: Unattended | null): void;
+  ticked(nonce: string): void;
+  /** Resolves when this page drives and its nonce is of now, no older than `withinMs`; rejects where somebody else drives. */
+  begin(withinMs?: number): Promise<void>;
+  /** Whoever waits for it waits in vain. */
+  fail(error: LinkError): void;
+  /** The gateway is not there any more: what it told is void. */
+  gone(): void;
+}
+
+interface Waiter {
+  readonly resolve: () => void;
+  readonly reject: (error: LinkError) => void;
+}
+
+/**
+ * Ticks come every 250 ms; one that is late waits behind what kept this page busy, and with the one before it the gateway would
+ * refuse what is said now for its age.
+ */
+const FRESH_MS = 300;
+
+export function createTurn(post: (message: ClientMessage) => void, now: () => number): Turn {
+  let lease: Lease | null = null;
+  let seen: Pick<Lease, 'others' | 'unattended'> = { others: 0, unattended: null };
+  let nonce: string | null = null;
+  let tickedMs = -Infinity;
+  let waiters: readonly Waiter[] = [];
+
+  function settle(each: (waiter: Waiter) => void): void {
+    const current = waiters;
+    waiters = [];
+    current.forEach(each);
+  }
+
+  const fail = (error: LinkError): void => settle(({ reject }) => reject(error));
+
+  return {
+    get lease() {
+      return lease;
+    },
+    get nonce() {
+      return nonce;
+    },
+    told(state) {
+      lease = { ...state, ...seen };
+      const wasOurs = nonce !== null;
+      if (!state.drives) nonce = null;
+      if (isWatching(lease)) fail(notDriving(lease));
+      // Whoever waited for the next tick of it: there will be none.
+      else if (wasOurs && !state.drives) fail(new LinkError('expired', 'this page’s turn to drive was over'));
+    },
+    counted(clients, unattended) {
+      seen = { others: clients - 1, unattended };
+      lease &&= { ...lease, ...seen };
+    },
+    ticked(next) {
+      nonce = next;
+      tickedMs = now();
+      post({ type: 'beat', nonce });
+      settle(({ resolve }) => resolve());
+    },
+    begin(withinMs = FRESH_MS) {
+      if (nonce !== null && now() - tickedMs <= withinMs) return Promise.resolve();
+      if (isWatching(lease)) return Promise.reject(notDriving(lease));
+      return new Promise((resolve, reject) => {
+        if (nonce === null) post({ type: 'lease', action: 'request' });
+        waiters = [...waiters, { resolve, reject }];
+      });
+    },
+    fail,
+    gone() {
+      lease = null;
+      nonce = null;
+    },
+  };
+}

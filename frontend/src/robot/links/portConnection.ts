@@ -1,0 +1,168 @@
+// One open port, from opening to closing: packets out one at a time, bytes in as they come, and what each exception of the
+// browser means for the link. Knows no packet beyond its length, and not which port is the right one.
+
+import { sleep } from '#shared/clock.ts';
+import { BAUD, wireMs } from '#shared/codec/packet.ts';
+import { LinkError, type LinkErrorCode } from '#shared/robot/linkError.ts';
+import { LINE_IDLE_MS } from '#shared/robot/timings.ts';
+import type { Connection, ConnectionEvents } from './tabChannel.ts';
+import { browserClock } from './browserClock.ts';
+import { isGone } from './portFinder.ts';
+import { nameOf } from './serialPorts.ts';
+
+/**
+ * Longer than a session waits for the rest of a packet: what the error cut is given up before anything is read that came
+ * after it. And a line that stays disturbed (a board without power holds it low) does not keep the page busy.
+ */
+const LINE_ERROR_PAUSE_MS = LINE_IDLE_MS + 10;
+/**
+ * What was handed over last is a stop or a hold, and on a busy computer the browser needs tenths of a second to pass it on.
+ * Only a driver that takes nothing at all needs longer.
+ */
+const DRAIN_WITHIN_MS = 1000;
+/** Drivers and adapters call a packet sent while they hold it still; what a closed port held is thrown away. */
+const HELD_BACK_MS = 100;
+/** A port that does not let itself be closed is given up, so that another attempt can begin. */
+const CLOSE_WITHIN_MS = 250;
+
+export async function openPort(port: SerialPort, events: ConnectionEvents): Promise<Connection> {
+  try {
+    await port.open({ baudRate: BAUD });
+  } catch (error) {
+    throw new LinkError(openFailure(port, error), 'the port could not be opened', { cause: error });
+  }
+  return connect(port, events);
+}
+
+function openFailure(port: SerialPort, error: unknown): LinkErrorCode {
+  if (nameOf(error) === 'SecurityError') return 'portDenied';
+  return isGone(port) || nameOf(error) === 'NotFoundError' ? 'portMissing' : 'portBusy';
+}
+
+function connect(port: SerialPort, events: ConnectionEvents): Connection {
+  let reader: ReadableStreamDefaultReader<Uint8Array> | null = null;
+  let writer: WritableStreamDefaultWriter<Uint8Array> | null = null;
+  let closing: Promise<void> | null = null;
+  let leftAtMs = -Infinity;
+  let failSending = (_error: LinkError): void => undefined;
+
+  // Whoever asked hears first that the port is open, and then of its loss.
+  browserClock.after(0, () => void readAll());
+
+  async function readAll(): Promise<void> {
+    while (closing === null) {
+      try {
+        await readUntilError();
+      } catch (error) {
+        if (!isLineError(error)) {
+          lose(error);
+          return;
+        }
+        await sleep(browserClock, LINE_ERROR_PAUSE_MS);
+      }
+    }
+  }
+
+  async function readUntilError(): Promise<never> {
+    const source = streamOf(port.readable).getReader();
+    reader = source;
+    try {
+      for (;;) {
+        const { value, done } = await source.read();
+        if (done) throw gone();
+        if (closing === null) events.received(value);
+      }
+    } finally {
+      letGo(source);
+    }
+  }
+
+  function write(packet: Uint8Array): Promise<void> {
+    writer ??= streamOf(port.writable).getWriter();
+    return writer.write(packet);
+  }
+
+  /** Tells first: a port that is gone may take its time to close. */
+  function lose(cause: unknown): void {
+    if (closing !== null) return;
+    const error = gone(cause);
+    void close();
+    events.lost(error);
+  }
+
+  function close(): Promise<void> {
+    closing ??= end();
+    failSending(gone());
+    return closing;
+  }
+
+  async function end(): Promise<void> {
+    // Closing a port throws away what its driver still holds; closing the stream first lets it leave.
+    await Promise.race([settled(drain), sleep(browserClock, DRAIN_WITHIN_MS)]);
+    await Promise.race([shut(), sleep(browserClock, CLOSE_WITHIN_MS)]);
+  }
+
+  /** Rejects at once where the device is gone. */
+  async function drain(): Promise<void> {
+    await writer?.close();
+    await sleep(browserClock, Math.max(0, leftAtMs + HELD_BACK_MS - browserClock.now()));
+  }
+
+  async function shut(): Promise<void> {
+    await settled(() => reader?.cancel());
+    if (reader !== null) letGo(reader);
+    if (writer !== null) letGo(writer);
+    await settled(() => port.close());
+  }
+
+  /** The driver takes the bytes at once; they are on the wire for much longer. */
+  async function writeOut(packet: Uint8Array): Promise<void> {
+    const startMs = browserClock.now();
+    await write(packet);
+    leftAtMs = Math.max(startMs + wireMs(packet.length), browserClock.now());
+    await sleep(browserClock, leftAtMs - browserClock.now());
+  }
+
+  return {
+    send(packet) {
+      if (closing !== null) return Promise.reject(gone());
+      return new Promise((resolve, reject) => {
+        failSending = reject;
+        writeOut(packet).then(resolve, lose);
+      });
+    },
+    sendAtOnce: (packet) => settled(() => writeOut(packet)),
+    close,
+  };
+}
+
+function streamOf<T>(stream: T | null): T {
+  if (stream === null) throw gone();
+  return stream;
+}
+
+function gone(cause?: unknown): LinkError {
+  return new LinkError('lost', 'the device is gone', { cause });
+}
+
+/** These leave the port usable with a fresh stream; everything else means that the device is gone. */
+function isLineError(error: unknown): boolean {
+  return ['BreakError', 'BufferOverrunError', 'FramingError', 'ParityError'].includes(nameOf(error));
+}
+
+/** What fails here was about to end anyway. */
+async function settled(work: () => Promise<void> | undefined): Promise<void> {
+  try {
+    await work();
+  } catch {
+    return;
+  }
+}
+
+function letGo(holder: { releaseLock(): void }): void {
+  try {
+    holder.releaseLock();
+  } catch {
+    return;
+  }
+}

@@ -1,0 +1,142 @@
+// A device that one tab of this browser has at a time, as a byte channel: claims it, lets go of it for the tab that asks, opens
+// and closes one after the other. Knows no kind of device and no packets.
+
+import { sleep } from '#shared/clock.ts';
+import type { ByteChannel, OpenOptions } from '#shared/robot/byteChannel.ts';
+import { LinkError } from '#shared/robot/linkError.ts';
+import { browserClock } from './browserClock.ts';
+import { createPortLock } from './portLock.ts';
+
+export interface ConnectionEvents {
+  received(bytes: Uint8Array): void;
+  /** At most once, never after `close`. */
+  lost(error: LinkError): void;
+}
+
+/** An open device, from opening to closing. */
+export interface Connection {
+  /** Resolves when the packet's last bit has left the wire. Any failure ends the connection. */
+  send(packet: Uint8Array): Promise<void>;
+  /** Hands the packet over before it returns, behind what is leaving. Resolves when it has left, or never will. */
+  sendAtOnce(packet: Uint8Array): Promise<void>;
+  /** Never rejects and never hangs. */
+  close(): Promise<void>;
+}
+
+export interface TabDevice extends Pick<ByteChannel, 'label' | 'longestPacket'> {
+  /** The same in all tabs. */
+  readonly lockName: string;
+  /** Rejects with a LinkError, in bounded time. */
+  connect(events: ConnectionEvents): Promise<Connection>;
+  /** The device has just gone, perhaps. */
+  wentAway?(): void;
+  /** Calls back when the device may be there again, until the returned function is called. */
+  watch(mayBeBack: () => void): () => void;
+}
+
+/** A robot that does not let itself be stopped in that time is past helping; the other tab shall get it. */
+const HALT_WITHIN_MS = 2000;
+
+export function createTabChannel(device: TabDevice): ByteChannel {
+  const lock = createPortLock(device.lockName);
+  const inTurn = createQueue();
+  let connection: Connection | null = null;
+  /** A device that is plugged in says nothing of the other tab. */
+  let isElsewhere = false;
+  let stopAwaiting = (): void => undefined;
+
+  async function open({ takesOver = false }: OpenOptions = {}): Promise<void> {
+    await letGo();
+    try {
+      if (takesOver) await lock.askForIt();
+      await claim();
+      await connect();
+    } catch (error) {
+      awaitDevice();
+      throw error;
+    }
+  }
+
+  async function connect(): Promise<void> {
+    const received = (bytes: Uint8Array): void => channel.events?.received(bytes);
+    try {
+      connection = await device.connect({ received, lost: lose });
+    } catch (error) {
+      lock.release();
+      throw error;
+    }
+  }
+
+  function awaitDevice(): void {
+    stopAwaiting();
+    stopAwaiting = isElsewhere ? () => undefined : device.watch(() => channel.events?.available());
+  }
+
+  async function claim(): Promise<void> {
+    isElsewhere = true;
+    await lock.take(() => void moveAway());
+    isElsewhere = false;
+  }
+
+  /** The lock last: the port is free for the tab that gets it. */
+  async function letGo(ending = connection): Promise<void> {
+    await ending?.close();
+    if (connection !== ending) return;
+    connection = null;
+    lock.release();
+  }
+
+  function lose(error: LinkError): void {
+    void letGo();
+    tellLost(error);
+  }
+
+  function tellLost(error: LinkError): void {
+    device.wentAway?.();
+    awaitDevice();
+    channel.events?.lost(error);
+  }
+
+  async function moveAway(): Promise<void> {
+    const moved = connection;
+    if (moved === null) return;
+    // A link that fails meanwhile has nothing left to stop.
+    await Promise.race([channel.events?.claimed(), sleep(browserClock, HALT_WITHIN_MS)]).catch(
+      () => undefined,
+    );
+    if (connection !== moved) return;
+    await letGo();
+    isElsewhere = true;
+    tellLost(new LinkError('movedAway', 'another tab has it'));
+  }
+
+  const channel: ByteChannel = {
+    label: device.label,
+    longestPacket: device.longestPacket,
+    events: null,
+    open(options) {
+      stopAwaiting();
+      return inTurn(() => open(options));
+    },
+    async write(packet) {
+      if (connection === null) throw new LinkError('closed', 'the device is not open');
+      await connection.send(packet);
+    },
+    close(lastPacket) {
+      stopAwaiting();
+      const current = connection;
+      const leaving = lastPacket && current?.sendAtOnce(lastPacket);
+      if (leaving === undefined) return inTurn(() => letGo());
+      device.wentAway?.();
+      awaitDevice();
+      return leaving.then(() => letGo(current));
+    },
+  };
+  return channel;
+}
+
+/** One after the other, whatever became of the one before: a port that is being opened cannot be closed yet. */
+function createQueue(): (work: () => Promise<void>) => Promise<void> {
+  let last: Promise<void> = Promise.resolve();
+  return (work) => (last = last.then(work, work));
+}

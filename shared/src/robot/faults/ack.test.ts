@@ -1,0 +1,143 @@
+// F5 of safety.md section 5: acknowledgements lost, late, doubled, and foreign ones in between, in every order. The oracle
+// is the board: what it stored, and what it was working on when the next frame came.
+
+import { expect, test } from 'vitest';
+import type { Clock } from '../../clock.ts';
+import type { Frame } from '../../codec/commands.ts';
+import { family } from '../../codec/families.ts';
+import { createRandom } from '../../simulator/random.ts';
+import { createSimulatedTransport } from '../../testing/simulatedTransport.ts';
+import { createVirtualClock } from '../../testing/virtualClock.ts';
+import { createSession } from '../robot.ts';
+import type { Transport } from '../transport.ts';
+import { caseOf, named, seeds } from './amount.ts';
+
+const FILE = 'ack.test.ts';
+const FATES = ['kept', 'lost', 'late', 'doubled', 'foreign'] as const;
+type Fate = (typeof FATES)[number];
+
+/** A frame of one servo takes 13.5 ms to leave. A copy that comes later than that looks like its answer. */
+const NEXT_PACKET_MS = 13;
+const ACK_COMMAND = 0x19;
+/** An empty 8: somebody's erase was done. */
+const FOREIGN = Uint8Array.of(0x55, 0x55, 0x02, 0x08);
+
+interface Circumstances {
+  readonly slot: number;
+  readonly frames: readonly Frame[];
+  readonly lateMs: number;
+  readonly doubledAfterMs: number;
+}
+
+/** Later than a middle frame is waited for, so that its repetition is already under way; other times in later rounds. */
+function circumstancesOf(round: number): Circumstances {
+  const random = createRandom(round);
+  const between = (least: number, limit: number): number => least + Math.floor(random() * (limit - least));
+  return {
+    slot: round === 0 ? 5 : between(0, 256),
+    frames: [1_000, 1_100, 1_200].map((position) => ({
+      durationMs: round === 0 ? 100 : between(0, 30_000),
+      targets: [{ servo: 1 + (round % 6), position: position + between(0, 100) }],
+    })),
+    lateMs: round === 0 ? 420 : between(1, 3_000),
+    doubledAfterMs: round === 0 ? 5 : between(1, NEXT_PACKET_MS),
+  };
+}
+
+/** Does to each acknowledgement what its fate says. */
+function withFates(
+  transport: Transport,
+  clock: Clock,
+  { lateMs, doubledAfterMs }: Circumstances,
+  nextFate: () => Fate,
+): Transport {
+  return {
+    ...transport,
+    open: (events) =>
+      transport.open({
+        ...events,
+        received(bytes) {
+          const fate = bytes.at(-1) === ACK_COMMAND ? nextFate() : 'kept';
+          const pass = (): void => events.received(bytes);
+          if (fate === 'foreign') events.received(FOREIGN);
+          if (fate === 'late') clock.after(lateMs, pass);
+          else if (fate !== 'lost') pass();
+          if (fate === 'doubled') clock.after(doubledAfterMs, pass);
+        },
+      }),
+  };
+}
+
+/** Whole packets, so that a fate strikes one at a time. */
+function gathered(transport: Transport): Transport {
+  let packet: number[] = [];
+  return {
+    ...transport,
+    open: (events) =>
+      transport.open({
+        ...events,
+        received(bytes) {
+          packet.push(...bytes);
+          for (; packet.length >= 4; packet = packet.slice(4))
+            events.received(Uint8Array.from(packet.slice(0, 4)));
+        },
+      }),
+  };
+}
+
+/** Gives how many acknowledgements the board sent. */
+async function storeUnder(fates: readonly Fate[], circumstances: Circumstances): Promise<number> {
+  const { slot, frames } = circumstances;
+  const clock = createVirtualClock();
+  const simulated = createSimulatedTransport(clock, { onForMs: 60_000 });
+  let acks = 0;
+  const transport = withFates(gathered(simulated), clock, circumstances, () => fates[acks++] ?? 'kept');
+  const session = createSession({ transport, family: family('doc'), clock });
+  await session.open();
+  let outcome: unknown = 'hangs';
+  /** What the board had committed when the session said so, not some time later. */
+  let countWhenTold = 0;
+  session.download([{ slot, frames }]).then(
+    () => {
+      outcome = 'stored';
+      countWhenTold = simulated.board.frameCount(slot);
+    },
+    (error: unknown) => (outcome = error),
+  );
+  await clock.advance(120_000);
+  if (outcome === 'stored') {
+    expect(countWhenTold).toBe(frames.length);
+    expect(frames.map((_, at) => simulated.board.storedFrame(slot, at))).toEqual(frames);
+    expect(session.state.brokenSlots).toEqual([]);
+  } else {
+    expect(outcome).toMatchObject({ code: 'noAnswer' });
+    expect(session.state.brokenSlots).toEqual([slot]);
+  }
+  expect(session.state.activity).toEqual({ kind: 'idle' });
+  return acks;
+}
+
+const LENGTH = 6;
+const ORDERS = FATES.length ** LENGTH;
+
+/** The number written with the fates as its digits, the first one the highest. */
+function orderOf(number: number): readonly Fate[] {
+  return Array.from(
+    { length: LENGTH },
+    (_, at) => FATES[Math.floor(number / FATES.length ** (LENGTH - 1 - at)) % FATES.length] ?? 'kept',
+  );
+}
+
+test('what counts as stored is stored, in every order of six fates', { timeout: 300_000 }, async () => {
+  // Most downloads end after fewer acknowledgements: orders that differ only afterwards are the same one.
+  let tried = { round: -1, fates: [] as readonly Fate[] };
+  for (const seed of seeds(ORDERS)) {
+    const { at, round } = caseOf(seed, ORDERS);
+    const fates = orderOf(at);
+    if (tried.round === round && tried.fates.every((fate, index) => fate === fates[index])) continue;
+    await named(FILE, seed, fates.join(', '), async () => {
+      const used = await storeUnder(fates, circumstancesOf(round));
+      tried = { round, fates: fates.slice(0, used) };
+    });
+  }
+});

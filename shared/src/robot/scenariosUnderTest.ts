@@ -1,0 +1,169 @@
+// Plays a scenario of shared/protocol/scenarios on a session in virtual time: what is asked and what the board says come in at their
+// times, what the session sends, tells and ends with is noted. README.md there says what an event is. Knows no file.
+
+import { sleep } from '../clock.ts';
+import type { Frame, ServoTarget } from '../codec/commands.ts';
+import { family as familyOf, type BoardId, type FamilyId } from '../codec/families.ts';
+import { fromHex, toHex, wireMs } from '../codec/packet.ts';
+import { createVirtualClock } from '../testing/virtualClock.ts';
+import { LinkError } from './linkError.ts';
+import { createLocalRobot, type Session } from './robot.ts';
+import type { SessionState } from './state.ts';
+import type { ByteChannel } from './byteChannel.ts';
+
+export type Intent =
+  | { readonly type: 'move'; readonly targets: readonly ServoTarget[]; readonly durationMs: number }
+  | { readonly type: 'run'; readonly slot: number; readonly times: number }
+  | { readonly type: 'stop' | 'resume' | 'cancelDownload' | 'readBattery' | 'stopPlaying' }
+  | {
+      readonly type: 'play';
+      readonly frames: readonly Frame[];
+      readonly times: number;
+      readonly loopFrom: number;
+    }
+  | { readonly type: 'board'; readonly family: FamilyId }
+  | {
+      readonly type: 'download';
+      readonly groups: readonly { readonly slot: number; readonly frames: readonly Frame[] }[];
+    };
+
+/** What comes from outside. */
+type Input = { readonly asks: Intent; readonly id?: number } | { readonly says: string };
+
+/** What must come of it. */
+type Output =
+  { readonly leaves: string } | { readonly tells: Told } | { readonly ends: number; readonly with: string };
+
+export type ScenarioEvent = { readonly atMs: number } & (Input | Output);
+
+export interface Scenario {
+  readonly name: string;
+  /** What the board is taken for. */
+  readonly family: BoardId;
+  /** The link opens at 0, and the board is asked who it is. Otherwise it has been open for a while, and the family's word is enough. */
+  readonly identifies?: true;
+  readonly events: readonly ScenarioEvent[];
+}
+
+/** The part of the state that a scenario tells: each only when it has changed. */
+interface Told {
+  /** The status, and where it is refused the code. */
+  readonly link?: string;
+  readonly latched?: boolean;
+  /** Once the last packet of a stop has left. */
+  readonly unheld?: { readonly servos: readonly number[] | null; readonly forMs: number | null } | null;
+  readonly brokenSlots?: readonly number[];
+  readonly waitingToStart?: readonly number[];
+  /** The frame under way; null where nothing is played. */
+  readonly playedFrame?: number | null;
+}
+
+/** Long after the last input, so that what should not come any more would be seen. */
+const QUIET_MS = 10_000;
+/** So long the link is open before the first input: what others had set in motion is then no longer than this from its end. */
+const OPEN_FOR_MS = 100;
+const isInput = (event: ScenarioEvent): boolean => 'asks' in event || 'says' in event;
+const exactly = (ms: number): number => Math.round(ms * 1000) / 1000;
+
+/** Its inputs with what came of them, in the order of time. */
+export async function played({ events, ...head }: Scenario): Promise<Scenario> {
+  const clock = createVirtualClock();
+  const openForMs = head.identifies ? 0 : OPEN_FOR_MS;
+  const inputs = events.filter(isInput);
+  const outputs: ScenarioEvent[] = [];
+  const note = (output: Output): void =>
+    void outputs.push({ atMs: exactly(clock.now() - openForMs), ...output });
+  let isBegun = false;
+  const channel: ByteChannel = {
+    ...{ label: 'Board', longestPacket: Infinity, events: null },
+    open: () => Promise.resolve(),
+    async write(packet) {
+      note({ leaves: toHex(packet) });
+      await sleep(clock, wireMs(packet.length));
+    },
+    close: () => Promise.resolve(),
+  };
+  const session = createLocalRobot({
+    ...{ channel, kind: 'webSerial', clock, family: familyOf(head.family), identifies: head.identifies },
+  });
+  let before = toldOf(session.state);
+  session.subscribe({
+    state(state) {
+      const after = toldOf(state);
+      const changed = Object.entries(after).filter(
+        ([field, value]) => JSON.stringify(value) !== JSON.stringify(before[field as keyof Told]),
+      );
+      before = after;
+      if (changed.length > 0 && isBegun) note({ tells: Object.fromEntries(changed) });
+    },
+  });
+  await session.open();
+  await clock.advance(openForMs);
+  isBegun = true;
+  for (const { atMs, ...input } of inputs)
+    clock.after(atMs, () => {
+      if ('says' in input) channel.events?.received(fromHex(input.says));
+      else if ('asks' in input) begin(session, input.asks, input.id ?? null, note);
+    });
+  await clock.advance(Math.max(0, ...inputs.map(({ atMs }) => atMs)) + QUIET_MS);
+  const all = [
+    ...inputs.map((event) => ({ ...event, rank: 0 })),
+    ...outputs.map((event) => ({ ...event, rank: 1 })),
+  ];
+  const inOrder = all.toSorted((one, other) => one.atMs - other.atMs || one.rank - other.rank);
+  return { ...head, events: inOrder.map(({ rank: _, ...event }) => event as ScenarioEvent) };
+}
+
+function begin(session: Session, intent: Intent, id: number | null, note: (output: Output) => void): void {
+  const end = (how: string): void => {
+    if (id !== null) note({ ends: id, with: how });
+  };
+  asked(session, intent).then(
+    () => end('done'),
+    (error: unknown) => end(error instanceof LinkError ? error.code : String(error)),
+  );
+}
+
+async function asked(session: Session, intent: Intent): Promise<unknown> {
+  switch (intent.type) {
+    case 'move':
+      session.move(intent.targets, intent.durationMs);
+      return;
+    case 'run':
+      return session.run(intent.slot, intent.times);
+    case 'stop':
+      return session.halt();
+    case 'resume':
+      return session.resume();
+    case 'readBattery':
+      return session.readBattery();
+    case 'board':
+      return session.choose(familyOf(intent.family));
+    case 'download':
+      return session.download(intent.groups);
+    case 'play':
+      return session.play(intent.frames, intent);
+    case 'stopPlaying':
+      session.stopPlaying();
+      return;
+    case 'cancelDownload':
+      return session.cancelDownload();
+  }
+}
+
+function toldOf({ link, latch, brokenSlots, waitingToStart, activity }: SessionState): Told {
+  return {
+    link: link.status === 'refused' ? `refused: ${link.error.code}` : link.status,
+    latched: latch !== null,
+    ...((latch?.stop === 'sent' || latch?.stop === 'confirmed') && { unheld: rounded(latch.unheld) }),
+    brokenSlots,
+    waitingToStart,
+    playedFrame: activity.kind === 'playing' ? activity.frameIndex : null,
+  };
+}
+
+function rounded(unheld: NonNullable<SessionState['latch']>['unheld']): NonNullable<Told['unheld']> | null {
+  if (unheld === null) return null;
+  const { servos, forMs } = unheld;
+  return { servos, forMs: forMs === Infinity ? null : Math.ceil(forMs) };
+}
