@@ -1,7 +1,7 @@
 // Looks for what keeps a robot from being connected: the browser, the address, devices that are allowed, and what the board has
 // sent so far. Facts in, findings out; asks the board nothing and moves nothing.
 
-import type { LinkState } from '#shared/session/state.ts';
+import type { LinkState } from '#shared/robot/state.ts';
 import type { TrafficLog } from '../../robot/traffic.ts';
 
 export type Sight = 'seen' | 'missing' | 'blocked';
