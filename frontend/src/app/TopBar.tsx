@@ -44,7 +44,7 @@ function LanguageControl() {
 }
 
 export function TopBar({ onMoveHere }: Pick<StatusLineProps, 'onMoveHere'>) {
-  const isShared = useDevice((state) => state.way?.kind === 'gateway');
+  const isShared = useDevice(({ snapshot }) => snapshot.canShare);
   return (
     <header {...PART} className={styles.bar} data-shared={isShared} aria-label={words.regions.top}>
       <h1 className={styles.product}>

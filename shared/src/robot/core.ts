@@ -8,9 +8,9 @@ import type { Lanes } from './queue.ts';
 import { isWatching, notDriving } from './lease.ts';
 import { LinkError } from './linkError.ts';
 import type { RobotEstimate } from './estimate.ts';
-import type { Activity, LinkState, Withheld } from './state.ts';
+import type { Activity, LinkState } from './state.ts';
 import type { SessionStore } from './store.ts';
-import type { SharedCommands } from './transport.ts';
+import type { SharedCommands, Withheld } from './transport.ts';
 
 export interface Core {
   readonly family: Family;

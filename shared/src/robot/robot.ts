@@ -125,7 +125,7 @@ export function createSession(options: SessionOptions): Session {
   const { transport, slotMemory, family = UNKNOWN_BOARD } = options;
   const { identifies = false, isWatched = () => false, withheld = [] } = options;
   const clock = createWakefulClock(options.clock, overslept);
-  const store = createSessionStore({ family, withheld });
+  const store = createSessionStore({ family, canShare: transport.commands !== undefined, withheld });
   const replies = createReplies(clock);
   /** The link was opened and not only mended. */
   let isNew = false;
@@ -150,6 +150,7 @@ export function createSession(options: SessionOptions): Session {
     waiting: (waitingToStart) => store.update({ waitingToStart }),
     moveFailed,
     claimed: () => halt.halt(),
+    withholds: (commands) => store.update({ withheld: commands }),
     latched(reason, by = null) {
       if (reason === null) halt.released();
       else if (store.state.latch === null) halt.latchedElsewhere(reason, by);

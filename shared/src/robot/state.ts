@@ -15,6 +15,7 @@ import type {
   RobotOnBoard,
   SharedLatchReason,
   SlotVersions,
+  Withheld,
 } from './transport.ts';
 
 export type LinkState =
@@ -66,13 +67,12 @@ export interface Reading {
   readonly atMs: number;
 }
 
-/** What hardware has not confirmed yet for some cable. */
-export type Withheld = 'download' | 'erase';
-
 export interface SessionState {
   readonly link: LinkState;
   /** What the board is taken for; `UNKNOWN_BOARD` before somebody has said so. */
   readonly family: Family;
+  /** Others may look on and drive, too, and what it was given goes on without this end. */
+  readonly canShare: boolean;
   /** Commands that this link is not to carry, although the board may know them. */
   readonly withheld: readonly Withheld[];
   /** What the board answered when it was asked who it is; empty where nobody asked. */

@@ -21,6 +21,7 @@ export const NOTHING_READ: Pick<SessionState, 'reported' | 'version' | 'offsets'
 export const INITIAL_STATE: SessionState = {
   link: { status: 'closed' },
   family: UNKNOWN_BOARD,
+  canShare: false,
   withheld: [],
   identity: NOTHING_HEARD,
   latch: null,
@@ -36,7 +37,9 @@ export const INITIAL_STATE: SessionState = {
   robotOnBoard: null,
 };
 
-export function createSessionStore(given: Pick<SessionState, 'family' | 'withheld'>): SessionStore {
+export function createSessionStore(
+  given: Pick<SessionState, 'family' | 'canShare' | 'withheld'>,
+): SessionStore {
   const listeners = new Set<Partial<SessionEvents>>();
   let state: SessionState = { ...INITIAL_STATE, ...given };
 

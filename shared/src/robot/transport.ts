@@ -18,6 +18,9 @@ export type SharedLatchReason = 'elsewhere' | 'battery' | 'unwatched' | 'reconne
 /** Who asks for a stop: a person's hand, or the battery's policy on this page. */
 export type HaltReason = 'pressed' | 'battery';
 
+/** What hardware has not confirmed yet for some cable. */
+export type Withheld = 'download' | 'erase';
+
 export interface TransportEvents extends Partial<Pick<ChannelEvents, 'claimed'>> {
   /** Bytes from the board, in order, in whatever pieces they came; `whole` where they are whole packets for sure. */
   received(bytes: Uint8Array, whole?: boolean): void;
@@ -39,6 +42,8 @@ export interface TransportEvents extends Partial<Pick<ChannelEvents, 'claimed'>>
   followed?(packet: Uint8Array): void;
   /** Only a shared link: what moves before this end came have made of the robot. Told once it is open. */
   placed?(motion: MotionBefore): void;
+  /** Only a shared link: what the cable behind it is not to carry. Told once it is open, and on each change. */
+  withholds?(commands: readonly Withheld[]): void;
   /** Only a shared link: who drives. Told once it is open, and on each change. */
   leased?(lease: Lease): void;
   /** Only a shared link: something of its `slots` is another now. */

@@ -225,6 +225,7 @@ export function createGatewayTransport(url: string, clock: Clock, { mayDrive = t
     const wasOpen = port?.status === 'open';
     port = next;
     settleAll(stateWaiters, (waiter) => waiter.resolve());
+    events?.withholds?.(next.withheld);
     if (next.status === 'open') notifyAvailable();
     else if (wasOpen) lose(portError(next));
   }
@@ -341,6 +342,7 @@ export function createGatewayTransport(url: string, clock: Clock, { mayDrive = t
       if (before !== null) next.placed?.(before);
       before = null;
       if (turn.lease !== null) next.leased?.(turn.lease);
+      next.withholds?.(port.withheld);
       next.waiting?.(waitingToStart);
       if (latched !== null) next.latched?.(latched, stoppedBy);
       next.playing?.(progress);
