@@ -85,7 +85,7 @@ def test_no_client_puts_the_end_off(served: Served, text: str) -> None:
 def test_the_description_of_the_interface_does_not_put_the_stop_off(tmp_path: Path) -> None:
     """It is made when it is asked for first, which took more than a second on a busy computer."""
     hang = "openapi.get_openapi = lambda **_: threading.Event().wait()"
-    imports = "import threading; from servodeck.web import openapi; from servodeck.cli.main import main"
+    imports = "import threading; from servodeck.api import openapi; from servodeck.cli.main import main"
     served = Served("--data", str(tmp_path), program=["-c", f"{imports}; {hang}; main()"])
     with raw(served, "GET /openapi.json HTTP/1.1\nHost: HOST\n\n"):
         time.sleep(0.2)  # it is being made
