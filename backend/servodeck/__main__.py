@@ -9,9 +9,12 @@ import sys
 def main() -> None:
     if sys.argv[1:] == ["stop"] and is_stopped():
         return
-    from servodeck.loading import loading
+    from servodeck.loading import begin_loading
 
-    with loading():
+    begin_loading()
+    if sys.argv[1:2] == ["serve"]:
+        from servodeck.cli.program import serve_alone as command_line
+    else:
         from servodeck.cli.main import main as command_line
     command_line()
 

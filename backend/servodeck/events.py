@@ -8,7 +8,7 @@ import json
 import sys
 from typing import Annotated, Any, Literal
 
-from pydantic import Field, TypeAdapter
+from pydantic import Field
 
 from servodeck.errors import ErrorCode
 from servodeck.intents import ClientMessage, MessageId
@@ -197,7 +197,6 @@ GatewayMessage = Annotated[
     | PlayedMessage,
     Field(discriminator="type"),
 ]
-gateway_message: TypeAdapter[Any] = TypeAdapter(GatewayMessage)
 
 
 def encode(message: Message) -> str:

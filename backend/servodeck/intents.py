@@ -246,4 +246,7 @@ AnyClientMessage = (
 )
 ClientMessage = Annotated[AnyClientMessage, Field(discriminator="type")]
 
-client_message: TypeAdapter[AnyClientMessage] = TypeAdapter(ClientMessage)
+client_message: TypeAdapter[AnyClientMessage] = TypeAdapter(
+    ClientMessage, config=ConfigDict(defer_build=True)
+)
+"""Built behind a start, see later.py."""

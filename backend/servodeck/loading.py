@@ -4,15 +4,13 @@ A tenth of the start, and afterwards each collection has that much less to look 
 """
 
 import gc
-from collections.abc import Iterator
-from contextlib import contextmanager
 
 
-@contextmanager
-def loading() -> Iterator[None]:
+def begin_loading() -> None:
     gc.disable()
-    try:
-        yield
-    finally:
-        gc.freeze()
-        gc.enable()
+
+
+def end_loading() -> None:
+    """A program that ends at once need not."""
+    gc.freeze()
+    gc.enable()

@@ -5,7 +5,6 @@ import time
 from collections.abc import Iterator
 from typing import Any
 
-from fastapi import FastAPI
 from fastapi.routing import APIRoute
 from starlette.types import ASGIApp, Message, Scope
 
@@ -13,6 +12,7 @@ from servodeck.access.entrance import Entrance
 from servodeck.access.guard import Guard
 from servodeck.access.roles import named_roles
 from servodeck.api.app import create_app
+from servodeck.api.later import LaterApp
 from servodeck.callers import Role
 from servodeck.errors import PortMissingError
 from servodeck.robot.control import Control
@@ -29,7 +29,8 @@ def app_at(entrance: Entrance | None = None) -> Guard:
 def roles_of_routes() -> Iterator[tuple[str, str, list[Role | None]]]:
     """Method (WS for an upgrade), path and named roles of each route, read from the application itself."""
     app = app_at().app
-    assert isinstance(app, FastAPI)
+    assert isinstance(app, LaterApp)
+    app.load_all()
     for route, roles in named_roles(app.routes):
         methods = sorted(route.methods or ()) if isinstance(route, APIRoute) else ["WS"]
         yield from ((method, str(getattr(route, "path", "?")), roles) for method in methods)

@@ -255,14 +255,14 @@ def test_a_route_without_a_role_keeps_the_gateway_from_starting() -> None:
     app = FastAPI(docs_url=None, redoc_url=None, openapi_url=None)
     app.router.route_class = roles.JudgingRoute
     app.get("/named", dependencies=[roles.ANYBODY])(lambda: None)
-    roles.require_roles(app)
+    roles.require_roles(app.routes)
     app.get("/forgotten")(lambda: None)
     with pytest.raises(TypeError, match="/forgotten"):
-        roles.require_roles(app)
+        roles.require_roles(app.routes)
 
 
 def test_a_route_that_asks_who_it_is_behind_the_body_keeps_the_gateway_from_starting() -> None:
     app = FastAPI(docs_url=None, redoc_url=None, openapi_url=None)
     app.get("/late", dependencies=[roles.VIEWER])(lambda: None)
     with pytest.raises(TypeError, match="/late"):
-        roles.require_roles(app)
+        roles.require_roles(app.routes)

@@ -6,11 +6,11 @@ from typing import Any
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from pydantic import ValidationError
+from pydantic import TypeAdapter, ValidationError
 
 from servodeck.api.websocket import intake_of, take_text
 from servodeck.callers import THIS_COMPUTER
-from servodeck.events import DoneMessage, StateMessage, encode, gateway_message, json_schema
+from servodeck.events import DoneMessage, GatewayMessage, StateMessage, encode, json_schema
 from servodeck.intents import MoveMessage, PacketMessage, ResumeMessage, StopMessage, Target, client_message
 from servodeck.protocol.families import FAMILIES
 from servodeck.robot.control import Control
@@ -87,7 +87,8 @@ def test_names_on_the_wire_are_camel_case() -> None:
         "id": 3,
         "outcome": "sent",
     }
-    assert gateway_message.validate_json(encode(DoneMessage(id=3, outcome="sent"))) == DoneMessage(
+    message: TypeAdapter[Any] = TypeAdapter(GatewayMessage)
+    assert message.validate_json(encode(DoneMessage(id=3, outcome="sent"))) == DoneMessage(
         id=3, outcome="sent"
     )
 

@@ -4,12 +4,12 @@ import json
 from typing import Any, get_args
 
 import pytest
-from fastapi import FastAPI
 from fastapi.routing import APIRoute
 from jsonschema_rs import validator_for
 from pydantic import TypeAdapter
 
 from servodeck.api.examples import EXAMPLES, PROBLEMS
+from servodeck.api.later import LaterApp
 from servodeck.api.openapi import SCHEMES, STATUS_OF, described, docs_page, operations
 from servodeck.callers import Role
 from servodeck.errors import ErrorCode
@@ -17,7 +17,8 @@ from tests.knocking import app_at
 from tests.test_matrix import ROLES
 
 application = app_at().app
-assert isinstance(application, FastAPI)
+assert isinstance(application, LaterApp)
+application.load_all()
 SCHEMA = described(application)
 ROUTES = list(operations(application))
 

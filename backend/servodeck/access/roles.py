@@ -1,5 +1,5 @@
-"""Roles at the routes: each names who may use it, or that anybody may; one that names nothing keeps the
-gateway from starting. Role and rate are judged on the head, before a body is read.
+"""Roles at the routes: each names who may use it, or that anybody may; one that names nothing is not served.
+Role and rate are judged on the head, before a body is read.
 
 Knows the entrance and how a framework's routes are built; no route of ours.
 """
@@ -8,7 +8,7 @@ import json
 from collections.abc import Callable, Coroutine, Iterator, Sequence
 from typing import Any
 
-from fastapi import Depends, FastAPI
+from fastapi import Depends
 from fastapi.dependencies.models import Dependant
 from fastapi.routing import APIRoute
 from starlette.exceptions import HTTPException
@@ -122,9 +122,9 @@ def needs_of(dependant: Dependant | None) -> Iterator[Needs]:
             yield each.call
 
 
-def require_roles(app: FastAPI) -> None:
+def require_roles(routes: Sequence[BaseRoute]) -> None:
     """Denies by default: whoever adds a route without a role finds out before anybody can use it."""
-    for route, roles in named_roles(app.routes):
+    for route, roles in named_roles(routes):
         if len(roles) != 1:
             raise TypeError(f"{route} has to name one role")
         if isinstance(route, APIRoute) and not isinstance(route, JudgingRoute):

@@ -7,7 +7,7 @@ from http import HTTPStatus
 from pathlib import Path
 from typing import Any
 
-from fastapi import FastAPI, Request
+from fastapi import Request
 from fastapi.exceptions import RequestValidationError
 from fastapi.routing import APIRoute
 from starlette.exceptions import HTTPException
@@ -18,16 +18,10 @@ from servodeck import __version__, metrics
 from servodeck.access.entrance import Entrance
 from servodeck.access.guard import Guard, log_refusal
 from servodeck.access.roles import ANYBODY, JudgingRoute, named_roles, require_roles
-from servodeck.api.events import events_api
-from servodeck.api.groups import jobs_api, play_api
 from servodeck.api.health import health_api
-from servodeck.api.library import library_api, robots_api
-from servodeck.api.motion import motion_api, poses_api
-from servodeck.api.openapi import STYLE, described, docs_page
+from servodeck.api.later import LaterApp, add_routes
 from servodeck.api.page import STATIC, page
-from servodeck.api.people import people_api
 from servodeck.api.process import Pulse, sign_of_life
-from servodeck.api.robot import api, socket
 from servodeck.errors import ErrorCode, GatewayError, MalformedError
 from servodeck.files import Disk
 from servodeck.library.library import Library
@@ -53,7 +47,7 @@ DETAILS = {
 
 def create_app(control: Control, library: Library, entrance: Entrance, static: Path = STATIC) -> Guard:
     """The gateway with that entrance and the page built into `static`."""
-    app = FastAPI(
+    app = LaterApp(
         title="Servodeck gateway",
         description="Drives a servo controller on a serial port. An error is a code and a sentence.",
         version=__version__,
@@ -71,34 +65,26 @@ def create_app(control: Control, library: Library, entrance: Entrance, static: P
     app.state.pulse = Pulse(sign_of_life())
     app.state.disk = Disk(library.folder, control.now)
     app.state.entrance = entrance
-    app.include_router(api)
-    app.include_router(events_api)
-    app.include_router(health_api)
-    app.include_router(jobs_api)
-    app.include_router(play_api)
-    app.include_router(library_api)
-    app.include_router(motion_api)
-    app.include_router(people_api)
-    app.include_router(poses_api)
-    app.include_router(robots_api)
-    app.include_router(socket)
+    add_routes(app, health_api)
     add_docs(app)
     add_errors(app)
-    require_roles(app)
+    require_roles(app.routes)
     app.mount("/", page(static))
     return Guard(app, entrance)
 
 
 @contextlib.asynccontextmanager
-async def lifespan(app: FastAPI) -> AsyncIterator[None]:
+async def lifespan(app: LaterApp) -> AsyncIterator[None]:
     control: Control = app.state.control
     beating = asyncio.create_task(app.state.pulse.run())
+    loading = asyncio.create_task(app.load_soon())
     yield
+    loading.cancel()
     beating.cancel()
     await control.shut_down()
 
 
-def add_docs(app: FastAPI) -> None:
+def add_docs(app: LaterApp) -> None:
     """Of functions that hold no app: the framework keeps those of the routes in a cache of the process."""
     app.state.describing = asyncio.Lock()
     answers: dict[str, Callable[..., Awaitable[Response]]] = {
@@ -110,8 +96,11 @@ def add_docs(app: FastAPI) -> None:
         app.add_api_route(path, answer, include_in_schema=False, dependencies=[ANYBODY])
 
 
-async def description(app: FastAPI) -> dict[str, Any]:
+async def description(app: LaterApp) -> dict[str, Any]:
     """Making it takes so long that a stop would have to wait."""
+    from servodeck.api.openapi import described
+
+    app.load_all()
     async with app.state.describing:
         if app.openapi_schema is None:
             return await in_thread(lambda: described(app))
@@ -119,6 +108,8 @@ async def description(app: FastAPI) -> dict[str, Any]:
 
 
 async def docs(request: Request) -> HTMLResponse:
+    from servodeck.api.openapi import docs_page
+
     return HTMLResponse(docs_page(await description(request.app)))
 
 
@@ -127,10 +118,12 @@ async def schema(request: Request) -> JSONResponse:
 
 
 async def style() -> Response:
+    from servodeck.api.openapi import STYLE
+
     return Response(STYLE, media_type="text/css")
 
 
-def add_errors(app: FastAPI) -> None:
+def add_errors(app: LaterApp) -> None:
     @app.exception_handler(GatewayError)
     async def gateway_error(connection: HTTPConnection, error: GatewayError) -> JSONResponse:
         if connection.scope["type"] == "websocket":
@@ -161,8 +154,9 @@ def add_errors(app: FastAPI) -> None:
         return problem(500, "internal", "The gateway made a mistake; its log says more.")
 
 
-def methods_at(app: FastAPI, path: str) -> list[str]:
+def methods_at(app: LaterApp, path: str) -> list[str]:
     """Of all routes of that address; the framework tells those of one."""
+    app.load_all()
     found: set[str] = set()
     for route, _ in named_roles(app.routes):
         if isinstance(route, APIRoute) and route.path_regex.match(path):
@@ -171,5 +165,5 @@ def methods_at(app: FastAPI, path: str) -> list[str]:
 
 
 def problem(status: int, code: ErrorCode, detail: str) -> JSONResponse:
-    metrics.refused.labels(code).inc()
+    metrics.refused[code] += 1
     return JSONResponse({"code": code, "detail": detail}, status)

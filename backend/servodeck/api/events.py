@@ -17,7 +17,7 @@ from starlette.types import Receive, Scope, Send
 
 from servodeck.access.connections import connection_of
 from servodeck.access.roles import VIEWER
-from servodeck.api.robot import Controlled, routes
+from servodeck.api.routes import Controlled, routes
 from servodeck.callers import Caller
 from servodeck.errors import BusyError
 from servodeck.robot.control import Control

@@ -10,7 +10,7 @@ from pydantic import Field
 
 from servodeck.access.roles import DRIVER, VIEWER
 from servodeck.api.motion import Scripted, Take
-from servodeck.api.robot import Controlled, routes
+from servodeck.api.routes import Controlled, routes
 from servodeck.api.websocket import play as play_for_page
 from servodeck.callers import Caller
 from servodeck.errors import MalformedError

@@ -3,24 +3,21 @@
 Looks at what is known anyway; nothing here sends the board a byte or waits for a lock.
 """
 
-from typing import Annotated, Literal, get_args
+from typing import Annotated, Literal
 
 from fastapi import Depends, Response
-from prometheus_client import CONTENT_TYPE_LATEST, generate_latest
 from starlette.requests import HTTPConnection
 
-from servodeck import __version__, metrics
+from servodeck import __version__
 from servodeck.access.roles import ANYBODY, VIEWER
 from servodeck.api.process import Pulse
-from servodeck.api.robot import Controlled, routes
+from servodeck.api.routes import Controlled, routes
 from servodeck.files import Disk
-from servodeck.robot.control import Control
 from servodeck.schema import Message
-from servodeck.snapshots import PortState, PortStatus
+from servodeck.snapshots import PortState
 
 # Far above what a busy small computer shows, far below what a person at a slider would not notice.
 LATE_S = 0.25
-PORT_STATES = get_args(PortStatus)
 
 
 class Trouble(Message):
@@ -80,16 +77,6 @@ def loop_troubles(worst_s: float) -> list[Trouble]:
 @health_api.get("/metrics", include_in_schema=False, dependencies=[VIEWER])
 async def numbers(control: Controlled, pulse: Beating) -> Response:
     """In Prometheus's text format."""
-    note_present(control, pulse)
-    return Response(generate_latest(metrics.REGISTRY), media_type=CONTENT_TYPE_LATEST)
+    from servodeck.api.prometheus import MEDIA_TYPE, numbers_text
 
-
-def note_present(control: Control, pulse: Pulse) -> None:
-    """Sets what has a present value instead of a count."""
-    for status in PORT_STATES:
-        metrics.port_state.labels(status).set(status == control.board.port.status)
-    metrics.latched.set(control.latch)
-    metrics.clients.set(len(control.hub))
-    reading = control.board.battery.newest
-    metrics.battery.set(reading.battery_mv if reading else float("nan"))
-    metrics.loop_delay.set(pulse.worst_s)
+    return Response(numbers_text(control, pulse.worst_s), media_type=MEDIA_TYPE)

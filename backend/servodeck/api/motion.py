@@ -11,7 +11,7 @@ from pydantic import Field
 from starlette.requests import HTTPConnection
 
 from servodeck.access.roles import DRIVER, OWNER, VIEWER
-from servodeck.api.robot import Controlled, routes
+from servodeck.api.routes import Controlled, routes
 from servodeck.callers import Caller
 from servodeck.errors import NotFoundError, OutOfRangeError
 from servodeck.intents import ContinueMs, PersonId, Servo

@@ -18,8 +18,19 @@ from servodeck.access.roles import named_roles
 from servodeck.api.examples import EXAMPLES, PROBLEMS, Example
 from servodeck.callers import Role
 from servodeck.errors import ErrorCode, GatewayError
+from servodeck.schema import Message
 
-PROBLEM = {"$ref": "#/components/schemas/Problem"}
+REFERENCE = "#/components/schemas/{model}"
+
+
+class Problem(Message):
+    """Why a request failed. `code` is for programs, `detail` for people."""
+
+    code: ErrorCode
+    detail: str
+
+
+PROBLEM = {"$ref": REFERENCE.format(model=Problem.__name__)}
 SCHEMES = {
     "token": {
         "type": "http",
@@ -49,6 +60,12 @@ def described(app: FastAPI) -> dict[str, Any]:
         schema = get_openapi(
             title=app.title, version=app.version, description=app.description, routes=app.routes
         )
+        for name in ("HTTPValidationError", "ValidationError"):
+            # Of 422, the framework's own shape, which nobody is sent.
+            schema["components"]["schemas"].pop(name)
+        schema["components"]["schemas"][Problem.__name__] = Problem.model_json_schema(
+            ref_template=REFERENCE, mode="serialization"
+        )
         schema["components"]["securitySchemes"] = SCHEMES
         for route, method, role in operations(app):
             complete(schema["paths"][route.path_format][method.lower()], EXAMPLES[method, route.path], role)
@@ -70,7 +87,7 @@ def complete(operation: dict[str, Any], example: Example, role: Role | None) -> 
     if "requestBody" in operation:
         operation["requestBody"]["content"][JSON]["example"] = example.asks
     responses = operation["responses"]
-    responses.pop("422", None)  # the framework's own shape, which nobody is sent
+    responses.pop("422", None)
     for answer in responses.values():
         for content in answer.get("content", {}).values():
             content["example"] = example.answers

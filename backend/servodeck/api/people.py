@@ -29,7 +29,7 @@ from servodeck.api.people_messages import (
     TokenWish,
     You,
 )
-from servodeck.api.robot import Controlled, routes
+from servodeck.api.routes import Controlled, routes
 from servodeck.callers import Caller
 from servodeck.errors import ForbiddenError, MalformedError, StorageError
 from servodeck.robot.control import Control

@@ -8,18 +8,15 @@ import math
 from dataclasses import asdict
 from typing import Annotated
 
-from fastapi import APIRouter, Depends, Request, WebSocket
-from fastapi.routing import APIRoute
+from fastapi import APIRouter, Request, WebSocket
 from pydantic import Field
-from pydantic.alias_generators import to_camel
-from starlette.requests import HTTPConnection
 
 from servodeck import __version__
-from servodeck.access.gate import judge_script
-from servodeck.access.roles import DRIVER, OWNER, STOPPER, VIEWER, JudgingRoute
+from servodeck.access.roles import DRIVER, OWNER, STOPPER, VIEWER
+from servodeck.api.routes import Controlled, routes
 from servodeck.api.websocket import serve_client
 from servodeck.callers import Caller, as_script
-from servodeck.errors import ErrorCode, OutOfRangeError
+from servodeck.errors import OutOfRangeError
 from servodeck.port.bluetooth import this_computer
 from servodeck.port.ports import is_same_port, lasting_of, list_devices
 from servodeck.protocol.families import FAMILIES
@@ -29,13 +26,6 @@ from servodeck.robot.latch import Cause
 from servodeck.schema import Message
 from servodeck.snapshots import IdentityState, LinkState, PlayState, PortState, UnattendedRun, UnheldServos
 from servodeck.threads import in_thread
-
-
-class Problem(Message):
-    """Why a request failed. `code` is for programs, `detail` for people."""
-
-    code: ErrorCode
-    detail: str
 
 
 class BatteryAge(Message):
@@ -108,39 +98,6 @@ class Stopped(Message):
     unheld: UnheldServos | None
 
 
-class ApiRoute(JudgingRoute):
-    """Only our own page and programs get this far."""
-
-    def judge(self, request: Request) -> None:
-        judge_script(request.scope["headers"])
-        super().judge(request)
-
-
-# Dependencies are coroutines even where they wait for nothing: a plain function would go through a thread,
-# and STOP with it.
-async def control_of(connection: HTTPConnection) -> Control:
-    control = connection.app.state.control
-    assert isinstance(control, Control)
-    return control
-
-
-def operation_id(route: APIRoute) -> str:
-    """What generators of clients call it: what it is about, then what it does."""
-    return to_camel(f"{route.tags[0]}_{route.name}")
-
-
-def routes(prefix: str, about: str) -> APIRouter:
-    """For our own page and for scripts; whatever they refuse for is a Problem."""
-    return APIRouter(
-        prefix=prefix,
-        tags=[about],
-        generate_unique_id_function=operation_id,
-        route_class=ApiRoute,
-        responses={"4XX": {"model": Problem}, "5XX": {"model": Problem}},
-    )
-
-
-Controlled = Annotated[Control, Depends(control_of)]
 api = routes("/api", "gateway")
 socket = APIRouter()
 

@@ -352,7 +352,7 @@ def refusing(session: Session, message_id: int | None) -> Iterator[None]:
 
 
 def refuse(session: Session, message_id: int | None, error: GatewayError) -> None:
-    metrics.refused.labels(error.code).inc()
+    metrics.refused[error.code] += 1
     session.put(encode(RefusedMessage(id=message_id, code=error.code, detail=error.detail)))
 
 

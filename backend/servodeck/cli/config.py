@@ -44,7 +44,8 @@ def take_file(context: typer.Context, path: Path | None) -> Path | None:
     in use; without one named, the user's own or else the system's, whole.
     """
     variables = {name for name in os.environ if name.startswith(f"{PREFIX}_")}
-    refuse_unknown(variables, known_variables(context), "the environment")
+    if not variables <= variables_of([context.command]):
+        refuse_unknown(variables, variables_of(commands_of(context).values()), "the environment")
     named = path or next((one for one in (config_folder() / FILE, SYSTEM_FILE) if one.is_file()), None)
     if named is None:
         return None
@@ -100,14 +101,16 @@ def variable_of(name: str) -> str:
     return f"{PREFIX}_{name.upper().replace('-', '_')}"
 
 
-def known_variables(context: typer.Context) -> set[str]:
-    """Of every command: the variable of one is no mistake under another."""
-    options = [option for command in commands_of(context).values() for option in command.params]
+def variables_of(commands: Iterable[Any]) -> set[str]:
+    """The variable of one is no mistake under another."""
+    options = [option for command in commands for option in command.params]
     return {variable_of(option.opts[0].removeprefix("--")) for option in options if option.opts}
 
 
 def commands_of(context: typer.Context) -> dict[str, Any]:
-    program = context.find_root().command
+    """All there are: the program may have been loaded without the others, and then brings what loads them."""
+    root = context.find_root()
+    program = root.obj() if root.obj else root.command
     return dict(program.commands) if isinstance(program, TyperGroup) else {}
 
 

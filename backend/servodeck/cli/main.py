@@ -8,12 +8,11 @@ from typing import Annotated
 
 import typer
 
-from servodeck import __version__
 from servodeck.cli.commands import COMMANDS, library, pose, poses
 from servodeck.cli.config import PREFIX, commands_of, settings_of, toml_line
 from servodeck.cli.groups import download, play
 from servodeck.cli.options import USAGE, Token, TokenFile, asked, fail, remote_at
-from servodeck.cli.serve import serve
+from servodeck.cli.program import new_program
 from servodeck.cli.udev import udev_rule
 from servodeck.port.ports import PortInfo, list_devices
 from servodeck.protocol.describe import describe
@@ -22,31 +21,7 @@ from servodeck.protocol.limits import PacketError
 # The gateway listens for modules that long before it answers, and a busy computer needs a moment more.
 SCAN_WAIT_S = 15.0
 
-app = typer.Typer(
-    help="Servodeck: drives LewanSoul, Lobot and Hiwonder servo controllers.",
-    no_args_is_help=True,
-    add_completion=False,
-    pretty_exceptions_enable=False,
-    rich_markup_mode=None,
-)
-
-
-def show_version(is_wanted: bool) -> None:
-    if is_wanted:
-        print(f"servodeck {__version__}")
-        raise typer.Exit
-
-
-@app.callback()
-def main_options(
-    _version: Annotated[
-        bool, typer.Option("--version", callback=show_version, is_eager=True, help="Show the version.")
-    ] = False,
-) -> None:
-    """Drives LewanSoul, Lobot and Hiwonder servo controllers."""
-
-
-app.command(context_settings={"auto_envvar_prefix": PREFIX})(serve)
+app = new_program()
 for command in (*COMMANDS, pose, poses, download, play, library, udev_rule):
     app.command()(command)
 

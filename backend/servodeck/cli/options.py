@@ -14,6 +14,7 @@ from typing import Annotated, Any, NoReturn
 import typer
 
 from servodeck.cli.remote import HERE, RefusedError, Remote, UnreachableError
+from servodeck.loading import end_loading
 from servodeck.protocol.families import FAMILIES, UNKNOWN
 
 FAILURE, USAGE, UNREACHABLE, TIMED_OUT, INTERRUPTED = 1, 2, 3, 4, 130
@@ -62,6 +63,7 @@ def asking(command: Callable[..., None]) -> Callable[..., None]:
 
     @wraps(command)
     def run(**options: Any) -> None:
+        end_loading()
         command(remote_at(**{name: options.pop(name) for name in where}), **options)
 
     own = list(signature(command).parameters.values())[1:]

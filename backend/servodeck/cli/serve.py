@@ -16,12 +16,15 @@ import typer
 
 from servodeck.cli.config import PREFIX, Form, Level, take_file
 from servodeck.cli.options import USAGE, fail
-from servodeck.loading import loading
+from servodeck.loading import end_loading
 from servodeck.protocol.families import FAMILIES, UNKNOWN
 
 if TYPE_CHECKING:
     from servodeck.access.addresses import Access
     from servodeck.access.entrance import Entrance
+    from servodeck.library.library import Library
+    from servodeck.robot.profile import ReadFacts
+    from servodeck.snapshots import RobotFacts
 
 
 DEFAULT_LISTEN = "127.0.0.1:8300"
@@ -122,23 +125,21 @@ def serve(
     ] = False,
 ) -> None:
     """Serve the page and own the serial port. Each option may also come from SERVODECK_NAME or a file."""
-    with loading():
-        from servodeck.access import addresses
-        from servodeck.access.announcement import Announcement
-        from servodeck.api.app import create_app
-        from servodeck.api.library import robots_in
-        from servodeck.api.process import allow_descriptors
-        from servodeck.api.server import Server, leave_with_stdin
-        from servodeck.cli.config import data_folder
-        from servodeck.cli.greeting import greeting, urls_for_others
-        from servodeck.cli.logs import set_up_logs
-        from servodeck.errors import StorageError
-        from servodeck.files import Remembered
-        from servodeck.library.library import Library
-        from servodeck.port.link import BackgroundPorts
-        from servodeck.robot.board.slots import SlotMemory
-        from servodeck.robot.control import Control
-        from servodeck.robot.driving import first_epoch
+    from servodeck.access import addresses
+    from servodeck.access.announcement import Announcement
+    from servodeck.api.app import create_app
+    from servodeck.api.process import allow_descriptors
+    from servodeck.api.server import Server, leave_with_stdin
+    from servodeck.cli.config import data_folder
+    from servodeck.cli.greeting import greeting, urls_for_others
+    from servodeck.cli.logs import set_up_logs
+    from servodeck.errors import StorageError
+    from servodeck.files import Remembered
+    from servodeck.library.library import Library
+    from servodeck.port.link import BackgroundPorts
+    from servodeck.robot.board.slots import SlotMemory
+    from servodeck.robot.control import Control
+    from servodeck.robot.driving import first_epoch
 
     allow_descriptors()
     recalls_board = not (board or simulated)
@@ -162,6 +163,7 @@ def serve(
     library = Library(folder)
     remembered = Remembered(folder)
     device = serial or remembered.port
+
     control = Control(
         BackgroundPorts(),
         time.monotonic,
@@ -184,6 +186,7 @@ def serve(
         webbrowser.open(address)
 
     def ready() -> None:
+        end_loading()
         print(f"Servodeck is at {url}", flush=True)
         if entrance.access.needs_pairing:
             others = urls_for_others(entrance.access, reachable(), url)
@@ -208,6 +211,17 @@ def serve(
     log.close()
     # Python itself would wait for every thread that a disk or a driver still holds.
     os._exit(0)
+
+
+def robots_in(library: "Library") -> "ReadFacts":
+    """As api/library.py has it, which is loaded when the first robot is read."""
+
+    def read(document: str) -> "tuple[RobotFacts, int]":
+        from servodeck.api.library import robots_in
+
+        return robots_in(library)(document)
+
+    return read
 
 
 def entrance_to(where: "Access", folder: Path) -> "Entrance":

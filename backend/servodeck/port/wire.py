@@ -152,7 +152,7 @@ class Wire:
         self.purge(lambda _job: True, reason)
         if self._halt is None:
             self._halt = Halt(hold, asyncio.get_running_loop().create_future())
-            metrics.stops.inc()
+            metrics.totals.stops += 1
         else:
             self._halt.hold = hold
             if (
@@ -257,7 +257,7 @@ class Wire:
         self._under_way = job
         waited_s = self._now() - job.asked_at
         await self._put(packet, job.owner)
-        metrics.queue_wait.observe(waited_s)
+        metrics.queue_wait.note(waited_s)
         self._under_way = None
         settle(job.left)
 
@@ -265,7 +265,7 @@ class Wire:
         self.unfinished = packet
         handed_over = self._port.write(packet)
         self._last_command = packet[COMMAND_AT]
-        metrics.sent.labels(metrics.name_of(self._last_command)).inc()
+        metrics.sent[metrics.name_of(self._last_command)] += 1
         self._left_at = self._now() + max(wire_s(len(packet)), self._port.shortest_s)
         self._free_at = self._left_at + self._gap_s
         self._leaving(owner, packet, self._left_at)

@@ -280,7 +280,7 @@ class Board:
     # What the link tells
 
     def port_opened(self, wire: Wire) -> None:
-        metrics.port_openings.inc()
+        metrics.totals.port_openings += 1
         self._events.port_opened()
         self._lose_motion()
         self._motion.opened(self._now())
@@ -288,7 +288,7 @@ class Board:
         self.identification.begin()
 
     def port_lost(self, unfinished: bytes | None) -> None:
-        metrics.port_losses.inc()
+        metrics.totals.port_losses += 1
         self._events.board_lost()
         self.jobs.end(PortLostError("The serial port went away before all of it was stored."))
         self.plays.end(PortLostError("The serial port went away."))
@@ -481,10 +481,10 @@ class Board:
     def _take(self, event: DecoderEvent) -> None:
         self._events.received(event)
         if not isinstance(event, PacketEvent):
-            metrics.noise.inc(len(event.bytes))
+            metrics.totals.noise_bytes += len(event.bytes)
             self.identification.heard_noise(event.bytes)
             return
-        metrics.received.labels(metrics.name_of(event.packet.command)).inc()
+        metrics.received[metrics.name_of(event.packet.command)] += 1
         with contextlib.suppress(GatewayError):
             self.link.wire().answered(event.packet.command)
         report = parse_report(event.packet, self.identification.heard_as or self.family)

@@ -1,0 +1,75 @@
+"""The gateway's numbers in Prometheus's text format: what has been counted, and how it stands. Looks at what
+is known anyway.
+"""
+
+from collections.abc import Iterator, Mapping
+from itertools import accumulate
+from typing import get_args
+
+from prometheus_client import CONTENT_TYPE_LATEST, CollectorRegistry, ProcessCollector, generate_latest
+from prometheus_client.core import CounterMetricFamily, GaugeMetricFamily, HistogramMetricFamily, Metric
+from prometheus_client.registry import Collector
+from prometheus_client.utils import floatToGoString
+
+from servodeck import metrics
+from servodeck.robot.control import Control
+from servodeck.snapshots import PortStatus
+
+MEDIA_TYPE = CONTENT_TYPE_LATEST
+
+
+def numbers_text(control: Control, loop_delay_s: float) -> bytes:
+    registry = CollectorRegistry()
+    ProcessCollector(registry=registry)  # memory, time, open files
+    registry.register(Numbers(control, loop_delay_s))
+    return generate_latest(registry)
+
+
+class Numbers(Collector):
+    def __init__(self, control: Control, loop_delay_s: float) -> None:
+        self._control = control
+        self._loop_delay_s = loop_delay_s
+
+    def collect(self) -> Iterator[Metric]:
+        totals, control = metrics.totals, self._control
+        yield counts("servodeck_packets_sent", "Packets put on the wire", "command", metrics.sent)
+        yield counts("servodeck_packets_received", "Packets of the board", "command", metrics.received)
+        yield CounterMetricFamily(
+            "servodeck_noise_bytes", "Bytes of the board that were no packet", totals.noise_bytes
+        )
+        yield counts("servodeck_refused", "What was asked for and refused", "code", metrics.refused)
+        yield waits()
+        yield CounterMetricFamily("servodeck_stops", "Halts begun, of whatever cause", totals.stops)
+        yield CounterMetricFamily(
+            "servodeck_port_losses", "An open port went away unasked", totals.port_losses
+        )
+        yield CounterMetricFamily("servodeck_port_openings", "The port was opened", totals.port_openings)
+        states = GaugeMetricFamily("servodeck_port_state", "1 for the state it is in", labels=["status"])
+        for status in get_args(PortStatus):
+            states.add_metric([status], status == control.board.port.status)
+        yield states
+        yield GaugeMetricFamily("servodeck_latched", "1 while motion waits for Resume", control.latch)
+        yield GaugeMetricFamily("servodeck_clients", "Clients on the WebSocket", len(control.hub))
+        reading = control.board.battery.newest
+        battery_mv = reading.battery_mv if reading else float("nan")
+        yield GaugeMetricFamily("servodeck_battery_millivolts", "As the board told last", battery_mv)
+        yield GaugeMetricFamily(
+            "servodeck_loop_delay_seconds", "The longest wait for the event loop lately", self._loop_delay_s
+        )
+
+
+def counts(name: str, about: str, label: str, numbers: Mapping[str, int]) -> CounterMetricFamily:
+    family = CounterMetricFamily(name, about, labels=[label])
+    for value, number in sorted(numbers.items()):
+        family.add_metric([value], number)
+    return family
+
+
+def waits() -> HistogramMetricFamily:
+    limits = [*map(floatToGoString, metrics.WAIT_BUCKETS_S), "+Inf"]
+    return HistogramMetricFamily(
+        "servodeck_queue_wait_seconds",
+        "From being asked for to the first byte on the wire",
+        buckets=[*zip(limits, accumulate(metrics.queue_wait.counts), strict=True)],
+        sum_value=metrics.queue_wait.sum_s,
+    )
