@@ -5,6 +5,10 @@ which takes longer than all else of it.
 import os
 import sys
 
+TYPE_CHECKING = False  # typing takes longer to load
+if TYPE_CHECKING:
+    from typer import Typer
+
 
 def main() -> None:
     if sys.argv[1:] == ["stop"] and is_stopped():
@@ -13,10 +17,17 @@ def main() -> None:
 
     begin_loading()
     if sys.argv[1:2] == ["serve"]:
-        from servodeck.cli.program import serve_alone as command_line
+        from servodeck.cli.program import serve_alone
+
+        serve_alone(all_commands)
     else:
-        from servodeck.cli.main import main as command_line
-    command_line()
+        all_commands()()
+
+
+def all_commands() -> "Typer":
+    from servodeck.cli.main import app
+
+    return app
 
 
 def is_stopped() -> bool:

@@ -1,8 +1,10 @@
 """The program itself, with `serve`, which does not wait for the other commands to be loaded (main.py)."""
 
-from typing import Annotated, Any
+from collections.abc import Callable
+from typing import Annotated
 
 import typer
+from typer.main import get_command
 
 from servodeck import __version__
 from servodeck.cli.config import PREFIX
@@ -36,11 +38,6 @@ def new_program() -> typer.Typer:
     return program
 
 
-def serve_alone() -> None:
-    new_program()(obj=whole_program)
-
-
-def whole_program() -> Any:
-    from servodeck.cli.main import app
-
-    return typer.main.get_command(app)
+def serve_alone(whole: Callable[[], typer.Typer]) -> None:
+    """`whole` loads the program with all its commands, for whoever has to name one."""
+    new_program()(obj=lambda: get_command(whole()))
