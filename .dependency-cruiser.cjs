@@ -97,7 +97,7 @@ module.exports = {
       { path: `${page}robot/`, pathNot: test },
       {
         path: page,
-        pathNot: `${page}((robot|state|ui|i18n)/|features/(drive/servoView|profiles/robots)[.]ts$)`,
+        pathNot: `${page}(robot|state|ui|i18n)/`,
       },
     ),
     forbid(

@@ -22,7 +22,7 @@ const mayKnow: Record<string, readonly string[]> = {
   'frontend/i18n': ['shared'],
   'frontend/ui': ['frontend/i18n'],
   'frontend/state': ['frontend/i18n', 'shared'],
-  'frontend/robot': ['frontend/features', 'frontend/state', 'frontend/ui', 'frontend/i18n', 'shared'],
+  'frontend/robot': ['frontend/state', 'frontend/ui', 'frontend/i18n', 'shared'],
 };
 const importStatement =
   /^(?:import|export)\s[^;'=]*?from\s+'([^']+)'|^import\s+'([^']+)'|\bimport\('([^']+)'\)/gm;

@@ -21,13 +21,12 @@ import type { Device, DeviceState } from '../robot/device.ts';
 import type { Document, DocumentState } from './animate/group/document.ts';
 import { currentOf, type RobotStore } from './profiles/robots.ts';
 import type { RobotKeeping } from './profiles/robotKeeping.ts';
-import { guessesOf, guessOf, type LastPoses } from '../robot/lastPoses.ts';
+import { guessesOf, guessOf, type LastPoses, type Positions } from '../robot/lastPoses.ts';
 import type { Notices } from '../state/notices.ts';
-import { servoViewFor, type ServoView, type Stand } from './drive/servoView.ts';
+import { servoViewFor, type ServoView } from './drive/servoView.ts';
 import type { Pad, PadState } from './inputs/pad.ts';
 import type { MacroRun } from './buttons/macroRun.ts';
-import type { Playback, PlaybackState } from './animate/play/playback.ts';
-import type { Playhead } from './animate/play/playhead.ts';
+import type { Playback, PlaybackState, Playhead } from './animate/play/playback.ts';
 import type { PeopleStore } from './people/people.ts';
 import type { Poses } from './poses/poses.ts';
 import type { Teaching } from './drive/teaching.ts';
@@ -178,7 +177,7 @@ export function guessesNow({
   lastPoses,
   device,
   robots,
-}: Pick<Stores, 'lastPoses' | 'device' | 'robots'>): Stand {
+}: Pick<Stores, 'lastPoses' | 'device' | 'robots'>): Positions {
   return guessesOf(lastPoses.getState(), device.store.getState(), robots.current().robot);
 }
 

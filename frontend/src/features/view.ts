@@ -5,7 +5,7 @@
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import { calibrationFromText, calibrationToText, type KeptCalibration } from '#shared/profile/calibration.ts';
 import { LANGUAGE_CODES, type Language } from '../i18n/words.ts';
-import type { TextStorage } from '../state/textStorage.ts';
+import type { TextStorage } from '../state/soon.ts';
 import { GENTLE_MOVE_MS, type MoveTime } from '../robot/moveTime.ts';
 import { INITIAL_SERVO_VIEW, type ServoView } from './drive/servoView.ts';
 

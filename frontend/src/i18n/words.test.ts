@@ -6,8 +6,7 @@ import { afterEach, describe, expect, test } from 'vitest';
 import { FAMILIES } from '#shared/codec/families.ts';
 import { LINK_ERROR_CODES } from '#shared/robot/linkError.ts';
 import { datesIn, words as wholeWords } from './whole.ts';
-import { boardName } from './sentences/boards.ts';
-import { errorSentence, flawSentence } from './sentences/errors.ts';
+import { boardName, errorSentence, flawSentence } from './sentences.ts';
 import { LANGUAGE_CODES, preferredLanguage, speak, words } from './words.ts';
 
 afterEach(() => speak('en'));

@@ -6,7 +6,7 @@ import type { Family } from '#shared/codec/families.ts';
 import { LinkError } from '#shared/robot/linkError.ts';
 import type { Session } from '#shared/robot/robot.ts';
 import type { HaltReason, SlotGroup } from '#shared/robot/transport.ts';
-import { downloadedSentence, downloadCancelled } from '../i18n/sentences/slots.ts';
+import { downloadedSentence, downloadCancelled } from '../i18n/sentences.ts';
 import { words } from '../i18n/words.ts';
 import type { Notices } from '../state/notices.ts';
 import type { LateNews } from './lateNews.ts';

@@ -14,7 +14,7 @@ import { isProfileName } from '#shared/simulator/profileNames.ts';
 import type { Transport } from '#shared/robot/transport.ts';
 import type { Boards } from './boards.ts';
 import type { Device, Way } from './device.ts';
-import type { TextStorage } from '../state/textStorage.ts';
+import type { TextStorage } from '../state/soon.ts';
 import type { Notices } from '../state/notices.ts';
 import type { You } from './people.generated.ts';
 import { createGatewayTransport } from './links/gateway.ts';

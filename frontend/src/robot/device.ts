@@ -7,23 +7,20 @@ import { sameList } from '#shared/group/groupEdits.ts';
 import { fromBoard, onBoard, type Robot } from '#shared/profile/robot.ts';
 import type { Clock } from '#shared/clock.ts';
 import type { ServoTarget } from '#shared/codec/commands.ts';
-import type { Family } from '#shared/codec/families.ts';
+import type { Family, FamilyId } from '#shared/codec/families.ts';
 import type { LeaseAction } from '#shared/robot/lease.ts';
 import type { Session } from '#shared/robot/robot.ts';
 import { INITIAL_STATE } from '#shared/robot/store.ts';
 import type { Motions, ServoMotion, SessionState } from '#shared/robot/state.ts';
 import type { Transport } from '#shared/robot/transport.ts';
-import { personName } from '../i18n/sentences/people.ts';
-import { errorSentence } from '../i18n/sentences/errors.ts';
+import { personName, errorSentence } from '../i18n/sentences.ts';
 import { words } from '../i18n/words.ts';
 import { createBoardVerbs, type BoardVerbs } from './boardVerbs.ts';
 import { createLateNews } from './lateNews.ts';
 import { createLimitGate } from './limitGate.ts';
 import { moveDurationMs, type Pace } from './moveTime.ts';
-import { createMovingWatch } from './movingWatch.ts';
+import { createMovingWatch, createTargetBook } from './targetBook.ts';
 import type { Notices } from '../state/notices.ts';
-import type { RobotStore } from '../features/profiles/robots.ts';
-import { createTargetBook } from './targetBook.ts';
 import { createTrafficLog, type TrafficLog } from './traffic.ts';
 
 /** Which way leads to the robot, and the name of the port or machine for people. */
@@ -90,12 +87,19 @@ const NOTHING = { way: null, snapshot: INITIAL_STATE, known: [], readServos: [],
 
 const NO_MOTION: ServoMotion = { target: null, estimated: null };
 
+/** The robot profile in use: its limits and trims hold for everything that moves. */
+export interface RobotProfiles {
+  readonly store: { subscribe(listener: () => void): () => void };
+  current(): { readonly robot: Robot };
+  /** On a link of one's own the profile becomes one for the board that is connected. */
+  takeUpFor(board: FamilyId): void;
+}
+
 export interface DeviceOptions {
   readonly family: Family;
   readonly clock: Clock;
   readonly notices: Notices;
-  /** Whose limits and trims hold for everything that moves. */
-  readonly robots: RobotStore;
+  readonly robots: RobotProfiles;
 }
 
 export function createDevice({ family, clock, notices, robots }: DeviceOptions): Device {

@@ -7,14 +7,15 @@ import type { ServoTarget } from '#shared/codec/commands.ts';
 import { FAMILIES, type FamilyId } from '#shared/codec/families.ts';
 import { nameOf } from './boards.ts';
 import type { Device, DeviceState } from './device.ts';
-import type { TextStorage } from '../state/textStorage.ts';
-import type { Stand } from '../features/drive/servoView.ts';
-import { createSoon } from '../state/soon.ts';
+import { type TextStorage, createSoon } from '../state/soon.ts';
+
+/** By servo. */
+export type Positions = Readonly<Record<number, number>>;
 
 export interface LastPose {
   /** Another family means another unit. */
   readonly family: FamilyId;
-  readonly positions: Stand;
+  readonly positions: Positions;
 }
 
 type Poses = Readonly<Record<string, LastPose>>;
@@ -84,7 +85,7 @@ export function guessOf(poses: Poses, state: DeviceState, { servo, min, max }: R
 }
 
 /** Of every servo there is a guess for. */
-export function guessesOf(poses: Poses, state: DeviceState, { servos }: Robot): Stand {
+export function guessesOf(poses: Poses, state: DeviceState, { servos }: Robot): Positions {
   const guesses: Record<number, number> = {};
   for (const servo of servos) {
     const guess = guessOf(poses, state, servo);

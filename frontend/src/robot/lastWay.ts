@@ -2,7 +2,7 @@
 
 import { FAMILIES, type FamilyId } from '#shared/codec/families.ts';
 import type { Transport } from '#shared/robot/transport.ts';
-import type { TextStorage } from '../state/textStorage.ts';
+import type { TextStorage } from '../state/soon.ts';
 
 export interface LastWay {
   readonly kind: Transport['kind'];

@@ -3,7 +3,7 @@
 
 import type { Clock } from '#shared/clock.ts';
 import { LinkError, type LinkErrorCode } from '#shared/robot/linkError.ts';
-import { errorSentence } from '../i18n/sentences/errors.ts';
+import { errorSentence } from '../i18n/sentences.ts';
 import type { Notices } from '../state/notices.ts';
 
 export interface LateNews {

@@ -1,11 +1,23 @@
 // Between what is asked for and what a board is told: the limits and trims of the robot at hand. Whatever leaves is in the
 // board's own figures and within the limits; whatever is not does not leave, and the person is told. Sends nothing.
 
-import { fromBoard, onBoard, refusedTarget, type Robot } from '#shared/profile/robot.ts';
-import type { Frame, ServoTarget } from '#shared/codec/commands.ts';
+import { refusedTarget, type LimitRefusal, type Robot, fromBoard, onBoard } from '#shared/profile/robot.ts';
+import type { ServoTarget, Frame } from '#shared/codec/commands.ts';
 import { commandIn } from '#shared/codec/parse.ts';
 import type { SlotGroup } from '#shared/robot/transport.ts';
-import { refusalText } from './limits.ts';
+import { servoLabel } from '../i18n/sentences.ts';
+import { words } from '../i18n/words.ts';
+
+// The sentence for targets that the robot must not reach: which servo, and what it may do.
+
+/** null where every target is within its servo's limits. */
+export function limitRefusal(robot: Robot, targets: readonly ServoTarget[]): string | null {
+  const refused = refusedTarget(robot, targets);
+  return refused === null ? null : refusalText(refused);
+}
+
+const refusalText = ({ servo, position }: LimitRefusal): string =>
+  words.refused({ name: servoLabel(servo), value: position, min: servo.min, max: servo.max });
 
 /** Each gives what the board is told, or null where a limit forbids it. */
 export interface LimitGate {

@@ -3,7 +3,7 @@
 
 import type { SlotMemory } from '#shared/robot/slotMemory.ts';
 import { nameOf, type BoardWay } from './boards.ts';
-import type { TextStorage } from '../state/textStorage.ts';
+import type { TextStorage } from '../state/soon.ts';
 
 const KEY = 'servodeck.brokenSlots';
 

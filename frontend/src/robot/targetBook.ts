@@ -4,10 +4,36 @@
 import type { Clock } from '#shared/clock.ts';
 import type { ServoTarget } from '#shared/codec/commands.ts';
 
+// Whether anything is on its way, told so that it can be read: looked at a few times a second, and kept for a moment
+// after the last move, so that a stream of drags is one motion.
+
+interface MovingWatch {
+  isMoving(): boolean;
+}
+
+const LOOK_EACH_MS = 100;
+/** Longer than a hand rests between two drags. */
+const LINGER_MS = 600;
+
+export function createMovingWatch(clock: Clock, isUnderWay: () => boolean): MovingWatch {
+  let lookedMs = -Infinity;
+  let movedMs = -Infinity;
+  return {
+    isMoving() {
+      const nowMs = clock.now();
+      if (nowMs - lookedMs >= LOOK_EACH_MS) {
+        lookedMs = nowMs;
+        if (isUnderWay()) movedMs = nowMs;
+      }
+      return nowMs - movedMs < LINGER_MS;
+    },
+  };
+}
+
 /** A servo's target, where the session says that it was `sent` there. One that `isQueued` for its turn waits longer. */
 export type Targets = (servo: number, sent: number | null, isQueued: boolean) => number | null;
 
-export interface TargetBook {
+interface TargetBook {
   wish(targets: readonly ServoTarget[]): void;
   clear(): void;
   /** How many servos were asked for something that has not left yet, as far as they were looked at since. */

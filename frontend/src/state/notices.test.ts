@@ -2,7 +2,7 @@ import { describe, expect, test } from 'vitest';
 import { RangeRefusal } from '#shared/codec/limits.ts';
 import { LinkError } from '#shared/robot/linkError.ts';
 import { createVirtualClock } from '#shared/testing/virtualClock.ts';
-import { errorSentence } from '../i18n/sentences/errors.ts';
+import { errorSentence } from '../i18n/sentences.ts';
 import { speak } from '../i18n/words.ts';
 import { createNotices } from './notices.ts';
 

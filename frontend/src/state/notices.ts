@@ -5,7 +5,7 @@ import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { Clock } from '#shared/clock.ts';
 import { RangeRefusal } from '#shared/codec/limits.ts';
 import { LinkError } from '#shared/robot/linkError.ts';
-import { errorSentence, rangeText } from '../i18n/sentences/errors.ts';
+import { errorSentence, rangeText } from '../i18n/sentences.ts';
 
 export type NoticeTone = 'info' | 'warning' | 'danger';
 

@@ -2,7 +2,15 @@
 
 import type { Clock } from '#shared/clock.ts';
 
-export interface Soon {
+// Where this browser keeps a text from one visit to the next.
+
+/** The part of the browser's Storage that is needed; it may throw, as it does where storage is forbidden or full. */
+export interface TextStorage {
+  getItem(key: string): string | null;
+  setItem(key: string, text: string): void;
+}
+
+interface Soon {
   /** It is done `afterMs` from the first time of asking, or later where it takes long. */
   ask(): void;
   /** At once, if it was asked for: the page may be gone next. */

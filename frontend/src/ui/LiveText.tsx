@@ -3,12 +3,19 @@
 
 import { useLayoutEffect, useRef, useState } from 'react';
 import { cx } from './cx.ts';
+import { dueOn, CHANGING_EACH_MS, useFollow } from './useEachFrame.ts';
 import styles from './LiveText.module.css';
-import { setText } from './setText.ts';
-import { dueOn } from './useEachFrame.ts';
-import { CHANGING_EACH_MS, useFollow } from './useFollow.ts';
 
-export interface LiveTextProps {
+// Writes a text past React.
+
+/** The same piece of text, where there is one: another one would be laid out anew from the ground. */
+export function setText(place: HTMLElement, text: string): void {
+  const piece = place.firstChild;
+  if (!(piece instanceof Text)) place.textContent = text;
+  else if (piece.data !== text) piece.data = text;
+}
+
+interface LiveTextProps {
   /** Asked for what is to stand there now. */
   text(): string;
   readonly eachMs?: number;

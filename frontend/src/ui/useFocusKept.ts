@@ -2,7 +2,23 @@
 // nothing when it is pressed, so that a hasty second Enter is nobody's wish. Dialogs and menus give the focus back by themselves.
 
 import { useEffect, useRef } from 'react';
+import { isTextField } from './pressOnce.ts';
 import { useEachFrame } from './useEachFrame.ts';
+
+// On Linux the middle button pastes into whatever has the focus. Where nobody writes it pans, and a hand that let go
+// of it has asked for no keys.
+
+const MIDDLE = 1;
+
+export function useNoPasteByMouse(): void {
+  useEffect(() => {
+    const release = (event: MouseEvent): void => {
+      if (event.button === MIDDLE && !isTextField(event.target)) event.preventDefault();
+    };
+    window.addEventListener('mouseup', release);
+    return () => window.removeEventListener('mouseup', release);
+  }, []);
+}
 
 export function useFocusKept(): void {
   /** What had the focus last, then what is around it, from the inside out. */

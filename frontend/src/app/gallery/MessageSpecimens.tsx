@@ -2,10 +2,10 @@
 
 import type { SessionState } from '#shared/robot/state.ts';
 import { BodyMap } from '../../features/picture/BodyMap.tsx';
-import { Messages } from '../../features/log/Messages.tsx';
+import { Messages } from '../../features/log/LogDrawer.tsx';
 import type { Stores } from '../../features/stores.ts';
 import { TopBar } from '../TopBar.tsx';
-import { errorSentence } from '../../i18n/sentences/errors.ts';
+import { errorSentence } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/whole.ts';
 import { standing, type Exhibit } from './exhibit.ts';
 import { LEASE, READY, REMOTE } from './states.ts';

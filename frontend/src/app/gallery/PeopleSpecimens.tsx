@@ -2,8 +2,7 @@
 
 import type { ReactNode } from 'react';
 import { NameCard, PairCard, StopFace, type StopOutcome } from '../../features/people/Outside.tsx';
-import { OwnView } from '../../features/people/OwnView.tsx';
-import { PeopleView } from '../../features/people/PeopleView.tsx';
+import { OwnView, PeopleView } from '../../features/people/PeopleView.tsx';
 import { PeopleError, type PeopleState } from '../../features/people/people.ts';
 import type { Exhibit } from './exhibit.ts';
 

@@ -2,7 +2,7 @@
 
 import { FAMILIES, type FamilyId } from '#shared/codec/families.ts';
 import { RawForm } from '../../features/log/LogPanel.tsx';
-import { judgeText } from '../../features/log/judgeText.ts';
+import { judgeText } from '../../features/log/packetText.ts';
 import { words } from '../../i18n/whole.ts';
 import type { Exhibit } from './exhibit.ts';
 

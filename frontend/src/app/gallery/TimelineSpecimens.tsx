@@ -9,7 +9,7 @@ import { actionsParts } from '../../features/animate/frames/ActionsPanel.tsx';
 import { AuthoringPanel } from '../Authoring.tsx';
 import { select } from '../../features/animate/timeline/desk.ts';
 import { pressFrame } from '../../features/animate/timeline/inStep.ts';
-import { keySet } from '../../features/animate/timeline/keySet.ts';
+import { keySet } from '../../features/animate/timeline/timeline.ts';
 import { freshRobot } from '../../features/profiles/robots.ts';
 import { editServoView, type Stores } from '../../features/stores.ts';
 import type { Exhibit } from './exhibit.ts';

@@ -6,7 +6,7 @@ import { useRobot, useBattery, useDevice, useSnapshot, useStores } from '../stor
 import { Dialog } from '../../ui/Dialog.tsx';
 import { laterComponent } from '../../ui/later.tsx';
 import { words } from '../../i18n/whole.ts';
-import { voltsText, lastMv, levelWord, LEVEL_TRUTH } from './readings.ts';
+import { voltsText, lastMv, levelWord, LEVEL_TRUTH } from './BatteryReadout.tsx';
 import { canReadBattery } from './batteryPoll.ts';
 import { IconButton } from '../../ui/Button.tsx';
 import { Chip } from '../../ui/Chip.tsx';

@@ -1,12 +1,76 @@
 // The battery in the top bar: volts and how old they are, with a small picture of what feeds the robot, or a word where there are none.
 
-import { readingKind, percentOf, type Supply } from '#shared/profile/battery.ts';
+import { useEffect } from 'react';
+import { readingKind, type Level, type Supply, isPlain, percentOf } from '#shared/profile/battery.ts';
+import type { Battery } from '#shared/robot/battery.ts';
+import { type Truth, Mark } from '../../ui/Chip.tsx';
+import { words, useWords } from '../../i18n/words.ts';
 import { useBattery, useSnapshot, useStores } from '../stores.ts';
-import { Mark, type Truth } from '../../ui/Chip.tsx';
 import { useNow } from '../../ui/useNow.ts';
-import { words } from '../../i18n/words.ts';
-import { lastMv, LEVEL_TRUTH, voltsText } from './readings.ts';
 import styles from './BatteryReadout.module.css';
+
+// How a battery is shown: the truth mark of its level, the last known voltage, the words for both.
+
+export const LEVEL_TRUTH: Readonly<Record<Level, Truth>> = {
+  good: 'confirmed',
+  warning: 'warning',
+  danger: 'danger',
+};
+
+export function lastMv(battery: Battery): number | null {
+  return battery.kind === 'read' ? battery.batteryMv : battery.kind === 'silent' ? battery.lastMv : null;
+}
+
+/** `7.50 V`, `> 9.80 V` where the board can measure no more, a dash where nothing is known. */
+export function voltsText(batteryMv: number | null, supply: Supply): string {
+  if (batteryMv === null) return words.battery.noVolts;
+  const { ceilingMv } = supply;
+  if (ceilingMv !== null && readingKind(batteryMv, supply) === 'saturated')
+    return words.battery.above({ volts: words.numbers.formatVolts(ceilingMv) });
+  return words.numbers.formatVolts(batteryMv);
+}
+
+export function levelWord(level: Level, { cells }: Supply): string {
+  return words.battery.level[cells === 0 ? 'adapter' : 'pack'][level];
+}
+
+// A low battery in the browser's tab: in the title and as the icon, for whoever looks at another page. Gone when it
+// is fine.
+
+/** Fixed colours that are told apart on a light and on a dark tab. */
+const FILL: Readonly<Record<Exclude<Level, 'good'>, string>> = { warning: '#b87400', danger: '#d5302a' };
+
+export function useBatteryTab(): void {
+  useWords();
+  const isLinked = useSnapshot(({ link }) => link.status === 'ready');
+  const level = useBattery(({ gauge: { level, last }, supply }) =>
+    last !== null && isPlain(last, supply) ? level : null,
+  );
+  const restMv = useBattery(({ gauge }) => gauge.restMv ?? 0);
+  const shown = isLinked && level !== 'good' ? level : null;
+  const title =
+    shown === null
+      ? words.product
+      : words.battery.tab({ volts: words.numbers.formatVolts(restMv), product: words.product });
+  useEffect(() => {
+    document.title = title;
+  }, [title]);
+  useEffect(() => {
+    const link = document.querySelector<HTMLLinkElement>('link[rel="icon"]');
+    if (shown === null || link === null) return undefined;
+    const usual = link.href;
+    link.href = iconOf(FILL[shown]);
+    return () => {
+      link.href = usual;
+    };
+  }, [shown]);
+}
+
+/** An almost empty cell. */
+function iconOf(fill: string): string {
+  const svg = `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 32 32"><path fill="none" stroke="${fill}" stroke-width="4" d="M4 8h20v16H4zM28 13v6"/><path fill="${fill}" d="M8 12h4v8H8z"/></svg>`;
+  return `data:image/svg+xml,${encodeURIComponent(svg)}`;
+}
 
 export function BatteryReadout() {
   const batteryMv = useSnapshot(({ battery }) => lastMv(battery));

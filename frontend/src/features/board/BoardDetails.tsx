@@ -4,23 +4,47 @@
 import { useState } from 'react';
 import { setMeta } from '#shared/group/groupEdits.ts';
 import { notRestored } from '#shared/group/slotBook.ts';
+import { Button } from '../../ui/Button.tsx';
+import { Dialog } from '../../ui/Dialog.tsx';
+import { laterComponent } from '../../ui/later.tsx';
+import { words } from '../../i18n/whole.ts';
 import { chosenTimes } from './slots/groupPlace.ts';
 import { useDocument, useSlot, useStores, useView, useDevice, useSlots, useSnapshot } from '../stores.ts';
-import { Button } from '../../ui/Button.tsx';
-import { words } from '../../i18n/whole.ts';
 import { startHindrance, motionHindrance } from '../../robot/readiness.ts';
 import { Confirm } from '../../ui/Confirm.tsx';
 import { NumberField } from '../../ui/NumberField.tsx';
 import { Toggle } from '../../ui/Toggle.tsx';
-import { SlotsControl } from './slots/SlotsControl.tsx';
-import { FATE_TRUTH, useFates } from './slots/useFates.ts';
-import { useHeldName } from './slots/useHeldName.ts';
+import { FATE_TRUTH, useFates, useHeldName } from './slots/useFates.ts';
 import { Chip } from '../../ui/Chip.tsx';
 import { CompileRow } from '../animate/group/CompileRow.tsx';
-import { boardName } from '../../i18n/sentences/boards.ts';
+import { boardName } from '../../i18n/sentences.ts';
 import { RunSettings } from './RunSettings.tsx';
 import styles from './BoardPanel.module.css';
 import field from '../../ui/Field.module.css';
+
+// Opens the map of the board's slots.
+
+const SlotBoard = laterComponent(async () => (await import('./slots/SlotBoard.tsx')).SlotBoard, '60vh');
+
+function SlotsControl() {
+  const [isOpen, setOpen] = useState(false);
+  return (
+    <>
+      <Button tone="quiet" icon="buttons" onPress={() => setOpen(true)}>
+        {words.slots.open}
+      </Button>
+      <Dialog
+        full
+        title={words.slots.title}
+        closeLabel={words.close}
+        isOpen={isOpen}
+        onClose={() => setOpen(false)}
+      >
+        <SlotBoard />
+      </Dialog>
+    </>
+  );
+}
 
 // In place of a control whose command this board lacks: what is absent, and what to do without it.
 

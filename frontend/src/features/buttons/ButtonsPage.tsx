@@ -10,13 +10,12 @@ import { cx } from '../../ui/cx.ts';
 import { Icon } from '../../ui/Icon.tsx';
 import { useDragOrder, type DragOrder } from '../../ui/useDragOrder.ts';
 import { nameAndKey } from './macroText.ts';
-import { MacroFace } from './MacroFace.tsx';
+import { MacroFace, MacroGrid } from './MacroGrid.tsx';
 import { EmptyState, type EmptyStateProps } from '../../ui/EmptyState.tsx';
 import { Panel } from '../../ui/Panel.tsx';
 import { Toggle } from '../../ui/Toggle.tsx';
 import { UndoTools } from '../undo/UndoTools.tsx';
 import { MacroEditor } from './MacroEditor.tsx';
-import { MacroGrid } from './MacroGrid.tsx';
 import styles from './Macros.module.css';
 
 // A new button at the end of the page, open to be filled.

@@ -19,7 +19,7 @@ import { words } from '../../i18n/whole.ts';
 import { StepFields } from './StepFields.tsx';
 import { NameField } from '../../ui/NameField.tsx';
 import { Panel } from '../../ui/Panel.tsx';
-import { macroKey } from './macroKey.ts';
+import { macroKey } from './macroText.ts';
 import styles from './MacroEditor.module.css';
 
 // The steps of a button, one row each, and three ways to add one.

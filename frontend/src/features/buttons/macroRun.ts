@@ -2,19 +2,46 @@
 // board's own run. One button at a time; what stops the robot or loses it ends the button for good. Knows no panel.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
-import type { Macro, MacroStep } from '#shared/profile/macro.ts';
+import {
+  EMPTY_PAGE,
+  type MacroPage,
+  macroPageFromText,
+  macroPageToText,
+  type Macro,
+  type MacroStep,
+} from '#shared/profile/macro.ts';
 import type { Clock } from '#shared/clock.ts';
 import type { ServoTarget } from '#shared/codec/commands.ts';
 import { startsKnown } from '#shared/robot/state.ts';
 import { FIRST_MOVE_STAGGER_MS } from '#shared/robot/timings.ts';
+import { flawSentence } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/words.ts';
-import type { Device } from '../../robot/device.ts';
-import { limitRefusal } from '../../robot/limits.ts';
-import { GENTLE_MOVE_MS } from '../../robot/moveTime.ts';
+import type { TextStorage } from '../../state/soon.ts';
 import type { Notices } from '../../state/notices.ts';
+import { createRobotDocument, type RobotDocument } from '../profiles/robotDocument.ts';
+import type { RobotStore } from '../profiles/robots.ts';
+import type { Device } from '../../robot/device.ts';
+import { limitRefusal } from '../../robot/limitGate.ts';
+import { GENTLE_MOVE_MS } from '../../robot/moveTime.ts';
 import type { Poses } from '../poses/poses.ts';
 import { endsMotion, startHindrance } from '../../robot/readiness.ts';
-import type { RobotStore } from '../profiles/robots.ts';
+
+// The page of buttons of the robot at hand. Never moves anything; macroRun.ts does what a button says.
+
+export function createMacros(
+  storage: TextStorage,
+  notices: Notices,
+  robots: RobotStore,
+): RobotDocument<MacroPage> {
+  return createRobotDocument({
+    ...{ storage, notices, robots, key: 'servodeck.buttons' },
+    ...{
+      notSaved: () => words.macros.notSaved,
+      unreadable: (flaw) => words.macros.unreadable({ flaw: flawSentence(flaw) }),
+    },
+    ...{ fresh: () => EMPTY_PAGE, toText: macroPageToText, fromText: macroPageFromText },
+  });
+}
 
 export interface MacroProgress {
   readonly macroId: number;
@@ -31,7 +58,7 @@ export interface MacroRun {
   end(): void;
 }
 
-export interface MacroRunOptions {
+interface MacroRunOptions {
   readonly device: Device;
   readonly poses: Poses;
   readonly robots: RobotStore;

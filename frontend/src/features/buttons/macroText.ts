@@ -1,7 +1,16 @@
 // What a button is called, and what its step does, in a few words.
 
-import type { Macro, MacroStep } from '#shared/profile/macro.ts';
+import { keyOf, type Macro, type MacroStep } from '#shared/profile/macro.ts';
 import { words } from '../../i18n/whole.ts';
+
+// Which of the keys pressed may start a button.
+
+type Pressed = Pick<KeyboardEvent, 'key' | 'ctrlKey' | 'metaKey' | 'altKey' | 'repeat'>;
+
+/** null for keys that mean something else, and for one that is held down. */
+export function macroKey({ key, ctrlKey, metaKey, altKey, repeat }: Pressed): string | null {
+  return ctrlKey || metaKey || altKey || repeat ? null : keyOf(key);
+}
 
 export function nameAndKey({ name, key }: Pick<Macro, 'name' | 'key'>): string {
   return key === null ? name : words.macros.keyed({ name, key: key.toUpperCase() });

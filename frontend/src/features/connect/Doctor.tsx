@@ -4,7 +4,7 @@ import { useEffect, useState } from 'react';
 import { useDevice, useSnapshot, useStores } from '../stores.ts';
 import { Button } from '../../ui/Button.tsx';
 import { Mark, type Truth } from '../../ui/Chip.tsx';
-import { errorSentence } from '../../i18n/sentences/errors.ts';
+import { errorSentence } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/whole.ts';
 import type { ConnectState } from '../../robot/connector.ts';
 import { findingsOf, heardIn, interfacesHere, type Facts, type Finding } from './doctor.ts';

@@ -11,13 +11,10 @@ import { Button } from '../../ui/Button.tsx';
 import { Mark, type Truth } from '../../ui/Chip.tsx';
 import { cx } from '../../ui/cx.ts';
 import { useNow } from '../../ui/useNow.ts';
-import { servosText } from '../../i18n/sentences/servos.ts';
+import { servosText, stoppedBy, mayResumeText, errorSentence } from '../../i18n/sentences.ts';
 import { secondsLeft } from '../../i18n/numbers.ts';
-import { stoppedBy, mayResumeText } from '../../i18n/sentences/people.ts';
-import { errorSentence } from '../../i18n/sentences/errors.ts';
 import { words } from '../../i18n/words.ts';
-import { LeaseChip } from '../people/LeaseChip.tsx';
-import { UnattendedChip } from '../people/UnattendedChip.tsx';
+import { LeaseChip, UnattendedChip } from '../people/LeaseChip.tsx';
 import styles from './StatusLine.module.css';
 
 export interface StatusLineProps {

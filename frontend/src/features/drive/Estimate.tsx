@@ -1,7 +1,7 @@
 // The estimated position as a number; the slider's own value text says what was asked.
 
 import { motionInFrame } from '../picture/motionInFrame.ts';
-import { MovingLabel } from '../picture/MovingLabel.tsx';
+import { MovingLabel } from '../picture/MovingText.tsx';
 import { useStores } from '../stores.ts';
 import { words } from '../../i18n/words.ts';
 import type { Scale } from './scale.ts';

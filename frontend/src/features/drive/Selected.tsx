@@ -8,7 +8,7 @@ import { NumberField } from '../../ui/NumberField.tsx';
 import { Select } from '../../ui/Select.tsx';
 import { Choice } from '../../ui/Toggle.tsx';
 import { useLayout } from '../../ui/useLayout.ts';
-import { servosText } from '../../i18n/sentences/servos.ts';
+import { servosText } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/words.ts';
 import { useHand } from './useHand.ts';
 import styles from './SelectionBar.module.css';

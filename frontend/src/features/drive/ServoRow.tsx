@@ -13,13 +13,13 @@ import { isHeld } from './servoView.ts';
 import { cx } from '../../ui/cx.ts';
 import { Sight, useSight } from '../../ui/sight.ts';
 import { NumberField } from '../../ui/NumberField.tsx';
-import { servoLabel } from '../../i18n/sentences/servos.ts';
+import { servoLabel } from '../../i18n/sentences.ts';
 import { Estimate } from './Estimate.tsx';
 import { PositionSlider } from './PositionSlider.tsx';
 import { ServoName } from './ServoName.tsx';
 import { useHand } from './useHand.ts';
 import { targetOf } from './useTarget.ts';
-import { useWheelSteps } from './useWheelSteps.ts';
+import { useWheelSteps } from './useDrag.ts';
 import reportedStyles from './Reported.module.css';
 import styles from './ServoRow.module.css';
 

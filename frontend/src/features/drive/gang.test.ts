@@ -3,7 +3,7 @@ import { describe, expect, test } from 'vitest';
 import { evenly } from '#shared/testing/evenlyUnderTest.ts';
 import { readyRobot } from '#shared/profile/readyRobots.ts';
 import { degreesOf, type RobotServo } from '#shared/profile/robot.ts';
-import { robotNames } from '../../i18n/sentences/robots.ts';
+import { robotNames } from '../../i18n/sentences.ts';
 import { moveGang, weightOf, type Member } from './useHand.ts';
 
 const servos = readyRobot('arm', 'doc', robotNames('arm')).servos;

@@ -1,5 +1,5 @@
 import { describe, expect, test } from 'vitest';
-import { figuresAt } from './limitPlaces.ts';
+import { figuresAt } from './scale.ts';
 
 const RANGE = { min: 500, max: 2500 };
 

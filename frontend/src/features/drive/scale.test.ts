@@ -3,7 +3,7 @@ import { describe, expect, test } from 'vitest';
 import { readyRobot } from '#shared/profile/readyRobots.ts';
 import type { RobotServo } from '#shared/profile/robot.ts';
 import { FAMILIES } from '#shared/codec/families.ts';
-import { robotNames } from '../../i18n/sentences/robots.ts';
+import { robotNames } from '../../i18n/sentences.ts';
 import { scaleOf, stepped } from './scale.ts';
 
 const servoOn = (board: 'doc' | 'bus-ctrl', change: Partial<RobotServo> = {}): RobotServo => ({

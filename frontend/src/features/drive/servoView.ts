@@ -5,9 +5,6 @@ export const TOGETHER = ['straight', 'mirrored', 'weighted'] as const;
 /** `straight`: all turn the same way; `mirrored`: the others turn the other way; `weighted`: each by its own share. */
 export type Together = (typeof TOGETHER)[number];
 
-/** Positions by servo. */
-export type Stand = Readonly<Record<number, number>>;
-
 export interface ServoView {
   /** Numbers say nothing about another robot. */
   readonly robotId: number;
@@ -25,7 +22,7 @@ export interface ServoView {
   readonly folded: readonly string[];
   readonly together: Together;
   /** In percent, 100 where left out. */
-  readonly weights: Stand;
+  readonly weights: Readonly<Record<number, number>>;
 }
 
 const FRESH: ServoView = {

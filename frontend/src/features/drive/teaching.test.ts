@@ -1,7 +1,7 @@
 import { describe, expect, test } from 'vitest';
 import { FAMILIES, type FamilyId } from '#shared/codec/families.ts';
 import { isProfileName } from '#shared/simulator/profileNames.ts';
-import { servoLabel } from '../../i18n/sentences/servos.ts';
+import { servoLabel } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/words.ts';
 import { captureFrame } from '../animate/frames/capture.ts';
 import { createDesk } from '../deskUnderTest.ts';

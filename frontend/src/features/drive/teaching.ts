@@ -4,10 +4,10 @@
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { ServoTarget } from '#shared/codec/commands.ts';
 import type { Family } from '#shared/codec/families.ts';
-import { servoLabel } from '../../i18n/sentences/servos.ts';
+import { servoLabel } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/words.ts';
 import type { Device, DeviceState } from '../../robot/device.ts';
-import { limitRefusal } from '../../robot/limits.ts';
+import { limitRefusal } from '../../robot/limitGate.ts';
 import { GENTLE_MOVE_MS } from '../../robot/moveTime.ts';
 import { endsMotion, startHindrance, tellsPositions } from '../../robot/readiness.ts';
 import type { Notices } from '../../state/notices.ts';

@@ -2,7 +2,8 @@
 
 import { degreesOf, positionOf, type RobotServo, servoOf } from '#shared/profile/robot.ts';
 import type { ServoTarget } from '#shared/codec/commands.ts';
-import { type Stand, type Together, isHeld, type ServoView } from './servoView.ts';
+import type { Positions } from '../../robot/lastPoses.ts';
+import { type Together, isHeld, type ServoView } from './servoView.ts';
 import type { Pace } from '../../robot/moveTime.ts';
 import { guessNow, servoViewOf, useStores, type Stores } from '../stores.ts';
 import { freeOf } from './locks.ts';
@@ -13,8 +14,8 @@ import { freeOf } from './locks.ts';
 
 /** Where the selected servos stood when they began to move together, and what they were told last. */
 interface Gang {
-  readonly from: Stand;
-  readonly told: Stand;
+  readonly from: Positions;
+  readonly told: Positions;
 }
 
 export interface Member {
@@ -31,7 +32,7 @@ interface GangMove {
 }
 
 /** In which share each member turns, seen from the one that is moved. */
-export function weightOf(together: Together, weights: Stand, servo: number, moved: number): number {
+export function weightOf(together: Together, weights: Positions, servo: number, moved: number): number {
   if (together === 'weighted') return (weights[servo] ?? 100) / 100;
   return together === 'mirrored' && servo !== moved ? -1 : 1;
 }
@@ -41,7 +42,7 @@ export function moveGang(
   members: readonly Member[],
   moved: number,
   position: number,
-  now: Stand,
+  now: Positions,
   gang: Gang | null,
 ): GangMove {
   const isUndisturbed =
@@ -66,12 +67,12 @@ export function moveGang(
   return { targets, gang: { from, told: { ...now, ...told } }, first };
 }
 
-const startOf = ({ servo, home }: RobotServo, from: Stand): number => from[servo] ?? home;
+const startOf = ({ servo, home }: RobotServo, from: Positions): number => from[servo] ?? home;
 
-const turnTo = (servo: RobotServo, from: Stand, position: number): number =>
+const turnTo = (servo: RobotServo, from: Positions, position: number): number =>
   degreesOf(servo, position) - degreesOf(servo, startOf(servo, from));
 
-const wantedAt = (servo: RobotServo, from: Stand, degrees: number): number =>
+const wantedAt = (servo: RobotServo, from: Positions, degrees: number): number =>
   positionOf(servo, degreesOf(servo, startOf(servo, from)) + degrees);
 
 const isBeyond = ({ min, max }: RobotServo, position: number): boolean => position < min || position > max;
@@ -136,7 +137,7 @@ function together(stores: Stores, servo: number, position: number): Pick<GangMov
 }
 
 /** Where each was asked to be, else where it may stand. */
-function standOf(stores: Stores, members: readonly Member[]): Stand {
+function standOf(stores: Stores, members: readonly Member[]): Positions {
   const stand: Record<number, number> = {};
   const motion = stores.device.motions();
   for (const { servo } of members) {

@@ -4,7 +4,7 @@ import { useLayoutEffect, useState } from 'react';
 import { motionInFrame } from '../picture/motionInFrame.ts';
 import type { Device } from '../../robot/device.ts';
 import { useStores } from '../stores.ts';
-import { HEARD_EACH_MS, useFollow } from '../../ui/useFollow.ts';
+import { HEARD_EACH_MS, useFollow } from '../../ui/useEachFrame.ts';
 
 /** As of now; `motionInFrame` has it as of the frame that is drawn. */
 export const targetOf = (device: Device, servo: number): number | null => device.motion(servo).target;

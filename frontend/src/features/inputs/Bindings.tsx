@@ -8,11 +8,9 @@ import { useMapping, usePoses, useRobot, useStores } from '../stores.ts';
 import { Button } from '../../ui/Button.tsx';
 import { useEachFrame } from '../../ui/useEachFrame.ts';
 import { pressOnce } from '../../ui/pressOnce.ts';
-import { inputName, chipText } from './inputText.ts';
+import { inputName, chipText, rowsOf } from './rows.ts';
 import { words } from '../../i18n/whole.ts';
-import { BindingForm } from './BindingForm.tsx';
-import { draftFor, draftOf, type Draft } from './draft.ts';
-import { rowsOf } from './rows.ts';
+import { BindingForm, draftFor, draftOf, type Draft } from './BindingForm.tsx';
 import styles from './Bindings.module.css';
 
 export function Bindings() {

@@ -15,9 +15,8 @@ import {
   useSnapshot,
 } from '../stores.ts';
 import { Mark } from '../../ui/Chip.tsx';
-import { inputName } from './inputText.ts';
+import { inputName, rowTitle, servoTitle } from './rows.ts';
 import { words } from '../../i18n/whole.ts';
-import { rowTitle, servoTitle } from './rows.ts';
 import { useEachFrame } from '../../ui/useEachFrame.ts';
 import { GENTLE_MOVE_MS } from '../../robot/moveTime.ts';
 import { motionHindrance } from '../../robot/readiness.ts';
@@ -26,7 +25,7 @@ import { Button } from '../../ui/Button.tsx';
 import type { PanelParts } from '../../ui/Panel.tsx';
 import { Toggle } from '../../ui/Toggle.tsx';
 import { UndoTools } from '../undo/UndoTools.tsx';
-import { servoLabel } from '../../i18n/sentences/servos.ts';
+import { servoLabel } from '../../i18n/sentences.ts';
 import { Bindings } from './Bindings.tsx';
 import { FeelControls } from './FeelControls.tsx';
 import conflictsStyles from './Conflicts.module.css';

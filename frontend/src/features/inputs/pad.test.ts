@@ -3,7 +3,7 @@ import { FAMILIES } from '#shared/codec/families.ts';
 import type { Input } from '#shared/profile/mapping.ts';
 import { addPose } from '#shared/profile/pose.ts';
 import { createRig } from '#shared/robot/rig.ts';
-import { stayingSentence } from '../../i18n/sentences/servos.ts';
+import { stayingSentence } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/words.ts';
 import { createDevice } from '../../robot/device.ts';
 import { createMappings } from './mappings.ts';

@@ -13,7 +13,7 @@ import {
 } from '#shared/profile/mapping.ts';
 import { AT_REST, step, type Begun, type DriveState } from '#shared/profile/mappingStep.ts';
 import type { RobotServo } from '#shared/profile/robot.ts';
-import { servoLabel, stayingSentence } from '../../i18n/sentences/servos.ts';
+import { servoLabel, stayingSentence } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/words.ts';
 import { isLocked } from '../drive/locks.ts';
 import type { View } from '../view.ts';

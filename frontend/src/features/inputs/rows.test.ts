@@ -4,8 +4,7 @@ import { expect, test } from 'vitest';
 import { readyMapping } from '#shared/profile/mapping.ts';
 import { EMPTY_BOOK } from '#shared/profile/pose.ts';
 import { readyRobot } from '#shared/profile/readyRobots.ts';
-import { robotNames } from '../../i18n/sentences/robots.ts';
-import { servoLabel } from '../../i18n/sentences/servos.ts';
+import { robotNames, servoLabel } from '../../i18n/sentences.ts';
 import { rowsOf } from './rows.ts';
 
 const HEXAPOD = readyRobot('hexapod18', 'lsc-24', robotNames('hexapod18'));

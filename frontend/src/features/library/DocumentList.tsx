@@ -14,9 +14,9 @@ import {
 } from 'react';
 import { defaultRangeExtractor, useVirtualizer } from '@tanstack/react-virtual';
 import type { Listed } from '#shared/files/keeper.ts';
-import { neighbour } from '../animate/frames/neighbour.ts';
+import { neighbour } from '../animate/frames/useCards.ts';
 import { words } from '../../i18n/whole.ts';
-import { cardRows } from './cardRows.ts';
+import { cardRows } from './arrange.ts';
 import { DocumentCard } from './DocumentCard.tsx';
 import styles from './Library.module.css';
 

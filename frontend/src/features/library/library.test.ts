@@ -5,7 +5,7 @@ import { LibraryError, type Keeper } from '#shared/files/keeper.ts';
 import { libraryFromText, type BundledDocument } from '#shared/files/libraryText.ts';
 import { createVirtualClock, type VirtualClock } from '#shared/testing/virtualClock.ts';
 import { createMemoryKeeper } from './memoryKeeper.ts';
-import { libraryProblem } from '../../i18n/sentences/errors.ts';
+import { libraryProblem } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/whole.ts';
 import { createVisit } from './libraryUnderTest.ts';
 

@@ -18,21 +18,18 @@ import {
   type Stored,
   type LibraryErrorCode,
 } from '#shared/files/keeper.ts';
-import { libraryProblem } from '../../i18n/sentences/errors.ts';
+import { libraryProblem } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/words.ts';
 import type { Document } from '../animate/group/document.ts';
-import type { TextStorage } from '../../state/textStorage.ts';
+import type { TextStorage } from '../../state/soon.ts';
 import type { Notices } from '../../state/notices.ts';
 import type { RobotStore } from '../profiles/robots.ts';
 import type { View } from '../view.ts';
 import { longerName } from '../../state/longerName.ts';
-import { groupOf } from './groupOf.ts';
+import { groupOf, createOpenDocument, unchanged } from './openDocument.ts';
 import type { LibraryFilesOptions } from './libraryFiles.ts';
 import { createLibraryVersions, type LibraryVersions } from './libraryVersions.ts';
-import { createOpenDocument } from './openDocument.ts';
-import { createOutbox } from './outbox.ts';
-import { createShelving } from './shelving.ts';
-import { unchanged } from './unchanged.ts';
+import { createOutbox, createShelving } from './outbox.ts';
 
 export interface LibraryState {
   /** Where it lies; null until that is known. */

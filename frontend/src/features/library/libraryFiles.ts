@@ -17,10 +17,10 @@ import {
   type BundledDocument,
   type BundledVersion,
 } from '#shared/files/libraryText.ts';
-import { flawSentence, libraryProblem } from '../../i18n/sentences/errors.ts';
+import { flawSentence, libraryProblem } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/whole.ts';
 import type { Notices } from '../../state/notices.ts';
-import { groupOf } from './groupOf.ts';
+import { groupOf } from './openDocument.ts';
 
 export interface LibraryFiles {
   /** null where it failed; then the person was told why. */

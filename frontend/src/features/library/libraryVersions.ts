@@ -5,7 +5,7 @@ import type { Keeper, Version } from '#shared/files/keeper.ts';
 import { words } from '../../i18n/words.ts';
 import type { Document } from '../animate/group/document.ts';
 import type { Notices } from '../../state/notices.ts';
-import { groupOf } from './groupOf.ts';
+import { groupOf } from './openDocument.ts';
 
 export interface LibraryVersions {
   versions(id: string): Promise<readonly Version[]>;

@@ -2,12 +2,36 @@
 // Knows no keeper.
 
 import * as v from 'valibot';
-import { type ActionGroup, sameGroup } from '#shared/group/group.ts';
+import { type ActionGroup, groupFromText, sameGroup } from '#shared/group/group.ts';
+import { LibraryError, type Listed } from '#shared/files/keeper.ts';
 import { record, startHistory, type History, type Label } from '#shared/document/history.ts';
 import type { Document } from '../animate/group/document.ts';
-import type { TextStorage } from '../../state/textStorage.ts';
+import type { TextStorage } from '../../state/soon.ts';
 
-export interface OpenDocument {
+// A group out of the text the library keeps of it.
+
+/** Throws a LibraryError where this version cannot read it. */
+export function groupOf(text: string): ActionGroup {
+  const read = groupFromText(text);
+  if ('problem' in read) throw new LibraryError('unreadable', read.problem.code);
+  return read.value;
+}
+
+// A list of the library asked for anew, with the very objects of before where they say the same: whoever shows it has
+// nothing to do for those.
+
+export function unchanged(before: readonly Listed[], now: readonly Listed[]): readonly Listed[] {
+  const known = new Map(before.map((one) => [one.id, one]));
+  const shared = now.map((one) => {
+    const same = known.get(one.id);
+    return same !== undefined && JSON.stringify(same) === JSON.stringify(one) ? same : one;
+  });
+  return shared.length === before.length && shared.every((one, index) => one === before[index])
+    ? before
+    : shared;
+}
+
+interface OpenDocument {
   id(): string;
   /** Of the library's text that each document here is based on; 0 for one it has never had. */
   revisionOf(id: string): number;

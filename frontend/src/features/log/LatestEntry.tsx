@@ -3,7 +3,7 @@
 import { useMemo } from 'react';
 import { useStores } from '../stores.ts';
 import { LiveText } from '../../ui/LiveText.tsx';
-import { READABLE_MS } from '../../ui/useFollow.ts';
+import { READABLE_MS } from '../../ui/useEachFrame.ts';
 import { words } from '../../i18n/whole.ts';
 import { arrowOf, bytesText, meaning } from './describe.ts';
 import { createStrip } from './strip.ts';

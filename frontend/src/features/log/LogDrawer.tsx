@@ -1,13 +1,34 @@
 // The log at the foot of the page: folded it is one line with the latest packet or the stop that holds, unfolded the whole log.
 
+import { useStore } from 'zustand';
+import { laterComponent, later, usePart } from '../../ui/later.tsx';
 import { useStores, useView } from '../stores.ts';
-import { Icon } from '../../ui/Icon.tsx';
-import { later, usePart } from '../../ui/later.tsx';
-import { pressOnce } from '../../ui/pressOnce.ts';
+import { Toasts } from '../../ui/Toasts.tsx';
 import { words } from '../../i18n/words.ts';
-import { LogPanel } from './LaterLogPanel.tsx';
+import { Icon } from '../../ui/Icon.tsx';
+import { pressOnce } from '../../ui/pressOnce.ts';
 import { PART } from '../../ui/useParts.ts';
 import styles from './LogDrawer.module.css';
+
+// The whole log, which comes when it is wanted.
+
+export const LogPanel = laterComponent(async () => (await import('./LogPanel.tsx')).LogPanel, '100%');
+
+// What the page has to tell the person, wherever a part of the page has room for it.
+
+export function Messages() {
+  const { notices } = useStores();
+  const list = useStore(notices.store);
+  return (
+    <Toasts
+      label={words.regions.notices}
+      dismissLabel={words.dismiss}
+      moreLabel={(count) => words.moreNotices({ count })}
+      toasts={list.map(({ tone, ...notice }) => ({ ...notice, truth: tone === 'info' ? 'neutral' : tone }))}
+      onDismiss={notices.dismiss}
+    />
+  );
+}
 
 /** What a packet means is many words: they come when the page is there, into a line that has its height already. */
 const latest = later(async () => (await import('./LatestEntry.tsx')).LatestEntry);

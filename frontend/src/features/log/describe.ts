@@ -10,7 +10,7 @@ import type { Traffic } from '#shared/robot/state.ts';
 import type { LogEntry } from '../../robot/traffic.ts';
 import type { LogKind } from '../view.ts';
 import { commandText, reportText } from './packetText.ts';
-import { boardName } from '../../i18n/sentences/boards.ts';
+import { boardName } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/whole.ts';
 
 type Described = Pick<LogEntry, 'board' | 'entry'>;

@@ -2,7 +2,7 @@ import { describe, expect, test } from 'vitest';
 import { FAMILIES, type FamilyId } from '#shared/codec/families.ts';
 import { INITIAL_STATE } from '#shared/robot/store.ts';
 import { words } from '../../i18n/whole.ts';
-import { judgeText, obstacleFor } from './judgeText.ts';
+import { judgeText, obstacleFor } from './packetText.ts';
 
 const judge = (text: string, board: FamilyId = 'doc') => judgeText(text, FAMILIES[board]);
 const READY = { ...INITIAL_STATE, link: { status: 'ready' } } as const;

@@ -1,7 +1,7 @@
 import { expect, test } from 'vitest';
 import { readRecording } from '#shared/files/recordingText.ts';
 import { createTrafficLog } from '../../robot/traffic.ts';
-import { logFile } from './savedLog.ts';
+import { logFile } from './logView.ts';
 
 test('a log is saved with board and date in its name, each packet in its own words, and can be read back', () => {
   const log = createTrafficLog();

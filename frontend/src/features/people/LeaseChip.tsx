@@ -2,19 +2,72 @@
 // several buttons beside what goes on: there the words themselves open what may be done.
 
 import { useState } from 'react';
+import { type Unattended, isWatching, type Lease } from '#shared/robot/lease.ts';
 import { useSnapshot, useStores } from '../stores.ts';
-import { isWatching, type Lease } from '#shared/robot/lease.ts';
 import { Button } from '../../ui/Button.tsx';
 import { Mark } from '../../ui/Chip.tsx';
 import { cx } from '../../ui/cx.ts';
+import { useNow } from '../../ui/useNow.ts';
+import { personWithin } from '../../i18n/sentences.ts';
+import { words } from '../../i18n/words.ts';
 import { Icon } from '../../ui/Icon.tsx';
 import { MenuButton } from '../../ui/MenuButton.tsx';
 import { useLayout } from '../../ui/useLayout.ts';
-import { useNow } from '../../ui/useNow.ts';
 import { secondsLeft } from '../../i18n/numbers.ts';
-import { words } from '../../i18n/words.ts';
-import styles from './LeaseChip.module.css';
 import { turnOf, type Turn, type TurnAct } from './turn.ts';
+import styles from './LeaseChip.module.css';
+
+// The run that goes on, or may, without whoever began it: said to everybody, also where nobody else is there.
+
+export function UnattendedChip() {
+  const { device } = useStores();
+  const run = useSnapshot((snapshot) => snapshot.lease?.unattended ?? null);
+  const isOurs = useSnapshot((snapshot) => snapshot.lease?.drives ?? false);
+  const you = useSnapshot((snapshot) => snapshot.lease?.you ?? '');
+  if (run === null) return null;
+  return (
+    <div
+      className={cx(styles.lease, styles.alone)}
+      data-alone
+      role="group"
+      aria-label={words.lease.goesOnLabel}
+    >
+      <div className={styles.said}>
+        <Mark truth="commanded" />
+        <div className={styles.words}>
+          <p className={styles.text} aria-live="polite">
+            {isOurs ? mayGoOn(run) : goesOn(run, you)}
+          </p>
+          <p className={styles.more}>
+            <Left key={run.endsInMs} run={run} />
+          </p>
+        </div>
+      </div>
+      {isOurs && (
+        <Button tone="quiet" hint={words.lease.keepHint} onPress={() => device.letGoOn(null)}>
+          {words.lease.keep}
+        </Button>
+      )}
+    </div>
+  );
+}
+
+function mayGoOn({ slot }: Unattended): string {
+  return slot === null ? words.lease.playingMayGoOn : words.lease.mayGoOn({ slot });
+}
+
+function goesOn({ slot, by }: Unattended, you: string): string {
+  const name = personWithin(by, you);
+  return slot === null ? words.lease.playingGoesOn({ name }) : words.lease.goesOn({ slot, name });
+}
+
+/** Counts from when it was told. */
+function Left({ run: { endsInMs } }: { readonly run: Unattended }) {
+  const { device } = useStores();
+  const [toldMs] = useState(device.clock.now);
+  const nowMs = useNow(device.clock.now, 250);
+  return words.lease.goesOnFor({ ms: endsInMs - (nowMs - toldMs) });
+}
 
 export function LeaseChip() {
   const lease = useSnapshot((snapshot) => snapshot.lease);

@@ -9,10 +9,9 @@ import {
   useEffect,
 } from 'react';
 import { I18nProvider } from 'react-aria-components/I18nProvider';
-import { PeopleError } from './people.ts';
+import { PeopleError, peopleProblem } from './people.ts';
 import { Button } from '../../ui/Button.tsx';
 import { cx } from '../../ui/cx.ts';
-import { peopleProblem } from './problem.ts';
 import { words } from '../../i18n/whole.ts';
 import type { PairWish } from '../../robot/people.generated.ts';
 import { useSpokenLocale } from '../../ui/useSpokenLocale.ts';

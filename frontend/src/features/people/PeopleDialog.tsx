@@ -11,7 +11,7 @@ import { Dialog } from '../../ui/Dialog.tsx';
 import { laterComponent } from '../../ui/later.tsx';
 import { words } from '../../i18n/words.ts';
 
-const OwnView = laterComponent(async () => (await import('./OwnView.tsx')).OwnView, '40vh');
+const OwnView = laterComponent(async () => (await import('./PeopleView.tsx')).OwnView, '40vh');
 const PeopleView = laterComponent(async () => (await import('./PeopleView.tsx')).PeopleView, '40vh');
 
 const LOOK_EACH_MS = 1500;

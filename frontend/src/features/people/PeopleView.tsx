@@ -2,19 +2,49 @@
 
 import { useState } from 'react';
 import type { Candidate } from '#shared/robot/lease.ts';
+import { words } from '../../i18n/whole.ts';
+import type { Me, Person } from '../../robot/people.generated.ts';
+import { NameField } from '../../ui/NameField.tsx';
 import { type PeopleWishes, type Shown, PERSON_ROLES, type PeopleState, type PersonRole } from './people.ts';
 import { Button } from '../../ui/Button.tsx';
-import { words } from '../../i18n/whole.ts';
 import { cx } from '../../ui/cx.ts';
-import type { Person } from '../../robot/people.generated.ts';
 import { Chip } from '../../ui/Chip.tsx';
 import { Confirm } from '../../ui/Confirm.tsx';
-import { NameField } from '../../ui/NameField.tsx';
 import { Select } from '../../ui/Select.tsx';
-import { AddressNotes } from './AddressNotes.tsx';
 import { InviteCard } from './InviteCard.tsx';
-import field from '../../ui/Field.module.css';
 import styles from './People.module.css';
+import field from '../../ui/Field.module.css';
+
+// What the address that this page was opened at means: who can listen in, and what a browser keeps back there.
+
+export function AddressNotes({ overheard }: { readonly overheard: boolean }) {
+  return (
+    <>
+      {overheard && <p className={styles.dim}>{words.people.overheard}</p>}
+      {!window.isSecureContext && <p className={styles.dim}>{words.people.insecure}</p>}
+    </>
+  );
+}
+
+// Who somebody is here who lets nobody in: their name, which is theirs to change, and what they may do.
+
+interface OwnViewProps {
+  readonly me: Me | null;
+  onRename(name: string): void;
+}
+
+export function OwnView({ me, onRename }: OwnViewProps) {
+  if (!me?.you) return null;
+  const { name, role } = me.you;
+  return (
+    <div className={styles.people}>
+      <NameField isFramed label={words.people.own.title} name={name} onRename={onRename} />
+      <p>{words.people.own.about}</p>
+      {role !== 'stopper' && <p>{words.people.roles[role]}</p>}
+      <AddressNotes overheard={me.overheard} />
+    </div>
+  );
+}
 
 // Tokens for scripts and stop-only QR codes: made here, shown once.
 

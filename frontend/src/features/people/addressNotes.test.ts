@@ -2,7 +2,7 @@ import { createElement } from 'react';
 import { renderToStaticMarkup } from 'react-dom/server';
 import { afterEach, expect, test, vi } from 'vitest';
 import { words } from '../../i18n/whole.ts';
-import { AddressNotes } from './AddressNotes.tsx';
+import { AddressNotes } from './PeopleView.tsx';
 
 afterEach(() => void vi.unstubAllGlobals());
 

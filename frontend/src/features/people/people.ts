@@ -2,7 +2,7 @@
 // invitation that was used is followed by a new one, so that a class comes in one after the other. Knows no request.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
-import { peopleProblem, type PeopleErrorCode } from './problem.ts';
+import { words } from '../../i18n/words.ts';
 import type { Notices } from '../../state/notices.ts';
 import type {
   Invitation,
@@ -15,6 +15,16 @@ import type {
   TokenWish,
   You,
 } from '../../robot/people.generated.ts';
+
+// Why the gateway did not let somebody in, or did not do what was asked about people.
+
+export type PeopleErrorCode = 'unreachable' | 'notPaired' | 'failed' | 'locked' | 'refused';
+
+export function peopleProblem(code: PeopleErrorCode, detail: string): string {
+  return code === 'refused' && detail !== ''
+    ? words.people.refusedBecause({ detail })
+    : words.people.problems[code];
+}
 
 export type PersonRole = InviteWish['role'];
 export const PERSON_ROLES: readonly PersonRole[] = ['viewer', 'driver', 'owner'];
@@ -79,7 +89,7 @@ export interface PeopleStore {
 /** What a person may ask for. */
 export type PeopleWishes = Omit<PeopleStore, 'store' | 'refresh'>;
 
-export interface PeopleOptions {
+interface PeopleOptions {
   readonly api: PeopleApi;
   readonly me: Me | null;
   readonly notices: Pick<Notices, 'tell'>;

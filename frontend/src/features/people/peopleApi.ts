@@ -3,8 +3,7 @@
 
 import * as v from 'valibot';
 import { GatewayProblem, request, type Method } from '../../robot/request.ts';
-import { PeopleError, type PeopleApi } from './people.ts';
-import type { PeopleErrorCode } from './problem.ts';
+import { PeopleError, type PeopleApi, type PeopleErrorCode } from './people.ts';
 import type { Invitation, Me, PairWish, People, StopLink, Token, You } from '../../robot/people.generated.ts';
 
 const ANSWER_WITHIN_MS = 4000;

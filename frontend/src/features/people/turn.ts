@@ -1,9 +1,24 @@
 // What is said of the turn to drive, and what may be done about it, as each of the people there sees it. Pure.
 
 import type { Lease, LeaseAction } from '#shared/robot/lease.ts';
-import type { Truth } from '../../ui/Chip.tsx';
-import { personName } from '../../i18n/sentences/people.ts';
+import { personName } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/words.ts';
+import type { Device } from '../../robot/device.ts';
+import type { Notices } from '../../state/notices.ts';
+import type { Truth } from '../../ui/Chip.tsx';
+
+// Tells from whom the robot was handed to this page: whoever has not asked for it may be looking elsewhere.
+
+export function tellHandedOver(
+  store: Pick<Device['store'], 'subscribe'>,
+  notices: Pick<Notices, 'tell'>,
+): void {
+  store.subscribe(({ snapshot: { lease } }, { snapshot: before }) => {
+    const giver = lease?.givenBy ?? null;
+    if (lease !== null && giver !== null && giver !== before.lease?.givenBy)
+      notices.tell('info', words.lease.given({ name: personName(giver, lease.you) }));
+  });
+}
 
 export interface TurnAct {
   readonly label: string;

@@ -3,9 +3,8 @@
 
 import { useEffectEvent, useLayoutEffect, useRef } from 'react';
 import { lookOf, type Look } from './look.ts';
-import { watchSize } from '../../ui/onScreen.ts';
-import { useSight } from '../../ui/sight.ts';
-import { useFollow } from '../../ui/useFollow.ts';
+import { watchSize, useSight } from '../../ui/sight.ts';
+import { useFollow } from '../../ui/useEachFrame.ts';
 
 export interface Size {
   readonly width: number;

@@ -4,7 +4,7 @@
 import { useState } from 'react';
 import type { Family } from '#shared/codec/families.ts';
 import { useStores } from '../stores.ts';
-import { READABLE_MS, useFollow } from '../../ui/useFollow.ts';
+import { READABLE_MS, useFollow } from '../../ui/useEachFrame.ts';
 import { words } from '../../i18n/words.ts';
 import { Drawing } from './Drawing.tsx';
 import { paintHands } from './hands.ts';

@@ -7,7 +7,7 @@ import type { Motions } from '#shared/robot/state.ts';
 import { usePlayback, useRobot, useStores } from '../stores.ts';
 import { cx } from '../../ui/cx.ts';
 import { words } from '../../i18n/words.ts';
-import { BoneFigure, drawBones } from './BoneFigure.tsx';
+import { BoneFigure, drawBones } from './ArmFigure.tsx';
 import { bonesOf, type BonePicture } from './bones.ts';
 import { usePreview } from './usePreview.ts';
 import { motionsInFrame } from './motionInFrame.ts';

@@ -2,14 +2,47 @@
 // text follows for whoever does not see, four times a second where few change, every other second where many do; at rest it is
 // text like any other.
 
-import { useEffect, useLayoutEffect, useRef, useState } from 'react';
+import { useRef, useEffect, useLayoutEffect, useState } from 'react';
 import type { LookName } from './look.ts';
+import { cx } from '../../ui/cx.ts';
+import { setText } from '../../ui/LiveText.tsx';
 import type { FollowedTextProps } from '../../ui/NumberField.tsx';
-import { dueOn } from '../../ui/useEachFrame.ts';
-import { CHANGING_EACH_MS, HEARD_EACH_MS, READABLE_MS, useFollow } from '../../ui/useFollow.ts';
+import { dueOn, CHANGING_EACH_MS, HEARD_EACH_MS, READABLE_MS, useFollow } from '../../ui/useEachFrame.ts';
 import type { Pen, Size } from './Canvas.tsx';
 import { Drawing } from './Drawing.tsx';
+import styles from './MovingLabel.module.css';
 import overlay from './overlay.module.css';
+
+// A number that changes by itself, in a place of fixed size.
+
+interface MovingLabelProps {
+  /** Asked for what is to stand there now. */
+  text(): string;
+  readonly colour: LookName;
+  /** Gives it a width and a height. */
+  readonly className: string | undefined;
+  /** What kind of number it is: for whoever points at it, and for ears. */
+  readonly title?: string;
+  /** It changes all the time, and something else says it to screen readers. */
+  readonly isSilent?: boolean;
+}
+
+export function MovingLabel({ text, colour, className, title, isSilent }: MovingLabelProps) {
+  const place = useRef<HTMLSpanElement>(null);
+  const write = (now: string): void => {
+    if (place.current !== null) setText(place.current, now);
+  };
+  return (
+    <span
+      className={cx(styles.place, className)}
+      {...(title !== undefined && { title, role: 'group' })}
+      aria-hidden={isSilent}
+    >
+      <span ref={place} className={styles.text} />
+      <MovingText element={place} {...{ text, colour, write }} />
+    </span>
+  );
+}
 
 /** On an element whose text is drawn instead. */
 const DRAWN = 'data-drawn';
@@ -18,7 +51,7 @@ const FEW = 8;
 /** Those that are drawn now. */
 const changing = new Set<object>();
 
-export interface MovingTextProps extends Omit<FollowedTextProps, 'colour'> {
+interface MovingTextProps extends Omit<FollowedTextProps, 'colour'> {
   readonly colour: LookName;
 }
 

@@ -1,8 +1,7 @@
 // A list whose pictures are drawn on one canvas, over what is in sight of it. The canvas scrolls with the list.
 
 import { useLayoutEffect, useRef, useState, type ReactNode } from 'react';
-import { watchSize } from '../../ui/onScreen.ts';
-import { Sight, useSight } from '../../ui/sight.ts';
+import { watchSize, Sight, useSight } from '../../ui/sight.ts';
 import { useEachFrame } from '../../ui/useEachFrame.ts';
 import { Canvas } from './Canvas.tsx';
 import {

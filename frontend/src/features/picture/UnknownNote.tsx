@@ -17,7 +17,7 @@ import {
   type Stores,
 } from '../stores.ts';
 import { Button } from '../../ui/Button.tsx';
-import { servosText, waitingSentence } from '../../i18n/sentences/servos.ts';
+import { servosText, waitingSentence } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/words.ts';
 import styles from './UnknownNote.module.css';
 

@@ -2,7 +2,7 @@ import { describe, expect, test } from 'vitest';
 import { exampleGroup, type ExampleId } from '#shared/group/examples/examples.ts';
 import { poseAt } from '#shared/group/group.ts';
 import { readyRobot, type ReadyRobotId } from '#shared/profile/readyRobots.ts';
-import { robotNames } from '../../i18n/sentences/robots.ts';
+import { robotNames } from '../../i18n/sentences.ts';
 import { bonesOf, type Bone, type BonePicture } from './bones.ts';
 
 const robot = (id: ReadyRobotId) => readyRobot(id, 'lsc-24', robotNames(id));

@@ -2,8 +2,7 @@
 // model: it turns, lifts and folds limbs so that one sees which moves how. Pure geometry in percent of the picture.
 
 import { degreesOf, type Robot, type RobotServo } from '#shared/profile/robot.ts';
-import { limbsOf } from './limbs.ts';
-import { fraction, type Pose } from './pose.ts';
+import { limbsOf, fraction, type Pose } from './pose.ts';
 
 export interface Point {
   readonly x: number;

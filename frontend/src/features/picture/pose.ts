@@ -1,7 +1,21 @@
 // From positions to the picture: angles of an arm's joints and of a dial's needle. Pure geometry; what a position is in
 // the real world (trim, direction) no board can tell, so the middle of the range is drawn as straight.
 
+import type { RobotServo } from '#shared/profile/robot.ts';
 import type { Family, Range } from '#shared/codec/families.ts';
+
+// The servos of a robot by limb, in the order in which the robot names them.
+
+export interface Limb {
+  /** Empty for servos that belong to none. */
+  readonly group: string;
+  readonly servos: readonly RobotServo[];
+}
+
+export function limbsOf(servos: readonly RobotServo[]): readonly Limb[] {
+  const groups = [...new Set(servos.map(({ group }) => group))];
+  return groups.map((group) => ({ group, servos: servos.filter((servo) => servo.group === group) }));
+}
 
 /** Position of a servo, null where it is not known. */
 export type Pose = (servo: number) => number | null;

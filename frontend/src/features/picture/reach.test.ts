@@ -2,7 +2,7 @@ import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import type { Robot } from '#shared/profile/robot.ts';
 import { readyRobot, type ReadyRobotId } from '#shared/profile/readyRobots.ts';
-import { robotNames } from '../../i18n/sentences/robots.ts';
+import { robotNames } from '../../i18n/sentences.ts';
 import { bonesOf, type Point } from './bones.ts';
 import { reachOf, roomFor } from './reach.ts';
 

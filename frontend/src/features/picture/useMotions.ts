@@ -3,7 +3,7 @@
 
 import type { ServoMotion } from '#shared/robot/state.ts';
 import { useStores } from '../stores.ts';
-import { useFollow } from '../../ui/useFollow.ts';
+import { useFollow } from '../../ui/useEachFrame.ts';
 import { motionInFrame } from './motionInFrame.ts';
 
 export function useMotions(servos: readonly number[], draw: () => void): void {

@@ -17,9 +17,9 @@ import { longerName } from '../../state/longerName.ts';
 import { useDevice, useDocument, usePoses, useRobot, useStores } from '../stores.ts';
 import { Button, IconButton } from '../../ui/Button.tsx';
 import { Toggle } from '../../ui/Toggle.tsx';
-import { servoLabel } from '../../i18n/sentences/servos.ts';
+import { servoLabel } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/whole.ts';
-import { useSelectedPose } from './useSelectedPose.ts';
+import { useSelectedPose } from './useNaming.ts';
 import styles from './PosesPanel.module.css';
 
 /** A step of the book, in the words of the moment. */

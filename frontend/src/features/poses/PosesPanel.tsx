@@ -12,14 +12,13 @@ import { words } from '../../i18n/whole.ts';
 import { useCards } from '../animate/frames/useCards.ts';
 import { poseName } from './poses.ts';
 import { PoseCard } from './PoseCard.tsx';
-import { limbsOf } from '../picture/limbs.ts';
+import { limbsOf } from '../picture/pose.ts';
 import type { PanelParts } from '../../ui/Panel.tsx';
 import { UndoTools } from '../undo/UndoTools.tsx';
 import { BlendBar } from './BlendBar.tsx';
 import { PoseTools, type Drawer } from './PoseTools.tsx';
 import { PoseVerbs } from './PoseVerbs.tsx';
-import { useNaming } from './useNaming.ts';
-import { useSelectedPose } from './useSelectedPose.ts';
+import { useNaming, useSelectedPose } from './useNaming.ts';
 import emptyPosesStyles from './EmptyPoses.module.css';
 import styles from './PosesPanel.module.css';
 

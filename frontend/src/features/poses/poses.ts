@@ -14,15 +14,15 @@ import {
 } from '#shared/profile/pose.ts';
 import { homeTargets, strangersTo } from '#shared/profile/poseShapes.ts';
 import type { ServoTarget } from '#shared/codec/commands.ts';
-import { flawSentence } from '../../i18n/sentences/errors.ts';
+import { flawSentence } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/words.ts';
 import type { Device } from '../../robot/device.ts';
-import { limitRefusal } from '../../robot/limits.ts';
+import { limitRefusal } from '../../robot/limitGate.ts';
 import { freeOf, stayingOf } from '../drive/locks.ts';
 import type { Notices } from '../../state/notices.ts';
 import { createRobotDocument, type RobotDocument } from '../profiles/robotDocument.ts';
 import type { RobotStore } from '../profiles/robots.ts';
-import type { TextStorage } from '../../state/textStorage.ts';
+import type { TextStorage } from '../../state/soon.ts';
 import type { View } from '../view.ts';
 
 export interface Poses {

@@ -1,6 +1,15 @@
 // A pose that was captured by a key has its name typed next; Enter leads back to where it was captured.
 
 import { useEffect, useState, type RefObject } from 'react';
+import { poseOf, type Pose } from '#shared/profile/pose.ts';
+import { usePoses, useView } from '../stores.ts';
+
+// The pose that is selected, if there is one.
+
+export function useSelectedPose(): Pose | undefined {
+  const id = useView((state) => state.selectedPose);
+  return usePoses(({ present }) => poseOf(present, id));
+}
 
 export interface Captured {
   readonly pose: number;

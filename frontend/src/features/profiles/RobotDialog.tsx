@@ -2,13 +2,39 @@
 // is the robots' own, not that of the frames behind the dialog.
 
 import type { ComponentType } from 'react';
+import { useRobot, useStores, useView } from '../stores.ts';
+import { Icon } from '../../ui/Icon.tsx';
+import { pressOnce } from '../../ui/pressOnce.ts';
+import { words } from '../../i18n/words.ts';
 import { undoActionOf } from '../undo/useUndoKeys.ts';
-import { useStores, useView } from '../stores.ts';
 import type { ViewState } from '../view.ts';
 import { Dialog } from '../../ui/Dialog.tsx';
 import { laterComponent } from '../../ui/later.tsx';
-import { words } from '../../i18n/words.ts';
+import robotButtonStyles from './RobotButton.module.css';
 import styles from './RobotDialog.module.css';
+
+// The robot at hand by its name, in the bar; opens the list of robots.
+
+export function RobotButton() {
+  const { view } = useStores();
+  const { name } = useRobot();
+  return (
+    <button
+      type="button"
+      className={robotButtonStyles.button}
+      aria-label={words.robots.button({ name })}
+      aria-haspopup="dialog"
+      onClick={() => view.setState({ robotView: 'list' })}
+      onKeyDown={pressOnce}
+    >
+      <span className={robotButtonStyles.icon}>
+        <Icon name="pose" />
+      </span>
+      <span className={robotButtonStyles.name}>{name}</span>
+      <Icon name="down" />
+    </button>
+  );
+}
 
 type RobotView = NonNullable<ViewState['robotView']>;
 

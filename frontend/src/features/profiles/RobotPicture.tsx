@@ -2,7 +2,29 @@
 // Knows no positions.
 
 import type { BodyKind, Robot, RobotServo } from '#shared/profile/robot.ts';
+import { useStores } from '../stores.ts';
+import { Button } from '../../ui/Button.tsx';
+import { words } from '../../i18n/whole.ts';
+import { UndoTools } from '../undo/UndoTools.tsx';
+import dialog from './RobotDialog.module.css';
+import robotEditorStyles from './RobotEditor.module.css';
 import styles from './RobotPicture.module.css';
+
+// The way back to all robots, and undo: above the description and above the calibration.
+
+export function RobotHead() {
+  const { view, robots } = useStores();
+  return (
+    <div className={robotEditorStyles.head}>
+      <Button tone="quiet" icon="earlier" onPress={() => view.setState({ robotView: 'list' })}>
+        {words.robots.back}
+      </Button>
+      <div className={dialog.undo}>
+        <UndoTools of={robots} />
+      </div>
+    </div>
+  );
+}
 
 export function RobotPicture({ robot }: { readonly robot: Robot }) {
   return (

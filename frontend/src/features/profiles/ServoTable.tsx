@@ -7,8 +7,8 @@ import { changeServo, pair, reachOf, removeServo } from '#shared/profile/robotEd
 import { FAMILIES } from '#shared/codec/families.ts';
 import { useRobot, useStores } from '../stores.ts';
 import { IconButton } from '../../ui/Button.tsx';
-import { robotFlawSentence } from '../../i18n/sentences/robotFlaws.ts';
-import { servoLabel } from '../../i18n/sentences/servos.ts';
+import { robotFlawSentence } from '../../i18n/robotFlaws.ts';
+import { servoLabel } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/whole.ts';
 import { CellField } from './CellField.tsx';
 import { COLUMNS, type Column, type ColumnId, type Edited } from './columns.ts';

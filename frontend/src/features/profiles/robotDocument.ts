@@ -1,16 +1,65 @@
 // A document that each robot has one of: the store shows the one of the robot at hand, saves it under the robot's number,
 // and changes it with the robot. Text that cannot be read is set aside, never thrown away. Never moves anything.
 
+import * as v from 'valibot';
+import { kitFromText, kitToText, type Kit } from '#shared/profile/robotText.ts';
 import { startHistory, type History } from '#shared/document/history.ts';
 import type { Robot } from '#shared/profile/robot.ts';
 import type { Read, TextFlaw } from '#shared/document/schema.ts';
-import type { TextStorage } from '../../state/textStorage.ts';
+import type { TextStorage } from '../../state/soon.ts';
 import type { Notices } from '../../state/notices.ts';
 import type { OwnRobot, RobotStore } from './robots.ts';
 import { createUndoable, type Undoable } from '../../state/undoable.ts';
 import { words } from '../../i18n/words.ts';
 
-export interface RobotDocumentOptions<T> {
+// What the library had of each robot of this page when it was last read or written, as the browser keeps it from one
+// visit to the next: what both sides can be compared with.
+
+/** What the library had of a robot when it was last read or written. */
+export interface Known {
+  readonly document: string;
+  readonly revision: number;
+  readonly kit: Kit;
+}
+
+const KEY = 'servodeck.robots.kept';
+
+const knownSchema = v.record(
+  v.string(),
+  v.object({
+    document: v.string(),
+    revision: v.pipe(v.number(), v.safeInteger(), v.minValue(0)),
+    text: v.string(),
+  }),
+);
+
+export function saveKnown(storage: TextStorage, known: ReadonlyMap<number, Known>): void {
+  const rows = [...known].map(([id, { document, revision, kit }]) => [
+    id,
+    { document, revision, text: kitToText(kit) },
+  ]);
+  try {
+    storage.setItem(KEY, JSON.stringify(Object.fromEntries(rows)));
+  } catch {
+    // The robots have told the person that this browser stores nothing.
+  }
+}
+
+export function loadKnown(storage: TextStorage): Map<number, Known> {
+  const known = new Map<number, Known>();
+  try {
+    const rows = v.parse(knownSchema, JSON.parse(storage.getItem(KEY) ?? '{}'));
+    for (const [id, { document, revision, text }] of Object.entries(rows)) {
+      const kit = kitFromText(text);
+      if (kit !== null) known.set(Number(id), { document, revision, kit });
+    }
+  } catch {
+    // What stands there was not written here.
+  }
+  return known;
+}
+
+interface RobotDocumentOptions<T> {
   readonly storage: TextStorage;
   readonly notices: Notices;
   readonly robots: RobotStore;

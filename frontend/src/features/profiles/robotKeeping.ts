@@ -19,15 +19,13 @@ import {
   robotFromText,
   robotToText,
 } from '#shared/profile/robotText.ts';
-import { libraryProblem } from '../../i18n/sentences/errors.ts';
+import { libraryProblem } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/words.ts';
-import type { TextStorage } from '../../state/textStorage.ts';
+import { type TextStorage, createSoon } from '../../state/soon.ts';
 import { longerName } from '../../state/longerName.ts';
-import { loadKnown, saveKnown, type Known } from './knownRobots.ts';
+import { loadKnown, saveKnown, type Known, type RobotDocument } from './robotDocument.ts';
 import type { Notices } from '../../state/notices.ts';
-import type { RobotDocument } from './robotDocument.ts';
 import { isUsual, type OwnRobot, type RobotStore } from './robots.ts';
-import { createSoon } from '../../state/soon.ts';
 
 export interface RobotKeeping {
   /** Where they are kept; null until that is known. A new object whenever it was looked. */

@@ -6,7 +6,7 @@ import type { Robot } from '#shared/profile/robot.ts';
 import { FAMILIES } from '#shared/codec/families.ts';
 import type { VirtualClock } from '#shared/testing/virtualClock.ts';
 import { createDevice } from '../../robot/device.ts';
-import { createMacros } from '../buttons/macros.ts';
+import { createMacros } from '../buttons/macroRun.ts';
 import { createMappings } from '../inputs/mappings.ts';
 import { createNotices } from '../../state/notices.ts';
 import { createPoses } from '../poses/poses.ts';

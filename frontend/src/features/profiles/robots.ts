@@ -16,10 +16,10 @@ import { readyRobot, usualRobot, type ReadyRobotId } from '#shared/profile/ready
 import { flawOf, NAME_LENGTH, type Robot, type RobotFlaw } from '#shared/profile/robot.ts';
 import { robotFromText, robotToText } from '#shared/profile/robotText.ts';
 import type { FamilyId } from '#shared/codec/families.ts';
-import { robotNames } from '../../i18n/sentences/robots.ts';
+import { robotNames } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/words.ts';
 import { longerName } from '../../state/longerName.ts';
-import type { TextStorage } from '../../state/textStorage.ts';
+import type { TextStorage } from '../../state/soon.ts';
 import type { Notices } from '../../state/notices.ts';
 
 export interface OwnRobot {
@@ -86,7 +86,7 @@ export function createRobots(storage: TextStorage, notices: Notices): RobotStore
 
   /** Its sentences come later than the first load: hardly an edit is refused. */
   function tellFlaw(flaw: RobotFlaw): void {
-    void import('../../i18n/sentences/robotFlaws.ts').then(
+    void import('../../i18n/robotFlaws.ts').then(
       ({ robotFlawSentence }) => notices.tell('warning', robotFlawSentence(flaw)),
       notices.tellError,
     );

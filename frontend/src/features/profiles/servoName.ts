@@ -1,7 +1,7 @@
 // What a servo is called in sentences: with its limb, for both knees of a body are called Knee.
 
 import { servoOf, type Robot } from '#shared/profile/robot.ts';
-import { servoLabel } from '../../i18n/sentences/servos.ts';
+import { servoLabel } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/words.ts';
 
 /** For sentences about several of them. */

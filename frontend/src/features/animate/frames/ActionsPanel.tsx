@@ -6,29 +6,53 @@ import { Fragment, useCallback } from 'react';
 import { totalDurationMs } from '#shared/group/group.ts';
 import { rename } from '#shared/group/groupEdits.ts';
 import { convertGroup } from '#shared/profile/counterpart.ts';
+import { useStores, useDocument, useGroupBoard, useKnownFamily } from '../../stores.ts';
+import { IconButton, Button } from '../../../ui/Button.tsx';
+import { words } from '../../../i18n/whole.ts';
+import { filesText } from '../../library/files/fileText.ts';
+import { useFiles } from '../../library/files/FilesArea.tsx';
 import { ExamplesControl } from '../group/ExamplesControl.tsx';
 import { RecordControl } from '../play/RecordControl.tsx';
-import { useDocument, useStores, useGroupBoard, useKnownFamily } from '../../stores.ts';
-import { words } from '../../../i18n/whole.ts';
 import { captureFrame } from './capture.ts';
-import { CaptureButton } from './CaptureButton.tsx';
+import { CaptureButton } from './CaptureStrip.tsx';
 import { BodyPicture } from '../../picture/Body.tsx';
-import { FilesButton } from '../../library/files/FilesButton.tsx';
-import { LibraryButton } from '../../library/LibraryButton.tsx';
-import { Button } from '../../../ui/Button.tsx';
 import { EmptyState } from '../../../ui/EmptyState.tsx';
-import { useIsPainted } from '../../../ui/useIsPainted.ts';
+import { useIsPainted } from '../../../ui/useInFrame.ts';
 import { useLayout } from '../../../ui/useLayout.ts';
 import { NameField } from '../../../ui/NameField.tsx';
 import type { PanelParts } from '../../../ui/Panel.tsx';
-import { PlayBar } from '../play/PlayBar.tsx';
-import { usePlayer } from '../play/usePlayer.ts';
+import { PlayBar, usePlayer } from '../play/PlayBar.tsx';
 import { UndoTools } from '../../undo/UndoTools.tsx';
 import { FrameStrip } from './FrameStrip.tsx';
 import { FrameTools } from './FrameTools.tsx';
 import { Timeline } from '../timeline/Timeline.tsx';
 import captureBarStyles from './CaptureBar.module.css';
 import styles from './ActionsPanel.module.css';
+
+// The way to the library, beside the name of the group that is open.
+
+function LibraryButton() {
+  const { view } = useStores();
+  return (
+    <IconButton
+      icon="library"
+      label={words.library.button}
+      aria-haspopup="dialog"
+      onPress={() => view.setState({ libraryOpen: true })}
+    />
+  );
+}
+
+// Opens the dialog about files, and says how many wait in it.
+
+function FilesButton() {
+  const { counts, show } = useFiles();
+  return (
+    <Button tone="quiet" icon="file" onPress={show}>
+      {filesText(counts)}
+    </Button>
+  );
+}
 
 // How frames come into the group: the pose captured, a recording, an example. And how long the group is.
 

@@ -13,7 +13,7 @@ import {
 import { indexOfFrame } from '#shared/group/groupEdits.ts';
 import { useStores } from '../../stores.ts';
 import { clipFromText, clipToText } from '../timeline/clipText.ts';
-import { copy, cut, paste, togetherNow, moveBy, removeFrames } from './frameVerbs.ts';
+import { copy, cut, paste, togetherNow, moveBy, removeFrames, createStripKeys } from './frameVerbs.ts';
 import { cardOf, useCards } from './useCards.ts';
 import { usePlayedFrame } from '../play/usePlayedFrame.ts';
 import { showFrame } from '../timeline/inStep.ts';
@@ -22,7 +22,6 @@ import { useInFrame } from '../../../ui/useInFrame.ts';
 import { words } from '../../../i18n/whole.ts';
 import { FrameCard } from './FrameCard.tsx';
 import { framePoses } from './framePoses.ts';
-import { createStripKeys } from './stripKeys.ts';
 import styles from './FrameStrip.module.css';
 
 // Copy, cut and paste of the system while a card of the strip has the focus. The events go to wherever the browser

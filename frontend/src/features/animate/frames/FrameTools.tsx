@@ -7,10 +7,10 @@ import { GENTLE_MOVE_MS } from '../../../robot/moveTime.ts';
 import { useDevice, useDocument, useSnapshot, useStores, useTimeline, useView } from '../../stores.ts';
 import { Button, IconButton } from '../../../ui/Button.tsx';
 import { words } from '../../../i18n/whole.ts';
-import { AddsSwitch } from '../timeline/AddsSwitch.tsx';
+import { AddsSwitch } from '../timeline/TimelineTools.tsx';
 import { useWholeFrames } from '../timeline/wholeFrames.ts';
 import { captureFrame } from './capture.ts';
-import { useKnowsPose } from './CaptureButton.tsx';
+import { useKnowsPose } from './CaptureStrip.tsx';
 import { copy, cut, duplicate, moveBy, paste, removeFrames, together, type FrameIds } from './frameVerbs.ts';
 import styles from './FrameTools.module.css';
 

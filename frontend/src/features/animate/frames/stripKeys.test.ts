@@ -1,8 +1,7 @@
 import { expect, test } from 'vitest';
 import { keepInStep, pressFrame } from '../timeline/inStep.ts';
 import { createTimelineDesk } from '../timeline/timelineUnderTest.ts';
-import { chosenFrames } from './frameVerbs.ts';
-import { createStripKeys } from './stripKeys.ts';
+import { chosenFrames, createStripKeys } from './frameVerbs.ts';
 
 async function createStrip() {
   const { stores, group } = await createTimelineDesk();

@@ -2,9 +2,23 @@
 // follows the selection. Knows no document.
 
 import { useEffect, useEffectEvent, useRef, useState, type KeyboardEvent, type RefObject } from 'react';
-import { neighbour } from './neighbour.ts';
 
-export interface CardsOptions {
+// Which place in a list a key leads to from `index`: the same for every list of cards. null: the key leads nowhere.
+
+export function neighbour(key: string, index: number, count: number): number | null {
+  const last = count - 1;
+  const to = {
+    ArrowLeft: index - 1,
+    ArrowUp: index - 1,
+    ArrowRight: index + 1,
+    ArrowDown: index + 1,
+    Home: 0,
+    End: last,
+  }[key];
+  return to === undefined ? null : Math.max(0, Math.min(last, to));
+}
+
+interface CardsOptions {
   /** In the order shown. */
   readonly ids: readonly number[];
   readonly selected: number | null;
@@ -17,7 +31,7 @@ export interface CardsOptions {
   remove(id: number, next: number | null): void;
 }
 
-export interface Cards<List extends HTMLElement> {
+interface Cards<List extends HTMLElement> {
   readonly list: RefObject<List | null>;
   /** The card that Tab leads to. */
   readonly tabStop: number | null;

@@ -6,8 +6,7 @@ import type { History } from '#shared/document/history.ts';
 import type { Clock } from '#shared/clock.ts';
 import { words } from '../../../i18n/words.ts';
 import type { Notices } from '../../../state/notices.ts';
-import { createSoon } from '../../../state/soon.ts';
-import type { TextStorage } from '../../../state/textStorage.ts';
+import { createSoon, type TextStorage } from '../../../state/soon.ts';
 import { createUndoable, type Undoable } from '../../../state/undoable.ts';
 
 export type DocumentState = History<ActionGroup>;

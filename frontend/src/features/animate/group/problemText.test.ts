@@ -2,7 +2,7 @@ import { afterEach, expect, test } from 'vitest';
 import { emptyGroup } from '#shared/group/group.ts';
 import { readyRobot } from '#shared/profile/readyRobots.ts';
 import { FAMILIES } from '#shared/codec/families.ts';
-import { robotNames } from '../../../i18n/sentences/robots.ts';
+import { robotNames } from '../../../i18n/sentences.ts';
 import { speak } from '../../../i18n/words.ts';
 import { problemText } from './problemText.ts';
 

@@ -3,13 +3,10 @@
 
 import { useShallow } from 'zustand/react/shallow';
 import type { SlotFate } from '#shared/group/slotBook.ts';
-import { chosenTimes } from '../../board/slots/groupPlace.ts';
-import type { PlaybackPhase } from './playback.ts';
-import { SPEED_PERCENT } from './player.ts';
-import { useFates } from '../../board/slots/useFates.ts';
-import { motionHindrance, startHindrance } from '../../../robot/readiness.ts';
-import { isSilent } from '../../drive/servoView.ts';
+import type { Player, PlaybackPhase } from './playback.ts';
+import { playerOf, SPEED_PERCENT } from './player.ts';
 import {
+  useStores,
   useDevice,
   useDocument,
   usePlayback,
@@ -17,9 +14,12 @@ import {
   useServoView,
   useSlot,
   useSnapshot,
-  useStores,
   useView,
 } from '../../stores.ts';
+import { chosenTimes } from '../../board/slots/groupPlace.ts';
+import { useFates } from '../../board/slots/useFates.ts';
+import { motionHindrance, startHindrance } from '../../../robot/readiness.ts';
+import { isSilent } from '../../drive/servoView.ts';
 import { timesOf } from '../timeline/groupTimes.ts';
 import { Button, IconButton } from '../../../ui/Button.tsx';
 import { cx } from '../../../ui/cx.ts';
@@ -27,8 +27,11 @@ import { LiveText } from '../../../ui/LiveText.tsx';
 import { NumberField } from '../../../ui/NumberField.tsx';
 import { Toggle } from '../../../ui/Toggle.tsx';
 import { words } from '../../../i18n/whole.ts';
-import { usePlayer } from './usePlayer.ts';
 import styles from './PlayBar.module.css';
+
+// What plays the group at hand; it is there from the first panel on that has buttons for it.
+
+export const usePlayer = (): Player => playerOf(useStores().playback);
 
 export function PlayBar() {
   const phase = usePlayback((state) => state.phase);

@@ -5,9 +5,9 @@ import { recorded } from '../../drive/servoView.ts';
 import { servoViewOf, useRobot, useServoView, useStores, type Stores } from '../../stores.ts';
 import { Button } from '../../../ui/Button.tsx';
 import { useNow } from '../../../ui/useNow.ts';
-import { say } from '../../../i18n/sentences/say.ts';
+import { say } from '../../../i18n/sentences.ts';
 import { words } from '../../../i18n/whole.ts';
-import { useOffer } from './useOffer.ts';
+import { useOffer } from './TakeThat.tsx';
 
 export function RecordControl() {
   const stores = useStores();

@@ -3,13 +3,23 @@
 
 import { useEffect, useEffectEvent } from 'react';
 import { useStore } from 'zustand';
+import type { Sample } from '#shared/group/simplify.ts';
+import { useStores } from '../../stores.ts';
+import { words } from '../../../i18n/words.ts';
 import { Dialog } from '../../../ui/Dialog.tsx';
 import { laterComponent } from '../../../ui/later.tsx';
-import { words } from '../../../i18n/words.ts';
 import type { TakeProps } from './Take.tsx';
-import { useStores } from '../../stores.ts';
-import { isTextField } from '../../../ui/textField.ts';
-import { useOffer } from './useOffer.ts';
+import { isTextField } from '../../../ui/pressOnce.ts';
+
+// What was recorded is offered to become keys; where nothing moved, that is said.
+
+export function useOffer(): (samples: readonly Sample[]) => void {
+  const { notices, tape } = useStores();
+  return (taken) => {
+    if (taken.length === 0) notices.tell('info', words.record.nothing);
+    tape.store.setState({ taken });
+  };
+}
 
 // The dialog about what was recorded; what stands in it comes when it is wanted.
 

@@ -12,7 +12,7 @@ import type { Device } from '../../../robot/device.ts';
 import type { Document } from '../group/document.ts';
 import type { FollowedPose } from '../../../robot/follower.ts';
 import { chosenTimes } from '../../board/slots/groupPlace.ts';
-import type { Playhead } from './playhead.ts';
+import type { Playhead } from './playback.ts';
 import type { RobotStore } from '../../profiles/robots.ts';
 import { isSilent, servoViewFor } from '../../drive/servoView.ts';
 import type { View } from '../../view.ts';

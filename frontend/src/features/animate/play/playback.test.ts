@@ -4,7 +4,7 @@ import { insertFrame, setMeta, type NewFrame } from '#shared/group/groupEdits.ts
 import { startHistory } from '#shared/document/history.ts';
 import { positionAt, tracksOf } from '#shared/group/tracks.ts';
 import type { Lease } from '#shared/robot/lease.ts';
-import { downloadCancelled } from '../../../i18n/sentences/slots.ts';
+import { downloadCancelled } from '../../../i18n/sentences.ts';
 import { createDesk } from '../../deskUnderTest.ts';
 import { createSharedSlots } from '../../board/slots/sharedSlotsUnderTest.ts';
 import { INITIAL_SERVO_VIEW } from '../../drive/servoView.ts';

@@ -2,16 +2,61 @@
 // panel that has the buttons for it, see `playerOf`. Knows no panel.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
-import type { CompiledStore } from '../group/compiled.ts';
+import type { Timeline } from '../timeline/timeline.ts';
+import { paged } from '../timeline/timeScale.ts';
 import type { Device } from '../../../robot/device.ts';
+import type { View } from '../../view.ts';
+import type { CompiledStore } from '../group/compiled.ts';
 import type { Document } from '../group/document.ts';
 import type { Notices } from '../../../state/notices.ts';
-import type { Playhead } from './playhead.ts';
 import type { RobotStore } from '../../profiles/robots.ts';
 import type { GroupPlace } from '../../board/slots/groupPlace.ts';
 import type { Replacing } from '../../board/slots/replacing.ts';
 import type { Slots } from '../../board/slots/slots.ts';
-import type { View } from '../../view.ts';
+
+// Where the timeline's playhead is, for whoever plays the group.
+
+/** The instant that is looked at, and the part of the group that is meant; null: all of it. */
+export interface Playhead {
+  at(): number;
+  /** Out of sight it stays there: whoever looks elsewhere is left alone. */
+  go(atMs: number): void;
+  /** Brought into sight. */
+  show(atMs: number): void;
+  range(): { readonly fromMs: number; readonly toMs: number } | null;
+}
+
+export function createPlayhead(timeline: Timeline): Playhead {
+  return {
+    at: () => timeline.getState().playheadMs,
+    go: (playheadMs) => timeline.setState({ playheadMs }),
+    show: (playheadMs) =>
+      timeline.setState(({ time, widthPx }) => ({ playheadMs, time: paged(time, playheadMs, widthPx) })),
+    range: () => timeline.getState().range,
+  };
+}
+
+// A run as it was chosen beside its button: bound to this page, or, for this one time, to go on without it.
+
+interface Parts {
+  readonly device: Device;
+  readonly view: View;
+}
+
+/** `settled` as for `device.run`. */
+export function runAsChosen(
+  { device, view }: Parts,
+  slot: number,
+  times: number,
+  settled: (isTaken: boolean) => void = () => undefined,
+): void {
+  const { goesOn, goOnMinutes } = view.getState();
+  view.setState({ goesOn: false });
+  device.run(slot, times, (isTaken) => {
+    if (isTaken && goesOn) device.letGoOn(goOnMinutes * 60_000);
+    settled(isTaken);
+  });
+}
 
 /** `leading`: gently on the way to the first pose. `returning`: gently back there, in a loop. `storing`: the board gets the group first. `previewing`: only on the drawing. */
 export type PlaybackPhase = 'leading' | 'returning' | 'playing' | 'storing' | 'running' | 'previewing';
@@ -26,7 +71,7 @@ export interface PlaybackState {
 }
 
 /** `fromMs` null: from the beginning; `times` 0: until stopped. */
-export interface NextPlay {
+interface NextPlay {
   readonly fromMs: number | null;
   readonly times: number;
 }

@@ -6,13 +6,12 @@ import { totalDurationMs } from '#shared/group/group.ts';
 import { frameEnds } from '#shared/group/tracks.ts';
 import type { Activity } from '#shared/robot/state.ts';
 import { words } from '../../../i18n/words.ts';
-import { createBoardRun } from './boardRun.ts';
+import { createBoardRun, pageAt, previewAt, type PagePlay, type PreviewPlay } from './boardRun.ts';
 import { obstacles, type CompiledGroup } from '../group/compiled.ts';
 import { problemText } from '../group/problemText.ts';
 import { createFollower } from '../../../robot/follower.ts';
 import { createMeantPart } from './meantPart.ts';
 import type { Playback, PlaybackOptions, PlaybackPhase, PlaybackState, Player } from './playback.ts';
-import { pageAt, previewAt, type PagePlay, type PreviewPlay } from './playedAt.ts';
 import { endsMotion, startHindrance } from '../../../robot/readiness.ts';
 
 export const SPEED_PERCENT = { min: 10, max: 200 } as const;

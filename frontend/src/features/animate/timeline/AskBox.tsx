@@ -13,7 +13,7 @@ import { answer, ASKED } from './asks.ts';
 import { deskOf } from './desk.ts';
 import { endOfFrame, selectedKeys } from './groupTimes.ts';
 import { sizesNow } from './lanes.ts';
-import { scaleAt } from './positions.ts';
+import { scaleAt } from './told.ts';
 import { sceneOf } from './scene.ts';
 import { xOf } from './timeScale.ts';
 import { useDesk, type SeenDesk } from './useDesk.ts';

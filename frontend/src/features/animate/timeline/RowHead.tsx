@@ -2,7 +2,7 @@
 
 import { memo } from 'react';
 import { positionAt } from '#shared/group/tracks.ts';
-import { MovingLabel } from '../../picture/MovingLabel.tsx';
+import { MovingLabel } from '../../picture/MovingText.tsx';
 import { isHeld, isSilent, toggled } from '../../drive/servoView.ts';
 import {
   editServoView,
@@ -19,11 +19,10 @@ import { Icon } from '../../../ui/Icon.tsx';
 import { cx } from '../../../ui/cx.ts';
 import { words } from '../../../i18n/whole.ts';
 import { useWords } from '../../../i18n/words.ts';
-import { rowName } from './cellName.ts';
+import { rowName, scaleAt } from './told.ts';
 import { deskOf, rangeOf } from './desk.ts';
 import { timesOf } from './groupTimes.ts';
 import { selectRow } from './looking.ts';
-import { scaleAt } from './positions.ts';
 import type { Row } from './rows.ts';
 import styles from './Rows.module.css';
 

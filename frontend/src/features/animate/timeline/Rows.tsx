@@ -4,10 +4,10 @@
 import { memo } from 'react';
 import { SharedSheet } from '../../picture/SharedSheet.tsx';
 import { useDocument, useGroupBoard, useStores, useTimeline, useView } from '../../stores.ts';
-import { keyName, type KeySet } from './keySet.ts';
+import { keyName, type KeySet } from './timeline.ts';
 import { cx } from '../../../ui/cx.ts';
 import { useWords } from '../../../i18n/words.ts';
-import { nameOfKey } from './cellName.ts';
+import { nameOfKey } from './told.ts';
 import { keysOfFrame, timesOf, type GroupTimes } from './groupTimes.ts';
 import { RowHead } from './RowHead.tsx';
 import type { Row } from './rows.ts';

@@ -16,8 +16,8 @@ import {
 } from 'react';
 import { useTimeline, useDocument, useStores } from '../../stores.ts';
 import { cellId, Rows } from './Rows.tsx';
-import { MovingLabel } from '../../picture/MovingLabel.tsx';
-import { instantText } from './instantText.ts';
+import { MovingLabel } from '../../picture/MovingText.tsx';
+import { instantText } from './told.ts';
 import { words } from '../../../i18n/whole.ts';
 import { AskBox } from './AskBox.tsx';
 import { copy, cut, paste } from './changes.ts';
@@ -33,7 +33,7 @@ import { topOfRows } from './sizes.ts';
 import { StatusText, type Said } from './StatusText.tsx';
 import { TimelineMenu, type OpenMenu } from './TimelineMenu.tsx';
 import { TimelineTools } from './TimelineTools.tsx';
-import { useRows } from './useRows.ts';
+import { useRows } from './useDesk.ts';
 import { PART } from '../../../ui/useParts.ts';
 import styles from './Timeline.module.css';
 

@@ -3,19 +3,34 @@
 import { memo } from 'react';
 import { Toolbar } from 'react-aria-components/Toolbar';
 import { EASINGS, type Easing } from '#shared/group/group.ts';
-import { useDocument, useStores, useTimeline } from '../../stores.ts';
-import { IconButton } from '../../../ui/Button.tsx';
-import { Select } from '../../../ui/Select.tsx';
-import type { KeySet } from './keySet.ts';
+import { useStores, useView, useDocument, useTimeline } from '../../stores.ts';
 import { ToggleButton } from '../../../ui/ToggleButton.tsx';
 import { words } from '../../../i18n/whole.ts';
+import { IconButton } from '../../../ui/Button.tsx';
+import { Select } from '../../../ui/Select.tsx';
+import type { KeySet } from './timeline.ts';
 import { useWords } from '../../../i18n/words.ts';
-import { AddsSwitch } from './AddsSwitch.tsx';
 import { ease } from './changes.ts';
 import { deskOf } from './desk.ts';
 import { selectedKeys, timesOf, type GroupTimes } from './groupTimes.ts';
 import { mayRun, verbName, VERBS, type VerbName } from './verbs.ts';
+import addsSwitchStyles from './AddsSwitch.module.css';
 import styles from './TimelineTools.module.css';
+
+// For hands without a Ctrl key: what is pressed in the timeline or the strip goes beside what is selected. Stands
+// with the tools of both; seen only where fingers are.
+
+export function AddsSwitch() {
+  const { view } = useStores();
+  const isOn = useView((state) => state.addsToSelection);
+  return (
+    <span className={addsSwitchStyles.adds}>
+      <ToggleButton isOn={isOn} onChange={(addsToSelection) => view.setState({ addsToSelection })}>
+        {words.actions.adds}
+      </ToggleButton>
+    </span>
+  );
+}
 
 const VERB_GROUPS: readonly (readonly VerbName[])[] = [
   ['setKey', 'remove', 'copy', 'paste', 'duplicate'],

@@ -13,7 +13,7 @@ import { words } from '../../../i18n/whole.ts';
 import { apply, changeable, hasChangeable, rangeOf, selectedFrames, type Desk } from './desk.ts';
 import { keyOf, selectedKeys, spanOf, timesOf } from './groupTimes.ts';
 import { stretchingOf } from './moving.ts';
-import { scaleAt } from './positions.ts';
+import { scaleAt } from './told.ts';
 
 // A number that is typed with a sign before it: not a new one, but what becomes of the one that is there. A minus
 // alone begins a number below zero.

@@ -11,10 +11,10 @@ import { deleteTime } from '#shared/group/timeEdits.ts';
 import type { Label } from '#shared/document/history.ts';
 import { servoOf } from '#shared/profile/robot.ts';
 import { keysAt, positionAt, type Key, type KeyRef } from '#shared/group/tracks.ts';
-import { keySet, NO_KEYS } from './keySet.ts';
+import { keySet, NO_KEYS } from './timeline.ts';
 import { isHeld } from '../../drive/servoView.ts';
 import { namesIn, servoName } from '../../profiles/servoName.ts';
-import { notPasted } from './pasteText.ts';
+import { notPasted } from './clipText.ts';
 import { words } from '../../../i18n/whole.ts';
 import {
   apply,

@@ -1,8 +1,27 @@
 // Copied keys and frames as text for the clipboard of the system, so that they reach another window, and back. The text is that
 // of a small action group: what was copied can be kept as a file, and a file can be pasted.
 
-import { clipGroup, copyFrames, type Clip } from '#shared/group/clip.ts';
+import { type PasteProblem, clipGroup, copyFrames, type Clip } from '#shared/group/clip.ts';
 import { groupFromText, groupToText } from '#shared/group/group.ts';
+import { words } from '../../../i18n/whole.ts';
+
+// Why frames or keys were not pasted, in a sentence.
+
+export function notPasted(problem: PasteProblem, nameOf: (servo: number) => string): string {
+  return words.timeline.notPasted({ problem: problemText(problem, nameOf) });
+}
+
+function problemText(problem: PasteProblem, nameOf: (servo: number) => string): string {
+  const { pasteProblems } = words.timeline;
+  switch (problem.kind) {
+    case 'unit':
+      return pasteProblems.unit({ clip: words.units[problem.clip], group: words.units[problem.group] });
+    case 'tooManyFrames':
+      return pasteProblems.tooManyFrames(problem);
+    case 'position':
+      return pasteProblems.position({ ...problem, name: nameOf(problem.servo) });
+  }
+}
 
 /** What was copied here is mostly pasted here: to read it again takes longer than to paste it. */
 let latest: { readonly text: string; readonly clip: Clip } | null = null;

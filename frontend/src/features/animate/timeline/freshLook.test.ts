@@ -1,10 +1,9 @@
 import { expect, test } from 'vitest';
 import { createVirtualClock } from '#shared/testing/virtualClock.ts';
 import { createMemoryKeeper } from '../../library/memoryKeeper.ts';
-import { lookAfresh } from './freshLook.ts';
+import { lookAfresh } from './selectionBack.ts';
 import { createVisit } from '../../library/libraryUnderTest.ts';
-import { keySet } from './keySet.ts';
-import { createTimeline } from './timeline.ts';
+import { keySet, createTimeline } from './timeline.ts';
 
 test('what was selected and looked at in one group is not in another, whose frames have the same ids', async () => {
   const timeline = createTimeline();

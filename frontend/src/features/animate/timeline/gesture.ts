@@ -3,7 +3,7 @@
 
 import type { ActionGroup } from '#shared/group/group.ts';
 import type { Label } from '#shared/document/history.ts';
-import type { SelectMode } from './keySet.ts';
+import type { SelectMode } from './timeline.ts';
 import type { Words } from '../../../i18n/whole.ts';
 import type { Desk, DeskStores } from './desk.ts';
 import type { Spot } from './hit.ts';

@@ -3,9 +3,9 @@
 
 import { moveMarker } from '#shared/group/frameEdits.ts';
 import { setDuration } from '#shared/group/timeEdits.ts';
-import { keySet, withKeys } from './keySet.ts';
+import { keySet, withKeys } from './timeline.ts';
 import type { KeyRef } from '#shared/group/tracks.ts';
-import { instantText } from './instantText.ts';
+import { instantText, toldOfBox, toldOfFrame, toldOfMarker, toldOfRange } from './told.ts';
 import { words } from '../../../i18n/whole.ts';
 import { changeable, deskOf, select, whyHeld, type Desk } from './desk.ts';
 import {
@@ -26,7 +26,6 @@ import { timesOf } from './groupTimes.ts';
 import { lookAt, selectFrame, setTime } from './looking.ts';
 import { sceneOf, wholeSceneOf } from './scene.ts';
 import { topOfRows } from './sizes.ts';
-import { toldOfBox, toldOfFrame, toldOfMarker, toldOfRange } from './told.ts';
 import { msAt, panned, seenSpan, xOf } from './timeScale.ts';
 
 export function gestureOf(press: Press): Gesture {

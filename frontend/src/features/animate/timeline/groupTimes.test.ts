@@ -2,7 +2,7 @@ import { expect, test } from 'vitest';
 import fc from 'fast-check';
 import { deleteFrames } from '#shared/group/groupEdits.ts';
 import { reverse } from '#shared/group/timeEdits.ts';
-import { keySet } from './keySet.ts';
+import { keySet } from './timeline.ts';
 import { allKeys, selectedKeys, timesOf } from './groupTimes.ts';
 import { smallGroup } from './timelineUnderTest.ts';
 

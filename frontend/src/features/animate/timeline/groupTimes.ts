@@ -12,7 +12,7 @@ import {
   type KeyRef,
   type Tracks,
 } from '#shared/group/tracks.ts';
-import { framesByServo, isMadeOf, type KeySet } from './keySet.ts';
+import { framesByServo, isMadeOf, type KeySet } from './timeline.ts';
 
 export interface GroupTimes extends Places {
   readonly frames: readonly GroupFrame[];

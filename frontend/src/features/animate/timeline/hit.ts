@@ -1,7 +1,6 @@
 // What is under the pointer. Pure; the same geometry as the painting.
 
-import type { KeySet } from './keySet.ts';
-import type { TimelineState } from './timeline.ts';
+import type { KeySet, TimelineState } from './timeline.ts';
 import type { KeyRef } from '#shared/group/tracks.ts';
 import { keysOfFrame, selectedKeys, spanOf, type GroupTimes } from './groupTimes.ts';
 import type { PlacedRow, Row } from './rows.ts';

@@ -8,8 +8,7 @@ import { endOfFrame, selectedKeys, timesOf, type GroupTimes } from './groupTimes
 import { cursorLeft, fitAll, lookAt, selectFrame, shownKeys } from './looking.ts';
 import { servoRowId } from './rows.ts';
 import { paged, xOf } from './timeScale.ts';
-import { ALL_ROW, type TimelineState } from './timeline.ts';
-import { keyName, keySet, withKeys } from './keySet.ts';
+import { ALL_ROW, type TimelineState, keyName, keySet, withKeys } from './timeline.ts';
 import { setChanged } from '../../../state/setChanged.ts';
 
 export function keepInStep(stores: DeskStores): () => void {

@@ -1,7 +1,7 @@
 // A press on a key: it selects, asks for a number, or drags all selected keys in time and value, with Ctrl copies of them.
 
 import type { KeyRef } from '#shared/group/tracks.ts';
-import { keySet, withKeys } from './keySet.ts';
+import { keySet, withKeys } from './timeline.ts';
 import { words } from '../../../i18n/whole.ts';
 import { changeable, deskOf, select, whyHeld, type Desk } from './desk.ts';
 import { draggedTo, edits, modeOf, nothing, type Gesture, type Held, type Press } from './gesture.ts';

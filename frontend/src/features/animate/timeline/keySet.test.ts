@@ -1,5 +1,5 @@
 import { describe, expect, test } from 'vitest';
-import { keySet, NO_KEYS, refsOf, withKeys } from './keySet.ts';
+import { keySet, NO_KEYS, refsOf, withKeys } from './timeline.ts';
 
 const [one, two, three] = [
   { frameId: 1, servo: 6 },

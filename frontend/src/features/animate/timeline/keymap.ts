@@ -3,11 +3,10 @@
 
 import { mayBeNegative } from './asks.ts';
 import type { Desk } from './desk.ts';
-import { page, stepTicks, stepTo, toggleAtCursor, walk } from './looking.ts';
+import { page, stepTicks, stepTo, toggleAtCursor, walk, type Direction } from './looking.ts';
 import { nudgeMarker } from './markers.ts';
 import { nudge } from './moving.ts';
 import { VERBS, mayRun } from './verbs.ts';
-import type { Direction } from './walk.ts';
 
 export type KeyAction = (desk: Desk) => void;
 type Pressed = Pick<KeyboardEvent, 'key' | 'ctrlKey' | 'metaKey' | 'shiftKey' | 'altKey'>;

@@ -2,7 +2,7 @@
 
 import { moveMarker } from '#shared/group/frameEdits.ts';
 import type { Marker } from '#shared/group/group.ts';
-import { instantText } from './instantText.ts';
+import { instantText } from './told.ts';
 import { words } from '../../../i18n/whole.ts';
 import type { Desk } from './desk.ts';
 import { lookAt } from './looking.ts';

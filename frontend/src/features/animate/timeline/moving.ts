@@ -9,10 +9,9 @@ import type { ActionGroup } from '#shared/group/group.ts';
 import type { Range } from '#shared/codec/families.ts';
 import { words } from '../../../i18n/whole.ts';
 import type { Cursor } from './timeline.ts';
-import { cellName } from './cellName.ts';
+import { cellName, nudgeUnits } from './told.ts';
 import { apply, changeable, hasChangeable, rangeOf, rowOf, type Desk } from './desk.ts';
 import { timesOf, type GroupTimes } from './groupTimes.ts';
-import { nudgeUnits } from './positions.ts';
 
 export interface Move {
   edit(group: ActionGroup): ActionGroup;

@@ -1,7 +1,7 @@
 import { expect, test } from 'vitest';
 import { startHistory } from '#shared/document/history.ts';
 import { rangeOf } from './desk.ts';
-import { scaleAt } from './positions.ts';
+import { scaleAt } from './told.ts';
 import { keyY, sceneOf } from './scene.ts';
 import { sizesOf } from './sizes.ts';
 import { createTimelineDesk, smallGroup } from './timelineUnderTest.ts';

@@ -1,11 +1,10 @@
 // Draws the lanes on a canvas: only what is seen, all of it at once. Draws what it is given; changes nothing.
 
 import { type Key, CURVES } from '#shared/group/tracks.ts';
-import { keyName } from './keySet.ts';
+import { keyName } from './timeline.ts';
 import { handleX, HANDLES, stretchOf } from './hit.ts';
-import type { Brush } from './brush.ts';
+import { type Brush, paintHeads, paintMarkers } from './paintHeads.ts';
 import type { Look } from '../../picture/look.ts';
-import { paintHeads, paintMarkers } from './paintHeads.ts';
 import { changedStretch, isWithin, wholeOf, type Stretch } from './repaint.ts';
 import type { PlacedRow } from './rows.ts';
 import { keysInRow, within } from './rowKeys.ts';

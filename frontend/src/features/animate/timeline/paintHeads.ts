@@ -1,11 +1,19 @@
 // Draws what is fixed on top of the lanes: the ruler with its marks, markers and loop range, and the heads of the frames.
 
+import { type Look, colourOf } from '../../picture/look.ts';
+import type { Scene } from './scene.ts';
 import { markText } from '../../../i18n/instants.ts';
 import { words } from '../../../i18n/whole.ts';
 import { hasAll } from './hit.ts';
-import { colourOf } from '../../picture/look.ts';
-import type { Brush } from './brush.ts';
 import { seenSpan, xOf } from './timeScale.ts';
+
+// What everything that is painted is painted with, and of.
+
+export interface Brush {
+  readonly ctx: CanvasRenderingContext2D;
+  readonly look: Look;
+  readonly scene: Scene;
+}
 
 // The marks of the ruler: as fine as fits, at round times.
 

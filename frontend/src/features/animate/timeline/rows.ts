@@ -1,7 +1,7 @@
 // The rows of the timeline: one for all, one for each limb, one for each servo, in the robot's order. Knows no screen.
 
 import type { Robot, RobotServo } from '#shared/profile/robot.ts';
-import { limbsOf } from '../../picture/limbs.ts';
+import { limbsOf } from '../../picture/pose.ts';
 import type { ServoView } from '../../drive/servoView.ts';
 import { ALL_ROW } from './timeline.ts';
 

@@ -3,8 +3,26 @@
 
 import type { ActionGroup } from '#shared/group/group.ts';
 import type { History } from '#shared/document/history.ts';
+import type { Library } from '../../library/library.ts';
+import { afresh, type Timeline } from './timeline.ts';
+import type { View } from '../../view.ts';
 import { setChanged } from '../../../state/setChanged.ts';
 import type { DeskStores } from './desk.ts';
+
+// Another group is opened: nothing of it is selected yet, all of it is in sight, and the playhead is at its
+// beginning. Frames of two groups may have the same ids.
+
+export function lookAfresh(stores: {
+  readonly library: Pick<Library, 'store'>;
+  readonly view: View;
+  readonly timeline: Timeline;
+}): void {
+  stores.library.store.subscribe(({ openId }, before) => {
+    if (openId === before.openId) return;
+    stores.view.setState({ selectedFrame: null });
+    stores.timeline.setState(afresh());
+  });
+}
 
 type Selecting = Pick<DeskStores, 'document' | 'timeline' | 'view'>;
 

@@ -2,9 +2,21 @@
 // out: what follows it is drawn past React. So is what the servo panel changes all the time while it drags.
 
 import { useShallow } from 'zustand/react/shallow';
-import { useGroupBoard, useServoView, useStores, useTimeline, useView } from '../../stores.ts';
+import { useDocument, useGroupBoard, useServoView, useStores, useTimeline, useView } from '../../stores.ts';
+import { timesOf } from './groupTimes.ts';
+import { rowsNow, type Row } from './rows.ts';
 import { useInFrame } from '../../../ui/useInFrame.ts';
 import { deskOf, type Desk } from './desk.ts';
+
+// The timeline's rows as React sees them: another list only where a row came, went or changed its look.
+
+export function useRows(): readonly Row[] {
+  const { robot } = useGroupBoard();
+  const hidden = useServoView((view) => view.hidden);
+  const folded = useServoView((view) => view.folded);
+  const keyed = useDocument(({ present }) => timesOf(present).servos);
+  return rowsNow(robot, keyed, { hidden, folded });
+}
 
 export type SeenDesk = Omit<Desk, 'state'> & { readonly state: Omit<Desk['state'], 'playheadMs'> };
 

@@ -1,5 +1,5 @@
 import { describe, expect, test } from 'vitest';
-import { beside, walked, type Cell, type Grid } from './walk.ts';
+import { beside, walked, type Cell, type Grid } from './looking.ts';
 
 const CELLS: Readonly<Record<string, readonly Cell[]>> = {
   all: [

@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { keySet } from './keySet.ts';
+import { keySet } from './timeline.ts';
 import { pressFrame } from './inStep.ts';
 import { createTimelineDesk } from './timelineUnderTest.ts';
 import { wholeFrames } from './wholeFrames.ts';

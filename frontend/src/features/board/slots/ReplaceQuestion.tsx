@@ -7,7 +7,7 @@ import type { Conflict, ReplaceQuestion as Question } from './replacing.ts';
 import { useDevice, useLibrary, useSnapshot, useStores } from '../../stores.ts';
 import { Button } from '../../../ui/Button.tsx';
 import { Dialog } from '../../../ui/Dialog.tsx';
-import { triggerText } from '../../../i18n/sentences/slots.ts';
+import { triggerText } from '../../../i18n/sentences.ts';
 import { words } from '../../../i18n/words.ts';
 import confirm from '../../../ui/Confirm.module.css';
 

@@ -6,7 +6,7 @@ import { ownSlot, slotFor } from '#shared/group/slotPlaces.ts';
 import type { Listed } from '#shared/files/keeper.ts';
 import { useDevice, useRobot, useStores, useLibrary, useSnapshot } from '../../stores.ts';
 import { hindranceOf, thoseThatCan, type Wanted, downloadOf } from './several.ts';
-import { DownloadProgress } from '../DownloadProgress.tsx';
+import { DownloadProgress } from '../DownloadControl.tsx';
 import { startHindrance } from '../../../robot/readiness.ts';
 import { Button } from '../../../ui/Button.tsx';
 import { cx } from '../../../ui/cx.ts';

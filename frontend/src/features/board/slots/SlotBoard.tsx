@@ -11,12 +11,11 @@ import { words } from '../../../i18n/whole.ts';
 import { Mark, Chip } from '../../../ui/Chip.tsx';
 import { cx } from '../../../ui/cx.ts';
 import { slotAfterKey } from './slotKeys.ts';
-import { FATE_TRUTH, useFates } from './useFates.ts';
-import { useHeldName } from './useHeldName.ts';
+import { FATE_TRUTH, useFates, useHeldName } from './useFates.ts';
 import { DownloadControl } from '../DownloadControl.tsx';
 import { motionHindrance, startHindrance } from '../../../robot/readiness.ts';
 import { Button } from '../../../ui/Button.tsx';
-import { triggerText } from '../../../i18n/sentences/slots.ts';
+import { triggerText } from '../../../i18n/sentences.ts';
 import { SeveralGroups } from './SeveralGroups.tsx';
 import styles from './Slots.module.css';
 

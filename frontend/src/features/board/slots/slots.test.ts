@@ -2,8 +2,7 @@ import { describe, expect, test } from 'vitest';
 import { recordOf } from '#shared/group/slotBook.ts';
 import { createDesk } from '../../deskUnderTest.ts';
 import { createSharedSlots, storedGroup } from './sharedSlotsUnderTest.ts';
-import { downloadedSentence, downloadCancelled } from '../../../i18n/sentences/slots.ts';
-import { errorSentence } from '../../../i18n/sentences/errors.ts';
+import { downloadedSentence, downloadCancelled, errorSentence } from '../../../i18n/sentences.ts';
 import { words } from '../../../i18n/words.ts';
 import type { Way } from '../../../robot/device.ts';
 

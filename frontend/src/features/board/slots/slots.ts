@@ -16,13 +16,13 @@ import {
   type SlotRecord,
 } from '#shared/group/slotBook.ts';
 import type { SlotGroup } from '#shared/robot/transport.ts';
-import { downloadedSentence, downloadCancelled } from '../../../i18n/sentences/slots.ts';
+import { downloadedSentence, downloadCancelled } from '../../../i18n/sentences.ts';
 import { words } from '../../../i18n/words.ts';
 import { nameOf } from '../../../robot/boards.ts';
 import { boardFingerprint } from '../../animate/group/workedOut.ts';
 import type { Settled } from '../../../robot/boardVerbs.ts';
 import type { Device, DeviceState } from '../../../robot/device.ts';
-import type { TextStorage } from '../../../state/textStorage.ts';
+import type { TextStorage } from '../../../state/soon.ts';
 import type { Notices } from '../../../state/notices.ts';
 import type { RobotStore } from '../../profiles/robots.ts';
 

@@ -1,9 +1,20 @@
 // What each slot of the board at hand holds, against the group at hand, and whether one is being filled.
 
+import { recordOf, fateOf, type SlotFate } from '#shared/group/slotBook.ts';
 import { holds } from '#shared/document/history.ts';
-import { fateOf, type SlotFate } from '#shared/group/slotBook.ts';
+import { useSlots, useSnapshot, useCompiled, useDocument, useLibrary } from '../../stores.ts';
 import type { Truth } from '../../../ui/Chip.tsx';
-import { useCompiled, useDocument, useLibrary, useSlots, useSnapshot } from '../../stores.ts';
+
+// What the group in a slot is called: as it was noted here, else as the gateway has it, which sees all downloads.
+
+/** undefined: nobody knows of any, or half of another one is there. */
+export function useHeldName(): (slot: number) => string | undefined {
+  const book = useSlots((state) => state.book);
+  const versions = useSnapshot((snapshot) => snapshot.slotVersions);
+  const broken = useSnapshot((snapshot) => snapshot.brokenSlots);
+  return (slot) =>
+    broken.includes(slot) ? undefined : (recordOf(book, slot)?.name ?? versions?.[slot]?.name);
+}
 
 export const FATE_TRUTH: Readonly<Record<SlotFate, Truth>> = {
   arriving: 'commanded',

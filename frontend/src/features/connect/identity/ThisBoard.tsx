@@ -1,16 +1,40 @@
 // The board at hand: the name the person gave it, what it is taken for and why, and the way to say otherwise.
 
 import { useStore } from 'zustand';
+import type { Evidence } from '#shared/robot/identity.ts';
+import { Mark, type Truth } from '../../../ui/Chip.tsx';
+import { answerText, offsetsText } from './answerText.ts';
+import { words } from '../../../i18n/whole.ts';
 import { mayAsk } from '../../../robot/readiness.ts';
 import { useDevice, useSnapshot, useStores } from '../../stores.ts';
 import { Button } from '../../../ui/Button.tsx';
-import { offsetsText } from './answerText.ts';
-import { words } from '../../../i18n/whole.ts';
 import { nameOf, NICKNAME_LENGTH } from '../../../robot/boards.ts';
-import { boardName } from '../../../i18n/sentences/boards.ts';
-import { EvidenceList } from './EvidenceList.tsx';
+import { boardName } from '../../../i18n/sentences.ts';
+import whichBoardStyles from './WhichBoard.module.css';
 import field from '../../../ui/Field.module.css';
 import styles from './ThisBoard.module.css';
+
+// What a board answered when it was asked who it is, a line for each question.
+
+const TRUTH: Readonly<Record<Evidence['kind'], Truth>> = {
+  answered: 'confirmed',
+  silent: 'unknown',
+  echoed: 'danger',
+  noise: 'warning',
+};
+
+export function EvidenceList({ evidence }: { readonly evidence: readonly Evidence[] }) {
+  return (
+    <ul className={whichBoardStyles.evidence} aria-label={words.identity.evidence}>
+      {evidence.map((one) => (
+        <li key={`${one.kind} ${'question' in one ? one.question : ''}`}>
+          <Mark truth={TRUTH[one.kind]} />
+          {answerText(one)}
+        </li>
+      ))}
+    </ul>
+  );
+}
 
 // Firmware and trims of boards that can tell them, once a person has asked.
 

@@ -7,9 +7,9 @@ import { useDevice, useSnapshot, useStores } from '../../stores.ts';
 import { Button } from '../../../ui/Button.tsx';
 import { Panel } from '../../../ui/Panel.tsx';
 import { summaryText, familyText } from './answerText.ts';
-import { boardName } from '../../../i18n/sentences/boards.ts';
+import { boardName } from '../../../i18n/sentences.ts';
 import { words } from '../../../i18n/whole.ts';
-import { EvidenceList } from './EvidenceList.tsx';
+import { EvidenceList } from './ThisBoard.tsx';
 import styles from './WhichBoard.module.css';
 
 export function WhichBoard() {

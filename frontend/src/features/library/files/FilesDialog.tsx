@@ -7,7 +7,14 @@ import type { Remark } from '#shared/files/reading.ts';
 import { Button, IconButton } from '../../../ui/Button.tsx';
 import { ProgressBar } from '../../../ui/ProgressBar.tsx';
 import { words } from '../../../i18n/whole.ts';
-import { type Progress, type OpenedFile, type OpenedFiles, createOpenedFiles } from './openedFiles.ts';
+import {
+  type Progress,
+  type OpenedFile,
+  type OpenedFiles,
+  createOpenedFiles,
+  takeGroup,
+  takeGroups,
+} from './openedFiles.ts';
 import { problemText, remarkText } from './fileText.ts';
 import { type Answer, readyGroups, type ReadyGroup, countsOf, type FileCounts } from './answers.ts';
 import { FoundGroup } from './FoundGroup.tsx';
@@ -16,7 +23,6 @@ import { FileButton } from '../../../ui/FileButton.tsx';
 import { SaveAs } from './SaveAs.tsx';
 import { Dialog } from '../../../ui/Dialog.tsx';
 import { createFileReader } from './fileReader.ts';
-import { takeGroup, takeGroups } from './takeGroups.ts';
 import styles from './FileProgress.module.css';
 import openedFileItemStyles from './OpenedFileItem.module.css';
 import filesContentStyles from './FilesContent.module.css';

@@ -15,7 +15,7 @@ import { Button } from '../../../ui/Button.tsx';
 import { saveBlob } from '../../../ui/saveFile.ts';
 import { Choice } from '../../../ui/Toggle.tsx';
 import { lossText, misfitText } from './fileText.ts';
-import { boardName } from '../../../i18n/sentences/boards.ts';
+import { boardName } from '../../../i18n/sentences.ts';
 import { words } from '../../../i18n/whole.ts';
 import { fileMeans } from './means.ts';
 import { loadSqlite } from './sqlite.ts';

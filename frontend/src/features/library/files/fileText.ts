@@ -12,8 +12,7 @@ import {
 } from '#shared/files/reading.ts';
 import type { TextFlaw } from '#shared/document/schema.ts';
 import type { Range } from '#shared/codec/families.ts';
-import { flawSentence } from '../../../i18n/sentences/errors.ts';
-import { say } from '../../../i18n/sentences/say.ts';
+import { flawSentence, say } from '../../../i18n/sentences.ts';
 import { words } from '../../../i18n/whole.ts';
 
 /** So many frames are named; the others are counted. */

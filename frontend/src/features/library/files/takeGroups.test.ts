@@ -4,7 +4,7 @@ import { insertFrame } from '#shared/group/groupEdits.ts';
 import { createVirtualClock } from '#shared/testing/virtualClock.ts';
 import { createMemoryKeeper } from '../memoryKeeper.ts';
 import { createVisit } from '../libraryUnderTest.ts';
-import { takeGroup, takeGroups } from './takeGroups.ts';
+import { takeGroup, takeGroups } from './openedFiles.ts';
 
 const group = (name: string) =>
   insertFrame(emptyGroup(name, 'us'), 0, { durationMs: 100, targets: [{ servo: 1, position: 1500 }] });

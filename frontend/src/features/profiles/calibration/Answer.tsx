@@ -3,15 +3,30 @@
 // says itself that it is pressed twice; a finger is not taken at its word before it could have read; a key has nothing to press,
 // because the question has the focus (Ask).
 
-import { useState, type MouseEvent } from 'react';
+import { useLayoutEffect, useRef, type ReactNode, useState, type MouseEvent } from 'react';
 import { useStores } from '../../stores.ts';
 import { Button, type ButtonProps } from '../../../ui/Button.tsx';
 import styles from './CalibrationWizard.module.css';
 
+// What is asked of the person now. A step that ends takes its buttons away: the focus goes to the next question
+// instead of nowhere, and never straight to what moves the servo.
+
+export function Ask({ children }: { readonly children: ReactNode }) {
+  const asked = useRef<HTMLParagraphElement>(null);
+  useLayoutEffect(() => {
+    if (document.activeElement?.contains(asked.current)) asked.current?.focus();
+  }, []);
+  return (
+    <p ref={asked} className={styles.ask} tabIndex={-1}>
+      {children}
+    </p>
+  );
+}
+
 /** Systems take two presses for a double one up to then. */
 const READ_MS = 500;
 
-export interface AnswerProps extends Omit<ButtonProps, 'onPress'> {
+interface AnswerProps extends Omit<ButtonProps, 'onPress'> {
   onPress(): void;
 }
 

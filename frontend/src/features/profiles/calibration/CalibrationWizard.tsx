@@ -13,12 +13,11 @@ import {
 } from '#shared/profile/robotEdits.ts';
 import { FAMILIES } from '#shared/codec/families.ts';
 import type { CalibrationStep } from '#shared/profile/calibration.ts';
-import { servoLabel } from '../../../i18n/sentences/servos.ts';
+import { servoLabel } from '../../../i18n/sentences.ts';
 import { words } from '../../../i18n/whole.ts';
-import { Answer } from './Answer.tsx';
-import { Ask } from './Ask.tsx';
+import { Answer, Ask } from './Answer.tsx';
 import { type CalibrationAtHand, useCalibration } from './useCalibration.ts';
-import { RobotHead } from '../RobotHead.tsx';
+import { RobotHead } from '../RobotPicture.tsx';
 import { useStores } from '../../stores.ts';
 import { Button } from '../../../ui/Button.tsx';
 import { Mark } from '../../../ui/Chip.tsx';

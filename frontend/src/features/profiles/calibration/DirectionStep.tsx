@@ -10,11 +10,9 @@ import { GENTLE_MOVE_MS } from '../../../robot/moveTime.ts';
 import { motionHindrance } from '../../../robot/readiness.ts';
 import { useDevice, useStores } from '../../stores.ts';
 import { words } from '../../../i18n/whole.ts';
-import { Answer } from './Answer.tsx';
-import { Ask } from './Ask.tsx';
-import { sightOf } from './sight.ts';
+import { Answer, Ask } from './Answer.tsx';
+import { sightOf, type CalibrationAtHand } from './useCalibration.ts';
 import { awayFrom, homeward, sideOf, startTurning, type TurnPhase } from './turning.ts';
-import type { CalibrationAtHand } from './useCalibration.ts';
 import styles from './CalibrationWizard.module.css';
 
 interface At {

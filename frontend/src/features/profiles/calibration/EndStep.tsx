@@ -17,10 +17,8 @@ import { startCreeping } from './creeping.ts';
 import { ReachBar } from '../ReachBar.tsx';
 import { GENTLE_MOVE_MS } from '../../../robot/moveTime.ts';
 import { useTarget } from '../../drive/useTarget.ts';
-import { Answer } from './Answer.tsx';
-import { Ask } from './Ask.tsx';
-import { sightOf } from './sight.ts';
-import type { CalibrationAtHand } from './useCalibration.ts';
+import { Answer, Ask } from './Answer.tsx';
+import { sightOf, type CalibrationAtHand } from './useCalibration.ts';
 import creepControlStyles from './CreepControl.module.css';
 import styles from './CalibrationWizard.module.css';
 

@@ -10,10 +10,9 @@ import { GENTLE_MOVE_MS } from '../../../robot/moveTime.ts';
 import { motionHindrance } from '../../../robot/readiness.ts';
 import { useDevice, useSnapshot, useStores } from '../../stores.ts';
 import { turnOf } from '../../people/turn.ts';
-import { mayResumeText } from '../../../i18n/sentences/people.ts';
+import { mayResumeText } from '../../../i18n/sentences.ts';
 import { words } from '../../../i18n/whole.ts';
-import { Answer } from './Answer.tsx';
-import { Ask } from './Ask.tsx';
+import { Answer, Ask } from './Answer.tsx';
 
 export interface MotionGateProps {
   readonly robot: Robot;

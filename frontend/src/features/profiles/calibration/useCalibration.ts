@@ -1,8 +1,8 @@
 // The calibration at hand: which servo, which step, and what a finished step does to the robot. Each is one step to undo.
 
 import { useEffect, useState } from 'react';
+import { type Robot, type RobotServo, flawOf, servoOf } from '#shared/profile/robot.ts';
 import type { Calibration, CalibrationStep } from '#shared/profile/calibration.ts';
-import { flawOf, servoOf, type Robot, type RobotServo } from '#shared/profile/robot.ts';
 import {
   beginCalibration,
   isServoDone,
@@ -11,10 +11,28 @@ import {
   settled,
   stepDone,
 } from '#shared/profile/robotEdits.ts';
+import { JOINT } from '../../picture/pose.ts';
 import { useRobot, useServoView, useStores, useView } from '../../stores.ts';
-import { robotFlawSentence } from '../../../i18n/sentences/robotFlaws.ts';
-import { servoLabel } from '../../../i18n/sentences/servos.ts';
+import { robotFlawSentence } from '../../../i18n/robotFlaws.ts';
+import { servoLabel } from '../../../i18n/sentences.ts';
 import { words } from '../../../i18n/whole.ts';
+
+// What a servo turns, as far as the picture of its robot tells, and from where one sees it turn.
+
+/** Where one looks from, as the picture of the arm does; other bodies have no picture of a turn. */
+export type Sight = 'gripper' | 'side' | 'above' | 'front' | 'horn';
+
+const ARM_SIGHTS: Readonly<Record<number, Sight>> = {
+  [JOINT.gripper]: 'gripper',
+  [JOINT.roll]: 'front',
+  [JOINT.wrist]: 'side',
+  [JOINT.elbow]: 'side',
+  [JOINT.shoulder]: 'side',
+  [JOINT.base]: 'above',
+};
+
+export const sightOf = ({ body }: Robot, { servo }: RobotServo): Sight =>
+  (body === 'arm' ? ARM_SIGHTS[servo] : undefined) ?? 'horn';
 
 export interface CalibrationAtHand {
   readonly robot: Robot;

@@ -12,8 +12,8 @@ import {
   type ServoInList,
 } from '#shared/profile/robot.ts';
 import type { RobotFileFlaw } from '#shared/profile/robotText.ts';
-import { words } from '../whole.ts';
-import { say } from './say.ts';
+import { words } from './whole.ts';
+import { say } from './sentences.ts';
 
 export function robotFlawSentence(flaw: RobotFlaw): string {
   return words.robots.flaw({ flaw: robotFlawText(flaw) });

@@ -1,0 +1,177 @@
+// Sentences that several features say: about failures, boards, robots, servos, slots and people. Knows values, no state.
+
+import type { Family, SlotTrigger } from '#shared/codec/families.ts';
+import type { ReadyRobotId, RobotNames } from '#shared/profile/readyRobots.ts';
+import type { SlotFate } from '#shared/group/slotBook.ts';
+import type { LibraryErrorCode } from '#shared/files/keeper.ts';
+import type { TextFlaw } from '#shared/document/schema.ts';
+import type { RangeRefusal } from '#shared/codec/limits.ts';
+import type { LinkErrorCode } from '#shared/robot/linkError.ts';
+import { words } from './words.ts';
+
+// One of a group of messages, of which some take values and some are plain.
+
+export function say<Values>(message: string | ((values: Values) => string), values: Values): string {
+  return typeof message === 'string' ? message : message(values);
+}
+
+// What boards are called: as their maker names them, unless a language has words of its own.
+
+export function boardName({ id, name }: Pick<Family, 'id' | 'name'>): string {
+  const names: Readonly<Partial<Record<Family['id'], string>>> = words.boards;
+  return names[id] ?? name;
+}
+
+// What ready robots, their servos and their limbs are called.
+
+/** What a ready robot and its parts are called when it is added. */
+export function robotNames(id: ReadyRobotId): RobotNames {
+  return {
+    robot: words.robots.readyNames[id],
+    role: (role, servo) => (role === 'servo' ? words.servos.name({ servo }) : words.robots.roles[role]),
+    limb: (limb) => words.robots.limbs[limb],
+  };
+}
+
+// Servos by their numbers and names, as they stand in sentences.
+
+/** More are counted instead. */
+const MOST_NAMED = 8;
+
+/** Both knees of a body are called Knee, so the limb is added. */
+export function servoLabel(servo: { readonly name: string; readonly group: string }): string {
+  return servo.group === '' ? servo.name : words.robots.called(servo);
+}
+
+/** `Servo 3, Elbow`. */
+export function numberAndName(servo: number, name: string): string {
+  const number = words.servos.name({ servo });
+  return name === number ? number : number + words.comma + name;
+}
+
+/** `Servos 1 and 2`: named while they fit into a line, else counted. */
+export function servosText(servos: readonly number[]): string {
+  const count = servos.length;
+  return count > MOST_NAMED
+    ? words.servoPanel.counted({ count })
+    : words.servoPanel.named({ count, servos: words.numbers.formatList(servos) });
+}
+
+/** Of everything that is driven by hand from this screen. */
+export function stayingSentence(names: readonly string[]): string {
+  const count = names.length;
+  const named = count > MOST_NAMED ? words.servoPanel.counted({ count }) : words.numbers.formatNames(names);
+  return words.servoPanel.staying({ count, names: named });
+}
+
+export function waitingSentence(servos: readonly number[]): string {
+  const count = servos.length;
+  return count > MOST_NAMED
+    ? words.firstMoves.waitingMany({ count })
+    : words.firstMoves.waiting({ count, servos: words.numbers.formatList(servos) });
+}
+
+// Slots of the board: what they hold and what plays them.
+
+export function downloadedSentence(slots: readonly number[]): string {
+  return words.board.downloaded({ count: slots.length, slot: slots[0] ?? 0 });
+}
+
+/** `broken` null: it was cancelled between two groups. */
+export function downloadCancelled(broken: number | null): string {
+  return broken === null ? words.board.downloadCancelled : words.board.downloadBroke({ slot: broken });
+}
+
+/** In a few words; `name` is the group it holds, as far as anybody noted it. */
+export function heldText(fate: SlotFate, name: string): string {
+  return fate === 'other' && name !== '' ? words.slots.inBarNamed({ name }) : words.slots.inBar[fate];
+}
+
+/** In a sentence. */
+export function triggerText(trigger: SlotTrigger): string {
+  const { pad, chain, ...others } = words.slots.triggers;
+  if (trigger.kind === 'pad') return pad({ button: words.slots.padButtons[trigger.button] });
+  return trigger.kind === 'chain' ? chain({ slot: trigger.after }) : others[trigger.kind];
+}
+
+/** In a few words. */
+export function triggerInBar(trigger: SlotTrigger): string {
+  const { pad, chain, ...others } = words.slots.triggersInBar;
+  if (trigger.kind === 'pad') return pad({ button: words.slots.padSigns[trigger.button] });
+  return trigger.kind === 'chain' ? chain({ slot: trigger.after }) : others[trigger.kind];
+}
+
+// People and programs by their names.
+
+/** As the gateway calls them when nobody has paired. */
+const SCRIPT = 'A script on this computer';
+const COMPUTER = 'This computer';
+
+/** At the start of a sentence. Whoever is called as `you` is another window of the same browser, or of the robot's computer. */
+export function personName(name: string, you: string): string {
+  return named(name, you, words.lease.names);
+}
+
+/** Within a sentence. */
+export function personWithin(name: string, you: string): string {
+  return named(name, you, words.lease.namesWithin);
+}
+
+function named(
+  name: string,
+  you: string,
+  ours: { readonly window: string; readonly script: string },
+): string {
+  if (name === you) return ours.window;
+  return name === SCRIPT ? ours.script : name;
+}
+
+/** `by` null: nobody knows. */
+export function stoppedBy(by: string | null): string {
+  if (by === null) return words.stop.elsewhere;
+  if (by === COMPUTER) return words.stop.atComputer;
+  return by === SCRIPT ? words.stop.byScript : words.stop.stoppedBy({ name: by });
+}
+
+export function mayResumeText({
+  driver,
+  you,
+}: {
+  readonly driver: string | null;
+  readonly you: string;
+}): string {
+  return driver === null ? words.stop.onlyDriver : words.stop.mayResume({ name: personName(driver, you) });
+}
+
+/** `detail` is left out where the sentence is complete without it. */
+export function errorSentence(code: LinkErrorCode, detail = ''): string {
+  const detailed = words.errorsWithDetail;
+  return code in detailed && isForReader(code, detail)
+    ? detailed[code as keyof typeof detailed]({ detail: detail.replace(/[.。]$/u, '') })
+    : words.errors[code];
+}
+
+/** Programs write details in English. In another language they are for whoever mends Servodeck alone. */
+function isForReader(code: LinkErrorCode, detail: string): boolean {
+  if (detail === '') return false;
+  return words.locale === 'en' || code === 'internal' || /\P{ASCII}/u.test(detail);
+}
+
+/** Which value a board cannot take, and what is allowed; no sentence yet. */
+export function rangeText({ field, value, min, max, allowed = '', servo }: RangeRefusal): string {
+  const { fields, ofServo, servoTwice, range, notTaken } = words.refusals;
+  const name = servo === undefined ? fields[field] : ofServo({ field: fields[field], servo });
+  if (min !== undefined && max !== undefined) return range({ field: name, value: String(value), min, max });
+  if (field === 'servo') return servoTwice({ value: String(value) });
+  return notTaken({ field: name, value: String(value), allowed });
+}
+
+/** What is wrong with a document that was stored or written to a file. */
+export function flawSentence({ code, at }: TextFlaw): string {
+  if (code === 'sameNumber' && at === '') return words.flaws.sameNumberInFile;
+  return say(words.flaws[code], { found: at });
+}
+
+export function libraryProblem(code: LibraryErrorCode, detail: string): string {
+  return say(words.library.problems[code], { detail });
+}
