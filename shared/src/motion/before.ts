@@ -2,8 +2,7 @@
 // taken it. Knows no link; a servo that is not named is of unknown place.
 
 import type { Family } from '../codec/families.ts';
-import { runningUnknown, type Motion } from './model.ts';
-import { afterOrder } from './told.ts';
+import { afterOrder, runningUnknown, type Motion } from './model.ts';
 import { boardDurationMs, type Track } from './tracks.ts';
 
 /** Begun so long ago (below 0: not yet); `from` is null where nobody knows where it began. */
@@ -24,10 +23,10 @@ export interface MotionBefore {
 
 /** In place of what was believed of the servos. */
 export function takenOver(motion: Motion, before: MotionBefore, nowMs: number, family: Family): Motion {
-  const told = afterOrder(motion.told, { kind: 'release', servos: before.released }, true);
-  if (before.runSlot !== null) return runningUnknown({ ...motion, told }, before.runSlot);
+  const readings = afterOrder(motion.readings, { kind: 'release', servos: before.released }, true);
+  if (before.runSlot !== null) return runningUnknown({ ...motion, readings }, before.runSlot);
   const tracks = before.ways.map((way) => [way.servo, trackOf(way, nowMs, family)] as const);
-  return { ...motion, told, tracks: new Map(tracks), run: null };
+  return { ...motion, readings, tracks: new Map(tracks), run: null };
 }
 
 function trackOf({ from, to, begunMsAgo, durationMs }: WayBefore, nowMs: number, family: Family): Track {

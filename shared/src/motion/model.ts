@@ -1,11 +1,50 @@
 // The estimate as a value, and what a way of playing groups has to answer. Knows what can be known of a board's motion; no
 // rule of any board: those are tracks.ts, deadlines.ts and polled.ts.
 
-import type { Frame } from '../codec/commands.ts';
+import type { Command, ServoTarget, Frame } from '../codec/commands.ts';
 import type { Family } from '../codec/families.ts';
 import type { ReportKind } from '../codec/reports.ts';
-import { onlyLetGo, type Told } from './told.ts';
 import { doubted, type Order, type Tracks } from './tracks.ts';
+
+// Where servos at rest stand by the board's own word, as long as nothing can have moved them since. It is no track:
+// nobody asked for that position, and a hold goes by the tracks.
+
+export interface Reading {
+  /** null: the board has not said it since. */
+  readonly position: number | null;
+  /** It has no torque: hands may have turned it since, and its next move starts from anywhere. */
+  readonly isReleased: boolean;
+}
+
+export type Readings = ReadonlyMap<number, Reading>;
+
+const RELEASED: Reading = { position: null, isReleased: true };
+
+export function afterPositions(readings: Readings, positions: readonly ServoTarget[]): Readings {
+  const next = new Map(readings);
+  for (const { servo, position } of positions)
+    next.set(servo, { position, isReleased: readings.get(servo)?.isReleased ?? false });
+  return next;
+}
+
+/** After the command left the wire; `isHeard` false where the board may not have taken it up. */
+export function afterOrder(readings: Readings, command: Command, isHeard: boolean): Readings {
+  if (command.kind === 'release')
+    return new Map([...readings, ...command.servos.map((servo) => [servo, RELEASED] as const)]);
+  if (command.kind === 'run') return onlyReleased(readings);
+  if (command.kind !== 'move') return readings;
+  const next = new Map(readings);
+  for (const { servo } of command.targets) {
+    if (next.get(servo)?.isReleased === true && !isHeard) next.set(servo, RELEASED);
+    else next.delete(servo);
+  }
+  return next;
+}
+
+/** What the board said before is no longer so. */
+export function onlyReleased(readings: Readings): Readings {
+  return new Map([...readings].flatMap(([servo, { isReleased }]) => (isReleased ? [[servo, RELEASED]] : [])));
+}
 
 /** A group that may move anything at any time: its frames are not ours, or its time cannot be computed. */
 interface UnknownRun {
@@ -46,7 +85,7 @@ export interface PolledRun {
 export interface Motion {
   readonly tracks: Tracks;
   /** Of servos at rest, with a track or without. */
-  readonly told: Told;
+  readonly readings: Readings;
   readonly run: UnknownRun | DeadlineRun | PolledRun | null;
   /** Moves and frames of almost now. */
   readonly recent: readonly Order[];
@@ -97,7 +136,7 @@ export interface Playback {
 /** Nothing is known: after connecting, and after anything that may have moved the robot behind our back. */
 export const UNKNOWN_MOTION: Motion = {
   tracks: new Map(),
-  told: new Map(),
+  readings: new Map(),
   run: null,
   recent: [],
   untoldEndMs: -Infinity,
@@ -112,6 +151,6 @@ export const UNKNOWN_MOTION: Motion = {
 
 /** Nobody knows where anything is while that group may run, nor behind it: perhaps its slot is empty, and the moves go on. */
 export function runningUnknown(motion: Motion, slot: number | null, endsToHear = 1): Motion {
-  const told = onlyLetGo(motion.told);
-  return { ...motion, tracks: doubted(motion.tracks), told, run: { kind: 'unknown', slot, endsToHear } };
+  const readings = onlyReleased(motion.readings);
+  return { ...motion, tracks: doubted(motion.tracks), readings, run: { kind: 'unknown', slot, endsToHear } };
 }

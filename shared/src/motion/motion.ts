@@ -1,7 +1,7 @@
 // Where each servo is now, given the commands that left the wire and when. One pure value and functions over it: no clock,
 // no link, no session. How a family moves is data (`Family.motion`), how it plays groups is deadlines.ts or polled.ts.
 //
-// Null means that nobody can know: before the end of a servo's first move unless the board told where it stands (told.ts), while a group runs whose frames are not ours,
+// Null means that nobody can know: before the end of a servo's first move unless the board reported where it stands, while a group runs whose frames are not ours,
 // behind the first frame of LeArm's groups (their times jitter, L7), after a release, in a move that flash work froze (S29,
 // S41), and after a command that came when the board may have been deaf. What nobody tells us we cannot know at all: a reset
 // of the board, a pad or key pressed on a board that does not report runs, a packet lost on the way. LSC, bus boards and
@@ -13,9 +13,18 @@ import type { ReportKind } from '../codec/reports.ts';
 import type { Family } from '../codec/families.ts';
 import { HEADER } from '../codec/packet.ts';
 import { deadlines } from './deadlines.ts';
-import { runningUnknown, UNKNOWN_MOTION, type KnownBoard, type Motion, type Playback } from './model.ts';
+import {
+  afterOrder,
+  onlyReleased,
+  type Reading,
+  type Readings,
+  runningUnknown,
+  UNKNOWN_MOTION,
+  type KnownBoard,
+  type Motion,
+  type Playback,
+} from './model.ts';
 import { polled } from './polled.ts';
-import { afterOrder, onlyLetGo, type Reading, type Told } from './told.ts';
 import {
   contested,
   endMs,
@@ -88,7 +97,7 @@ export function afterCommand(motion: Motion, command: Command, atMs: number, boa
   const after = isHeard
     ? restless(current, afterHeard(current, command, atMs, board), atMs)
     : maybeSwallowed(afterUnheard(current, command, atMs, board), atMs);
-  return { ...after, told: afterOrder(after.told, command, isHeard) };
+  return { ...after, readings: afterOrder(after.readings, command, isHeard) };
 }
 
 /** What it completes then may move any servo to anywhere. */
@@ -97,7 +106,7 @@ function maybeSwallowed(motion: Motion, atMs: number): Motion {
   return {
     ...motion,
     tracks: new Map(),
-    told: onlyLetGo(motion.told),
+    readings: onlyReleased(motion.readings),
     maySwallow: motion.maySwallow - 1,
     restlessUntilMs: Math.max(atMs, motion.deafUntilMs) + LONGEST_MOVE_MS,
   };
@@ -148,17 +157,17 @@ function moved(
 }
 
 /** Those of the targets that stand where the board said begin there. */
-function withStart({ tracks, told }: Motion, targets: readonly ServoTarget[]): Tracks {
+function withStart({ tracks, readings }: Motion, targets: readonly ServoTarget[]): Tracks {
   const standing = targets.flatMap(({ servo }) => {
-    const at = heldAt(told, servo);
+    const at = heldAt(readings, servo);
     return at === null ? [] : [[servo, standingAt(at)] as const];
   });
   return new Map([...tracks, ...standing]);
 }
 
 /** Where the board said that it stands; null where it has not, or where hands may have turned it since. */
-function heldAt(told: Told, servo: number): number | null {
-  const reading = told.get(servo);
+function heldAt(readings: Readings, servo: number): number | null {
+  const reading = readings.get(servo);
   return reading === undefined || reading.isReleased ? null : reading.position;
 }
 
@@ -208,10 +217,10 @@ export function passMs(frames: readonly Frame[], board: KnownBoard): number {
 
 /** Nothing is known any more: the robot may have been moved or the board restarted. A group that ran may run on. */
 export function forgotten(motion: Motion, atMs: number): Motion {
-  const { deafUntilMs, told, run, tracks, maySwallow, restlessUntilMs, inheritedUntilMs } = motion;
+  const { deafUntilMs, readings, run, tracks, maySwallow, restlessUntilMs, inheritedUntilMs } = motion;
   return {
     ...UNKNOWN_MOTION,
-    told: onlyLetGo(told),
+    readings: onlyReleased(readings),
     run: run && { kind: 'unknown', slot: null, endsToHear: 1 },
     deafUntilMs,
     maySwallow,
@@ -243,18 +252,18 @@ export function eitherOf(one: Motion, other: Motion): Motion {
 /** Present position of a servo in board units, or null while it is unknown. */
 export function positionAt(motion: Motion, servo: number, nowMs: number): number | null {
   const track = motion.tracks.get(servo);
-  const position = heldAt(motion.told, servo) ?? (track ? positionOf(track, nowMs) : null);
+  const position = heldAt(motion.readings, servo) ?? (track ? positionOf(track, nowMs) : null);
   return position === null ? null : Math.round(position);
 }
 
 /** What the board said of a servo that nothing of ours has moved since, or null. */
-export function readingOf({ told }: Motion, servo: number): Reading | null {
-  return told.get(servo) ?? null;
+export function readingOf({ readings }: Motion, servo: number): Reading | null {
+  return readings.get(servo) ?? null;
 }
 
 /** How far off `positionAt` may be, in board units: the way of one tick, and more for a servo redirected on its way. */
 export function leewayAt(motion: Motion, servo: number, nowMs: number, family: Family): number {
-  if (heldAt(motion.told, servo) !== null) return 0;
+  if (heldAt(motion.readings, servo) !== null) return 0;
   const track = motion.tracks.get(servo);
   return track ? leewayOf(track, nowMs, family) : Infinity;
 }

@@ -3,9 +3,8 @@
 
 import type { ServoTarget } from '../codec/commands.ts';
 import type { Report, ReportKind } from '../codec/reports.ts';
-import { runningUnknown, type KnownBoard, type Motion } from './model.ts';
+import { afterPositions, runningUnknown, type KnownBoard, type Motion } from './model.ts';
 import { advance, LAST_TICKS_MS, LONGEST_DEAFNESS_MS, playbackOf, restless } from './motion.ts';
-import { afterPositions } from './told.ts';
 import { lastEndMs, stands } from './tracks.ts';
 
 /** After the board said so at `atMs`; the end of a group is `afterEnd`. */
@@ -14,20 +13,20 @@ export function afterReport(motion: Motion, report: Report, atMs: number, board:
   if (report.kind === 'runStarted') return afterStart(current, report.slot);
   const answered = afterAnswer(current, report.kind, atMs, board);
   const isWord = report.kind === 'positions' || report.kind === 'allPositions';
-  return isWord ? afterWord(answered, report.positions, atMs) : answered;
+  return isWord ? afterPositionsReport(answered, report.positions, atMs) : answered;
 }
 
 /** It read them a while ago: what may have moved meanwhile it may have read on its way. */
-function afterWord(motion: Motion, positions: readonly ServoTarget[], atMs: number): Motion {
+function afterPositionsReport(motion: Motion, positions: readonly ServoTarget[], atMs: number): Motion {
   if (motion.run !== null) return motion;
   const isRestless = atMs < motion.restlessUntilMs + LONGEST_DEAFNESS_MS;
   const standing = positions.filter(({ servo }) => {
     // Without torque it is on no way.
-    if (isRestless) return motion.told.get(servo)?.isReleased ?? false;
+    if (isRestless) return motion.readings.get(servo)?.isReleased ?? false;
     const track = motion.tracks.get(servo);
     return track === undefined || stands(track, atMs);
   });
-  return { ...motion, told: afterPositions(motion.told, standing) };
+  return { ...motion, readings: afterPositions(motion.readings, standing) };
 }
 
 /** What came while it was deaf it takes up only now: until that is done the next packet may be dropped (S9), or it is deaf again. */
