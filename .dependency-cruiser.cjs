@@ -58,6 +58,24 @@ module.exports = {
       { path: [documents, '^shared/src/simulator/'] },
     ),
     forbid(
+      'files-on-top-of-documents',
+      'A file holds a group or a robot profile; neither has heard of files.',
+      { path: '^shared/src/(document|profile|group)/', pathNot: test },
+      { path: '^shared/src/files/' },
+    ),
+    forbid(
+      'profile-knows-no-group',
+      'A robot stays what it is without any group; a group is made for a robot.',
+      { path: '^shared/src/(document|profile)/', pathNot: test },
+      { path: '^shared/src/group/' },
+    ),
+    forbid(
+      'document-knows-no-document',
+      'Undo, versioned text and schemas serve every kind of document.',
+      { path: '^shared/src/document/', pathNot: test },
+      { path: '^shared/src/', pathNot: '^shared/src/document/' },
+    ),
+    forbid(
       'documents-know-no-robot',
       'A document never moves the robot by itself. A saved log has the types of what it saves.',
       { path: documents, pathNot: [test, '^shared/src/files/recorder[.]ts$'] },

@@ -15,7 +15,7 @@ const mayKnow: Record<string, readonly string[]> = {
   'shared/document': [],
   'shared/motion': ['shared/codec', 'shared/clock'],
   'shared/robot': ['shared/motion', 'shared/codec', 'shared/clock'],
-  'shared/profile': ['shared/group', 'shared/document', 'shared/codec'],
+  'shared/profile': ['shared/document', 'shared/codec'],
   'shared/group': ['shared/profile', 'shared/document', 'shared/codec'],
   'shared/files': ['shared/group', 'shared/profile', 'shared/document', 'shared/codec'],
   'shared/simulator': ['shared/codec', 'shared/clock'],

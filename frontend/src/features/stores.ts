@@ -3,7 +3,7 @@
 
 import { createContext, use } from 'react';
 import { useStore } from 'zustand';
-import { familyOfUnit, robotInUnit } from '#shared/profile/counterpart.ts';
+import { familyOfUnit, robotInUnit } from '#shared/profile/units.ts';
 import type { Robot, RobotServo } from '#shared/profile/robot.ts';
 import type { Family } from '#shared/codec/families.ts';
 import type { ActionGroup } from '#shared/group/group.ts';

@@ -76,3 +76,9 @@ export const COMMAND_NUMBER: Readonly<Record<CommandKind, number>> = {
   readAllPositions: 13,
   readOffsets: 2,
 };
+
+/** Targets in ascending servo order, each servo once; the last one given wins. */
+export function sortedTargets(targets: readonly ServoTarget[]): readonly ServoTarget[] {
+  const byServo = new Map(targets.map((target) => [target.servo, target]));
+  return [...byServo.values()].sort((one, other) => one.servo - other.servo);
+}

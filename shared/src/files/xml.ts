@@ -1,8 +1,8 @@
 // The vendors' XML (uHand 2.0, LeArm): ID, Move and Time, repeated flat in one table. As tolerant as their own program, which
 // counts the three tags wherever they stand, but servo numbers are read and any count of servos is taken (boards.md section 7).
 
-import type { ServoTarget, Frame } from '../codec/commands.ts';
-import { sortedTargets, MAX_FRAMES, type ActionGroup } from '../group/group.ts';
+import { type ServoTarget, type Frame, sortedTargets } from '../codec/commands.ts';
+import { MAX_FRAMES, type ActionGroup } from '../group/group.ts';
 import { type Remark, Unreadable, wholeNumber, type Drawn, type Place, type Unit } from './reading.ts';
 
 // The servos of one frame as a file names them, brought into a group's order.

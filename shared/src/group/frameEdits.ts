@@ -1,10 +1,11 @@
-// Edits of whole frames that leave their times alone (easing, note, colour, left and right), and of markers. Pure functions, the
-// very same object where nothing changes. What left and right is, the robot profile says.
+// Edits of whole frames that leave their times alone (easing, note, colour, left and right), of markers, and a whole group in the other unit.
+// Pure functions, the very same object where nothing changes. What left and right is, the robot profile says.
 
+import { rescaled } from '../profile/units.ts';
 import type { Colour } from '../document/schema.ts';
 import { mirroredTargets } from '../profile/poseShapes.ts';
 import type { Robot, RobotServo } from '../profile/robot.ts';
-import type { ActionGroup, Easing, GroupFrame, Marker } from './group.ts';
+import { MOST_ERROR_UNITS, type ActionGroup, type Easing, type GroupFrame, type Marker } from './group.ts';
 import { changed, sameList, samePose } from './groupEdits.ts';
 import { wholeMs } from './moments.ts';
 
@@ -82,4 +83,27 @@ function changeMarker(group: ActionGroup, id: number, change: Partial<Marker>): 
 
 function withMarkers(group: ActionGroup, markers: readonly Marker[]): ActionGroup {
   return changed(group, { markers: sameList(group.markers, markers) });
+}
+
+// Converting keeps looks: a group holds no ranges of the robot it was made for, so angles would have no beginning.
+
+/** To the nearest unit; null where a pulse is shorter than any step. The same group where it counts so already. */
+export function convertGroup(group: ActionGroup, unit: ActionGroup['unit']): ActionGroup | null {
+  if (group.unit === unit) return group;
+  const at = (position: number): number => Math.round(rescaled(position, group.unit, unit));
+  const isTooLow = group.frames.some(({ targets }) => targets.some(({ position }) => at(position) < 0));
+  if (isTooLow) return null;
+  const { maxErrorUnits } = group;
+  const per = Math.abs(rescaled(1, group.unit, unit) - rescaled(0, group.unit, unit));
+  const frames = group.frames.map((frame) => ({
+    ...frame,
+    targets: frame.targets.map(({ servo, position }) => ({ servo, position: at(position) })),
+  }));
+  return {
+    ...group,
+    ...{ unit, frames },
+    ...(maxErrorUnits !== undefined && {
+      maxErrorUnits: Math.min(MOST_ERROR_UNITS, Math.max(1, Math.round(maxErrorUnits * per))),
+    }),
+  };
 }

@@ -122,12 +122,6 @@ export function changedServos(frames: readonly Frame[], index: number): readonly
     .sort((one, other) => one - other);
 }
 
-/** Targets in ascending servo order, each servo once; the last one given wins. */
-export function sortedTargets(targets: readonly ServoTarget[]): readonly ServoTarget[] {
-  const byServo = new Map(targets.map((target) => [target.servo, target]));
-  return [...byServo.values()].sort((one, other) => one.servo - other.servo);
-}
-
 // How far a servo may be off its way when a group becomes frames of a board.
 
 /** As good as nobody can see: half a degree. */

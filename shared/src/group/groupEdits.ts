@@ -1,8 +1,8 @@
 // Every change of an action group, as pure functions: (group, arguments) → group. An edit that changes nothing returns the
 // very same object, so that a history can leave it out. Frames are named by id, places by index.
 
-import type { Frame, ServoTarget } from '../codec/commands.ts';
-import { GROUP_NAME_LENGTH, sortedTargets, type ActionGroup, type GroupFrame } from './group.ts';
+import { type Frame, type ServoTarget, sortedTargets } from '../codec/commands.ts';
+import { GROUP_NAME_LENGTH, type ActionGroup, type GroupFrame } from './group.ts';
 
 /** As much of the name as one may be long. */
 export function rename(group: ActionGroup, name: string): ActionGroup {

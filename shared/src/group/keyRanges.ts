@@ -1,8 +1,8 @@
 // The chosen keys in the opposite order, or slower or faster together; every other key stays where it is. Where all keys of that
 // time are chosen its markers and pauses go along, as in any edit of time. Pure.
 
-import type { ServoTarget } from '../codec/commands.ts';
-import { type ActionGroup, type GroupFrame, sortedTargets } from './group.ts';
+import { type ServoTarget, sortedTargets } from '../codec/commands.ts';
+import { type ActionGroup, type GroupFrame } from './group.ts';
 import { momentsOf, withTargets, type Moment, newMoment, withMoments, wholeMs } from './moments.ts';
 import {
   type TimeRange,

@@ -1,8 +1,8 @@
 // A group's frames as moments on the clock, and back: edits that move things in time do so here, where no frame depends on the
 // one before it. Knows no servo's motion.
 
-import type { ServoTarget } from '../codec/commands.ts';
-import { sortedTargets, type ActionGroup, type GroupFrame } from './group.ts';
+import { type ServoTarget, sortedTargets } from '../codec/commands.ts';
+import { type ActionGroup, type GroupFrame } from './group.ts';
 import { changed, sameList, samePose } from './groupEdits.ts';
 
 export interface Moment {

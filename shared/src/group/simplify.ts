@@ -1,7 +1,8 @@
 // A recorded motion becomes keys: of all samples only those that straight ways would miss by more than a chosen error (after
 // Ramer, Douglas and Peucker), servo by servo, and at common times where that costs nothing. Knows no recording and no board.
 
-import { emptyGroup, sortedTargets, type ActionGroup } from './group.ts';
+import { sortedTargets } from '../codec/commands.ts';
+import { emptyGroup, type ActionGroup } from './group.ts';
 import { newMoment, withMoments } from './moments.ts';
 
 export interface Sample {

@@ -3,7 +3,7 @@
 // Knows no session, no storage.
 
 import * as v from 'valibot';
-import type { ServoTarget } from '../codec/commands.ts';
+import { type ServoTarget, sortedTargets } from '../codec/commands.ts';
 import { NAME_LENGTH } from './robot.ts';
 import {
   type TextFlaw,
@@ -13,7 +13,6 @@ import {
   versionedText,
   type Read,
 } from '../document/schema.ts';
-import { sortedTargets } from '../group/group.ts';
 import { sameTargets } from './poseShapes.ts';
 
 /** `home`: every servo at its home. `rest`: the pose marked as such, else home. */

@@ -4,8 +4,7 @@
 // Mirror: what one side does, the other does; a servo without a partner stays as it is. Flip: every servo stays on its side
 // and turns as far from its home, the other way.
 
-import type { ServoTarget } from '../codec/commands.ts';
-import { sortedTargets } from '../group/group.ts';
+import { type ServoTarget, sortedTargets } from '../codec/commands.ts';
 import { degreesOf, mirrored, positionOf, servoOf, type Robot, type RobotServo } from './robot.ts';
 
 export interface Reshaped {

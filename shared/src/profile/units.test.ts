@@ -2,7 +2,8 @@ import fc from 'fast-check';
 import { expect, test } from 'vitest';
 import { FAMILIES, type FamilyId } from '../codec/families.ts';
 import { someGroup } from '../testing/groupsUnderTest.ts';
-import { convertGroup, familyOfUnit, robotInUnit } from './counterpart.ts';
+import { convertGroup } from '../group/frameEdits.ts';
+import { familyOfUnit, robotInUnit } from './units.ts';
 import { flawOf } from './robot.ts';
 import { readyRobot, usualRobot, type RobotNames } from './readyRobots.ts';
 

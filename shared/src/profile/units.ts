@@ -1,10 +1,14 @@
-// The same robot and the same group as they would count in the other unit, by the rescale that others use between pulse widths and steps
-// (boards.md chapter 7): steps = (µs − 500) ÷ 2. For drawing what was made for another board, and for converting it, so that a pose
-// looks alike before and after. A group holds no ranges of the robot it was made for, so angles would have no beginning. Pure.
+// The same robot as it would count in the other unit, by the rescale that others use between pulse widths and steps (boards.md
+// chapter 7): steps = (µs − 500) ÷ 2. For drawing what was made for another board and for converting it, so that a pose looks
+// alike before and after. Pure.
 
 import { FAMILIES, UNKNOWN_BOARD, type Family, type FamilyId } from '../codec/families.ts';
-import { MOST_ERROR_UNITS, type ActionGroup } from '../group/group.ts';
 import type { Robot, RobotServo } from './robot.ts';
+
+// The same robot and the same group as they would count in the other unit, by the rescale that others use between
+// pulse widths and steps (boards.md chapter 7): steps = (µs − 500) ÷ 2. For drawing what was made for another board,
+// and for converting it, so that a pose looks alike before and after. A group holds no ranges of the robot it was
+// made for, so angles would have no beginning.
 
 type Unit = Family['unit'];
 
@@ -40,25 +44,4 @@ export function robotInUnit(robot: Robot, unit: Unit): Robot {
   const made: Robot = { ...robot, board: familyOfUnit(unit).id as FamilyId, servos };
   counterparts.set(robot, made);
   return made;
-}
-
-/** To the nearest unit; null where a pulse is shorter than any step. The same group where it counts so already. */
-export function convertGroup(group: ActionGroup, unit: Unit): ActionGroup | null {
-  if (group.unit === unit) return group;
-  const at = (position: number): number => Math.round(rescaled(position, group.unit, unit));
-  const isTooLow = group.frames.some(({ targets }) => targets.some(({ position }) => at(position) < 0));
-  if (isTooLow) return null;
-  const { maxErrorUnits } = group;
-  const per = Math.abs(rescaled(1, group.unit, unit) - rescaled(0, group.unit, unit));
-  const frames = group.frames.map((frame) => ({
-    ...frame,
-    targets: frame.targets.map(({ servo, position }) => ({ servo, position: at(position) })),
-  }));
-  return {
-    ...group,
-    ...{ unit, frames },
-    ...(maxErrorUnits !== undefined && {
-      maxErrorUnits: Math.min(MOST_ERROR_UNITS, Math.max(1, Math.round(maxErrorUnits * per))),
-    }),
-  };
 }

@@ -3,7 +3,7 @@
 import { useStore } from 'zustand';
 import { memo, type Ref } from 'react';
 import type { GroupFacts } from '#shared/files/factsShape.ts';
-import { familyOfUnit } from '#shared/profile/counterpart.ts';
+import { familyOfUnit } from '#shared/profile/units.ts';
 import { FAMILIES } from '#shared/codec/families.ts';
 import type { Listed } from '#shared/files/keeper.ts';
 import { BarThumb, RobotThumb } from '../picture/PoseThumb.tsx';

@@ -2,7 +2,7 @@
 // preview. Drawn past React, because the playhead may be scrubbed. Moves nothing.
 
 import { useRef } from 'react';
-import { rescaled } from '#shared/profile/counterpart.ts';
+import { rescaled } from '#shared/profile/units.ts';
 import { poseAtMs } from '#shared/group/tracks.ts';
 import { knownFamily } from '../animate/group/groupBoard.ts';
 import { isSilent } from '../drive/servoView.ts';

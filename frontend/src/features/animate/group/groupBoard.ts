@@ -1,7 +1,7 @@
 // Which board a group is judged and drawn by: the one that is connected; while none is known, the one that the robot at hand is described
 // for; and where the group counts in another unit, a board and a robot that count like it. Sends nothing.
 
-import { familyOfUnit, robotInUnit } from '#shared/profile/counterpart.ts';
+import { familyOfUnit, robotInUnit } from '#shared/profile/units.ts';
 import type { ActionGroup } from '#shared/group/group.ts';
 import type { Robot } from '#shared/profile/robot.ts';
 import { FAMILIES, type Family } from '#shared/codec/families.ts';

@@ -2,7 +2,7 @@
 // as it is taken over then. Pure.
 
 import { type Reading, type Unit, inUnit, meaningIn, onlyFittingUnit } from '#shared/files/reading.ts';
-import { convertGroup } from '#shared/profile/counterpart.ts';
+import { convertGroup } from '#shared/group/frameEdits.ts';
 import type { ActionGroup } from '#shared/group/group.ts';
 
 export interface Answer {
