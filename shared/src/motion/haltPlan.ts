@@ -175,7 +175,12 @@ function mayMoveUnknown({ run, restlessUntilMs }: Motion, atMs: number): boolean
 
 /** How long what nobody can hold still needs, a begun tick with it, or is given. */
 function unknownMs({ tracks, restlessUntilMs }: Motion, atMs: number, tickMs: number): number {
-  const ends = [...tracks.values()].filter((track) => guessOf(track, atMs) === null).map(endMs);
-  const needMs = ends.map((end) => end - atMs + tickMs);
+  const unheld = [...tracks.values()].filter((track) => guessOf(track, atMs) === null);
+  const needMs = unheld.map((track) => Math.min(endMs(track) - atMs + tickMs, mostMs(track)));
   return Math.max(Math.min(timings.stop.unknownFrameMs, restlessUntilMs - atMs), ...needMs);
+}
+
+/** Of what nobody knows whether it was begun. */
+function mostMs({ fromLeeway }: Track): number {
+  return fromLeeway === Infinity ? timings.stop.unknownFrameMs : Infinity;
 }

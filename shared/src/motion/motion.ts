@@ -26,6 +26,7 @@ import {
 } from './model.ts';
 import { polled } from './polled.ts';
 import {
+  boardDurationMs,
   contested,
   endMs,
   lastEndMs,
@@ -38,6 +39,9 @@ import {
   shareDone,
   standingAt,
   stands,
+  startingAt,
+  stoppedBefore,
+  torn,
   type Track,
   type Tracks,
   unrestBehind,
@@ -181,33 +185,79 @@ function deafened(motion: Motion, kind: Command['kind'], atMs: number): Motion {
   const deafUntilMs = atMs + LONGEST_DEAFNESS_MS;
   const deaf = { ...motion, deafUntilMs, answersOwed: answersTo(kind), mayHoldPacket: false };
   if (motion.run !== null) return runningUnknown(deaf, null);
-  const tracks = new Map(motion.tracks);
-  for (const [servo, track] of tracks) {
-    const durationMs = Math.max(endMs(track), deafUntilMs) - track.startMs;
-    if (!stands(track, atMs)) tracks.set(servo, { ...track, from: null, durationMs });
-  }
-  return { ...deaf, tracks };
+  return { ...deaf, tracks: heldUp(motion.tracks, atMs, deafUntilMs) };
 }
 
-/** It is dropped or comes late: what it may move is not known, and of what moved already only its end was. */
+/** Those under way arrive, but nobody knows from where and when: by then at the latest. */
+function heldUp(tracks: Tracks, atMs: number, untilMs: number): Tracks {
+  const lengthened = (track: Track): Track => ({
+    ...track,
+    from: null,
+    durationMs: Math.max(endMs(track), untilMs) - track.startMs,
+  });
+  return new Map(
+    [...tracks].map(([servo, track]) => [servo, stands(track, atMs) ? track : lengthened(track)]),
+  );
+}
+
+/** It is dropped or comes late, when the board hears again. */
 function afterUnheard(motion: Motion, command: Command, atMs: number, { family }: KnownBoard): Motion {
   const owed = family.answers.includes(command.kind) ? answersTo(command.kind) : [];
   const deafUntilMs = owed.length > 0 ? atMs + LONGEST_DEAFNESS_MS : motion.deafUntilMs;
   const answersOwed = [...motion.answersOwed, ...owed];
   const later = { ...motion, deafUntilMs, answersOwed, mayHoldPacket: true };
   if (command.kind === 'run') return runningUnknown(later, null);
-  const targets = new Map(
-    command.kind === 'move' ? command.targets.map(({ servo, position }) => [servo, position]) : [],
+  if (command.kind === 'move') return perhapsMoved(later, command, atMs, family);
+  if (command.kind === 'stop') return perhapsStopped(later, atMs, family);
+  const held = heldUp(later.tracks, atMs, deafUntilMs);
+  return {
+    ...later,
+    tracks: command.kind === 'release' ? perhapsReleased(held, command.servos, atMs) : held,
+  };
+}
+
+/** It may not have moved them, and where the board re-times every servo all that was under way may be later by it (S26). */
+function perhapsMoved(
+  motion: Motion,
+  { targets, durationMs }: { readonly targets: readonly ServoTarget[]; readonly durationMs: number },
+  atMs: number,
+  family: Family,
+): Motion {
+  const { tickMs, talkMs, timing } = family.motion;
+  const untilMs = motion.deafUntilMs + boardDurationMs(durationMs, family) + tickMs + talkMs;
+  const tracks = new Map(heldUp(motion.tracks, atMs, timing === 'shared' ? untilMs : motion.deafUntilMs));
+  for (const { servo, position } of targets) {
+    const track = motion.tracks.get(servo);
+    const isThere =
+      track !== undefined && stands(track, atMs) && track.to === position && track.toLeeway === 0;
+    if (!isThere) tracks.set(servo, torn(track ?? startingAt(position, atMs), untilMs));
+  }
+  const unrest = (restlessMs: number): number =>
+    timing === 'shared' && restlessMs > atMs ? Math.max(restlessMs, untilMs) : restlessMs;
+  return {
+    ...motion,
+    tracks,
+    restlessUntilMs: unrest(motion.restlessUntilMs),
+    inheritedUntilMs: unrest(motion.inheritedUntilMs),
+  };
+}
+
+/** What a stop halts (L9) may go on, and a frame that it keeps from beginning may have begun. */
+function perhapsStopped(motion: Motion, atMs: number, family: Family): Motion {
+  const tracks = new Map(stoppedBefore(motion.tracks, motion.recent, atMs, family));
+  for (const servo of family.motion.haltedByStop) {
+    const track = tracks.get(servo);
+    if (track && !stands(track, atMs)) tracks.set(servo, torn(track, motion.deafUntilMs));
+  }
+  return { ...motion, tracks };
+}
+
+/** Those under way drop or arrive. */
+function perhapsReleased(tracks: Tracks, servos: readonly number[], atMs: number): Tracks {
+  const kept = only(tracks, (track, servo) => !(servos.includes(servo) && stands(track, atMs)));
+  return new Map(
+    [...kept].map(([servo, track]) => [servo, servos.includes(servo) ? torn(track, endMs(track)) : track]),
   );
-  const freed = command.kind === 'release' ? command.servos : [];
-  const isAtRest = (track: Track | undefined, servo: number): boolean =>
-    track !== undefined && stands(track, atMs) && (targets.get(servo) ?? track.to) === track.to;
-  const moves =
-    [...motion.tracks.values()].some((track) => !stands(track, atMs)) ||
-    [...targets.keys()].some((servo) => !isAtRest(motion.tracks.get(servo), servo));
-  const tracks = only(motion.tracks, (track, servo) => isAtRest(track, servo) && !freed.includes(servo));
-  const restlessUntilMs = moves ? deafUntilMs + LONGEST_MOVE_MS : motion.restlessUntilMs;
-  return { ...later, tracks, restlessUntilMs };
 }
 
 /** How long one pass of a group takes at most. */

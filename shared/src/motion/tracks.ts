@@ -38,6 +38,11 @@ export function standingAt(at: number): Track {
   return { from: at, to: at, startMs: -Infinity, durationMs: 0, fromLeeway: 0, toLeeway: 0 };
 }
 
+/** A servo that sets out then, from anywhere. */
+export function startingAt(to: number, atMs: number): Track {
+  return { from: null, to, startMs: atMs, durationMs: 0, fromLeeway: Infinity, toLeeway: Infinity };
+}
+
 /** It has arrived, or was there from the start. */
 export function stands(track: Track, nowMs: number): boolean {
   return endMs(track) <= nowMs || (track.from === track.to && track.fromLeeway === 0);
@@ -129,7 +134,7 @@ export function ordered(
 }
 
 /** Somewhere on its way to one of two places, until the later of two times. */
-function torn(track: Track, untilMs: number): Track {
+export function torn(track: Track, untilMs: number): Track {
   const durationMs = Math.max(untilMs, endMs(track)) - track.startMs;
   return { ...track, from: null, durationMs, fromLeeway: Infinity, toLeeway: Infinity };
 }

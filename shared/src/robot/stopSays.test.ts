@@ -3,6 +3,7 @@
 
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
+import { LONGEST_DEAFNESS_MS } from '../motion/motion.ts';
 import { SIMULATED } from './estimateUnderTest.ts';
 import { TIMES } from './faults/amount.ts';
 import { SERVOS, somePlainHistory, someStopHistory, type StopHistory } from './historiesUnderTest.ts';
@@ -77,7 +78,9 @@ function tooMuch({ known, steps }: StopHistory, { unheld }: StopOutcome): readon
     ...SERVOS.slice(0, 2),
     ...asked.flatMap(({ targets }) => targets.map(({ servo }) => servo)),
   ]);
-  const limitMs = Math.max(...asked.map(({ durationMs }) => durationMs), 0) + SLOWEST_HOLD_MS;
+  const isDeaf = steps.some(({ kind }) => kind === 'read');
+  const longestMs = Math.max(...asked.map(({ durationMs }) => durationMs), 0);
+  const limitMs = longestMs + SLOWEST_HOLD_MS + (isDeaf ? LONGEST_DEAFNESS_MS : 0);
   return [
     ...unheld.servos
       .filter((servo) => !movable.has(servo))
@@ -123,6 +126,19 @@ test.each(['doc', 'openarm-old', 'openarm-new'] as const)(
     expect(wrong, JSON.stringify(outcome)).toEqual([]);
   },
 );
+
+test.each(['bus-ctrl', 'xarm'] as const)('%s: behind a reading only what moves is named', async (profile) => {
+  const steps: StopHistory['steps'] = [
+    { kind: 'move', durationMs: 1500, targets: [{ servo: 1, position: 100 }] },
+    { kind: 'wait', ms: 300 },
+    { kind: 'read' },
+    { kind: 'wait', ms: 60 },
+  ];
+  const history: StopHistory = { ...PLAIN, onForMs: 60_000, unknown: [], known: [], steps };
+  const outcome = await stopped(profile, history);
+  expect([...tooMuch(history, outcome), ...broken(outcome)], JSON.stringify(outcome)).toEqual([]);
+  expect(outcome.unheld?.servos).toEqual([1]);
+});
 
 const FOUND: readonly {
   readonly name: string;

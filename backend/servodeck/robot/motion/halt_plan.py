@@ -184,6 +184,11 @@ def may_move_unknown(motion: Motion, at_ms: float) -> bool:
 
 def unknown_ms(motion: Motion, at_ms: float, tick_ms: float) -> float:
     """How long what nobody can hold still needs, a begun tick with it, or is given."""
-    unknown = [track for track in motion.tracks.values() if guess_of(track, at_ms) is None]
-    needs_ms = [end_ms(track) - at_ms + tick_ms for track in unknown]
+    unheld = [track for track in motion.tracks.values() if guess_of(track, at_ms) is None]
+    needs_ms = [min(end_ms(track) - at_ms + tick_ms, most_ms(track)) for track in unheld]
     return max([min(STOP.unknown_frame_ms, motion.restless_until_ms - at_ms), *needs_ms])
+
+
+def most_ms(track: Track) -> float:
+    """Of what nobody knows whether it was begun."""
+    return STOP.unknown_frame_ms if track.start_leeway == inf else inf

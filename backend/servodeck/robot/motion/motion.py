@@ -58,6 +58,7 @@ from servodeck.robot.motion.polled import polled
 from servodeck.robot.motion.tracks import (
     LONGEST_MOVE_MS,
     Order,
+    Track,
     Tracks,
     board_duration_ms,
     contested,
@@ -72,6 +73,9 @@ from servodeck.robot.motion.tracks import (
     share,
     standing_at,
     stands,
+    starting_at,
+    stopped_before,
+    torn,
     unrest_after,
 )
 
@@ -215,11 +219,15 @@ def deafened(motion: Motion, command: Command, at_ms: float, board: KnownBoard) 
     if motion.run is not None:
         until_ms = latest_end_ms(motion, board) + ESTIMATE.longest_deafness_ms
         return running_unknown(deaf, None, until_ms=until_ms)
-    tracks = {
-        servo: track if stands(track, at_ms) else lengthened(track, deaf_until_ms)
-        for servo, track in motion.tracks.items()
+    return replace(deaf, tracks=held_up(motion.tracks, at_ms, deaf_until_ms))
+
+
+def held_up(tracks: Tracks, at_ms: float, until_ms: float) -> dict[int, Track]:
+    """Those under way arrive, but nobody knows from where and when: by then at the latest."""
+    return {
+        servo: track if stands(track, at_ms) else lengthened(track, until_ms)
+        for servo, track in tracks.items()
     }
-    return replace(deaf, tracks=tracks)
 
 
 def latest_end_ms(motion: Motion, board: KnownBoard) -> float:
@@ -236,9 +244,10 @@ def latest_end_ms(motion: Motion, board: KnownBoard) -> float:
 
 
 def after_unheard(motion: Motion, command: Command, at_ms: float, board: KnownBoard) -> Motion:
-    """It is dropped or comes late: what it may move is not known, and of what moved only its end is."""
+    """It is dropped or comes late, when the board hears again."""
+    family = board.family
     answer = ANSWERS.get(type(command))
-    owed = (answer,) if answer and command.kind in board.family.answers else ()
+    owed = (answer,) if answer and command.kind in family.answers else ()
     later = replace(
         motion,
         deaf_until_ms=at_ms + ESTIMATE.longest_deafness_ms if owed else motion.deaf_until_ms,
@@ -246,23 +255,56 @@ def after_unheard(motion: Motion, command: Command, at_ms: float, board: KnownBo
         may_hold_packet=True,
     )
     if isinstance(command, Run):
-        until_ms = later.deaf_until_ms + longest_ms(command, board.family)
+        until_ms = later.deaf_until_ms + longest_ms(command, family)
         return running_unknown(later, None, until_ms=max(until_ms, latest_end_ms(motion, board)))
-    aims = {each.servo: each.position for each in command.targets} if isinstance(command, Move) else {}
-    freed = command.servos if isinstance(command, Release) else ()
+    if isinstance(command, Move):
+        return perhaps_moved(later, command, at_ms, family)
+    if isinstance(command, Stop):
+        return perhaps_stopped(later, at_ms, family)
+    tracks: Tracks = held_up(later.tracks, at_ms, later.deaf_until_ms)
+    if isinstance(command, Release):
+        tracks = perhaps_released(tracks, command.servos, at_ms)
+    return replace(later, tracks=tracks)
 
-    def is_at_rest(servo: int) -> bool:
-        track = motion.tracks.get(servo)
-        return track is not None and stands(track, at_ms) and aims.get(servo, track.to) == track.to
 
-    moves = any(not stands(track, at_ms) for track in motion.tracks.values()) or any(
-        not is_at_rest(servo) for servo in aims
-    )
+def perhaps_moved(motion: Motion, move: Move, at_ms: float, family: Family) -> Motion:
+    """It may not have moved them, and where the board re-times every servo all that was under way may be
+    later by it (S26).
+    """
+    is_shared, traits = family.motion.timing == "shared", family.motion
+    until_ms = motion.deaf_until_ms + board_duration_ms(move.duration_ms, family)
+    until_ms += traits.tick_ms + traits.talk_ms
+    tracks = held_up(motion.tracks, at_ms, until_ms if is_shared else motion.deaf_until_ms)
+    for target in move.targets:
+        track = motion.tracks.get(target.servo)
+        is_there = track and stands(track, at_ms) and track.to == target.position and track.to_leeway == 0
+        if not is_there:
+            tracks[target.servo] = torn(track or starting_at(target.position, at_ms), until_ms)
+
+    def unrest(restless_ms: float) -> float:
+        return max(restless_ms, until_ms) if is_shared and restless_ms > at_ms else restless_ms
+
     return replace(
-        later,
-        tracks=only(motion.tracks, lambda _, servo: is_at_rest(servo) and servo not in freed),
-        restless_until_ms=later.deaf_until_ms + LONGEST_MOVE_MS if moves else motion.restless_until_ms,
+        motion,
+        tracks=tracks,
+        restless_until_ms=unrest(motion.restless_until_ms),
+        inherited_until_ms=unrest(motion.inherited_until_ms),
     )
+
+
+def perhaps_stopped(motion: Motion, at_ms: float, family: Family) -> Motion:
+    """What a stop halts (L9) may go on, and a frame that it keeps from beginning may have begun."""
+    tracks = stopped_before(motion.tracks, motion.recent, at_ms, family)
+    for servo in family.motion.halted_by_stop:
+        if (track := tracks.get(servo)) and not stands(track, at_ms):
+            tracks[servo] = torn(track, motion.deaf_until_ms)
+    return replace(motion, tracks=tracks)
+
+
+def perhaps_released(tracks: Tracks, servos: Collection[int], at_ms: float) -> Tracks:
+    """Those under way drop or arrive."""
+    kept = only(tracks, lambda track, servo: not (servo in servos and stands(track, at_ms)))
+    return {servo: torn(track, end_ms(track)) if servo in servos else track for servo, track in kept.items()}
 
 
 def pass_ms(frames: Sequence[Frame], board: KnownBoard) -> float:

@@ -45,6 +45,11 @@ def end_ms(track: Track) -> float:
     return track.start_ms + track.duration_ms
 
 
+def starting_at(to: float, at_ms: float) -> Track:
+    """A servo that sets out then, from anywhere."""
+    return Track(None, to, at_ms, 0, inf, inf)
+
+
 def standing_at(at: float) -> Track:
     """A servo that rests there."""
     return Track(at, at, -inf, 0)
@@ -155,7 +160,7 @@ def contested(tracks: Tracks, recent: Sequence[Order]) -> Tracks:
     return changed
 
 
-def stopped_before(tracks: Tracks, recent: Sequence[Order], at_ms: float, family: Family) -> Tracks:
+def stopped_before(tracks: Tracks, recent: Sequence[Order], at_ms: float, family: Family) -> dict[int, Track]:
     """After a stop at `at_ms`: frames that began just before it may not have begun, and what was under way
     goes on.
     """
