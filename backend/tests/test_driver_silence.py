@@ -4,6 +4,7 @@ import asyncio
 
 import pytest
 
+from servodeck.callers import THIS_COMPUTER
 from servodeck.errors import CancelledError, ExpiredError, NotDrivingError
 from tests.client import Client, driven
 from tests.samples import BATTERY, MOVE, MOVE_ELSEWHERE, MOVE_S, RUN, STOP, STOPS, is_held_ahead
@@ -134,6 +135,38 @@ async def test_a_driver_who_leaves_while_the_last_frame_of_an_unknown_group_may_
             await asyncio.sleep(1)
             assert port.packets() == [STOP, RUN, STOP, *(STOPS if is_stopped else [])]
             assert control.latch is is_stopped
+
+
+@in_virtual_time
+async def test_who_has_resumed_answers_for_the_last_frame_of_a_group_that_was_stopped_before() -> None:
+    async with driven(RUN) as (control, port, anna):
+        await control.stop()
+        await asyncio.sleep(1)
+        control.resume(THIS_COMPUTER, anna)
+        await asyncio.sleep(1)
+        control.leave(anna)
+        await asyncio.sleep(1)
+        assert (port.packets(), control.latch) == ([STOP, RUN, *STOPS], False)
+        control.stop()
+        await asyncio.sleep(1)
+        assert control.unheld is not None
+        assert control.unheld.servos is None
+        assert control.unheld.for_ms is not None
+        assert 26_000 < control.unheld.for_ms < 28_000
+
+
+@in_virtual_time
+async def test_a_group_that_is_run_behind_a_resume_is_stopped_for_a_driver_who_leaves() -> None:
+    async with driven(RUN) as (control, port, anna):
+        await control.stop()
+        control.resume(THIS_COMPUTER, anna)
+        anna.send(RUN)
+        await asyncio.sleep(1)
+        anna.send(STOP)
+        await asyncio.sleep(1)
+        control.leave(anna)
+        await asyncio.sleep(1)
+        assert (port.packets(), control.latch) == ([STOP, RUN, *STOPS, RUN, STOP, *STOPS], True)
 
 
 @in_virtual_time

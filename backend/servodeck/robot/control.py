@@ -279,6 +279,7 @@ class Control:
         if port.status == "lost":
             raise PortLostError(port.detail or "The serial port is gone.")
         if self._latch.open():
+            self.board.motion.resumed(self.now())
             self._broadcast.everybody(ResumedMessage(by=caller.name), but=session)
 
     def name_board(self, caller: Caller, board: str) -> None:

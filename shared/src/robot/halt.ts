@@ -92,6 +92,8 @@ export function createHalt(options: HaltOptions): Halt {
   let underWay: Promise<void> = Promise.resolve();
   let sequence: Sequence | null = null;
   let latches = 0;
+  /** What goes on is counted from then, also where the board is told once more. */
+  let pressedMs = 0;
 
   function latch(value: Latch): void {
     latches += 1;
@@ -165,9 +167,8 @@ export function createHalt(options: HaltOptions): Halt {
       if (sequence.stopsToGo === 0) Object.assign(sequence, { stopsToGo: 1, dueMs: clock.now() });
       return sequence.left;
     }
-    const nowMs = clock.now();
     const mine: Sequence = {
-      ...{ pressedMs: nowMs, stopsToGo: 1 + STOP_REPEATS, dueMs: nowMs },
+      ...{ pressedMs, stopsToGo: 1 + STOP_REPEATS, dueMs: clock.now() },
       left: Promise.resolve(null),
     };
     sequence = mine;
@@ -183,7 +184,6 @@ export function createHalt(options: HaltOptions): Halt {
 
   /** Behind its last packet more is known of what goes on than at the press; undefined where that is said elsewhere. */
   async function send(sequence: () => Promise<Unheld | null | undefined>): Promise<void> {
-    const pressedMs = clock.now();
     const sending = sequence();
     underWay = sending.then(
       () => undefined,
@@ -212,6 +212,7 @@ export function createHalt(options: HaltOptions): Halt {
     async halt(why = 'pressed') {
       const { unheld } = options.plan();
       latch({ reason: why, by: null, stop: 'sending', unheld });
+      pressedMs = clock.now();
       await send(transport.halt ? () => haltSharedLink(why) : haltOwnLink);
     },
     async resume() {
@@ -226,11 +227,11 @@ export function createHalt(options: HaltOptions): Halt {
     released: () => store.update({ latch: null }),
     stopAfterReturn() {
       // Its failure is the latch's `failed`; there is no caller to tell.
-      const returnedMs = clock.now();
+      pressedMs = clock.now();
       send(async () => {
         await repeatStop(clock, lanes, () => sequence === null);
         // Somebody has pressed STOP meanwhile, and its stops leave in place of these.
-        return sequence?.left ?? options.unheldSince(returnedMs);
+        return sequence?.left ?? options.unheldSince(pressedMs);
       }).catch(() => undefined);
     },
     again() {

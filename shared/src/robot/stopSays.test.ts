@@ -140,6 +140,18 @@ test.each(['bus-ctrl', 'xarm'] as const)('%s: behind a reading only what moves i
   expect(outcome.unheld?.servos).toEqual([1]);
 });
 
+test('what goes on is counted from the press also where the board is told once more', async () => {
+  const steps: StopHistory['steps'] = [
+    { kind: 'move', durationMs: 2440, targets: [{ servo: 1, position: 0 }] },
+    { kind: 'wait', ms: 21 },
+    { kind: 'read' },
+    { kind: 'endGroup' },
+  ];
+  const history: StopHistory = { ...PLAIN, onForMs: 60_000, unknown: [], known: [], steps };
+  const outcome = await stopped('bus-ctrl', history);
+  expect(broken(outcome), JSON.stringify(outcome)).toEqual([]);
+});
+
 const FOUND: readonly {
   readonly name: string;
   readonly profile: 'doc' | 'learm-esp32' | 'openarm-old' | 'lsc-32';

@@ -73,6 +73,7 @@ class Estimate:
         """A move that the board may take up late has ended by then."""
         self._last_frame_until_ms = -inf
         """The last frame of a group that was ended, and that nobody knows, is over by then."""
+        self._resumed_at_ms = -inf
 
     def played_frames(self, slot: int) -> Sequence[Frame] | None:
         return self._memory.played_frames(slot)
@@ -92,7 +93,8 @@ class Estimate:
         is_heard, ran = hears(self._motion, at_ms), self._motion.run
         self._change_memory(command, is_heard=is_heard)
         self._motion = after_command(self._motion, command, at_ms, self)
-        if isinstance(ran, UnknownRun) and self._motion.run is None:
+        is_ended = isinstance(ran, UnknownRun) and self._motion.run is None
+        if is_ended and self._run_at_ms > self._resumed_at_ms:
             self._last_frame_until_ms = self._motion.restless_until_ms
         if isinstance(command, Download):
             # A stop would break its slot, for what its driver let go on.
@@ -116,6 +118,11 @@ class Estimate:
             self._ended(report, at_ms)
         else:
             self._motion = after_report(self._motion, report, at_ms, self)
+
+    def resumed(self, now: float) -> None:
+        """A person answers for what may go on of groups that were stopped before; it may all the same."""
+        self._resumed_at_ms = self._advance(now)
+        self._last_frame_until_ms = -inf
 
     def silent(self, now: float) -> None:
         """The board may have moved or restarted unseen; what ran may still run."""
