@@ -30,6 +30,7 @@ from tests.samples import (
     MOVE_S,
     RUN,
     STOP,
+    STOPS,
     hold_at,
     wire_ms,
 )
@@ -143,7 +144,7 @@ async def test_a_lost_port_latches_fails_what_waits_and_refuses_resume_until_it_
             anna.send(MOVE)
         await asyncio.sleep(1)
         filler, *others = second.packets()
-        assert (filler[:2], others) == (b"\x00\xfd", [STOP])  # test_resync.py
+        assert (filler[:2], others) == (b"\x00\xfd", STOPS)  # test_resync.py
         with pytest.raises(LatchedError):
             anna.send(MOVE)
         control.resume(THIS_COMPUTER)

@@ -49,7 +49,7 @@ async def test_filler_ends_a_cut_move_before_the_stop(board: str) -> None:
     first, second = FakePort(), FakePort()
     async with gateway(board, first, second) as (_, anna):
         await lose_behind(anna, MOVE, first)
-        assert second.packets() == [b"\x00" + b"\xfd" * len(MOVE), STOP]
+        assert second.packets() == [b"\x00" + b"\xfd" * len(MOVE), *STOPS]
 
 
 @pytest.mark.parametrize("board", OPEN_FIRMWARE)
@@ -58,7 +58,7 @@ async def test_a_cut_run_is_ended_without_naming_slot_0(board: str) -> None:
     first, second = FakePort(), FakePort()
     async with gateway(board, first, second) as (_, anna):
         await lose_behind(anna, RUN, first, 0.004)
-        assert second.packets() == [b"\xfd" * 253, STOP]
+        assert second.packets() == [b"\xfd" * 253, *STOPS]
 
 
 @in_virtual_time
@@ -69,7 +69,7 @@ async def test_a_cut_frame_of_a_download_is_ended_too() -> None:
         packets = list(packets_of(Group(5, "", [FRAME]), "doc"))
         control.download([made_of(Group(5, "", [FRAME]), packets, "doc")], ANNA, lambda: None)
         await asyncio.sleep(RETURNED_S)
-        assert second.packets() == [b"\xfd" * 253, STOP]
+        assert second.packets() == [b"\xfd" * 253, *STOPS]
 
 
 @in_virtual_time
@@ -77,7 +77,7 @@ async def test_what_had_left_is_not_ended() -> None:
     first, second = FakePort(), FakePort()
     async with gateway("doc", first, second) as (_, anna):
         await lose_behind(anna, MOVE, first, after_s=0.02)
-        assert second.packets() == [STOP]
+        assert second.packets() == STOPS
 
 
 @in_virtual_time
@@ -89,10 +89,10 @@ async def test_filler_that_is_cut_itself_is_sent_again_and_then_no_more() -> Non
         await asyncio.sleep(1)
         filler = b"\x00" + b"\xfd" * len(MOVE)
         assert ports[1].packets() == [filler]
-        assert ports[2].packets() == [filler, STOP]
+        assert ports[2].packets() == [filler, *STOPS]
         ports[2].unplug()
         await asyncio.sleep(2)
-        assert ports[3].packets() == [STOP]
+        assert ports[3].packets() == STOPS
 
 
 @in_virtual_time
@@ -129,7 +129,7 @@ async def test_a_board_that_bears_no_filler_may_have_heard_no_stop(board: str) -
         await asyncio.sleep(31)
         move = encode(Move(1000, (ServoTarget(2, 600),)), FAMILIES[board])
         await lose_behind(anna, move, first)
-        assert second.packets() == [STOP]
+        assert second.packets() == STOPS
         await asyncio.sleep(40)
         await control.stop()
         assert control.unheld is not None

@@ -10,15 +10,18 @@ from typing import Any
 
 import pytest
 
-from servodeck.errors import GatewayError, NoAnswerError
-from servodeck.protocol.values import Frame, ServoTarget
+from servodeck.errors import GatewayError, NoAnswerError, PortMissingError
+from servodeck.port.ports import OpenPort
+from servodeck.port.whereabouts import UsbDevice
+from servodeck.protocol.packets import encode
+from servodeck.protocol.values import Frame, ReadPositions, ServoTarget
 from servodeck.robot.board.packet_rules import Group, made_of, packets_of
 from servodeck.robot.board.playing import FrameGroup
 from servodeck.robot.control import Control
 from servodeck.robot.scripts import Scripts
 from servodeck.snapshots import PlayState
 from tests.client import ANNA, Client
-from tests.fake_port import FakePort, FakePorts
+from tests.fake_port import FakePort
 from tests.running import DEVICE
 from tests.vectors import load_scenarios
 from tests.virtual_time import at, in_virtual_time, now
@@ -46,14 +49,39 @@ class Listener(Client):
         super().put(text)
 
 
+class PulledPorts:
+    """One device, a new port each time that it is opened."""
+
+    def __init__(self) -> None:
+        self.opened: list[FakePort] = []
+        self.is_there = True
+
+    async def open(self, _device: str) -> FakePort:
+        if not self.is_there:
+            raise PortMissingError("The device is not plugged in.")
+        self.opened.append(FakePort())
+        return self.opened[-1]
+
+    async def close(self, port: OpenPort) -> None:
+        port.close()
+
+    async def list_usb(self) -> list[UsbDevice]:
+        return []
+
+    def plug(self, state: str) -> None:
+        self.is_there = state == "back"
+        if not self.is_there:
+            self.opened[-1].unplug()
+
+
 class Player:
     """Takes the inputs of a scenario, and knows what came of them, in milliseconds since it began."""
 
-    def __init__(self, control: Control, port: FakePort) -> None:
+    def __init__(self, control: Control, ports: PulledPorts) -> None:
         self.ends: list[tuple[float, int, str]] = []
         self.begun_s = now()
         self._control = control
-        self._port = port
+        self._ports = ports
         self._scripts = Scripts(control, lambda _caller: True)
         self._session = Listener(control)
         self._tasks: list[asyncio.Task[None]] = []
@@ -61,7 +89,9 @@ class Player:
     def take(self, event: Event) -> None:
         match event:
             case {"says": packet}:
-                self._port.say(bytes.fromhex(packet))
+                self._ports.opened[-1].say(bytes.fromhex(packet))
+            case {"port": state}:
+                self._ports.plug(state)
             case {"asks": intent}:
                 self._tasks.append(asyncio.create_task(self._ask(intent, event.get("id"))))
 
@@ -73,8 +103,9 @@ class Player:
                 self._scripts.act(ANNA, "beat")
 
     def leaves(self) -> list[tuple[float, str]]:
-        """Behind the stop that is the gateway's own: it sends one at each opening."""
-        return [(self._ms(at_s), packet.hex(" ").upper()) for at_s, packet in self._port.written[1:]]
+        """Behind the stop that is the gateway's own: it sends one when it opens a port."""
+        written = [one for port in self._ports.opened for one in port.written]
+        return [(self._ms(at_s), packet.hex(" ").upper()) for at_s, packet in written[1:]]
 
     def tells(self) -> list[tuple[float, str, Any]]:
         """Each field when it has changed."""
@@ -107,8 +138,10 @@ class Player:
                 await control.stop()
             case {"type": "resume"}:
                 control.resume(ANNA, self._session)
-            case {"type": "readBattery"}:
-                await control.board.battery.read()
+            case {"type": "stopGroup"}:
+                await control.operations.end_group(self._session)
+            case {"type": "readBattery" | "readPositions"}:
+                await self._read(intent)
             case {"type": "board", "family": family}:
                 control.name_board(ANNA, family)
             case {"type": "download", "groups": groups}:
@@ -127,6 +160,13 @@ class Player:
     async def _run(self, slot: int, times: int) -> None:
         if await self._scripts.run(ANNA, slot, times, take=False) == "silent":
             raise NoAnswerError("The board did not say that it runs the group.")
+
+    async def _read(self, intent: Event) -> None:
+        if intent["type"] == "readBattery":
+            await self._control.board.battery.read()
+            return
+        question = encode(ReadPositions(tuple(intent["servos"])), self._control.board.family)
+        await self._control.send(self._session, question.hex())
 
     def _cancel_download(self) -> None:
         job = self._control.board.jobs.latest
@@ -193,13 +233,13 @@ def is_like(events: list[tuple[Any, ...]], expected: list[tuple[Any, ...]]) -> N
 @pytest.mark.parametrize("scenario", SCENARIOS, ids=[f"{one['part']}: {one['name']}" for one in SCENARIOS])
 @in_virtual_time
 async def test_what_comes_of_it_is_what_is_written(scenario: Event) -> None:
-    port, events = FakePort(), scenario["events"]
+    ports, events = PulledPorts(), scenario["events"]
     identifies = scenario.get("identifies", False)
-    control = Control(FakePorts(port), now, scenario["family"], identifies_board=identifies)
+    control = Control(ports, now, scenario["family"], identifies_board=identifies)
     await control.use_port(DEVICE)
     if not identifies:
         await asyncio.sleep(OPEN_FOR_S)
-    player = Player(control, port)
+    player = Player(control, ports)
     for event in events:
         at(player.begun_s + event["atMs"] / 1000, partial(player.take, event))
     watching = asyncio.create_task(player.watch())
@@ -212,4 +252,3 @@ async def test_what_comes_of_it_is_what_is_written(scenario: Event) -> None:
     for field in {field for _, field, _ in (*told, *tells)}:
         is_like([one for one in tells if one[1] == field], [one for one in told if one[1] == field])
     await control.board.link.close()
-    port.close()

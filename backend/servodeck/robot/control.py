@@ -406,6 +406,9 @@ class Control:
     def board_lost(self) -> None:
         self._latch.cause = Cause("loss")  # the change of the link's state follows and tells both
 
+    def stopped_at_return(self, opened_s: float) -> None:
+        self._tell_unheld(opened_s)
+
     def is_watched(self) -> bool:
         return len(self.hub) > 0
 
@@ -457,8 +460,11 @@ class Control:
 
     def _halted(self, left: Left) -> None:
         if not left.cancelled() and left.exception() is None:
-            self._unheld = self.board.unheld_since(self._pressed_s)
-            self._broadcast.everybody(HaltedMessage(unheld=self.unheld))
+            self._tell_unheld(self._pressed_s)
+
+    def _tell_unheld(self, since_s: float) -> None:
+        self._unheld = self.board.unheld_since(since_s)
+        self._broadcast.everybody(HaltedMessage(unheld=self.unheld))
 
 
 def still_moving(motion: Estimate, now: float) -> str:

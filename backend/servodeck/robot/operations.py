@@ -13,11 +13,12 @@ from typing import TYPE_CHECKING, Protocol
 from servodeck.errors import CancelledError, GatewayError, MovingError, NoAnswerError
 from servodeck.port.wire import Left
 from servodeck.protocol.families import Family
-from servodeck.protocol.timings import RUN, STOP
+from servodeck.protocol.timings import RUN
 from servodeck.protocol.values import Command, Erase, Erased, Release, Run, RunAccepted, RunStarted, SetSpeed
 from servodeck.robot.board.downloads import ERASE_TIMEOUT_S
 from servodeck.robot.board.move_plan import judge_command, portions_of
 from servodeck.robot.board.packet_rules import MOVE, judge_latch
+from servodeck.robot.board.recovery import repeat_stop
 from servodeck.robot.hub import Session
 from servodeck.robot.lease import Permit
 from servodeck.snapshots import Outcome
@@ -126,9 +127,11 @@ class Operations:
         async with self._one_request():
             grant = Grant(self._control, claim)
             self._control.board.plays.judge_idle()
-            if self._ending:  # one that left between the repeats of a stop would be ended by the last one
-                await asyncio.shield(self._ending)
-                claim.renew()
+            # One that left between the repeats of a stop would be ended by the last one.
+            for stops in (self._ending, self._control.board.returning):
+                if stops:
+                    await asyncio.shield(stops)
+                    claim.renew()
             await grant.end_what_moves()
             left = grant.send(command)
             if "run" not in family.answers:
@@ -144,18 +147,19 @@ class Operations:
         """
         left = self._control.stop_once(session)
         if self._ending is None:
-            self._ending = asyncio.create_task(self._end_again(session))
+            self._ending = asyncio.create_task(self._end_again(session, left))
         ending = self._ending
         await left
         await asyncio.shield(ending)
         return "sent"
 
-    async def _end_again(self, session: Session) -> None:
+    async def _end_again(self, session: Session, first: Left) -> None:
+        waiting = [first]
         try:
             with contextlib.suppress(GatewayError):  # a port that is lost takes no more of them
-                for _ in range(STOP.repeats):
-                    await asyncio.sleep(STOP.repeat_every_ms / 1000)
-                    await self._control.stop_once(session)
+                await repeat_stop(
+                    lambda: waiting.pop() if waiting else self._control.stop_once(session), self._control.now
+                )
         finally:
             self._ending = None
 

@@ -78,6 +78,7 @@ export function requireRest(core: Core): void {
 
 function notReady(link: LinkState): LinkError {
   if (link.status === 'refused') return link.error;
+  if (link.status === 'lost') return new LinkError('lost', 'the link is gone');
   if (link.status === 'stale') return new LinkError('boardSilent', 'the board does not answer');
   return link.status === 'identifying'
     ? new LinkError('busy', 'the board is being asked who it is')

@@ -72,8 +72,8 @@ export interface RobotEstimate {
   maySwallow(): boolean;
   /** It may not take up what is sent before. */
   deafUntilMs(): number;
-  /** The link was opened just now: others may have set something in motion before. */
-  opened(): void;
+  /** The link was opened then: others may have set something in motion before. */
+  opened(atMs: number): void;
   /** What others, who saw it move, know of it just now. */
   placed(before: MotionBefore): void;
 }
@@ -170,7 +170,7 @@ export function createRobotEstimate(family: Family, clock: Clock): RobotEstimate
     cut: () => (motion = afterCutPacket(now(), family)),
     maySwallow: () => motion.maySwallow > 0,
     deafUntilMs: () => motion.deafUntilMs,
-    opened: () => (motion = inherited(now(), clock.now())),
+    opened: (atMs) => (motion = inherited(now(), atMs)),
     placed: (before) => (motion = takenOver(now(), before, clock.now(), family)),
   };
 }

@@ -95,7 +95,7 @@ describe('STOP', () => {
     await rig.clock.advance(600);
     await done;
     const stops = rig.heard.slice(before).filter(({ command }) => command.kind === 'stop');
-    expect(stops.map(({ atMs }) => Math.round(atMs - pressedMs))).toEqual([-26, 4, 74, 144]);
+    expect(stops.map(({ atMs }) => Math.round(atMs - pressedMs))).toEqual([-16, 4, 74, 144]);
     expect(rig.session.state.latch?.stop).toBe('sent');
   });
 

@@ -28,6 +28,8 @@ export interface Lanes {
   answered(command: number): void;
   /** The packet that has not left the wire for sure: it is leaving, or it failed on the way and none has left since. */
   unfinished(): Uint8Array | null;
+  /** The line is open again: what left before it was lost may be on the wire still. */
+  returned(): void;
   /** Rejects every request that has not begun to leave. Stops stay. */
   purge(error: LinkError): void;
 }
@@ -54,6 +56,7 @@ export function createLanes(options: LaneOptions): Lanes {
   let lastAnswer: number | undefined;
   let unfinished: Uint8Array | null = null;
   let endGap = (): void => undefined;
+  let returning: Promise<void> | null = null;
 
   const next = (): Waiting | null => nextStop() ?? requests.shift() ?? newestMove();
 
@@ -112,6 +115,8 @@ export function createLanes(options: LaneOptions): Lanes {
   async function pump(): Promise<void> {
     if (pumping) return;
     pumping = true;
+    if (returning !== null) await returning;
+    returning = null;
     for (let item = next(); item !== null; item = next()) await leave(item);
     pumping = false;
   }
@@ -135,6 +140,7 @@ export function createLanes(options: LaneOptions): Lanes {
       if (command === lastCommand) endGap();
     },
     unfinished: () => unfinished,
+    returned: () => void (returning = gap()),
     purge(error) {
       requests.splice(0).forEach((waiting) => waiting.reject(error));
     },

@@ -129,6 +129,7 @@ export function createSession(options: SessionOptions): Session {
   const replies = createReplies(clock);
   /** The link was opened and not only mended. */
   let isNew = false;
+  let openedMs = 0;
   /** Until it is known which board moves so. */
   let before: MotionBefore | null = null;
 
@@ -289,8 +290,10 @@ export function createSession(options: SessionOptions): Session {
       entered(line);
       return;
     }
+    if (line.isReturn) lanes.returned();
     resync.send();
     isNew = !line.isReturn;
+    openedMs = clock.now();
     if (line.isReturn) halt.stopAfterReturn();
     identification.begin();
   }
@@ -310,7 +313,7 @@ export function createSession(options: SessionOptions): Session {
     driver.groups.linked();
     if (before !== null) driver.core.robot.placed(before);
     // A shared link says itself what may go on, and a board of the page's own is as new as its link.
-    if (isNew && transport.halt === undefined && !transport.isSimulated) driver.core.robot.opened();
+    if (isNew && transport.halt === undefined && !transport.isSimulated) driver.core.robot.opened(openedMs);
     isNew = false;
   }
 

@@ -14,7 +14,8 @@ import type { ByteChannel } from './byteChannel.ts';
 export type Intent =
   | { readonly type: 'move'; readonly targets: readonly ServoTarget[]; readonly durationMs: number }
   | { readonly type: 'run'; readonly slot: number; readonly times: number }
-  | { readonly type: 'stop' | 'resume' | 'cancelDownload' | 'readBattery' | 'stopPlaying' }
+  | { readonly type: 'stop' | 'resume' | 'stopGroup' | 'cancelDownload' | 'readBattery' | 'stopPlaying' }
+  | { readonly type: 'readPositions'; readonly servos: readonly number[] }
   | {
       readonly type: 'play';
       readonly frames: readonly Frame[];
@@ -28,7 +29,11 @@ export type Intent =
     };
 
 /** What comes from outside. */
-type Input = { readonly asks: Intent; readonly id?: number } | { readonly says: string };
+type Input =
+  | { readonly asks: Intent; readonly id?: number }
+  | { readonly says: string }
+  /** Pulled, it takes no attempt to open it until it is there again. */
+  | { readonly port: 'gone' | 'back' };
 
 /** What must come of it. */
 type Output =
@@ -62,7 +67,7 @@ interface Told {
 const QUIET_MS = 10_000;
 /** So long the link is open before the first input: what others had set in motion is then no longer than this from its end. */
 const OPEN_FOR_MS = 100;
-const isInput = (event: ScenarioEvent): boolean => 'asks' in event || 'says' in event;
+const isInput = (event: ScenarioEvent): boolean => 'asks' in event || 'says' in event || 'port' in event;
 const exactly = (ms: number): number => Math.round(ms * 1000) / 1000;
 
 /** Its inputs with what came of them, in the order of time. */
@@ -74,9 +79,13 @@ export async function played({ events, ...head }: Scenario): Promise<Scenario> {
   const note = (output: Output): void =>
     void outputs.push({ atMs: exactly(clock.now() - openForMs), ...output });
   let isBegun = false;
+  let isThere = true;
   const channel: ByteChannel = {
     ...{ label: 'Board', longestPacket: Infinity, events: null },
-    open: () => Promise.resolve(),
+    open: () =>
+      isThere
+        ? Promise.resolve()
+        : Promise.reject(new LinkError('portMissing', 'the device is not plugged in')),
     async write(packet) {
       note({ leaves: toHex(packet) });
       await sleep(clock, wireMs(packet.length));
@@ -86,6 +95,11 @@ export async function played({ events, ...head }: Scenario): Promise<Scenario> {
   const session = createLocalRobot({
     ...{ channel, kind: 'webSerial', clock, family: familyOf(head.family), identifies: head.identifies },
   });
+  function plug(isBack: boolean): void {
+    isThere = isBack;
+    if (!isBack) channel.events?.lost(new LinkError('lost', 'the device was pulled'));
+  }
+
   let before = toldOf(session.state);
   session.subscribe({
     state(state) {
@@ -103,6 +117,7 @@ export async function played({ events, ...head }: Scenario): Promise<Scenario> {
   for (const { atMs, ...input } of inputs)
     clock.after(atMs, () => {
       if ('says' in input) channel.events?.received(fromHex(input.says));
+      else if ('port' in input) plug(input.port === 'back');
       else if ('asks' in input) begin(session, input.asks, input.id ?? null, note);
     });
   await clock.advance(Math.max(0, ...inputs.map(({ atMs }) => atMs)) + QUIET_MS);
@@ -135,8 +150,12 @@ async function asked(session: Session, intent: Intent): Promise<unknown> {
       return session.halt();
     case 'resume':
       return session.resume();
+    case 'stopGroup':
+      return session.stopGroup();
     case 'readBattery':
       return session.readBattery();
+    case 'readPositions':
+      return session.readPositions(intent.servos);
     case 'board':
       return session.choose(familyOf(intent.family));
     case 'download':

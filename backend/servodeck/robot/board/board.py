@@ -45,7 +45,7 @@ from servodeck.robot.board.moves import Moves
 from servodeck.robot.board.packet_rules import STOP, Part, is_harmless
 from servodeck.robot.board.playing import Playing, Plays
 from servodeck.robot.board.readings import Readings
-from servodeck.robot.board.recovery import StopAgain, filler_for
+from servodeck.robot.board.recovery import StopAgain, filler_for, repeat_stop
 from servodeck.robot.board.slots import SlotMemory
 from servodeck.robot.board.unattended import Unattended
 from servodeck.robot.motion.halt_plan import Unheld
@@ -60,6 +60,9 @@ class BoardEvents(Protocol):
 
     def board_lost(self) -> None:
         """Its port was open and is gone, unasked, or it has fallen silent; `board_changed` follows."""
+
+    def stopped_at_return(self, opened_s: float) -> None:
+        """The stops have left that a port gets which has come back; it opened then."""
 
     def board_changed(self) -> None:
         """The link, the board, a slot, what goes on alone or what waits to start is another now."""
@@ -123,6 +126,9 @@ class Board:
         self._silence = Silence()
         self._cut: tuple[str, bytes] | None = None
         """The packet that a loss has cut on its way to the board at that place, until filler has ended it."""
+        self._was_lost = False
+        self.returning: asyncio.Task[None] | None = None
+        """The stops that a port gets which has come back are leaving."""
         self._stop_again = StopAgain(now, lambda: self._motion.deaf_until_s, self._stop_unheard)
         self._run: Run | Playing | None = None
         self.unattended = Unattended(now, events.unattended_time_over, events.board_changed)
@@ -264,6 +270,7 @@ class Board:
         """Before the port is given up: ends what only this gateway could still stop."""
         self.jobs.end(ClosedError("The port was closed before all of it was stored."))
         self.plays.end(ClosedError("The port was closed."))
+        self._was_lost = False
         if self.motion.group_may_run(self._now()):
             with contextlib.suppress(GatewayError):
                 await self.halt(CancelledError("The port is being closed."))
@@ -283,12 +290,32 @@ class Board:
         metrics.totals.port_openings += 1
         self._events.port_opened()
         self._lose_motion()
-        self._motion.opened(self._now())
-        wire.send(STOP_PACKET, self, urgent=True)
+        if self._was_lost:
+            self.returning = asyncio.create_task(self._stop_at_return(wire))
+        else:
+            self._motion.opened(self._now())
+            wire.send(STOP_PACKET, self, urgent=True)
+        self._was_lost = False
         self.identification.begin()
+
+    async def _stop_at_return(self, wire: Wire) -> None:
+        """What moved when it was lost may move on. Where somebody presses STOP meanwhile, its stops leave in
+        place of these.
+        """
+        opened_s, halts = self._now(), self.halts
+        try:
+            with contextlib.suppress(GatewayError):  # lost once more
+                await repeat_stop(
+                    lambda: wire.send(STOP_PACKET, self, urgent=True), self._now, lambda: halts == self.halts
+                )
+                if halts == self.halts:
+                    self._events.stopped_at_return(opened_s)
+        finally:
+            self.returning = None
 
     def port_lost(self, unfinished: bytes | None) -> None:
         metrics.totals.port_losses += 1
+        self._was_lost = True
         self._events.board_lost()
         self.jobs.end(PortLostError("The serial port went away before all of it was stored."))
         self.plays.end(PortLostError("The serial port went away."))

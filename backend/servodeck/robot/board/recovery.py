@@ -9,8 +9,9 @@ the return (S2, docs/adr/0007). While the board works on its flash it keeps one 
 import asyncio
 from collections.abc import Callable
 
+from servodeck.port.wire import CLOCK_GRAIN_S, STOP_PACKET, Left
 from servodeck.protocol.decoder import COMMAND_AT
-from servodeck.protocol.timings import LINE
+from servodeck.protocol.timings import LINE, STOP, wire_s
 from servodeck.robot.board.packet_rules import DOWNLOAD, RUN
 
 
@@ -24,6 +25,24 @@ def filler_for(cut: bytes, filler: int) -> bytes:
     if cut[COMMAND_AT] in (RUN, DOWNLOAD):
         return bytes([filler]) * LINE.filler_bytes
     return bytes([0]) + bytes([filler]) * len(cut)
+
+
+async def repeat_stop(
+    send: Callable[[], Left], now: Callable[[], float], is_wanted: Callable[[], bool] = lambda: True
+) -> None:
+    """Sends a stop now, and repeats of it: each begins to leave so long after the one before, or later where
+    the wire is taken. Two that are closer may both fall into the time in which a board hears none (S54). No
+    more of them leave once `is_wanted` says no.
+    """
+    due_s = now()
+    for _ in range(1 + STOP.repeats):
+        # In a loop: event loops round to milliseconds.
+        while (left_s := due_s - now()) > CLOCK_GRAIN_S:  # noqa: ASYNC110 (nothing announces a time)
+            await asyncio.sleep(left_s)
+        if not is_wanted():
+            return
+        await send()
+        due_s = now() - wire_s(len(STOP_PACKET)) + STOP.repeat_every_ms / 1000
 
 
 class StopAgain:
