@@ -5,7 +5,7 @@
 import { Fragment, useCallback } from 'react';
 import { totalDurationMs } from '#shared/group/group.ts';
 import { rename } from '#shared/group/groupEdits.ts';
-import { convertGroup } from '#shared/profile/units.ts';
+import { convertGroup } from '#shared/group/frameEdits.ts';
 import { useStores, useDocument, useGroupBoard, useKnownFamily } from '../../stores.ts';
 import { IconButton, Button } from '../../../ui/Button.tsx';
 import { words } from '../../../i18n/whole.ts';
