@@ -10,6 +10,7 @@ import typer
 
 from servodeck.cli.commands import COMMANDS, library, pose, poses
 from servodeck.cli.config import PREFIX, commands_of, settings_of, toml_line
+from servodeck.cli.doctor import doctor
 from servodeck.cli.groups import download, play
 from servodeck.cli.options import USAGE, Token, TokenFile, asked, fail, remote_at
 from servodeck.cli.program import new_program
@@ -24,6 +25,8 @@ SCAN_WAIT_S = 15.0
 app = new_program()
 for command in (*COMMANDS, pose, poses, download, play, library, udev_rule):
     app.command()(command)
+
+app.command()(doctor)
 
 
 @app.command("config", context_settings={"allow_extra_args": True, "ignore_unknown_options": True})

@@ -1,0 +1,144 @@
+"""The command that looks for what keeps a robot from being driven, and says what to do about it.
+
+Prints findings, the good ones too, so that all of it can be sent to somebody who helps. Asks a board for its
+battery and moves nothing.
+"""
+
+import platform
+import shutil
+import sys
+from collections.abc import Generator, Iterator
+from dataclasses import dataclass
+from typing import Annotated, Any, Literal
+
+import typer
+
+from servodeck import __version__
+from servodeck.cli.options import FAILURE, Token, TokenFile, Url, remote_at
+from servodeck.cli.remote import HERE, RefusedError, Remote, UnreachableError
+from servodeck.errors import PortError
+from servodeck.port.diagnosis import Heard, access_to, listen, looks_like
+from servodeck.port.hid import is_hid
+from servodeck.port.ports import PortInfo, is_same_port, list_devices
+
+NOISE_SHOWN = 32
+NOISE_MEANS = {
+    "rate": "They look like another speed. Servodeck uses 9600 baud: set the board's port to it.",
+    "text": "They are text, so a program on the board prints. On a LeArm AI press K1 once.",
+    "other": "Check the wiring: GND to GND, TX to RX, RX to TX.",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    sign: Literal["ok", "look", "--"]
+    """`look`: something to do."""
+    text: str
+
+
+def doctor(
+    url: Url = HERE,
+    token: Token = "",
+    token_file: TokenFile = None,
+    port: Annotated[
+        str, typer.Option(help="Look at this port alone; `servodeck ports` lists them.", metavar="DEVICE")
+    ] = "",
+) -> None:
+    """Look for what keeps a robot from being driven: gateway, ports, access, what a board answers."""
+    findings = list(findings_of(remote_at(url, token, token_file), port))
+    for finding in findings:
+        print(f"{finding.sign:<4}  {finding.text}")
+    if any(finding.sign == "look" for finding in findings):
+        sys.exit(FAILURE)
+
+
+def findings_of(remote: Remote, device: str) -> Iterator[Finding]:
+    yield Finding(
+        "ok", f"servodeck {__version__}, Python {platform.python_version()}, {platform.platform(terse=True)}"
+    )
+    status = yield from gateway_findings(remote)
+    owned = None if status is None else status["port"]["device"]
+    ports = list_devices()
+    if device:
+        ports = [port for port in ports if is_same_port(port.device, device)] or [
+            PortInfo(device, "Named on the command line", likely=True)
+        ]
+    if not ports:
+        yield Finding(
+            "look",
+            "This computer has no port that could be a board. Plug its cable in, switch the board on, "
+            "and try another cable: some carry power only.",
+        )
+    if shutil.which("brltty"):
+        yield Finding("look", "brltty is installed and takes CH340 adapters away: sudo apt remove brltty")
+    for port in ports:
+        is_owned = owned is not None and is_same_port(port.device, owned)
+        yield from port_findings(port, is_owned=is_owned, is_asked=bool(device) or port.likely)
+
+
+def gateway_findings(remote: Remote) -> Generator[Finding, None, dict[str, Any] | None]:
+    """Returns its status, None where it gives none."""
+    try:
+        status: dict[str, Any] = remote.ask("GET", "/api/status")
+    except UnreachableError:
+        yield Finding("--", f"No gateway answers at {remote.url}: start one with servodeck serve.")
+        return None
+    except RefusedError as error:
+        yield Finding("look", f"The gateway at {remote.url} lets only paired devices in: {error}")
+        return None
+    yield Finding("ok", f"A gateway answers at {remote.url}, version {status['version']}.")
+    port, link = status["port"], status["link"]
+    if port["device"] is None:
+        yield Finding(
+            "look", "It has no port open: choose one on its page, or start it with --serial DEVICE."
+        )
+    elif link["status"] == "ready":
+        yield Finding("ok", f"It drives a board on {port['device']}.")
+    else:
+        why = port["detail"] or link["detail"] or ""
+        yield Finding("look", f"Its link to {port['device']} is {link['status']}. {why}".rstrip())
+    if status["latch"]:
+        yield Finding("look", "The robot is stopped. Look at it, then: servodeck resume")
+    return status
+
+
+def port_findings(port: PortInfo, *, is_owned: bool, is_asked: bool) -> Iterator[Finding]:
+    name = f"{port.device} ({port.description})"
+    if is_owned:
+        yield Finding("ok", f"{name} is the gateway's.")
+        return
+    if not is_hid(port.device) and "://" not in port.device:
+        access = access_to(port.device)
+        if access.held_by:
+            yield Finding("look", f"{name} is open in {', '.join(access.held_by)}: close it there.")
+            return
+        if not access.may_open:
+            group = f"sudo usermod -aG {access.group} $USER, then log in again"
+            yield Finding("look", f"This account may not open {name}: {group}.")
+            return
+    if not is_asked:
+        yield Finding("--", f"{name} is no usual cable of a board. To ask it: --port {port.device}")
+        return
+    try:
+        yield from heard_findings(name, listen(port.device))
+    except PortError as error:
+        yield Finding("look", error.detail)
+
+
+def heard_findings(name: str, heard: Heard) -> Iterator[Finding]:
+    if heard.battery_mv is not None:
+        yield Finding("ok", f"A board answers on {name}; its battery has {heard.battery_mv / 1000:.2f} V.")
+    elif heard.packets:
+        yield Finding("ok", f"A board sends on {name} and does not tell its battery, as some do not.")
+    elif not heard.noise:
+        yield Finding(
+            "look",
+            f"Nothing answers on {name}. Switch the board on and check that TX goes to RX. "
+            "OpenArm and LeArm may have no battery answer: connect, and choose the board by hand.",
+        )
+    if heard.noise:
+        shown = heard.noise[:NOISE_SHOWN].hex(" ")
+        means = NOISE_MEANS[looks_like(heard.noise)]
+        yield Finding(
+            "look", f"{len(heard.noise)} bytes on {name} are no packets. {means} They begin {shown}"
+        )

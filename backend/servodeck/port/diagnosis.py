@@ -1,0 +1,108 @@
+"""Looks at a port of this computer from outside: who may open it, who has it open, what a board on it says.
+
+Asks one harmless question, for the battery. Knows no gateway and no terminal.
+"""
+
+import os
+import time
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from servodeck.port.ports import OpenPort, group_of, open_port
+from servodeck.protocol.decoder import Decoder, DecoderEvent, PacketEvent
+from servodeck.protocol.families import FAMILIES
+from servodeck.protocol.packets import encode
+from servodeck.protocol.values import ReadBattery
+
+PROCESSES = Path("/proc")
+LISTENS_S = 1.0
+BATTERY = 15
+MOSTLY = 0.7
+PRINTABLE = frozenset(range(0x20, 0x7F)) | {0x0A, 0x0D}
+# At another speed bits run together: one run of ones beside one of zeros.
+RUNS = frozenset((0xFF << zeros) & 0xFF for zeros in range(9)) | frozenset(0xFF >> ones for ones in range(9))
+
+
+@dataclass(frozen=True, slots=True)
+class Access:
+    may_open: bool
+    group: str
+    """Whose members may."""
+    held_by: tuple[str, ...]
+    """Programs that have it open, so far as this account may see: "name (process number)"."""
+
+
+@dataclass(slots=True)
+class Heard:
+    battery_mv: int | None = None
+    packets: int = 0
+    noise: bytearray = field(default_factory=bytearray)
+    """What is no packet."""
+
+    def take(self, event: DecoderEvent) -> None:
+        if not isinstance(event, PacketEvent):
+            self.noise += event.bytes
+            return
+        self.packets += 1
+        if event.packet.command == BATTERY:
+            self.battery_mv = int.from_bytes(event.packet.params[:2], "little")
+
+
+def access_to(device: str) -> Access:
+    """`device` is the path of a serial port."""
+    return Access(os.access(device, os.R_OK | os.W_OK), group_of(device), tuple(holders_of(device)))
+
+
+def holders_of(device: str) -> list[str]:
+    """Empty where the system does not tell, as on macOS and Windows."""
+    real = os.path.realpath(device)
+    return [
+        f"{name_of(process)} ({process.name})"
+        for process in PROCESSES.glob("[0-9]*")
+        if process.name != str(os.getpid()) and has_open(process, real)
+    ]
+
+
+def has_open(process: Path, real: str) -> bool:
+    try:
+        return any(os.path.realpath(link) == real for link in (process / "fd").iterdir())
+    except OSError:  # another account's, or gone by now
+        return False
+
+
+def name_of(process: Path) -> str:
+    try:
+        return (process / "comm").read_text().strip()
+    except OSError:
+        return "a program"
+
+
+def listen(device: str) -> Heard:
+    """Opens the port, asks for the battery and listens for a second. Raises a PortError with a sentence."""
+    port = open_port(device)
+    try:
+        return heard_on(port)
+    finally:
+        port.close()
+
+
+def heard_on(port: OpenPort) -> Heard:
+    heard = Heard()
+    decoder = Decoder(heard.take)
+    port.write(encode(ReadBattery(), FAMILIES["doc"]))
+    until_s = time.monotonic() + LISTENS_S
+    while time.monotonic() < until_s and heard.battery_mv is None:
+        decoder.push(port.read())
+    decoder.idle()
+    return heard
+
+
+def looks_like(noise: bytes | bytearray) -> str:
+    """`text` of a program that prints, `rate` for bytes at another speed, else `other`. As in doctor.ts."""
+    if share(noise, PRINTABLE) >= MOSTLY:
+        return "text"
+    return "rate" if share(noise, RUNS) >= MOSTLY else "other"
+
+
+def share(noise: bytes | bytearray, of: frozenset[int]) -> float:
+    return sum(byte in of for byte in noise) / len(noise)

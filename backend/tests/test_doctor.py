@@ -1,0 +1,79 @@
+"""What `servodeck doctor` finds on real ports, and what it says to do."""
+
+import os
+import subprocess
+import sys
+import threading
+from collections.abc import Iterator
+
+import pytest
+from typer.testing import CliRunner
+
+from servodeck.cli.main import app
+from servodeck.port.diagnosis import looks_like
+from tests.test_ports import Pty
+
+NOBODY = "http://127.0.0.1:1"
+
+
+@pytest.fixture
+def pty() -> Iterator[Pty]:
+    made = Pty()
+    yield made
+    made.unplug()
+
+
+def diagnosed(pty: Pty, answer: bytes) -> tuple[int, str]:
+    """With a board that sends `answer` once it has been asked for its battery."""
+    # Without anybody at the other end there is nothing to read from.
+    cable = os.open(pty.device, os.O_RDWR | os.O_NOCTTY)
+    board = threading.Thread(target=lambda: os.read(pty.board, 100) and os.write(pty.board, answer))
+    board.start()
+    result = CliRunner().invoke(app, ["doctor", "--url", NOBODY, "--port", pty.device])
+    board.join()
+    os.close(cable)
+    return result.exit_code, result.stdout
+
+
+def test_a_board_that_answers_is_in_order(pty: Pty) -> None:
+    code, said = diagnosed(pty, b"\x55\x55\x04\x0f\x38\x1d")
+    assert "its battery has 7.48 V" in said
+    assert code == 0
+
+
+@pytest.mark.parametrize(
+    ("answer", "advice"),
+    [
+        (b"rst:0x1 (POWERON_RESET),boot:1", "press K1"),
+        (bytes((0, 255, 254, 128, 224, 0, 248, 0)), "another speed"),
+        (bytes((0x12, 0x9A, 0x34, 0xD1, 7, 0xC3)), "wiring"),
+    ],
+)
+def test_bytes_that_are_no_packets_are_explained(pty: Pty, answer: bytes, advice: str) -> None:
+    code, said = diagnosed(pty, answer)
+    assert advice in said
+    assert answer.hex(" ") in said
+    assert code == 1
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="other systems do not tell")
+def test_a_port_that_a_program_has_open_names_the_program(pty: Pty) -> None:
+    other = subprocess.Popen(["sleep", "60"], stdin=(cable := os.open(pty.device, os.O_RDWR | os.O_NOCTTY)))
+    os.close(cable)
+    result = CliRunner().invoke(app, ["doctor", "--url", NOBODY, "--port", pty.device])
+    other.kill()
+    other.wait()
+    assert f"is open in sleep ({other.pid}): close it there." in result.stdout
+
+
+def test_without_a_gateway_it_says_how_to_start_one(pty: Pty) -> None:
+    _, said = diagnosed(pty, b"")
+    assert f"No gateway answers at {NOBODY}" in said
+    assert "Nothing answers on" in said
+
+
+@pytest.mark.parametrize(
+    ("noise", "kind"), [(b"boot", "text"), (b"\xff\x00", "rate"), (b"\x12\x9a", "other")]
+)
+def test_what_noise_looks_like(noise: bytes, kind: str) -> None:
+    assert looks_like(noise) == kind
