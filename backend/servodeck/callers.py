@@ -24,7 +24,7 @@ class Caller:
     def require(self, role: Role) -> None:
         """Raises ForbiddenError where it is not."""
         if not self.may(role):
-            raise ForbiddenError(f"{self.name} is a {self.role} here; this takes the role {role}.")
+            raise ForbiddenError(f"{self.name} has the role {self.role}; this needs the role {role}.")
 
 
 THIS_COMPUTER = Caller("local", "This computer", "owner")

@@ -131,7 +131,7 @@ async def test_a_page_of_another_version_is_told_to_reload(gateway: Running, que
             await client.recv()
         assert (client.close_code, client.close_reason) == (
             4001,
-            "This page is of another version than the gateway: reload it.",
+            "This page and the gateway have different versions: reload the page.",
         )
     assert len(gateway.control.hub) == 0
 

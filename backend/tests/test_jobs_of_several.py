@@ -129,7 +129,7 @@ async def test_a_stop_packet_ends_it_behind_a_whole_group_too() -> None:
 async def test_a_slot_that_is_wanted_twice_or_another_board_is_refused_before_anything_is_sent() -> None:
     port = AnsweringPort()
     async with gateway_on(port) as control:
-        with pytest.raises(OutOfRangeError, match="Slot 8 is wanted twice"):
+        with pytest.raises(OutOfRangeError, match="Slot 8 is given twice"):
             begin(control, WAVE, BOW, WAVE)
         made = [made_of(WAVE, list(packets_of(WAVE, "doc")), "doc")]
         control.choose_family("openarm-new")
@@ -190,7 +190,7 @@ async def test_nothing_comes_behind_what_has_its_slot_was_called_off_or_is_anoth
         def refuse() -> None:
             raise NotDrivingError("Bert drives.")
 
-        with pytest.raises(OutOfRangeError, match="Slot 8 is wanted twice"):
+        with pytest.raises(OutOfRangeError, match="Slot 8 is given twice"):
             follow(control, job.id, BOW, WAVE)
         with pytest.raises(NotDrivingError):
             follow(control, job.id, BOW, claim=refuse)

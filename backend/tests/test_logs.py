@@ -87,7 +87,7 @@ def test_whoever_is_refused_costs_few_lines_and_no_error(json_served: Served) ->
         "type": "websocket",
         "path": "/ws",
         "code": "forbidden",
-        "reason": "Only the page that this gateway serves may ask; the Origin header names another.",
+        "reason": "Requests from other sites are refused: the Origin header names another address.",
     }
 
 

@@ -42,7 +42,7 @@ class DeviceStore:
         try:
             return self.robots[document]
         except KeyError:
-            raise NotFoundError("The library does not hold that.") from None
+            raise NotFoundError("The library has no such document.") from None
 
 
 def gateway_at(store: DeviceStore, remembered: Remembered | None = None, *ports: FakePort) -> Control:

@@ -61,7 +61,7 @@ async def test_where_only_the_board_knows_the_end_letting_go_is_enough_and_nobod
     async with script() as here:
         await here.post("slots/8/run")
         assert (await running(here)) == {"slot": 8, "times": 1, "endsInMs": None}
-        assert "let go" in (await here.move(1500, s1=2000)).json()["detail"]
+        assert "release the lease" in (await here.move(1500, s1=2000)).json()["detail"]
         await here.post("lease", action="release")
         await asyncio.sleep(0.3)
         assert (await here.move(1500, s1=2000)).status_code == 200

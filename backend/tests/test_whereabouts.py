@@ -132,7 +132,7 @@ async def test_choosing_the_name_again_takes_whatever_has_it_now() -> None:
     twin = in_socket(CH340, "1-2", USB0)
     at(1, lambda: bus.replug(twin))
     await asyncio.sleep(2)
-    assert link.state.detail == "/dev/ttyUSB0 is the name of another device now."
+    assert link.state.detail == "/dev/ttyUSB0 is another device now. Choose the port again."
     await link.use(USB0)
     assert bus.opened == [CH340, twin]
     await link.close()

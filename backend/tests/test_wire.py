@@ -25,7 +25,7 @@ from tests.samples import BATTERY, GAP_MS, MOVE, MOVE_ELSEWHERE, RUN, STOP, wire
 from tests.virtual_time import at, in_virtual_time, now
 
 ANNA, BERT = "anna", "bert"
-STOPPED = LatchedError("Stopped before it left.")
+STOPPED = LatchedError("STOP was pressed before this was sent.")
 STOP_MS = wire_ms(STOP)
 SLOW_MS = 80
 

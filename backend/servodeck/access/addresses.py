@@ -84,7 +84,7 @@ def behind_proxy(url: str) -> Access:
     """Only that address, whose scheme the proxy speaks. Raises ValueError with what is wrong with it."""
     parts = urlsplit(url)
     if parts.scheme not in ("http", "https") or not parts.hostname:
-        raise ValueError("it has to begin with http:// or https:// and name a host")
+        raise ValueError("it must begin with http:// or https:// and name a host")
     if parts.path not in ("", "/") or parts.query or parts.fragment or parts.username is not None:
         raise ValueError("it can only name scheme, host and port")
     scheme: Scheme = "https" if parts.scheme == "https" else "http"

@@ -96,7 +96,7 @@ class Pairing:
     def invite(self, role: Role, name: str) -> Invite:
         """Raises BusyError where too many are open."""
         if len(self.open) >= MAX_OPEN:
-            raise BusyError("Enough invitations are open. They end after two minutes.")
+            raise BusyError("Too many invitations are open. Each expires after two minutes: try again then.")
         if not any(invite.code for invite in self.open):
             self._wrong_codes = 0
         code = "".join(secrets.choice("0123456789") for _ in range(CODE_DIGITS))
@@ -116,7 +116,7 @@ class Pairing:
 
     def withdraw(self, invite: str) -> None:
         if self._invites.pop(invite, None) is None:
-            raise NotFoundError("That invitation is over.")
+            raise NotFoundError("That invitation has expired.")
 
     def find_by_link(self, secret: str) -> Invite:
         """The open invitation of that link; `withdraw` uses it up. Raises PairingError."""
@@ -141,5 +141,5 @@ class Pairing:
 
 def locked() -> PairingLockedError:
     return PairingLockedError(
-        "Five wrong codes: no code counts any more. Ask for a new one, or scan the link."
+        "Five wrong codes: all open codes are void. Ask for a new code, or scan the link."
     )

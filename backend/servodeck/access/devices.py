@@ -73,7 +73,7 @@ class Devices:
     def admit(self, kind: Kind, name: str, role: Role) -> tuple[Device, str]:
         """A new one and its credential, which nobody can tell again."""
         if len(self._devices) >= MAX_DEVICES:
-            raise OutOfRangeError(f"{MAX_DEVICES} devices are paired and no more can be. Revoke some.")
+            raise OutOfRangeError(f"{MAX_DEVICES} devices are paired, which is the limit. Revoke one first.")
         secret = make_secret()
         device = Device(make_id(), kind, self._unique_name(name), role, digest_of(secret), self._now_ms())
         self._put(device)
@@ -139,7 +139,7 @@ class Devices:
     def _keep_an_owner(self, leaving: Device) -> None:
         others = [one for one in self.all if is_owners(one) and one.id != leaving.id]
         if is_owners(leaving) and not others:
-            raise ForbiddenError("This is the last owner: make somebody else an owner first.")
+            raise ForbiddenError("This is the last owner. Make another device an owner first.")
 
 
 def is_owners(device: Device) -> bool:
@@ -197,7 +197,8 @@ class DeviceFile:
 
     def _unusable(self, error: Exception) -> StorageError:
         return StorageError(
-            f"{self._path} cannot be used: {error}. Moving it away forgets who is paired and begins anew."
+            f"{self._path} cannot be used: {error}. "
+            "Move it away to start with an empty list of paired devices."
         )
 
 

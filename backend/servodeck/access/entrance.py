@@ -64,5 +64,5 @@ class Entrance:
         """The stop-only link that this is. Raises PairingError."""
         device = self.devices.find(credential)
         if device is None or device.kind != "stopLink":
-            raise PairingError("This stop-only link does not hold any more. Ask for a new one.")
+            raise PairingError("This stop-only link is no longer valid. Ask for a new one.")
         return device

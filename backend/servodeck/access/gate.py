@@ -40,7 +40,7 @@ def judge_handshake(headers: Headers, access: Access, own_address: str | None) -
     origin = only(found, b"origin")
     if origin is not None and origin != access.scheme.encode() + b"://" + host:
         raise ForbiddenError(
-            "Only the page that this gateway serves may ask; the Origin header names another."
+            "Requests from other sites are refused: the Origin header names another address."
         )
     judge_site(found)
     return host.decode("ascii")
@@ -61,7 +61,7 @@ def judge_body_type(method: str, headers: Headers) -> None:
     has_body = only(found, b"transfer-encoding") or only(found, b"content-length") not in (None, b"0")
     kind = (only(found, b"content-type") or b"").partition(b";")[0].strip().lower()
     if method in BODY_METHODS and has_body and kind != b"application/json":
-        raise WrongTypeError("A body has to be application/json.")
+        raise WrongTypeError("The body must be application/json.")
 
 
 def judge_body_size(headers: Headers, limit: int) -> None:
@@ -83,16 +83,14 @@ def judge_site(headers: list[tuple[bytes, bytes]]) -> None:
     if site in (None, b"same-origin", b"none") or only(headers, b"sec-fetch-mode") == b"navigate":
         return
     raise ForbiddenError(
-        "Only the page that this gateway serves may ask; the browser says another site does."
+        "Requests from other sites are refused: the header Sec-Fetch-Site names another site."
     )
 
 
 def judge_script(headers: Headers) -> None:
     """For routes that act: not even a link of another site may lead here."""
     if only(list(headers), b"sec-fetch-site") not in (None, b"same-origin", b"none"):
-        raise ForbiddenError(
-            "Only the page that this gateway serves may ask; a link of another site led here."
-        )
+        raise ForbiddenError("Requests from other sites are refused: a link on another site led here.")
 
 
 def only(headers: list[tuple[bytes, bytes]], name: bytes) -> bytes | None:

@@ -70,7 +70,7 @@ class Rates:
         rate = self._rate_of(device)
         if not rate.take():
             raise TooManyError(
-                f"{device.name} asks too often: come again in {rate.wait_s:.1f} s.", rate.wait_s
+                f"{device.name} sends too many requests: try again in {rate.wait_s:.1f} s.", rate.wait_s
             )
 
     def _rate_of(self, device: Device) -> Rate:

@@ -113,5 +113,5 @@ async def events(
     `gap` comes before it, because what happened since that event is not told.
     """
     if not control.hub.has_room_for(caller):
-        raise BusyError("All seats are taken: close another window or stream.")
+        raise BusyError("Too many clients are connected: close another window or event stream.")
     return EventStream(caller, control, last_event_id)

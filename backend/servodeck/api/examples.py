@@ -192,7 +192,7 @@ EXAMPLES: dict[tuple[str, str], Example] = {
         (*ON_THE_WIRE, "cancelled"),
     ),
     ("DELETE", "/api/play"): Example(
-        PLAY | {"status": "ended", "code": "cancelled", "detail": "It was stopped."}
+        PLAY | {"status": "ended", "code": "cancelled", "detail": "The group was stopped."}
     ),
     ("GET", "/api/jobs/{job}"): Example(JOB, errors=("notFound",)),
     ("DELETE", "/api/jobs/{job}"): Example(
@@ -285,20 +285,20 @@ EXAMPLES: dict[tuple[str, str], Example] = {
 }
 
 PROBLEMS: dict[ErrorCode, str] = {
-    "boardSilent": "The board does not answer. Is it switched on? It is asked again by itself.",
+    "boardSilent": "The board does not answer. Is it switched on? The gateway keeps trying.",
     "boardUnknown": "Nobody has said which board is connected. It answers like: bus-ctrl, xarm.",
-    "busy": "A group runs for up to 4.2 s more: wait, or let go of the lease to end it.",
-    "cancelled": "Stopped, or taken over, before all of it had left.",
+    "busy": "A group runs for up to 4.2 s more: wait, or release the lease to end it.",
+    "cancelled": "The robot was stopped or taken over before all packets were sent.",
     "closed": "No serial port is open.",
-    "conflict": "Somebody else has changed this document meanwhile.",
-    "echo": "The line sends back what it is given: its RX and TX may be joined, or crossed.",
-    "forbidden": "Dance is a viewer here; this takes the role driver.",
-    "latched": "Stopped. Motion waits for Resume.",
-    "lost": "The serial port is gone.",
+    "conflict": "Another client has changed this document since it was read.",
+    "echo": "The line returns what is sent: RX and TX may be connected to each other.",
+    "forbidden": "Dance is a viewer; this needs the role driver.",
+    "latched": "Stopped: motion is refused until somebody resumes.",
+    "lost": "The serial port is lost.",
     "malformed": "body.timeMs: Input should be a valid integer",
-    "noAnswer": "The board did not tell its battery voltage. Not every board can.",
-    "notDriving": 'Anna drives. An owner may take it: "take": true.',
-    "notFound": "The library does not hold that.",
+    "noAnswer": "The board did not report its battery voltage. Not every board can.",
+    "notDriving": 'Anna drives. An owner may take over with "take": true.',
+    "notFound": "The library has no such document.",
     "notPaired": "This device is not paired with the gateway.",
     "otherDevice": "Another device answers under that name now.",
     "outOfRange": "Elbow (servo 2): position is 1900, allowed 900..1800",
@@ -308,11 +308,11 @@ PROBLEMS: dict[ErrorCode, str] = {
     "portDenied": "This user may not open the port.",
     "portMissing": "There is no such port.",
     "slotBroken": "Slot 5 holds half a group: download it again.",
-    "slotChanged": "Something else was stored in slot 5 meanwhile.",
+    "slotChanged": "Something else was stored in slot 5 in the meantime.",
     "storageBusy": "The library is busy.",
     "storageFailed": "A file in the data folder cannot be used: disk I/O error.",
     "storageFull": "The disk is full.",
-    "wrongBoard": "The board does not answer like lsc-6.",
-    "tooMany": "Dance asks too often: come again in 0.4 s.",
+    "wrongBoard": "The answers of the board do not match lsc-6.",
+    "tooMany": "Dance sends too many requests: try again in 0.4 s.",
     "tooLarge": "The request is larger than 3145728 bytes.",
 }

@@ -113,7 +113,7 @@ def judge_limits(document: str, wanted: DocumentWrite, control: Control, caller:
     facts = wanted.facts
     is_ruled = isinstance(facts, RobotFacts) and control.robot.changes_limits(document, facts)
     if is_ruled and not control.driving.may_rule(caller):
-        raise NotDrivingError("Somebody else drives: the limits change only under their hands.")
+        raise NotDrivingError("Another client drives: only the driver or an owner may change the limits.")
 
 
 def keep(document: str, wanted: DocumentWrite, library: Library, caller: Caller) -> int:
@@ -159,7 +159,7 @@ def remove_version(document: IdInPath, version: IdInPath, library: OfLibrary) ->
 
 def check_document(text: str) -> None:
     if not is_object(text):
-        raise MalformedError("A document is a JSON object.")
+        raise MalformedError("The document must be a JSON object.")
 
 
 class RobotChoice(Message):
@@ -178,5 +178,5 @@ async def put_on_board(choice: RobotChoice, control: Controlled, caller: Annotat
     stands there than either.
     """
     if not control.driving.may_rule(caller):
-        raise NotDrivingError("Somebody else drives: which robot it is changes only under their hands.")
+        raise NotDrivingError("Another client drives: only the driver or an owner may change the robot.")
     await control.robot.put(choice.id, choice.instead_of)

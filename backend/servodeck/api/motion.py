@@ -199,12 +199,12 @@ def find(poses: Sequence[NamedPose], wanted: str) -> NamedPose:
         raise NotFoundError(f"No pose is called {wanted}. GET /api/poses lists them.")
     if len(exact) > 1:
         numbers = ", ".join(str(pose.id) for pose in exact)
-        raise OutOfRangeError(f"Several poses are called {wanted}: take one of the numbers {numbers}.")
+        raise OutOfRangeError(f"Several poses are called {wanted}: use a number instead, {numbers}.")
     return exact[0]
 
 
 def judge_unit(pose: NamedPose, family: Family) -> None:
     if pose.unit != family.unit:
         raise OutOfRangeError(
-            f"{pose.name} is in {UNITS[pose.unit]}; a {family.name} counts in {UNITS[family.unit]}."
+            f"{pose.name} is in {UNITS[pose.unit]}; a {family.name} uses {UNITS[family.unit]}."
         )

@@ -62,7 +62,7 @@ async def me(entrance: Entered, caller: Annotated[Caller | None, ANYBODY]) -> Me
 
 async def called_by_browser(request: Request) -> None:
     if "origin" not in request.headers:
-        raise ForbiddenError("Only a page pairs, and says its name. Programs take a token that has one.")
+        raise ForbiddenError("Only a page can pair, and it must send a name. Programs use a token.")
 
 
 def you_of(caller: Caller) -> You:
@@ -123,7 +123,7 @@ def accept_invite(wish: PairWish, entrance: Entrance, present: Caller | None) ->
         return entrance.accept_invite(entrance.pairing.find_by_link(wish.secret), wish.name, present)
     if wish.code is not None:
         return entrance.accept_invite(entrance.pairing.find_by_code(wish.code), wish.name, present)
-    raise MalformedError("Nothing to pair with: a link's secret, a code or a stop-only link is needed.")
+    raise MalformedError("Pairing needs the secret of a link, a code or a stop-only link.")
 
 
 @people_api.get("/people", dependencies=[OWNER])

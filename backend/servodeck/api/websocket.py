@@ -84,10 +84,12 @@ ROLES: dict[type[AnyClientMessage], Role] = {
 async def serve_client(socket: WebSocket, caller: Caller, control: Control) -> None:
     if is_outdated(socket):
         await socket.accept()
-        await socket.close(OUTDATED_PAGE, "This page is of another version than the gateway: reload it.")
+        await socket.close(
+            OUTDATED_PAGE, "This page and the gateway have different versions: reload the page."
+        )
         return
     if not control.hub.has_room_for(caller):
-        raise BusyError("All seats are taken: close another window or stream.")
+        raise BusyError("Too many clients are connected: close another window or event stream.")
     session = Session(caller)
     control.join(session)  # before anything is waited for: whoever is revoked now is found
     try:
@@ -131,7 +133,7 @@ async def read_all(socket: WebSocket, session: Session, control: Control) -> Non
         ] != "websocket.disconnect" and not session.ended.is_set():
             text = event.get("text")
             if text is None:
-                await socket.close(UNSUPPORTED_DATA, "Text only.")
+                await socket.close(UNSUPPORTED_DATA, "Only text messages are accepted.")
                 return
             take_text(text, session, intake)
             # What has come already is given without a pause: others' turn, a STOP may be among theirs.
@@ -146,7 +148,7 @@ def intake_of(session: Session, control: Control) -> Intake:
         take=lambda message: take(message, session, control),
         merged=merged,
         replaced=lambda message: refuse(
-            session, id_of(message), BusyError("A newer message took its place.")
+            session, id_of(message), BusyError("A newer message replaced this one.")
         ),
         overrun=lambda: session.end(AGAINST_THE_RULES, "Too many messages."),
     )

@@ -136,7 +136,7 @@ def run(
 ) -> None:
     """Run a group of the board and watch over it: Ctrl-C ends it. An endless run is not waited for."""
     if go_on is not None and timeout_s is not None:
-        fail("--continue returns at once: there is nothing that --timeout could end.", USAGE)
+        fail("--timeout has no effect with --continue, which returns at once: leave out one of them.", USAGE)
     if times == 0 and timeout_s is None and go_on is None:
         go_on = LONGEST_ALONE_S
     when_asked(remote)

@@ -84,7 +84,7 @@ def followed(remote: Remote, job: dict[str, Any], *, tells: bool) -> dict[str, A
             stored = job["groupsStored"]
     except KeyboardInterrupt:
         asked(remote, "DELETE", f"/api/jobs/{job['id']}")
-        fail("Called off behind its frame in progress.", INTERRUPTED)
+        fail("Cancelled after the frame in progress.", INTERRUPTED)
     return job
 
 
@@ -116,9 +116,9 @@ def group_in(file: Path) -> dict[str, Any]:
     except OSError as error:
         fail(f"{file} cannot be read: {error.strerror}.", USAGE)
     except ValueError:
-        fail(f"{file} is no JSON. It holds one group: {SHAPE}", USAGE)
+        fail(f"{file} is not JSON. Expected one group: {SHAPE}", USAGE)
     if not isinstance(group, dict) or "frames" not in group or "format" in group:
-        fail(f"{file} holds no frames as a board stores them: {SHAPE}", USAGE)
+        fail(f"{file} holds no valid frames. Expected: {SHAPE}", USAGE)
     return group
 
 
@@ -161,7 +161,7 @@ def watched(remote: Remote, state: dict[str, Any]) -> dict[str, Any]:
                 beaten_s = time.monotonic()
     except KeyboardInterrupt:
         asked(remote, "DELETE", "/api/play")
-        fail("Ended with its frame in progress.", INTERRUPTED)
+        fail("Stopped after the frame in progress.", INTERRUPTED)
     return state
 
 

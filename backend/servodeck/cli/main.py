@@ -91,7 +91,7 @@ def decode(
         packet = bytes.fromhex(" ".join(hex_bytes))
         words = describe(packet, "report" if report else "command")
     except ValueError:
-        fail("That is not a sequence of hex digits, two for each byte.", USAGE)
+        fail("Expected hex digits, two for each byte.", USAGE)
     except PacketError as error:
         fail(str(error))
     print(json.dumps({"packet": packet.hex(), "text": words}) if as_json else words)

@@ -54,7 +54,7 @@ def remote_at(url: Url = HERE, token: Token = "", token_file: TokenFile = None) 
     except OSError as error:
         fail(f"The token file {token_file} cannot be read: {error.strerror}.", USAGE)
     except ValueError:
-        fail(f"{url} is no address: it begins with http:// or https://, for example {HERE}.", USAGE)
+        fail(f"{url} is not an address: begin with http:// or https://, for example {HERE}.", USAGE)
 
 
 def asking(command: Callable[..., None]) -> Callable[..., None]:

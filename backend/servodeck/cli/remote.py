@@ -76,7 +76,7 @@ def read(answer: HTTPResponse) -> Any:
         said = json.loads(text or b"null")
         refusal = None if answer.status < FAILED else RefusedError(said["code"], said["detail"])
     except (ValueError, TypeError, KeyError) as error:
-        raise UnreachableError("What answers there is no Servodeck gateway.") from error
+        raise UnreachableError("The server at this address is not a Servodeck gateway.") from error
     if refusal:
         raise refusal
     return said

@@ -60,7 +60,7 @@ def bind(host: str, port: int) -> socket.socket:
         return socket.create_server((host, port), family=family, backlog=512)
     except OSError as error:
         fail(
-            f"Cannot listen on {host}:{port} ({error.strerror}). Does another Servodeck run? "
+            f"Cannot listen on {host}:{port} ({error.strerror}). Is another Servodeck running? "
             f"--listen {host}:0 takes a free port."
         )
 
@@ -244,4 +244,4 @@ def parse_public_url(url: str) -> "Access":
     try:
         return behind_proxy(url)
     except ValueError as error:
-        fail(f"--public-url {url} cannot be: {error}.", USAGE)
+        fail(f"--public-url {url} is not valid: {error}.", USAGE)

@@ -95,7 +95,7 @@ class Library:
             )
             facts, revision, is_whole = found(db.execute(query, (document, kind)))
             if not is_whole:
-                raise DamagedTextError(f"What the library says of {name_in(db, document)} is damaged.")
+                raise DamagedTextError(f"The list entry of {name_in(db, document)} is damaged.")
             return facts, revision
 
     def write(
@@ -117,7 +117,7 @@ class Library:
             if row is None:
                 require_room(db, "document", (), MAX_DOCUMENTS)
             elif (row[1] != text and row[0] != expected) or row[2] != kind:
-                raise ConflictError("Somebody else has changed this document meanwhile.")
+                raise ConflictError("Another client has changed this document since it was read.")
             revision = row[0] if row and row[1] == text else expected + 1
             removed_at_ms = self._now_ms() if is_removed else None
             db.execute(
@@ -139,7 +139,7 @@ class Library:
         with self._transaction("BEGIN") as db:
             row = db.execute("SELECT removed_at_ms FROM document WHERE id = ?", (document,)).fetchone()
             if row is not None and row[0] is None:
-                raise ForbiddenError("Only an owner may remove what the library holds.")
+                raise ForbiddenError("Only an owner may remove documents.")
 
     def restore(self, documents: Sequence[str]) -> None:
         """Out of the trash: all of them or none."""
@@ -231,7 +231,7 @@ class Library:
 def found(rows: sqlite3.Cursor) -> tuple[Any, ...]:
     row: tuple[Any, ...] | None = rows.fetchone()
     if row is None:
-        raise NotFoundError("The library does not hold that.")
+        raise NotFoundError("The library has no such document.")
     return row
 
 
@@ -256,4 +256,4 @@ def whole_versions(db: sqlite3.Connection, document: str) -> str:
 def require_room(db: sqlite3.Connection, where: str, values: tuple[str, ...], limit: int) -> None:
     count = db.execute(f"SELECT count(*) FROM {where}", values).fetchone()[0]
     if count >= limit:
-        raise OutOfRangeError(f"The library takes {limit} of these and no more.")
+        raise OutOfRangeError(f"The library is limited to {limit} of these.")

@@ -137,7 +137,7 @@ def sum_of(*values: bytes | int | None) -> int:
 def upgrade(db: sqlite3.Connection, path: Path, steps: Sequence[Sequence[str]]) -> None:
     if version_of(db) > len(steps):
         raise StorageError(
-            f"{path} was written by a newer Servodeck. Use that one, or another --data folder."
+            f"{path} was written by a newer Servodeck. Use that version, or another --data folder."
         )
     if 0 < version_of(db) < len(steps):
         back_up(db, path.with_name(f"library-before-version-{len(steps)}.sqlite"))

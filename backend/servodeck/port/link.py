@@ -104,7 +104,7 @@ class Link:
         if self._wire:
             return self._wire
         if self.state.status == "lost":
-            raise PortLostError(self.state.detail or "The serial port is gone.")
+            raise PortLostError(self.state.detail or "The serial port is lost.")
         raise ClosedError("No serial port is open.")
 
     async def use(self, device: str) -> None:
@@ -202,7 +202,7 @@ def log_change(before: PortState, now: PortState) -> None:
 
 
 def replaced() -> CancelledError:
-    return CancelledError("The port was closed or changed meanwhile.")
+    return CancelledError("The port was closed or changed in the meantime.")
 
 
 CLOSE_WAIT_S = 1.0

@@ -81,10 +81,11 @@ class Whereabouts:
             return self._called(newcomers[0])
         if newcomers:
             raise OtherDeviceError(
-                f"{names(newcomers)} may be the one that was at {self.path}, or another of its kind."
+                f"{names(newcomers)} may be the device that was at {self.path}, or another of the same kind. "
+                "Choose the port again."
             )
         if any(device.path == ours.path for device in devices):
-            raise OtherDeviceError(f"{ours.path} is the name of another device now.")
+            raise OtherDeviceError(f"{ours.path} is another device now. Choose the port again.")
         raise PortMissingError(
             f"The device that was at {self.path} is gone. Is the cable plugged in and the board switched on?"
         )
@@ -95,7 +96,7 @@ class Whereabouts:
         real = os.path.realpath(path)
         device = next((one for one in devices if one.path in (path, real)), None) or only_hid(path, devices)
         if self._ours and (device is None or device.kind != self._ours.kind):
-            raise OtherDeviceError(f"{path} became the name of another device just now.")
+            raise OtherDeviceError(f"{path} is another device now. Choose the port again.")
         self._ours = device
         self.path = device.path if device and path == HID else path
         self._others = set()

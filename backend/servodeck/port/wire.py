@@ -121,7 +121,9 @@ class Wire:
             )
         lane = self._urgent if urgent else self._queue
         if sum(other.owner is owner for other in lane) >= QUEUE_PER_OWNER:
-            raise BusyError(f"{QUEUE_PER_OWNER} packets wait already; send the next one when one has left.")
+            raise BusyError(
+                f"{QUEUE_PER_OWNER} packets are waiting already. Send the next one when one has left."
+            )
 
         def make() -> bytes:
             judge()

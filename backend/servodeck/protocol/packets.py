@@ -109,7 +109,7 @@ def check_command(packet: bytes, family: Family) -> Command:
         raise PacketError("malformed", "The bytes are not exactly one well-formed command.")
     expected = encode(command, family)  # all limits, LEN among them
     if len(expected) != len(packet):
-        raise PacketError("malformed", f"A board of this kind takes {command.kind} with LEN {expected[2]}.")
+        raise PacketError("malformed", f"This board takes {command.kind} with LEN {expected[2]}.")
     return command
 
 

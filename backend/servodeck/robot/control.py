@@ -149,7 +149,7 @@ class Control:
         """What waits of it does not leave, and what it still says is not heard. Twice is harmless."""
         session.ended.set()
         session.drop_pending()
-        self.board.drop(session, CancelledError("The client has left."))
+        self.board.drop(session, CancelledError("The client disconnected."))
         self.limits.forget(session)
         self.hub.leave(session)
         self.driving.leave(session)
@@ -251,10 +251,10 @@ class Control:
         """
         wire = self.board.link.wire()
         # It always goes, but the frame that it meets on the board is not stored for sure (S10).
-        self.board.jobs.end(CancelledError("A stop ended it before all of it was stored."))
-        self.board.plays.end(CancelledError("A stop has ended it."))
+        self.board.jobs.end(CancelledError("A stop ended the download before it was complete."))
+        self.board.plays.end(CancelledError("The group was stopped."))
         self.board.jobs.judge_idle()
-        wire.purge(is_run, CancelledError("A stop has overtaken this run."))
+        wire.purge(is_run, CancelledError("A stop was sent before this run."))
         return wire.send(STOP_PACKET, session, urgent=True)
 
     def stop(self, cause: Cause = UNNAMED_PERSON) -> Left:
@@ -263,8 +263,8 @@ class Control:
         """
         self._stopped_s = self.now()
         self._latch.close(cause)
-        self.board.jobs.end(LatchedError("Stopped before all of it was stored."))
-        left = self.board.halt(LatchedError("Stopped before it left."))
+        self.board.jobs.end(LatchedError("STOP ended the download before it was complete."))
+        left = self.board.halt(LatchedError("STOP was pressed before this was sent."))
         if left is not self._halting:
             self._halting, self._pressed_s = left, self.now()
             left.add_done_callback(self._halted)
@@ -277,7 +277,7 @@ class Control:
         self.driving.judge_resume(caller)
         port = self.board.link.state
         if port.status == "lost":
-            raise PortLostError(port.detail or "The serial port is gone.")
+            raise PortLostError(port.detail or "The serial port is lost.")
         if self._latch.open():
             self.board.motion.resumed(self.now())
             self._broadcast.everybody(ResumedMessage(by=caller.name), but=session)
@@ -285,7 +285,7 @@ class Control:
     def name_board(self, caller: Caller, board: str) -> None:
         """Raises NotDrivingError where somebody else drives whatever else it was."""
         if board != self.board.family_id and not self.driving.may_rule(caller):
-            raise NotDrivingError("Somebody else drives: which board it is changes only under their hands.")
+            raise NotDrivingError("Another client drives: only the driver or an owner may choose the board.")
         self.choose_family(board)
 
     def choose_family(self, board: str) -> None:
@@ -301,13 +301,13 @@ class Control:
     def allow_unattended(self, session: Session, for_ms: int | None) -> None:
         """The run under way, without its driver; None: not any more."""
         if self.driving.driver is not session:
-            raise NotDrivingError("Only who drives may let a run go on.")
+            raise NotDrivingError("Only the driver may let a run continue.")
         if for_ms is None:
             self.board.unattended.end()
             return
         run = self.board.run
         if run is None:
-            raise CancelledError("Nothing runs any more.")
+            raise CancelledError("Nothing is running.")
         self.board.unattended.allow(run, session, for_ms / 1000)
 
     def play(
@@ -335,7 +335,7 @@ class Control:
             raise MovingError(end_of_group(board.motion.group_ends_in_s(self.now())))
         permit = self.driving.permit(session, nonce)
         if permit.issued_s < self._stopped_s:  # a large request may be slower than the STOP behind it
-            raise CancelledError("It was stopped since it was asked for.")
+            raise CancelledError("STOP was pressed after this was requested.")
 
         def judge(is_first: bool) -> None:
             judge_latch(MOVE, self.latch)
@@ -348,7 +348,7 @@ class Control:
 
     def stop_playing(self) -> None:
         """What the gateway plays ends with its frame in progress."""
-        self.board.plays.end(CancelledError("It was stopped."))
+        self.board.plays.end(CancelledError("The group was stopped."))
 
     def download(
         self, parts: Sequence[Part], by: Caller, claim: Callable[[], object], behind: str | None = None
@@ -426,7 +426,7 @@ class Control:
         self._broadcast.everybody(PlayStateMessage(play=state))
 
     def unattended_time_over(self) -> None:
-        self._watch.end_quietly(CancelledError("The time in which it might go on alone is over."))
+        self._watch.end_quietly(CancelledError("The time allowed without a driver is over."))
 
     def received(self, event: DecoderEvent) -> None:
         is_packet = isinstance(event, PacketEvent)
@@ -471,14 +471,14 @@ def still_moving(motion: Estimate, now: float) -> str:
     if motion.group_may_run(now):
         return end_of_group(motion.group_ends_in_s(now))
     if left_s := math.ceil(motion.moves_for_s(now) * 10) / 10:
-        return f"The robot moves for up to {left_s:.1f} s more: wait that long."
-    return "The robot is about to move: wait for its end."
+        return f"The robot moves for up to {left_s:.1f} s more: wait until then."
+    return "The robot is about to move: wait until it rests."
 
 
 def end_of_group(ends_in_s: float | None) -> str:
     if ends_in_s is None:
-        return "A group may be running, and only its board knows its end: stop it, or let go of the lease."
-    return f"A group runs for up to {ends_in_s:.1f} s more: wait, or let go of the lease to end it."
+        return "A group may be running, and its end is unknown: stop it, or release the lease."
+    return f"A group runs for up to {ends_in_s:.1f} s more: wait, or release the lease to end it."
 
 
 def is_run(job: Job) -> bool:

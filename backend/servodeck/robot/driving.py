@@ -69,7 +69,7 @@ class Driving:
         giver.caller.require("driver")
         driver = self._lease.driver
         if not giver.caller.may("owner") and (driver is None or driver.caller.id != giver.caller.id):
-            raise NotDrivingError("Only who drives, or an owner, hands the robot on.")
+            raise NotDrivingError("Only the driver or an owner may hand over the robot.")
         self._lease.give(giver, self._candidate(to), self._now())
         self._plan()
 
@@ -81,7 +81,7 @@ class Driving:
             if session.caller.id == caller_id and could_drive(session)
         ]
         if not found:
-            raise NotFoundError("Nobody of that id is here who may drive.")
+            raise NotFoundError("No connected client with that id may drive.")
         asker = self._lease.asker
         return asker if asker in found else found[-1]
 
@@ -124,7 +124,7 @@ class Driving:
         elif driver is None:
             self.act(session, "request")
         elif driver is not session:
-            raise NotDrivingError(f'{driver.caller.name} drives. An owner may take it: "take": true.')
+            raise NotDrivingError(f'{driver.caller.name} drives. An owner may take over with "take": true.')
         return self._lease.issue(self._now())
 
     def vouch(self, session: Session, for_s: float) -> None:
@@ -234,7 +234,7 @@ class Driving:
 def require_present(session: Session) -> None:
     """A client that was sent away gets nothing by what it still asks."""
     if session.ended.is_set():
-        raise CancelledError("Its client is not here any more.")
+        raise CancelledError("The client disconnected.")
 
 
 def could_drive(session: Session) -> bool:

@@ -58,7 +58,7 @@ class Session:
         try:
             self._outbox.put_nowait(text)
         except asyncio.QueueFull:
-            self.end(TRY_AGAIN_LATER, "This client does not read.")
+            self.end(TRY_AGAIN_LATER, "This client does not read its messages.")
 
     def end(self, code: int, reason: str) -> None:
         self.close_reason = self.close_reason or CloseReason(code, reason)
@@ -121,7 +121,7 @@ class Hub:
     def close(self) -> None:
         """Nobody sits here any more."""
         for session in self._sessions:
-            session.end(GOING_AWAY, "The gateway is ending.")
+            session.end(GOING_AWAY, "The gateway is shutting down.")
 
     def join(self, session: Session) -> None:
         self._sessions[session] = None

@@ -66,7 +66,7 @@ class Watch:
     def driver_quiet(self) -> None:
         control = self._control
         driver = control.driving.driver
-        control.board.drop(driver, CancelledError("Its driver was not heard any more."))
+        control.board.drop(driver, CancelledError("The driver sends no heartbeat."))
         play = control.board.plays.present
         if play and play.as_run:
             return
@@ -85,12 +85,12 @@ class Watch:
         board = self._control.board
         is_unattended = board.unattended.by and self._control.driving.driver is None
         if board.may_move() and not is_unattended:
-            self.end_quietly(NotDrivingError("Somebody else drives now."))
+            self.end_quietly(NotDrivingError("Another client drives now."))
 
     def lease_changed(self) -> None:
         driving = self._control.driving
         if driving.driver and self._control.board.unattended.by not in (None, driving.driver):
-            self.end_quietly(NotDrivingError("Somebody else drives now."))
+            self.end_quietly(NotDrivingError("Another client drives now."))
         driving.send_states()
 
     def disconnected(self, caller_id: str, by: str, *, group_goes_on: bool) -> None:

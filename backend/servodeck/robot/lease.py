@@ -78,7 +78,7 @@ class Lease(Generic[H]):
             self._grant(who, now)
             return
         if self.asker is not None:
-            raise BusyError("Somebody else asks already.")
+            raise BusyError("Another client has asked already.")
         self.asker, self._answer_until_s = who, now + ANSWER_S
         self._events.lease_changed()
 
@@ -143,11 +143,11 @@ class Lease(Generic[H]):
         """For one command. Raises NotDrivingError or ExpiredError."""
         if who is not self.driver:
             raise NotDrivingError(
-                "Somebody else drives." if self.driver else "Nobody drives: request it first."
+                "Another client drives." if self.driver else "Nobody drives: request the lease first."
             )
         issued_s = None if nonce is None else self._issued.get(nonce)
         if nonce is None or issued_s is None or now - issued_s > within_s:
-            raise ExpiredError("This was said too long ago to be done now.")
+            raise ExpiredError("This request is too old.")
         self.beat(who, nonce)
         return Permit(self.epoch, issued_s, issued_s + within_s)
 
@@ -157,16 +157,16 @@ class Lease(Generic[H]):
         """
         permit = Permit(self.epoch, self._heard_s, self._heard_s + QUIET_S)
         if who is not self.driver:
-            raise NotDrivingError("Somebody else drives now.")
+            raise NotDrivingError("Another client drives now.")
         self.judge(permit, now)
         return permit
 
     def judge(self, permit: Permit, now: float) -> None:
         """Asked when the command is about to leave. Raises NotDrivingError or ExpiredError."""
         if permit.epoch != self.epoch:
-            raise NotDrivingError("Somebody else drives now.")
+            raise NotDrivingError("Another client drives now.")
         if now > permit.until_s:
-            raise ExpiredError("This has waited too long to be done now.")
+            raise ExpiredError("This request waited too long to be sent.")
 
     def answer_in_s(self, now: float) -> float | None:
         """How long the driver may still refuse; None where nobody asks."""

@@ -111,7 +111,7 @@ class Grant:
 
     def _judge(self) -> None:
         if self._mark != self._present():
-            raise CancelledError("Stopped, or taken over, before all of it had left.")
+            raise CancelledError("The robot was stopped or taken over before all packets were sent.")
 
 
 class Operations:
@@ -172,7 +172,7 @@ class Operations:
         async with self._one_request():
             left = Grant(self._control, claim).send(command, ERASE_TIMEOUT_S)
             if await self._control.board.answers.to(left, ERASE_TIMEOUT_S, Erased) is None:
-                raise NoAnswerError("The board did not say whether its groups are erased.")
+                raise NoAnswerError("The board did not confirm that its groups are erased.")
         return "acknowledged"
 
     async def set_speed(self, claim: Claim, slot: int | None, percent: int) -> Outcome:
@@ -201,13 +201,13 @@ class Operations:
     def _judge_rest(self) -> None:
         """Flash work freezes servos and then lets them jump (S29, S39)."""
         if self._control.board.may_move() or not self._control.board.moves.is_empty:
-            raise MovingError("The robot moves: wait for its end, or stop it first.")
+            raise MovingError("The robot is moving: wait until it rests, or stop it first.")
 
     @contextlib.asynccontextmanager
     async def _one_request(self) -> AsyncIterator[None]:
         """One at a time: the board's answers do not say to whom."""
         if self._has_request:
-            raise MovingError("The board is being asked for something else.")
+            raise MovingError("Another request to the board is in progress: try again in a moment.")
         self._has_request = True
         try:
             yield

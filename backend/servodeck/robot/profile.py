@@ -84,7 +84,7 @@ log = logging.getLogger("servodeck.robot")
 
 def no_robot(_document: str) -> tuple[RobotFacts, int]:
     """A library that holds none."""
-    raise NotFoundError("The library does not hold that.")
+    raise NotFoundError("The library has no such document.")
 
 
 class RobotOfBoard:
@@ -136,10 +136,10 @@ class RobotOfBoard:
         self._judge(document, instead_of)
         facts, revision = await in_thread(lambda: self._read(document))
         if board is None or self._board != board:
-            raise ConflictError("No such board is connected any more.")
+            raise ConflictError("That board is no longer connected.")
         self._judge(document, instead_of)
         if facts.board != board[0]:
-            raise OutOfRangeError(f"{facts.name} is built on a board {facts.board}, not {board[0]}.")
+            raise OutOfRangeError(f"{facts.name} is made for a {facts.board} board, not {board[0]}.")
         self._remembered.remember_robot(self._key(), document)
         self._hold(document, revision, facts)
         await self._remembered.saved()
@@ -189,7 +189,7 @@ class RobotOfBoard:
 
     def _judge(self, document: str, instead_of: str | None) -> None:
         if self._document not in (document, instead_of):
-            raise ConflictError("Another robot was put on this board meanwhile.")
+            raise ConflictError("Another robot was chosen for this board in the meantime.")
 
     def _key(self) -> str:
         assert self._board

@@ -144,7 +144,7 @@ class Scripts:
         for step in plan.steps:
             await asyncio.sleep(step.after_s)
             if not await is_wanted():
-                raise CancelledError("The client has hung up.")
+                raise CancelledError("The client disconnected.")
             await grant.send(step.move, duration_ms / 1000)
         return Moved(len(plan.steps), duration_ms, plan.first_moves)
 
@@ -239,7 +239,7 @@ class Scripts:
 
     def _session_of(self, caller: Caller) -> ScriptSession:
         if not self._still_lets_in(caller):
-            raise NotPairedError("This device is not paired any more, or its role is another one now.")
+            raise NotPairedError("This device is no longer paired, or its role has changed.")
         session = self._sessions.setdefault(caller.id, ScriptSession(caller))
         session.caller = as_script(caller)  # an owner may call it otherwise by now
         return session

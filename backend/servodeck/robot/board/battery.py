@@ -85,7 +85,7 @@ class BatteryWatch:
         )
         if not isinstance(report, Battery):
             self._count_silence()
-            raise NoAnswerError("The board did not tell its battery voltage. Not every board can.")
+            raise NoAnswerError("The board did not report its battery voltage. Not every board can.")
         return report.battery_mv
 
     def _count_silence(self) -> None:

@@ -196,10 +196,10 @@ class Board:
         if state.error:
             raise state.error
         if state.status == "identifying":
-            raise MovingError("The board is being asked who it is: try again in a moment.")
+            raise MovingError("The board is being identified: try again in a moment.")
         if self.identification.claim is UNKNOWN:
             raise BoardUnknownError(
-                "Nobody has said which board is connected, and no port is open to ask it."
+                "The board is unknown and no port is open to identify it. Open a port, or choose the board."
             )
 
     @property
@@ -256,7 +256,9 @@ class Board:
 
     def halt_again(self) -> None:
         with contextlib.suppress(GatewayError):
-            self.halt(CancelledError("The board was stopped once more: it may not have heard it."))
+            self.halt(
+                CancelledError("The board was stopped again, because it may have missed the first stop.")
+            )
 
     def end_motion(self) -> Left | None:
         """Without the latch: what moves ends, because its driver begins something else. As `halt`; None where
@@ -264,11 +266,11 @@ class Board:
         """
         if not self.may_move():
             return None
-        return self.halt(CancelledError("Its driver has begun something else."))
+        return self.halt(CancelledError("The driver began something else."))
 
     async def quiet(self) -> None:
         """Before the port is given up: ends what only this gateway could still stop."""
-        self.jobs.end(ClosedError("The port was closed before all of it was stored."))
+        self.jobs.end(ClosedError("The port was closed before the download was complete."))
         self.plays.end(ClosedError("The port was closed."))
         self._was_lost = False
         if self.motion.group_may_run(self._now()):
@@ -278,7 +280,7 @@ class Board:
 
     async def shut_down(self) -> None:
         """Stops whatever it does, waits for the stops to leave, lets go of the port. Twice is harmless."""
-        ending = CancelledError("The gateway is ending.")
+        ending = CancelledError("The gateway is shutting down.")
         self.jobs.end(ending)
         with contextlib.suppress(GatewayError, TimeoutError):
             await asyncio.wait_for(asyncio.shield(self.halt(ending)), DRAIN_S)
@@ -317,8 +319,8 @@ class Board:
         metrics.totals.port_losses += 1
         self._was_lost = True
         self._events.board_lost()
-        self.jobs.end(PortLostError("The serial port went away before all of it was stored."))
-        self.plays.end(PortLostError("The serial port went away."))
+        self.jobs.end(PortLostError("The serial port was lost before the download was complete."))
+        self.plays.end(PortLostError("The serial port was lost."))
         is_filler = unfinished is not None and unfinished == self._filler()
         if not is_filler:
             self._cut = (self.link.place, unfinished) if unfinished else None
@@ -327,7 +329,7 @@ class Board:
     def port_changed(self) -> None:
         if self.link.state.status != "open":
             self.identification.ended()
-            self.moves.drop(PortLostError("The serial port is not open any more."))
+            self.moves.drop(PortLostError("The serial port is no longer open."))
             self._lose_motion()  # also what left with the last breath of the port
         self._events.board_changed()
 
@@ -363,7 +365,7 @@ class Board:
         self.family_id = family.id
         self.battery.forget()
         self._forget_motion()
-        self._drop_all(CancelledError("The board is taken for another one now."))
+        self._drop_all(CancelledError("Another board was chosen."))
 
     def entered(self, before: Status) -> None:
         status = self.identification.state.status
@@ -381,8 +383,8 @@ class Board:
     def _no_longer_ready(self, status: Status) -> None:
         """It may have moved, restarted or been changed for another before it is ready again."""
         self._lose_motion()
-        self.jobs.end(BoardSilentError("The board fell silent before all of it was stored."))
-        self._drop_all(BoardSilentError("The board fell silent before that left."))
+        self.jobs.end(BoardSilentError("The board stopped answering before the download was complete."))
+        self._drop_all(BoardSilentError("The board stopped answering before this was sent."))
         if status == "stale":
             self._events.board_lost()
 

@@ -139,7 +139,7 @@ class Download:
         left = self._send(packet)
         if not await self._answers.to(left, self._timeout_s(index), FrameStored, not_before_s=arrives_s):
             self._owed_since_s = asked_s if self._owed_since_s is None else self._owed_since_s
-            raise NoAnswerError(f"The board did not say that it has stored frame {index + 1}.")
+            raise NoAnswerError(f"The board did not acknowledge frame {index + 1}.")
 
     async def _await_owed(self, index: int) -> None:
         """After a silence two answers may come for what the board takes for one question, the second one
@@ -153,7 +153,7 @@ class Download:
         for _ in range(DOWNLOAD.babble_limit + 1):
             if not await self._answers.unasked(quiet_s, FrameStored):
                 return
-        raise NoAnswerError("The board says again and again that it has stored a frame.")
+        raise NoAnswerError("The board keeps repeating an acknowledgement.")
 
     def _timeout_s(self, index: int) -> float:
         is_edge = index in (0, len(self._packets) - 1)

@@ -86,14 +86,14 @@ class Jobs:
         """Raises CancelledError where it has ended."""
         job = self._found(job_id)
         if job is not self._current or job.is_cancelled:
-            raise CancelledError("That download has ended: nothing can follow it.")
+            raise CancelledError("That download has ended: start a new one.")
         return job.parts
 
     def add(self, job_id: str, parts: Sequence[Part], by: Caller) -> JobState:
         """To one that lasts, behind what it has. Raises NotDrivingError where another began it."""
         job = self._found(job_id)
         if job.by.id != by.id:
-            raise NotDrivingError(f"{job.state.by} began that download: only they add to it.")
+            raise NotDrivingError(f"{job.state.by} began that download: only the same client may add to it.")
         job.add(parts)
         self._publish(job)
         return job.state
@@ -126,11 +126,11 @@ class Jobs:
         """
         if job := self._current:
             raise MovingError(
-                f"A download to slot {job.state.slot} is under way ({job.state.frames_stored} of "
+                f"A download to slot {job.state.slot} is in progress ({job.state.frames_stored} of "
                 f"{job.state.frame_count} frames): wait for its end, or cancel it."
             )
         if self._now() < self._erasing_until_s:
-            raise MovingError("The board is erasing: wait for its end.")
+            raise MovingError("The board is erasing its slots: wait until it has finished.")
 
     def judge_run(self, command: Command | None, board: str) -> None:
         if isinstance(command, Run) and command.slot in self._memory.broken(board):
@@ -145,7 +145,7 @@ class Jobs:
     def judge_replaced(self, part: Part, board: str) -> None:
         """Raises SlotChangedError where the slot does not hold any more what whoever asks has seen there."""
         if part.replaces is not None and part.replaces != self._memory.version(board, part.slot):
-            raise SlotChangedError(f"Something else was stored in slot {part.slot} meanwhile.")
+            raise SlotChangedError(f"Something else was stored in slot {part.slot} in the meantime.")
 
     def left(self, command: Command | None, at_s: float, board: str) -> None:
         """The last bit of that command leaves then."""
@@ -171,7 +171,12 @@ class Jobs:
             self._finish(job, error)
         finally:
             if self._current is job:  # a defect of ours, and the robot is not to wait for it
-                self._finish(job, GatewayError("The download ended by a mistake of the gateway."))
+                self._finish(
+                    job,
+                    GatewayError(
+                        "The download failed because of an error in the gateway; its log has the details."
+                    ),
+                )
 
     async def _store(self, job: Job, part: Part) -> None:
         slot = part.slot
@@ -226,4 +231,4 @@ class Jobs:
     def _found(self, job_id: str) -> Job:
         with suppress(KeyError):
             return self._known[job_id]
-        raise NotFoundError(f"There is no job {job_id} here, or not any more.")
+        raise NotFoundError(f"There is no download with the id {job_id}.")

@@ -96,7 +96,7 @@ class Identification:
         """
         status = self.state.status
         if family is UNKNOWN and status != "closed" and not self._board.is_idle():
-            raise MovingError("The robot moves: wait for its end, or stop it first.")
+            raise MovingError("The robot is moving: wait until it rests, or stop it first.")
         self.claim = family
         if family is UNKNOWN or status == "closed":
             self._board.drive(family)
@@ -147,13 +147,13 @@ class Identification:
         fit = fit_of(self.claim, self.evidence)
         if any(isinstance(one, Echoed) for one in self.evidence):
             self._refuse(
-                EchoError("The line sends back what it is given: its RX and TX may be joined, or crossed.")
+                EchoError("The line returns what is sent: RX and TX may be connected to each other.")
             )
         elif self.claim is UNKNOWN:
             self._refuse(BoardUnknownError(self._name_it()))
         elif fit == "contradicts":
             self._refuse(
-                WrongBoardError(f"The board does not answer like {self.claim.id}. {self._name_it()}")
+                WrongBoardError(f"The answers of the board do not match {self.claim.id}. {self._name_it()}")
             )
         else:
             self._accept(is_silent=fit == "silent")
@@ -202,4 +202,4 @@ class Identification:
 
 
 def silence() -> BoardError:
-    return BoardSilentError("The board does not answer. Is it switched on? It is asked again by itself.")
+    return BoardSilentError("The board does not answer. Is it switched on? The gateway keeps trying.")

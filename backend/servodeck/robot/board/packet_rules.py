@@ -40,7 +40,7 @@ def judge_command(text: str, board: str) -> tuple[bytes, Command]:
     try:
         packet = bytes.fromhex(text)
     except ValueError:
-        raise MalformedError("The packet is not written in hex digits.") from None
+        raise MalformedError("The packet is not in hex digits.") from None
     try:
         return packet, check_command(packet, FAMILIES[board])
     except PacketError as error:
@@ -58,7 +58,7 @@ def judge_frame(command: Download, board: str) -> bytes:
 def judge_single_packet(packet: bytes) -> None:
     """A frame alone only breaks the slot it goes to (S33, S35). Raises NotSupportedError."""
     if packet[COMMAND_AT] == DOWNLOAD:
-        raise NotSupportedError("Groups are stored as a whole: POST /api/download.")
+        raise NotSupportedError("A single frame cannot be stored: use POST /api/download for a whole group.")
 
 
 def refusal_of(error: PacketError) -> GatewayError:
@@ -85,7 +85,7 @@ def role_for(packet: bytes) -> Role:
 def judge_latch(command: int, latch: bool) -> None:
     """While stopped, only what moves nothing and stores nothing passes. Raises LatchedError."""
     if latch and command not in HARMLESS:
-        raise LatchedError("Stopped. Motion waits for Resume.")
+        raise LatchedError("Stopped: motion is refused until somebody resumes.")
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,9 +123,9 @@ def judge_parts(parts: Sequence[Part], board: str) -> None:
     slots = [part.slot for part in parts]
     twice = next((slot for at, slot in enumerate(slots) if slot in slots[:at]), None)
     if twice is not None:
-        raise OutOfRangeError(f"Slot {twice} is wanted twice.")
+        raise OutOfRangeError(f"Slot {twice} is given twice.")
     if any(part.board != board for part in parts):
-        raise CancelledError("The board is taken for another one now.")
+        raise CancelledError("Another board was chosen.")
 
 
 async def parts_of(groups: Sequence[Group], board: str) -> list[Part]:

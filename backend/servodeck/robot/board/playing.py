@@ -104,7 +104,7 @@ class Playing:
         """Nothing of it leaves any more."""
         self._player.stop()
         self._request = None
-        self._moves.drop(CancelledError("What it was a part of has ended."), self)
+        self._moves.drop(CancelledError("The group that this frame belongs to has ended."), self)
 
     def note_end(self, error: GatewayError | None) -> None:
         reason = {} if error is None else {"code": error.code, "detail": error.detail}
