@@ -108,7 +108,7 @@ class SilentEvidence(Message):
 
 
 class EchoedEvidence(Message):
-    """The question itself came back."""
+    """The request itself came back."""
 
     kind: Literal["echoed"] = "echoed"
 

@@ -210,7 +210,7 @@ def test_a_lan_start_tells_addresses_invites_its_first_owner_and_warns(tmp_path:
     assert secret
     assert code
     assert "█" in said
-    assert "overheard" in said
+    assert "read plain http" in said
     assert "Tailscale" in said
     with pytest.raises(HTTPError, match="401") as refused:
         urlopen(f"{served.url}/api/status")
@@ -232,8 +232,8 @@ def test_a_lan_start_on_loopback_names_only_an_address_that_answers(tmp_path: Pa
     served = Served("--lan", "--data", str(tmp_path))
     assert served.process.stdout
     said = "".join(iter(served.process.stdout.readline, "and start with --public-url.\n"))
-    assert "Only this computer reaches it" in said
-    assert "Others reach it" not in said
+    assert "Only this computer can reach it" in said
+    assert "Other devices reach it" not in said
     assert set(re.findall(r"http://([\d.]+):", said)) == {"127.0.0.1"}
     assert "--listen 0.0.0.0:8300" in said
     served.end()

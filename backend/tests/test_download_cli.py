@@ -126,7 +126,7 @@ def test_what_ends_it_early_is_told_with_what_is_stored(served: Served, board: B
     stopping.join()
     assert (ended.exit_code, ended.stderr) == (FAILURE, "")
     assert ended.stdout.splitlines()[0] == "Slot 5 is stored."
-    assert ended.stdout.splitlines()[-1].startswith("1 of 2 groups are stored. Stopped")
+    assert ended.stdout.splitlines()[-1].startswith("1 of 2 groups are stored. STOP ended")
 
 
 @pytest.mark.parametrize(

@@ -52,7 +52,7 @@ def test_poses_are_listed_and_gone_to_by_name_or_number(served: Served) -> None:
     assert run("poses", "--url", served.url).stdout.splitlines()[:2] == ["  1  Greeting", "  2  Rest"]
     assert json.loads(run("poses", "--url", served.url, "--json").stdout)["robot"] == "Arm"
     gone = run("pose", "2", "--url", served.url)
-    assert (gone.exit_code, gone.stdout) == (0, "On its way, over in 1.5 s.\n")
+    assert (gone.exit_code, gone.stdout) == (0, "Moving; ends in 1.5 s.\n")
     assert os.read(served.pty.board, 100) == move(1500, s1=1500)
     several = run("pose", "Rest", "--url", served.url)
     assert (several.exit_code, "2, 3" in several.stderr) == (FAILURE, True)

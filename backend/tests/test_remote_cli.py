@@ -48,7 +48,7 @@ def test_a_stop_leaves_and_refuses_motion_until_resume(served: Served) -> None:
     assert "(latched)" in refused.stderr
     assert "servodeck resume" in refused.stderr
     assert run("resume", "--url", served.url).exit_code == 0
-    assert run("move", "1=2000", "2=900", "--url", served.url).stdout == "On its way, over in 1.5 s.\n"
+    assert run("move", "1=2000", "2=900", "--url", served.url).stdout == "Moving; ends in 1.5 s.\n"
     assert os.read(served.pty.board, 100) == MOVE_OF_TWO
 
 
@@ -171,7 +171,7 @@ def test_an_endless_run_says_who_ends_it_and_returns(served: Served) -> None:
     assert "after 3600 s, by the gateway" in begun.stderr
     told = run("status", "--url", served.url).stdout
     assert "running  slot 8, endless times" in told
-    assert "alone    without A script on this computer, 3" in told
+    assert "without A script on this computer for at most 3" in told
     assert run("stop", "--url", served.url).exit_code == 0
     assert served.read_until_stops(3) == ENDLESS + STOP * 3
 
@@ -216,7 +216,7 @@ def test_a_run_that_somebody_stops_ends_its_watch(served: Served) -> None:
 def test_a_run_may_go_on_without_the_command(served: Served) -> None:
     assert run("run", "8", "--continue", "60", "--url", served.url).exit_code == 0
     told = run("status", "--url", served.url).stdout
-    assert "alone    without A script on this computer, 60 s at most" in told
+    assert "without A script on this computer for at most 60 s" in told
     assert "running  slot 8, 1 times" in told
 
 

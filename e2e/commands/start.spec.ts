@@ -48,7 +48,7 @@ test.describe('for a class', () => {
   test.use({ overLan: true });
 
   test('npm start -- --lan is enough: it is reached at the address that it tells', async ({ terminal }) => {
-    const address = (): string => /Others reach it at (\S+)/.exec(terminal.said())?.[1] ?? '';
+    const address = (): string => /Other devices reach it at (\S+)/.exec(terminal.said())?.[1] ?? '';
     await expect.poll(address).not.toBe('');
     expect(terminal.said()).not.toContain('Only this computer');
     expect((await fetch(`${address()}/api/health`)).status).toBe(200);

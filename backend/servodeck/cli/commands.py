@@ -42,7 +42,7 @@ MOVE_WAIT_S = 90.0
 
 @asking
 def status(remote: Remote, as_json: AsJson = False) -> None:
-    """How everything stands: port, board, who drives, what runs."""
+    """Show the port, the board, the driver and what is running."""
     show(asked(remote, "GET", "/api/status"), as_json, status_words)
 
 
@@ -57,14 +57,14 @@ def status_words(state: dict[str, Any]) -> str:
     if run:
         lines.append(f"running  slot {run['slot']}, {run['times'] or 'endless'} times, as far as is known")
     if alone:
-        lines.append(f"alone    without {alone['by']}, {alone['endsInMs'] / 1000:.0f} s at most")
+        lines.append(f"         without {alone['by']} for at most {alone['endsInMs'] / 1000:.0f} s")
     return "\n".join(lines)
 
 
 @asking
 def stop(remote: Remote, as_json: AsJson = False) -> None:
-    """STOP: ends what moves, and refuses motion until `servodeck resume`. Says what it cannot hold, and how
-    long that may still move.
+    """Stop the robot and refuse motion until `servodeck resume`. Prints which servos cannot be held, and for
+    how long they may still move.
     """
     answer = asked(remote, "POST", "/api/stop")
     show(answer, as_json, stopped_words)
@@ -97,7 +97,7 @@ def move(
 
 
 def begun_words(begun: dict[str, Any]) -> str:
-    return f"On its way, over in {begun['overInMs'] / 1000:.1f} s."
+    return f"Moving; ends in {begun['overInMs'] / 1000:.1f} s."
 
 
 def positions_in(targets: list[str]) -> dict[str, int]:
@@ -111,14 +111,15 @@ def positions_in(targets: list[str]) -> dict[str, int]:
 @asking
 def run(
     remote: Remote,
-    slot: Annotated[int, typer.Argument(help="Of the board, from 0.")],
+    slot: Annotated[int, typer.Argument(help="Slot of the board, from 0.")],
     times: Annotated[int, typer.Option(help="0: until stopped.")] = 1,
     go_on: Annotated[
         int | None,
         typer.Option(
             "--continue",
             metavar="SECONDS",
-            help=f"Return at once; it goes on for so long at most. With --times 0: {LONGEST_ALONE_S}.",
+            help="Return at once and let it continue for at most this long. "
+            f"Default with --times 0: {LONGEST_ALONE_S}.",
         ),
     ] = None,
     timeout_s: Annotated[
@@ -127,14 +128,14 @@ def run(
             "--timeout",
             metavar="SECONDS",
             min=0,
-            help="End it where it has not ended by then. Left out: what the group takes, "
-            f"{UNKNOWN_END_S:.0f} where nobody knows that.",
+            help="Stop it after this time. Default: the length of the group, or "
+            f"{UNKNOWN_END_S:.0f} if that is unknown.",
         ),
     ] = None,
     take: Take = False,
     as_json: AsJson = False,
 ) -> None:
-    """Run a group of the board and watch over it: Ctrl-C ends it. An endless run is not waited for."""
+    """Run a group of the board and wait for its end; Ctrl-C stops it. An endless run returns at once."""
     if go_on is not None and timeout_s is not None:
         fail("--timeout has no effect with --continue, which returns at once: leave out one of them.", USAGE)
     if times == 0 and timeout_s is None and go_on is None:
@@ -190,19 +191,19 @@ def let_go(remote: Remote) -> None:
 
 def unheard_end(slot: int, limit_s: float) -> str:
     return (
-        f"Nobody has heard within {limit_s:g} s that slot {slot} has ended, so it was ended. "
-        "Did nothing move? Then the slot is empty. Does it take longer? --timeout SECONDS waits for it."
+        f"The board did not report within {limit_s:g} s that slot {slot} has ended, so it was stopped. "
+        "Did nothing move? Then the slot is empty. Does it take longer? Then set --timeout SECONDS."
     )
 
 
 @asking
 def erase(
     remote: Remote,
-    sure: Annotated[bool, typer.Option("--yes", help="Without being asked again.")] = False,
+    sure: Annotated[bool, typer.Option("--yes", help="Do not ask for confirmation.")] = False,
     take: Take = False,
     as_json: AsJson = False,
 ) -> None:
-    """Erase every slot of the board, for good. An owner's."""
+    """Erase every slot of the board for good. Owners only."""
     if not sure:
         typer.confirm("Every group on the board goes for good. Erase them?", abort=True)
     when_asked(remote)
@@ -211,14 +212,14 @@ def erase(
 
 @asking
 def battery(remote: Remote, as_json: AsJson = False) -> None:
-    """Ask the board for its battery voltage."""
+    """Read the battery voltage."""
     answer = asked(remote, "GET", "/api/battery")
     show(answer, as_json, lambda read: f"{read['batteryMv'] / 1000:.2f} V")
 
 
 @asking
 def events(remote: Remote) -> None:
-    """Show what happens, a JSON object a line, until Ctrl-C."""
+    """Print events, one JSON object per line, until Ctrl-C."""
     try:
         for line in remote.events():
             print(line, flush=True)

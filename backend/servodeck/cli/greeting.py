@@ -8,8 +8,8 @@ from servodeck.access.devices import is_owners
 from servodeck.access.entrance import Entrance
 
 OVERHEARD = (
-    "Plain http can be overheard by others on this network: a listener can take a paired device's\n"
-    "place. On a network that is not yours use Tailscale or an SSH tunnel, or put Caddy with https in front\n"
+    "Others on this network can read plain http and could take the place of a paired device. On a network\n"
+    "that is not yours use Tailscale or an SSH tunnel, or put Caddy with https in front of it\n"
     "and start with --public-url."
 )
 
@@ -29,8 +29,8 @@ def greeting(entrance: Entrance, urls: list[str], *, invites: bool, only_here: s
 
 def reached_at(urls: list[str], only_here: str) -> str:
     if only_here:
-        return f"Only this computer reaches it: for others, write --listen {only_here}."
-    return f"Others reach it at {' or '.join(urls)}"
+        return f"Only this computer can reach it. For other devices use --listen {only_here}."
+    return f"Other devices reach it at {' or '.join(urls)}"
 
 
 def needs_owner(entrance: Entrance) -> bool:
@@ -42,7 +42,7 @@ def invitation(entrance: Entrance, urls: list[str]) -> list[str]:
     code = invite.code or ""
     begin = f"Within two minutes, type {code[:4]} {code[4:]} there, or open"
     link = pair_link(urls[0], invite.secret)
-    return ["To come in as its owner:", f"{begin} {link}", drawn_for_terminal(link)]
+    return ["To pair as its owner:", f"{begin} {link}", drawn_for_terminal(link)]
 
 
 def urls_for_others(access: Access, addresses: list[str], own_url: str) -> list[str]:

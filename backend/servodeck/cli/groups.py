@@ -34,12 +34,16 @@ def download(
         list[str], typer.Argument(metavar="SLOT=FILE...", help="For example 5=wave.json 6=bow.json")
     ],
     wait: Annotated[
-        bool, typer.Option("--wait/--no-wait", help="Until all are stored, or return once it has begun.")
+        bool,
+        typer.Option(
+            "--wait/--no-wait",
+            help="Wait until all groups are stored, or return when the download has begun.",
+        ),
     ] = True,
     take: Take = False,
     as_json: AsJson = False,
 ) -> None:
-    """Store groups on the board, one after the other. The gateway goes on by itself; Ctrl-C calls it off."""
+    """Store groups on the board, one after the other. Ctrl-C cancels the download."""
     job = delivered(remote, [group_of(text) for text in groups], take=take)
     if wait:
         job = followed(remote, job, tells=not as_json)
@@ -125,16 +129,18 @@ def group_in(file: Path) -> dict[str, Any]:
 @asking
 def play(
     remote: Remote,
-    file: Annotated[Path, typer.Argument(help="Of one group, as `servodeck download` takes it.")],
+    file: Annotated[Path, typer.Argument(help="A file with one group, as for `servodeck download`.")],
     times: Annotated[int, typer.Option(help="0: until stopped.")] = 1,
     go_on: Annotated[
         int | None,
-        typer.Option("--continue", metavar="SECONDS", help="Return at once; it goes on for so long at most."),
+        typer.Option(
+            "--continue", metavar="SECONDS", help="Return at once and let it continue for at most this long."
+        ),
     ] = None,
     take: Take = False,
     as_json: AsJson = False,
 ) -> None:
-    """Have the gateway play a group, frame by frame, and watch over it: Ctrl-C ends it."""
+    """Have the gateway play a group, frame by frame, and wait for its end; Ctrl-C stops it."""
     body: dict[str, Any] = {"frames": group_in(file)["frames"], "times": times, "take": take}
     if go_on is not None:
         body["continueForMs"] = min(go_on, LONGEST_ALONE_S) * 1000

@@ -31,7 +31,7 @@ app.command()(doctor)
 
 @app.command("config", context_settings={"allow_extra_args": True, "ignore_unknown_options": True})
 def show_config(context: typer.Context) -> None:
-    """Show what `serve` with the same options would go by, and where each value comes from."""
+    """Show the settings that `serve` would use with the same options, and where each comes from."""
     commands = commands_of(context)
     with commands["serve"].make_context("serve", context.args, parent=context.parent) as made:
         for setting in settings_of(made):
@@ -40,9 +40,9 @@ def show_config(context: typer.Context) -> None:
 
 @app.command()
 def ports(
-    as_json: Annotated[bool, typer.Option("--json", help="For programs.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
     url: Annotated[
-        str, typer.Option(envvar=f"{PREFIX}_URL", help="Those of the computer of that gateway.")
+        str, typer.Option(envvar=f"{PREFIX}_URL", help="List the ports of this gateway's computer instead.")
     ] = "",
     token: Token = "",
     token_file: TokenFile = None,
@@ -83,10 +83,10 @@ def modules_heard() -> list[PortInfo]:
 @app.command()
 def decode(
     hex_bytes: Annotated[list[str], typer.Argument(metavar="HEX...", help="Bytes, e.g. 55 55 02 07")],
-    report: Annotated[bool, typer.Option("--report", help="From the board, not to it.")] = False,
-    as_json: Annotated[bool, typer.Option("--json", help="For programs.")] = False,
+    report: Annotated[bool, typer.Option("--report", help="The packet comes from the board.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
 ) -> None:
-    """Say in words what a packet means."""
+    """Explain a packet in words."""
     try:
         packet = bytes.fromhex(" ".join(hex_bytes))
         words = describe(packet, "report" if report else "command")

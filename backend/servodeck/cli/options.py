@@ -38,14 +38,18 @@ WHAT_TO_DO = {
 
 Url = Annotated[str, typer.Option(envvar="SERVODECK_URL", help="The gateway's address.")]
 Token = Annotated[
-    str, typer.Option(envvar="SERVODECK_TOKEN", help="Who you are; better not where others can read it.")
+    str,
+    typer.Option(
+        envvar="SERVODECK_TOKEN",
+        help="Access token. Other users can see command lines: better in a file or variable.",
+    ),
 ]
 TokenFile = Annotated[
     Path | None,
     typer.Option(envvar="SERVODECK_TOKEN_FILE", help="A file that holds the token and nothing else."),
 ]
-AsJson = Annotated[bool, typer.Option("--json", help="For programs.")]
-Take = Annotated[bool, typer.Option("--take", help="As an owner: also from the present driver.")]
+AsJson = Annotated[bool, typer.Option("--json", help="Print JSON.")]
+Take = Annotated[bool, typer.Option("--take", help="Take the robot from its present driver (owners only).")]
 
 
 def remote_at(url: Url = HERE, token: Token = "", token_file: TokenFile = None) -> Remote:
@@ -88,7 +92,7 @@ def explain(error: RefusedError) -> NoReturn:
 
 def explain_silence(remote: Remote, error: UnreachableError) -> NoReturn:
     fail(
-        f"No gateway at {remote.url}: {error}\nIs it running (servodeck serve)? --url names another one.",
+        f"No gateway at {remote.url}: {error}\nIs it running (servodeck serve)? --url sets another address.",
         UNREACHABLE,
     )
 
@@ -108,11 +112,11 @@ def board(
     remote: Remote,
     family: Annotated[
         str | None,
-        typer.Argument(metavar="FAMILY", help=f"{', '.join(FAMILIES)}; unknown: ask it again."),
+        typer.Argument(metavar="FAMILY", help=f"{', '.join(FAMILIES)}; unknown: identify it again."),
     ] = None,
     as_json: AsJson = False,
 ) -> None:
-    """Show what the board answered when it was asked who it is, or say of which family it is."""
+    """Show how the board was identified, or choose its family."""
     if family is not None:
         asked(remote, "PUT", "/api/board", {"board": family})
     show(when_asked(remote), as_json, board_words)
@@ -146,10 +150,10 @@ def board_words(state: dict[str, Any]) -> str:
 def evidence_words(evidence: dict[str, Any]) -> str:
     match evidence["kind"]:
         case "answered":
-            return f"It told its {QUESTIONS[evidence['question']]}."
+            return f"It reported its {QUESTIONS[evidence['question']]}."
         case "silent":
-            return f"It did not tell its {QUESTIONS[evidence['question']]}."
+            return f"It did not report its {QUESTIONS[evidence['question']]}."
         case "echoed":
-            return "The question itself came back."
+            return "The request itself came back."
         case _:
-            return f"{evidence['byteCount']} bytes came that are no packets."
+            return f"{evidence['byteCount']} bytes came that are not packets."

@@ -78,23 +78,21 @@ def serve(
         typer.Option(
             callback=take_file,
             is_eager=True,
-            help="TOML file of these options; left out: this user's own or /etc/servodeck/config.toml.",
+            help="TOML file of these options. Default: this user's own, or /etc/servodeck/config.toml.",
         ),
     ] = None,
     listen: Annotated[
         str,
         typer.Option(
             help="HOST:PORT of this computer; port 0 takes a free one. "
-            f"Left out: {DEFAULT_LISTEN}, with --lan {LAN_LISTEN}."
+            f"Default: {DEFAULT_LISTEN}, with --lan {LAN_LISTEN}."
         ),
     ] = "",
     lan: Annotated[bool, typer.Option("--lan", help="Let other devices in, once they are paired.")] = False,
     public_url: Annotated[
-        str, typer.Option(help="The one address of a proxy in front, for example https://robot.example.")
+        str, typer.Option(help="Address of a reverse proxy in front, for example https://robot.example.")
     ] = "",
-    invite: Annotated[
-        bool, typer.Option("--invite", help="Show a link for one more owner, also where there is one.")
-    ] = False,
+    invite: Annotated[bool, typer.Option("--invite", help="Print an invitation for another owner.")] = False,
     serial: Annotated[
         str,
         typer.Option(
@@ -102,29 +100,34 @@ def serve(
         ),
     ] = "",
     board: Annotated[
-        str, typer.Option(help=f"Board family: {', '.join(FAMILIES)}. Left out: as it was last, else ask it.")
+        str,
+        typer.Option(
+            help=f"Board family: {', '.join(FAMILIES)}. Default: the last one, else it is identified."
+        ),
     ] = "",
-    simulated: Annotated[
-        bool, typer.Option("--simulated", help="Tell everyone that the device is no real board.")
-    ] = False,
+    simulated: Annotated[bool, typer.Option("--simulated", help="The device is a simulated board.")] = False,
     data: Annotated[
-        Path | None, typer.Option(help="Folder of the library; left out: one of this user's own.")
+        Path | None,
+        typer.Option(help="Folder of the library and settings. Default: in this user's data folder."),
     ] = None,
     open_page: Annotated[
         bool | None,
         typer.Option(
             "--open/--no-open",
             envvar=f"{PREFIX}_OPEN",
-            help="Show the page; by default where a person looks on.",
+            help="Open the page in a browser. Default: if started from a terminal.",
         ),
     ] = None,
-    log_level: Annotated[Level, typer.Option(help="The least that the log on stderr tells.")] = "info",
-    log_format: Annotated[Form, typer.Option(help="For people, or a JSON object a line.")] = "text",
+    log_level: Annotated[Level, typer.Option(help="Lowest level that is logged on stderr.")] = "info",
+    log_format: Annotated[Form, typer.Option(help="Text for people, or one JSON object per line.")] = "text",
     exit_with_stdin: Annotated[
-        bool, typer.Option("--exit-with-stdin", help="End when stdin ends: with the program that started us.")
+        bool,
+        typer.Option(
+            "--exit-with-stdin", help="End when stdin is closed, with the program that started this one."
+        ),
     ] = False,
 ) -> None:
-    """Serve the page and own the serial port. Each option may also come from SERVODECK_NAME or a file."""
+    """Serve the page and the serial port. Each option can also be set as SERVODECK_NAME or in a file."""
     from servodeck.access import addresses
     from servodeck.access.announcement import Announcement
     from servodeck.api.app import create_app

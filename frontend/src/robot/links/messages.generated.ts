@@ -440,7 +440,7 @@ export interface SilentEvidence {
   question: 'readBattery' | 'readVersion' | 'readPositions';
 }
 /**
- * The question itself came back.
+ * The request itself came back.
  */
 export interface EchoedEvidence {
   kind: 'echoed';
