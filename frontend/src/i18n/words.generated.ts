@@ -889,6 +889,14 @@ export interface Messages {
       readonly inUse: string;
       readonly secureLink: string;
     };
+    readonly webBluetooth: {
+      readonly title: string;
+      readonly about: string;
+      readonly choose: string;
+      readonly inUse: string;
+      readonly unsupported: string;
+      readonly insecureAddress: string;
+    };
     readonly gateway: {
       readonly title: string;
       readonly about: string;
@@ -2032,6 +2040,9 @@ export interface Messages {
     readonly portMissing: string;
     readonly portBusy: string;
     readonly portDenied: string;
+    readonly moduleMissing: string;
+    readonly moduleNotChosen: string;
+    readonly bluetoothOff: string;
     readonly otherDevice: string;
     readonly heldElsewhere: string;
     readonly movedAway: string;

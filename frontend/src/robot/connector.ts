@@ -19,6 +19,7 @@ import type { Notices } from '../state/notices.ts';
 import type { You } from './people.generated.ts';
 import { createGatewayTransport } from './links/gateway.ts';
 import { choosePort, grantedPorts, portLabel, webSerialObstacle } from './links/serialPorts.ts';
+import type { BluetoothHere, GrantedModule } from './links/webBluetooth.ts';
 import { createWebSerialChannel } from './links/webSerial.ts';
 import { later } from '../ui/later.tsx';
 import { words } from '../i18n/words.ts';
@@ -45,6 +46,9 @@ export interface ConnectState {
   readonly granted: readonly GrantedPort[];
   /** The one that was opened last. */
   readonly openPort: SerialPort | null;
+  readonly bluetooth: BluetoothHere;
+  /** The one that was opened last. */
+  readonly openModule: BluetoothDevice | null;
   /** `looking` until the page's own address has answered or not. */
   readonly gateway: 'looking' | 'absent' | GatewayStatus;
   readonly gatewayPorts: readonly GatewayPort[];
@@ -62,7 +66,7 @@ export interface Connector {
   readonly store: StoreApi<ConnectState>;
   /** The first way of this visit: the last one chosen, else the gateway, else the simulated robot. */
   start(): Promise<void>;
-  /** Looks again for the gateway, its ports and the ports granted here. */
+  /** Looks again for the gateway, its ports, and the ports and modules granted here. */
   look(): Promise<void>;
   simulate(board: FamilyId): Promise<void>;
   setReconnects(reconnects: boolean): void;
@@ -74,6 +78,9 @@ export interface Connector {
   useSerialPort(port: SerialPort): void;
   /** Opens the browser's chooser. Rejects with a LinkError. */
   chooseSerialPort(): Promise<void>;
+  useModule(module: BluetoothDevice): Promise<void>;
+  /** Opens the browser's chooser. Rejects with a LinkError. */
+  chooseModule(): Promise<void>;
   disconnect(): void;
   /** After `heldElsewhere` or `movedAway`: the other tab stops the robot and lets go, then this one tries again. */
   moveHere(): Promise<void>;
@@ -104,8 +111,10 @@ export interface ConnectorOptions {
 }
 
 const loadSimulated = () => import('./links/simulated.ts');
-// It needs no gateway: it is there before it is wanted.
+const loadBluetooth = () => import('./links/webBluetooth.ts');
+// They need no gateway: they are there before they are wanted.
 later(loadSimulated);
+later(loadBluetooth);
 
 export function createConnector(options: ConnectorOptions): Connector {
   const { device, notices, boards, storage, role, isWatched } = options;
@@ -115,6 +124,8 @@ export function createConnector(options: ConnectorOptions): Connector {
     serialObstacle: webSerialObstacle(),
     granted: [],
     openPort: null,
+    bluetooth: { obstacle: null, granted: [] },
+    openModule: null,
     gateway: 'looking',
     gatewayPorts: [],
     body: null,
@@ -134,6 +145,27 @@ export function createConnector(options: ConnectorOptions): Connector {
     const isOpen = way?.kind === 'webSerial' && current?.session.state.link.status === 'ready';
     if (isOpen && port === openPort) notices.tell('info', words.connect.isOpen({ label: way.label }));
     else chosen(openSerial(port));
+  }
+
+  async function openModule(module: BluetoothDevice): Promise<Link> {
+    const { createWebBluetoothChannel } = await loadBluetooth();
+    store.setState({ openModule: module });
+    return { kind: 'webBluetooth', channel: createWebBluetoothChannel(module) };
+  }
+
+  async function openModuleOnce(module: BluetoothDevice): Promise<void> {
+    const way = current?.way();
+    const isOpen = way?.kind === 'webBluetooth' && current?.session.state.link.status === 'ready';
+    if (isOpen && module.id === store.getState().openModule?.id)
+      notices.tell('info', words.connect.isOpen({ label: way.label }));
+    else chosen(await openModule(module));
+  }
+
+  async function lookForModules(): Promise<readonly GrantedModule[]> {
+    const { lookForBluetooth } = await loadBluetooth();
+    const bluetooth = await lookForBluetooth();
+    store.setState({ bluetooth });
+    return bluetooth.granted;
   }
 
   /** A board in the page is what it was made as; any other is asked, and taken for what it was the last time. A gateway asks itself. */
@@ -203,11 +235,13 @@ export function createConnector(options: ConnectorOptions): Connector {
     await look(options.isAtGateway ? SURE_WITHIN_MS : undefined);
     const { gateway, granted, reconnects } = store.getState();
     const [port] = granted;
+    const [module] = last?.kind === 'webBluetooth' && reconnects ? await lookForModules() : [];
     if (last?.kind === 'simulated' || (gateway === 'absent' && last === null)) {
       await connect(await simulated());
       if (last === null) greet();
     } else if (!reconnects) return;
     else if (last?.kind === 'webSerial' && port !== undefined) await connect(openSerial(port.port));
+    else if (module !== undefined) await connect(await openModule(module.module));
     else if (typeof gateway === 'object') await connect(gatewayLink());
     else await connect(await simulated());
     if (gateway === 'absent') void offerLateGateway();
@@ -244,7 +278,9 @@ export function createConnector(options: ConnectorOptions): Connector {
   return {
     store,
     start,
-    look,
+    async look() {
+      await Promise.all([look(), lookForModules()]);
+    },
     setBody(body) {
       store.setState({ body });
       const { family, snapshot } = device.store.getState();
@@ -268,6 +304,11 @@ export function createConnector(options: ConnectorOptions): Connector {
     useSerialPort: openOnce,
     async chooseSerialPort() {
       openOnce(await choosePort());
+    },
+    useModule: openModuleOnce,
+    async chooseModule() {
+      const { chooseModule } = await loadBluetooth();
+      await openModuleOnce(await chooseModule());
     },
     disconnect: () => void device.detach().catch(notices.tellError),
     async moveHere() {

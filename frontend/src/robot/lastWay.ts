@@ -10,7 +10,12 @@ export interface LastWay {
 }
 
 const KEY = 'servodeck.way';
-const KINDS: readonly string[] = ['webSerial', 'gateway', 'simulated'] satisfies Transport['kind'][];
+const KINDS: readonly string[] = [
+  'webSerial',
+  'webBluetooth',
+  'gateway',
+  'simulated',
+] satisfies Transport['kind'][];
 
 export function rememberWay(storage: TextStorage, { kind, board }: LastWay): void {
   try {

@@ -33,7 +33,14 @@ export interface Link {
 }
 
 /** Failures that pass by themselves; the others need the person. */
-const PASSING: readonly LinkErrorCode[] = ['lost', 'portMissing', 'portBusy', 'gatewayUnreachable'];
+const PASSING: readonly LinkErrorCode[] = [
+  'lost',
+  'portMissing',
+  'portBusy',
+  'moduleMissing',
+  'bluetoothOff',
+  'gatewayUnreachable',
+];
 
 export function createLink({ transport, clock, changed, ...events }: LinkOptions): Link {
   let state: LineState = { status: 'closed' };

@@ -7,6 +7,9 @@ export const LINK_ERROR_CODES = [
   'portMissing', // no such device
   'portBusy', // another program or tab holds it
   'portDenied', // the operating system refuses access
+  'moduleMissing', // the Bluetooth module does not answer
+  'moduleNotChosen', // the person closed the chooser of Bluetooth modules
+  'bluetoothOff', // this computer has no Bluetooth adapter, or it is off
   'otherDevice', // another device may stand where ours was: a person must choose
   'heldElsewhere', // another tab of this browser drives it
   'movedAway', // another tab asked for it and was given it

@@ -159,7 +159,7 @@ export interface RobotOnBoard {
 }
 
 export interface Transport {
-  readonly kind: 'webSerial' | 'gateway' | 'simulated';
+  readonly kind: 'webSerial' | 'webBluetooth' | 'gateway' | 'simulated';
   /** Names the device for people, e.g. `/dev/ttyUSB0`. */
   readonly label: string;
   /** True where no real board is behind it; known once it is open. */

@@ -11,6 +11,8 @@ const BASE: ConnectState = {
   serialObstacle: null,
   granted: [],
   openPort: null,
+  bluetooth: { obstacle: null, granted: [] },
+  openModule: null,
   gateway: 'absent',
   gatewayPorts: [],
   body: null,
@@ -60,13 +62,19 @@ const CASES: readonly {
     state: {
       ...BASE,
       serialObstacle: 'insecureAddress',
+      bluetooth: { obstacle: 'insecureAddress', granted: [] },
       gateway: { device: null, isSimulated: false },
     },
   },
   {
     name: 'Connect, browser without serial ports',
     current: null,
-    state: { ...BASE, serialObstacle: 'unsupported', gateway: 'looking' },
+    state: {
+      ...BASE,
+      serialObstacle: 'unsupported',
+      bluetooth: { obstacle: 'unsupported', granted: [] },
+      gateway: 'looking',
+    },
   },
 ];
 
@@ -89,6 +97,8 @@ export const CONNECT: readonly Exhibit[] = CASES.map(({ name, state, current }) 
       onGatewayPort={nothing}
       onSerialPort={nothing}
       onChooseSerial={nothing}
+      onModule={nothing}
+      onChooseModule={nothing}
       onDisconnect={nothing}
     />
   ),

@@ -35,6 +35,8 @@ export interface ConnectWaysProps {
   onGatewayPort(device: string): void;
   onSerialPort(port: SerialPort): void;
   onChooseSerial(): void;
+  onModule(module: BluetoothDevice): void;
+  onChooseModule(): void;
   onDisconnect(): void;
 }
 
@@ -98,6 +100,14 @@ function offersOf(props: ConnectWaysProps): readonly WayOffer[] {
       obstacle: state.serialObstacle === null ? null : <SerialObstacle {...props} />,
       choices: <SerialChoices {...props} />,
       guide: <PortGuide />,
+    },
+    {
+      kind: 'webBluetooth',
+      title: words.connect.webBluetooth.title,
+      about: words.connect.webBluetooth.about,
+      obstacle:
+        state.bluetooth.obstacle === null ? null : <BluetoothObstacle code={state.bluetooth.obstacle} />,
+      choices: <BluetoothChoices {...props} />,
     },
     {
       kind: 'gateway',
@@ -183,11 +193,7 @@ function SerialObstacle({ state: { serialObstacle } }: ConnectWaysProps) {
   return (
     <>
       <p className={styles.dim}>{errorSentence(serialObstacle)}</p>
-      {serialObstacle === 'insecureAddress' && (
-        <a className={styles.link} href={localAddress()}>
-          {words.connect.webSerial.secureLink}
-        </a>
-      )}
+      {serialObstacle === 'insecureAddress' && <LocalLink />}
     </>
   );
 }
@@ -209,6 +215,49 @@ function SerialChoices({ state, current, isReady, onSerialPort, onChooseSerial }
         {words.connect.webSerial.choose}
       </Button>
     </>
+  );
+}
+
+type BluetoothObstacleCode = NonNullable<ConnectState['bluetooth']['obstacle']>;
+
+function BluetoothObstacle({ code }: { readonly code: BluetoothObstacleCode }) {
+  return (
+    <>
+      <p className={styles.dim}>
+        {code === 'bluetoothOff' ? errorSentence(code) : words.connect.webBluetooth[code]}
+      </p>
+      {code === 'insecureAddress' && <LocalLink />}
+    </>
+  );
+}
+
+function BluetoothChoices({ state, current, isReady, onModule, onChooseModule }: ConnectWaysProps) {
+  const isOpen = isReady && current?.kind === 'webBluetooth';
+  const { granted } = state.bluetooth;
+  return (
+    <>
+      {granted.map(({ module, label }) => (
+        <OpenButton
+          key={module.id}
+          label={label}
+          isOpen={isOpen && module.id === state.openModule?.id}
+          onPress={() => onModule(module)}
+        />
+      ))}
+      {isOpen && <p className={styles.dim}>{words.connect.webBluetooth.inUse}</p>}
+      <Button tone={granted.length === 0 ? 'plain' : 'quiet'} onPress={onChooseModule}>
+        {words.connect.webBluetooth.choose}
+      </Button>
+    </>
+  );
+}
+
+/** The same page where the browser shows its device interfaces. */
+function LocalLink() {
+  return (
+    <a className={styles.link} href={localAddress()}>
+      {words.connect.webSerial.secureLink}
+    </a>
   );
 }
 

@@ -6,6 +6,7 @@ import type { LinkErrorCode } from '#shared/robot/linkError.ts';
 import { createLocalRobot, type Session } from '#shared/robot/robot.ts';
 import type { LinkState } from '#shared/robot/state.ts';
 import type { ByteChannel } from '#shared/robot/byteChannel.ts';
+import type { Transport } from '#shared/robot/transport.ts';
 import { browserClock } from './browserClock.ts';
 import { createBrowser, type FakeBrowser, type FakePort } from './serialUnderTest.ts';
 import type { Alarm } from './timerWorker.ts';
@@ -64,8 +65,11 @@ export function pass(ms = TOLD_WITHIN_MS): Promise<unknown> {
 
 /** Opens the dashboard and chooses that port. */
 export function openTab({ port }: FakePort): Tab {
-  const channel = createWebSerialChannel(port);
-  const session = createLocalRobot({ channel, kind: 'webSerial', family: FAMILIES.doc, clock: browserClock });
+  return openChannel(createWebSerialChannel(port), 'webSerial');
+}
+
+export function openChannel(channel: ByteChannel, kind: Transport['kind']): Tab {
+  const session = createLocalRobot({ channel, kind, family: FAMILIES.doc, clock: browserClock });
   const tab: Tab = { session, channel, outcomes: [], noise: [] };
   session.subscribe({
     state: () => tab.outcomes.at(-1) !== outcome(tab) && tab.outcomes.push(outcome(tab)),
@@ -88,7 +92,7 @@ export function outcome({ session }: Tab): Outcome {
 }
 
 /** The board is asked and answers: the way there and the way back are whole. */
-export async function expectUse({ session }: Tab, port: FakePort): Promise<void> {
+export async function expectUse({ session }: Tab, port: Pick<FakePort, 'deliver'>): Promise<void> {
   const answer = session.readBattery();
   await pass(20);
   port.deliver(...BATTERY_REPORT);
