@@ -42,6 +42,8 @@ export default defineConfig<object, { way: Way }>({
     { name: 'gateway', testMatch: ['commands/**', 'gateway/**', 'tasks/**'], use: { way: 'gateway' } },
     { name: 'webserial', testMatch: 'tasks/**', grep: /@everyWay/, use: { way: 'webSerial' } },
     { name: 'real-webserial', testMatch: 'realSerial/**', use: { way: 'webSerial' } },
+    // No gateway there either.
+    { name: 'real-bluetooth', testMatch: 'realBluetooth/**', use: { way: 'webSerial' } },
   ],
   use: {
     locale: 'en-GB',

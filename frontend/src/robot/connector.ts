@@ -75,7 +75,7 @@ export interface Connector {
   useGateway(): void;
   /** Has the gateway open that port first. Rejects with a LinkError. */
   useGatewayPort(device: string): Promise<void>;
-  useSerialPort(port: SerialPort): void;
+  useSerialPort(port: SerialPort): Promise<void>;
   /** Opens the browser's chooser. Rejects with a LinkError. */
   chooseSerialPort(): Promise<void>;
   useModule(module: BluetoothDevice): Promise<void>;
@@ -138,28 +138,29 @@ export function createConnector(options: ConnectorOptions): Connector {
     return { kind: 'webSerial', channel: createWebSerialChannel(port) };
   }
 
-  /** What is open already is left alone, and that is said: the browser's chooser does not know it. */
-  function openOnce(port: SerialPort): void {
-    const { openPort } = store.getState();
-    const way = current?.way();
-    const isOpen = way?.kind === 'webSerial' && current?.session.state.link.status === 'ready';
-    if (isOpen && port === openPort) notices.tell('info', words.connect.isOpen({ label: way.label }));
-    else chosen(openSerial(port));
-  }
-
   async function openModule(module: BluetoothDevice): Promise<Link> {
     const { createWebBluetoothChannel } = await loadBluetooth();
     store.setState({ openModule: module });
     return { kind: 'webBluetooth', channel: createWebBluetoothChannel(module) };
   }
 
-  async function openModuleOnce(module: BluetoothDevice): Promise<void> {
+  /** What is open already is left alone, and that is said: the browser's chooser does not know it. */
+  async function openOnce(
+    kind: Way['kind'],
+    isSame: boolean,
+    open: () => Link | Promise<Link>,
+  ): Promise<void> {
     const way = current?.way();
-    const isOpen = way?.kind === 'webBluetooth' && current?.session.state.link.status === 'ready';
-    if (isOpen && module.id === store.getState().openModule?.id)
+    if (isSame && way?.kind === kind && current?.session.state.link.status === 'ready')
       notices.tell('info', words.connect.isOpen({ label: way.label }));
-    else chosen(await openModule(module));
+    else chosen(await open());
   }
+
+  const takePort = (port: SerialPort): Promise<void> =>
+    openOnce('webSerial', port === store.getState().openPort, () => openSerial(port));
+
+  const takeModule = (module: BluetoothDevice): Promise<void> =>
+    openOnce('webBluetooth', module === store.getState().openModule, () => openModule(module));
 
   async function lookForModules(): Promise<readonly GrantedModule[]> {
     const { lookForBluetooth } = await loadBluetooth();
@@ -301,14 +302,14 @@ export function createConnector(options: ConnectorOptions): Connector {
       await look();
       chosen(gatewayLink());
     },
-    useSerialPort: openOnce,
+    useSerialPort: takePort,
     async chooseSerialPort() {
-      openOnce(await choosePort());
+      await takePort(await choosePort());
     },
-    useModule: openModuleOnce,
+    useModule: takeModule,
     async chooseModule() {
       const { chooseModule } = await loadBluetooth();
-      await openModuleOnce(await chooseModule());
+      await takeModule(await chooseModule());
     },
     disconnect: () => void device.detach().catch(notices.tellError),
     async moveHere() {
