@@ -2,7 +2,6 @@
 // phone. STOP stands outside of all of them.
 
 import { useEffect, useLayoutEffect, useRef, type UIEvent } from 'react';
-import { I18nProvider } from 'react-aria-components/I18nProvider';
 import { useStore } from 'zustand';
 import { CaptureStrip } from '../features/animate/frames/CaptureStrip.tsx';
 import { useUndoKeys } from '../features/undo/useUndoKeys.ts';
@@ -48,15 +47,13 @@ const BatteryPanel = laterComponent(
 const Kiosk = laterComponent(async () => (await import('./Kiosk.tsx')).Kiosk, '100%');
 
 export function App({ page }: { readonly page: Page }) {
-  const locale = useSpokenLocale();
+  useSpokenLocale();
   return (
-    <I18nProvider locale={locale}>
-      <StoresContext value={page.stores}>
-        <FilesDesk>
-          <Dashboard page={page} />
-        </FilesDesk>
-      </StoresContext>
-    </I18nProvider>
+    <StoresContext value={page.stores}>
+      <FilesDesk>
+        <Dashboard page={page} />
+      </FilesDesk>
+    </StoresContext>
   );
 }
 

@@ -147,7 +147,7 @@ export async function openPage({ me, problem }: Arrival): Promise<Page> {
   bringSelectionBack({ document: written, timeline, view });
   findOthersGroups({ device, robots, slots, compiled, library, keeper });
   stores.view.subscribe(({ tab, kiosk }) => {
-    if (tab === 'buttons' || kiosk === 'on') pad.drive(false);
+    if (tab === 'buttons' || kiosk === 'on') pad.drive(null);
   });
   pollBattery(device, isWatched);
   window.addEventListener('focus', () => {

@@ -3,6 +3,7 @@
 import type { RefObject } from 'react';
 import { Menu, MenuItem } from 'react-aria-components/Menu';
 import { Popover } from 'react-aria-components/Popover';
+import { InLanguage } from './InLanguage.tsx';
 import styles from './Menu.module.css';
 
 interface ChoiceMenuProps {
@@ -16,20 +17,22 @@ interface ChoiceMenuProps {
 
 export function ChoiceMenu({ label, choices, isOpen, under, onChoose, onClose }: ChoiceMenuProps) {
   return (
-    <Popover
-      className={styles.popover ?? ''}
-      placement="bottom start"
-      triggerRef={under}
-      isOpen={isOpen}
-      onOpenChange={(open) => !open && onClose()}
-    >
-      <Menu className={styles.menu ?? ''} aria-label={label} autoFocus="first" onClose={onClose}>
-        {choices.map(({ id, name }) => (
-          <MenuItem key={id} className={styles.item ?? ''} onAction={() => onChoose(id)}>
-            {name}
-          </MenuItem>
-        ))}
-      </Menu>
-    </Popover>
+    <InLanguage>
+      <Popover
+        className={styles.popover ?? ''}
+        placement="bottom start"
+        triggerRef={under}
+        isOpen={isOpen}
+        onOpenChange={(open) => !open && onClose()}
+      >
+        <Menu className={styles.menu ?? ''} aria-label={label} autoFocus="first" onClose={onClose}>
+          {choices.map(({ id, name }) => (
+            <MenuItem key={id} className={styles.item ?? ''} onAction={() => onChoose(id)}>
+              {name}
+            </MenuItem>
+          ))}
+        </Menu>
+      </Popover>
+    </InLanguage>
   );
 }

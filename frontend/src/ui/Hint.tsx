@@ -2,6 +2,7 @@
 
 import type { RefObject } from 'react';
 import { Tooltip, TooltipTriggerStateContext } from 'react-aria-components/Tooltip';
+import { InLanguage } from './InLanguage.tsx';
 import styles from './Hints.module.css';
 
 interface HintProps {
@@ -13,10 +14,12 @@ interface HintProps {
 export function Hint({ text, of, onClose }: HintProps) {
   const state = { isOpen: true, shouldSkipAnimation: true, open: () => undefined, close: onClose };
   return (
-    <TooltipTriggerStateContext value={state}>
-      <Tooltip key={text} triggerRef={of} className={styles.hint ?? ''} offset={6}>
-        {text}
-      </Tooltip>
-    </TooltipTriggerStateContext>
+    <InLanguage>
+      <TooltipTriggerStateContext value={state}>
+        <Tooltip key={text} triggerRef={of} className={styles.hint ?? ''} offset={6}>
+          {text}
+        </Tooltip>
+      </TooltipTriggerStateContext>
+    </InLanguage>
   );
 }

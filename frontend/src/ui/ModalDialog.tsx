@@ -6,6 +6,7 @@ import { Dialog as AriaDialog, Heading } from 'react-aria-components/Dialog';
 import { Modal, ModalOverlay } from 'react-aria-components/Modal';
 import { IconButton } from './Button.tsx';
 import { cx } from './cx.ts';
+import { InLanguage } from './InLanguage.tsx';
 import styles from './Dialog.module.css';
 
 export interface DialogProps {
@@ -31,25 +32,27 @@ export function ModalDialog({
   onClose,
 }: DialogProps) {
   return (
-    <ModalOverlay
-      className={styles.veil ?? ''}
-      isOpen={isOpen}
-      isDismissable={role === 'dialog'}
-      onOpenChange={(open) => {
-        if (!open) onClose();
-      }}
-    >
-      <Modal className={cx(styles.modal, wide && styles.wide, full && styles.full)}>
-        <AriaDialog className={styles.dialog ?? ''} role={role}>
-          <div className={styles.header}>
-            <Heading slot="title" level={2} className={styles.title ?? ''}>
-              {title}
-            </Heading>
-            <IconButton icon="close" label={closeLabel} onPress={onClose} />
-          </div>
-          {children}
-        </AriaDialog>
-      </Modal>
-    </ModalOverlay>
+    <InLanguage>
+      <ModalOverlay
+        className={styles.veil ?? ''}
+        isOpen={isOpen}
+        isDismissable={role === 'dialog'}
+        onOpenChange={(open) => {
+          if (!open) onClose();
+        }}
+      >
+        <Modal className={cx(styles.modal, wide && styles.wide, full && styles.full)}>
+          <AriaDialog className={styles.dialog ?? ''} role={role}>
+            <div className={styles.header}>
+              <Heading slot="title" level={2} className={styles.title ?? ''}>
+                {title}
+              </Heading>
+              <IconButton icon="close" label={closeLabel} onPress={onClose} />
+            </div>
+            {children}
+          </AriaDialog>
+        </Modal>
+      </ModalOverlay>
+    </InLanguage>
   );
 }

@@ -77,7 +77,7 @@ interface Wish<To> {
   readonly wish: To;
 }
 
-export function step(driven: Driven, inputs: Inputs, dtMs: number, before: DriveState): Moment {
+export function step(driven: Driven, inputs: Inputs, dtMs: number, before = AT_REST): Moment {
   const { bindings } = driven.mapping;
   const held = bindings.map((binding, at) => hold(driven, binding, inputs, dtMs, before.held[at]));
   const wishes = driven.robot.servos.flatMap((servo) => {

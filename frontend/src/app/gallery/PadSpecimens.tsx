@@ -1,5 +1,6 @@
 // Keys and pad in each of their states: without a pad, held, driving with servos that nobody knows, in conflict.
 
+import { step } from '#shared/profile/mappingStep.ts';
 import type { Binding } from '#shared/profile/mapping.ts';
 import { padParts } from '../../features/inputs/PadPanel.tsx';
 import { AuthoringPanel } from '../Authoring.tsx';
@@ -66,6 +67,6 @@ function storesOf({ pad: held, isDriving = false, more = [] }: PadSpecimen): Sto
     () => words.pad.steps.ready,
     (mapping) => ({ ...mapping, bindings: [...mapping.bindings, ...more] }),
   );
-  pad.drive(isDriving);
+  pad.drive(isDriving ? step : null);
   return stores;
 }

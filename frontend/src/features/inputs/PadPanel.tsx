@@ -1,6 +1,7 @@
 // Driving by keys and pad: the switch, the picture of what is held, how it feels, and which input does what.
 
 import { useRef } from 'react';
+import { step } from '#shared/profile/mappingStep.ts';
 import { conflicts, type Conflict, type Mapping, servoBoundBy } from '#shared/profile/mapping.ts';
 import type { PoseBook } from '#shared/profile/pose.ts';
 import type { Robot } from '#shared/profile/robot.ts';
@@ -212,7 +213,7 @@ function Tools() {
           label={words.pad.drive}
           isOn={isDriving}
           isDisabled={isBlocked && !isDriving}
-          onChange={pad.drive}
+          onChange={(isOn) => pad.drive(isOn ? step : null)}
         />
       </span>
     </>

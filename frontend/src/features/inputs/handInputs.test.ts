@@ -3,6 +3,7 @@
 
 import * as fc from 'fast-check';
 import { expect, test } from 'vitest';
+import { step } from '#shared/profile/mappingStep.ts';
 import { evenly } from '#shared/testing/evenlyUnderTest.ts';
 import { homeTargets } from '#shared/profile/poseShapes.ts';
 import { FAMILIES } from '#shared/codec/families.ts';
@@ -186,7 +187,7 @@ test.each(BOARDS)('%s', { timeout: 60_000 * TIMES }, async (profile) => {
           );
           return pass(STEP_MS);
         case 'pad':
-          pad.drive(true);
+          pad.drive(step);
           await pass(40);
           pressed = one.button;
           await pass(one.ms);

@@ -1,4 +1,5 @@
 import { describe, expect, test } from 'vitest';
+import { step } from '#shared/profile/mappingStep.ts';
 import { FAMILIES } from '#shared/codec/families.ts';
 import type { Input } from '#shared/profile/mapping.ts';
 import { addPose } from '#shared/profile/pose.ts';
@@ -60,7 +61,7 @@ async function createDesk({ drives = true } = {}) {
   hold();
   device.move([{ servo: 1, position: 1500 }], 1500);
   await frames(2500);
-  if (drives) pad.drive(true);
+  if (drives) pad.drive(step);
   await frames(50);
   return {
     ...{ ...rig, pad, device, robots, view, poses, mappings, told, moves, movesIn, target, hold, frames },
@@ -95,7 +96,7 @@ describe('driving by pad', () => {
     const { hold, unplug, frames, pad, movesIn } = await createDesk();
     unplug();
     await frames(50);
-    pad.drive(true);
+    pad.drive(step);
     await frames(50);
     hold(RIGHT_TRIGGER);
     expect(await movesIn(500)).toBe(0);
@@ -207,12 +208,12 @@ describe('a button for a pose', () => {
 
   test('moves nothing while driving is off, and says where the pose is gone', async () => {
     const { hold, frames, pad, poses, told, movesIn } = await deskWithPose();
-    pad.drive(false);
+    pad.drive(null);
     hold(X);
     expect(await movesIn(300)).toBe(0);
     hold();
     poses.book.undo();
-    pad.drive(true);
+    pad.drive(step);
     await frames(50);
     hold(X);
     expect(await movesIn(300)).toBe(0);
@@ -250,7 +251,7 @@ describe('STOP', () => {
     device.halt();
     await frames(50);
     expect(isDriving()).toBe(false);
-    pad.drive(true);
+    pad.drive(step);
     expect(isDriving()).toBe(false);
   });
 });
@@ -281,7 +282,7 @@ describe('driving by keys', () => {
     const { pad } = await createDesk();
     expect(pad.keyDown('KeyM', false)).toBe(false);
     expect(pad.keyDown('Escape', false)).toBe(false);
-    pad.drive(false);
+    pad.drive(null);
     expect(pad.keyDown('KeyQ', false)).toBe(false);
   });
 });

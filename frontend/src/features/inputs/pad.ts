@@ -1,5 +1,6 @@
 // Driving by pad and keys: reads them once a frame and sends what the robot's mapping makes of them. Off until a person switches
-// it on, and off again with STOP, the link, the pad or the robot gone. Knows no panel and no browser event.
+// it on, and off again with STOP, the link, the pad or the robot gone. What turns inputs into moves comes with the panel that has the
+// switch: the first load needs none of it. Knows no panel and no browser event.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { Clock } from '#shared/clock.ts';
@@ -11,7 +12,7 @@ import {
   NO_INPUTS,
   type Inputs,
 } from '#shared/profile/mapping.ts';
-import { AT_REST, step, type Begun, type DriveState } from '#shared/profile/mappingStep.ts';
+import type { Begun, DriveState, step } from '#shared/profile/mappingStep.ts';
 import type { RobotServo } from '#shared/profile/robot.ts';
 import { servoLabel, stayingSentence } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/words.ts';
@@ -45,7 +46,8 @@ export interface Pad {
   inputs(): Inputs;
   /** To be called once a frame, while the page is drawn. */
   frame(): void;
-  drive(isDriving: boolean): void;
+  /** By what turns inputs into moves; null: not any more. */
+  drive(by: typeof step | null): void;
   /** True where the key is meant for this, and nobody else should hear of it. */
   keyDown(code: string, isRepeat: boolean): boolean;
   /** Letting go of any key lets go of all: a key-up that never came cannot leave one stuck. */
@@ -79,7 +81,8 @@ export function createPad(options: PadOptions): Pad {
   const store = createStore<PadState>(() => ({ isDriving: false, pad: null }));
   const keys = new Set<string>();
   let inputs = NO_INPUTS;
-  let driven: DriveState = AT_REST;
+  let takeStep: typeof step | null = null;
+  let driven: DriveState | undefined;
   let lastMs = clock.now();
   let isAway = false;
   /** Servos that were meant and stayed, of which the person was told. */
@@ -94,15 +97,16 @@ export function createPad(options: PadOptions): Pad {
   const mapping = () => mappings.store.getState().present;
 
   function rest(): void {
-    driven = AT_REST;
+    driven = undefined;
     staying = [];
     keys.clear();
   }
 
-  function drive(isDriving: boolean): void {
+  function drive(by: typeof step | null): void {
     rest();
     const wasDriving = store.getState().isDriving;
-    const isAllowed = isDriving && hindrance() === null;
+    const isAllowed = by !== null && hindrance() === null;
+    takeStep = by;
     if (isAllowed === wasDriving) return;
     limited = [];
     store.setState({ isDriving: isAllowed });
@@ -135,7 +139,7 @@ export function createPad(options: PadOptions): Pad {
     });
     rest();
     if (isGone && store.getState().isDriving) {
-      drive(false);
+      drive(null);
       notices.tell('warning', words.pad.gone);
     }
   }
@@ -154,7 +158,7 @@ export function createPad(options: PadOptions): Pad {
     const stops = mapping().bindings.filter(({ action }) => action.kind === 'stop');
     const isStopPressed = stops.some(({ input }) => isPressed(input, inputs));
     if (isStopPressed && !stopWasPressed) {
-      drive(false);
+      drive(null);
       device.halt();
     }
     stopWasPressed = isStopPressed;
@@ -166,12 +170,13 @@ export function createPad(options: PadOptions): Pad {
   }
 
   function obey(dtMs: number): void {
+    if (takeStep === null) return;
     const { robot } = robots.current();
     const driving = {
       ...{ mapping: mapping(), robot, place: device.motions() },
       isLocked: (servo: number) => isLocked({ view, robots }, servo),
     };
-    const moment = step(driving, inputs, dtMs, driven);
+    const moment = takeStep(driving, inputs, dtMs, driven);
     driven = moment.state;
     if (moment.moves.length > 0) device.move(moment.moves, 'hand');
     moment.begun.forEach(begin);
@@ -190,12 +195,12 @@ export function createPad(options: PadOptions): Pad {
 
   device.store.subscribe(() => {
     const why = hindrance();
-    if (why !== null && why !== 'busy' && store.getState().isDriving) drive(false);
+    if (why !== null && why !== 'busy' && store.getState().isDriving) drive(null);
   });
   let robotId = robots.current().id;
   robots.store.subscribe(() => {
     const { id } = robots.current();
-    if (id !== robotId) drive(false);
+    if (id !== robotId) drive(null);
     robotId = id;
   });
   // Places in the list mean other bindings now.

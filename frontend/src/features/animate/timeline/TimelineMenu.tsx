@@ -15,6 +15,7 @@ import { deskOf, rowOf } from './desk.ts';
 import { chordText } from './keymap.ts';
 import type { Row } from './rows.ts';
 import { mayRun, verbName, VERBS, type VerbName } from './verbs.ts';
+import { InLanguage } from '../../../ui/InLanguage.tsx';
 import styles from '../../../ui/Menu.module.css';
 
 export interface OpenMenu {
@@ -47,15 +48,17 @@ export const TimelineMenu = memo(function TimelineMenu({
   onClose(): void;
 }) {
   return (
-    <Popover
-      className={styles.popover ?? ''}
-      triggerRef={menu?.anchor ?? { current: null }}
-      isOpen={menu !== null}
-      placement="bottom start"
-      onOpenChange={(isOpen) => !isOpen && onClose()}
-    >
-      {menu?.kind === 'row' ? <RowMenu onClose={onClose} /> : <KeysMenu onClose={onClose} />}
-    </Popover>
+    <InLanguage>
+      <Popover
+        className={styles.popover ?? ''}
+        triggerRef={menu?.anchor ?? { current: null }}
+        isOpen={menu !== null}
+        placement="bottom start"
+        onOpenChange={(isOpen) => !isOpen && onClose()}
+      >
+        {menu?.kind === 'row' ? <RowMenu onClose={onClose} /> : <KeysMenu onClose={onClose} />}
+      </Popover>
+    </InLanguage>
   );
 });
 

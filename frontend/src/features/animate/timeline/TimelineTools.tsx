@@ -15,6 +15,7 @@ import { deskOf } from './desk.ts';
 import { selectedKeys, timesOf, type GroupTimes } from './groupTimes.ts';
 import { mayRun, verbName, VERBS, type VerbName } from './verbs.ts';
 import addsSwitchStyles from './AddsSwitch.module.css';
+import { InLanguage } from '../../../ui/InLanguage.tsx';
 import styles from './TimelineTools.module.css';
 
 // For hands without a Ctrl key: what is pressed in the timeline or the strip goes beside what is selected. Stands
@@ -51,23 +52,25 @@ export const TimelineTools = memo(function TimelineTools({
 }) {
   useWords();
   return (
-    <Toolbar className={styles.tools ?? ''} aria-label={words.timeline.toolbar}>
-      {VERB_GROUPS.map((verbs) => (
-        <div key={verbs[0]} className={styles.group}>
-          {verbs.map((verb) => (
-            <VerbButton key={verb} verb={verb} />
+    <InLanguage>
+      <Toolbar className={styles.tools ?? ''} aria-label={words.timeline.toolbar}>
+        {VERB_GROUPS.map((verbs) => (
+          <div key={verbs[0]} className={styles.group}>
+            {verbs.map((verb) => (
+              <VerbButton key={verb} verb={verb} />
+            ))}
+          </div>
+        ))}
+        <IconButton icon="more" label={words.timeline.more} onPress={(button) => openMenu('keys', button)} />
+        <AddsSwitch />
+        <EasingChoice />
+        <div className={styles.group}>
+          {SWITCHES.map(([name, hint]) => (
+            <Switch key={name} name={name} hint={words.timeline[hint]} />
           ))}
         </div>
-      ))}
-      <IconButton icon="more" label={words.timeline.more} onPress={(button) => openMenu('keys', button)} />
-      <AddsSwitch />
-      <EasingChoice />
-      <div className={styles.group}>
-        {SWITCHES.map(([name, hint]) => (
-          <Switch key={name} name={name} hint={words.timeline[hint]} />
-        ))}
-      </div>
-    </Toolbar>
+      </Toolbar>
+    </InLanguage>
   );
 });
 
