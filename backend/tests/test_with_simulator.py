@@ -132,7 +132,6 @@ async def test_a_pulled_cable_is_told_and_a_plugged_one_found_again(board: Board
         assert await hear_until(client, "done") == {"type": "done", "id": 1, "outcome": "sent"}
 
 
-@pytest.mark.exhaustive
 @pytest.mark.parametrize("board", ["xarm"], indirect=True)
 def test_without_a_page_and_without_an_option_the_command_line_finds_out_which_board_it_is(
     board: Board, tmp_path: Path

@@ -123,11 +123,11 @@ def board(
 
 
 def when_asked(remote: Remote) -> dict[str, Any]:
-    """How everything stands once the gateway does not ask the board who it is."""
+    """How everything stands once the gateway neither opens the port nor asks the board who it is."""
     until_s = time.monotonic() + IDENTIFIED_WITHIN_S
     while True:
         state: dict[str, Any] = asked(remote, "GET", "/api/status")
-        if state["link"]["status"] != "identifying" or time.monotonic() > until_s:
+        if state["link"]["status"] not in ("opening", "identifying") or time.monotonic() > until_s:
             return state
         time.sleep(RETRY_S)
 
