@@ -89,6 +89,13 @@ class Served:
                 received += os.read(self.pty.board, 100)
         return received
 
+    def read(self, count: int) -> bytes:
+        """So many bytes of what the board gets next: the pty may hand them over in pieces."""
+        received = b""
+        while len(received) < count:
+            received += os.read(self.pty.board, count - len(received))
+        return received
+
     def end(self) -> None:
         self.process.kill()
         self.process.communicate()

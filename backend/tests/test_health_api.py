@@ -15,6 +15,7 @@ from servodeck import __version__, threads
 from servodeck.errors import PortMissingError
 from servodeck.library.library import Library
 from servodeck.port.link import BackgroundPorts
+from servodeck.protocol.timings import wire_s
 from servodeck.robot.control import Control
 from tests.client import Client
 from tests.fake_port import FakePort, FakePorts
@@ -110,13 +111,22 @@ async def test_whatever_holds_up_the_loop_is_told() -> None:
         assert (await numbers_of(client))["servodeck_loop_delay_seconds"] > 0.25
 
 
+async def answer_to_the_third(port: FakePort) -> None:
+    """Behind the first stop and a move."""
+    await port.until_written(3)
+    # No board answers what has not reached it yet.
+    await asyncio.sleep(wire_s(len(BATTERY)))
+    port.say(BATTERY_REPORT)
+
+
 async def test_what_happens_is_counted(tmp_path: Path) -> None:
     port = FakePort()
     async with http_to(FakePorts(port), time.monotonic, library=Library(tmp_path)) as (client, control):
         before = await numbers_of(client)
         await Client(control).send(MOVE)
-        asyncio.get_running_loop().call_later(0.05, port.say, BATTERY_REPORT)
+        answering = asyncio.create_task(answer_to_the_third(port))
         await client.get("/api/battery")
+        await answering
         port.say(b"\x01\x02")
         await client.get("/api/nothing")
         await client.post("/api/stop")

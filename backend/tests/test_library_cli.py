@@ -1,7 +1,6 @@
 """Poses, the library and erasing from the command line, as a person and as a shell script use them."""
 
 import json
-import os
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -53,7 +52,7 @@ def test_poses_are_listed_and_gone_to_by_name_or_number(served: Served) -> None:
     assert json.loads(run("poses", "--url", served.url, "--json").stdout)["robot"] == "Arm"
     gone = run("pose", "2", "--url", served.url)
     assert (gone.exit_code, gone.stdout) == (0, "Moving; ends in 1.5 s.\n")
-    assert os.read(served.pty.board, 100) == move(1500, s1=1500)
+    assert served.read(len(move(1500, s1=1500))) == move(1500, s1=1500)
     several = run("pose", "Rest", "--url", served.url)
     assert (several.exit_code, "2, 3" in several.stderr) == (FAILURE, True)
     nowhere = run("pose", "../stop", "--url", served.url)
@@ -73,4 +72,4 @@ def test_erasing_asks_first_and_tells_what_the_board_does_not_say(served: Served
     assert kept.exit_code == 1
     silent = run("erase", "--yes", "--url", served.url)
     assert (silent.exit_code, "(noAnswer)" in silent.stderr) == (FAILURE, True)
-    assert os.read(served.pty.board, 100) == ERASE
+    assert served.read(len(ERASE)) == ERASE

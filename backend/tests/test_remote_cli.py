@@ -49,7 +49,7 @@ def test_a_stop_leaves_and_refuses_motion_until_resume(served: Served) -> None:
     assert "servodeck resume" in refused.stderr
     assert run("resume", "--url", served.url).exit_code == 0
     assert run("move", "1=2000", "2=900", "--url", served.url).stdout == "Moving; ends in 1.5 s.\n"
-    assert os.read(served.pty.board, 100) == MOVE_OF_TWO
+    assert served.read(len(MOVE_OF_TWO)) == MOVE_OF_TWO
 
 
 @pytest.mark.exhaustive
