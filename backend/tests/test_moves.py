@@ -26,7 +26,7 @@ from servodeck.errors import (
 )
 from servodeck.intents import MoveMessage, Target
 from servodeck.port.wire import QUEUE_PER_OWNER, Left, Owner
-from servodeck.protocol.packets import parse_command
+from servodeck.protocol.packets import encode, parse_command
 from servodeck.protocol.values import Move, ServoTarget
 from servodeck.robot.board.move_plan import FIRST_MOVE_MS, FIRST_MOVE_STAGGER_S
 from servodeck.robot.control import Control
@@ -121,6 +121,23 @@ async def test_what_waits_leaves_together_and_a_named_time_is_the_time_of_all() 
         [first, second] = moves_on(port, before)
         assert first.positions == {1: 1490}
         assert (second.positions, second.duration_ms) == ({2: 1511, 3: 1520}, 700)
+
+
+@in_virtual_time
+async def test_what_is_asked_behind_a_packet_by_hand_leaves_behind_it() -> None:
+    port = FakePort()
+    async with gateway_on(port) as control:
+        anna = await driver_at_the_centre(control)
+        before = len(port.written)
+        ask(anna, s3=1400)
+        await asyncio.sleep(0.001)
+        ask(anna, s1=1490, s2=1510)
+        by_hand = anna.send(encode(Move(700, (ServoTarget(1, 1450),)), control.board.family))
+        ask(anna, s1=1480)
+        await asyncio.gather(by_hand, ask(anna, s3=1410))
+        await asyncio.sleep(0.1)
+        left = [each.positions for each in moves_on(port, before)]
+        assert left == [{3: 1400}, {2: 1510}, {1: 1450}, {1: 1480, 3: 1410}]
 
 
 @in_virtual_time

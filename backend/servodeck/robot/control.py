@@ -28,7 +28,7 @@ from servodeck.events import (
 )
 from servodeck.files import Remembered
 from servodeck.port.link import Ports
-from servodeck.port.wire import STOP_PACKET, Job, Left, Owner, always
+from servodeck.port.wire import STOP_PACKET, Job, Left, Owner
 from servodeck.protocol.decoder import COMMAND_AT, DecoderEvent, PacketEvent
 from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.values import Command, Erase, Move, Run, ServoTarget
@@ -227,8 +227,11 @@ class Control:
         self.board.jobs.judge_idle()
         if isinstance(command, Run | Erase):
             self.board.plays.judge_idle()
-        judge = always if is_harmless(packet) else self._permitted(session, nonce)
-        return wire.send(packet, session, judge=judge)
+        if is_harmless(packet):
+            return wire.send(packet, session)
+        left = wire.send(packet, session, judge=self._permitted(session, nonce))
+        self.board.moves.begin_round()
+        return left
 
     def put(self, session: Session, command: Command, permit: Permit) -> Left:
         """As `send`, of somebody who may have that command sent."""

@@ -54,6 +54,8 @@ class Wish:
     target: ServoTarget
     duration_ms: int
     request: MoveRequest
+    round: int
+    """It leaves behind what waited when that round began."""
 
 
 class Moves:
@@ -64,6 +66,7 @@ class Moves:
         self._changed = changed
         self._wishes: dict[int, Wish] = {}
         self._queued: Left | None = None
+        self._round = 0
         self._next_start_s = -inf
         self._timer: asyncio.TimerHandle | None = None
         self.waiting_to_start: list[int] = []
@@ -89,11 +92,16 @@ class Moves:
         for target in targets:
             before = self._wishes.get(target.servo)
             request.open.add(target.servo)
-            self._wishes[target.servo] = Wish(target, duration_ms, request)
+            self._wishes[target.servo] = Wish(target, duration_ms, request, self._round)
             if before and before.request is not request:
                 before.request.done(target.servo)
         self._queue_up()
         return request.left
+
+    def begin_round(self) -> None:
+        """What is asked from now on leaves behind what waits for the wire."""
+        self._round += 1
+        self._queued = None
 
     def drop(self, reason: GatewayError, owner: Owner = None) -> None:
         """Those of `owner`, or all: they do not leave any more."""
@@ -106,17 +114,20 @@ class Moves:
         if (self._queued and not self._queued.done()) or not self._next_servos():
             return
         taken: list[Wish] = []
-        left = self._board.link.wire().send_made(MOVE, lambda: self._make(taken), self)
+        this_round = self._round
+        left = self._board.link.wire().send_made(MOVE, lambda: self._make(taken, this_round), self)
         left.add_done_callback(lambda left: settle_all(taken, left))
         self._queued = left
 
-    def _make(self, taken: list[Wish]) -> bytes | None:
+    def _make(self, taken: list[Wish], this_round: int) -> bytes | None:
         """The next move, as its turn has come."""
-        self._queued = None
+        if this_round == self._round:
+            self._queued = None
         now, family, motion = self._now(), self._board.family, self._board.motion
         starts = self._start_due()
         for servo in self._next_servos():
-            if len(taken) < family.servos_per_move and self._may_leave(servo, starts=starts):
+            is_due = self._wishes[servo].round <= this_round and len(taken) < family.servos_per_move
+            if is_due and self._may_leave(servo, starts=starts):
                 taken.append(self._wishes.pop(servo))
         if not taken:
             self._plan_starts()
