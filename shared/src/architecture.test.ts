@@ -62,7 +62,7 @@ function knows(part: string, imported: string): boolean {
   );
 }
 
-function strangersIn(part: string): string[] {
+function violationsIn(part: string): string[] {
   const [top = ''] = part.split('/');
   const files = sourcesOf(top).filter((file) => partOf(file) === part);
   const inside = (imported: string) => /^(shared|frontend)\/src\//.test(imported);
@@ -75,16 +75,16 @@ function strangersIn(part: string): string[] {
 }
 
 test.each(Object.keys(mayKnow))('%s knows only what lies below it', (part) => {
-  expect(strangersIn(part)).toEqual([]);
+  expect(violationsIn(part)).toEqual([]);
 });
 
 test('shared code imports nothing from outside shared but valibot, which is as pure', () => {
-  const strangers = sourcesOf('shared').flatMap((file) =>
+  const violations = sourcesOf('shared').flatMap((file) =>
     importsOf(file)
       .filter((imported) => !imported.startsWith('shared/') && imported !== 'valibot')
       .map((imported) => `${file} imports ${imported}`),
   );
-  expect(strangers).toEqual([]);
+  expect(violations).toEqual([]);
 });
 
 test('only robot and app know the links', () => {

@@ -12,7 +12,7 @@ import { createCompiled } from '../features/animate/group/compiled.ts';
 import { createDevice } from '../robot/device.ts';
 import { createDocument } from '../features/animate/group/document.ts';
 import type { TextStorage } from '../state/soon.ts';
-import type { Keeper } from '#shared/files/keeper.ts';
+import type { DocumentStore } from '#shared/files/documentStore.ts';
 import { watchInputs } from '../features/inputs/watchInputs.ts';
 import { followLanguage } from './language.ts';
 import { createLibrary } from '../features/library/library.ts';
@@ -158,7 +158,7 @@ export async function openPage({ me, problem }: Arrival): Promise<Page> {
 }
 
 /** The gateway's, where there is one to write to: what a viewer tries out stays in the viewer's browser. */
-async function chooseKeeper(me: Me | null): Promise<Keeper> {
+async function chooseKeeper(me: Me | null): Promise<DocumentStore> {
   const isViewer = me?.you?.role === 'viewer';
   const isKept = !isViewer && (me !== null || (await hasGateway(pageClock)));
   if (isKept) return gatewaysKeeper();
@@ -167,7 +167,7 @@ async function chooseKeeper(me: Me | null): Promise<Keeper> {
 }
 
 /** Which of them is wanted is known only later: neither is in the first load. */
-const gatewaysKeeper = async (): Promise<Keeper> =>
+const gatewaysKeeper = async (): Promise<DocumentStore> =>
   (await import('../features/library/gatewayKeeper.ts')).gatewayKeeper;
 
 /** Not `randomUUID`, which is there only at secure addresses. */

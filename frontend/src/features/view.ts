@@ -3,7 +3,11 @@
 // link.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
-import { calibrationFromText, calibrationToText, type KeptCalibration } from '#shared/profile/calibration.ts';
+import {
+  calibrationFromText,
+  calibrationToText,
+  type StoredCalibration,
+} from '#shared/profile/calibration.ts';
 import { LANGUAGE_CODES, type Language } from '../i18n/words.ts';
 import type { TextStorage } from '../state/soon.ts';
 import { GENTLE_MOVE_MS, type MoveTime } from '../robot/moveTime.ts';
@@ -32,7 +36,7 @@ export interface ViewState {
   /** What of the robots is open; null: nothing. */
   readonly robotView: 'list' | 'edit' | 'calibrate' | null;
   /** How far that of one robot has come: nothing of it is lost by a reload. */
-  readonly calibration: KeptCalibration | null;
+  readonly calibration: StoredCalibration | null;
   readonly logOpen: boolean;
   readonly logKinds: readonly LogKind[];
   readonly selectedFrame: number | null;

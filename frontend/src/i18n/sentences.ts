@@ -2,8 +2,8 @@
 
 import type { Family, SlotTrigger } from '#shared/codec/families.ts';
 import type { ReadyRobotId, RobotNames } from '#shared/profile/readyRobots.ts';
-import type { SlotFate } from '#shared/group/slotBook.ts';
-import type { LibraryErrorCode } from '#shared/files/keeper.ts';
+import type { SlotContent } from '#shared/group/slotBook.ts';
+import type { LibraryErrorCode } from '#shared/files/documentStore.ts';
 import type { TextFlaw } from '#shared/document/schema.ts';
 import type { RangeRefusal } from '#shared/codec/limits.ts';
 import type { LinkErrorCode } from '#shared/robot/linkError.ts';
@@ -83,8 +83,8 @@ export function downloadCancelled(broken: number | null): string {
 }
 
 /** In a few words; `name` is the group it holds, as far as anybody noted it. */
-export function heldText(fate: SlotFate, name: string): string {
-  return fate === 'other' && name !== '' ? words.slots.inBarNamed({ name }) : words.slots.inBar[fate];
+export function heldText(content: SlotContent, name: string): string {
+  return content === 'other' && name !== '' ? words.slots.inBarNamed({ name }) : words.slots.inBar[content];
 }
 
 /** In a sentence. */

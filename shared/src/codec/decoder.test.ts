@@ -96,22 +96,22 @@ describe.each(SHAPES)('a decoder of %s', (_name, shape) => {
   test('accounts for every byte, in order, and keeps at most 512', () => {
     fc.assert(
       fc.property(feed, (pieces) => {
-        const [fed, told]: [number[], number[]] = [[], []];
-        const decoder = createDecoder((event) => told.push(...event.bytes), shape);
+        const [fed, reported]: [number[], number[]] = [[], []];
+        const decoder = createDecoder((event) => reported.push(...event.bytes), shape);
         for (const piece of pieces) {
           if (piece === IDLE) {
             decoder.idle();
-            expect(told).toEqual(fed);
+            expect(reported).toEqual(fed);
           } else if (piece === PAUSE) {
             decoder.pause();
           } else {
             decoder.push(piece);
             fed.push(...piece);
-            expect(fed.length - told.length).toBeLessThanOrEqual(512);
+            expect(fed.length - reported.length).toBeLessThanOrEqual(512);
           }
         }
         decoder.idle();
-        expect(told).toEqual(fed);
+        expect(reported).toEqual(fed);
       }),
     );
   });

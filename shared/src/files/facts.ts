@@ -1,7 +1,7 @@
 // What a list says of an action group or a robot, worked out from it. Knows no place where documents are stored.
 
 import { poseAt, totalDurationMs, type ActionGroup } from '../group/group.ts';
-import type { GroupFacts, RobotFacts } from './factsShape.ts';
+import type { GroupFacts, RobotFacts } from './factsSchema.ts';
 import type { PoseBook } from '../profile/pose.ts';
 import { homeTargets } from '../profile/poseShapes.ts';
 import { limitsOnBoard, onBoard, type Robot } from '../profile/robot.ts';

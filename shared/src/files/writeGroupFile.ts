@@ -64,14 +64,14 @@ function filledFrames(group: ActionGroup): ActionGroup['frames'] {
 
 function robOf(group: ActionGroup): Uint8Array<ArrayBuffer> | { readonly misfits: readonly Misfit[] } {
   if (group.unit !== 'steps') return { misfits: [OTHER_UNIT] };
-  const strangers = group.frames.flatMap(({ targets }, index) =>
+  const unfit = group.frames.flatMap(({ targets }, index) =>
     targets
       .filter(({ servo }) => servo < 1 || servo > ROB_SERVOS)
       .map(({ servo }) => ({ servo, frame: index + 1 })),
   );
-  const [first] = strangers;
+  const [first] = unfit;
   if (first === undefined) return writeRob(group);
-  const frames = strangers.filter(({ servo }) => servo === first.servo).map(({ frame }) => frame);
+  const frames = unfit.filter(({ servo }) => servo === first.servo).map(({ frame }) => frame);
   const values = { min: first.servo, max: first.servo };
   const allowed = { min: 1, max: ROB_SERVOS };
   return { misfits: [{ code: 'servo', servo: first.servo, frames, values, allowed }] };

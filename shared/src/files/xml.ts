@@ -106,11 +106,11 @@ function withoutComments(text: string): string {
   const [before = '', ...pieces] = text.split('<!--');
   const open = pieces.findIndex((piece) => !piece.includes('-->'));
   if (open !== -1) throw new Unreadable('cutShort', '<!--');
-  const kept = pieces.map((piece) => {
+  const cleaned = pieces.map((piece) => {
     const end = piece.indexOf('-->') + 3;
     return `    ${piece.slice(0, end).replaceAll(/[^\n]/g, ' ')}${piece.slice(end)}`;
   });
-  return [before, ...kept].join('');
+  return [before, ...cleaned].join('');
 }
 
 const TYPE_OF: Readonly<Record<Unit, string>> = { us: 'PWM Servo', steps: 'Bus Servo' };

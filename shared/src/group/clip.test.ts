@@ -3,7 +3,7 @@ import { describe, expect, test } from 'vitest';
 import { clipGroup, copyFrames, copyKeys, duplicateKeys, pasteFrames, pasteKeys } from './clip.ts';
 import { emptyGroup, type ActionGroup, type GroupFrame } from './group.ts';
 import { insertFrame } from './groupEdits.ts';
-import { refsOf, shapeOf, someGroup, someRefs, withGroup } from '../testing/groupsUnderTest.ts';
+import { refsOf, shapeOf, someGroup, someRefs, withGroup } from '../testing/groups.ts';
 import { setKey } from './keyEdits.ts';
 
 const STAY = { ripple: false };

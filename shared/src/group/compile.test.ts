@@ -8,7 +8,7 @@ import { compile } from './compile.ts';
 import { rangeOf, type CompileOptions, type CompileProblem } from './compileReport.ts';
 import { EASINGS, emptyGroup, totalDurationMs, type ActionGroup, type Easing } from './group.ts';
 import { insertFrame } from './groupEdits.ts';
-import { someGroup } from '../testing/groupsUnderTest.ts';
+import { someGroup } from '../testing/groups.ts';
 import { positionAt, tracksOf } from './tracks.ts';
 
 const DOC = family('doc');

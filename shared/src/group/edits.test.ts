@@ -17,7 +17,7 @@ import {
 } from './frameEdits.ts';
 import { flawOfGroup, groupSchema, type ActionGroup } from './group.ts';
 import { setMeta } from './groupEdits.ts';
-import { sampled, someGroup, someRange, someRefs, withGroup } from '../testing/groupsUnderTest.ts';
+import { sampled, someGroup, someRange, someRefs, withGroup } from '../testing/groups.ts';
 import { deleteKeys, moveKeys, scaleAmplitude, setKey, setPositions } from './keyEdits.ts';
 import { reverseKeys } from './keyRanges.ts';
 import {

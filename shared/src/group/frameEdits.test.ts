@@ -1,7 +1,7 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import { mirror } from './frameEdits.ts';
-import { someGroup } from '../testing/groupsUnderTest.ts';
+import { someGroup } from '../testing/groups.ts';
 import { readyRobot, type RobotNames } from '../profile/readyRobots.ts';
 
 const NAMES: RobotNames = { robot: 'Mine', role: (role, servo) => `${role} ${servo}`, limb: (limb) => limb };

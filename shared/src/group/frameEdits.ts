@@ -47,8 +47,8 @@ function changeFrames(
   frameIds: readonly number[],
   change: (frame: GroupFrame) => GroupFrame,
 ): ActionGroup {
-  const meant = new Set(frameIds);
-  const frames = group.frames.map((frame) => (meant.has(frame.id) ? change(frame) : frame));
+  const chosen = new Set(frameIds);
+  const frames = group.frames.map((frame) => (chosen.has(frame.id) ? change(frame) : frame));
   return changed(group, { frames: sameList(group.frames, frames) });
 }
 

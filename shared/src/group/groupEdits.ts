@@ -88,11 +88,11 @@ export function moveFrames(
   lead: number,
   index: number,
 ): ActionGroup {
-  const meant = new Set(ids);
-  const block = group.frames.filter(({ id }) => meant.has(id));
+  const chosen = new Set(ids);
+  const block = group.frames.filter(({ id }) => chosen.has(id));
   const place = block.findIndex(({ id }) => id === lead);
   if (place < 0) return group;
-  const others = group.frames.filter(({ id }) => !meant.has(id));
+  const others = group.frames.filter(({ id }) => !chosen.has(id));
   const at = Math.max(0, Math.min(index - place, others.length));
   return changed(group, { frames: sameList(group.frames, others.toSpliced(at, 0, ...block)) });
 }

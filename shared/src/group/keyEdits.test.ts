@@ -2,7 +2,7 @@ import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import { emptyGroup, totalDurationMs, type ActionGroup, type Easing } from './group.ts';
 import { insertFrame } from './groupEdits.ts';
-import { refsOf, shapeOf, someGroup, someRefs, withGroup } from '../testing/groupsUnderTest.ts';
+import { refsOf, shapeOf, someGroup, someRefs, withGroup } from '../testing/groups.ts';
 import { boundedMove, deleteKeys, moveKeys, scaleAmplitude, setKey } from './keyEdits.ts';
 import { setDuration } from './timeEdits.ts';
 import { frameEnds, keysAt, positionAt, tracksOf, type KeyRef } from './tracks.ts';
@@ -44,11 +44,11 @@ describe('a key', () => {
       fc.property(withGroup(spaced, someRefs), moves, ([group, refs], wanted) => {
         const keys = [...tracksOf(group).values()].flatMap((track) => track.keys);
         const times = new Set(frameEnds(group.frames));
-        const meant = keys.filter((key) =>
+        const chosen = keys.filter((key) =>
           refs.some((ref) => ref.frameId === key.frameId && ref.servo === key.servo),
         );
-        const move = boundedMove(meant, wanted);
-        const there = meant.map(({ servo, atMs }) => ({ servo, atMs: atMs + move.deltaMs }));
+        const move = boundedMove(chosen, wanted);
+        const there = chosen.map(({ servo, atMs }) => ({ servo, atMs: atMs + move.deltaMs }));
         fc.pre(move.deltaMs === 0 || there.every(({ atMs }) => !times.has(atMs)));
         const away = moveKeys(group, refs, move, STAY);
         const found = keysAt(tracksOf(away), there);

@@ -47,8 +47,8 @@ const nameOf = (frameId: number, servo: number): string => `${frameId}/${servo}`
 
 /** Frames left without a key go, unless they carry a note or a colour; with `ripple` their time goes too. */
 export function deleteKeys(group: ActionGroup, refs: readonly KeyRef[], { ripple }: Ripple): ActionGroup {
-  const { kept, vacated } = lifted(group, refs);
-  const left = kept.filter(({ frame }) => !vacated.has(frame.id));
+  const { remaining, vacated } = lifted(group, refs);
+  const left = remaining.filter(({ frame }) => !vacated.has(frame.id));
   return ripple ? closeFrames(group, left, vacated) : withMoments(group, left);
 }
 
@@ -86,15 +86,15 @@ export function moveKeys(
   move: KeyMove,
   { ripple }: Ripple,
 ): ActionGroup {
-  const { kept, keys, vacated } = lifted(group, refs);
-  const meant = keys.flatMap(({ atMs, targets }) => targets.map(({ position }) => ({ atMs, position })));
-  const { deltaMs, deltaPosition } = boundedMove(meant, move);
+  const { remaining, keys, vacated } = lifted(group, refs);
+  const chosen = keys.flatMap(({ atMs, targets }) => targets.map(({ position }) => ({ atMs, position })));
+  const { deltaMs, deltaPosition } = boundedMove(chosen, move);
   if (deltaMs === 0 || ripple) {
     const turned = changePositions(group, refs, (position) => position + deltaPosition);
     return ripple ? rippled(turned, refs, deltaMs) : turned;
   }
   // A frame that loses all its keys goes along with the first of them, so that it keeps its name.
-  const staying = kept.filter(({ frame }) => !vacated.has(frame.id));
+  const staying = remaining.filter(({ frame }) => !vacated.has(frame.id));
   const moved = keys.reduce<readonly Moment[]>((moments, { atMs, frame, targets }) => {
     const there = targets.map(({ servo, position }) => ({ servo, position: position + deltaPosition }));
     return placed(moments, atMs + deltaMs, there, (own) =>
@@ -145,9 +145,9 @@ function changePositions(
   refs: readonly KeyRef[],
   change: (position: number, servo: number, frame: GroupFrame) => number,
 ): ActionGroup {
-  const meant = servosByFrame(refs);
+  const chosen = servosByFrame(refs);
   const frames = group.frames.map((frame) => {
-    const servos = meant.get(frame.id);
+    const servos = chosen.get(frame.id);
     if (servos === undefined) return frame;
     const targets = frame.targets.map((target) => {
       const { servo, position } = target;

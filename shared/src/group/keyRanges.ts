@@ -25,7 +25,7 @@ interface LiftedKeys {
 
 interface Lifted {
   /** Every moment, without these keys. */
-  readonly kept: readonly Moment[];
+  readonly remaining: readonly Moment[];
   readonly keys: readonly LiftedKeys[];
   /** The frames that had no other key and carry no note or colour: nothing is left to keep them for. */
   readonly vacated: ReadonlySet<number>;
@@ -33,12 +33,12 @@ interface Lifted {
 
 /** The keys that are meant, frame by frame, and what is left without them. */
 export function lifted(group: ActionGroup, refs: readonly KeyRef[]): Lifted {
-  const meant = servosByFrame(refs);
+  const chosen = servosByFrame(refs);
   const keys: LiftedKeys[] = [];
   const vacated = new Set<number>();
-  const kept = momentsOf(group).map((moment) => {
+  const remaining = momentsOf(group).map((moment) => {
     const { atMs, frame } = moment;
-    const servos = meant.get(frame.id);
+    const servos = chosen.get(frame.id);
     if (servos === undefined) return moment;
     const targets = frame.targets.filter(({ servo }) => servos.has(servo));
     if (targets.length === 0) return moment;
@@ -47,12 +47,12 @@ export function lifted(group: ActionGroup, refs: readonly KeyRef[]): Lifted {
     if (left.length === 0 && frame.note === '' && frame.colour === null) vacated.add(frame.id);
     return withTargets(moment, left);
   });
-  return { kept, keys, vacated };
+  return { remaining, keys, vacated };
 }
 
 /** Whether keys are left in the range, its ends included. */
-function hasOthers(kept: Lifted['kept'], { fromMs, toMs }: TimeRange): boolean {
-  return kept.some(({ atMs, frame }) => atMs >= fromMs && atMs <= toMs && frame.targets.length > 0);
+function hasOthers(remaining: Lifted['remaining'], { fromMs, toMs }: TimeRange): boolean {
+  return remaining.some(({ atMs, frame }) => atMs >= fromMs && atMs <= toMs && frame.targets.length > 0);
 }
 
 export function servosByFrame(refs: readonly KeyRef[]): ReadonlyMap<number, ReadonlySet<number>> {
@@ -114,18 +114,18 @@ export function reverseKeys(group: ActionGroup, refs: readonly KeyRef[]): Action
   const ends = keyedEnds(group);
   // Thousands of keys, mostly all of them: nothing has to be lifted.
   if (refs.length === ends.keys) return ends.keys === 0 ? group : reverse(group, ends);
-  const { kept, keys, vacated } = lifted(group, refs);
+  const { remaining, keys, vacated } = lifted(group, refs);
   const [first, last] = [keys[0], keys.at(-1)];
   if (first === undefined || last === undefined) return group;
   const range = { fromMs: first.atMs, toMs: last.atMs };
-  if (!hasOthers(kept, range)) return reverse(group, range);
+  if (!hasOthers(remaining, range)) return reverse(group, range);
   if (range.fromMs === range.toMs) return group;
   const frames = backwards(keys.map(({ frame }) => frame));
   const reversed = keys.toReversed().map(({ atMs, frame, targets }, index) => ({
     ...{ atMs: range.fromMs + range.toMs - atMs, targets },
     frame: frames[index] ?? frame,
   }));
-  const staying = kept.filter(({ frame }) => !vacated.has(frame.id));
+  const staying = remaining.filter(({ frame }) => !vacated.has(frame.id));
   const all = merged(staying, reversed, vacated);
   return withMoments(group, [...all.staying, ...all.added]);
 }
@@ -162,11 +162,11 @@ export function stretchKeys(group: ActionGroup, refs: readonly KeyRef[], wanted:
   const { fromMs, toMs, fixed, ripple } = wanted;
   if (toMs <= fromMs || refs.length === 0) return group;
   const factor = boundedFactor(group, refs, wanted);
-  const { kept, keys, vacated } = lifted(group, refs);
-  if (!hasOthers(kept, wanted))
+  const { remaining, keys, vacated } = lifted(group, refs);
+  if (!hasOthers(remaining, wanted))
     return fixed === 'last' ? stretchBack(group, wanted, factor) : stretch(group, wanted, factor, { ripple });
   const growthMs = ripple && fixed === 'first' ? Math.round((toMs - fromMs) * (factor - 1)) : 0;
-  const staying = kept
+  const staying = remaining
     .filter(({ frame }) => !vacated.has(frame.id))
     .map((moment) => (moment.atMs > toMs ? { ...moment, atMs: moment.atMs + growthMs } : moment));
   const stretched = keys.map((each) => ({ ...each, atMs: stretchedMs(each.atMs, { ...wanted, factor }) }));
@@ -184,23 +184,25 @@ export function boundedFactor(
   refs: readonly KeyRef[],
   { fromMs, toMs, factor, fixed, ripple }: KeyStretch,
 ): number {
-  const { kept } = lifted(group, refs);
+  const { remaining } = lifted(group, refs);
   const servos = new Set(refs.map(({ servo }) => servo));
-  const isAll = !hasOthers(kept, { fromMs, toMs });
+  const isAll = !hasOthers(remaining, { fromMs, toMs });
   const stopsThem = ({ frame }: Moment): boolean =>
     isAll || frame.targets.some(({ servo }) => servos.has(servo));
   const lengthMs = toMs - fromMs;
   const by = Math.max(0, factor);
   if (fixed === 'last') {
-    const before = kept.findLast((moment) => moment.atMs < fromMs && stopsThem(moment));
+    const before = remaining.findLast((moment) => moment.atMs < fromMs && stopsThem(moment));
     return Math.min(by, (toMs - (before?.atMs ?? 0)) / lengthMs);
   }
   if (!ripple) {
-    const next = kept.find((moment) => moment.atMs > toMs && stopsThem(moment));
+    const next = remaining.find((moment) => moment.atMs > toMs && stopsThem(moment));
     return Math.min(by, ((next?.atMs ?? Infinity) - fromMs) / lengthMs);
   }
-  const behind = kept.find(({ atMs }) => atMs > toMs);
-  const last = kept.findLast(({ atMs, frame }) => atMs > fromMs && atMs <= toMs && frame.targets.length > 0);
+  const behind = remaining.find(({ atMs }) => atMs > toMs);
+  const last = remaining.findLast(
+    ({ atMs, frame }) => atMs > fromMs && atMs <= toMs && frame.targets.length > 0,
+  );
   return behind === undefined || last === undefined
     ? by
     : Math.max(by, 1 + (last.atMs - behind.atMs) / lengthMs);

@@ -1,7 +1,7 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
-import { evenly } from '../testing/evenlyUnderTest.ts';
-import { someGroup } from '../testing/groupsUnderTest.ts';
+import { evenly } from '../testing/evenly.ts';
+import { someGroup } from '../testing/groups.ts';
 import { passageOf, type PassageOptions } from './passage.ts';
 import { positionAt, tracksOf } from './tracks.ts';
 import type { ActionGroup } from './group.ts';
@@ -11,7 +11,7 @@ const WHOLE: PassageOptions = {
   toMs: null,
   speedPercent: 100,
   longestMs: 30_000,
-  strangers: [],
+  unknownServos: [],
   seam: { largestStep: 50, unitsPerMs: 2 },
 };
 
@@ -79,7 +79,7 @@ describe('a passage', () => {
 
   test('brings servos that nobody knows to their first place at the beginning', () => {
     const late = [at(200, 1000), { durationMs: 400, targets: [{ servo: 2, position: 1700 }] }];
-    expect(passageOf(late, { ...WHOLE, strangers: [2] }).frames[0]).toEqual(at(200, 1000, 1700));
+    expect(passageOf(late, { ...WHOLE, unknownServos: [2] }).frames[0]).toEqual(at(200, 1000, 1700));
     expect(passageOf(late, WHOLE).frames[0]).toEqual(at(200, 1000));
   });
 });

@@ -15,7 +15,7 @@ export interface PassageOptions {
    * Servos whose place nobody knows: they go to their first position in the lead, because a first move is slow and would hold up
    * the others later.
    */
-  readonly strangers: readonly number[];
+  readonly unknownServos: readonly number[];
   /** How much further than written servos may go where a part that is repeated begins again at once. */
   readonly seam: {
     /** A larger step from its end to its beginning is a gentle way back. */
@@ -66,7 +66,7 @@ export function passageOf(frames: readonly Frame[], options: PassageOptions): Pa
   const parts = rest.flatMap((one) => slowed(one, startMs, pace, options.longestMs));
   const lead = {
     durationMs: isWhole ? leadMs(step, pace, options) : LEAD_MS,
-    targets: targetsOf(withStrangers(pose, rest, options.strangers)),
+    targets: targetsOf(withUnknownServos(pose, rest, options.unknownServos)),
   };
   const [begin, ...others] = parts.map(({ frame }) => frame);
   const seam = isWhole || begin === undefined ? null : seamless(begin, pose, rest.at(-1), options);
@@ -160,15 +160,15 @@ function seamless(
   return { ...begin, targets: targetsOf(targets) };
 }
 
-function withStrangers(
+function withUnknownServos(
   pose: ReadonlyMap<number, number>,
   rest: readonly Step[],
-  strangers: readonly number[],
+  unknownServos: readonly number[],
 ): ReadonlyMap<number, number> {
   const firsts = new Map(
     rest
       .flatMap(({ targets }) => targets)
-      .filter(({ servo }) => strangers.includes(servo))
+      .filter(({ servo }) => unknownServos.includes(servo))
       .toReversed()
       .map(pair),
   );

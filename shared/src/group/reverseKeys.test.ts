@@ -1,7 +1,7 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import { emptyGroup, type ActionGroup } from './group.ts';
-import { refsOf, shapeOf, someGroup, someRefs, withGroup } from '../testing/groupsUnderTest.ts';
+import { refsOf, shapeOf, someGroup, someRefs, withGroup } from '../testing/groups.ts';
 import { insertFrame } from './groupEdits.ts';
 import { addMarker } from './frameEdits.ts';
 import { reverseKeys } from './keyRanges.ts';

@@ -2,7 +2,7 @@ import fc from 'fast-check';
 import { safeParse } from 'valibot';
 import { describe, expect, test } from 'vitest';
 import { flawOfGroup, groupSchema } from './group.ts';
-import { frozen, refsOf, shapeOf } from '../testing/groupsUnderTest.ts';
+import { frozen, refsOf, shapeOf } from '../testing/groups.ts';
 import { simplify, type Sample } from './simplify.ts';
 import { positionAt, tracksOf } from './tracks.ts';
 

@@ -60,7 +60,7 @@ export interface SlotBook {
 }
 
 /** What a gateway, which sees all downloads, knows of each slot, of those of others too. `version` is the fingerprint. */
-export type VersionsTold = Readonly<
+export type StoredVersions = Readonly<
   Partial<Record<number, { readonly version: string; readonly documentId: string | null }>>
 >;
 
@@ -97,7 +97,7 @@ export function withUnknown(book: SlotBook, slot: number): SlotBook {
  * By the word of the gateway, which sees all downloads: where something else stands by now, what was there is gone; where nothing does,
  * somebody has erased it; and what an erase took stands there again.
  */
-export function withVersions(book: SlotBook, versions: VersionsTold): SlotBook {
+export function withVersions(book: SlotBook, versions: StoredVersions): SlotBook {
   const isThere = ({ slot, fingerprint }: SlotRecord): boolean => versions[slot]?.version === fingerprint;
   const isErased = ({ slot }: SlotRecord): boolean => versions[slot] === undefined;
   const [taken, back] = [book.stored.filter(isErased), book.erased.filter(isThere)];
@@ -118,22 +118,22 @@ export function withErasing({ stored, erased, begun }: SlotBook): SlotBook {
 
 export const withErased = (book: SlotBook): SlotBook => ({ ...book, isEmptied: true });
 
-export type SlotFate = 'arriving' | 'broken' | 'same' | 'older' | 'other' | 'empty' | 'unknown';
+export type SlotContent = 'arriving' | 'broken' | 'same' | 'older' | 'other' | 'empty' | 'unknown';
 
 /** What the session knows: slots with half a group, the one that is being filled, and what others have stored. */
 export interface SlotsNow {
   readonly broken: readonly number[];
   readonly arriving: number | null;
-  readonly versions: VersionsTold;
+  readonly versions: StoredVersions;
 }
 
 /** `group` is the one at hand, null where it cannot be on this board. */
-export function fateOf(
+export function contentOf(
   book: SlotBook,
   { broken, arriving, versions }: SlotsNow,
   slot: number,
   group: Pick<SlotRecord, 'documentId' | 'fingerprint'> | null,
-): SlotFate {
+): SlotContent {
   if (slot === arriving) return 'arriving';
   if (broken.includes(slot)) return 'broken';
   const record = recordOf(book, slot) ?? othersIn(versions, slot);
@@ -144,7 +144,7 @@ export function fateOf(
 }
 
 function othersIn(
-  versions: VersionsTold,
+  versions: StoredVersions,
   slot: number,
 ): Pick<SlotRecord, 'fingerprint' | 'documentId'> | undefined {
   const stored = versions[slot];

@@ -3,12 +3,12 @@
 
 import { type Range, isLiveSlot } from '../codec/families.ts';
 import type { ActionGroup } from './group.ts';
-import { type SlotBook, type VersionsTold, withStored, withUnknown, type SlotRecord } from './slotBook.ts';
+import { type SlotBook, type StoredVersions, withStored, withUnknown, type SlotRecord } from './slotBook.ts';
 
 export interface KnownSlots {
   readonly book: Pick<SlotBook, 'stored' | 'erased'>;
   /** What others stored, as a shared link has it. */
-  readonly versions: VersionsTold;
+  readonly versions: StoredVersions;
   /** They hold half a group, which somebody may want to download again. */
   readonly broken: readonly number[];
   readonly range: Range;
@@ -54,44 +54,54 @@ const slotsFor = ({ min, max }: Range): readonly number[] =>
 // been away.
 
 /** The latest download, by whomever. */
-export interface DownloadNews {
+export interface LatestDownload {
   readonly slots: readonly number[];
   readonly groupsStored: number;
   readonly isOver: boolean;
 }
 
-interface Fates {
+interface Outcome {
   readonly arrived: readonly SlotRecord[];
   /** Nobody knows what their slots hold now. */
-  readonly gone: readonly SlotRecord[];
+  readonly lost: readonly SlotRecord[];
   readonly waiting: readonly SlotRecord[];
 }
 
 /** These are on their way: the first byte has left. */
 export const withBegun = (book: SlotBook, begun: readonly SlotRecord[]): SlotBook => ({ ...book, begun });
 
-export const isAbout = ({ slots }: DownloadNews, { begun }: SlotBook): boolean =>
+export const concerns = ({ slots }: LatestDownload, { begun }: SlotBook): boolean =>
   begun.length > 0 && begun.every(({ slot }) => slots.includes(slot));
 
 /** `news` null: nobody has heard of a download. `broken`: slots that hold half a group. */
-export function withNews(book: SlotBook, news: DownloadNews | null, broken: readonly number[]): SlotBook {
+export function withDownload(
+  book: SlotBook,
+  latest: LatestDownload | null,
+  broken: readonly number[],
+): SlotBook {
   const { begun } = book;
   if (begun.length === 0) return book;
-  const isTold = news !== null && isAbout(news, book);
-  const { arrived, gone, waiting } = isTold ? toldFates(begun, news, broken) : guessedFates(begun, broken);
+  const isReported = latest !== null && concerns(latest, book);
+  const { arrived, lost, waiting } = isReported
+    ? reportedOutcome(begun, latest, broken)
+    : assumedOutcome(begun, broken);
   if (waiting.length === begun.length) return book;
-  const forgotten = gone.reduce((sum, { slot }) => withUnknown(sum, slot), book);
+  const forgotten = lost.reduce((sum, { slot }) => withUnknown(sum, slot), book);
   return { ...arrived.reduce(withStored, forgotten), begun: waiting };
 }
 
 /** Behind the one that broke none was begun, and what such a slot held before it holds still. */
-function toldFates(begun: readonly SlotRecord[], news: DownloadNews, broken: readonly number[]): Fates {
-  const isStored = ({ slot }: SlotRecord): boolean => news.slots.indexOf(slot) < news.groupsStored;
+function reportedOutcome(
+  begun: readonly SlotRecord[],
+  latest: LatestDownload,
+  broken: readonly number[],
+): Outcome {
+  const isStored = ({ slot }: SlotRecord): boolean => latest.slots.indexOf(slot) < latest.groupsStored;
   const others = begun.filter((record) => !isStored(record));
   return {
     arrived: begun.filter(isStored),
-    gone: news.isOver ? others.filter(({ slot }) => broken.includes(slot)) : [],
-    waiting: news.isOver ? [] : others,
+    lost: latest.isOver ? others.filter(({ slot }) => broken.includes(slot)) : [],
+    waiting: latest.isOver ? [] : others,
   };
 }
 
@@ -99,9 +109,9 @@ function toldFates(begun: readonly SlotRecord[], news: DownloadNews, broken: rea
  * They go one after the other: what stands before a broken one has arrived. Where none broke, the first one has, which was
  * under way; of the others nobody can say.
  */
-function guessedFates(begun: readonly SlotRecord[], broken: readonly number[]): Fates {
+function assumedOutcome(begun: readonly SlotRecord[], broken: readonly number[]): Outcome {
   const at = begun.findIndex(({ slot }) => broken.includes(slot));
   return at === -1
-    ? { arrived: begun.slice(0, 1), gone: begun.slice(1), waiting: [] }
-    : { arrived: begun.slice(0, at), gone: begun.slice(at, at + 1), waiting: [] };
+    ? { arrived: begun.slice(0, 1), lost: begun.slice(1), waiting: [] }
+    : { arrived: begun.slice(0, at), lost: begun.slice(at, at + 1), waiting: [] };
 }

@@ -1,7 +1,7 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import type { ActionGroup } from './group.ts';
-import { refsOf, shapeOf, someGroup, someRefs, withGroup } from '../testing/groupsUnderTest.ts';
+import { refsOf, shapeOf, someGroup, someRefs, withGroup } from '../testing/groups.ts';
 import { boundedFactor, stretchedMs, stretchKeys, type KeyStretch } from './keyRanges.ts';
 import { stretch, stretchBack } from './timeEdits.ts';
 import { frameEnds, tracksOf, type Key, type KeyRef } from './tracks.ts';

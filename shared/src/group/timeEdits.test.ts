@@ -1,8 +1,8 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
-import { evenly } from '../testing/evenlyUnderTest.ts';
+import { evenly } from '../testing/evenly.ts';
 import { EASINGS, emptyGroup, totalDurationMs } from './group.ts';
-import { frozen, shapeOf, someGroup, someRange, withGroup } from '../testing/groupsUnderTest.ts';
+import { frozen, shapeOf, someGroup, someRange, withGroup } from '../testing/groups.ts';
 import { setKey } from './keyEdits.ts';
 import {
   deleteTime,
@@ -36,11 +36,11 @@ describe('time', () => {
       fc.property(withGroup(spaced, someRange), ([group, range]) => {
         const keptAt = (atMs: number) => atMs <= range.fromMs || atMs > range.toMs;
         const moved = (atMs: number) => (atMs > range.toMs ? atMs - (range.toMs - range.fromMs) : atMs);
-        const kept = shapeOf(group).map(({ servo, keys }) => ({
+        const remaining = shapeOf(group).map(({ servo, keys }) => ({
           servo,
           keys: keys.filter(({ atMs }) => keptAt(atMs)).map((key) => ({ ...key, atMs: moved(key.atMs) })),
         }));
-        expect(shapeOf(deleteTime(group, range))).toEqual(kept.filter(({ keys }) => keys.length > 0));
+        expect(shapeOf(deleteTime(group, range))).toEqual(remaining.filter(({ keys }) => keys.length > 0));
       }),
     );
   });

@@ -1,6 +1,6 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
-import { evenly } from '../testing/evenlyUnderTest.ts';
+import { evenly } from '../testing/evenly.ts';
 import {
   BACKWARDS,
   CURVES,
@@ -17,7 +17,7 @@ import { EASINGS, emptyGroup, totalDurationMs, type Easing } from './group.ts';
 import { insertFrame, setTargets } from './groupEdits.ts';
 import { setDuration } from './timeEdits.ts';
 import { setEasing } from './frameEdits.ts';
-import { someGroup } from '../testing/groupsUnderTest.ts';
+import { someGroup } from '../testing/groups.ts';
 import { setPositions } from './keyEdits.ts';
 
 type Row = readonly [durationMs: number, targets: Readonly<Record<number, number>>, easing?: Easing];

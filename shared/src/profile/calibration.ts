@@ -31,7 +31,7 @@ interface Done {
 // How far the calibration of a robot has come, as a text that is kept until it goes on. What is none is not taken.
 
 /** Of which robot, by its number among those of this browser. */
-export interface KeptCalibration {
+export interface StoredCalibration {
   readonly robotId: number;
   readonly progress: Calibration;
 }
@@ -50,10 +50,10 @@ const keptSchema = v.strictObject({
   }),
 });
 
-export const calibrationToText = (kept: KeptCalibration | null): string => JSON.stringify(kept);
+export const calibrationToText = (stored: StoredCalibration | null): string => JSON.stringify(stored);
 
 /** null where it tells of none. */
-export function calibrationFromText(text: string): KeptCalibration | null {
+export function calibrationFromText(text: string): StoredCalibration | null {
   try {
     return v.parse(keptSchema, JSON.parse(text));
   } catch {

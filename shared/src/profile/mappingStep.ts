@@ -84,11 +84,11 @@ export function step(driven: Driven, inputs: Inputs, dtMs: number, before = AT_R
     const wish = wishFor(servo, driven, held, before, dtMs);
     return wish === null ? [] : [{ servo: servo.servo, wish }];
   });
-  const meant = wishes.filter((one): one is Wish<number> => typeof one.wish === 'number');
+  const wished = wishes.filter((one): one is Wish<number> => typeof one.wish === 'number');
   const staying = (why: Staying) => wishes.flatMap(({ servo, wish }) => (wish === why ? [servo] : []));
   return {
-    state: { held, aims: Object.fromEntries(meant.map(({ servo, wish }) => [servo, wish])) },
-    moves: meant
+    state: { held, aims: Object.fromEntries(wished.map(({ servo, wish }) => [servo, wish])) },
+    moves: wished
       .map(({ servo, wish }) => ({ servo, position: Math.round(wish) }))
       .filter(({ servo, position }) => position !== driven.place(servo).target),
     begun: bindings.flatMap(({ action }, at) =>

@@ -14,7 +14,7 @@ export interface Reshaped {
 }
 
 /** Servos of a pose that the robot does not have, in ascending order: the pose was made for another one. */
-export function strangersTo(robot: Robot, targets: readonly ServoTarget[]): readonly number[] {
+export function unknownServos(robot: Robot, targets: readonly ServoTarget[]): readonly number[] {
   const servos = new Set(targets.map(({ servo }) => servo));
   return [...servos].filter((servo) => servoOf(robot, servo) === undefined).sort((one, other) => one - other);
 }

@@ -40,9 +40,9 @@ describe('a calibration', () => {
   });
 
   test('leaves a servo as it is as a whole', () => {
-    const kept = servoDone(ARM, after(ARM, 1));
-    expect(kept).toMatchObject({ servo: 2, step: 'min' });
-    expect(isServoDone(kept, ARM.servos[0]!)).toBe(true);
+    const stored = servoDone(ARM, after(ARM, 1));
+    expect(stored).toMatchObject({ servo: 2, step: 'min' });
+    expect(isServoDone(stored, ARM.servos[0]!)).toBe(true);
   });
 
   test('begun in the middle it comes round to what was left out, and ends with nothing left', () => {
@@ -69,8 +69,8 @@ describe('a calibration', () => {
     const partnerless = removeServo(HUMANOID, 11);
     expect(settled(partnerless, { servo: 3, step: 'partner', done: [] })).toMatchObject({ step: 'trim' });
     expect(settled(partnerless, { servo: 11, step: 'home', done: [] })).toMatchObject({ servo: 1 });
-    const kept: Calibration = { servo: 3, step: 'home', done: [] };
-    expect(settled(partnerless, kept)).toBe(kept);
+    const stored: Calibration = { servo: 3, step: 'home', done: [] };
+    expect(settled(partnerless, stored)).toBe(stored);
   });
 });
 

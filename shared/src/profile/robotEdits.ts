@@ -82,8 +82,8 @@ export function homeAtCentre(robot: Robot, servo: RobotServo): Partial<RobotServ
   const shift = servo.home - centre;
   const trim = servo.trim + shift;
   if (trim < TRIM.min || trim > TRIM.max) return null;
-  const kept = (at: number): number => Math.min(position.max, Math.max(0, at - shift));
-  return { home: centre, trim, min: kept(servo.min), max: kept(servo.max) };
+  const withinRange = (at: number): number => Math.min(position.max, Math.max(0, at - shift));
+  return { home: centre, trim, min: withinRange(servo.min), max: withinRange(servo.max) };
 }
 
 /** How far its board turns it, as the person counts: without its trim. */

@@ -1,7 +1,7 @@
 import fc from 'fast-check';
 import { expect, test } from 'vitest';
 import { FAMILIES, type FamilyId } from '../codec/families.ts';
-import { someGroup } from '../testing/groupsUnderTest.ts';
+import { someGroup } from '../testing/groups.ts';
 import { convertGroup } from '../group/frameEdits.ts';
 import { familyOfUnit, robotInUnit } from './units.ts';
 import { flawOf } from './robot.ts';

@@ -15,7 +15,7 @@ import { readyRobot } from '../profile/readyRobots.ts';
 import { encodeCommand } from '../codec/encode.ts';
 import { FAMILIES } from '../codec/families.ts';
 import { toHex } from '../codec/packet.ts';
-import { createBoardUnderTest } from '../testing/boardUnderTest.ts';
+import { createBoardUnderTest } from '../testing/board.ts';
 
 const STEP_MS = 10;
 /** A packet's time on the wire and the board's raster. */

@@ -5,7 +5,7 @@ import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import { compile } from '../group/compile.ts';
 import { totalDurationMs, type ActionGroup } from '../group/group.ts';
-import { someGroup } from '../testing/groupsUnderTest.ts';
+import { someGroup } from '../testing/groups.ts';
 import { positionAt, tracksOf, type Track } from '../group/tracks.ts';
 import { createEstimateUnderTest, FETCH, ROUNDING, SIMULATED, longestStep } from './estimateUnderTest.ts';
 

@@ -12,7 +12,7 @@ import {
   READ_BATTERY,
   run,
   STOP,
-} from '../testing/boardUnderTest.ts';
+} from '../testing/board.ts';
 import type { BusLogEntry } from './line.ts';
 
 const ANSWER = '55 55 04 0F 4C 1D';

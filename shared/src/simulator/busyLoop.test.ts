@@ -10,7 +10,7 @@ import {
   run,
   STOP,
   type BoardUnderTest,
-} from '../testing/boardUnderTest.ts';
+} from '../testing/board.ts';
 import type { BoardOptions } from './board.ts';
 
 /** Packets are there at once, so that only the loop takes time. */

@@ -9,7 +9,7 @@ import {
   READ_BATTERY,
   run,
   STOP,
-} from '../testing/boardUnderTest.ts';
+} from '../testing/board.ts';
 import { parseFault } from './faults.ts';
 import type { ProfileName } from './profileNames.ts';
 

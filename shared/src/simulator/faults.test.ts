@@ -10,8 +10,8 @@ import {
   READ_BATTERY,
   run,
   RUN_ACK,
-} from '../testing/boardUnderTest.ts';
-import type { BoardUnderTest } from '../testing/boardUnderTest.ts';
+  type BoardUnderTest,
+} from '../testing/board.ts';
 import { parseFault, type Fault } from './faults.ts';
 
 const ANSWER = '55 55 04 0F 4C 1D';

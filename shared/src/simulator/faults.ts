@@ -51,19 +51,19 @@ interface PlannedIncident {
 }
 
 /** What becomes of one acknowledgement. */
-export interface AckFate {
+export interface AckDamage {
   readonly lost: boolean;
   readonly doubled: boolean;
   readonly foreign: boolean;
   readonly lateMs: number;
 }
 
-export const UNHARMED: AckFate = { lost: false, doubled: false, foreign: false, lateMs: 0 };
+export const UNHARMED: AckDamage = { lost: false, doubled: false, foreign: false, lateMs: 0 };
 
 export interface FaultPlan {
   /** What the other end gets for one byte sent. */
   distort(byte: number): readonly number[];
-  nextAck(): AckFate;
+  nextAck(): AckDamage;
   readonly sectorMs: number;
   /** Null where the battery is as configured. */
   readonly batteryMv: number | null;
@@ -122,7 +122,7 @@ export function planFaults(faults: readonly Fault[], seed: number): FaultPlan {
     return struck ? STRIKES[struck.name](byte, random) : [byte];
   }
 
-  function nextAck(): AckFate {
+  function nextAck(): AckDamage {
     acks += 1;
     const striking = ackFaults.filter((fault) => strikesAt(fault, acks, random));
     const has = (name: AckFaultName) => striking.some((fault) => fault.name === name);

@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest';
-import type { BoardUnderTest } from '../testing/boardUnderTest.ts';
 import {
+  type BoardUnderTest,
   createBoardUnderTest,
   download,
   DOWNLOAD_ACK,
@@ -11,7 +11,7 @@ import {
   run,
   RUN_ACK,
   STOP,
-} from '../testing/boardUnderTest.ts';
+} from '../testing/board.ts';
 import { createFlashChip } from './groupStore.ts';
 
 const ENOUGH_MS = 1000;

@@ -10,7 +10,7 @@ import {
   run,
   RUN_ACK,
   STOP,
-} from '../testing/boardUnderTest.ts';
+} from '../testing/board.ts';
 import { parseFault, type Fault } from './faults.ts';
 
 const ANSWER = '55 55 04 0F 4C 1D';

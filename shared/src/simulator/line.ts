@@ -3,7 +3,7 @@
 // what the board's pins saw.
 
 import type { Source, Work } from './agenda.ts';
-import { type AckFate, type FaultPlan, UNHARMED } from './faults.ts';
+import { type AckDamage, type FaultPlan, UNHARMED } from './faults.ts';
 import { COMMAND_NUMBER } from '../codec/commands.ts';
 import { packetBytes } from '../codec/packet.ts';
 
@@ -68,7 +68,7 @@ export interface Line extends Source {
   /** The host starts to send; each byte completes after the one before it. */
   receive(bytes: Uint8Array): void;
   /** One byte has left the board; lost ones never reach the host, late ones later. */
-  transmit(byte: number, fate: Pick<AckFate, 'lost' | 'lateMs'>): void;
+  transmit(byte: number, damage: Pick<AckDamage, 'lost' | 'lateMs'>): void;
   /** Brings late bytes to the host. */
   readonly outbox: Source;
   /** What reached the host since the last call. */
@@ -135,7 +135,7 @@ export function createLine({ now, byteMs, plan, arrived, log }: LineParts): Line
     }
   }
 
-  function transmit(byte: number, { lost, lateMs }: Pick<AckFate, 'lost' | 'lateMs'>): void {
+  function transmit(byte: number, { lost, lateMs }: Pick<AckDamage, 'lost' | 'lateMs'>): void {
     if (!plugged) return;
     pass('out', byte);
     if (lost) return;
@@ -173,18 +173,18 @@ const FOREIGN_ACK: ReadonlyMap<number, number> = new Map([
 
 export function createSender(line: () => Line, plan: FaultPlan): Sender {
   /** Sent by busy-waiting: each byte blocks the loop for its time on the wire (S21). */
-  function* transmit(bytes: Iterable<number>, fate: AckFate): Work {
+  function* transmit(bytes: Iterable<number>, damage: AckDamage): Work {
     for (const byte of bytes) {
       yield line().byteMs;
-      line().transmit(byte, fate);
+      line().transmit(byte, damage);
     }
   }
 
   function* acknowledge(command: number, foreign: number): Work {
-    const fate = plan.nextAck();
-    if (fate.foreign) yield* transmit(packetBytes(foreign, []), UNHARMED);
-    yield* transmit(packetBytes(command, []), fate);
-    if (fate.doubled) yield* transmit(packetBytes(command, []), fate);
+    const damage = plan.nextAck();
+    if (damage.foreign) yield* transmit(packetBytes(foreign, []), UNHARMED);
+    yield* transmit(packetBytes(command, []), damage);
+    if (damage.doubled) yield* transmit(packetBytes(command, []), damage);
   }
 
   function reply(command: number, params: readonly number[]): Work {

@@ -10,7 +10,7 @@ import {
   run,
   RUN_ACK,
   STOP,
-} from '../testing/boardUnderTest.ts';
+} from '../testing/board.ts';
 
 test('S9: while a packet waits the next one is dropped silently', async () => {
   const { exchange, takeReplies, pulses } = createBoardUnderTest();

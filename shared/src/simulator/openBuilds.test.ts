@@ -10,7 +10,7 @@ import {
   run,
   RUN_ACK,
   STOP,
-} from '../testing/boardUnderTest.ts';
+} from '../testing/board.ts';
 import type { ProfileName } from './profileNames.ts';
 
 /** A board of that build whose group 100 and its successor take 200 ms each. */

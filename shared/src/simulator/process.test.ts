@@ -7,7 +7,7 @@ import type { Readable } from 'node:stream';
 import { fileURLToPath } from 'node:url';
 import { build } from 'vite';
 import { afterAll, afterEach, beforeAll, expect, test } from 'vitest';
-import { bytesOf, hexOf, READ_BATTERY, run } from '../testing/boardUnderTest.ts';
+import { bytesOf, hexOf, READ_BATTERY, run } from '../testing/board.ts';
 
 const ANSWER = '55 55 04 0F 4C 1D';
 const folder = mkdtempSync(join(tmpdir(), 'servodeck-simulator-'));

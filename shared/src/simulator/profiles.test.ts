@@ -11,7 +11,7 @@ import {
   READ_BATTERY,
   run,
   STOP,
-} from '../testing/boardUnderTest.ts';
+} from '../testing/board.ts';
 import { isProfileName, type ProfileName } from './profileNames.ts';
 import { PROFILES } from './profiles.ts';
 

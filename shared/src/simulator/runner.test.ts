@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest';
-import type { BoardUnderTest } from '../testing/boardUnderTest.ts';
 import {
+  type BoardUnderTest,
   createBoardUnderTest,
   download,
   ERASE,
@@ -9,7 +9,7 @@ import {
   run,
   RUN_ACK,
   STOP,
-} from '../testing/boardUnderTest.ts';
+} from '../testing/board.ts';
 
 type Step = readonly [durationMs: number, position: number];
 

@@ -1,6 +1,6 @@
 import fc from 'fast-check';
 import { expect, test } from 'vitest';
-import { createBoardUnderTest, ERASE, move, READ_BATTERY } from '../testing/boardUnderTest.ts';
+import { createBoardUnderTest, ERASE, move, READ_BATTERY } from '../testing/board.ts';
 
 // Without pacing a packet acts at the instant it is sent; ticks come at multiples of 20 ms.
 const UNPACED = { baud: 0 };

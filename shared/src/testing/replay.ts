@@ -33,9 +33,9 @@ export async function replay(recording: Recording, profile?: ProfileName): Promi
   let facts: readonly string[] = [];
   const sections: string[] = [];
   for (const part of partsOf(recording)) {
-    const told = await replayPart(part, profile ?? profileOf(part.board));
-    facts = told.facts;
-    sections.push(...told.sections);
+    const replayed = await replayPart(part, profile ?? profileOf(part.board));
+    facts = replayed.facts;
+    sections.push(...replayed.sections);
   }
   const { expectations } = recording.header;
   const failed = expectations.filter((expectation) => !facts.includes(expectation));

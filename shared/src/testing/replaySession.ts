@@ -82,10 +82,10 @@ function createReplayTransport(clock: Clock): ReplayTransport {
     say: (bytes, whole) => events?.received(bytes, whole),
     latch: () => events?.latched?.('elsewhere'),
     lose() {
-      const told = events;
+      const listener = events;
       events = null;
       isThere = false;
-      told?.lost(new LinkError('lost', 'the link went'));
+      listener?.lost(new LinkError('lost', 'the link went'));
     },
     comeBack() {
       isThere = true;

@@ -1,6 +1,6 @@
 // What the dialog about robots shows: the list, the description, and the calibration at each kind of step.
 
-import type { Keeper } from '#shared/files/keeper.ts';
+import type { DocumentStore } from '#shared/files/documentStore.ts';
 import type { Calibration } from '#shared/profile/calibration.ts';
 import { changeServo } from '#shared/profile/robotEdits.ts';
 import type { Range } from '#shared/codec/families.ts';
@@ -25,7 +25,7 @@ interface Case {
   readonly content: 'list' | 'edit' | 'calibrate';
   readonly state?: SessionState;
   readonly isUnknown?: boolean;
-  readonly place?: Keeper['place'];
+  readonly place?: DocumentStore['place'];
   readonly at?: Pick<Calibration, 'servo' | 'step' | 'found'>;
   /** Of the servo at hand. */
   readonly limits?: Range;

@@ -1,7 +1,7 @@
 // One state that the gallery shows: its name, what is seen of it, and the stores behind that.
 
 import type { ReactNode } from 'react';
-import type { Keeper } from '#shared/files/keeper.ts';
+import type { DocumentStore } from '#shared/files/documentStore.ts';
 import { FAMILIES, type FamilyId } from '#shared/codec/families.ts';
 import type { SessionState } from '#shared/robot/state.ts';
 import type { Way } from '../../robot/device.ts';
@@ -25,7 +25,7 @@ interface Standing {
   readonly state?: SessionState;
   readonly pose?: Pose;
   readonly pad?: Gamepadlike | null;
-  readonly place?: Keeper['place'];
+  readonly place?: DocumentStore['place'];
 }
 
 /** The stores of a page whose link is in one state. */

@@ -1,6 +1,6 @@
 // The page's stores with nothing in them and nothing behind them, for one specimen.
 
-import type { Keeper } from '#shared/files/keeper.ts';
+import type { DocumentStore } from '#shared/files/documentStore.ts';
 import type { Family } from '#shared/codec/families.ts';
 import { pageClock } from '../page.ts';
 import { createMemoryKeeper } from '../../features/library/memoryKeeper.ts';
@@ -42,7 +42,7 @@ const NO_STORAGE: TextStorage = { getItem: () => null, setItem: () => undefined 
 export function specimenStores(
   family: Family,
   held: Gamepadlike | null = null,
-  libraryPlace: Keeper['place'] = 'browser',
+  libraryPlace: DocumentStore['place'] = 'browser',
 ): Stores {
   const notices = createNotices(pageClock);
   const robots = createRobots(NO_STORAGE, notices);

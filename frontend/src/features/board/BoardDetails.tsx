@@ -14,7 +14,7 @@ import { startHindrance, motionHindrance } from '../../robot/readiness.ts';
 import { Confirm } from '../../ui/Confirm.tsx';
 import { NumberField } from '../../ui/NumberField.tsx';
 import { Toggle } from '../../ui/Toggle.tsx';
-import { FATE_TRUTH, useFates, useHeldName } from './slots/useFates.ts';
+import { CONTENT_TRUTH, useSlotContents, useHeldName } from './slots/useSlotContents.ts';
 import { Chip } from '../../ui/Chip.tsx';
 import { CompileRow } from '../animate/group/CompileRow.tsx';
 import { boardName } from '../../i18n/sentences.ts';
@@ -210,14 +210,16 @@ function TakenFor() {
 
 function HeldRow() {
   const slot = useSlot();
-  const fate = useFates()(slot);
+  const content = useSlotContents()(slot);
   const held = useHeldName()(slot) ?? '';
-  const isOther = fate === 'other' && held !== '';
+  const isOther = content === 'other' && held !== '';
   return (
     <div className={styles.row}>
       <div className={styles.about} role="status">
-        <Chip truth={FATE_TRUTH[fate]}>{words.board.glance({ slot, badge: words.slots.badge[fate] })}</Chip>
-        <p>{isOther ? words.slots.holdsNamed({ name: held }) : words.slots.holds[fate]}</p>
+        <Chip truth={CONTENT_TRUTH[content]}>
+          {words.board.glance({ slot, badge: words.slots.badge[content] })}
+        </Chip>
+        <p>{isOther ? words.slots.holdsNamed({ name: held }) : words.slots.holds[content]}</p>
       </div>
       <PlaceControl />
     </div>

@@ -8,7 +8,7 @@ import { motionHindrance } from '../../robot/readiness.ts';
 import { useSnapshot, useStores, useCompiled, useDevice, useDocument, useSlot } from '../stores.ts';
 import { Button } from '../../ui/Button.tsx';
 import { words } from '../../i18n/words.ts';
-import { useFates, FATE_TRUTH, useHeldName } from './slots/useFates.ts';
+import { useSlotContents, CONTENT_TRUTH, useHeldName } from './slots/useSlotContents.ts';
 import { useRunSettings } from './useRunSettings.ts';
 import { obstacles } from '../animate/group/compiled.ts';
 import { Chip } from '../../ui/Chip.tsx';
@@ -26,7 +26,7 @@ import styles from './BoardPanel.module.css';
 function RunControl() {
   const { device, view, notices } = useStores();
   const { slot, times } = useRunSettings();
-  const isEmpty = useFates()(slot) === 'empty';
+  const isEmpty = useSlotContents()(slot) === 'empty';
   const isPlaying = useSnapshot(({ activity }) => activity.kind === 'playing');
   const isReady = useSnapshot((snapshot) => snapshot.link.status === 'ready');
   const mayRun = useSnapshot(
@@ -111,7 +111,7 @@ function AtAGlance() {
   const slot = useSlot();
   const unit = useDocument(({ present }) => present.unit);
   const { id, unit: boardUnit } = useDevice((state) => state.family);
-  const fate = useFates()(slot);
+  const content = useSlotContents()(slot);
   const held = useHeldName()(slot) ?? '';
   const trigger = slotTrigger(id, slot);
   const { frames, report } = useCompiled((state) => state.latest);
@@ -120,7 +120,7 @@ function AtAGlance() {
   if (frames.length === 0) return <p className={boardStripStyles.hint}>{words.board.nothingToDownload}</p>;
   return (
     <span className={boardStripStyles.glance} aria-hidden="true">
-      <Chip truth={FATE_TRUTH[fate]}>{heldText(fate, held)}</Chip>
+      <Chip truth={CONTENT_TRUTH[content]}>{heldText(content, held)}</Chip>
       <Chip truth={fits ? 'confirmed' : 'danger'}>
         {isOfOther ? words.compile.ofOther : fits ? words.compile.fits : words.compile.fitsNot}
       </Chip>

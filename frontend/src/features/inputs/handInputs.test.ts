@@ -4,7 +4,7 @@
 import * as fc from 'fast-check';
 import { expect, test } from 'vitest';
 import { step } from '#shared/profile/mappingStep.ts';
-import { evenly } from '#shared/testing/evenlyUnderTest.ts';
+import { evenly } from '#shared/testing/evenly.ts';
 import { homeTargets } from '#shared/profile/poseShapes.ts';
 import { FAMILIES } from '#shared/codec/families.ts';
 import { TIMES } from '#shared/robot/faults/amount.ts';

@@ -2,10 +2,10 @@
 
 import { useStore } from 'zustand';
 import { memo, type Ref } from 'react';
-import type { GroupFacts } from '#shared/files/factsShape.ts';
+import type { GroupFacts } from '#shared/files/factsSchema.ts';
 import { familyOfUnit } from '#shared/profile/units.ts';
 import { FAMILIES } from '#shared/codec/families.ts';
-import type { Listed } from '#shared/files/keeper.ts';
+import type { Listed } from '#shared/files/documentStore.ts';
 import { BarThumb, RobotThumb } from '../picture/PoseThumb.tsx';
 import { useStores, useLibrary } from '../stores.ts';
 import { Button, IconButton } from '../../ui/Button.tsx';

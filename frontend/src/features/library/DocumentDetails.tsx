@@ -1,7 +1,7 @@
 // What can be done with one group of the library: name, tags, a copy, its versions, the trash.
 
 import { useEffect, useState, type SubmitEvent } from 'react';
-import type { Version, Listed } from '#shared/files/keeper.ts';
+import type { Version, Listed } from '#shared/files/documentStore.ts';
 import { rename } from '#shared/group/groupEdits.ts';
 import { tagsFromText, tagsToText } from '#shared/files/libraryText.ts';
 import { useLibrary, useStores } from '../stores.ts';

@@ -13,7 +13,7 @@ import {
   type KeyboardEvent,
 } from 'react';
 import { defaultRangeExtractor, useVirtualizer } from '@tanstack/react-virtual';
-import type { Listed } from '#shared/files/keeper.ts';
+import type { Listed } from '#shared/files/documentStore.ts';
 import { neighbour } from '../animate/frames/useCards.ts';
 import { words } from '../../i18n/whole.ts';
 import { cardRows } from './arrange.ts';

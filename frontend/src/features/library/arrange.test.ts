@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import type { Listed } from '#shared/files/keeper.ts';
+import type { Listed } from '#shared/files/documentStore.ts';
 import { arranged, tagsIn, type Wish } from './arrange.ts';
 
 const document = (name: string, facts: Partial<Listed['facts']> = {}, isRemoved = false): Listed => ({

@@ -1,6 +1,6 @@
 // Which documents of the library are shown and in which order. Knows no page.
 
-import type { Listed } from '#shared/files/keeper.ts';
+import type { Listed } from '#shared/files/documentStore.ts';
 
 // How cards of a list fill the rows of a grid, where one of them may lie open and have a row to itself.
 

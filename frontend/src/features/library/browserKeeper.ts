@@ -7,10 +7,10 @@ import {
   required,
   TRASH_MS,
   type Facts,
-  type Keeper,
+  type DocumentStore,
   type Stored,
   type Version,
-} from '#shared/files/keeper.ts';
+} from '#shared/files/documentStore.ts';
 
 /** Rows of before robots were kept say no kind. */
 const OLDEST = { kind: 'group' } as const;
@@ -30,7 +30,7 @@ interface VersionRow extends Version {
 
 type StoreOf = (name: (typeof STORES)[number]) => IDBObjectStore;
 
-export function createBrowserKeeper(name: string, nowMs: () => number): Keeper {
+export function createBrowserKeeper(name: string, nowMs: () => number): DocumentStore {
   let opened: Promise<IDBDatabase> | null = null;
 
   function open(): Promise<IDBDatabase> {

@@ -1,7 +1,13 @@
 // What every keeper does, as cases that run wherever it lives: under Node, or in a browser against IndexedDB and a gateway. Uses
 // documents of its own names, so that a keeper may hold others.
 
-import { LibraryError, type Facts, type Keeper, type Listed, type Writing } from '#shared/files/keeper.ts';
+import {
+  LibraryError,
+  type Facts,
+  type DocumentStore,
+  type Listed,
+  type Writing,
+} from '#shared/files/documentStore.ts';
 
 const FACTS: Facts = {
   kind: 'group',
@@ -13,7 +19,7 @@ const writing = (x: number, expected: number, isRemoved = false): Writing => ({
   ...{ text: `{"x":${x}}`, facts: FACTS, expected, isRemoved },
 });
 
-type Case = (keeper: Keeper, name: (short: string) => string) => Promise<void>;
+type Case = (keeper: DocumentStore, name: (short: string) => string) => Promise<void>;
 
 export const KEEPER_CASES: Readonly<Record<string, Case>> = {
   'a document is kept, listed and read': async (keeper, name) => {
@@ -89,12 +95,12 @@ export const KEEPER_CASES: Readonly<Record<string, Case>> = {
   },
 };
 
-async function listed(keeper: Keeper, id: string): Promise<Listed<Facts> | undefined> {
+async function listed(keeper: DocumentStore, id: string): Promise<Listed<Facts> | undefined> {
   const { documents } = await keeper.list();
   return documents.find((one) => one.id === id);
 }
 
-async function removed(keeper: Keeper, ...ids: readonly string[]): Promise<unknown> {
+async function removed(keeper: DocumentStore, ...ids: readonly string[]): Promise<unknown> {
   return Promise.all(ids.map(async (id) => (await listed(keeper, id))?.isRemoved));
 }
 

@@ -1,8 +1,8 @@
 // The library in the gateway's data folder, over HTTP. Trusts no answer's shape; every failure is a LibraryError.
 
 import * as v from 'valibot';
-import { factsSchema } from '#shared/files/factsShape.ts';
-import { LibraryError, type Keeper, type LibraryErrorCode } from '#shared/files/keeper.ts';
+import { factsSchema } from '#shared/files/factsSchema.ts';
+import { LibraryError, type DocumentStore, type LibraryErrorCode } from '#shared/files/documentStore.ts';
 import { GatewayProblem, request, type Method } from '../../robot/request.ts';
 import type {
   DocumentIds,
@@ -47,7 +47,7 @@ const versionsSchema: v.GenericSchema<unknown, ListedVersion[]> = v.array(
 const versionTextSchema: v.GenericSchema<unknown, VersionText> = v.object({ text: v.string() });
 const nothing = v.unknown();
 
-export const gatewayKeeper: Keeper = {
+export const gatewayKeeper: DocumentStore = {
   place: 'gateway',
   list: () => ask('', 'GET', listingSchema),
   read: (id) => ask(`/${id}`, 'GET', storedSchema),

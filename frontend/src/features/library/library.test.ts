@@ -1,7 +1,7 @@
 import { describe, expect, test } from 'vitest';
 import { rename } from '#shared/group/groupEdits.ts';
 import { groupFromText, groupToText, emptyGroup, GROUP_NAME_LENGTH } from '#shared/group/group.ts';
-import { LibraryError, type Keeper } from '#shared/files/keeper.ts';
+import { LibraryError, type DocumentStore } from '#shared/files/documentStore.ts';
 import { libraryFromText, type BundledDocument } from '#shared/files/libraryText.ts';
 import { createVirtualClock, type VirtualClock } from '#shared/testing/virtualClock.ts';
 import { createMemoryKeeper } from './memoryKeeper.ts';
@@ -11,18 +11,18 @@ import { createVisit } from './libraryUnderTest.ts';
 
 const called = (name: string) => (group: Parameters<typeof rename>[0]) => rename(group, name);
 
-function createPlace(keeper: Keeper = createMemoryKeeper()) {
+function createPlace(keeper: DocumentStore = createMemoryKeeper()) {
   const clock = createVirtualClock();
   const visit = (texts?: Map<string, string>) => createVisit(keeper, clock, texts);
   return { keeper, clock, visit };
 }
 
 /** Goes away and comes back, as a gateway does. */
-function unreliable(keeper: Keeper) {
+function unreliable(keeper: DocumentStore) {
   const state = { isAway: false };
   const away = <T>(ask: () => Promise<T>): Promise<T> =>
     state.isAway ? Promise.reject(new LibraryError('unreachable', 'away')) : ask();
-  const flaky: Keeper = {
+  const flaky: DocumentStore = {
     ...keeper,
     list: () => away(keeper.list),
     read: (id) => away(() => keeper.read(id)),
@@ -31,7 +31,7 @@ function unreliable(keeper: Keeper) {
   return { flaky, state };
 }
 
-const textAt = async (keeper: Keeper, id: string) => {
+const textAt = async (keeper: DocumentStore, id: string) => {
   const read = groupFromText((await keeper.read(id)).text);
   return 'value' in read ? read.value : null;
 };
@@ -179,7 +179,7 @@ describe('keeping', () => {
     before.document.edit(() => 'name', called('Wave'));
     await before.later();
 
-    let answer: (found: Keeper) => void = () => undefined;
+    let answer: (found: DocumentStore) => void = () => undefined;
     const late = createVisit(new Promise((resolve) => (answer = resolve)), clock, before.texts);
     late.capture(1500);
     late.library.create();
@@ -213,7 +213,7 @@ describe('keeping', () => {
 
   test('a group that is refused keeps no other waiting', async () => {
     const keeper = createMemoryKeeper();
-    const write: Keeper['write'] = (id, writing) =>
+    const write: DocumentStore['write'] = (id, writing) =>
       writing.facts.name === 'Huge'
         ? Promise.reject(new LibraryError('tooLarge', 'too large'))
         : keeper.write(id, writing);
@@ -419,7 +419,7 @@ describe('files', () => {
     await first.later();
 
     let isDamaged = true;
-    const damaged: Keeper = {
+    const damaged: DocumentStore = {
       ...keeper,
       list: async () => ({ ...(await keeper.list()), changesLost: true }),
       read: (wanted) =>
@@ -466,7 +466,7 @@ describe('files', () => {
   };
 
   /** Those texts that `isBroken` says, by the name of their group or version. */
-  function damagedAt(keeper: Keeper, isBroken: (name: string) => boolean): Keeper {
+  function damagedAt(keeper: DocumentStore, isBroken: (name: string) => boolean): DocumentStore {
     const whole = async (name: string | undefined): Promise<void> => {
       if (isBroken(name ?? '')) throw new LibraryError('damaged', `${name ?? ''} is damaged.`);
       return Promise.resolve();
@@ -561,8 +561,8 @@ describe('files', () => {
   test('while the library is waited for, an import says so, and goes on once it answers', async () => {
     const { text } = await twoGroups();
     const clock = createVirtualClock();
-    let answer = (_keeper: Keeper): void => undefined;
-    const page = createVisit(new Promise<Keeper>((resolve) => (answer = resolve)), clock);
+    let answer = (_keeper: DocumentStore): void => undefined;
+    const page = createVisit(new Promise<DocumentStore>((resolve) => (answer = resolve)), clock);
     const imported = page.library.importText(text);
     await clock.advance(1000);
     expect(page.told()).toEqual([words.library.importWaits]);
@@ -598,7 +598,7 @@ describe('files', () => {
     const { text } = await twoGroups();
     const keeper = createMemoryKeeper();
     let writes = 0;
-    const write: Keeper['write'] = (id, writing) =>
+    const write: DocumentStore['write'] = (id, writing) =>
       ++writes > 1 ? Promise.reject(new LibraryError('full', 'no space')) : keeper.write(id, writing);
     const other = createPlace({ ...keeper, write }).visit();
     await other.library.importText(text);

@@ -8,16 +8,16 @@ import { emptyGroup, type ActionGroup, groupFromText, groupToText } from '#share
 import { rename } from '#shared/group/groupEdits.ts';
 import type { Label } from '#shared/document/history.ts';
 import { factsOf } from '#shared/files/facts.ts';
-import type { GroupFacts } from '#shared/files/factsShape.ts';
+import type { GroupFacts } from '#shared/files/factsSchema.ts';
 import {
   asLibraryError,
   listedOf,
-  type Keeper,
+  type DocumentStore,
   type Listed,
   type Listing,
   type Stored,
   type LibraryErrorCode,
-} from '#shared/files/keeper.ts';
+} from '#shared/files/documentStore.ts';
 import { libraryProblem } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/words.ts';
 import type { Document } from '../animate/group/document.ts';
@@ -33,7 +33,7 @@ import { createOutbox, createShelving } from './outbox.ts';
 
 export interface LibraryState {
   /** Where it lies; null until that is known. */
-  readonly place: Keeper['place'] | null;
+  readonly place: DocumentStore['place'] | null;
   /** Those in the trash too, in no order. */
   readonly documents: readonly Listed[];
   /** How often it has been listed: what the list does not say, as versions, may have changed as well. */
@@ -73,7 +73,7 @@ const ADDED_WITHIN_MS = 700;
 const WAITING: readonly LibraryErrorCode[] = ['full', 'busy', 'unreachable'];
 
 export interface LibraryOptions {
-  readonly keeper: Promise<Keeper>;
+  readonly keeper: Promise<DocumentStore>;
   readonly document: Document;
   readonly storage: TextStorage;
   readonly notices: Notices;

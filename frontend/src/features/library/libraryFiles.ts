@@ -2,15 +2,15 @@
 
 import type { Clock } from '#shared/clock.ts';
 import { type ActionGroup, groupToText, sameGroup } from '#shared/group/group.ts';
-import type { GroupFacts } from '#shared/files/factsShape.ts';
+import type { GroupFacts } from '#shared/files/factsSchema.ts';
 import {
   asLibraryError,
   LibraryError,
   listedOf,
-  type Keeper,
+  type DocumentStore,
   type LibraryErrorCode,
   type Listed,
-} from '#shared/files/keeper.ts';
+} from '#shared/files/documentStore.ts';
 import {
   libraryFromText,
   libraryToText,
@@ -29,7 +29,7 @@ export interface LibraryFiles {
 }
 
 export interface LibraryFilesOptions {
-  readonly keeper: Promise<Keeper>;
+  readonly keeper: Promise<DocumentStore>;
   readonly notices: Notices;
   factsOf(group: ActionGroup, updatedAtMs: number): GroupFacts;
   newId(): string;
@@ -43,7 +43,7 @@ export interface LibraryFilesOptions {
 /** As long as nobody wonders. */
 const PATIENCE_MS = 700;
 
-type Fate = 'added' | 'changed' | 'same';
+type Outcome = 'added' | 'changed' | 'same';
 
 export function createLibraryFiles(options: LibraryFilesOptions): LibraryFiles {
   const { notices, newId, tell } = options;
@@ -71,17 +71,17 @@ export function createLibraryFiles(options: LibraryFilesOptions): LibraryFiles {
     await options.settle();
     const keeper = await options.keeper;
     const present = listedOf(await keeper.list(), 'group');
-    const fates: Fate[] = [];
+    const outcomes: Outcome[] = [];
     const staged: string[] = [];
     for (const document of documents) {
-      const { fate, id } = await fateOf(keeper, present, document);
-      fates.push(fate);
+      const { outcome, id } = await outcomeOf(keeper, present, document);
+      outcomes.push(outcome);
       staged.push(id);
-      if (fate !== 'same') await stage(keeper, id, document);
+      if (outcome !== 'same') await stage(keeper, id, document);
     }
     // Until here all of it lies in the trash: now it appears together, or never.
     await keeper.restore(staged);
-    const count = (fate: Fate): number => fates.filter((one) => one === fate).length;
+    const count = (outcome: Outcome): number => outcomes.filter((one) => one === outcome).length;
     notices.tell(
       'info',
       words.library.imported({ added: count('added'), changed: count('changed'), same: count('same') }),
@@ -89,19 +89,19 @@ export function createLibraryFiles(options: LibraryFilesOptions): LibraryFiles {
     await options.refresh();
   }
 
-  async function fateOf(
-    keeper: Keeper,
+  async function outcomeOf(
+    keeper: DocumentStore,
     present: readonly Listed[],
     { id, group }: BundledDocument,
-  ): Promise<{ readonly fate: Fate; readonly id: string }> {
-    if (!present.some((one) => one.id === id)) return { fate: 'added', id };
+  ): Promise<{ readonly outcome: Outcome; readonly id: string }> {
+    if (!present.some((one) => one.id === id)) return { outcome: 'added', id };
     const found = await wholeOrNot(async () => groupOf((await keeper.read(id)).text));
     return 'whole' in found && sameGroup(found.whole, group)
-      ? { fate: 'same', id }
-      : { fate: 'changed', id: newId() };
+      ? { outcome: 'same', id }
+      : { outcome: 'changed', id: newId() };
   }
 
-  async function stage(keeper: Keeper, id: string, document: BundledDocument): Promise<void> {
+  async function stage(keeper: DocumentStore, id: string, document: BundledDocument): Promise<void> {
     const { group, updatedAtMs, versions } = document;
     const facts = options.factsOf(group, updatedAtMs);
     await keeper.write(id, { text: groupToText(group), facts, expected: 0, isRemoved: true });
@@ -140,7 +140,7 @@ export function createLibraryFiles(options: LibraryFilesOptions): LibraryFiles {
 }
 
 /** What is not whole is left out and named. In the place of a group there stands the newest of its versions that is. */
-async function bundle(keeper: Keeper, { id, facts }: Listed): Promise<Bundling> {
+async function bundle(keeper: DocumentStore, { id, facts }: Listed): Promise<Bundling> {
   const { name, updatedAtMs } = facts;
   const read = await wholeOrNot(async () => groupOf((await keeper.read(id)).text));
   const lost: Lost[] = [];

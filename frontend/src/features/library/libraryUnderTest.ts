@@ -1,6 +1,6 @@
 // Pages at one keeper, in virtual time, for tests: each has its own stores; `texts` is what its browser kept.
 
-import type { Keeper } from '#shared/files/keeper.ts';
+import type { DocumentStore } from '#shared/files/documentStore.ts';
 import { insertFrame } from '#shared/group/groupEdits.ts';
 import type { VirtualClock } from '#shared/testing/virtualClock.ts';
 import { createDocument } from '../animate/group/document.ts';
@@ -14,7 +14,7 @@ export const EPOCH_MS = 1_790_000_000_000;
 
 /** `keeper`: known at once, or some time later. */
 export function createVisit(
-  keeper: Keeper | Promise<Keeper>,
+  keeper: DocumentStore | Promise<DocumentStore>,
   clock: VirtualClock,
   texts = new Map<string, string>(),
 ) {

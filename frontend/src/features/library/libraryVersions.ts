@@ -1,7 +1,7 @@
 // Versions of a group that were kept under a name, and the way back to them. What cannot be done is told; nothing rejects.
 
 import { type ActionGroup, groupToText } from '#shared/group/group.ts';
-import type { Keeper, Version } from '#shared/files/keeper.ts';
+import type { DocumentStore, Version } from '#shared/files/documentStore.ts';
 import { words } from '../../i18n/words.ts';
 import type { Document } from '../animate/group/document.ts';
 import type { Notices } from '../../state/notices.ts';
@@ -19,7 +19,7 @@ export interface LibraryVersions {
 }
 
 interface LibraryVersionsOptions {
-  readonly keeper: Promise<Keeper>;
+  readonly keeper: Promise<DocumentStore>;
   readonly document: Document;
   readonly notices: Notices;
   /** Milliseconds since 1970. */

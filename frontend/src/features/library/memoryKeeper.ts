@@ -4,17 +4,17 @@ import {
   nextRevision,
   required,
   type Facts,
-  type Keeper,
+  type DocumentStore,
   type Listed,
   type Version,
   type Writing,
-} from '#shared/files/keeper.ts';
+} from '#shared/files/documentStore.ts';
 
 interface Kept extends Writing {
   readonly revision: number;
 }
 
-export function createMemoryKeeper(place: Keeper['place'] = 'browser'): Keeper {
+export function createMemoryKeeper(place: DocumentStore['place'] = 'browser'): DocumentStore {
   const documents = new Map<string, Kept>();
   const versions = new Map<string, Map<string, { version: Version; text: string }>>();
 

@@ -3,7 +3,7 @@
 
 import * as v from 'valibot';
 import { type ActionGroup, groupFromText, sameGroup } from '#shared/group/group.ts';
-import { LibraryError, type Listed } from '#shared/files/keeper.ts';
+import { LibraryError, type Listed } from '#shared/files/documentStore.ts';
 import { record, startHistory, type History, type Label } from '#shared/document/history.ts';
 import type { Document } from '../animate/group/document.ts';
 import type { TextStorage } from '../../state/soon.ts';

@@ -3,13 +3,13 @@
 
 import * as v from 'valibot';
 import type { Clock } from '#shared/clock.ts';
-import { LibraryError, type Facts, type Keeper, type Stored } from '#shared/files/keeper.ts';
+import { LibraryError, type Facts, type DocumentStore, type Stored } from '#shared/files/documentStore.ts';
 import type { TextStorage } from '../../state/soon.ts';
 
 // Brings what waits in the outbox to the library: soon after a change, one at a time, again and again where it fails.
 
 interface ShelvingOptions {
-  readonly keeper: Promise<Keeper>;
+  readonly keeper: Promise<DocumentStore>;
   readonly outbox: Outbox;
   readonly clock: Clock;
   /** null for a text that this version cannot read: it goes on waiting. */

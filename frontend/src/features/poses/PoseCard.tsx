@@ -1,7 +1,7 @@
 // One pose as a card: its picture, its name, the way to it. The face selects; the grip drags.
 
 import { type Pose, movePose, renamePose } from '#shared/profile/pose.ts';
-import { strangersTo } from '#shared/profile/poseShapes.ts';
+import { unknownServos } from '#shared/profile/poseShapes.ts';
 import { PoseThumb } from '../picture/PoseThumb.tsx';
 import { motionHindrance } from '../../robot/readiness.ts';
 import { useDevice, useRobot, useSnapshot, useStores, useView } from '../stores.ts';
@@ -28,7 +28,7 @@ export function PoseCard({ pose, marks, isSelected, isTabStop }: PoseCardProps) 
   const robot = useRobot();
   const { isDragged, startDrag } = usePoseDrag(pose);
   const { id, name, targets } = pose;
-  const all = robot.servos.length + strangersTo(robot, targets).length;
+  const all = robot.servos.length + unknownServos(robot, targets).length;
   const servoCount = targets.length;
   const about = servoCount === all ? name : words.poses.about({ name, servoCount, all });
   return (

@@ -3,7 +3,7 @@
 
 import { useRef, useState } from 'react';
 import { type Pose, movePose, removePose, setPose } from '#shared/profile/pose.ts';
-import { strangersTo } from '#shared/profile/poseShapes.ts';
+import { unknownServos } from '#shared/profile/poseShapes.ts';
 import type { RobotServo } from '#shared/profile/robot.ts';
 import { useDevice, useRobot, usePoses, useStores, useView } from '../stores.ts';
 import { PoseThumb } from '../picture/PoseThumb.tsx';
@@ -114,7 +114,7 @@ function ServoPicker({ pose }: { readonly pose: Pose }) {
   const sameUnit = useDevice((state) => state.family.unit === pose.unit);
   const included = new Set(pose.targets.map(({ servo }) => servo));
   /** Of a file: they can be left out. */
-  const strangers = strangersTo(robot, pose.targets);
+  const unknown = unknownServos(robot, pose.targets);
 
   function choose(servo: number, isIn: boolean): void {
     const { target: position } = device.motion(servo);
@@ -145,7 +145,7 @@ function ServoPicker({ pose }: { readonly pose: Pose }) {
   return (
     <fieldset
       className={styles.drawer}
-      aria-label={words.poses.servosOf({ count: included.size, all: servos.length + strangers.length })}
+      aria-label={words.poses.servosOf({ count: included.size, all: servos.length + unknown.length })}
     >
       <p className={styles.hint}>{words.poses.servosHint}</p>
       <div className={styles.limbs}>
@@ -155,7 +155,7 @@ function ServoPicker({ pose }: { readonly pose: Pose }) {
             <div className={styles.servos}>{members.map(choice)}</div>
           </fieldset>
         ))}
-        {strangers.map((servo) => choice({ servo, name: words.robots.absent({ servo }) }))}
+        {unknown.map((servo) => choice({ servo, name: words.robots.absent({ servo }) }))}
       </div>
     </fieldset>
   );

@@ -12,7 +12,7 @@ import {
   poseBookFromText,
   poseBookToText,
 } from '#shared/profile/pose.ts';
-import { homeTargets, strangersTo } from '#shared/profile/poseShapes.ts';
+import { homeTargets, unknownServos } from '#shared/profile/poseShapes.ts';
 import type { ServoTarget } from '#shared/codec/commands.ts';
 import { flawSentence } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/words.ts';
@@ -90,9 +90,9 @@ export function createPoses({ storage, notices, robots, device, view }: PosesOpt
       (before) => withPosesOf(before, imported),
     );
     const targets = imported.poses.flatMap((pose) => pose.targets);
-    const strangers = strangersTo(robots.current().robot, targets);
-    if (strangers.length > 0)
-      notices.tell('warning', words.poses.strangers({ servos: words.numbers.formatList(strangers) }));
+    const unknown = unknownServos(robots.current().robot, targets);
+    if (unknown.length > 0)
+      notices.tell('warning', words.poses.strangers({ servos: words.numbers.formatList(unknown) }));
   }
 
   return {

@@ -1,5 +1,5 @@
 import { describe, expect, test } from 'vitest';
-import { LibraryError, type Keeper } from '#shared/files/keeper.ts';
+import { LibraryError, type DocumentStore } from '#shared/files/documentStore.ts';
 import { addPose, markApplied } from '#shared/profile/pose.ts';
 import type { Robot } from '#shared/profile/robot.ts';
 import { changeServo } from '#shared/profile/robotEdits.ts';
@@ -11,7 +11,7 @@ const limited = (robot: Robot): Robot => changeServo(robot, 4, { min: 1000 });
 const narrowed = (robot: Robot): Robot => changeServo(robot, 4, { max: 2000 });
 
 /** Two screens at one library: the second one comes later. */
-async function twoScreens(clock: VirtualClock, keeper: Keeper) {
+async function twoScreens(clock: VirtualClock, keeper: DocumentStore) {
   const one = createVisit(keeper, clock);
   await clock.advance(300);
   one.robots.edit(() => 'rename', named('Crane'));
@@ -106,7 +106,7 @@ describe('robots in the library', () => {
     const keeper = createMemoryKeeper('gateway');
     await twoScreens(clock, keeper);
     const texts = new Map<string, string>();
-    const away: Keeper = { ...keeper, list: () => new Promise(() => undefined) };
+    const away: DocumentStore = { ...keeper, list: () => new Promise(() => undefined) };
     createVisit(away, clock, texts).robots.edit(() => 'rename', named('My hand'));
     const back = createVisit(keeper, clock, texts);
     await clock.advance(300);
@@ -149,7 +149,7 @@ describe('robots in the library', () => {
     other.keeping.refresh();
     await clock.advance(300);
     expect(other.names()).toEqual(['Crane']);
-    const strict: Keeper = {
+    const strict: DocumentStore = {
       ...keeper,
       remove: () => Promise.reject(new LibraryError('failed', 'Only an owner may remove')),
     };
@@ -167,7 +167,7 @@ describe('robots in the library', () => {
     const clock = createVirtualClock();
     const keeper = createMemoryKeeper('gateway');
     let isAway = true;
-    const list: Keeper['list'] = () =>
+    const list: DocumentStore['list'] = () =>
       isAway ? Promise.reject(new LibraryError('unreachable', '')) : keeper.list();
     const one = createVisit({ ...keeper, list }, clock);
     one.robots.edit(() => 'rename', named('Crane'));
@@ -187,7 +187,7 @@ describe('robots in the library', () => {
     const second = createMemoryKeeper('gateway');
     createVisit(second, clock, texts);
     await clock.advance(300);
-    const ids = async (keeper: Keeper) => (await keeper.list()).documents.map(({ id }) => id);
+    const ids = async (keeper: DocumentStore) => (await keeper.list()).documents.map(({ id }) => id);
     expect(await ids(second)).toEqual(await ids(first));
   });
 

@@ -4,8 +4,14 @@
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { Clock } from '#shared/clock.ts';
-import type { RobotFacts } from '#shared/files/factsShape.ts';
-import { asLibraryError, LibraryError, listedOf, type Keeper, type Listed } from '#shared/files/keeper.ts';
+import type { RobotFacts } from '#shared/files/factsSchema.ts';
+import {
+  asLibraryError,
+  LibraryError,
+  listedOf,
+  type DocumentStore,
+  type Listed,
+} from '#shared/files/documentStore.ts';
 import { robotFactsOf } from '#shared/files/facts.ts';
 import type { MacroPage } from '#shared/profile/macro.ts';
 import type { Mapping } from '#shared/profile/mapping.ts';
@@ -29,7 +35,7 @@ import { isUsual, type OwnRobot, type RobotStore } from './robots.ts';
 
 export interface RobotKeeping {
   /** Where they are kept; null until that is known. A new object whenever it was looked. */
-  readonly store: StoreApi<{ readonly place: Keeper['place'] | null }>;
+  readonly store: StoreApi<{ readonly place: DocumentStore['place'] | null }>;
   /** Others may have changed some. */
   refresh(): void;
   /** The number here of a document there; null for one that is not here yet. */
@@ -39,7 +45,7 @@ export interface RobotKeeping {
 }
 
 export interface RobotKeepingOptions {
-  readonly keeper: Promise<Keeper>;
+  readonly keeper: Promise<DocumentStore>;
   /** A viewer's browser only reads. */
   readonly mayWrite: boolean;
   readonly robots: RobotStore;
@@ -66,7 +72,7 @@ export function createRobotKeeping(options: RobotKeepingOptions): RobotKeeping {
   const { robots, poses, buttons, pad, notices, clock, newId } = options;
   const parts = { poses, buttons, pad };
   const known = loadKnown(options.storage);
-  const store = createStore<{ readonly place: Keeper['place'] | null }>(() => ({ place: null }));
+  const store = createStore<{ readonly place: DocumentStore['place'] | null }>(() => ({ place: null }));
   /** To be kept although nobody has described them: one of them stands on the board. */
   const wanted = new Set<number>();
   let turn = Promise.resolve(true);
@@ -121,7 +127,7 @@ export function createRobotKeeping(options: RobotKeepingOptions): RobotKeeping {
     return free?.id ?? null;
   }
 
-  async function meet(keeper: Keeper, listed: Listed<RobotFacts>): Promise<void> {
+  async function meet(keeper: DocumentStore, listed: Listed<RobotFacts>): Promise<void> {
     const { id: document, revision } = listed;
     const id = [...known].find(([, one]) => one.document === document)?.[0] ?? null;
     if (listed.isRemoved) {
@@ -166,7 +172,7 @@ export function createRobotKeeping(options: RobotKeepingOptions): RobotKeeping {
   }
 
   /** False where somebody else was faster: it has to be met first. */
-  async function bring(keeper: Keeper, one: OwnRobot, there: There): Promise<boolean> {
+  async function bring(keeper: DocumentStore, one: OwnRobot, there: There): Promise<boolean> {
     const before = known.get(one.id);
     const kit = kitOf(one);
     if (before === undefined ? isUntouched(one) && !wanted.has(one.id) : isThereAs(before, kit, there))
@@ -192,7 +198,7 @@ export function createRobotKeeping(options: RobotKeepingOptions): RobotKeeping {
   }
 
   /** One that is refused does not keep the others waiting. */
-  async function bringAll(keeper: Keeper, there: There): Promise<boolean> {
+  async function bringAll(keeper: DocumentStore, there: There): Promise<boolean> {
     const failures: unknown[] = [];
     const added: string[] = [];
     let isWhole = true;
@@ -212,7 +218,7 @@ export function createRobotKeeping(options: RobotKeepingOptions): RobotKeeping {
     return isWhole;
   }
 
-  async function removeGone(keeper: Keeper): Promise<void> {
+  async function removeGone(keeper: DocumentStore): Promise<void> {
     for (const [id, { document }] of known) {
       if (robotAt(id) !== undefined) continue;
       // Where that is refused it comes back.

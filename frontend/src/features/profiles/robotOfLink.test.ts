@@ -7,7 +7,7 @@ import type { Lease } from '#shared/robot/lease.ts';
 import { INITIAL_STATE } from '#shared/robot/store.ts';
 import type { SessionState } from '#shared/robot/state.ts';
 import { createVirtualClock, type VirtualClock } from '#shared/testing/virtualClock.ts';
-import type { Keeper } from '#shared/files/keeper.ts';
+import type { DocumentStore } from '#shared/files/documentStore.ts';
 import { createMemoryKeeper } from '../library/memoryKeeper.ts';
 import { followRobot } from './robotOfLink.ts';
 import { freshRobot } from './robots.ts';
@@ -64,7 +64,7 @@ type Gateway = ReturnType<typeof createGateway>;
 
 function createScreen(
   gateway: Gateway,
-  keeper: Keeper,
+  keeper: DocumentStore,
   clock: VirtualClock,
   mayWrite = true,
   texts = new Map<string, string>(),

@@ -1,6 +1,6 @@
 // A page's robots at one keeper, in virtual time, for tests; `texts` is what its browser kept.
 
-import type { Keeper } from '#shared/files/keeper.ts';
+import type { DocumentStore } from '#shared/files/documentStore.ts';
 import { addPose } from '#shared/profile/pose.ts';
 import type { Robot } from '#shared/profile/robot.ts';
 import { FAMILIES } from '#shared/codec/families.ts';
@@ -17,7 +17,7 @@ import { createRobots } from './robots.ts';
 const EPOCH_MS = 1_790_000_000_000;
 
 export function createVisit(
-  keeper: Keeper,
+  keeper: DocumentStore,
   clock: VirtualClock,
   texts = new Map<string, string>(),
   mayWrite = true,

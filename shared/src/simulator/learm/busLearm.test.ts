@@ -1,7 +1,7 @@
 // What LeArm with bus servos does otherwise than the one with PWM servos: units, pose, version, and how it ends a frame.
 
 import { expect, test } from 'vitest';
-import { createBoardUnderTest, download, move, packet, run } from '../../testing/boardUnderTest.ts';
+import { createBoardUnderTest, download, move, packet, run } from '../../testing/board.ts';
 
 const busLearm = () => createBoardUnderTest({ profile: 'learm-esp32-bus', baud: 0 });
 

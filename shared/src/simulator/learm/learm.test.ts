@@ -10,7 +10,7 @@ import {
   READ_BATTERY,
   run,
   STOP,
-} from '../../testing/boardUnderTest.ts';
+} from '../../testing/board.ts';
 import { parseFault } from '../faults.ts';
 
 const QUERY_VERSION = packet(1, []);

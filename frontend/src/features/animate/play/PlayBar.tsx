@@ -2,7 +2,7 @@
 // this. What goes on is said in a line that is always there.
 
 import { useShallow } from 'zustand/react/shallow';
-import type { SlotFate } from '#shared/group/slotBook.ts';
+import type { SlotContent } from '#shared/group/slotBook.ts';
 import type { Player, PlaybackPhase } from './playback.ts';
 import { playerOf, SPEED_PERCENT } from './player.ts';
 import {
@@ -17,7 +17,7 @@ import {
   useView,
 } from '../../stores.ts';
 import { chosenTimes } from '../../board/slots/groupPlace.ts';
-import { useFates } from '../../board/slots/useFates.ts';
+import { useSlotContents } from '../../board/slots/useSlotContents.ts';
 import { motionHindrance, startHindrance } from '../../../robot/readiness.ts';
 import { isSilent } from '../../drive/servoView.ts';
 import { timesOf } from '../timeline/groupTimes.ts';
@@ -191,13 +191,13 @@ function RunOnBoard({ isDisabled }: { readonly isDisabled: boolean }) {
   const player = usePlayer();
   const commands = useDevice((state) => state.family.commands);
   const slot = useSlot();
-  const fate = useFates()(slot);
+  const content = useSlotContents()(slot);
   if (!commands.includes('run') || !commands.includes('download')) return null;
   return (
     <Button
       icon="board"
       isDisabled={isDisabled}
-      hint={boardHint(slot, fate)}
+      hint={boardHint(slot, content)}
       onPress={() => player.runOnBoard()}
     >
       {words.play.onBoard}
@@ -206,10 +206,10 @@ function RunOnBoard({ isDisabled }: { readonly isDisabled: boolean }) {
 }
 
 /** Whether it downloads first is said before. */
-function boardHint(slot: number, fate: SlotFate): string {
-  return fate === 'same'
+function boardHint(slot: number, content: SlotContent): string {
+  return content === 'same'
     ? words.play.onBoardHint({ slot })
-    : words.play.onBoardDownloads({ slot, isOlder: fate === 'older' });
+    : words.play.onBoardDownloads({ slot, isOlder: content === 'older' });
 }
 
 function Phase({ phase }: { readonly phase: PlaybackPhase | null }) {

@@ -3,7 +3,7 @@
 
 import type { Passage } from '#shared/group/passage.ts';
 import { frameEnds } from '#shared/group/tracks.ts';
-import { fateOf, recordOf } from '#shared/group/slotBook.ts';
+import { contentOf, recordOf } from '#shared/group/slotBook.ts';
 import { passMs } from '#shared/motion/motion.ts';
 import type { CompiledGroup, CompiledStore } from '../group/compiled.ts';
 import type { Device } from '../../../robot/device.ts';
@@ -108,7 +108,7 @@ export function createBoardRun(options: BoardRunOptions): BoardRun {
     const { brokenSlots, slotVersions } = device.store.getState().snapshot;
     const own = { name: group.source.group.name, documentId: documentId() };
     const now = { broken: brokenSlots, arriving: null, versions: slotVersions ?? {} };
-    if (fateOf(book, now, slot, { ...group, ...own }) === 'same') return run(slot, times);
+    if (contentOf(book, now, slot, { ...group, ...own }) === 'same') return run(slot, times);
     let to = slot;
     replacing.download([{ slot, ...own, frames: group.frames }], {
       began([stored]) {

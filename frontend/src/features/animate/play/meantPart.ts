@@ -81,7 +81,7 @@ export function createMeantPart(options: MeantPartOptions): MeantPart {
       seam: seamOf(source.family),
       longestMs: source.family.durationMs.max,
       speedPercent: chosen().speedPercent,
-      strangers: source.robot.servos
+      unknownServos: source.robot.servos
         .map(({ servo }) => servo)
         .filter((servo) => !startsKnown(device.motion(servo))),
     });

@@ -3,7 +3,7 @@
 import { useMemo, useState, useEffect } from 'react';
 import type { ActionGroup } from '#shared/group/group.ts';
 import { ownSlot, slotFor } from '#shared/group/slotPlaces.ts';
-import type { Listed } from '#shared/files/keeper.ts';
+import type { Listed } from '#shared/files/documentStore.ts';
 import { useDevice, useRobot, useStores, useLibrary, useSnapshot } from '../../stores.ts';
 import { hindranceOf, thoseThatCan, type Wanted, downloadOf } from './several.ts';
 import { DownloadProgress } from '../DownloadControl.tsx';

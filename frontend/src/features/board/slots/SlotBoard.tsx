@@ -2,7 +2,7 @@
 
 import { useEffect, useRef, type KeyboardEvent, useState } from 'react';
 import { compareFrames } from '#shared/group/compareFrames.ts';
-import { type SlotRecord, type SlotFate, recordOf } from '#shared/group/slotBook.ts';
+import { type SlotRecord, type SlotContent, recordOf } from '#shared/group/slotBook.ts';
 import { slotTrigger, type SlotTrigger } from '#shared/codec/families.ts';
 import { totalDurationMs } from '#shared/group/group.ts';
 import { servoName } from '../../profiles/servoName.ts';
@@ -11,7 +11,7 @@ import { words } from '../../../i18n/whole.ts';
 import { Mark, Chip } from '../../../ui/Chip.tsx';
 import { cx } from '../../../ui/cx.ts';
 import { slotAfterKey } from './slotKeys.ts';
-import { FATE_TRUTH, useFates, useHeldName } from './useFates.ts';
+import { CONTENT_TRUTH, useSlotContents, useHeldName } from './useSlotContents.ts';
 import { DownloadControl } from '../DownloadControl.tsx';
 import { motionHindrance, startHindrance } from '../../../robot/readiness.ts';
 import { Button } from '../../../ui/Button.tsx';
@@ -61,7 +61,7 @@ function SlotMap() {
   const { slot: range, id } = useDevice((state) => state.family);
   const chosen = useSlot();
   const heldIn = useHeldName();
-  const fateOf = useFates();
+  const contentOf = useSlotContents();
   const grid = useRef<HTMLDivElement>(null);
   const wantsFocus = useRef(false);
   const slots = Array.from({ length: range.max - range.min + 1 }, (_, index) => range.min + index);
@@ -82,7 +82,7 @@ function SlotMap() {
   return (
     <div ref={grid} className={styles.map} role="listbox" aria-label={words.slots.map} onKeyDown={key}>
       {slots.map((slot) => {
-        const fate = fateOf(slot);
+        const content = contentOf(slot);
         const trigger = slotTrigger(id, slot);
         const name = heldIn(slot);
         return (
@@ -90,14 +90,14 @@ function SlotMap() {
             key={slot}
             type="button"
             role="option"
-            className={cx(styles.cell, fate !== 'unknown' && fate !== 'empty' && styles.full)}
+            className={cx(styles.cell, content !== 'unknown' && content !== 'empty' && styles.full)}
             aria-selected={slot === chosen}
             tabIndex={slot === chosen ? 0 : -1}
-            aria-label={cellText(slot, fate, name)}
+            aria-label={cellText(slot, content, name)}
             onClick={() => view.setState({ slot })}
           >
             <span className={styles.number}>{words.numbers.formatWhole(slot)}</span>
-            {fate !== 'unknown' && <Mark truth={FATE_TRUTH[fate]} />}
+            {content !== 'unknown' && <Mark truth={CONTENT_TRUTH[content]} />}
             <span className={styles.held}>{name ?? (trigger && triggerShort(trigger))}</span>
           </button>
         );
@@ -110,8 +110,8 @@ function SlotMap() {
 const columnsOf = (grid: HTMLElement | null): number =>
   grid === null ? 1 : getComputedStyle(grid).gridTemplateColumns.split(' ').length;
 
-function cellText(slot: number, fate: SlotFate, name: string | undefined): string {
-  const about = words.slots.about[fate];
+function cellText(slot: number, content: SlotContent, name: string | undefined): string {
+  const about = words.slots.about[content];
   return name === undefined
     ? words.slots.cell({ slot, about })
     : words.slots.cellNamed({ slot, name, about });
@@ -132,13 +132,13 @@ const VERSION_LENGTH = 6;
 function SlotDetails({ onSeveral }: { readonly onSeveral: (() => void) | null }) {
   const slot = useSlot();
   const { id, commands } = useDevice((state) => state.family);
-  const fate = useFates()(slot);
+  const content = useSlotContents()(slot);
   const trigger = slotTrigger(id, slot);
   return (
     <section className={styles.details} aria-label={words.slots.name({ slot })}>
       <h3>{words.slots.name({ slot })}</h3>
-      <Chip truth={FATE_TRUTH[fate]}>{words.slots.badge[fate]}</Chip>
-      <p>{words.slots.about[fate]}</p>
+      <Chip truth={CONTENT_TRUTH[content]}>{words.slots.badge[content]}</Chip>
+      <p>{words.slots.about[content]}</p>
       <Held slot={slot} />
       {trigger !== null && <p className={styles.warning}>{triggerText(trigger)}</p>}
       <Verbs />

@@ -3,7 +3,7 @@ import { createStore } from 'zustand/vanilla';
 import { emptyGroup, type ActionGroup, groupToText } from '#shared/group/group.ts';
 import { insertFrame } from '#shared/group/groupEdits.ts';
 import { factsOf } from '#shared/files/facts.ts';
-import type { Listed } from '#shared/files/keeper.ts';
+import type { Listed } from '#shared/files/documentStore.ts';
 import { createMemoryKeeper } from '../../library/memoryKeeper.ts';
 import { createDesk } from '../../deskUnderTest.ts';
 import type { Way } from '../../../robot/device.ts';

@@ -2,7 +2,7 @@
 // Writes nothing to the library and tells nobody; what is not found stays what the link says of it.
 
 import { groupFromText } from '#shared/group/group.ts';
-import type { Keeper } from '#shared/files/keeper.ts';
+import type { DocumentStore } from '#shared/files/documentStore.ts';
 import { recordOf } from '#shared/group/slotBook.ts';
 import type { StoredGroup } from '#shared/robot/transport.ts';
 import type { Device } from '../../../robot/device.ts';
@@ -17,7 +17,7 @@ export interface OthersGroupsOptions {
   readonly slots: Slots;
   readonly compiled: CompiledStore;
   readonly library: Pick<Library, 'store' | 'refresh'>;
-  readonly keeper: Promise<Pick<Keeper, 'read' | 'versions' | 'readVersion'>>;
+  readonly keeper: Promise<Pick<DocumentStore, 'read' | 'versions' | 'readVersion'>>;
 }
 
 export function findOthersGroups(options: OthersGroupsOptions): void {

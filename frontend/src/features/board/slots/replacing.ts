@@ -2,7 +2,7 @@
 // a free slot is taken instead. Judges anew at each answer, by the frames that would be written. Knows no panel.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
-import { fateOf, recordOf, type SlotRecord } from '#shared/group/slotBook.ts';
+import { contentOf, recordOf, type SlotRecord } from '#shared/group/slotBook.ts';
 import { freeSlot } from '#shared/group/slotPlaces.ts';
 import type { Device } from '../../../robot/device.ts';
 import { boardFingerprint } from '../../animate/group/workedOut.ts';
@@ -61,7 +61,7 @@ export function createReplacing({ device, robots, slots, place }: ReplacingOptio
     const { brokenSlots, slotVersions } = device.store.getState().snapshot;
     const now = { broken: brokenSlots, arriving: null, versions: slotVersions ?? {} };
     const fingerprint = boardFingerprint(robots.current().robot, frames);
-    if (fateOf(book, now, slot, { documentId, fingerprint }) !== 'other') return null;
+    if (contentOf(book, now, slot, { documentId, fingerprint }) !== 'other') return null;
     const record = recordOf(book, slot) ?? null;
     const { name: held, documentId: heldId } = record ??
       slotVersions?.[slot] ?? { name: '', documentId: null };

@@ -2,7 +2,7 @@
 // page is new at each link, any other is remembered in the browser's storage. Knows no panel.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
-import { isAbout, withBegun, withNews, type DownloadNews } from '#shared/group/slotPlaces.ts';
+import { concerns, withBegun, withDownload, type LatestDownload } from '#shared/group/slotPlaces.ts';
 import {
   EMPTY_SLOT_BOOK,
   slotBookFromText,
@@ -135,35 +135,38 @@ export function createSlots({ device, robots, notices, storage, today }: SlotsOp
 
   function noteDownload({ snapshot: { link, activity, brokenSlots, lastDownload } }: DeviceState): void {
     if (activity.kind === 'downloading') {
-      const news = { ...activity, isOver: false };
+      const latest = { ...activity, isOver: false };
       // From its first byte on the slot is broken, until all of it has arrived.
-      if (brokenSlots.includes(activity.slot)) noteBegun(activity.slot, news);
-      noteNews(news, brokenSlots);
+      if (brokenSlots.includes(activity.slot)) noteBegun(activity.slot, latest);
+      noteNews(latest, brokenSlots);
     } else if (link.status === 'ready') {
       noteNews(lastDownload && { ...lastDownload, isOver: true }, brokenSlots);
     }
   }
 
-  function noteBegun(slot: number, news: DownloadNews): void {
+  function noteBegun(slot: number, latest: LatestDownload): void {
     const { book } = store.getState();
-    if (wanted.length > 0 && wanted.map((record) => record.slot).join() === news.slots.join()) {
+    if (wanted.length > 0 && wanted.map((record) => record.slot).join() === latest.slots.join()) {
       keep(withBegun(book, wanted));
       wanted = [];
-    } else if (!isAbout(news, book)) {
+    } else if (!concerns(latest, book)) {
       // Another's.
       keep(withUnknown(book, slot));
     }
   }
 
   /** It may have gone on without this page. */
-  function noteNews(news: DownloadNews | null, broken: readonly number[]): void {
+  function noteNews(latest: LatestDownload | null, broken: readonly number[]): void {
     const { book } = store.getState();
-    const next = withNews(book, news, broken);
+    const next = withDownload(book, latest, broken);
     if (next === book) return;
     keep(next);
     const arrived = book.begun.filter((record) => next.stored.includes(record)).map(({ slot }) => slot);
     if (arrived.length === 0 || next.begun.length > 0 || isAsking) return;
-    notices.tell('info', downloadedSentence(news !== null && isAbout(news, book) ? news.slots : arrived));
+    notices.tell(
+      'info',
+      downloadedSentence(latest !== null && concerns(latest, book) ? latest.slots : arrived),
+    );
   }
 
   function download(groups: readonly SlotDownload[], settled: Settled = () => undefined): void {

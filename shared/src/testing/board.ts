@@ -2,10 +2,11 @@
 // public face only.
 
 import { createBoard, type Board, type BoardOptions } from '../simulator/board.ts';
-
 import type { BusLogEntry } from '../simulator/line.ts';
 import { uint16 } from '../simulator/groupStore.ts';
 import { createVirtualClock, type VirtualClock } from './virtualClock.ts';
+
+// A board on a bench for tests: virtual time, bytes as hex text, everything it sends kept with its time.
 
 export interface BoardUnderTest {
   readonly clock: VirtualClock;

@@ -8,6 +8,8 @@ import { addMarker } from '../group/frameEdits.ts';
 import type { TimeRange } from '../group/timeEdits.ts';
 import { frameEnds, positionAt, tracksOf, type KeyRef, type Tracks } from '../group/tracks.ts';
 
+// Action groups generated for tests, and ways to look at their motion.
+
 interface GroupTraits {
   readonly servos?: readonly number[];
   /** Every frame names every servo. */

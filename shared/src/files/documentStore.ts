@@ -1,8 +1,8 @@
-// A keeper of documents as texts: what a list says of each, revisions, a trash, named versions. One interface for every place
-// they may lie, and the one rule about writing that all of them follow. Knows no group, no robot and no place.
+// Where documents are stored as texts: what a list says of each, revisions, a trash, named versions. One interface for every
+// place they may lie, and the one rule about writing that all of them follow. Knows no group, no robot and no place.
 
 import timings from '../../protocol/timings.json' with { type: 'json' };
-import type { GroupFacts, RobotFacts } from './factsShape.ts';
+import type { GroupFacts, RobotFacts } from './factsSchema.ts';
 
 /** What a list says of a document without reading it. */
 export type Facts = GroupFacts | RobotFacts;
@@ -51,7 +51,7 @@ export interface Version {
 }
 
 /** Everything rejects with a LibraryError. The writer names a new document, so that asking twice makes no second one. */
-export interface Keeper {
+export interface DocumentStore {
   readonly place: 'gateway' | 'browser';
   list(): Promise<Listing>;
   read(id: string): Promise<Stored>;
@@ -73,12 +73,12 @@ export interface Keeper {
 export const LIBRARY_ERROR_CODES = [
   'conflict', // somebody else has changed it since it was read
   'notFound', // the keeper does not have it
-  'full', // no room where it is kept
+  'full', // no room where it is stored
   'busy', // another program holds the keeper's file
   'tooLarge', // more than a keeper takes
   'unreachable', // the gateway does not answer
   'damaged', // the disk has changed it; the message says which and what is whole
-  'unreadable', // this version cannot read what is kept
+  'unreadable', // this version cannot read what is stored
   'failed', // anything else; the message says what
 ] as const;
 
@@ -101,9 +101,9 @@ export const asLibraryError = (error: unknown): LibraryError =>
 export const TRASH_MS = timings.library.trashDays * 24 * 3600 * 1000;
 
 /** The same text sent again is no conflict: the answer may have been lost. What is not there is taken in. */
-export function nextRevision(kept: Stored | undefined, { text, expected }: Writing): number {
-  if (kept?.text === text) return kept.revision;
-  if (kept !== undefined && kept.revision !== expected)
+export function nextRevision(stored: Stored | undefined, { text, expected }: Writing): number {
+  if (stored?.text === text) return stored.revision;
+  if (stored !== undefined && stored.revision !== expected)
     throw new LibraryError('conflict', 'somebody else has changed this document meanwhile');
   return expected + 1;
 }

@@ -3,7 +3,7 @@ import { expect, test } from 'vitest';
 import { EMPTY_BOOK, type PoseBook } from '../profile/pose.ts';
 import { readyRobot } from '../profile/readyRobots.ts';
 import { changeServo } from '../profile/robotEdits.ts';
-import { factsSchema } from './factsShape.ts';
+import { factsSchema } from './factsSchema.ts';
 import { robotFactsOf } from './facts.ts';
 
 const ARM = changeServo(

@@ -1,6 +1,6 @@
 // What each slot of the board at hand holds, against the group at hand, and whether one is being filled.
 
-import { recordOf, fateOf, type SlotFate } from '#shared/group/slotBook.ts';
+import { recordOf, contentOf, type SlotContent } from '#shared/group/slotBook.ts';
 import { holds } from '#shared/document/history.ts';
 import { useSlots, useSnapshot, useCompiled, useDocument, useLibrary } from '../../stores.ts';
 import type { Truth } from '../../../ui/Chip.tsx';
@@ -16,7 +16,7 @@ export function useHeldName(): (slot: number) => string | undefined {
     broken.includes(slot) ? undefined : (recordOf(book, slot)?.name ?? versions?.[slot]?.name);
 }
 
-export const FATE_TRUTH: Readonly<Record<SlotFate, Truth>> = {
+export const CONTENT_TRUTH: Readonly<Record<SlotContent, Truth>> = {
   arriving: 'commanded',
   broken: 'danger',
   same: 'confirmed',
@@ -26,7 +26,7 @@ export const FATE_TRUTH: Readonly<Record<SlotFate, Truth>> = {
   unknown: 'unknown',
 };
 
-export function useFates(): (slot: number) => SlotFate {
+export function useSlotContents(): (slot: number) => SlotContent {
   const book = useSlots((state) => state.book);
   const broken = useSnapshot((snapshot) => snapshot.brokenSlots);
   const arriving = useSnapshot(({ activity }) => (activity.kind === 'downloading' ? activity.slot : null));
@@ -38,7 +38,7 @@ export function useFates(): (slot: number) => SlotFate {
   const isOfThis = useDocument((history) => holds(history, latest.source.group));
   const fingerprint = isOfThis ? latest.fingerprint : '';
   const onPage = isEmpty ? null : { documentId, fingerprint };
-  return (slot) => fateOf(book, { broken, arriving, versions }, slot, onPage);
+  return (slot) => contentOf(book, { broken, arriving, versions }, slot, onPage);
 }
 
 const NO_VERSIONS = {};

@@ -1,4 +1,4 @@
-// What a list says of a document, as it comes from elsewhere: one schema for each kind. Knows no keeper.
+// What a list says of a document, as it comes from elsewhere: one schema for each kind. Knows no place where documents are stored.
 
 import * as v from 'valibot';
 import { count, targetSchema, whole } from '../document/schema.ts';

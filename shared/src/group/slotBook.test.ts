@@ -5,7 +5,7 @@ import { compareFrames } from './compareFrames.ts';
 import { fingerprintOf } from './fingerprint.ts';
 import {
   EMPTY_SLOT_BOOK,
-  fateOf,
+  contentOf,
   notRestored,
   recordOf,
   slotBookFromText,
@@ -69,18 +69,18 @@ describe('the book of slots', () => {
 
   test('says of a slot what anybody can know', () => {
     const book = withStored(withStored(EMPTY_SLOT_BOOK, record(5)), record(7, 'Bow', [at(100, 1200)]));
-    expect(fateOf(book, NOW, 5, group)).toBe('same');
-    expect(fateOf(book, NOW, 5, edited)).toBe('older');
-    expect(fateOf(book, NOW, 7, group)).toBe('other');
-    expect(fateOf(book, NOW, 8, group)).toBe('unknown');
-    expect(fateOf(book, { ...NOW, broken: [5] }, 5, group)).toBe('broken');
-    expect(fateOf(book, { ...NOW, broken: [5], arriving: 5 }, 5, group)).toBe('arriving');
-    expect(fateOf(book, NOW, 5, null)).toBe('other');
+    expect(contentOf(book, NOW, 5, group)).toBe('same');
+    expect(contentOf(book, NOW, 5, edited)).toBe('older');
+    expect(contentOf(book, NOW, 7, group)).toBe('other');
+    expect(contentOf(book, NOW, 8, group)).toBe('unknown');
+    expect(contentOf(book, { ...NOW, broken: [5] }, 5, group)).toBe('broken');
+    expect(contentOf(book, { ...NOW, broken: [5], arriving: 5 }, 5, group)).toBe('arriving');
+    expect(contentOf(book, NOW, 5, null)).toBe('other');
   });
 
   test('knows a group from one that only has the name', () => {
     const book = withStored(EMPTY_SLOT_BOOK, record(5));
-    expect(fateOf(book, NOW, 5, { ...edited, documentId: 'id of another' })).toBe('other');
+    expect(contentOf(book, NOW, 5, { ...edited, documentId: 'id of another' })).toBe('other');
   });
 
   test('of an earlier version is read, and takes no group of the same name for an older version', () => {
@@ -91,8 +91,8 @@ describe('the book of slots', () => {
     );
     const read = slotBookFromText(text);
     if (!('value' in read)) throw new Error(read.problem.code);
-    expect(fateOf(read.value, NOW, 5, group)).toBe('same');
-    expect(fateOf(read.value, NOW, 5, edited)).toBe('other');
+    expect(contentOf(read.value, NOW, 5, group)).toBe('same');
+    expect(contentOf(read.value, NOW, 5, edited)).toBe('other');
     expect(JSON.parse(slotBookToText(read.value))).toEqual(JSON.parse(text));
   });
 
@@ -105,25 +105,25 @@ describe('the book of slots', () => {
 
   test('does not know what somebody else has stored', () => {
     const book = withErased(withErasing(withStored(EMPTY_SLOT_BOOK, record(5))));
-    expect(fateOf(withUnknown(book, 9), NOW, 9, group)).toBe('unknown');
-    expect(fateOf(withUnknown(withStored(book, record(5)), 5), NOW, 5, group)).toBe('unknown');
+    expect(contentOf(withUnknown(book, 9), NOW, 9, group)).toBe('unknown');
+    expect(contentOf(withUnknown(withStored(book, record(5)), 5), NOW, 5, group)).toBe('unknown');
   });
 
   test('a copy of the very same motion is up to date under any name', () => {
     const book = withStored(EMPTY_SLOT_BOOK, record(5, 'Greeting'));
-    expect(fateOf(book, NOW, 5, group)).toBe('same');
+    expect(contentOf(book, NOW, 5, group)).toBe('same');
   });
 
   test('keeps what an erase took until it is downloaded again', () => {
     const stored = withStored(withStored(EMPTY_SLOT_BOOK, record(5)), record(7, 'Bow'));
     const erasing = withErasing(stored);
-    expect(fateOf(erasing, NOW, 5, group)).toBe('unknown');
+    expect(contentOf(erasing, NOW, 5, group)).toBe('unknown');
     const erased = withErased(erasing);
-    expect(fateOf(erased, NOW, 5, group)).toBe('empty');
+    expect(contentOf(erased, NOW, 5, group)).toBe('empty');
     expect(erased.erased.map(({ slot }) => slot)).toEqual([5, 7]);
     const restored = withStored(erased, record(5));
     expect(restored.erased.map(({ slot }) => slot)).toEqual([7]);
-    expect(fateOf(restored, NOW, 5, group)).toBe('same');
+    expect(contentOf(restored, NOW, 5, group)).toBe('same');
     expect(withErasing(withStored(restored, record(9))).erased.map(({ slot }) => slot)).toEqual([5, 7, 9]);
   });
 
@@ -176,24 +176,26 @@ describe('comparing two groups', () => {
 });
 
 describe('the word of a gateway that sees all downloads', () => {
-  const told = (version: string, documentId: string | null = null) => ({ version, documentId });
+  const versionOf = (version: string, documentId: string | null = null) => ({ version, documentId });
   const book = [record(3), record(5, 'Bow', [at(400, 1200)])].reduce(withStored, EMPTY_SLOT_BOOK);
-  const versions = Object.fromEntries(book.stored.map(({ slot, fingerprint }) => [slot, told(fingerprint)]));
+  const versions = Object.fromEntries(
+    book.stored.map(({ slot, fingerprint }) => [slot, versionOf(fingerprint)]),
+  );
 
   test('says of what others have stored whether it is the group at hand, an earlier one of it, or another', () => {
     const group = { documentId: 'id of Wave', fingerprint: fingerprintOf(WAVE) };
-    const fateTold = (stored: ReturnType<typeof told>) =>
-      fateOf(book, { ...NOW, versions: { 8: stored } }, 8, group);
-    expect(fateTold(told(group.fingerprint))).toBe('same');
-    expect(fateTold(told('another', 'id of Wave'))).toBe('older');
-    expect(fateTold(told('another', 'id of Bow'))).toBe('other');
-    expect(fateTold(told('another'))).toBe('other');
-    expect(fateOf(book, { ...NOW, versions: { 8: told('another') } }, 9, group)).toBe('unknown');
+    const contentOfVersion = (stored: ReturnType<typeof versionOf>) =>
+      contentOf(book, { ...NOW, versions: { 8: stored } }, 8, group);
+    expect(contentOfVersion(versionOf(group.fingerprint))).toBe('same');
+    expect(contentOfVersion(versionOf('another', 'id of Wave'))).toBe('older');
+    expect(contentOfVersion(versionOf('another', 'id of Bow'))).toBe('other');
+    expect(contentOfVersion(versionOf('another'))).toBe('other');
+    expect(contentOf(book, { ...NOW, versions: { 8: versionOf('another') } }, 9, group)).toBe('unknown');
   });
 
   test('takes from the book what is not there any more, and nothing else', () => {
-    expect(withVersions(book, { ...versions, 9: told('another') })).toBe(book);
-    expect(withVersions(book, { ...versions, 5: told('another') }).stored).toEqual([recordOf(book, 3)]);
+    expect(withVersions(book, { ...versions, 9: versionOf('another') })).toBe(book);
+    expect(withVersions(book, { ...versions, 5: versionOf('another') }).stored).toEqual([recordOf(book, 3)]);
     expect(withVersions(book, {}).stored).toEqual([]);
   });
 
@@ -202,7 +204,7 @@ describe('the word of a gateway that sees all downloads', () => {
     expect([erased.stored, erased.erased]).toEqual([[recordOf(book, 3)], [recordOf(book, 5)]]);
     expect(withVersions(erased, { 3: versions[3]! })).toBe(erased);
     expect(withVersions(erased, versions)).toEqual(book);
-    expect(withVersions(erased, { 3: versions[3]!, 5: told('another') }).erased).toEqual([]);
+    expect(withVersions(erased, { 3: versions[3]!, 5: versionOf('another') }).erased).toEqual([]);
   });
 
   test('what somebody else stored is kept as theirs', () => {
@@ -212,9 +214,9 @@ describe('the word of a gateway that sees all downloads', () => {
 
   test('a board of which every slot is known to be empty is one no more where something was stored', () => {
     const emptied = withStored(withErased(EMPTY_SLOT_BOOK), record(3));
-    expect(withVersions(emptied, { 3: told(record(3).fingerprint) })).toBe(emptied);
-    expect(withVersions(emptied, { 3: told(record(3).fingerprint), 4: told('another') }).isEmptied).toBe(
-      false,
-    );
+    expect(withVersions(emptied, { 3: versionOf(record(3).fingerprint) })).toBe(emptied);
+    expect(
+      withVersions(emptied, { 3: versionOf(record(3).fingerprint), 4: versionOf('another') }).isEmptied,
+    ).toBe(false);
   });
 });
