@@ -7,6 +7,7 @@ import { parseArgs } from 'node:util';
 import { endChildren, onEnd } from '../scripts/children.mjs';
 import { SetupProblem, main, say } from '../scripts/steps.mjs';
 import { amount, isQuick } from './amounts.ts';
+import { measureBluetooth } from './bluetooth.ts';
 import { measureCodec } from './codec.ts';
 import { measureCrowd } from './crowd.ts';
 import { measureDownload } from './download.ts';
@@ -37,11 +38,12 @@ const GROUPS: Readonly<Record<string, () => Figure[] | Promise<Figure[]>>> = {
   relay: measureRelay,
   play: measurePlay,
   'stop.idle': measureStopIdle,
-  'stop.dragging': measureStopDragging,
+  'stop.dragging': () => measureStopDragging(),
   'stop.running': measureStopRunning,
   'stop.download': measureStopDownload,
   'stop.flood': measureStopFlood,
   'stop.reconnect': measureStopReconnect,
+  bluetooth: measureBluetooth,
   crowd: measureCrowd,
   frames: measureFrames,
   lanes: measureLanes,

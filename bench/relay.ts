@@ -46,7 +46,7 @@ export async function measureRelay(): Promise<Figure[]> {
   ];
 }
 
-function slowest(trips: readonly number[], percent: number): number {
+export function slowest(trips: readonly number[], percent: number): number {
   return percentile(trips.slice(WARM_UP_TRIPS), percent);
 }
 
@@ -83,7 +83,7 @@ async function echoInPage({
 }
 
 /** Any document of the gateway's own address will do. Isolated, a page's clock steps by 5 µs instead of 100. */
-async function tripsThroughPage(page: Page, url: string): Promise<readonly number[]> {
+export async function tripsThroughPage(page: Page, url: string): Promise<readonly number[]> {
   await page.route('**/api/health', async (route) => {
     const response = await route.fetch();
     const headers = { ...response.headers(), 'cross-origin-embedder-policy': 'require-corp' };

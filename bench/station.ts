@@ -7,7 +7,7 @@ import path from 'node:path';
 import { chromium, type Browser, type Page } from '@playwright/test';
 import type { BusLogEntry } from '#shared/simulator/line.ts';
 import { browserForTests, findBrowser } from '../scripts/browser.mjs';
-import { simulatedBoard } from '../scripts/cable.mjs';
+import { bluetoothAddress, bluetoothBoard, simulatedBoard } from '../scripts/cable.mjs';
 import { endChild, startChild } from '../scripts/children.mjs';
 import { python } from '../scripts/python.mjs';
 import { SetupProblem } from '../scripts/steps.mjs';
@@ -53,6 +53,28 @@ export async function withSilentBoard<Result>(
     return await work(cable.device);
   } finally {
     await cable.pull();
+  }
+}
+
+/** As `withBoard`, behind a Bluetooth module; its device is one for a gateway that starts meanwhile. */
+export async function withBluetoothBoard<Result>(
+  simulatorArgs: readonly string[],
+  work: (board: BoardOnPort) => Promise<Result>,
+): Promise<Result> {
+  const folder = temporaryFolder();
+  const busLog = path.join(folder, 'bus.jsonl');
+  const board = await bluetoothBoard({ folder, simulatorArgs: ['--bus-log', busLog, ...simulatorArgs] });
+  const before = process.env.DBUS_SYSTEM_BUS_ADDRESS;
+  process.env.DBUS_SYSTEM_BUS_ADDRESS = board.busAddress;
+  try {
+    return await work({
+      device: `ble:${bluetoothAddress}`,
+      readBusLog: () => parseBusLog(readFileSync(busLog, 'utf8')),
+    });
+  } finally {
+    if (before === undefined) delete process.env.DBUS_SYSTEM_BUS_ADDRESS;
+    else process.env.DBUS_SYSTEM_BUS_ADDRESS = before;
+    await board.end();
   }
 }
 
@@ -119,7 +141,9 @@ async function openedGateway(lines: readonly string[]): Promise<string> {
 async function startBrowser(): Promise<Browser> {
   if (findBrowser() === null) await browserForTests();
   const executablePath = findBrowser();
-  return chromium.launch(executablePath === null ? {} : { executablePath });
+  // It outlives the bus of a Bluetooth board, and would end with that.
+  const env = { ...process.env, DBUS_SYSTEM_BUS_ADDRESS: undefined };
+  return chromium.launch(executablePath === null ? { env } : { executablePath, env });
 }
 
 async function eventually<Found>(

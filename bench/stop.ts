@@ -25,14 +25,21 @@ export function measureStopIdle(): Promise<Figure[]> {
   return measure('stop.idle', 'in the page; nothing else on the wire', () => Promise.resolve());
 }
 
-export function measureStopDragging(): Promise<Figure[]> {
-  return measure('stop.dragging', 'in the page; all sliders dragged', (page) =>
-    page.getByRole('slider').evaluateAll(dragInPage),
+export function measureStopDragging(name = 'stop.dragging', lend = withBoard): Promise<Figure[]> {
+  return measure(
+    ...([name, 'in the page; all sliders dragged'] as const),
+    (page) => page.getByRole('slider').evaluateAll(dragInPage),
+    lend,
   );
 }
 
-function measure(name: string, note: string, begin: (page: Page) => Promise<void>): Promise<Figure[]> {
-  return withBoard([], (board) =>
+function measure(
+  name: string,
+  note: string,
+  begin: (page: Page) => Promise<void>,
+  lend = withBoard,
+): Promise<Figure[]> {
+  return lend([], (board) =>
     withPage(board.device, async (page, url) => {
       await openDashboard(page, url);
       await begin(page);

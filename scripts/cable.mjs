@@ -1,5 +1,5 @@
 // The simulated board and its cable: plugged in, it is a serial device for the gateway; pulled, the device is gone.
-// On Linux and macOS behind a pty, on Windows (which has none) over TCP. Knows no gateway.
+// On Linux and macOS behind a pty, on Windows (which has none) over TCP. On Linux also behind a Bluetooth module. Knows no gateway.
 
 import { rmSync } from 'node:fs';
 import { endChild, isEnding, startChild } from './children.mjs';
@@ -62,3 +62,29 @@ export async function simulatedBoard({ link, simulatorArgs = [], onLine, onLost 
     },
   };
 }
+
+/**
+ * The board behind a Bluetooth module, on a stand-in for BlueZ that no other test sees.
+ * @param {{folder: string, simulatorArgs?: readonly string[]}} options `folder` is for its bus
+ * @returns {Promise<{busAddress: string, say: (event: string) => void, end: () => Promise<void>}>} `busAddress` is for
+ *   DBUS_SYSTEM_BUS_ADDRESS; events are those of bluetooth_board.py
+ */
+export function bluetoothBoard({ folder, simulatorArgs = [] }) {
+  const program = [process.execPath, simulator, '--stdio', ...simulatorArgs];
+  return new Promise((resolve, reject) => {
+    /** @type {string[]} */
+    const said = [];
+    const args = ['scripts/bluetooth_board.py', '--folder', folder, '--', ...program];
+    const child = startChild(python, args, (line) => {
+      said.push(line);
+      const [, busAddress] = /^bluetooth (\S+)/.exec(line) ?? [];
+      if (busAddress === undefined) return;
+      const say = (/** @type {string} */ event) => void child.stdin?.write(`${event}\n`);
+      resolve({ busAddress, say, end: () => endChild(child) });
+    });
+    child.on('close', () => reject(new Error(`the module did not come up: ${said.join('\n')}`)));
+  });
+}
+
+/** The address of the module that the board is behind. */
+export const bluetoothAddress = '48:87:2D:62:C6:00';

@@ -1,0 +1,109 @@
+// A board behind a Bluetooth module at the gateway, beside the same board on a serial port: a question and its answer, the age
+// of slider values, and STOP while sliders are dragged. All parts are real but the radio, which takes its own time on top: up to a
+// connection interval (7.5 to 60 ms) each way.
+
+import type { Page } from '@playwright/test';
+import { bluezProblem } from '../scripts/browser.mjs';
+import { say } from '../scripts/steps.mjs';
+import { amount } from './amounts.ts';
+import { packetsInto } from './busPackets.ts';
+import type { Figure } from './figure.ts';
+import { slowest, tripsThroughPage } from './relay.ts';
+import { openDashboard, withBluetoothBoard, withBoard, withPage, type BoardOnPort } from './station.ts';
+import { percentile } from './statistics.ts';
+import { measureStopDragging } from './stop.ts';
+
+const DRAG_MS = amount(5_000, 800);
+/** First moves of six servos, one after another. */
+const FIRST_MOVES_MS = 3_500;
+/** What waits behind the last event has left by then. */
+const CALM_MS = 500;
+
+export async function measureBluetooth(): Promise<Figure[]> {
+  const problem = bluezProblem();
+  if (problem !== null) {
+    say(`no figures of Bluetooth: ${problem}`);
+    return [];
+  }
+  const [bluetoothTrips, serialTrips] = [await tripsOn(withBluetoothBoard), await tripsOn(withBoard)];
+  const [bluetoothAges, serialAges] = [await agesOn(withBluetoothBoard), await agesOn(withBoard)];
+  return [
+    ...[50, 99].map((percent) => ({
+      ...{ key: `bluetooth.roundtripP${percent}Us`, value: slowest(bluetoothTrips, percent), unit: 'µs' },
+      against: { what: 'serial', value: slowest(serialTrips, percent) },
+      note: 'page, gateway, bleak, D-Bus, board and back; no radio',
+    })),
+    ...[50, 99].map((percent) => ({
+      ...{ key: `bluetooth.dragP${percent}Ms`, value: percentile(bluetoothAges, percent), unit: 'ms' },
+      against: { what: 'serial', value: percentile(serialAges, percent) },
+      note: `all sliders dragged once a frame, ${bluetoothAges.length} packets; age of a value at its last byte`,
+    })),
+    ...(await measureStopDragging('bluetooth.stopDragging', withBluetoothBoard)),
+  ];
+}
+
+function tripsOn(lend: typeof withBoard): Promise<readonly number[]> {
+  return lend(['--baud', '0'], ({ device }) => withPage(device, tripsThroughPage));
+}
+
+function agesOn(lend: typeof withBoard): Promise<readonly number[]> {
+  return lend([], (board) =>
+    withPage(board.device, async (page, url) => {
+      await openDashboard(page, url);
+      await page.getByRole('slider').evaluateAll(dragOnce);
+      await page.waitForTimeout(FIRST_MOVES_MS);
+      return agesOf(board, await drag(page));
+    }),
+  );
+}
+
+/** When each position was set, by position. */
+async function drag(page: Page): Promise<ReadonlyMap<number, number>> {
+  const events = await page.getByRole('slider').evaluateAll(dragInPage, DRAG_MS);
+  await page.waitForTimeout(CALM_MS);
+  return new Map(events);
+}
+
+function agesOf(board: BoardOnPort, setAtMs: ReadonlyMap<number, number>): readonly number[] {
+  const ages = packetsInto(board.readBusLog()).flatMap(({ command, endMs }) => {
+    if (command.kind !== 'move') return [];
+    const atMs = setAtMs.get(command.targets[0]?.position ?? NaN);
+    return atMs === undefined ? [] : [endMs - atMs];
+  });
+  if (ages.length === 0) throw new Error('no slider value reached the board');
+  return ages;
+}
+
+/** Runs in the page, as the next one. */
+function dragOnce(sliders: readonly (HTMLElement | SVGElement)[]): void {
+  for (const slider of sliders as HTMLInputElement[]) {
+    slider.value = '1000';
+    slider.dispatchEvent(new Event('input', { bubbles: true }));
+  }
+}
+
+/** Each frame sets a position of its own, so that a packet tells the event that it comes from. */
+function dragInPage(
+  sliders: readonly (HTMLElement | SVGElement)[],
+  dragMs: number,
+): Promise<readonly (readonly [position: number, atMs: number])[]> {
+  const events: [number, number][] = [];
+  const startMs = performance.now();
+  return new Promise((resolve) => {
+    const move = (): void => {
+      const nowMs = performance.now();
+      if (nowMs - startMs > dragMs) {
+        resolve(events);
+        return;
+      }
+      const position = 1_001 + events.length;
+      events.push([position, performance.timeOrigin + nowMs]);
+      for (const slider of sliders as HTMLInputElement[]) {
+        slider.value = String(position);
+        slider.dispatchEvent(new Event('input', { bubbles: true }));
+      }
+      requestAnimationFrame(move);
+    };
+    move();
+  });
+}
