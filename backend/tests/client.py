@@ -44,7 +44,7 @@ class Client(Session):
         """As a page: a lease that nobody has is requested first."""
         if self.control.driving.driver is None:
             self.control.driving.act(self, "request")
-        return self.control.send(self, packet.hex(), self.nonce)
+        return self.control.requests.send(self, packet.hex(), self.nonce)
 
     async def next(self) -> str:
         """What left the wire is kept apart, in `followed`."""

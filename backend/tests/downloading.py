@@ -43,4 +43,4 @@ def begin(control: Control, *groups: Group) -> JobState:
     """By somebody who may."""
     board = control.board.family_id
     parts = [made_of(group, list(packets_of(group, board)), board) for group in groups]
-    return control.download(parts, ANNA, lambda: None)
+    return control.requests.download(parts, ANNA, lambda: None)

@@ -191,7 +191,7 @@ class Driven:
         group = Group(slot, "", frames)
         with contextlib.suppress(GatewayError, PacketError):
             part = made_of(group, list(packets_of(group, self.family.id)), self.family.id)
-            self.control.download([part], ANNA, lambda: None)
+            self.control.requests.download([part], ANNA, lambda: None)
 
     async def take(self, step: Step) -> None:
         kind = step["kind"]

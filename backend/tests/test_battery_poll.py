@@ -106,7 +106,7 @@ async def test_nothing_is_asked_while_the_board_works_on_its_flash(simulator: Si
         await asyncio.sleep(READY_S)
         group = Group(1, "", [Frame(100, (ServoTarget(1, 1500),))] * 200)
         part = made_of(group, list(packets_of(group, "doc")), "doc")
-        job = here.control.download([part], ANNA, lambda: None)
+        job = here.control.requests.download([part], ANNA, lambda: None)
         before = 0
         while here.control.board.jobs.find(job.id).status == "running":
             before = here.questions().count("battery")

@@ -24,4 +24,6 @@ async def test_it_says_how_long_the_robot_still_moves(*, is_stopped: bool) -> No
             await control.stop()
             control.resume(driver.caller)
         with pytest.raises(MovingError, match=r"moves for up to 2\.[345] s more: wait until then"):
-            control.download([made_of(GROUP, list(packets_of(GROUP, "doc")), "doc")], ANNA, lambda: None)
+            control.requests.download(
+                [made_of(GROUP, list(packets_of(GROUP, "doc")), "doc")], ANNA, lambda: None
+            )

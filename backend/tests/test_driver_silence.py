@@ -22,7 +22,7 @@ async def test_a_tab_that_froze_and_wakes_moves_nothing() -> None:
         anna.beats = True
         assert control.driving.driver is None
         with pytest.raises(NotDrivingError):
-            control.send(anna, MOVE.hex(), anna.nonce)
+            control.requests.send(anna, MOVE.hex(), anna.nonce)
         control.driving.act(anna, "request")
         await anna.send(MOVE)
         assert port.packets() == [STOP, BATTERY, MOVE]

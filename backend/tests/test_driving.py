@@ -285,7 +285,7 @@ async def test_everybody_who_moves_needs_fresh_words_of_the_lease_of_now() -> No
         await asyncio.sleep(0.6)
         for nonce in (None, "1-1", old):
             with pytest.raises(ExpiredError):
-                control.send(anna, MOVE.hex(), nonce)
+                control.requests.send(anna, MOVE.hex(), nonce)
 
 
 @in_virtual_time

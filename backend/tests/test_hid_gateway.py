@@ -23,7 +23,7 @@ REFUSED = "own USB cable carries no"
 
 async def move_all(control: Control, client: Client, position: int, duration_ms: int) -> None:
     targets = [ServoTarget(servo, position) for servo in SERVOS]
-    await control.move(client, targets, duration_ms, client.nonce)
+    await control.requests.move(client, targets, duration_ms, client.nonce)
 
 
 def servos_of(packet: bytes) -> list[int]:
@@ -89,7 +89,7 @@ async def test_download_and_erase_are_refused_with_the_reason() -> None:
             client.send(ERASE)
         part = made_of(WAVE, list(packets_of(WAVE, "doc")), "doc")
         with pytest.raises(NotSupportedError, match=f"{REFUSED} download"):
-            control.download([part], ANNA, lambda: None)
+            control.requests.download([part], ANNA, lambda: None)
         assert port.packets() == [STOP]
 
 

@@ -5,8 +5,7 @@ import asyncio
 from hypothesis import given
 from hypothesis import strategies as st
 
-from servodeck.api.intake import Intake
-from servodeck.api.websocket import merged
+from servodeck.api.intake import Intake, merged
 from servodeck.intents import AnyClientMessage, MoveMessage, PacketMessage, ResumeMessage, StopMessage, Target
 from servodeck.rate import Rate
 from tests.virtual_time import in_virtual_time, now

@@ -217,7 +217,7 @@ async def test_who_may_not_begins_none() -> None:
             raise NotDrivingError("Anna drives.")
 
         with pytest.raises(NotDrivingError):
-            control.download([made_of(WAVE, list(packets_of(WAVE, "doc")), "doc")], PUPIL, refuse)
+            control.requests.download([made_of(WAVE, list(packets_of(WAVE, "doc")), "doc")], PUPIL, refuse)
         await asyncio.sleep(1)
         assert (control.board.jobs.latest, port.packets()) == (None, [STOP])
 

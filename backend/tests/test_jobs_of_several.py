@@ -134,7 +134,7 @@ async def test_a_slot_that_is_wanted_twice_or_another_board_is_refused_before_an
         made = [made_of(WAVE, list(packets_of(WAVE, "doc")), "doc")]
         control.choose_family("openarm-new")
         with pytest.raises(CancelledError):
-            control.download(made, ANNA, lambda: None)
+            control.requests.download(made, ANNA, lambda: None)
         assert (port.packets(), broken(control)) == ([STOP], [])
 
 
@@ -159,7 +159,7 @@ async def test_others_go_on_while_a_large_group_is_made_into_packets() -> None:
 
 def follow(control: Control, job_id: str, *groups: Group, claim: Callable[[], object] = lambda: None) -> Any:
     parts = [made_of(group, list(packets_of(group, "doc")), "doc") for group in groups]
-    return control.download(parts, ANNA, claim, job_id)
+    return control.requests.download(parts, ANNA, claim, job_id)
 
 
 @in_virtual_time

@@ -72,7 +72,7 @@ def ask(
     """`s1=1500` for servo 1."""
     asked = dict(positions or {}) | {int(name[1:]): position for name, position in named.items()}
     targets = [ServoTarget(servo, position) for servo, position in asked.items()]
-    return client.control.move(client, targets, duration_ms, client.nonce)
+    return client.control.requests.move(client, targets, duration_ms, client.nonce)
 
 
 async def driver_at_the_centre(control: Control, servos: tuple[int, ...] = SERVOS) -> Client:
@@ -308,7 +308,7 @@ async def test_one_that_waits_behind_questions_for_too_long_does_not_leave() -> 
         await asyncio.sleep(0.2)
         anna.beats = False
         await asyncio.sleep(COMMAND_S - 0.1)
-        questions = [control.send(anna, BATTERY.hex()) for _ in range(QUEUE_PER_OWNER)]
+        questions = [control.requests.send(anna, BATTERY.hex()) for _ in range(QUEUE_PER_OWNER)]
         with pytest.raises(ExpiredError):
             await ask(anna, s1=1600)
         await asyncio.gather(*questions)
@@ -365,7 +365,7 @@ async def check(asked: list[tuple[int, str | dict[int, int]]]) -> None:
         def act(number: int, what: str | dict[int, int]) -> None:
             if what == "battery":
                 with contextlib.suppress(BusyError):
-                    control.send(anna, BATTERY.hex())
+                    control.requests.send(anna, BATTERY.hex())
             elif isinstance(what, str):
                 control.stop()
                 control.resume(anna.caller)
@@ -410,6 +410,6 @@ async def test_a_run_of_the_same_driver_keeps_its_place() -> None:
     async with gateway_on(port) as control:
         anna = await driver_at_the_centre(control)
         before = len(port.written)
-        asked = [ask(anna, s1=1510), control.send(anna, RUN.hex(), anna.nonce)]
+        asked = [ask(anna, s1=1510), control.requests.send(anna, RUN.hex(), anna.nonce)]
         await asyncio.gather(*asked)
         assert [packet[3] for packet in port.packets()[before:]] == [3, 6]

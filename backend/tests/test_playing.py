@@ -254,7 +254,7 @@ async def presses_stop(control: Control, _: FakePort, anna: Client) -> None:
 
 
 async def sends_a_plain_stop(control: Control, _: FakePort, anna: Client) -> None:
-    control.send(Client(control, Caller("v", "Vera", "viewer")), STOP.hex())
+    control.requests.send(Client(control, Caller("v", "Vera", "viewer")), STOP.hex())
 
 
 async def falls_silent(control: Control, _: FakePort, anna: Client) -> None:

@@ -67,7 +67,7 @@ async def test_a_cut_frame_of_a_download_is_ended_too() -> None:
     async with gateway("doc", first, second) as (control, _):
         at(now() + 0.005, first.unplug)
         packets = list(packets_of(Group(5, "", [FRAME]), "doc"))
-        control.download([made_of(Group(5, "", [FRAME]), packets, "doc")], ANNA, lambda: None)
+        control.requests.download([made_of(Group(5, "", [FRAME]), packets, "doc")], ANNA, lambda: None)
         await asyncio.sleep(RETURNED_S)
         assert second.packets() == [b"\xfd" * 253, *STOPS]
 

@@ -13,8 +13,8 @@ from httpx2 import Response
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from servodeck.api.intake import Intake
-from servodeck.api.websocket import merged, take
+from servodeck.api.intake import Intake, merged
+from servodeck.api.websocket import take
 from servodeck.callers import THIS_COMPUTER, Caller
 from servodeck.intents import (
     AnyClientMessage,

@@ -155,7 +155,7 @@ class Player:
     def _move(self, targets: list[ServoTarget], duration_ms: int) -> None:
         if self._control.driving.driver is None:
             self._control.driving.act(self._session, "request")
-        self._control.move(self._session, targets, duration_ms, self._session.nonce)
+        self._control.requests.move(self._session, targets, duration_ms, self._session.nonce)
 
     async def _run(self, slot: int, times: int) -> None:
         if await self._scripts.run(ANNA, slot, times, take=False) == "silent":
@@ -166,7 +166,7 @@ class Player:
             await self._control.board.battery.read()
             return
         question = encode(ReadPositions(tuple(intent["servos"])), self._control.board.family)
-        await self._control.send(self._session, question.hex())
+        await self._control.requests.send(self._session, question.hex())
 
     def _cancel_download(self) -> None:
         job = self._control.board.jobs.latest
@@ -176,7 +176,7 @@ class Player:
     async def _download(self, groups: list[Group]) -> str:
         jobs, family = self._control.board.jobs, self._control.board.family_id
         parts = [made_of(group, list(packets_of(group, family)), family) for group in groups]
-        job = self._control.download(parts, ANNA, lambda: None)
+        job = self._control.requests.download(parts, ANNA, lambda: None)
         while (state := jobs.find(job.id)).status == "running":
             self._session.told_something.clear()
             await self._session.told_something.wait()
@@ -185,14 +185,14 @@ class Player:
     async def _play_or_stop(self, intent: Event) -> None:
         """A play has ended however it did."""
         if intent["type"] == "stopPlaying":
-            self._control.stop_playing()
+            self._control.requests.stop_playing()
             return
         assert intent["type"] == "play", f"the gateway is not asked for {intent} here"
         if self._control.driving.driver is None:
             self._control.driving.act(self._session, "request")
         group = FrameGroup(frames_of(intent), intent["times"], intent["loopFrom"])
         ended: asyncio.Future[PlayState] = asyncio.get_running_loop().create_future()
-        self._control.play(self._session, group, self._session.nonce, ended.set_result)
+        self._control.requests.play(self._session, group, self._session.nonce, ended.set_result)
         await ended
 
     def _ms(self, at_s: float) -> float:

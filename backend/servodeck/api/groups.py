@@ -88,7 +88,7 @@ async def download(
     def claim() -> None:
         control.driving.judge_request(caller, nonce)
 
-    return control.download(parts, caller, claim, wish.behind)
+    return control.requests.download(parts, caller, claim, wish.behind)
 
 
 @jobs_api.get("/jobs/{job}", dependencies=[VIEWER])
@@ -137,5 +137,5 @@ async def play(
 @play_api.delete("/play", dependencies=[DRIVER])
 async def stop_playing(control: Controlled) -> PlayState | None:
     """Ends it with its frame in progress, whoever began it; how the latest one ended."""
-    control.stop_playing()
+    control.requests.stop_playing()
     return control.board.plays.latest

@@ -7,8 +7,14 @@ Knows time and order, no socket and nothing of what a message asks.
 import asyncio
 from collections.abc import Callable
 
-from servodeck.intents import AnyClientMessage
+from servodeck.callers import Caller
+from servodeck.intents import AnyClientMessage, MoveMessage
 from servodeck.rate import Rate
+
+# Messages a second, and at once. A page hands over the newest values every 8 ms while somebody drags: what
+# waits longer at the page would be older when the wire is free.
+DRIVER_RATE = (150.0, 300)
+VIEWER_RATE = (2.0, 10)
 
 
 class Intake:
@@ -91,3 +97,19 @@ class Intake:
             return
         message, self._waiting = self._waiting, None
         self._take(message)
+
+
+def rate_of(caller: Caller, now: Callable[[], float]) -> Rate:
+    return Rate(*(DRIVER_RATE if caller.may("driver") else VIEWER_RATE), now)
+
+
+def merged(before: AnyClientMessage, message: AnyClientMessage) -> AnyClientMessage | None:
+    """Both in one, where nothing of the older one may be lost: the value of a servo that the newer one does
+    not name.
+    """
+    if not (isinstance(before, MoveMessage) and isinstance(message, MoveMessage)):
+        return None
+    if before.duration_ms != message.duration_ms:
+        return None
+    newest = {target.servo: target for target in (*before.targets, *message.targets)}
+    return message.model_copy(update={"targets": list(newest.values())})

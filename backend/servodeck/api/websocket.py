@@ -14,7 +14,7 @@ from pydantic import ValidationError
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from servodeck import metrics
-from servodeck.api.intake import Intake
+from servodeck.api.intake import Intake, merged, rate_of
 from servodeck.callers import Caller, Role
 from servodeck.errors import BusyError, GatewayError, MalformedError
 from servodeck.events import PROTOCOL, DoneMessage, PlayedMessage, RefusedMessage, encode
@@ -43,7 +43,6 @@ from servodeck.intents import (
 )
 from servodeck.port.wire import Left
 from servodeck.protocol.values import ServoTarget
-from servodeck.rate import Rate
 from servodeck.robot.board.playing import FrameGroup
 from servodeck.robot.control import Control
 from servodeck.robot.hub import AGAINST_THE_RULES, Session
@@ -53,10 +52,6 @@ from servodeck.snapshots import Outcome, PlayState
 
 UNSUPPORTED_DATA, OUTDATED_PAGE = 1003, 4001
 CLOSE_WAIT_S = 0.1
-# Messages a second, and at once. A page hands over the newest values every 8 ms while somebody drags: what
-# waits longer at the page would be older when the wire is free.
-DRIVER_RATE = (150.0, 300)
-VIEWER_RATE = (2.0, 10)
 # What each message takes at least; one that is not named here only an owner may send. A packet is judged by
 # what it does.
 ROLES: dict[type[AnyClientMessage], Role] = {
@@ -154,10 +149,6 @@ def intake_of(session: Session, control: Control) -> Intake:
     )
 
 
-def rate_of(caller: Caller, now: Callable[[], float]) -> Rate:
-    return Rate(*(DRIVER_RATE if caller.may("driver") else VIEWER_RATE), now)
-
-
 def take_text(text: str, session: Session, intake: Intake) -> None:
     """Whatever it says, the worst outcomes are a `refused` and, for too many, the end."""
     try:
@@ -178,18 +169,6 @@ def id_of(message: AnyClientMessage) -> int | None:
     return number if isinstance(number, int) else None
 
 
-def merged(before: AnyClientMessage, message: AnyClientMessage) -> AnyClientMessage | None:
-    """Both in one, where nothing of the older one may be lost: the value of a servo that the newer one does
-    not name.
-    """
-    if not (isinstance(before, MoveMessage) and isinstance(message, MoveMessage)):
-        return None
-    if before.duration_ms != message.duration_ms:
-        return None
-    newest = {target.servo: target for target in (*before.targets, *message.targets)}
-    return message.model_copy(update={"targets": list(newest.values())})
-
-
 async def write_all(socket: WebSocket, session: Session) -> None:
     with contextlib.suppress(WebSocketDisconnect):
         while True:
@@ -207,7 +186,7 @@ def take(message: AnyClientMessage, session: Session, control: Control) -> None:
 
 def take_move(message: MoveMessage, session: Session, control: Control) -> None:
     with refusing(session, message.id):
-        left = control.move(session, targets_of(message.targets), message.duration_ms, message.nonce)
+        left = control.requests.move(session, targets_of(message.targets), message.duration_ms, message.nonce)
         left.add_done_callback(lambda left: answer_move(session, message.id, left))
 
 
@@ -230,14 +209,14 @@ def take_play(message: PlayMessage, session: Session, control: Control) -> None:
 
 def play(group: FrameGroup, message_id: int, nonce: str, session: Session, control: Control) -> PlayState:
     """Raises what keeps it from beginning. Whoever asked hears how it ended."""
-    return control.play(
+    return control.requests.play(
         session, group, nonce, lambda state: session.put(encode(PlayedMessage(id=message_id, play=state)))
     )
 
 
 def take_packet(message: PacketMessage, session: Session, control: Control) -> None:
     with refusing(session, message.id):
-        left = control.send(session, message.bytes, message.nonce)
+        left = control.requests.send(session, message.bytes, message.nonce)
         left.add_done_callback(lambda left: answer(session, message.id, left))
 
 
@@ -317,7 +296,7 @@ def read(message: ReadMessage, session: Session, control: Control) -> None:
 ACTS: dict[type[AnyClientMessage], Callable[[Any, Session, Control], None]] = {
     MoveMessage: take_move,
     PlayMessage: take_play,
-    StopPlayingMessage: lambda _, _session, control: control.stop_playing(),
+    StopPlayingMessage: lambda _, _session, control: control.requests.stop_playing(),
     RunMessage: take_run,
     StopGroupMessage: lambda message, session, control: perform(
         session, message.id, control.operations.end_group(session)

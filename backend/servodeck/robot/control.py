@@ -1,17 +1,15 @@
-"""Joins the parts: clients, lease, gate and board. Owns the latch and the robot's limits.
+"""Joins the parts: clients, lease, latch, board and robot profile; stops and resumes the robot.
 
-Knows what is asked and what may be done now. Must not know HTTP, WebSockets or how a byte reaches the port.
+What else clients ask is judged in requests.py. Must not know HTTP, WebSockets or how a byte reaches the port.
 """
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 
 from servodeck.callers import Caller
 from servodeck.errors import (
     CancelledError,
     LatchedError,
-    MovingError,
     NotDrivingError,
     OutOfRangeError,
     PortLostError,
@@ -28,38 +26,19 @@ from servodeck.events import (
 )
 from servodeck.files import Remembered
 from servodeck.port.link import Ports
-from servodeck.port.wire import STOP_PACKET, Job, Left, Owner
-from servodeck.protocol.decoder import COMMAND_AT, DecoderEvent, PacketEvent
+from servodeck.port.wire import Left, Owner
+from servodeck.protocol.decoder import DecoderEvent, PacketEvent
 from servodeck.protocol.families import FAMILIES
-from servodeck.protocol.values import Command, Erase, Move, Run, ServoTarget
 from servodeck.robot.board.board import Board
-from servodeck.robot.board.estimate import Estimate
-from servodeck.robot.board.move_plan import judge_targets, packet_of
-from servodeck.robot.board.moves import MoveRequest
-from servodeck.robot.board.packet_rules import (
-    DOWNLOAD,
-    HARMLESS,
-    MOVE,
-    RUN,
-    STOP,
-    Part,
-    is_harmless,
-    judge_command,
-    judge_latch,
-    judge_parts,
-    judge_single_packet,
-    role_for,
-)
-from servodeck.robot.board.playing import FrameGroup, judge_group
 from servodeck.robot.board.slots import SlotMemory
 from servodeck.robot.broadcast import Broadcast, Relay
 from servodeck.robot.driving import Driving
 from servodeck.robot.hub import AGAINST_THE_RULES, Hub, Session
 from servodeck.robot.latch import Cause, Latch, Watch
-from servodeck.robot.lease import Permit
 from servodeck.robot.motion.halt_plan import Unheld
 from servodeck.robot.operations import Operations
 from servodeck.robot.profile import ReadFacts, RecalledBoard, RobotLimits, RobotOfBoard, no_robot
+from servodeck.robot.requests import Requests
 from servodeck.snapshots import JobState, PlayState, UnheldServos
 
 UNNAMED_PERSON = Cause("person")
@@ -113,16 +92,16 @@ class Control:
         )
         self._relay = Relay(self.hub, now, lambda: self.driving.driver)
         self._broadcast = Broadcast(self.hub, self.board, self._latch, self.robot, self.driving, now)
+        self.requests = Requests(self.board, self.driving, self.limits, self._latch, now)
         self.operations = Operations(self)
         self._halting: Left | None = None
         self._pressed_s = 0.0
-        self._stopped_s = -math.inf
         self._unheld: Unheld | None = None
 
     @property
     def latch(self) -> bool:
         """Motion is refused until somebody resumes."""
-        return self._latch.cause is not None
+        return self._latch.is_closed
 
     @property
     def unheld(self) -> UnheldServos | None:
@@ -138,7 +117,7 @@ class Control:
     # What clients ask
 
     def join(self, session: Session) -> None:
-        """The welcome is the seat's first message."""
+        """The welcome is the first message of the session."""
         self.hub.join(session)
         self._broadcast.welcome(session)
         self._broadcast.state(but=session)
@@ -169,7 +148,7 @@ class Control:
     ) -> None:
         """What they move stops, what they still say is not heard, and nothing that they asked for leaves any
         more but stops. `still_drives`: they may come back and drive, so their download goes on, and the group
-        that they let go on. `also`: seats of theirs that are no client's.
+        that they let go on. `also`: sessions of theirs that are not connected clients.
         """
         self._watch.disconnected(caller_id, by, group_goes_on=group_goes_on or still_drives)
         if not still_drives:
@@ -180,92 +159,11 @@ class Control:
                 self.board.drop(session, CancelledError(reason))
                 self.leave(session)
 
-    def move(
-        self, session: Session, targets: Sequence[ServoTarget], duration_ms: int, nonce: str | None
-    ) -> Left:
-        """The newest value of each servo counts; they leave together when the wire is free. `duration_ms` 0:
-        as fast as the soft limit and the link allow. Resolves when each has left or a newer one has taken its
-        place. Raises, or fails with, what keeps one from leaving.
-        """
-        board, driving = self.board, self.driving
-        session.caller.require("driver")
-        board.judge_known()
-        judge_targets(targets, duration_ms, board.family)
-        self.limits.judge(Move(duration_ms, tuple(targets)), session)
-        board.link.wire()
-        judge_latch(MOVE, self.latch)
-        board.jobs.judge_idle()
-        permit = driving.permit(session, nonce)
-        # Whoever waits to start may do so as long as the driver is heard.
-        waiting = replace(permit, until_s=math.inf)
-
-        def judge(target: ServoTarget, starts: bool) -> None:
-            driving.judge(waiting if starts else permit)
-            board.judge_known()
-            judge_latch(MOVE, self.latch)
-            self.limits.judge(Move(duration_ms, (target,)), session)
-
-        return board.moves.put(targets, duration_ms, MoveRequest(session, judge))
-
-    def send(self, session: Session, packet_hex: str, nonce: str | None = None) -> Left:
-        """Resolves when the packet has left the wire. Raises, or fails with, what keeps it from leaving. What
-        is not harmless needs the lease and its `nonce`.
-        """
-        packet, command = judge_command(packet_hex, self.board.family_id)
-        if isinstance(command, Erase):
-            self.board.judge_carried("erase")
-        session.caller.require(role_for(packet))
-        self.limits.judge(command, session)
-        wire = self.board.link.wire()
-        if not is_harmless(packet):
-            self.board.judge_known()
-        judge_latch(packet[COMMAND_AT], self.latch)
-        judge_single_packet(packet)
-        if packet[COMMAND_AT] == STOP:
-            return self.stop_once(session)
-        self.board.jobs.judge_run(command, self.board.link.place)
-        self.board.jobs.judge_idle()
-        if isinstance(command, Run | Erase):
-            self.board.plays.judge_idle()
-        if is_harmless(packet):
-            return wire.send(packet, session)
-        left = wire.send(packet, session, judge=self._permitted(session, nonce))
-        self.board.moves.begin_round()
-        return left
-
-    def put(self, session: Session, command: Command, permit: Permit) -> Left:
-        """As `send`, of somebody who may have that command sent."""
-        board = self.board
-        packet = packet_of(command, board.family)
-        session.caller.require(role_for(packet))
-        self.limits.judge(command, session)
-        wire = board.link.wire()
-        board.judge_known()
-        judge_latch(packet[COMMAND_AT], self.latch)
-        board.jobs.judge_run(command, board.link.place)
-        board.jobs.judge_idle()
-        if isinstance(command, Run | Erase):
-            board.plays.judge_idle()
-        return wire.send(packet, session, judge=lambda: self.driving.judge(permit))
-
-    def stop_once(self, session: Session) -> Left:
-        """Ends the running group behind its frame in progress. It overtakes all that waits, and a run that it
-        overtook does not start the group again behind it.
-        """
-        wire = self.board.link.wire()
-        # It always goes, but the frame that it meets on the board is not stored for sure (S10).
-        self.board.jobs.end(CancelledError("A stop ended the download before it was complete."))
-        self.board.plays.end(CancelledError("The group was stopped."))
-        self.board.jobs.judge_idle()
-        wire.purge(is_run, CancelledError("A stop was sent before this run."))
-        return wire.send(STOP_PACKET, session, urgent=True)
-
     def stop(self, cause: Cause = UNNAMED_PERSON) -> Left:
         """Latches in any case. Resolves when the stop sequence has left; raises when there is no port to
         stop. What may go on in spite of it `unheld` says.
         """
-        self._stopped_s = self.now()
-        self._latch.close(cause)
+        self._latch.close(cause, self.now())
         self.board.jobs.end(LatchedError("STOP ended the download before it was complete."))
         left = self.board.halt(LatchedError("STOP was pressed before this was sent."))
         if left is not self._halting:
@@ -312,73 +210,6 @@ class Control:
         if run is None:
             raise CancelledError("Nothing is running.")
         self.board.unattended.allow(run, session, for_ms / 1000)
-
-    def play(
-        self,
-        session: Session,
-        group: FrameGroup,
-        nonce: str | None,
-        ended: Callable[[PlayState], None],
-        *,
-        as_run: bool = False,
-    ) -> PlayState:
-        """Begins to play it; raises what keeps it from that before anything leaves. `ended` hears how it
-        ended. `as_run`: it ends with the silence that ends a run of the board, not with the one that ends
-        what is driven by hand.
-        """
-        board = self.board
-        session.caller.require("driver")
-        board.judge_known()
-        self.limits.judge_targets(judge_group(group, board.family))
-        wire = board.link.wire()
-        judge_latch(MOVE, self.latch)
-        board.jobs.judge_idle()
-        board.plays.judge_idle()
-        if board.motion.group_may_run(self.now()) or wire.has_waiting(RUN):
-            raise MovingError(end_of_group(board.motion.group_ends_in_s(self.now())))
-        permit = self.driving.permit(session, nonce)
-        if permit.issued_s < self._stopped_s:  # a large request may be slower than the STOP behind it
-            raise CancelledError("STOP was pressed after this was requested.")
-
-        def judge(is_first: bool) -> None:
-            judge_latch(MOVE, self.latch)
-            if is_first:
-                self.driving.judge(permit)
-            elif board.unattended.by is not session:
-                self.driving.judge(replace(permit, until_s=math.inf))
-
-        return board.plays.begin(group, session, judge, ended, as_run=as_run)
-
-    def stop_playing(self) -> None:
-        """What the gateway plays ends with its frame in progress."""
-        self.board.plays.end(CancelledError("The group was stopped."))
-
-    def download(
-        self, parts: Sequence[Part], by: Caller, claim: Callable[[], object], behind: str | None = None
-    ) -> JobState:
-        """Begins to store them, or has the job `behind` which they come store them, too; raises what keeps it
-        from that before anything is sent. `claim` raises where `by` may not.
-        """
-        board = self.board
-        before = board.jobs.parts_of(behind) if behind else ()
-        board.judge_carried("download")
-        judge_parts((*before, *parts), board.family_id)
-        for part in parts:
-            self.limits.judge_targets(part.extremes)
-            board.jobs.judge_replaced(part, board.link.place)
-        if behind:
-            claim()
-            return board.jobs.add(behind, parts, by)
-        wire = board.link.wire()
-        board.judge_known()
-        judge_latch(DOWNLOAD, self.latch)
-        board.jobs.judge_idle()
-        board.plays.judge_idle()
-        is_clear = board.moves.is_empty and wire.is_clear_of(lambda command: command not in HARMLESS)
-        if board.may_move() or not is_clear:
-            raise MovingError(still_moving(board.motion, self.now()))
-        claim()
-        return board.jobs.begin(parts, by, board.link.place, wire)
 
     async def use_port(self, device: str, board: str | None = None) -> None:
         await self.board.quiet()
@@ -446,10 +277,6 @@ class Control:
 
     # Inside
 
-    def _permitted(self, session: Session, nonce: str | None) -> Callable[[], None]:
-        permit = self.driving.permit(session, nonce)
-        return lambda: self.driving.judge(permit)
-
     def _see_robot(self) -> None:
         link = self.board.link
         if link.state.status == "open":
@@ -468,21 +295,3 @@ class Control:
     def _tell_unheld(self, since_s: float) -> None:
         self._unheld = self.board.unheld_since(since_s)
         self._broadcast.everybody(HaltedMessage(unheld=self.unheld))
-
-
-def still_moving(motion: Estimate, now: float) -> str:
-    if motion.group_may_run(now):
-        return end_of_group(motion.group_ends_in_s(now))
-    if left_s := math.ceil(motion.moves_for_s(now) * 10) / 10:
-        return f"The robot moves for up to {left_s:.1f} s more: wait until then."
-    return "The robot is about to move: wait until it rests."
-
-
-def end_of_group(ends_in_s: float | None) -> str:
-    if ends_in_s is None:
-        return "A group may be running, and its end is unknown: stop it, or release the lease."
-    return f"A group runs for up to {ends_in_s:.1f} s more: wait, or release the lease to end it."
-
-
-def is_run(job: Job) -> bool:
-    return job.command == RUN

@@ -6,6 +6,7 @@ Knows what the lease says and how to stop; not who may drive or resume.
 
 import contextlib
 import logging
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -33,6 +34,13 @@ class Latch:
     def __init__(self, changed: Callable[[], None]) -> None:
         self._changed = changed
         self.cause: Cause | None = None
+        self.stopped_s = -math.inf
+        """When STOP was pressed last."""
+
+    @property
+    def is_closed(self) -> bool:
+        """Motion is refused until somebody resumes."""
+        return self.cause is not None
 
     @property
     def by(self) -> LatchedBy | None:
@@ -42,8 +50,9 @@ class Latch:
     def name(self) -> str | None:
         return self.cause.name if self.cause else None
 
-    def close(self, cause: Cause) -> None:
+    def close(self, cause: Cause, now: float) -> None:
         """Who latched first is told."""
+        self.stopped_s = now
         if self.cause is None:
             self.cause = cause
             log.info("stopped")

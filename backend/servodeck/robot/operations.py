@@ -102,7 +102,7 @@ class Grant:
     def send(self, command: Command, lasts_s: float = 0.0) -> Left:
         """`lasts_s`: what it sets in motion."""
         self._judge()
-        left = self._control.put(self._claim.session, command, self._claim.permit())
+        left = self._control.requests.put(self._claim.session, command, self._claim.permit())
         self._claim.lasts(left, lasts_s)
         return left
 
@@ -145,7 +145,7 @@ class Operations:
         """Behind its frame in progress; everything else is free to move. Said three times (S54), also where
         whoever asked has gone meanwhile.
         """
-        left = self._control.stop_once(session)
+        left = self._control.requests.stop_once(session)
         if self._ending is None:
             self._ending = asyncio.create_task(self._end_again(session, left))
         ending = self._ending
@@ -158,7 +158,8 @@ class Operations:
         try:
             with contextlib.suppress(GatewayError):  # a port that is lost takes no more of them
                 await repeat_stop(
-                    lambda: waiting.pop() if waiting else self._control.stop_once(session), self._control.now
+                    lambda: waiting.pop() if waiting else self._control.requests.stop_once(session),
+                    self._control.now,
                 )
         finally:
             self._ending = None

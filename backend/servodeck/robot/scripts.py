@@ -17,10 +17,11 @@ from servodeck.protocol.families import Family
 from servodeck.robot.board.move_plan import plan_move
 from servodeck.robot.board.packet_rules import Part
 from servodeck.robot.board.playing import FrameGroup
-from servodeck.robot.control import Control, end_of_group
+from servodeck.robot.control import Control
 from servodeck.robot.hub import Session
 from servodeck.robot.lease import Permit
 from servodeck.robot.operations import Grant
+from servodeck.robot.requests import end_of_group
 from servodeck.snapshots import JobState, LeaseState, Outcome, PlayState
 
 T = TypeVar("T")
@@ -93,7 +94,7 @@ class ScriptGrant(Grant):
         self._judge()
         driving = self._control.driving
         nonce = driving.claim_for(self._session, take=False)
-        state = self._control.play(self._session, group, nonce, self._played, as_run=True)
+        state = self._control.requests.play(self._session, group, nonce, self._played, as_run=True)
         driving.vouch(self._session, 0.0)
         return state
 
@@ -189,7 +190,7 @@ class Scripts:
         def claim() -> None:
             driving.claim_for(session, take=take)
 
-        job = self._control.download(parts, session.caller, claim, behind)
+        job = self._control.requests.download(parts, session.caller, claim, behind)
         driving.vouch(session, 0.0)
         return job
 

@@ -1,0 +1,223 @@
+"""What clients and scripts ask of the robot: each request is judged by limits, latch, lease and what is under
+way, and then handed to the board.
+
+Knows what may be done now. Must not know how a client is connected, nor how a byte reaches the port.
+"""
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+from servodeck.callers import Caller
+from servodeck.errors import (
+    CancelledError,
+    MovingError,
+)
+from servodeck.port.wire import STOP_PACKET, Job, Left
+from servodeck.protocol.decoder import COMMAND_AT
+from servodeck.protocol.values import Command, Erase, Move, Run, ServoTarget
+from servodeck.robot.board.board import Board
+from servodeck.robot.board.estimate import Estimate
+from servodeck.robot.board.move_plan import judge_targets, packet_of
+from servodeck.robot.board.moves import MoveRequest
+from servodeck.robot.board.packet_rules import (
+    DOWNLOAD,
+    HARMLESS,
+    MOVE,
+    RUN,
+    STOP,
+    Part,
+    is_harmless,
+    judge_command,
+    judge_latch,
+    judge_parts,
+    judge_single_packet,
+    role_for,
+)
+from servodeck.robot.board.playing import FrameGroup, judge_group
+from servodeck.robot.driving import Driving
+from servodeck.robot.hub import Session
+from servodeck.robot.latch import Latch
+from servodeck.robot.lease import Permit
+from servodeck.robot.profile import RobotLimits
+from servodeck.snapshots import JobState, PlayState
+
+
+class Requests:
+    def __init__(
+        self, board: Board, driving: Driving, limits: RobotLimits, latch: Latch, now: Callable[[], float]
+    ) -> None:
+        self._board = board
+        self._driving = driving
+        self._limits = limits
+        self._latch = latch
+        self._now = now
+
+    def move(
+        self, session: Session, targets: Sequence[ServoTarget], duration_ms: int, nonce: str | None
+    ) -> Left:
+        """The newest value of each servo counts; they leave together when the wire is free. `duration_ms` 0:
+        as fast as the soft limit and the link allow. Resolves when each has left or a newer one has taken its
+        place. Raises, or fails with, what keeps one from leaving.
+        """
+        board, driving = self._board, self._driving
+        session.caller.require("driver")
+        board.judge_known()
+        judge_targets(targets, duration_ms, board.family)
+        self._limits.judge(Move(duration_ms, tuple(targets)), session)
+        board.link.wire()
+        judge_latch(MOVE, self._latch.is_closed)
+        board.jobs.judge_idle()
+        permit = driving.permit(session, nonce)
+        # Whoever waits to start may do so as long as the driver is heard.
+        waiting = replace(permit, until_s=math.inf)
+
+        def judge(target: ServoTarget, starts: bool) -> None:
+            driving.judge(waiting if starts else permit)
+            board.judge_known()
+            judge_latch(MOVE, self._latch.is_closed)
+            self._limits.judge(Move(duration_ms, (target,)), session)
+
+        return board.moves.put(targets, duration_ms, MoveRequest(session, judge))
+
+    def send(self, session: Session, packet_hex: str, nonce: str | None = None) -> Left:
+        """Resolves when the packet has left the wire. Raises, or fails with, what keeps it from leaving. What
+        is not harmless needs the lease and its `nonce`.
+        """
+        packet, command = judge_command(packet_hex, self._board.family_id)
+        if isinstance(command, Erase):
+            self._board.judge_carried("erase")
+        session.caller.require(role_for(packet))
+        self._limits.judge(command, session)
+        wire = self._board.link.wire()
+        if not is_harmless(packet):
+            self._board.judge_known()
+        judge_latch(packet[COMMAND_AT], self._latch.is_closed)
+        judge_single_packet(packet)
+        if packet[COMMAND_AT] == STOP:
+            return self.stop_once(session)
+        self._board.jobs.judge_run(command, self._board.link.place)
+        self._board.jobs.judge_idle()
+        if isinstance(command, Run | Erase):
+            self._board.plays.judge_idle()
+        if is_harmless(packet):
+            return wire.send(packet, session)
+        left = wire.send(packet, session, judge=self._permitted(session, nonce))
+        self._board.moves.begin_round()
+        return left
+
+    def put(self, session: Session, command: Command, permit: Permit) -> Left:
+        """As `send`, of somebody who may have that command sent."""
+        board = self._board
+        packet = packet_of(command, board.family)
+        session.caller.require(role_for(packet))
+        self._limits.judge(command, session)
+        wire = board.link.wire()
+        board.judge_known()
+        judge_latch(packet[COMMAND_AT], self._latch.is_closed)
+        board.jobs.judge_run(command, board.link.place)
+        board.jobs.judge_idle()
+        if isinstance(command, Run | Erase):
+            board.plays.judge_idle()
+        return wire.send(packet, session, judge=lambda: self._driving.judge(permit))
+
+    def stop_once(self, session: Session) -> Left:
+        """Ends the running group behind its frame in progress. It overtakes all that waits, and a run that it
+        overtook does not start the group again behind it.
+        """
+        wire = self._board.link.wire()
+        # It always goes, but the frame that it meets on the board is not stored for sure (S10).
+        self._board.jobs.end(CancelledError("A stop ended the download before it was complete."))
+        self._board.plays.end(CancelledError("The group was stopped."))
+        self._board.jobs.judge_idle()
+        wire.purge(is_run, CancelledError("A stop was sent before this run."))
+        return wire.send(STOP_PACKET, session, urgent=True)
+
+    def play(
+        self,
+        session: Session,
+        group: FrameGroup,
+        nonce: str | None,
+        ended: Callable[[PlayState], None],
+        *,
+        as_run: bool = False,
+    ) -> PlayState:
+        """Begins to play it; raises what keeps it from that before anything leaves. `ended` hears how it
+        ended. `as_run`: it ends with the silence that ends a run of the board, not with the one that ends
+        what is driven by hand.
+        """
+        board = self._board
+        session.caller.require("driver")
+        board.judge_known()
+        self._limits.judge_targets(judge_group(group, board.family))
+        wire = board.link.wire()
+        judge_latch(MOVE, self._latch.is_closed)
+        board.jobs.judge_idle()
+        board.plays.judge_idle()
+        if board.motion.group_may_run(self._now()) or wire.has_waiting(RUN):
+            raise MovingError(end_of_group(board.motion.group_ends_in_s(self._now())))
+        permit = self._driving.permit(session, nonce)
+        if permit.issued_s < self._latch.stopped_s:  # a large request may be slower than the STOP behind it
+            raise CancelledError("STOP was pressed after this was requested.")
+
+        def judge(is_first: bool) -> None:
+            judge_latch(MOVE, self._latch.is_closed)
+            if is_first:
+                self._driving.judge(permit)
+            elif board.unattended.by is not session:
+                self._driving.judge(replace(permit, until_s=math.inf))
+
+        return board.plays.begin(group, session, judge, ended, as_run=as_run)
+
+    def stop_playing(self) -> None:
+        """What the gateway plays ends with its frame in progress."""
+        self._board.plays.end(CancelledError("The group was stopped."))
+
+    def download(
+        self, parts: Sequence[Part], by: Caller, claim: Callable[[], object], behind: str | None = None
+    ) -> JobState:
+        """Begins to store them, or has the job `behind` which they come store them, too; raises what keeps it
+        from that before anything is sent. `claim` raises where `by` may not.
+        """
+        board = self._board
+        before = board.jobs.parts_of(behind) if behind else ()
+        board.judge_carried("download")
+        judge_parts((*before, *parts), board.family_id)
+        for part in parts:
+            self._limits.judge_targets(part.extremes)
+            board.jobs.judge_replaced(part, board.link.place)
+        if behind:
+            claim()
+            return board.jobs.add(behind, parts, by)
+        wire = board.link.wire()
+        board.judge_known()
+        judge_latch(DOWNLOAD, self._latch.is_closed)
+        board.jobs.judge_idle()
+        board.plays.judge_idle()
+        is_clear = board.moves.is_empty and wire.is_clear_of(lambda command: command not in HARMLESS)
+        if board.may_move() or not is_clear:
+            raise MovingError(still_moving(board.motion, self._now()))
+        claim()
+        return board.jobs.begin(parts, by, board.link.place, wire)
+
+    def _permitted(self, session: Session, nonce: str | None) -> Callable[[], None]:
+        permit = self._driving.permit(session, nonce)
+        return lambda: self._driving.judge(permit)
+
+
+def still_moving(motion: Estimate, now: float) -> str:
+    if motion.group_may_run(now):
+        return end_of_group(motion.group_ends_in_s(now))
+    if left_s := math.ceil(motion.moves_for_s(now) * 10) / 10:
+        return f"The robot moves for up to {left_s:.1f} s more: wait until then."
+    return "The robot is about to move: wait until it rests."
+
+
+def end_of_group(ends_in_s: float | None) -> str:
+    if ends_in_s is None:
+        return "A group may be running, and its end is unknown: stop it, or release the lease."
+    return f"A group runs for up to {ends_in_s:.1f} s more: wait, or release the lease to end it."
+
+
+def is_run(job: Job) -> bool:
+    return job.command == RUN
