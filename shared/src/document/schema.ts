@@ -54,6 +54,12 @@ export function versionedLine(format: string, content: unknown): string {
 
 const versioned = (format: string, content: unknown) => ({ format, version: 1, content });
 
+/** Of such a text, around the schema of what it carries. */
+export const versionedSchema = <Format extends string, Content extends v.GenericSchema>(
+  format: Format,
+  content: Content,
+) => v.strictObject({ format: v.literal(format), version: v.literal(1), content });
+
 /** `flawOf` judges what no schema can; it says what is wrong, or null. */
 export function readVersioned<T>(
   text: string,

@@ -3,7 +3,14 @@
 
 import * as v from 'valibot';
 import { flawOfGroup, groupSchema, type ActionGroup } from '../group/group.ts';
-import { readVersioned, versionedText, type Read, type TextFlaw, count } from '../document/schema.ts';
+import {
+  readVersioned,
+  versionedSchema,
+  versionedText,
+  type Read,
+  type TextFlaw,
+  count,
+} from '../document/schema.ts';
 
 // Tags as a person writes them, and back.
 
@@ -35,11 +42,10 @@ const documentSchema = v.strictObject({
   versions: v.pipe(v.array(versionSchema), v.maxLength(200)),
 });
 
-const libraryFileSchema = v.strictObject({
-  format: v.literal(FORMAT),
-  version: v.literal(1),
-  content: v.strictObject({ documents: v.pipe(v.array(documentSchema), v.maxLength(5000)) }),
-});
+const libraryFileSchema = versionedSchema(
+  FORMAT,
+  v.strictObject({ documents: v.pipe(v.array(documentSchema), v.maxLength(5000)) }),
+);
 
 export interface BundledVersion {
   readonly name: string;

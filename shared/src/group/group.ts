@@ -13,6 +13,7 @@ import {
   targetSchema,
   whole,
   readVersioned,
+  versionedSchema,
   versionedLine,
   versionedText,
   type Read,
@@ -138,11 +139,7 @@ export function maxErrorOf({ unit, maxErrorUnits }: ActionGroup, family: Family)
 const FORMAT = 'servodeck-group';
 
 /** Other programs may use it: docs/group.schema.json. */
-export const groupFileSchema = v.strictObject({
-  format: v.literal(FORMAT),
-  version: v.literal(1),
-  content: groupSchema,
-});
+export const groupFileSchema = versionedSchema(FORMAT, groupSchema);
 
 export const groupToText = (group: ActionGroup): string => versionedLine(FORMAT, group);
 

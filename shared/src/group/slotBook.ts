@@ -4,7 +4,7 @@
 import * as v from 'valibot';
 import type { Frame } from '../codec/commands.ts';
 import { GROUP_NAME_LENGTH } from './group.ts';
-import { readVersioned, type Read, whole } from '../document/schema.ts';
+import { readVersioned, versionedSchema, type Read, whole } from '../document/schema.ts';
 
 const recordSchema = v.strictObject({
   slot: whole(0, 255),
@@ -31,11 +31,7 @@ const bookSchema = v.strictObject({
 });
 
 const FORMAT = 'servodeck-slots';
-const fileSchema = v.strictObject({
-  format: v.literal(FORMAT),
-  version: v.literal(1),
-  content: bookSchema,
-});
+const fileSchema = versionedSchema(FORMAT, bookSchema);
 
 export interface SlotRecord {
   readonly slot: number;

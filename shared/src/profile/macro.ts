@@ -8,6 +8,7 @@ import {
   runningId,
   whole,
   readVersioned,
+  versionedSchema,
   versionedText,
   type Read,
 } from '../document/schema.ts';
@@ -92,11 +93,7 @@ function flawOfPage({ macros, nextId }: MacroPage): TextFlaw | null {
 
 const FORMAT = 'servodeck-buttons';
 
-const fileSchema = v.strictObject({
-  format: v.literal(FORMAT),
-  version: v.literal(1),
-  content: macroPageSchema,
-});
+const fileSchema = versionedSchema(FORMAT, macroPageSchema);
 
 export const macroPageToText = (page: MacroPage): string => versionedText(FORMAT, page);
 

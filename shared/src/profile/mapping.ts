@@ -3,7 +3,7 @@
 
 import * as v from 'valibot';
 import { POSE_MS, poseRefSchema } from './pose.ts';
-import { whole, readVersioned, versionedText, type Read } from '../document/schema.ts';
+import { whole, readVersioned, versionedSchema, versionedText, type Read } from '../document/schema.ts';
 import type { Robot } from './robot.ts';
 
 /** Which part of an axis counts: all of it with its sign, or one side as if it were a button. */
@@ -118,11 +118,7 @@ export function overlaps(one: Input, other: Input): boolean {
 
 const FORMAT = 'servodeck-mapping';
 
-const fileSchema = v.strictObject({
-  format: v.literal(FORMAT),
-  version: v.literal(1),
-  content: mappingSchema,
-});
+const fileSchema = versionedSchema(FORMAT, mappingSchema);
 
 export const mappingToText = (mapping: Mapping): string => versionedText(FORMAT, mapping);
 

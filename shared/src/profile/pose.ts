@@ -10,6 +10,7 @@ import {
   runningId,
   targetSchema,
   readVersioned,
+  versionedSchema,
   versionedText,
   type Read,
 } from '../document/schema.ts';
@@ -71,11 +72,7 @@ export function flawOfBook({ poses, restId, applied, nextId }: PoseBook): TextFl
 
 const FORMAT = 'servodeck-poses';
 
-const fileSchema = v.strictObject({
-  format: v.literal(FORMAT),
-  version: v.literal(1),
-  content: poseBookSchema,
-});
+const fileSchema = versionedSchema(FORMAT, poseBookSchema);
 
 export const poseBookToText = (book: PoseBook): string => versionedText(FORMAT, book);
 
