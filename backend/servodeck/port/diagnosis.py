@@ -12,12 +12,12 @@ from servodeck.port.ports import OpenPort, group_of, open_port
 from servodeck.protocol.decoder import Decoder, DecoderEvent, PacketEvent
 from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.packets import encode
+from servodeck.protocol.timings import DECODER
 from servodeck.protocol.values import ReadBattery
 
 PROCESSES = Path("/proc")
 LISTENS_S = 1.0
 BATTERY = 15
-MOSTLY = 0.7
 PRINTABLE = frozenset(range(0x20, 0x7F)) | {0x0A, 0x0D}
 # At another speed bits run together: one run of ones beside one of zeros.
 RUNS = frozenset((0xFF << zeros) & 0xFF for zeros in range(9)) | frozenset(0xFF >> ones for ones in range(9))
@@ -99,9 +99,9 @@ def heard_on(port: OpenPort) -> Heard:
 
 def looks_like(noise: bytes | bytearray) -> str:
     """`text` of a program that prints, `rate` for bytes at another speed, else `other`. As in doctor.ts."""
-    if share(noise, PRINTABLE) >= MOSTLY:
+    if share(noise, PRINTABLE) >= DECODER.noise_share:
         return "text"
-    return "rate" if share(noise, RUNS) >= MOSTLY else "other"
+    return "rate" if share(noise, RUNS) >= DECODER.noise_share else "other"
 
 
 def share(noise: bytes | bytearray, of: frozenset[int]) -> float:

@@ -30,6 +30,7 @@ class Hid(NamedTuple):
 class Decoding(NamedTuple):
     noise_bytes: int
     most_servos: int
+    noise_share: float
 
 
 class Stop(NamedTuple):

@@ -1,6 +1,7 @@
 // Looks for what keeps a robot from being connected: the browser, the address, devices that are allowed, and what the board has
 // sent so far. Facts in, findings out; asks the board nothing and moves nothing.
 
+import timings from '../../../../shared/protocol/timings.json' with { type: 'json' };
 import type { LinkState } from '#shared/robot/state.ts';
 import type { TrafficLog } from '../../robot/traffic.ts';
 
@@ -71,14 +72,15 @@ function heardFindings({ packets, noise }: Heard): readonly Finding[] {
   ];
 }
 
-const MOSTLY = 0.7;
-
 /** At another speed bits run together: what arrives is nearly all ones or zeros. */
 export function kindOfNoise(bytes: readonly number[]): NoiseKind {
   const share = (test: (byte: number) => boolean): number => bytes.filter(test).length / bytes.length;
-  if (share((byte) => (byte >= 0x20 && byte < 0x7f) || byte === 0x0a || byte === 0x0d) >= MOSTLY)
+  if (
+    share((byte) => (byte >= 0x20 && byte < 0x7f) || byte === 0x0a || byte === 0x0d) >=
+    timings.decoder.noiseShare
+  )
     return 'text';
-  return share((byte) => RUNS.has(byte)) >= MOSTLY ? 'rate' : 'other';
+  return share((byte) => RUNS.has(byte)) >= timings.decoder.noiseShare ? 'rate' : 'other';
 }
 
 /** Bytes of one run of ones beside one run of zeros. */
