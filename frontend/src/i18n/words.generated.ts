@@ -2040,6 +2040,7 @@ export interface Messages {
     readonly portMissing: string;
     readonly portBusy: string;
     readonly portDenied: string;
+    readonly hidDenied: string;
     readonly moduleMissing: string;
     readonly moduleNotChosen: string;
     readonly bluetoothOff: string;

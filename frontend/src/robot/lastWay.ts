@@ -12,6 +12,7 @@ export interface LastWay {
 const KEY = 'servodeck.way';
 const KINDS: readonly string[] = [
   'webSerial',
+  'webHid',
   'webBluetooth',
   'gateway',
   'simulated',

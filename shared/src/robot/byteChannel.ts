@@ -4,8 +4,10 @@
 import type { LinkError } from './linkError.ts';
 
 export interface ChannelEvents {
-  /** Bytes from the board, in order, in pieces of any size. */
-  received(bytes: Uint8Array): void;
+  /** Bytes from the board, in order, in pieces of any size; `whole` where they are a whole packet for sure. */
+  received(bytes: Uint8Array, whole?: boolean): void;
+  /** Bytes that belong to no packet for sure: for the log. */
+  unread(bytes: Uint8Array): void;
   /** The open channel ended by itself. At most once after each `open`, never after `close`. */
   lost(error: LinkError): void;
   /** The device may be back: worth an attempt before the next one is due. Only while the channel is not open. */

@@ -14,7 +14,8 @@ export function overChannel(channel: ByteChannel, kind: Transport['kind']): Tran
     },
     async open(events, options) {
       channel.events = {
-        received: (bytes) => events.received(bytes),
+        received: (bytes, whole) => events.received(bytes, whole),
+        unread: (bytes) => events.unread?.(bytes),
         lost: (error) => events.lost(error),
         available: () => notifyAvailable(),
         claimed: async () => events.claimed?.(),

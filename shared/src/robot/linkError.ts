@@ -7,6 +7,7 @@ export const LINK_ERROR_CODES = [
   'portMissing', // no such device
   'portBusy', // another program or tab holds it
   'portDenied', // the operating system refuses access
+  'hidDenied', // the operating system refuses access to the board's own USB cable
   'moduleMissing', // the Bluetooth module does not answer
   'moduleNotChosen', // the person closed the chooser of Bluetooth modules
   'bluetoothOff', // this computer has no Bluetooth adapter, or it is off

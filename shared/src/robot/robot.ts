@@ -137,6 +137,7 @@ export function createSession(options: SessionOptions): Session {
     transport,
     clock,
     received: (bytes, whole = false) => receiver.push(bytes, whole),
+    unread: (bytes) => heardNoise('garbage', bytes),
     changed: lineChanged,
     identified: (board) => identification.told(board),
     battery: (battery) => store.update({ battery }),

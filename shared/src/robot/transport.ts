@@ -21,7 +21,7 @@ export type HaltReason = 'pressed' | 'battery';
 /** What hardware has not confirmed yet for some cable. */
 export type Withheld = 'download' | 'erase';
 
-export interface TransportEvents extends Partial<Pick<ChannelEvents, 'claimed'>> {
+export interface TransportEvents extends Partial<Pick<ChannelEvents, 'claimed' | 'unread'>> {
   /** Bytes from the board, in order, in whatever pieces they came; `whole` where they are whole packets for sure. */
   received(bytes: Uint8Array, whole?: boolean): void;
   /** The link ended by itself. Comes at most once per `open`, never after `close`. */
@@ -159,7 +159,7 @@ export interface RobotOnBoard {
 }
 
 export interface Transport {
-  readonly kind: 'webSerial' | 'webBluetooth' | 'gateway' | 'simulated';
+  readonly kind: 'webSerial' | 'webHid' | 'webBluetooth' | 'gateway' | 'simulated';
   /** Names the device for people, e.g. `/dev/ttyUSB0`. */
   readonly label: string;
   /** True where no real board is behind it; known once it is open. */

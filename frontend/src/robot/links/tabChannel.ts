@@ -2,13 +2,12 @@
 // and closes one after the other. Knows no kind of device and no packets.
 
 import { sleep } from '#shared/clock.ts';
-import type { ByteChannel, OpenOptions } from '#shared/robot/byteChannel.ts';
+import type { ByteChannel, ChannelEvents, OpenOptions } from '#shared/robot/byteChannel.ts';
 import { LinkError } from '#shared/robot/linkError.ts';
 import { browserClock } from './browserClock.ts';
 import { createPortLock } from './portLock.ts';
 
-export interface ConnectionEvents {
-  received(bytes: Uint8Array): void;
+export interface ConnectionEvents extends Pick<ChannelEvents, 'received' | 'unread'> {
   /** At most once, never after `close`. */
   lost(error: LinkError): void;
 }
@@ -58,9 +57,13 @@ export function createTabChannel(device: TabDevice): ByteChannel {
   }
 
   async function connect(): Promise<void> {
-    const received = (bytes: Uint8Array): void => channel.events?.received(bytes);
+    const events: ConnectionEvents = {
+      received: (bytes, whole) => channel.events?.received(bytes, whole),
+      unread: (bytes) => channel.events?.unread(bytes),
+      lost: lose,
+    };
     try {
-      connection = await device.connect({ received, lost: lose });
+      connection = await device.connect(events);
     } catch (error) {
       lock.release();
       throw error;
