@@ -889,6 +889,15 @@ export interface Messages {
       readonly inUse: string;
       readonly secureLink: string;
     };
+    readonly webHid: {
+      readonly title: string;
+      readonly about: string;
+      readonly choose: string;
+      readonly showAll: string;
+      readonly inUse: string;
+      readonly unsupported: string;
+      readonly insecureAddress: string;
+    };
     readonly webBluetooth: {
       readonly title: string;
       readonly about: string;

@@ -20,6 +20,7 @@ import type { You } from './people.generated.ts';
 import { createGatewayTransport } from './links/gateway.ts';
 import { choosePort, grantedPorts, portLabel, webSerialObstacle } from './links/serialPorts.ts';
 import type { BluetoothHere, GrantedModule } from './links/webBluetooth.ts';
+import type { GrantedBoard, HidHere } from './links/webHid.ts';
 import { createWebSerialChannel } from './links/webSerial.ts';
 import { later } from '../ui/later.tsx';
 import { words } from '../i18n/words.ts';
@@ -46,6 +47,9 @@ export interface ConnectState {
   readonly granted: readonly GrantedPort[];
   /** The one that was opened last. */
   readonly openPort: SerialPort | null;
+  readonly hid: HidHere;
+  /** The one that was opened last. */
+  readonly openBoard: HIDDevice | null;
   readonly bluetooth: BluetoothHere;
   /** The one that was opened last. */
   readonly openModule: BluetoothDevice | null;
@@ -78,6 +82,9 @@ export interface Connector {
   useSerialPort(port: SerialPort): Promise<void>;
   /** Opens the browser's chooser. Rejects with a LinkError. */
   chooseSerialPort(): Promise<void>;
+  useBoard(board: HIDDevice): Promise<void>;
+  /** Opens the browser's chooser; `all`: with every HID device. Rejects with a LinkError. */
+  chooseBoard(all: boolean): Promise<void>;
   useModule(module: BluetoothDevice): Promise<void>;
   /** Opens the browser's chooser. Rejects with a LinkError. */
   chooseModule(): Promise<void>;
@@ -111,9 +118,11 @@ export interface ConnectorOptions {
 }
 
 const loadSimulated = () => import('./links/simulated.ts');
+const loadHid = () => import('./links/webHid.ts');
 const loadBluetooth = () => import('./links/webBluetooth.ts');
 // They need no gateway: they are there before they are wanted.
 later(loadSimulated);
+later(loadHid);
 later(loadBluetooth);
 
 export function createConnector(options: ConnectorOptions): Connector {
@@ -124,6 +133,8 @@ export function createConnector(options: ConnectorOptions): Connector {
     serialObstacle: webSerialObstacle(),
     granted: [],
     openPort: null,
+    hid: { obstacle: null, granted: [] },
+    openBoard: null,
     bluetooth: { obstacle: null, granted: [] },
     openModule: null,
     gateway: 'looking',
@@ -136,6 +147,12 @@ export function createConnector(options: ConnectorOptions): Connector {
   function openSerial(port: SerialPort): Link {
     store.setState({ openPort: port });
     return { kind: 'webSerial', channel: createWebSerialChannel(port) };
+  }
+
+  async function openBoard(board: HIDDevice): Promise<Link> {
+    const { createWebHidChannel, HID_WITHHELD } = await loadHid();
+    store.setState({ openBoard: board });
+    return { kind: 'webHid', channel: createWebHidChannel(board), withheld: HID_WITHHELD };
   }
 
   async function openModule(module: BluetoothDevice): Promise<Link> {
@@ -159,8 +176,18 @@ export function createConnector(options: ConnectorOptions): Connector {
   const takePort = (port: SerialPort): Promise<void> =>
     openOnce('webSerial', port === store.getState().openPort, () => openSerial(port));
 
+  const takeBoard = (board: HIDDevice): Promise<void> =>
+    openOnce('webHid', board === store.getState().openBoard, () => openBoard(board));
+
   const takeModule = (module: BluetoothDevice): Promise<void> =>
     openOnce('webBluetooth', module === store.getState().openModule, () => openModule(module));
+
+  async function lookForBoards(): Promise<readonly GrantedBoard[]> {
+    const { lookForHid } = await loadHid();
+    const hid = await lookForHid();
+    store.setState({ hid });
+    return hid.granted;
+  }
 
   async function lookForModules(): Promise<readonly GrantedModule[]> {
     const { lookForBluetooth } = await loadBluetooth();
@@ -236,12 +263,14 @@ export function createConnector(options: ConnectorOptions): Connector {
     await look(options.isAtGateway ? SURE_WITHIN_MS : undefined);
     const { gateway, granted, reconnects } = store.getState();
     const [port] = granted;
+    const [board] = last?.kind === 'webHid' && reconnects ? await lookForBoards() : [];
     const [module] = last?.kind === 'webBluetooth' && reconnects ? await lookForModules() : [];
     if (last?.kind === 'simulated' || (gateway === 'absent' && last === null)) {
       await connect(await simulated());
       if (last === null) greet();
     } else if (!reconnects) return;
     else if (last?.kind === 'webSerial' && port !== undefined) await connect(openSerial(port.port));
+    else if (board !== undefined) await connect(await openBoard(board.board));
     else if (module !== undefined) await connect(await openModule(module.module));
     else if (typeof gateway === 'object') await connect(gatewayLink());
     else await connect(await simulated());
@@ -280,7 +309,7 @@ export function createConnector(options: ConnectorOptions): Connector {
     store,
     start,
     async look() {
-      await Promise.all([look(), lookForModules()]);
+      await Promise.all([look(), lookForBoards(), lookForModules()]);
     },
     setBody(body) {
       store.setState({ body });
@@ -305,6 +334,11 @@ export function createConnector(options: ConnectorOptions): Connector {
     useSerialPort: takePort,
     async chooseSerialPort() {
       await takePort(await choosePort());
+    },
+    useBoard: takeBoard,
+    async chooseBoard(all) {
+      const { chooseBoard } = await loadHid();
+      await takeBoard(await chooseBoard(all));
     },
     useModule: takeModule,
     async chooseModule() {

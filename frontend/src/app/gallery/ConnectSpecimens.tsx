@@ -11,6 +11,8 @@ const BASE: ConnectState = {
   serialObstacle: null,
   granted: [],
   openPort: null,
+  hid: { obstacle: null, granted: [] },
+  openBoard: null,
   bluetooth: { obstacle: null, granted: [] },
   openModule: null,
   gateway: 'absent',
@@ -62,6 +64,7 @@ const CASES: readonly {
     state: {
       ...BASE,
       serialObstacle: 'insecureAddress',
+      hid: { obstacle: 'insecureAddress', granted: [] },
       bluetooth: { obstacle: 'insecureAddress', granted: [] },
       gateway: { device: null, isSimulated: false },
     },
@@ -72,6 +75,7 @@ const CASES: readonly {
     state: {
       ...BASE,
       serialObstacle: 'unsupported',
+      hid: { obstacle: 'unsupported', granted: [] },
       bluetooth: { obstacle: 'unsupported', granted: [] },
       gateway: 'looking',
     },
@@ -97,6 +101,8 @@ export const CONNECT: readonly Exhibit[] = CASES.map(({ name, state, current }) 
       onGatewayPort={nothing}
       onSerialPort={nothing}
       onChooseSerial={nothing}
+      onBoard={nothing}
+      onChooseBoard={nothing}
       onModule={nothing}
       onChooseModule={nothing}
       onDisconnect={nothing}

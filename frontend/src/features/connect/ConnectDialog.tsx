@@ -47,6 +47,8 @@ export function ConnectDialog({ connector }: { readonly connector: Connector }) 
         onGatewayPort={(device) => choose(() => connector.useGatewayPort(device))}
         onSerialPort={(port) => choose(() => connector.useSerialPort(port))}
         onChooseSerial={() => choose(connector.chooseSerialPort)}
+        onBoard={(board) => choose(() => connector.useBoard(board))}
+        onChooseBoard={(all) => choose(() => connector.chooseBoard(all))}
         onModule={(module) => choose(() => connector.useModule(module))}
         onChooseModule={() => choose(connector.chooseModule)}
         onDisconnect={() => choose(connector.disconnect)}

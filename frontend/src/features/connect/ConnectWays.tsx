@@ -35,6 +35,8 @@ export interface ConnectWaysProps {
   onGatewayPort(device: string): void;
   onSerialPort(port: SerialPort): void;
   onChooseSerial(): void;
+  onBoard(board: HIDDevice): void;
+  onChooseBoard(all: boolean): void;
   onModule(module: BluetoothDevice): void;
   onChooseModule(): void;
   onDisconnect(): void;
@@ -100,6 +102,13 @@ function offersOf(props: ConnectWaysProps): readonly WayOffer[] {
       obstacle: state.serialObstacle === null ? null : <SerialObstacle {...props} />,
       choices: <SerialChoices {...props} />,
       guide: <PortGuide />,
+    },
+    {
+      kind: 'webHid',
+      title: words.connect.webHid.title,
+      about: words.connect.webHid.about,
+      obstacle: state.hid.obstacle === null ? null : <HidObstacle code={state.hid.obstacle} />,
+      choices: <HidChoices {...props} />,
     },
     {
       kind: 'webBluetooth',
@@ -213,6 +222,39 @@ function SerialChoices({ state, current, isReady, onSerialPort, onChooseSerial }
       {isOpen && <p className={styles.dim}>{words.connect.webSerial.inUse}</p>}
       <Button tone={state.granted.length === 0 ? 'plain' : 'quiet'} onPress={onChooseSerial}>
         {words.connect.webSerial.choose}
+      </Button>
+    </>
+  );
+}
+
+function HidObstacle({ code }: { readonly code: NonNullable<ConnectState['hid']['obstacle']> }) {
+  return (
+    <>
+      <p className={styles.dim}>{words.connect.webHid[code]}</p>
+      {code === 'insecureAddress' && <LocalLink />}
+    </>
+  );
+}
+
+function HidChoices({ state, current, isReady, onBoard, onChooseBoard }: ConnectWaysProps) {
+  const isOpen = isReady && current?.kind === 'webHid';
+  const { granted } = state.hid;
+  return (
+    <>
+      {granted.map(({ board, label }, index) => (
+        <OpenButton
+          key={index}
+          label={label}
+          isOpen={isOpen && board === state.openBoard}
+          onPress={() => onBoard(board)}
+        />
+      ))}
+      {isOpen && <p className={styles.dim}>{words.connect.webHid.inUse}</p>}
+      <Button tone={granted.length === 0 ? 'plain' : 'quiet'} onPress={() => onChooseBoard(false)}>
+        {words.connect.webHid.choose}
+      </Button>
+      <Button tone="quiet" onPress={() => onChooseBoard(true)}>
+        {words.connect.webHid.showAll}
       </Button>
     </>
   );
