@@ -44,6 +44,7 @@ export default defineConfig<object, { way: Way }>({
     { name: 'real-webserial', testMatch: 'realSerial/**', use: { way: 'webSerial' } },
     // No gateway there either.
     { name: 'real-bluetooth', testMatch: 'realBluetooth/**', use: { way: 'webSerial' } },
+    { name: 'real-hid', testMatch: 'realHid/**', use: { way: 'webSerial' } },
   ],
   use: {
     locale: 'en-GB',

@@ -19,11 +19,11 @@ const readyLine = /^(pty|listening) /;
  */
 
 /**
- * @param {{link: string, simulatorArgs?: readonly string[], onLine: (line: string) => void, onLost: () => void}} options
- *   `link`: relative path of the device; `onLost`: the board ended though nobody pulled its cable
+ * @param {{link: string, hid?: boolean, simulatorArgs?: readonly string[], onLine: (line: string) => void, onLost: () => void}} options
+ *   `link`: relative path of the device; `hid`: what it carries are HID reports, as a hidraw node does; `onLost`: the board ended though nobody pulled its cable
  * @returns {Promise<Cable>}
  */
-export async function simulatedBoard({ link, simulatorArgs = [], onLine, onLost }) {
+export async function simulatedBoard({ link, hid = false, simulatorArgs = [], onLine, onLost }) {
   const tcp = onWindows ? `127.0.0.1:${await freePort('127.0.0.1')}` : null;
   /** @type {import('node:child_process').ChildProcess | null} */
   let board = null;
@@ -31,7 +31,11 @@ export async function simulatedBoard({ link, simulatorArgs = [], onLine, onLost 
   function start(/** @type {(line: string) => void} */ hear) {
     if (tcp) return startChild(process.execPath, [simulator, '--tcp', tcp, ...simulatorArgs], hear);
     const program = [process.execPath, simulator, '--stdio', ...simulatorArgs];
-    return startChild(python, ['scripts/pty_board.py', '--link', link, '--', ...program], hear);
+    return startChild(
+      python,
+      ['scripts/pty_board.py', ...(hid ? ['--hid'] : []), '--link', link, '--', ...program],
+      hear,
+    );
   }
 
   /** @param {import('node:child_process').ChildProcess} ended */

@@ -1,23 +1,29 @@
 """Gives a program that speaks bytes on stdin and stdout a serial port: a pty, found through a link.
 
-Knows file descriptors only, no protocol. When the program ends the port hangs up, like a pulled cable.
-Usage: pty_board.py --link PATH -- COMMAND [ARGUMENT...]      (POSIX; prints `pty /dev/pts/N` on stderr)
+Knows file descriptors and, for a node of HID reports, where a packet ends. When the program ends the port
+hangs up, like a pulled cable.
+Usage: pty_board.py [--hid] --link PATH -- COMMAND [ARGUMENT...]   (POSIX; prints `pty /dev/pts/N` on stderr)
 """
 
 from __future__ import annotations
 
 import argparse
+import contextlib
+import fcntl
 import os
 import select
 import signal
 import subprocess
 import sys
+import termios
 import tty
 from pathlib import Path
 from types import FrameType
 from typing import NoReturn
 
 CHUNK_BYTES = 4096
+REPORT_BYTES = 64
+LENGTH_AT = 2
 PARENT_POLL_SECONDS = 0.5
 END_SECONDS = 2.0
 
@@ -43,6 +49,35 @@ class Relay:
             self.pending = self.pending[os.write(self.sink, self.pending) :]
         except BlockingIOError:
             return
+
+
+class ReportsToProgram(Relay):
+    """What is written to a hidraw node: report number 0, the packet, zeros. The program gets the packet."""
+
+    half = b""
+
+    def fill(self) -> bool:
+        is_open = super().fill()
+        self.half, self.pending = self.half + self.pending, b""
+        while len(self.half) > REPORT_BYTES:
+            report, self.half = self.half[1 : 1 + REPORT_BYTES], self.half[1 + REPORT_BYTES :]
+            self.pending += report[: report[LENGTH_AT] + 2]
+        return is_open
+
+
+class ReportsFromProgram(Relay):
+    """Each packet that the program says is a report, zero-padded."""
+
+    half = b""
+
+    def fill(self) -> bool:
+        is_open = super().fill()
+        self.half, self.pending = self.half + self.pending, b""
+        while len(self.half) > LENGTH_AT and len(self.half) >= self.half[LENGTH_AT] + 2:
+            size = self.half[LENGTH_AT] + 2
+            packet, self.half = self.half[:size], self.half[size:]
+            self.pending += packet.ljust(REPORT_BYTES, b"\0")
+        return is_open
 
 
 def relay_until_end(to_program: Relay, from_program: Relay, parent: int) -> None:
@@ -87,11 +122,22 @@ def end_program(program: subprocess.Popen[bytes]) -> int:
         return program.wait()
 
 
-def serve(link: Path, command: list[str]) -> int:
+def own_terminal(slave: int) -> None:
+    """Ours first: Chromium opens HID nodes so that a pty becomes its terminal, and would end with it."""
+    signal.signal(signal.SIGHUP, signal.SIG_IGN)
+    with contextlib.suppress(PermissionError):  # we lead a session already
+        os.setsid()
+    fcntl.ioctl(slave, termios.TIOCSCTTY, 0)
+
+
+def serve(link: Path, command: list[str], *, hid: bool = False) -> int:
     parent = os.getppid()
     # Our own hold on the slave side keeps bytes and the port alive while nobody else has it open.
     master, slave = os.openpty()
     tty.setraw(slave)
+    if hid:
+        own_terminal(slave)
+    to_program, from_program = (ReportsToProgram, ReportsFromProgram) if hid else (Relay, Relay)
     name = os.ttyname(slave)
     with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, bufsize=0) as program:
         assert program.stdin
@@ -102,7 +148,9 @@ def serve(link: Path, command: list[str]) -> int:
         try:
             print(f"pty {name}", file=sys.stderr, flush=True)
             relay_until_end(
-                Relay(master, program.stdin.fileno()), Relay(program.stdout.fileno(), master), parent
+                to_program(master, program.stdin.fileno()),
+                from_program(program.stdout.fileno(), master),
+                parent,
             )
         except BrokenPipeError:
             pass  # the program died between two turns of the loop
@@ -122,11 +170,12 @@ def leave(_signal: int, _frame: FrameType | None) -> NoReturn:
 def main() -> int:
     parser = argparse.ArgumentParser(description="Put a program behind a serial port.")
     parser.add_argument("--link", type=Path, required=True, help="path of the link to the port")
+    parser.add_argument("--hid", action="store_true", help="the port carries HID reports, as a hidraw node")
     parser.add_argument("command", nargs="+", help="the program and its arguments, after --")
     arguments = parser.parse_args()
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, leave)
-    return serve(arguments.link, arguments.command)
+    return serve(arguments.link, arguments.command, hid=arguments.hid)
 
 
 if __name__ == "__main__":
