@@ -52,7 +52,7 @@ test('a gateway drives a board on its own USB cable, and finds it again @exhaust
   await dashboard.type(dashboard.target(2), 1600);
   await poll(() => lastTarget(ptyBoard.bus, 2)).toBe(1600);
   await dashboard.link.click();
-  await expect(dashboard.button(`${BOARD_NAME} is open`)).toBeDisabled();
+  await expect(dashboard.button(`LOBOT, USB cable of the board (${BOARD_NAME}) is open`)).toBeDisabled();
   await dashboard.button('Close').click();
   await pull();
   await expect(dashboard.link).toHaveText(/^Lost/);
