@@ -1,1 +1,1 @@
-"""Who comes in, from where, as what, and how fast they may ask."""
+"""Who may come in, from where, in which role, and at which rate."""

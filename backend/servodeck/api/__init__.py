@@ -1,1 +1,1 @@
-"""What the gateway answers: pages, routes and sockets. Translates; decides nothing."""
+"""The doors of the gateway: pages, HTTP routes and WebSockets. Translates; decides nothing."""

@@ -1,6 +1,7 @@
-"""The commands about what is kept: the poses of the robot on the board, the groups and robots of the library.
+"""The commands that ask a running gateway: status, STOP and resume, moves, runs, erase, battery, events,
+poses and the library.
 
-Parses and prints; which pose a name means, and who may go there, the gateway decides.
+They parse and print; the gateway decides what is allowed and which pose a name means.
 """
 
 import sys

@@ -1,7 +1,7 @@
-"""A gateway somewhere, asked over HTTP. With the standard library alone, because the command line has to be
-quick: other HTTP clients take longer to load than a STOP to arrive.
+"""Requests to a gateway over HTTP, and the sentence about what a STOP could hold. Uses the standard library
+alone: other HTTP clients take longer to load than a STOP takes to arrive.
 
-Knows requests and answers; no command's meaning and no terminal.
+Knows requests and answers; no other command and no terminal.
 """
 
 import json

@@ -1,4 +1,4 @@
-"""The command that serves the page and owns the serial port: puts the gateway together and ends it.
+"""The command `servodeck serve`: reads HOST:PORT and binds it, puts the gateway together and ends it.
 
 Imports the gateway only where it is served, so that the small commands answer at once.
 """

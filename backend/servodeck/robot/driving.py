@@ -1,7 +1,9 @@
-"""Which start of the gateway this is, counted on disk: no lease of an earlier one is taken for one of now.
+"""The lease of connected clients: who drives, who asks to, and who may hand over; sends each client its view
+of it and the driver its nonces. Counts the starts of the gateway on disk, so that no lease of an earlier
+start is valid.
 
-Knows one small file and no lease. It is written once, before anybody is served, so that no grant ever waits
-for a disk.
+Knows sessions, timers and one small file, no packet and no port; what must stop when a driver is lost is
+decided in latch.py.
 """
 
 import asyncio

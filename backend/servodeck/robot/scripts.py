@@ -1,8 +1,8 @@
-"""What scripts set in motion: each request speaks for itself, with the lease for as long as what it asked
-lasts (docs/adr/0014).
+"""What scripts ask over HTTP: each request takes the lease by itself, for as long as the motion that it
+starts lasts (docs/adr/0014).
 
-Knows what is asked and in which order it leaves; no HTTP. Who may drive is `driving`'s to say, what may leave
-`control`'s.
+Knows requests and the order in which their packets leave; no HTTP. `driving` decides who may drive,
+requests.py what may leave.
 """
 
 import asyncio

@@ -1,1 +1,1 @@
-"""Where the servos are, worked out from what left the wire: the twin of shared/src/motion."""
+"""Where the servos are estimated to be, from what has left the wire: the twin of shared/src/motion."""

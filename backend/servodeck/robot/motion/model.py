@@ -1,6 +1,8 @@
-"""The estimate as a value, and what a way of playing groups has to answer. Knows what can be known of a
-board's motion; no rule of any board: those are tracks.py, deadlines.py and polled.py. Twin of
-shared/src/motion/model.ts.
+"""The motion estimate as a value, with the positions that the board has reported for servos at rest, and what
+a way of playing groups has to answer. Twin of shared/src/motion/model.ts.
+
+Knows what can be known of a board's motion; no rule of any board: those are tracks.py, deadlines.py and
+polled.py.
 """
 
 from collections.abc import Mapping, Sequence
