@@ -13,7 +13,7 @@ const { walkGallery } = here(gallery);
 const NAMES = `
   Servodeck Chrome Edge Firefox Windows macOS Linux ChromeOS Arch Snap Flatpak Python Arduino XML CSV
   LSC OpenArm uHand xArm LeArm Tonybot TonyPi SpiderPi MasterPi ArmPi AiNex AI ESP PWM CH SER WCH USB TTL COM LPT
-  GND RX TX LEN PC App Esc Ctrl Shift Alt Home End START mV English
+  GND RX TX LEN PC App Esc Ctrl Shift Alt Home End START mV English HID LOBOT Hiwonder BT24 BT Android Bluetooth chrome flags enable web bluetooth ble NAME serial hid sudo servodeck udev rule install
   http https Tailscale SSH Caddy Authorization Bearer`.split(/\s+/u);
 /** What people call their own things in the gallery, and what a browser calls a pad. */
 const GIVEN = [
