@@ -12,6 +12,7 @@ from pydantic import Field
 
 from servodeck.errors import ErrorCode
 from servodeck.intents import ClientMessage, MessageId
+from servodeck.packet_models import CommandModel, ReportModel
 from servodeck.schema import Message, schema_of
 from servodeck.snapshots import (
     BatteryState,
@@ -30,7 +31,7 @@ from servodeck.snapshots import (
     UnheldServos,
 )
 
-PROTOCOL = 6
+PROTOCOL = 7
 """Counted up with each change that a page of before would not understand: it is told to load itself again."""
 
 
@@ -95,16 +96,18 @@ class RefusedMessage(Message):
 
 
 class ReceivedMessage(Message):
-    """One packet of the board."""
+    """What the board said; `bytes` are its packet, for logs."""
 
     type: Literal["received"] = "received"
-    packet: str
+    report: ReportModel
+    bytes: str
 
 
 class NoiseMessage(Message):
-    """Bytes of the board that belong to no packet."""
+    """Bytes of the board that belong to no packet, or to one that the silence cut short."""
 
     type: Literal["noise"] = "noise"
+    reason: Literal["garbage", "truncated"]
     bytes: str
 
 
@@ -168,7 +171,7 @@ class LeftMessage(Message):
     """What has left the wire since the last of these, whoever asked for it."""
 
     type: Literal["left"] = "left"
-    packets: list[str]
+    commands: list[CommandModel]
 
 
 class TickMessage(Message):

@@ -9,6 +9,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from servodeck.errors import ErrorCode
+from servodeck.packet_models import BatteryReport, PositionsReport, VersionReport
 from servodeck.protocol.families import Question, Withheld
 from servodeck.schema import Message
 
@@ -65,31 +66,6 @@ class LinkState(Message):
     status: LinkStatus
     code: ErrorCode | None = None
     detail: str | None = None
-
-
-class ServoPosition(Message):
-    """In the board's unit."""
-
-    servo: int
-    position: int
-
-
-class BatteryReport(Message):
-    kind: Literal["battery"] = "battery"
-    battery_mv: int
-
-
-class VersionReport(Message):
-    """Which servos the board drives, by the unit they count in, and its firmware."""
-
-    kind: Literal["version"] = "version"
-    unit: Literal["us", "steps"]
-    version: int
-
-
-class PositionsReport(Message):
-    kind: Literal["positions"] = "positions"
-    positions: list[ServoPosition]
 
 
 class AnsweredEvidence(Message):

@@ -11,6 +11,24 @@ from websockets.sync.client import ClientConnection
 
 from servodeck.callers import THIS_COMPUTER, Caller
 from servodeck.port.wire import Left
+from servodeck.protocol.families import UNKNOWN
+from servodeck.protocol.packets import encode
+from servodeck.protocol.values import (
+    Command,
+    Download,
+    Erase,
+    Frame,
+    Move,
+    ReadAllPositions,
+    ReadBattery,
+    ReadPositions,
+    ReadVersion,
+    Release,
+    Run,
+    ServoTarget,
+    SetSpeed,
+    Stop,
+)
 from servodeck.robot.control import Control
 from servodeck.robot.hub import Session
 from tests.fake_port import FakePort, FakePorts
@@ -49,7 +67,7 @@ class Client(Session):
     async def next(self) -> str:
         """What left the wire is kept apart, in `followed`."""
         while (message := json.loads(text := await super().next()))["type"] == "left":
-            self.followed += [bytes.fromhex(packet) for packet in message["packets"]]
+            self.followed += [packet_of(told, self.control) for told in message["commands"]]
             if not self.waiting:
                 return ""
         return text
@@ -67,6 +85,35 @@ class Client(Session):
         if self.beats:
             self.nonce = nonce
             self.control.driving.beat(self, nonce)
+
+
+def packet_of(told: dict[str, Any], control: Control) -> bytes:
+    """What has left, as the board got it; while it is asked who it is, that is of no family."""
+    command, family = command_of(told), control.board.family
+    return encode(command, family if command.kind in family.commands else UNKNOWN)
+
+
+def command_of(told: dict[str, Any]) -> Command:
+    match told:
+        case {"kind": "move"}:
+            return Move(told["durationMs"], targets_of(told))
+        case {"kind": "run"}:
+            return Run(told["slot"], told["times"])
+        case {"kind": "download", "frame": frame}:
+            stored = Frame(frame["durationMs"], targets_of(frame))
+            return Download(told["slot"], told["frameCount"], told["frameIndex"], stored)
+        case {"kind": "release"}:
+            return Release(tuple(told["servos"]))
+        case {"kind": "readPositions"}:
+            return ReadPositions(tuple(told["servos"]))
+        case {"kind": "setSpeed"}:
+            return SetSpeed(told["slot"], told["percent"])
+    plain = {each.kind: each() for each in (Stop, Erase, ReadBattery, ReadVersion, ReadAllPositions)}
+    return plain[told["kind"]]
+
+
+def targets_of(told: dict[str, Any]) -> tuple[ServoTarget, ...]:
+    return tuple(ServoTarget(one["servo"], one["position"]) for one in told["targets"])
 
 
 @asynccontextmanager

@@ -14,6 +14,12 @@ STOPS = [STOP, STOP, STOP]
 ERASE = bytes.fromhex("5555030800")
 BATTERY = bytes.fromhex("5555020f")
 BATTERY_REPORT = bytes.fromhex("5555040f4c1d")
+# As clients are told of it.
+BATTERY_HEARD = {
+    "type": "received",
+    "report": {"kind": "battery", "batteryMv": 7500},
+    "bytes": BATTERY_REPORT.hex(),
+}
 DOWNLOAD = bytes.fromhex("55550b190a010001e80301dc05")
 
 GAP_MS = 10.0

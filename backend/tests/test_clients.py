@@ -22,7 +22,7 @@ from servodeck.robot.hub import Session
 from tests.client import deaf_at
 from tests.fake_port import FakePort, FakePorts
 from tests.running import Running, server_on
-from tests.samples import BATTERY, BATTERY_REPORT, MOVE, RUN, STOP
+from tests.samples import BATTERY, BATTERY_HEARD, BATTERY_REPORT, MOVE, RUN, STOP
 
 PATIENCE_S = 3
 
@@ -82,7 +82,7 @@ async def test_a_conversation_from_welcome_to_resume(port: FakePort, gateway: Ru
         assert await hear_until(client, "done") == {"type": "done", "id": 1, "outcome": "sent"}
         assert await hear_until(client, "done") == {"type": "done", "id": 2, "outcome": "sent"}
         port.say(BATTERY_REPORT)
-        assert await hear(client) == {"type": "received", "packet": BATTERY_REPORT.hex()}
+        assert await hear(client) == BATTERY_HEARD
         assert (await hear(client))["battery"]["batteryMv"] == 7500
         await say(client, type="packet", id=3, bytes="55550203")
         assert (await hear(client))["code"] == "malformed"

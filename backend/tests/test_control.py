@@ -22,6 +22,7 @@ from tests.client import Client, driven, gateway_on
 from tests.fake_port import FakePort, FakePorts
 from tests.samples import (
     BATTERY,
+    BATTERY_HEARD,
     BATTERY_REPORT,
     DOWNLOAD,
     ERASE,
@@ -185,9 +186,9 @@ async def test_every_client_hears_every_packet_and_the_noise_between() -> None:
         for session in (anna, bert):
             told = await session.heard()
             assert [message for message in told if message["type"] != "battery"] == [
-                {"type": "noise", "bytes": "0001"},
-                {"type": "received", "packet": BATTERY_REPORT.hex()},
-                {"type": "noise", "bytes": "5555040f"},
+                {"type": "noise", "reason": "garbage", "bytes": "0001"},
+                BATTERY_HEARD,
+                {"type": "noise", "reason": "truncated", "bytes": "5555040f"},
             ]
 
 

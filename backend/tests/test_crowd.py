@@ -11,15 +11,17 @@ import time
 from collections.abc import AsyncIterator, Callable
 from contextlib import AsyncExitStack, asynccontextmanager, suppress
 from pathlib import Path
+from typing import Any
 
 import pytest
 from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
 from servodeck.access.connections import PING_S, PONG_S
+from servodeck.protocol.packets import parse_command
 from tests.amount import TIMES
 from tests.bus import PATIENCE_S, Bus, bus_of_pty, serving
-from tests.client import deaf_at
+from tests.client import command_of, deaf_at
 from tests.samples import MOVE, STOP
 from tests.test_cli import Served
 from tests.test_flood import rss_kib
@@ -44,16 +46,19 @@ class Reader:
 
     def __init__(self, client: ClientConnection) -> None:
         self.client = client
-        self.last = ""
+        self.last: dict[str, Any] = {}
         self.latch = False
         self.task = asyncio.create_task(self._read())
+
+    def has_seen(self, packet: bytes) -> bool:
+        return self.last != {} and command_of(self.last) == parse_command(packet)
 
     async def _read(self) -> None:
         with suppress(ConnectionClosed):
             async for text in self.client:
                 message = json.loads(text)
                 if message["type"] == "left":
-                    self.last = message["packets"][-1]
+                    self.last = message["commands"][-1]
                 if message["type"] == "state":
                     self.latch = message["latch"]
 
@@ -126,7 +131,7 @@ class Crowd:
         await asyncio.gather(self.hand.task, *(reader.task for reader in self.readers))
 
     async def see(self, packet: bytes) -> None:
-        await until(lambda: all(reader.last == packet.hex() for reader in self.readers))
+        await until(lambda: all(reader.has_seen(packet) for reader in self.readers))
 
     async def _join(self) -> ClientConnection:
         ws = connect(f"ws://{self.host}/ws", max_queue=None, close_timeout=0)

@@ -104,7 +104,7 @@ async def test_a_stream_begins_with_how_everything_stands_and_goes_on_with_what_
         told = [message for message in here.listener.heard() if message["type"] != "left"]
         assert [message["type"] for message in told] == ["state", "halted", "received", "battery"]
         assert told[0]["latch"] is True
-        assert told[2]["packet"] == BATTERY_REPORT.hex()
+        assert told[2]["bytes"] == BATTERY_REPORT.hex()
 
 
 @in_virtual_time

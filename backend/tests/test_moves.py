@@ -27,7 +27,7 @@ from servodeck.errors import (
 from servodeck.intents import MoveMessage, Target
 from servodeck.port.wire import QUEUE_PER_OWNER, Left, Owner
 from servodeck.protocol.packets import encode, parse_command
-from servodeck.protocol.values import Move, ServoTarget
+from servodeck.protocol.values import Command, Move, ServoTarget
 from servodeck.robot.board.move_plan import FIRST_MOVE_MS, FIRST_MOVE_STAGGER_S
 from servodeck.robot.control import Control
 from servodeck.robot.lease import COMMAND_S, QUIET_S
@@ -380,11 +380,11 @@ async def check(asked: list[tuple[int, str | dict[int, int]]]) -> None:
         wished: list[tuple[float, bytes]] = []
         told = control.leaving
 
-        def leaving(owner: Owner, packet: bytes, at_s: float) -> None:
+        def leaving(owner: Owner, command: Command, at_s: float) -> None:
             """Nobody asked for what a stop holds."""
             if not control.board.link.wire().is_halting:
-                wished.append((now(), packet))
-            told(owner, packet, at_s)
+                wished.append((now(), encode(command, control.board.family)))
+            told(owner, command, at_s)
 
         control.leaving = leaving  # type: ignore[method-assign]
         for number, (at_ms, what) in enumerate(asked):

@@ -5,6 +5,8 @@ import asyncio
 from hypothesis import given
 from hypothesis import strategies as st
 
+from servodeck.protocol.families import FAMILIES
+from servodeck.protocol.packets import encode, parse_command
 from servodeck.robot.broadcast import newest
 from tests.client import Client, gateway_on
 from tests.fake_port import FakePort
@@ -84,8 +86,10 @@ moves = st.builds(
 
 @given(st.lists(st.one_of(moves, st.sampled_from([STOP, RUN])), max_size=20))
 def test_what_is_left_out_is_void_and_what_is_kept_keeps_its_order(packets: list[bytes]) -> None:
-    kept = newest(tuple(packets))
-    assert newest(kept) == kept
+    commands = tuple(command for packet in packets if (command := parse_command(packet)))
+    left = newest(commands)
+    assert newest(left) == left
+    kept = [encode(command, FAMILIES["doc"]) for command in left]
     assert [packet for packet in kept if packet in (STOP, RUN)] == [p for p in packets if p in (STOP, RUN)]
     rest = iter(packets)
     assert all(packet in rest for packet in kept)

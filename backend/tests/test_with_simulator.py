@@ -103,7 +103,7 @@ async def test_moves_battery_and_stop_reach_the_board_in_order(board: Board, gat
         nonce = await drive(client)
         await say(client, type="packet", id=1, bytes=MOVE.hex(), nonce=nonce)
         await say(client, type="packet", id=2, bytes=BATTERY.hex())
-        assert (await hear_until(client, "received"))["packet"] == BATTERY_REPORT.hex()
+        assert (await hear_until(client, "received"))["bytes"] == BATTERY_REPORT.hex()
         await say(client, type="packet", id=3, bytes=RUN.hex(), nonce=nonce)
         await say(client, type="stop")
         await hear_until(client, "halted")

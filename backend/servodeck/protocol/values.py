@@ -135,15 +135,34 @@ Command = (
 )
 
 
+ReportKind = Literal[
+    "runAccepted",
+    "runStarted",
+    "runFinished",
+    "runStopped",
+    "erased",
+    "battery",
+    "frameStored",
+    "positions",
+    "allPositions",
+    "offsets",
+    "version",
+    "unknown",
+]
+
+
 @dataclass(frozen=True, slots=True)
 class RunAccepted:
     """Proves reception only: it comes before the slot is looked up (S18)."""
+
+    kind: ClassVar[ReportKind] = "runAccepted"
 
 
 @dataclass(frozen=True, slots=True)
 class RunStarted:
     slot: int
     times: int
+    kind: ClassVar[ReportKind] = "runStarted"
 
 
 @dataclass(frozen=True, slots=True)
@@ -151,26 +170,30 @@ class RunFinished:
     """`slot` where the board names it."""
 
     slot: int | None
+    kind: ClassVar[ReportKind] = "runFinished"
 
 
 @dataclass(frozen=True, slots=True)
 class RunStopped:
-    pass
+    kind: ClassVar[ReportKind] = "runStopped"
 
 
 @dataclass(frozen=True, slots=True)
 class Erased:
-    pass
+    kind: ClassVar[ReportKind] = "erased"
 
 
 @dataclass(frozen=True, slots=True)
 class Battery:
     battery_mv: int
+    kind: ClassVar[ReportKind] = "battery"
 
 
 @dataclass(frozen=True, slots=True)
 class FrameStored:
     """The download frame was handled, successfully or not (S20)."""
+
+    kind: ClassVar[ReportKind] = "frameStored"
 
 
 @dataclass(frozen=True, slots=True)
@@ -178,6 +201,7 @@ class Positions:
     """Where bus servos stand."""
 
     positions: tuple[ServoTarget, ...]
+    kind: ClassVar[ReportKind] = "positions"
 
 
 @dataclass(frozen=True, slots=True)
@@ -185,6 +209,7 @@ class AllPositions:
     """Where the board has its servos, all of them (LeArm)."""
 
     positions: tuple[ServoTarget, ...]
+    kind: ClassVar[ReportKind] = "allPositions"
 
 
 @dataclass(frozen=True, slots=True)
@@ -192,6 +217,7 @@ class Offsets:
     """What the board adds to the positions of its servos (LeArm)."""
 
     offsets: tuple[ServoOffset, ...]
+    kind: ClassVar[ReportKind] = "offsets"
 
 
 @dataclass(frozen=True, slots=True)
@@ -200,6 +226,7 @@ class Version:
 
     unit: Literal["us", "steps"]
     version: int
+    kind: ClassVar[ReportKind] = "version"
 
 
 @dataclass(frozen=True, slots=True)
@@ -208,6 +235,7 @@ class UnknownReport:
 
     command: int
     params: bytes
+    kind: ClassVar[ReportKind] = "unknown"
 
 
 Report = (

@@ -1,5 +1,5 @@
 """What clients are told unasked: the whole state when they join and when something of it has changed, and the
-packets that have left the wire.
+commands that have left the wire.
 
 Knows seats, messages and the parts they are about; changes none of them.
 """
@@ -12,12 +12,10 @@ from typing import Any
 
 from servodeck import __version__
 from servodeck.events import LeftMessage, StateMessage, WelcomeMessage, encode
+from servodeck.packet_models import command_model
 from servodeck.port.wire import Owner
-from servodeck.protocol.decoder import COMMAND_AT
-from servodeck.protocol.packets import parse_command
-from servodeck.protocol.values import Move
+from servodeck.protocol.values import Command, Move
 from servodeck.robot.board.board import Board
-from servodeck.robot.board.packet_rules import MOVE
 from servodeck.robot.driving import Driving
 from servodeck.robot.hub import Hub, Session
 from servodeck.robot.latch import Latch
@@ -83,14 +81,14 @@ class Broadcast:
 
 FLUSH_S = 0.05
 
-Packets = tuple[bytes, ...]
+Commands = tuple[Command, ...]
 
 
 @dataclass(frozen=True, slots=True)
 class Leaving:
     """`known_to` was told apart."""
 
-    packet: bytes
+    command: Command
     at_s: float
     known_to: Collection[Session]
 
@@ -101,17 +99,17 @@ class Relay:
         self._now = now
         self._driver = driver
         self._leaving: list[Leaving] = []
-        self._after: dict[Session, Packets] = {}
+        self._after: dict[Session, Commands] = {}
         self._timer: asyncio.TimerHandle | None = None
 
-    def leaving(self, owner: Owner, packet: bytes, at_s: float) -> None:
+    def leaving(self, owner: Owner, command: Command, at_s: float) -> None:
         """Its last bit leaves then; it is told when it has: at once to its `owner`, and to the driver."""
         driver = self._driver()
         known_to = [session for session in self._hub.sessions if session is owner or session is driver]
         for session in known_to:
-            text = text_of((packet,))
+            text = text_of((command,))
             asyncio.get_running_loop().call_later(max(0.0, at_s - self._now()), session.put, text)
-        self._leaving.append(Leaving(packet, at_s, known_to))
+        self._leaving.append(Leaving(command, at_s, known_to))
         if self._timer is None:
             self._plan()
 
@@ -135,46 +133,40 @@ class Relay:
         self._timer = None
         if self._leaving:
             self._plan()
-        told = newest(tuple(each.packet for each in left))
+        told = newest(tuple(each.command for each in left))
         knowing = {session for each in left for session in each.known_to}
         for session in self._hub.sessions:
             known = session in knowing
-            unheard = tuple(each.packet for each in left if session not in each.known_to) if known else ()
+            unheard = tuple(each.command for each in left if session not in each.known_to) if known else ()
             self._publish(session, newest(unheard) if known else told)
 
-    def _publish(self, session: Session, packets: Packets) -> None:
-        if not packets:
+    def _publish(self, session: Session, commands: Commands) -> None:
+        if not commands:
             return
         behind = self._after.get(session)
-        self._after[session] = packets if behind is None else newest(behind + packets)
+        self._after[session] = commands if behind is None else newest(behind + commands)
         if behind is None:
             session.put_later(lambda: text_of(self._after.pop(session, ())))
 
 
 @lru_cache(maxsize=16)
-def text_of(packets: Packets) -> str:
+def text_of(commands: Commands) -> str:
     """The same for most seats, and then made once."""
-    return encode(LeftMessage(packets=[packet.hex() for packet in packets]))
+    return encode(LeftMessage(commands=[command_model(command) for command in commands]))
 
 
 @lru_cache(maxsize=16)
-def newest(packets: Packets) -> Packets:
+def newest(commands: Commands) -> Commands:
     """Without the moves whose every servo was sent elsewhere right after."""
-    kept: list[bytes] = []
+    kept: list[Command] = []
     moved: set[int] = set()
-    for packet in reversed(packets):
-        servos = servos_of(packet)
+    for command in reversed(commands):
+        servos = {target.servo for target in command.targets} if isinstance(command, Move) else None
         if servos is None:
             moved.clear()
         elif servos <= moved:
             continue
         else:
             moved |= servos
-        kept.append(packet)
+        kept.append(command)
     return tuple(reversed(kept))
-
-
-def servos_of(packet: bytes) -> set[int] | None:
-    """Of a move; None for all else."""
-    command = parse_command(packet) if packet[COMMAND_AT] == MOVE else None
-    return {target.servo for target in command.targets} if isinstance(command, Move) else None

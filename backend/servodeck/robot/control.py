@@ -25,10 +25,12 @@ from servodeck.events import (
     RobotMessage,
 )
 from servodeck.files import Remembered
+from servodeck.packet_models import report_model
 from servodeck.port.link import Ports
 from servodeck.port.wire import Left, Owner
-from servodeck.protocol.decoder import DecoderEvent, PacketEvent
+from servodeck.protocol.decoder import NoiseEvent
 from servodeck.protocol.families import FAMILIES
+from servodeck.protocol.values import Command, Report
 from servodeck.robot.board.board import Board
 from servodeck.robot.board.slots import SlotMemory
 from servodeck.robot.broadcast import Broadcast, Relay
@@ -262,18 +264,20 @@ class Control:
     def unattended_time_over(self) -> None:
         self._watch.end_quietly(CancelledError("The time allowed without a driver is over."))
 
-    def received(self, event: DecoderEvent) -> None:
-        is_packet = isinstance(event, PacketEvent)
-        text = event.bytes.hex()
+    def heard(self, report: Report, packet: bytes) -> None:
         self._relay.send_left()  # a question before its answer
-        self._broadcast.everybody(ReceivedMessage(packet=text) if is_packet else NoiseMessage(bytes=text))
+        self._broadcast.everybody(ReceivedMessage(report=report_model(report), bytes=packet.hex()))
+
+    def heard_noise(self, noise: NoiseEvent) -> None:
+        self._relay.send_left()
+        self._broadcast.everybody(NoiseMessage(reason=noise.reason, bytes=noise.bytes.hex()))
 
     def may_have_missed_stops(self) -> None:
         if self.latch:
             self.board.halt_again()
 
-    def leaving(self, owner: Owner, packet: bytes, at_s: float) -> None:
-        self._relay.leaving(owner, packet, at_s)
+    def leaving(self, owner: Owner, command: Command, at_s: float) -> None:
+        self._relay.leaving(owner, command, at_s)
 
     # Inside
 

@@ -3,7 +3,6 @@
 import { expect, test } from 'vitest';
 import type { Command } from '../codec/commands.ts';
 import type { Unheld } from '../motion/haltPlan.ts';
-import { encodeCommand } from '../codec/encode.ts';
 import { family as familyOf } from '../codec/families.ts';
 import { createSimulatedTransport } from '../testing/simulatedTransport.ts';
 import { createVirtualClock } from '../testing/virtualClock.ts';
@@ -22,7 +21,7 @@ async function sharedSession() {
   const clock = createVirtualClock();
   const line = createSimulatedTransport(clock, { onForMs: 60_000 });
   let tell: TransportEvents['leased'];
-  let follow: TransportEvents['followed'];
+  let follow: TransportEvents['left'];
   let latch: TransportEvents['latched'];
   let halted: TransportEvents['halted'];
   let resumed: TransportEvents['resumed'];
@@ -30,7 +29,7 @@ async function sharedSession() {
   const transport: Transport = {
     ...line,
     open(events) {
-      ({ leased: tell, followed: follow, latched: latch, halted, resumed } = events);
+      ({ leased: tell, left: follow, latched: latch, halted, resumed } = events);
       return line.open(events);
     },
     send(packet) {
@@ -43,7 +42,7 @@ async function sharedSession() {
   return {
     ...{ clock, session, left },
     tell: (lease: Lease) => tell?.(lease),
-    follow: (command: Command) => follow?.(encodeCommand(command, familyOf('doc'))),
+    follow: (command: Command) => follow?.(command),
     latch: (reason: SharedLatchReason, by?: string) => latch?.(reason, by),
     halted: (unheld: Unheld | null) => halted?.(unheld),
     resumed: (by: string) => resumed?.(by),

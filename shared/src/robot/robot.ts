@@ -3,7 +3,8 @@
 
 import type { Clock } from '../clock.ts';
 import type { MotionBefore } from '../motion/before.ts';
-import type { Frame, ServoTarget } from '../codec/commands.ts';
+import type { Command, Frame, ServoTarget } from '../codec/commands.ts';
+import { encodeCommand } from '../codec/encode.ts';
 import { UNKNOWN_BOARD, type Family } from '../codec/families.ts';
 import { commandIn } from '../codec/parse.ts';
 import type { Report } from '../codec/reports.ts';
@@ -147,7 +148,9 @@ export function createSession(options: SessionOptions): Session {
     slotsChanged() {
       if (store.state.link.status === 'ready') driver.groups.linked();
     },
-    followed: sentElsewhere,
+    left: sentElsewhere,
+    heard,
+    noise: heardNoise,
     playing: (progress) => driver.live.told(progress),
     waiting: (waitingToStart) => store.update({ waitingToStart }),
     moveFailed,
@@ -168,8 +171,8 @@ export function createSession(options: SessionOptions): Session {
     serviceGapMs: UNKNOWN_BOARD.serviceGapMs,
     send: link.send,
     takeMove: () => driver.takeMove(),
-    leaving: (packet) => tellsWhatLeft || note(packet),
-    sent: (packet) => tellsWhatLeft || take(packet),
+    leaving: (packet) => tellsWhatLeft || note(packet, commandIn(packet)),
+    sent: (packet) => tellsWhatLeft || take(commandIn(packet)),
     moveFailed,
   });
 
@@ -244,25 +247,21 @@ export function createSession(options: SessionOptions): Session {
   }
 
   /** Into the log when it begins to leave, so that its answer comes after it. */
-  function note(packet: Uint8Array): void {
-    store.emit('traffic', {
-      ...{ atMs: clock.now(), direction: 'out', bytes: packet },
-      command: commandIn(packet),
-    });
+  function note(bytes: Uint8Array, command: Command | null): void {
+    store.emit('traffic', { atMs: clock.now(), direction: 'out', bytes, command });
   }
 
   /** Into the estimate when it has left: not before can the board act on it. */
-  function take(packet: Uint8Array): void {
-    const command = commandIn(packet);
+  function take(command: Command | null): void {
     if (command === null) return;
     driver.applied(command);
     if (command.kind === 'stop') stopAgain.stopped();
   }
 
   /** A link that stores groups says so itself: told late, its frame would pass for one that is being stored now. */
-  function sentElsewhere(packet: Uint8Array): void {
-    note(packet);
-    if (commandIn(packet)?.kind !== 'download') take(packet);
+  function sentElsewhere(command: Command): void {
+    note(bytesForLog(command, driver.core.family), command);
+    if (command.kind !== 'download') take(command);
   }
 
   function heard(report: Report, bytes: Uint8Array): void {
@@ -375,4 +374,13 @@ export function createSession(options: SessionOptions): Session {
     stopPlaying: () => driver.live.stopPlaying(),
     motions: () => driver.core.robot.motions(),
   };
+}
+
+/** Empty where this end knows of no such packet for that board. */
+function bytesForLog(command: Command, family: Family): Uint8Array {
+  try {
+    return encodeCommand(command, family);
+  } catch {
+    return new Uint8Array();
+  }
 }

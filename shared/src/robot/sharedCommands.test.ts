@@ -1,6 +1,7 @@
 // What a session on a shared link has the board do: the link does it, and the session shows what came of it.
 
 import { expect, test } from 'vitest';
+import type { Command } from '../codec/commands.ts';
 import { encodeCommand } from '../codec/encode.ts';
 import { family as familyOf } from '../codec/families.ts';
 import { createSimulatedTransport } from '../testing/simulatedTransport.ts';
@@ -9,7 +10,7 @@ import { LinkError } from './linkError.ts';
 import { createSession } from './robot.ts';
 import type { Outcome, SharedCommands, TransportEvents } from './transport.ts';
 
-const RUN = encodeCommand({ kind: 'run', slot: 3, times: 2 }, familyOf('doc'));
+const RUN = { kind: 'run', slot: 3, times: 2 } as const;
 
 async function shared(outcome: () => Promise<Outcome>) {
   const clock = createVirtualClock();
@@ -47,7 +48,7 @@ async function shared(outcome: () => Promise<Outcome>) {
     },
   });
   await session.open();
-  return { session, asked, sent, left: (packet: Uint8Array) => events?.followed?.(packet) };
+  return { session, asked, sent, left: (command: Command) => events?.left?.(command) };
 }
 
 test.each([

@@ -2,7 +2,6 @@
 
 import { expect, test } from 'vitest';
 import type { Command } from '../codec/commands.ts';
-import { encodeCommand } from '../codec/encode.ts';
 import { family as familyOf } from '../codec/families.ts';
 import { createSimulatedTransport } from '../testing/simulatedTransport.ts';
 import { createVirtualClock } from '../testing/virtualClock.ts';
@@ -84,7 +83,7 @@ async function sharedSession(known: Told) {
           unattended: null,
         },
       }),
-    follow: (command: Command) => heard?.followed?.(encodeCommand(command, familyOf('doc'))),
+    follow: (command: Command) => heard?.left?.(command),
     stored: () => settle.resolve(),
     failed: (error: LinkError) => settle.reject(error),
   };

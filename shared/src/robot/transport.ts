@@ -3,8 +3,9 @@
 
 import type { Unheld } from '../motion/haltPlan.ts';
 import type { MotionBefore } from '../motion/before.ts';
-import type { Frame, ServoTarget } from '../codec/commands.ts';
+import type { Command, Frame, ServoTarget } from '../codec/commands.ts';
 import type { BoardId } from '../codec/families.ts';
+import type { Report } from '../codec/reports.ts';
 import type { ChannelEvents, OpenOptions } from './byteChannel.ts';
 import type { Battery } from './battery.ts';
 import type { SharedBoard } from './identity.ts';
@@ -38,8 +39,12 @@ export interface TransportEvents extends Partial<Pick<ChannelEvents, 'claimed' |
   battery?(battery: Battery): void;
   /** Only a shared link: which robot stands on the board. Told once it is open, and whenever any robot has changed there. */
   described?(robot: RobotOnBoard): void;
-  /** Only a shared link: this packet has left the wire, whoever asked for it; no question. */
-  followed?(packet: Uint8Array): void;
+  /** Only a shared link: this has left the wire, whoever asked for it. */
+  left?(command: Command): void;
+  /** Only a shared link, which reads what the board says: this, in that packet. */
+  heard?(report: Report, packet: Uint8Array): void;
+  /** Only a shared link: bytes that belong to no packet. */
+  noise?(reason: 'garbage' | 'truncated', bytes: Uint8Array): void;
   /** Only a shared link: what moves before this end came have made of the robot. Told once it is open. */
   placed?(motion: MotionBefore): void;
   /** Only a shared link: what the cable behind it is not to carry. Told once it is open, and on each change. */
@@ -132,7 +137,7 @@ export interface SharedCommands {
 
 /** How a shared link moves servos: it merges, keeps the board's pace and lets servos of unknown place start gently. */
 export interface SharedMoves {
-  /** Newest wins per servo; `followed` tells what left. `durationMs` 0: as fast as the link allows. */
+  /** Newest wins per servo; `left` tells what did. `durationMs` 0: as fast as the link allows. */
   put(targets: readonly ServoTarget[], durationMs: number): void;
   /** With a value that was not handed over yet. */
   servos(): readonly number[];

@@ -28,7 +28,7 @@ from servodeck.port.link import Link, Ports
 from servodeck.port.ports import OpenPort
 from servodeck.port.reader import Inbox
 from servodeck.port.wire import STOP_PACKET, Job, Left, Owner, Wire
-from servodeck.protocol.decoder import COMMAND_AT, DecoderEvent, PacketEvent
+from servodeck.protocol.decoder import COMMAND_AT, DecoderEvent, NoiseEvent, PacketEvent
 from servodeck.protocol.families import FAMILIES, UNKNOWN, Family, Question, Withheld, carried
 from servodeck.protocol.packets import encode, parse_command, parse_report
 from servodeck.protocol.timings import BATTERY, IDENTIFY, wire_s
@@ -79,7 +79,9 @@ class BoardEvents(Protocol):
     def unattended_time_over(self) -> None:
         """The run that was let go on may not any more."""
 
-    def received(self, event: DecoderEvent) -> None: ...
+    def heard(self, report: Report, packet: bytes) -> None: ...
+
+    def heard_noise(self, noise: NoiseEvent) -> None: ...
 
     def may_have_missed_stops(self) -> None:
         """The board says that a group runs: behind a stop it is one that it kept while its flash worked,
@@ -87,8 +89,8 @@ class BoardEvents(Protocol):
         then it may have taken for the rest of that.
         """
 
-    def leaving(self, owner: Owner, packet: bytes, at_s: float) -> None:
-        """That packet moves, ends or stores something, and its last bit leaves then."""
+    def leaving(self, owner: Owner, command: Command, at_s: float) -> None:
+        """It moves, ends or stores something, and its last bit leaves then."""
 
 
 class Board:
@@ -505,18 +507,19 @@ class Board:
         self.jobs.left(command, at_s, self.link.place)
         is_opening = packet[COMMAND_AT] == STOP and owner is self
         if not is_opening:  # which ends nothing that anybody began
-            self._events.leaving(owner, packet, at_s)
+            self._events.leaving(owner, command, at_s)
 
     def _take(self, event: DecoderEvent) -> None:
-        self._events.received(event)
         if not isinstance(event, PacketEvent):
+            self._events.heard_noise(event)
             metrics.totals.noise_bytes += len(event.bytes)
             self.identification.heard_noise(event.bytes)
             return
+        report = parse_report(event.packet, self.identification.heard_as or self.family)
+        self._events.heard(report, event.bytes)
         metrics.received[metrics.name_of(event.packet.command)] += 1
         with contextlib.suppress(GatewayError):
             self.link.wire().answered(event.packet.command)
-        report = parse_report(event.packet, self.identification.heard_as or self.family)
         may_have_swallowed = self.motion.may_swallow
         self.motion.heard(report, self._now())
         self._stop_again.heard()

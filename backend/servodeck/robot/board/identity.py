@@ -10,6 +10,7 @@ from collections.abc import Awaitable, Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
+from servodeck.packet_models import BatteryReport, PositionsReport, ServoPosition, VersionReport
 from servodeck.protocol.families import FAMILIES, UNKNOWN, Family, Question
 from servodeck.protocol.packets import encode
 from servodeck.protocol.timings import IDENTIFY
@@ -24,15 +25,11 @@ from servodeck.protocol.values import (
 )
 from servodeck.snapshots import (
     AnsweredEvidence,
-    BatteryReport,
     EchoedEvidence,
     EvidenceState,
     IdentityState,
     NoiseEvidence,
-    PositionsReport,
-    ServoPosition,
     SilentEvidence,
-    VersionReport,
 )
 
 
@@ -126,7 +123,7 @@ def report_state(report: Report) -> BatteryReport | VersionReport | PositionsRep
             return VersionReport(unit=unit, version=version)
         case Positions(positions):
             return PositionsReport(
-                positions=[ServoPosition(servo=one.servo, position=one.position) for one in positions]
+                positions=tuple(ServoPosition(servo=one.servo, position=one.position) for one in positions)
             )
         case _:
             raise AssertionError(f"{report} answers no question.")

@@ -34,7 +34,8 @@ function farGateway(clock: Clock, delayMs: number, line: SimulatedTransport) {
   const later = (run: () => void): void => void clock.after(delayMs, run);
 
   function seen(entry: Traffic): void {
-    if (entry.direction === 'in') return later(() => events?.received(entry.bytes, true));
+    if (entry.direction === 'in')
+      return later(() => 'report' in entry && events?.heard?.(entry.report, entry.bytes));
     const { command } = entry;
     if (command?.kind === 'move')
       left.push({
@@ -42,7 +43,7 @@ function farGateway(clock: Clock, delayMs: number, line: SimulatedTransport) {
         targets: new Map(command.targets.map(({ servo, position }) => [servo, position])),
       });
     // Told when its last bit has left.
-    clock.after(wireMs(entry.bytes.length) + delayMs, () => events?.followed?.(entry.bytes));
+    clock.after(wireMs(entry.bytes.length) + delayMs, () => command && events?.left?.(command));
   }
 
   there.subscribe({

@@ -28,6 +28,7 @@ import {
   isHarmlessPacket,
   LATCHED_BY,
   motionBefore,
+  reportIn,
   portError,
 } from './gatewayValues.ts';
 import {
@@ -113,7 +114,7 @@ export function createGatewayTransport(url: string, clock: Clock, { mayDrive = t
         leaseChanged();
         break;
       case 'left':
-        for (const packet of message.packets) events?.followed?.(fromHex(packet));
+        for (const command of message.commands) events?.left?.(command);
         break;
       case 'job':
         slots.told(message.job);
@@ -128,10 +129,10 @@ export function createGatewayTransport(url: string, clock: Clock, { mayDrive = t
         turn.ticked(message.nonce);
         break;
       case 'received':
-        events?.received(fromHex(message.packet), true);
+        events?.heard?.(reportIn(message), fromHex(message.bytes));
         break;
       case 'noise':
-        events?.received(fromHex(message.bytes));
+        events?.noise?.(message.reason, fromHex(message.bytes));
         break;
       case 'done':
         take(message.id)?.resolve(message.outcome ?? 'sent');

@@ -3,8 +3,9 @@
 import type { MotionBefore } from '#shared/motion/before.ts';
 import { isHarmless, type Frame } from '#shared/codec/commands.ts';
 import { FAMILIES, type BoardId } from '#shared/codec/families.ts';
-import { toHex } from '#shared/codec/packet.ts';
+import { fromHex, toHex } from '#shared/codec/packet.ts';
 import { commandIn } from '#shared/codec/parse.ts';
+import type { Report } from '#shared/codec/reports.ts';
 import type { Battery } from '#shared/robot/battery.ts';
 import type { Identity, SharedBoard } from '#shared/robot/identity.ts';
 import { LinkError } from '#shared/robot/linkError.ts';
@@ -15,8 +16,12 @@ import type {
   FrameBody,
   MotionState,
   PortState,
+  ReceivedMessage,
   StateMessage,
 } from './messages.generated.ts';
+
+/** Behind two headers, LEN and CMD. */
+const PARAMS_AT = 4;
 
 export const LATCHED_BY: Readonly<Record<NonNullable<StateMessage['latchedBy']>, SharedLatchReason>> = {
   person: 'elsewhere',
@@ -71,4 +76,8 @@ export function portError(port: PortState | null): LinkError {
 /** The gateway's spelling of bytes: lower case, no spaces. */
 export function compactHex(bytes: Uint8Array): string {
   return toHex(bytes).replaceAll(' ', '').toLowerCase();
+}
+
+export function reportIn({ report, bytes }: ReceivedMessage): Report {
+  return report.kind === 'unknown' ? { ...report, params: fromHex(bytes).slice(PARAMS_AT) } : report;
 }

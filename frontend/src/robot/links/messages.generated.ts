@@ -720,17 +720,65 @@ export interface RefusedMessage {
   detail: string;
 }
 /**
- * One packet of the board.
+ * What the board said; `bytes` are its packet, for logs.
  */
 export interface ReceivedMessage {
   type: 'received';
-  packet: string;
+  report:
+    | RunStartedReport
+    | RunFinishedReport
+    | BatteryReport
+    | PositionsReport
+    | AllPositionsReport
+    | OffsetsReport
+    | VersionReport
+    | PlainReport
+    | UnreadableReport;
+  bytes: string;
+}
+export interface RunStartedReport {
+  kind: 'runStarted';
+  slot: number;
+  times: number;
 }
 /**
- * Bytes of the board that belong to no packet.
+ * `slot` where the board names it.
+ */
+export interface RunFinishedReport {
+  kind: 'runFinished';
+  slot: number | null;
+}
+export interface AllPositionsReport {
+  kind: 'allPositions';
+  positions: ServoPosition[];
+}
+export interface OffsetsReport {
+  kind: 'offsets';
+  offsets: ServoTrim[];
+}
+/**
+ * What a board adds to the positions of a servo, in its unit.
+ */
+export interface ServoTrim {
+  servo: number;
+  offset: number;
+}
+export interface PlainReport {
+  kind: 'runAccepted' | 'runStopped' | 'erased' | 'frameStored';
+}
+/**
+ * A packet that no such board is known to send.
+ */
+export interface UnreadableReport {
+  kind: 'unknown';
+  command: number;
+}
+/**
+ * Bytes of the board that belong to no packet, or to one that the silence cut short.
  */
 export interface NoiseMessage {
   type: 'noise';
+  reason: 'garbage' | 'truncated';
   bytes: string;
 }
 /**
@@ -801,7 +849,55 @@ export interface TickMessage {
  */
 export interface LeftMessage {
   type: 'left';
-  packets: string[];
+  commands: (MoveCommand | RunCommand | DownloadCommand | SetSpeedCommand | ServosCommand | PlainCommand)[];
+}
+export interface MoveCommand {
+  kind: 'move';
+  durationMs: number;
+  targets: ServoPosition[];
+}
+/**
+ * `times` 0 repeats until stopped.
+ */
+export interface RunCommand {
+  kind: 'run';
+  slot: number;
+  times: number;
+}
+/**
+ * Frame `frameIndex`, from 0, of `frameCount` for `slot`.
+ */
+export interface DownloadCommand {
+  kind: 'download';
+  slot: number;
+  frameCount: number;
+  frameIndex: number;
+  frame: StoredFrame;
+}
+/**
+ * Targets reached together after `durationMs`.
+ */
+export interface StoredFrame {
+  durationMs: number;
+  targets: ServoPosition[];
+}
+/**
+ * `slot` is null for every group.
+ */
+export interface SetSpeedCommand {
+  kind: 'setSpeed';
+  slot: number | null;
+  percent: number;
+}
+/**
+ * Takes the torque off these servos, or asks where they stand.
+ */
+export interface ServosCommand {
+  kind: 'release' | 'readPositions';
+  servos: number[];
+}
+export interface PlainCommand {
+  kind: 'stop' | 'erase' | 'readBattery' | 'readVersion' | 'readAllPositions' | 'readOffsets';
 }
 /**
  * A download began, came further or ended; the latest one, whoever began it.
@@ -829,4 +925,4 @@ export interface PlayedMessage {
   play: PlayState;
 }
 /** Of these messages. */
-export const PROTOCOL = 6;
+export const PROTOCOL = 7;
