@@ -131,12 +131,12 @@ module.exports = {
       { path: page, pathNot: `${page}(state|i18n)/` },
     ),
     forbid(
-      'document-storage-knows-no-page',
+      'document-stores-know-no-page',
       'Where documents are stored, nobody knows what they are for.',
-      { path: `${page}features/library/\\w+Keeper[.]ts$` },
+      { path: `${page}features/library/(browser|gateway|memory)Store[.]ts$` },
       {
         path: page,
-        pathNot: `${page}(features/library/(\\w+Keeper|library[.]generated)[.]ts$|robot/request[.]ts$)`,
+        pathNot: `${page}(features/library/((browser|gateway|memory)Store|library[.]generated)[.]ts$|robot/request[.]ts$)`,
       },
     ),
     forbid(

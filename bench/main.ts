@@ -15,7 +15,7 @@ import { measureDrag } from './drag.ts';
 import { toRecord, type Figure } from './figure.ts';
 import { measureFiles } from './files.ts';
 import { measureFrames } from './frames.ts';
-import { measureLanes } from './lanes.ts';
+import { measureTracks } from './tracks.ts';
 import { measureLibrary } from './library.ts';
 import { missed } from './limits.ts';
 import { measureNetwork } from './network.ts';
@@ -46,7 +46,7 @@ const GROUPS: Readonly<Record<string, () => Figure[] | Promise<Figure[]>>> = {
   bluetooth: measureBluetooth,
   crowd: measureCrowd,
   frames: measureFrames,
-  lanes: measureLanes,
+  tracks: measureTracks,
   files: measureFiles,
   library: measureLibrary,
   load: measurePageLoad,

@@ -129,15 +129,15 @@ test.describe('the contract', () => {
   test('a gateway keeps what a browser keeps, in the same way', async ({ newGateway, page }) => {
     const gateway = await newGateway();
     await page.addInitScript({
-      content: await bundle('frontend/src/features/library/gatewayKeeperUnderTest.ts', 'keepers'),
+      content: await bundle('frontend/src/features/library/gatewayStoreUnderTest.ts', 'stores'),
     });
     await page.goto(`${gateway.url}/docs`);
-    const outcomes = await page.evaluate(() => (window as unknown as CheckWindow).checkKeeper());
+    const outcomes = await page.evaluate(() => (window as unknown as CheckWindow).checkStore());
     expect(Object.keys(outcomes).length).toBeGreaterThan(5);
     expect(outcomes).toEqual(Object.fromEntries(Object.keys(outcomes).map((title) => [title, ''])));
   });
 });
 
 interface CheckWindow {
-  checkKeeper(): Promise<Record<string, string>>;
+  checkStore(): Promise<Record<string, string>>;
 }

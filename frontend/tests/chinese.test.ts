@@ -140,8 +140,8 @@ test('another language changes every word at once, loses nothing and is remember
   await expect(dashboard.link).toContainText('Ready');
   await dashboard.capture.click();
   await dashboard.button('Show the log').click();
-  const byHand = page.getByRole('textbox', { name: 'Packet in hex' });
-  await byHand.fill('55 55 02');
+  const typed = page.getByRole('textbox', { name: 'Packet in hex' });
+  await typed.fill('55 55 02');
 
   const language = page.getByRole('combobox', { name: 'Language' });
   await language.focus();

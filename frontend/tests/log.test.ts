@@ -67,7 +67,7 @@ test('the folded log says a stop before anything that follows it', async ({ dash
   expect(texts.slice(first).filter((text) => !text.includes('Stopped from here'))).toEqual([]);
 });
 
-function byHand({ button, field }: Dashboard, page: Page) {
+function typed({ button, field }: Dashboard, page: Page) {
   const form = page.getByRole('form', { name: 'Send by hand' });
   return {
     form,
@@ -79,7 +79,7 @@ function byHand({ button, field }: Dashboard, page: Page) {
 
 test('a packet by hand is explained, and goes only behind the switch', async ({ dashboard, robot, page }) => {
   await dashboard.button('Show the log').click();
-  const { form, packet, consent, send } = byHand(dashboard, page);
+  const { form, packet, consent, send } = typed(dashboard, page);
   await packet.fill('55 55 05 06 08 02');
   await expect(form).toContainText('1 byte missing');
   await expect(send).toBeDisabled();
@@ -101,7 +101,7 @@ test('a packet by hand is explained, and goes only behind the switch', async ({ 
 
 test('the battery is asked by hand, an erase is refused', async ({ dashboard, robot, page }) => {
   await dashboard.button('Show the log').click();
-  const { form, packet, consent, send } = byHand(dashboard, page);
+  const { form, packet, consent, send } = typed(dashboard, page);
   await consent.check();
   const questions = async (): Promise<number> =>
     (await robot.bus()).filter(({ command }) => command.kind === 'readBattery').length;

@@ -9,9 +9,9 @@ const plugInPad = here(pad.plugInPad);
 
 const PHONE = { width: 390, height: 844 };
 const TABLET = { width: 820, height: 1180 };
-const DESK = { width: 1440, height: 900 };
+const WIDE = { width: 1440, height: 900 };
 /** The one with tabs and the one without; the tablet's is between them. */
-const SIZES = isExhaustive ? [PHONE, TABLET, DESK] : [PHONE, DESK];
+const SIZES = isExhaustive ? [PHONE, TABLET, WIDE] : [PHONE, WIDE];
 
 /** Where each control below the top bar begins, a figure where it ends, by name and kind. */
 function placesOf(page: Page): Promise<Readonly<Record<string, string>>> {

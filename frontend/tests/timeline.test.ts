@@ -26,8 +26,8 @@ test('on a usual laptop its tools stand in one row, and six rows need no scroll 
   expect(Math.abs(first.y - last.y)).toBeLessThan(8);
   await page.setViewportSize({ width: 1000, height: 1000 });
   await expect(dashboard.frames).toHaveCount(3);
-  const hiddenPx = await grid.evaluate((lanes) => {
-    let area: Element | null = lanes;
+  const hiddenPx = await grid.evaluate((tracks) => {
+    let area: Element | null = tracks;
     while (area !== null && getComputedStyle(area).overflowY !== 'auto') area = area.parentElement;
     return area === null ? NaN : area.scrollHeight - area.clientHeight;
   });
@@ -325,11 +325,11 @@ test('the wheel zooms where the pointer is, and all of it fits again', async ({ 
   expect((await timeline.middleOf(timeline.key(name))).x).toBeCloseTo(before.x, -1);
 
   // Dragged past the end of the lanes it takes them along.
-  const lanes = await timeline.grid.boundingBox();
+  const tracks = await timeline.grid.boundingBox();
   await page.mouse.down();
-  await page.mouse.move(lanes.x + lanes.width - 2, before.y, { steps: 4 });
+  await page.mouse.move(tracks.x + tracks.width - 2, before.y, { steps: 4 });
   const seen = await timeline.minimap.getAttribute('aria-valuetext');
-  await page.mouse.move(lanes.x + lanes.width + 6, before.y);
+  await page.mouse.move(tracks.x + tracks.width + 6, before.y);
   await expect(timeline.minimap).not.toHaveAttribute('aria-valuetext', seen ?? '');
   await page.keyboard.press('Escape');
   await page.mouse.up();

@@ -4,7 +4,7 @@ import { ofKind } from '../../e2e/fixtures/bus.ts';
 import { READY } from '../../e2e/fixtures/dashboard.ts';
 import * as gallery from '../../e2e/fixtures/gallery.ts';
 import * as dialogs from '../../e2e/fixtures/robotDialog.ts';
-import type { Point } from './harness/hands.ts';
+import type { Point } from './harness/input.ts';
 import type { Locator } from './harness/locator.ts';
 import type { Page } from './harness/page.ts';
 import { test as base, dashboardOf, expect, here } from './harness/test.ts';

@@ -11,7 +11,7 @@ import { BoardPanel } from '../features/board/BoardPanel.tsx';
 import { ConnectDialog } from '../features/connect/ConnectDialog.tsx';
 import type { Page } from './page.ts';
 import { LogDrawer, LogPanel, Messages } from '../features/log/LogDrawer.tsx';
-import { FilesDesk } from '../features/library/files/FilesArea.tsx';
+import { FilesProvider } from '../features/library/files/FilesArea.tsx';
 import { LibraryDialog } from '../features/library/LibraryDialog.tsx';
 import { PeopleDialog } from '../features/people/PeopleDialog.tsx';
 import { TakeThat } from '../features/animate/play/TakeThat.tsx';
@@ -29,7 +29,7 @@ import type { IconName } from '../ui/Icon.tsx';
 import { fetchRest, laterComponent } from '../ui/later.tsx';
 import { TabList, tabPanel } from '../ui/TabList.tsx';
 import { useEachFrame } from '../ui/useEachFrame.ts';
-import { useFocusKept, useNoPasteByMouse } from '../ui/useFocusKept.ts';
+import { useFocusRestored, useNoPasteByMouse } from '../ui/useFocusRestored.ts';
 import { useLayout } from '../ui/useLayout.ts';
 import { useParts } from '../ui/useParts.ts';
 import { useSpokenLocale } from '../ui/useSpokenLocale.ts';
@@ -50,9 +50,9 @@ export function App({ page }: { readonly page: Page }) {
   useSpokenLocale();
   return (
     <StoresContext value={page.stores}>
-      <FilesDesk>
+      <FilesProvider>
         <Dashboard page={page} />
-      </FilesDesk>
+      </FilesProvider>
     </StoresContext>
   );
 }
@@ -67,7 +67,7 @@ function Dashboard({ page }: { readonly page: Page }) {
       <Unseen />
       {!isKiosk && <TopBar onMoveHere={moveHere} />}
       <StopButton />
-      {isKiosk ? <Kiosk onMoveHere={moveHere} /> : layout === 'phone' ? <PhoneWork /> : <DeskWork />}
+      {isKiosk ? <Kiosk onMoveHere={moveHere} /> : layout === 'phone' ? <PhoneWork /> : <WideWork />}
       <Said />
       <ConnectDialog connector={page.connector} />
       <RobotDialog />
@@ -86,7 +86,7 @@ function Unseen() {
   useTheme();
   useBatteryTab();
   useUndoKeys(useWritten());
-  useFocusKept();
+  useFocusRestored();
   useNoPasteByMouse();
   useParts();
   useEffect(() => void fetchRest(whenIdle), []);
@@ -124,7 +124,7 @@ function TakeThatKey() {
   return useView((state) => state.tab !== 'buttons') ? <TakeThat /> : null;
 }
 
-function DeskWork() {
+function WideWork() {
   const isButtons = useView((state) => state.tab === 'buttons');
   if (isButtons) {
     return (
@@ -138,7 +138,7 @@ function DeskWork() {
   }
   return (
     <>
-      <main className={styles.desk}>
+      <main className={styles.wide}>
         <div className={styles.live}>
           <LivePanel />
         </div>

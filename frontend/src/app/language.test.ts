@@ -2,7 +2,7 @@ import { afterEach, expect, test, vi } from 'vitest';
 import { createVirtualClock } from '#shared/testing/virtualClock.ts';
 import { undoLabel } from '#shared/document/history.ts';
 import { speak, words } from '../i18n/words.ts';
-import { createDesk } from '../features/deskUnderTest.ts';
+import { createTestPage } from '../features/pageUnderTest.ts';
 import { followLanguage } from './language.ts';
 import { createNotices } from '../state/notices.ts';
 import { createView } from '../features/view.ts';
@@ -46,7 +46,7 @@ test('left to the system again, it is the language of the browser again', async 
 
 test('robots are named in the language they are made in, and steps told in the one they are read in', async () => {
   await visit(['zh']);
-  const { robots } = await createDesk();
+  const { robots } = await createTestPage();
   const { robot } = robots.current();
   expect([robot.name, robot.servos[0]?.name]).toEqual(['机械臂', '夹爪']);
   robots.duplicate();

@@ -3,15 +3,15 @@
 import { expect, test } from 'vitest';
 import { watchLeaving } from './leaving.ts';
 
-function openPage(): { page: Window; told: string[]; show(state: DocumentVisibilityState): void } {
+function openPage(): { page: Window; events: string[]; show(state: DocumentVisibilityState): void } {
   const document = Object.assign(new EventTarget(), {
     visibilityState: 'visible',
   });
   const page = Object.assign(new EventTarget(), { document }) as unknown as Window;
-  const told: string[] = [];
-  watchLeaving(page, { hidden: () => told.push('hidden'), left: () => told.push('left') });
+  const events: string[] = [];
+  watchLeaving(page, { hidden: () => events.push('hidden'), left: () => events.push('left') });
   return {
-    ...{ page, told },
+    ...{ page, events },
     show(state) {
       document.visibilityState = state;
       document.dispatchEvent(new Event('visibilitychange'));
@@ -20,15 +20,15 @@ function openPage(): { page: Window; told: string[]; show(state: DocumentVisibil
 }
 
 test('a page that is hidden is told so, one that is shown again is not', () => {
-  const { told, show } = openPage();
+  const { events, show } = openPage();
   show('hidden');
   show('visible');
-  expect(told).toEqual(['hidden']);
+  expect(events).toEqual(['hidden']);
 });
 
 test('a page that is closed or frozen has been left', () => {
-  const { page, told } = openPage();
+  const { page, events } = openPage();
   page.dispatchEvent(new Event('pagehide'));
   page.document.dispatchEvent(new Event('freeze'));
-  expect(told).toEqual(['left', 'left']);
+  expect(events).toEqual(['left', 'left']);
 });

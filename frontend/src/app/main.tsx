@@ -23,13 +23,13 @@ async function start(): Promise<void> {
   const { me, entered } = arrival;
   const role = me === null ? 'owner' : me.you?.role;
   const suggested = deviceName(navigator.userAgent);
-  const isOutside = role === undefined || role === 'stopper';
-  if (isOutside || entered !== null) await speak(preferredLanguage(navigator.languages));
+  const isEntryPage = role === undefined || role === 'stopper';
+  if (isEntryPage || entered !== null) await speak(preferredLanguage(navigator.languages));
 
-  if (isOutside) {
-    const { Outside } = await import('../features/people/Outside.tsx');
+  if (isEntryPage) {
+    const { EntryPage } = await import('../features/people/EntryPage.tsx');
     show(
-      <Outside
+      <EntryPage
         mayStop={role === 'stopper'}
         overheard={me?.overheard ?? false}
         suggested={suggested}
@@ -49,7 +49,7 @@ async function start(): Promise<void> {
       await workOffline({ notices: page.stores.notices, device: page.stores.device });
     }
   } else {
-    const { Guest } = await import('../features/people/Outside.tsx');
+    const { Guest } = await import('../features/people/EntryPage.tsx');
     show(
       <Guest
         suggested={entered.name}

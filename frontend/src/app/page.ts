@@ -2,7 +2,7 @@
 
 import type { Clock } from '#shared/clock.ts';
 import { FAMILIES } from '#shared/codec/families.ts';
-import { createAside } from '../features/animate/group/aside.ts';
+import { createCompileWorker } from '../features/animate/group/compileInWorker.ts';
 import { createBattery } from '../features/battery/battery.ts';
 import { applyBatteryPolicy } from '../features/battery/batteryPolicy.ts';
 import { pollBattery } from '../features/battery/batteryPoll.ts';
@@ -19,7 +19,7 @@ import { createLibrary } from '../features/library/library.ts';
 import { createLastPoses } from '../robot/lastPoses.ts';
 import { createMacroRun, createMacros } from '../features/buttons/macroRun.ts';
 import { createMappings } from '../features/inputs/mappings.ts';
-import { tellHandedOver } from '../features/people/turn.ts';
+import { tellHandedOver } from '../features/people/leaseText.ts';
 import { lookAfresh, bringSelectionBack } from '../features/animate/timeline/selectionBack.ts';
 import { createGroupPlace } from '../features/board/slots/groupPlace.ts';
 import { createMotionTape } from '../features/animate/play/motionTape.ts';
@@ -30,7 +30,7 @@ import type { Me } from '../robot/people.generated.ts';
 import { createPlayback, createPlayhead } from '../features/animate/play/playback.ts';
 import { createPoses } from '../features/poses/poses.ts';
 import { createTeaching } from '../features/drive/teaching.ts';
-import { createRobotKeeping } from '../features/profiles/robotKeeping.ts';
+import { createRobotSync } from '../features/profiles/robotSync.ts';
 import { followRobot } from '../features/profiles/robotOfLink.ts';
 import { createRobots } from '../features/profiles/robots.ts';
 import { findOthersGroups } from '../features/board/slots/othersGroups.ts';
@@ -73,23 +73,23 @@ export async function openPage({ me, problem }: Arrival): Promise<Page> {
   const macros = createMacros(storage, notices, robots);
   const macroRun = createMacroRun({ device, poses, robots, notices, clock: pageClock });
   const written = createDocument(storage, notices, pageClock);
-  const keeper = chooseKeeper(me);
+  const documentStore = chooseStore(me);
   const library = createLibrary({
     ...{ document: written, storage, notices, robots, view, clock: pageClock },
-    ...{ keeper, epochMs: Date.now, newId },
+    ...{ documentStore, epochMs: Date.now, newId },
   });
   const mayWrite = me?.you?.role !== 'viewer';
-  const keeping = createRobotKeeping({
+  const robotSync = createRobotSync({
     ...{ robots, poses: poses.book, buttons: macros, pad: mappings, storage, notices, clock: pageClock },
-    ...{ keeper: mayWrite ? keeper : gatewaysKeeper(), mayWrite, epochMs: Date.now, newId },
+    ...{ documentStore: mayWrite ? documentStore : loadGatewayStore(), mayWrite, epochMs: Date.now, newId },
   });
-  const noteRobot = followRobot({ robots, keeping, notices, mayWrite, putOnBoard });
+  const noteRobot = followRobot({ robots, robotSync, notices, mayWrite, putOnBoard });
   device.store.subscribe(({ snapshot }, before) => {
     if (snapshot !== before.snapshot) noteRobot(snapshot);
   });
   const compiled = createCompiled({
     ...{ document: written, device, robots, clock: pageClock },
-    aside: createAside(),
+    compileElsewhere: createCompileWorker(),
   });
   const slots = createSlots({ device, robots, notices, storage, today: Date.now });
   const place = createGroupPlace({ document: written, opened: library.store, view, slots, device });
@@ -102,7 +102,7 @@ export async function openPage({ me, problem }: Arrival): Promise<Page> {
   });
   const stores = {
     ...{ device, notices, boards, robots, battery, mappings, pad, poses, macroRun, library, view },
-    ...{ compiled, slots, place, replacing, playhead, playback, keeping },
+    ...{ compiled, slots, place, replacing, playhead, playback, robotSync },
     blend: createBlend({ device, robots, view }),
     teaching: createTeaching({ device, robots, notices }),
     people: createPeople({ api: peopleApi, me, notices, now: pageClock.now }),
@@ -145,30 +145,30 @@ export async function openPage({ me, problem }: Arrival): Promise<Page> {
   tellHandedOver(device.store, notices);
   lookAfresh({ library, view, timeline });
   bringSelectionBack({ document: written, timeline, view });
-  findOthersGroups({ device, robots, slots, compiled, library, keeper });
+  findOthersGroups({ device, robots, slots, compiled, library, documentStore });
   stores.view.subscribe(({ tab, kiosk }) => {
     if (tab === 'buttons' || kiosk === 'on') pad.drive(null);
   });
   pollBattery(device, isWatched);
   window.addEventListener('focus', () => {
     void library.refresh();
-    keeping.refresh();
+    robotSync.refresh();
   });
   return { stores, connector };
 }
 
 /** The gateway's, where there is one to write to: what a viewer tries out stays in the viewer's browser. */
-async function chooseKeeper(me: Me | null): Promise<DocumentStore> {
+async function chooseStore(me: Me | null): Promise<DocumentStore> {
   const isViewer = me?.you?.role === 'viewer';
-  const isKept = !isViewer && (me !== null || (await hasGateway(pageClock)));
-  if (isKept) return gatewaysKeeper();
-  const { createBrowserKeeper } = await import('../features/library/browserKeeper.ts');
-  return createBrowserKeeper('servodeck', Date.now);
+  const isSaved = !isViewer && (me !== null || (await hasGateway(pageClock)));
+  if (isSaved) return loadGatewayStore();
+  const { createBrowserStore } = await import('../features/library/browserStore.ts');
+  return createBrowserStore('servodeck', Date.now);
 }
 
 /** Which of them is wanted is known only later: neither is in the first load. */
-const gatewaysKeeper = async (): Promise<DocumentStore> =>
-  (await import('../features/library/gatewayKeeper.ts')).gatewayKeeper;
+const loadGatewayStore = async (): Promise<DocumentStore> =>
+  (await import('../features/library/gatewayStore.ts')).gatewayStore;
 
 /** Not `randomUUID`, which is there only at secure addresses. */
 function newId(): string {

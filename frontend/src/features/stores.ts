@@ -20,7 +20,7 @@ import type { Mapping } from '#shared/profile/mapping.ts';
 import type { Device, DeviceState } from '../robot/device.ts';
 import type { Document, DocumentState } from './animate/group/document.ts';
 import { currentOf, type RobotStore } from './profiles/robots.ts';
-import type { RobotKeeping } from './profiles/robotKeeping.ts';
+import type { RobotSync } from './profiles/robotSync.ts';
 import { guessesOf, guessOf, type LastPoses, type Positions } from '../robot/lastPoses.ts';
 import type { Notices } from '../state/notices.ts';
 import { servoViewFor, type ServoView } from './drive/servoView.ts';
@@ -48,7 +48,7 @@ export interface Stores {
   readonly boards: Boards;
   readonly lastPoses: LastPoses;
   readonly robots: RobotStore;
-  readonly keeping: RobotKeeping;
+  readonly robotSync: RobotSync;
   readonly battery: BatteryStore;
   readonly mappings: Undoable<Mapping>;
   readonly pad: Pad;

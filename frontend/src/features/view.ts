@@ -58,7 +58,7 @@ export interface ViewState {
   /** The next run may go on without this page; chosen anew for each. */
   readonly goesOn: boolean;
   /** At most. */
-  readonly goOnMinutes: number;
+  readonly keepRunningMinutes: number;
 }
 
 export type View = StoreApi<ViewState>;
@@ -118,7 +118,7 @@ export const INITIAL_VIEW: ViewState = {
   times: 1,
   untilStopped: false,
   goesOn: false,
-  goOnMinutes: 10,
+  keepRunningMinutes: 10,
 };
 
 export function createView(memories: Memories): View {

@@ -113,9 +113,9 @@ export interface Messages {
     readonly unreadable: string;
     readonly otherVersion: (values: { readonly name: string }) => string;
     readonly conflict: (values: { readonly name: string; readonly copy: string }) => string;
-    readonly handedIn: (values: { readonly names: string }) => string;
+    readonly addedToLibrary: (values: { readonly names: string }) => string;
     readonly onlyLooking: string;
-    readonly othersHands: (values: { readonly driver: string }) => string;
+    readonly onlyTheDriver: (values: { readonly driver: string }) => string;
     readonly copyOf: (values: { readonly name: string }) => string;
     readonly numbered: (values: { readonly name: string; readonly number: number }) => string;
     readonly steps: {
@@ -135,7 +135,7 @@ export interface Messages {
     };
     readonly everyones: string;
     readonly count: (values: { readonly servos: number }) => string;
-    readonly atHand: string;
+    readonly inUse: string;
     readonly use: (values: { readonly name: string }) => string;
     readonly useVerb: string;
     readonly otherBoard: (values: { readonly board: string }) => string;
@@ -166,7 +166,7 @@ export interface Messages {
     readonly back: string;
     readonly flaw: (values: { readonly flaw: string }) => string;
     readonly tooLarge: string;
-    readonly notKept: (values: { readonly problem: string }) => string;
+    readonly notInLibrary: (values: { readonly problem: string }) => string;
     readonly called: (values: { readonly name: string; readonly group: string }) => string;
     readonly readyNames: {
       readonly arm: string;
@@ -245,7 +245,7 @@ export interface Messages {
     readonly places: string;
     readonly arrange: string;
     readonly placeStep: (values: { readonly servo: number }) => string;
-    readonly atHandHint: string;
+    readonly pressHint: string;
     readonly selection: string;
     readonly selectAll: string;
     readonly selectGroup: (values: { readonly group: string }) => string;
@@ -622,8 +622,8 @@ export interface Messages {
     readonly allow: string;
     readonly refuse: string;
     readonly release: string;
-    readonly mayGoOn: (values: { readonly slot: number }) => string;
-    readonly playingMayGoOn: string;
+    readonly mayKeepRunning: (values: { readonly slot: number }) => string;
+    readonly playingMayContinue: string;
     readonly goesOnFor: (values: { readonly ms: number }) => string;
     readonly goesOnLabel: string;
     readonly keep: string;
@@ -682,7 +682,7 @@ export interface Messages {
     readonly captured: (values: { readonly name: string }) => string;
     readonly captureHint: string;
     readonly newName: (values: { readonly number: number }) => string;
-    readonly strangers: (values: { readonly servos: string }) => string;
+    readonly unknownServos: (values: { readonly servos: string }) => string;
     readonly steps: {
       readonly capture: (values: { readonly name: string }) => string;
       readonly update: (values: { readonly name: string }) => string;
@@ -858,7 +858,7 @@ export interface Messages {
       readonly acknowledged: string;
       readonly unknown: string;
     };
-    readonly told: (values: { readonly activity: string; readonly truth: string }) => string;
+    readonly summary: (values: { readonly activity: string; readonly truth: string }) => string;
     readonly playing: (values: { readonly frame: number; readonly count: number }) => string;
     readonly downloading: (values: { readonly slot: number }) => string;
     readonly erasing: string;
@@ -1070,11 +1070,11 @@ export interface Messages {
     readonly untilStopped: string;
     readonly untilStoppedHint: string;
     readonly untilStoppedAbsent: string;
-    readonly goOn: string;
-    readonly goOnHint: string;
-    readonly goOnAtMost: string;
-    readonly goOnUnit: string;
-    readonly goOnMinutes: string;
+    readonly keepRunning: string;
+    readonly keepRunningHint: string;
+    readonly keepRunningAtMost: string;
+    readonly keepRunningUnit: string;
+    readonly keepRunningMinutes: string;
     readonly erase: string;
     readonly eraseTitle: string;
     readonly eraseText: (values: { readonly slots: number }) => string;
@@ -1193,7 +1193,7 @@ export interface Messages {
     readonly otherVersion: (values: { readonly name: string }) => string;
     readonly versionRenamed: (values: { readonly name: string; readonly wanted: string }) => string;
     readonly versionRemoved: (values: { readonly name: string }) => string;
-    readonly versionKept: (values: { readonly name: string }) => string;
+    readonly versionSaved: (values: { readonly name: string }) => string;
     readonly removed: (values: { readonly name: string }) => string;
     readonly recovered: (values: { readonly names: string }) => string;
     readonly conflict: (values: { readonly name: string; readonly copy: string }) => string;
@@ -1378,7 +1378,7 @@ export interface Messages {
     readonly fold: string;
     readonly entries: string;
     readonly pause: string;
-    readonly goOn: string;
+    readonly continue: string;
     readonly paused: (values: { readonly count: number }) => string;
     readonly clear: string;
     readonly save: string;
@@ -1686,7 +1686,7 @@ export interface Messages {
     readonly trimNone: string;
     readonly trimFar: (values: { readonly home: number; readonly reach: number; readonly centre: number }) => string;
     readonly trimSet: (values: { readonly centre: number }) => string;
-    readonly goOn: string;
+    readonly continue: string;
     readonly finished: string;
     readonly done: string;
     readonly stopped: string;
@@ -1946,7 +1946,7 @@ export interface Messages {
       readonly armed: string;
     };
     readonly changes: string;
-    readonly asks: {
+    readonly questions: {
       readonly value: string;
       readonly scaleTime: string;
       readonly scaleTimeBack: string;

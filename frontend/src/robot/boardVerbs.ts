@@ -9,7 +9,7 @@ import type { HaltReason, SlotGroup } from '#shared/robot/transport.ts';
 import { downloadedSentence, downloadCancelled } from '../i18n/sentences.ts';
 import { words } from '../i18n/words.ts';
 import type { Notices } from '../state/notices.ts';
-import type { LateNews } from './lateNews.ts';
+import type { LateNotices } from './lateNotices.ts';
 import type { LimitGate } from './limitGate.ts';
 
 export interface BoardVerbs {
@@ -51,7 +51,7 @@ export interface BoardVerbsOptions {
   session(): Session | null;
   readonly gate: LimitGate;
   readonly notices: Notices;
-  readonly lateNews: LateNews;
+  readonly lateNotices: LateNotices;
   tellError(error: unknown): void;
 }
 
@@ -59,7 +59,7 @@ export function createBoardVerbs({
   session: now,
   gate,
   notices,
-  lateNews,
+  lateNotices,
   tellError,
 }: BoardVerbsOptions): BoardVerbs {
   let mayBegin: RunGuard = () => true;
@@ -69,7 +69,7 @@ export function createBoardVerbs({
     if (session === null) return settled(false);
     work(session).then(
       (isDone) => {
-        lateNews.asked();
+        lateNotices.asked();
         settled(isDone !== false);
       },
       (error: unknown) => {

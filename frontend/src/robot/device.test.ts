@@ -16,7 +16,7 @@ const FRAMES = [900, 1500, 2100].map((position) => ({
 }));
 
 /** `listening` gets what the device hears of its session with. */
-async function createDesk(listening: (events: SessionEvents) => unknown = () => undefined) {
+async function createTestPage(listening: (events: SessionEvents) => unknown = () => undefined) {
   const rig = await createRig();
   const session = new Proxy(rig.session, {
     get: (target, key) => {
@@ -33,7 +33,7 @@ async function createDesk(listening: (events: SessionEvents) => unknown = () => 
   device.attach(session, { kind: 'simulated', label: 'Simulated board', isSimulated: true });
   const state = () => device.store.getState();
   const targets = () => Object.fromEntries(device.pose().map(({ servo, position }) => [servo, position]));
-  const told = () => notices.store.getState().map((notice) => notice.text);
+  const noticeTexts = () => notices.store.getState().map((notice) => notice.text);
   /** Time passes with the page being drawn, as it is in a browser. */
   async function draw(ms: number) {
     for (let passed = 0; passed < ms; passed += 20) {
@@ -41,7 +41,7 @@ async function createDesk(listening: (events: SessionEvents) => unknown = () => 
       device.refresh();
     }
   }
-  return { ...rig, robots, device, state, targets, told, draw };
+  return { ...rig, robots, device, state, targets, noticeTexts, draw };
 }
 
 describe('what playing could not keep', () => {
@@ -51,18 +51,18 @@ describe('what playing could not keep', () => {
   }));
 
   test('frames that began late are told, with how late, and that none was left out', async () => {
-    const { device, asleep, draw, told } = await createDesk();
+    const { device, asleep, draw, noticeTexts } = await createTestPage();
     device.play(MANY, 1, () => undefined);
     await draw(1900);
     await asleep(300);
     await draw(6000);
-    expect(told()).toEqual([
+    expect(noticeTexts()).toEqual([
       expect.stringMatching(/^This page was busy while it played: .* began late, by up to 2\d\d ms\. None/),
     ]);
   });
 
   test('a frame that was left out is told instead', async () => {
-    const { device, transport, asleep, draw, told } = await createDesk();
+    const { device, transport, asleep, draw, noticeTexts } = await createTestPage();
     const { send } = transport;
     let sent = 0;
     transport.send = (packet) =>
@@ -71,42 +71,42 @@ describe('what playing could not keep', () => {
     await draw(1900);
     await asleep(300);
     await draw(6000);
-    expect(told()).toContain(words.play.skipped({ frames: 1 }));
-    expect(told()).not.toContainEqual(expect.stringContaining('None was left out'));
+    expect(noticeTexts()).toContain(words.play.skipped({ frames: 1 }));
+    expect(noticeTexts()).not.toContainEqual(expect.stringContaining('None was left out'));
   });
 
   test('nothing is told of what went well', async () => {
-    const { device, draw, told } = await createDesk();
+    const { device, draw, noticeTexts } = await createTestPage();
     device.play(MANY, 1, () => undefined);
     await draw(6000);
-    expect(told()).toEqual([]);
+    expect(noticeTexts()).toEqual([]);
   });
 });
 
 describe('what came too late', () => {
   const late = errorSentence('expired');
 
-  async function lateDesk() {
+  async function latePage() {
     let events: SessionEvents | undefined;
-    const desk = await createDesk((heard) => (events = heard));
+    const page = await createTestPage((heard) => (events = heard));
     const refuse = (code: LinkErrorCode): void => events?.problem(new LinkError(code, ''));
-    return { ...desk, refuse, again: () => desk.device.move([{ servo: 1, position: 1600 }], 500) };
+    return { ...page, refuse, again: () => page.device.move([{ servo: 1, position: 1600 }], 500) };
   }
 
   test('is told until it was asked for again and went well for a while', async () => {
-    const { refuse, again, told, draw } = await lateDesk();
+    const { refuse, again, noticeTexts, draw } = await latePage();
     refuse('expired');
     await draw(20_000);
-    expect(told()).toEqual([late]);
+    expect(noticeTexts()).toEqual([late]);
     again();
     await draw(2900);
-    expect(told()).toEqual([late]);
+    expect(noticeTexts()).toEqual([late]);
     await draw(200);
-    expect(told()).toEqual([]);
+    expect(noticeTexts()).toEqual([]);
   });
 
   test('stays where it happens again meanwhile', async () => {
-    const { refuse, again, told, draw } = await lateDesk();
+    const { refuse, again, noticeTexts, draw } = await latePage();
     for (let time = 0; time < 5; time += 1) {
       refuse('expired');
       again();
@@ -114,24 +114,24 @@ describe('what came too late', () => {
     }
     refuse('overslept');
     await draw(5000);
-    expect(told()).toEqual([late, errorSentence('overslept')]);
+    expect(noticeTexts()).toEqual([late, errorSentence('overslept')]);
     again();
     await draw(3100);
-    expect(told()).toEqual([]);
+    expect(noticeTexts()).toEqual([]);
   });
 
   test('takes no other message away', async () => {
-    const { refuse, again, told, draw } = await lateDesk();
+    const { refuse, again, noticeTexts, draw } = await latePage();
     refuse('noAnswer');
     again();
     await draw(5000);
-    expect(told()).toEqual([errorSentence('noAnswer')]);
+    expect(noticeTexts()).toEqual([errorSentence('noAnswer')]);
   });
 });
 
 describe('a device with a session', () => {
   test('shows what was asked for at once and never the value before it again', async () => {
-    const { device, clock, targets } = await createDesk();
+    const { device, clock, targets } = await createTestPage();
     device.move([{ servo: 3, position: 1700 }], 500);
     expect(targets()[3]).toBe(1700);
     for (let step = 0; step < 40; step++) {
@@ -142,7 +142,7 @@ describe('a device with a session', () => {
   });
 
   test('sends a drag at once, and the store has what comes of it with the next frame', async () => {
-    const { device, state, targets, clock, transport } = await createDesk();
+    const { device, state, targets, clock, transport } = await createTestPage();
     device.drag([{ servo: 3, position: 1700 }], 500);
     expect(targets()).toEqual({ 3: 1700 });
     expect(state().known).toEqual([]);
@@ -153,7 +153,7 @@ describe('a device with a session', () => {
   });
 
   test('moves from the first packet until the servo is there, and a stream of drags is one motion', async () => {
-    const { device, state, draw } = await createDesk();
+    const { device, state, draw } = await createTestPage();
     device.move([{ servo: 3, position: 1700 }], 500);
     await draw(2000);
     device.move([{ servo: 3, position: 1600 }], 500);
@@ -171,7 +171,7 @@ describe('a device with a session', () => {
   });
 
   test('counts the servos whose newest target has not left yet', async () => {
-    const { device, draw } = await createDesk();
+    const { device, draw } = await createTestPage();
     device.move(
       [1, 2].map((servo) => ({ servo, position: 1600 })),
       300,
@@ -184,7 +184,7 @@ describe('a device with a session', () => {
   });
 
   test('shows what was asked of a servo for as long as it waits for its first move', async () => {
-    const { device, state, draw, targets } = await createDesk();
+    const { device, state, draw, targets } = await createTestPage();
     device.move(
       [1, 2, 3, 4, 5, 6].map((servo) => ({ servo, position: 1600 })),
       300,
@@ -197,13 +197,13 @@ describe('a device with a session', () => {
   });
 
   test('knows nothing of a servo that nobody moved', async () => {
-    const { device, targets } = await createDesk();
+    const { device, targets } = await createTestPage();
     expect(targets()).toEqual({});
     expect(device.motion(1)).toEqual({ target: null, estimated: null });
   });
 
   test('wakes nobody who listens while a drag goes on', async () => {
-    const { device, draw } = await createDesk();
+    const { device, draw } = await createTestPage();
     const woken = vi.fn();
     async function dragTo(from: number, to: number) {
       for (let position = from; position < to; position += 10) {
@@ -220,7 +220,7 @@ describe('a device with a session', () => {
   });
 
   test('drops what was only wished for when STOP comes first', async () => {
-    const { device, state, draw, targets } = await createDesk();
+    const { device, state, draw, targets } = await createTestPage();
     device.move([{ servo: 1, position: 1600 }], 300);
     await draw(2500);
     device.move([{ servo: 1, position: 2400 }], 3000);
@@ -231,11 +231,11 @@ describe('a device with a session', () => {
   });
 
   test('refuses to move while stopped and says so; Resume moves nothing', async () => {
-    const { device, state, told, draw, ofKind } = await createDesk();
+    const { device, state, noticeTexts, draw, ofKind } = await createTestPage();
     device.halt();
     await draw(400);
     device.move([{ servo: 1, position: 2400 }], 300);
-    expect(told()).toEqual([errorSentence('latched')]);
+    expect(noticeTexts()).toEqual([errorSentence('latched')]);
     const movesBefore = ofKind('move').length;
     device.resume();
     await draw(400);
@@ -244,20 +244,20 @@ describe('a device with a session', () => {
   });
 
   test('tells the name and the range of a servo that shall not go there, and keeps the target', async () => {
-    const { device, told, targets } = await createDesk();
+    const { device, noticeTexts, targets } = await createTestPage();
     device.move([{ servo: 1, position: 2600 }], 300);
-    expect(told()[0]).toContain('Gripper: 2600 is out of range');
+    expect(noticeTexts()[0]).toContain('Gripper: 2600 is out of range');
     expect(targets()).toEqual({});
   });
 
   test('of a hand that goes on beyond a limit the latest word stands, until the servo goes elsewhere', async () => {
-    const { device, told } = await createDesk();
+    const { device, noticeTexts } = await createTestPage();
     for (const position of [2600, 2610, 2620]) device.move([{ servo: 1, position }], 'hand');
-    expect(told()).toEqual([expect.stringContaining('Gripper: 2620 is out of range')]);
+    expect(noticeTexts()).toEqual([expect.stringContaining('Gripper: 2620 is out of range')]);
     device.move([{ servo: 2, position: 1500 }], 300);
-    expect(told()).toHaveLength(1);
+    expect(noticeTexts()).toHaveLength(1);
     device.move([{ servo: 1, position: 1500 }], 300);
-    expect(told()).toEqual([]);
+    expect(noticeTexts()).toEqual([]);
   });
 
   describe('with a robot of its own limits and trim', () => {
@@ -268,14 +268,14 @@ describe('a device with a session', () => {
       ),
     });
 
-    async function createElbowDesk() {
-      const desk = await createDesk();
-      desk.robots.edit(() => 'limits', elbow);
-      return desk;
+    async function createElbowPage() {
+      const page = await createTestPage();
+      page.robots.edit(() => 'limits', elbow);
+      return page;
     }
 
     test('the board gets the trim on top; the page goes on in what was meant', async () => {
-      const { device, draw, ofKind, targets } = await createElbowDesk();
+      const { device, draw, ofKind, targets } = await createElbowPage();
       device.move([{ servo: 4, position: 1000 }], 0);
       await draw(2000);
       expect(ofKind('move')[0]?.targets).toEqual([{ servo: 4, position: 1040 }]);
@@ -284,7 +284,7 @@ describe('a device with a session', () => {
     });
 
     test('only the servo that is calibrated creeps past its limits, as far as the board goes', async () => {
-      const { device, told, draw, ofKind, targets } = await createElbowDesk();
+      const { device, noticeTexts, draw, ofKind, targets } = await createElbowPage();
       device.creep(2400, 100);
       device.calibrate(4);
       device.creep(2400, 100);
@@ -296,36 +296,36 @@ describe('a device with a session', () => {
       await draw(2000);
       expect(ofKind('move').map(({ targets }) => targets)).toEqual([[{ servo: 4, position: 2440 }]]);
       expect(targets()).toEqual({ 4: 2400 });
-      expect(told()).toEqual([
+      expect(noticeTexts()).toEqual([
         expect.stringContaining('Elbow: 2400 is out of range'),
         expect.stringContaining('2520'),
       ]);
     });
 
     test('a group with one pose outside is neither played nor downloaded', async () => {
-      const { device, told, draw, heard } = await createElbowDesk();
+      const { device, noticeTexts, draw, heard } = await createElbowPage();
       const frames = [900, 2400].map((position) => ({ durationMs: 300, targets: [{ servo: 4, position }] }));
       device.play(frames, 1, () => undefined);
       device.download([{ slot: 3, frames }]);
       await draw(2000);
-      expect(told()[0]).toContain('Elbow: 2400 is out of range; it takes 700');
+      expect(noticeTexts()[0]).toContain('Elbow: 2400 is out of range; it takes 700');
       expect(heard).toEqual([]);
     });
   });
 
   test('stores a group and tells when it is done', async () => {
-    const { device, state, told, draw, transport } = await createDesk();
+    const { device, state, noticeTexts, draw, transport } = await createTestPage();
     device.download([{ slot: 5, frames: FRAMES }]);
     await draw(60);
     expect(state().snapshot.activity).toMatchObject({ kind: 'downloading', slot: 5, frameCount: 3 });
     await draw(4000);
     expect(state().snapshot.storedSlots).toEqual([5]);
     expect(transport.board.frameCount(5)).toBe(3);
-    expect(told()).toEqual([downloadedSentence([5])]);
+    expect(noticeTexts()).toEqual([downloadedSentence([5])]);
   });
 
   test('says whether a download came to its end', async () => {
-    const { device, draw } = await createDesk();
+    const { device, draw } = await createTestPage();
     const heard: boolean[] = [];
     device.download([{ slot: 5, frames: FRAMES }], (isDone) => void heard.push(isDone));
     await draw(4000);
@@ -337,17 +337,17 @@ describe('a device with a session', () => {
   });
 
   test('a cancelled download leaves a broken slot and says so', async () => {
-    const { device, state, told, draw } = await createDesk();
+    const { device, state, noticeTexts, draw } = await createTestPage();
     device.download([{ slot: 5, frames: Array.from({ length: 60 }, () => FRAMES[0]!) }]);
     await draw(400);
     device.cancelDownload();
     await draw(4000);
     expect(state().snapshot.brokenSlots).toEqual([5]);
-    expect(told()).toEqual([downloadCancelled(5)]);
+    expect(noticeTexts()).toEqual([downloadCancelled(5)]);
   });
 
   test('playing to the end is told, pausing is not', async () => {
-    const { device, state, draw, targets } = await createDesk();
+    const { device, state, draw, targets } = await createTestPage();
     let finished = 0;
     device.play(FRAMES, 1, (isDone) => (finished += Number(isDone)));
     await draw(1600);
@@ -362,7 +362,7 @@ describe('a device with a session', () => {
   });
 
   test('playing that STOP ended was not played to the end', async () => {
-    const { device, draw } = await createDesk();
+    const { device, draw } = await createTestPage();
     const heard: boolean[] = [];
     device.play(FRAMES, 0, (isDone) => void heard.push(isDone));
     await draw(6000);
@@ -373,7 +373,7 @@ describe('a device with a session', () => {
   });
 
   test('a lost link keeps no position and comes back latched', async () => {
-    const { device, state, draw, transport, targets } = await createDesk();
+    const { device, state, draw, transport, targets } = await createTestPage();
     device.move([{ servo: 1, position: 1600 }], 300);
     await draw(2500);
     transport.unplug();
@@ -388,16 +388,16 @@ describe('a device with a session', () => {
 
   test('that the robot may move again is not said any more once it is stopped again', async () => {
     let resumed: SessionEvents['resumed'] = () => undefined;
-    const { device, told, draw } = await createDesk((events) => (resumed = events.resumed));
+    const { device, noticeTexts, draw } = await createTestPage((events) => (resumed = events.resumed));
     resumed('Anna');
-    expect(told()).toEqual([words.stop.resumed({ name: 'Anna' })]);
+    expect(noticeTexts()).toEqual([words.stop.resumed({ name: 'Anna' })]);
     device.halt();
     await draw(400);
-    expect(told()).toEqual([]);
+    expect(noticeTexts()).toEqual([]);
   });
 
   test('logs each packet and what becomes of the link, once and in order', async () => {
-    const { device, draw, transport } = await createDesk();
+    const { device, draw, transport } = await createTestPage();
     device.move([{ servo: 1, position: 1700 }], 0);
     await draw(200);
     device.halt();
@@ -416,7 +416,7 @@ describe('a device with a session', () => {
   });
 
   test('logs that the link is ready before what is sent because of it', async () => {
-    const { device, draw, session } = await createDesk();
+    const { device, draw, session } = await createTestPage();
     await device.detach();
     device.traffic.clear();
     device.store.subscribe(({ snapshot }, before) => {
@@ -433,16 +433,16 @@ describe('a device with a session', () => {
   });
 
   test('sends a packet by hand, or tells why not', async () => {
-    const { device, draw, ofKind, told } = await createDesk();
+    const { device, draw, ofKind, noticeTexts } = await createTestPage();
     device.sendRaw(Uint8Array.of(0x55, 0x55, 2, 15));
     device.sendRaw(Uint8Array.of(0x55, 0x55, 2, 6));
     await draw(500);
     expect(ofKind('readBattery')).toHaveLength(1);
-    expect(told()).toEqual([errorSentence('outOfRange', 'packet by hand: otherShape')]);
+    expect(noticeTexts()).toEqual([errorSentence('outOfRange', 'packet by hand: otherShape')]);
   });
 
   test('detached, it is as if nothing had ever been connected', async () => {
-    const { device, state, session } = await createDesk();
+    const { device, state, session } = await createTestPage();
     await device.detach();
     expect(state().way).toBeNull();
     expect(state().snapshot.link.status).toBe('closed');

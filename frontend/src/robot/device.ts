@@ -16,7 +16,7 @@ import type { Transport } from '#shared/robot/transport.ts';
 import { personName, errorSentence } from '../i18n/sentences.ts';
 import { words } from '../i18n/words.ts';
 import { createBoardVerbs, type BoardVerbs } from './boardVerbs.ts';
-import { createLateNews } from './lateNews.ts';
+import { createLateNotices } from './lateNotices.ts';
 import { createLimitGate } from './limitGate.ts';
 import { moveDurationMs, type Pace } from './moveTime.ts';
 import { createMovingWatch, createTargetBook } from './targetBook.ts';
@@ -107,7 +107,7 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
   const traffic = createTrafficLog();
   const book = createTargetBook(clock);
   const watch = createMovingWatch(clock, isUnderWay);
-  const lateNews = createLateNews(clock, notices);
+  const lateNotices = createLateNotices(clock, notices);
   let session: Session | null = null;
   let unsubscribe = (): void => undefined;
   let autoReconnect = true;
@@ -115,7 +115,7 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
   let calibrated: number | null = null;
 
   const robot = (): Robot => robots.current().robot;
-  const meant = (servo: number, onBoardAt: number): number => fromBoard(robot(), servo, onBoardAt);
+  const inRobotUnits = (servo: number, onBoardAt: number): number => fromBoard(robot(), servo, onBoardAt);
   const gate = createLimitGate(robot, notices.refuse);
 
   /** On a link of one's own it is the last one described for such a board. */
@@ -132,10 +132,10 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     const targetOf = book.targets();
     return (servo) => {
       const { target, estimated, reported } = onBoardNow(servo);
-      const sent = target === null ? null : Math.round(meant(servo, target));
+      const sent = target === null ? null : Math.round(inRobotUnits(servo, target));
       const now = {
         target: targetOf(servo, sent, waitingToStart.includes(servo)),
-        estimated: estimated === null ? null : meant(servo, estimated),
+        estimated: estimated === null ? null : inRobotUnits(servo, estimated),
       };
       // Once it is asked for something the board's word is where it comes from.
       return reported === undefined || now.target !== sent ? now : { ...now, reported };
@@ -211,7 +211,7 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
 
   function tellError(error: unknown): void {
     notices.tellError(error);
-    lateNews.told(error);
+    lateNotices.report(error);
   }
 
   /** `onIt`: the same in the board's own figures. False where it was refused; then the person was told why. */
@@ -220,7 +220,7 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     try {
       session.move(onIt, moveDurationMs(pace, targets, session.state.family, motions()));
       book.wish(targets);
-      lateNews.asked();
+      lateNotices.asked();
       return true;
     } catch (error) {
       notices.tellError(error);
@@ -244,7 +244,7 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     await former?.close();
   }
 
-  const verbs = createBoardVerbs({ session: () => session, ...{ gate, notices, lateNews, tellError } });
+  const verbs = createBoardVerbs({ session: () => session, ...{ gate, notices, lateNotices, tellError } });
 
   return {
     ...verbs,

@@ -23,7 +23,7 @@ const NEAR_UNITS = 10;
 
 export function createFollower(device: Device): Follower {
   const { clock } = device;
-  let told: FollowedPose | null = null;
+  let sent: FollowedPose | null = null;
   let gentleUntilMs = 0;
 
   function isAt(pose: FollowedPose): boolean {
@@ -41,18 +41,18 @@ export function createFollower(device: Device): Follower {
   }
 
   return {
-    begin: () => (told = null),
+    begin: () => (sent = null),
     follow(pose) {
       if (startHindrance(device.store.getState().snapshot) !== null) return;
-      const changed = [...pose].filter(([servo, position]) => told?.get(servo) !== position);
+      const changed = [...pose].filter(([servo, position]) => sent?.get(servo) !== position);
       if (changed.length === 0) return;
-      if (told === null) gentleUntilMs = clock.now() + GENTLE_MOVE_MS;
-      told = pose;
+      if (sent === null) gentleUntilMs = clock.now() + GENTLE_MOVE_MS;
+      sent = pose;
       const gentleMs = Math.ceil(gentleUntilMs - clock.now());
       move(changed, gentleMs > 0 ? gentleMs : 'hand');
     },
     go(pose, durationMs, from) {
-      told = pose;
+      sent = pose;
       move([...pose], isAt(from) ? Math.max(durationMs, LEAST_STEP_MS) : GENTLE_MOVE_MS);
     },
   };

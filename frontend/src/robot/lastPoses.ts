@@ -29,12 +29,12 @@ const KEEP_AFTER_MS = 500;
 export function createLastPoses(storage: TextStorage, device: Device): LastPoses {
   const store: LastPoses = createStore(() => load(storage));
   let latest: DeviceState | null = null;
-  const keeping = createSoon(device.clock, KEEP_AFTER_MS, keep);
+  const robotSync = createSoon(device.clock, KEEP_AFTER_MS, keep);
 
   function keep(): void {
     if (latest === null) return;
     // A group on the board goes on without a packet.
-    if (latest.isMoving || latest.snapshot.waitingToStart.length > 0) keeping.ask();
+    if (latest.isMoving || latest.snapshot.waitingToStart.length > 0) robotSync.ask();
     const before = store.getState();
     const after = withPose(before, latest, device.pose());
     if (after === before) return;
@@ -53,9 +53,9 @@ export function createLastPoses(storage: TextStorage, device: Device): LastPoses
       keep();
       latest = null;
     }
-    if (state.known !== before.known || state.isMoving !== before.isMoving) keeping.ask();
+    if (state.known !== before.known || state.isMoving !== before.isMoving) robotSync.ask();
   });
-  device.traffic.store.subscribe(keeping.ask);
+  device.traffic.store.subscribe(robotSync.ask);
   return store;
 }
 
@@ -64,14 +64,14 @@ function withPose(poses: Poses, state: DeviceState, asked: readonly ServoTarget[
   const name = remembered(state);
   const family = state.family.id;
   if (name === null || family === 'unknown') return poses;
-  const kept = poses[name]?.family === family ? poses[name].positions : {};
+  const saved = poses[name]?.family === family ? poses[name].positions : {};
   const { waitingToStart } = state.snapshot;
   // What was asked of a servo that still waits for its first move has not happened.
   const news = asked.filter(
-    ({ servo, position }) => !waitingToStart.includes(servo) && kept[servo] !== position,
+    ({ servo, position }) => !waitingToStart.includes(servo) && saved[servo] !== position,
   );
   if (news.length === 0) return poses;
-  const positions = { ...kept, ...Object.fromEntries(news.map(({ servo, position }) => [servo, position])) };
+  const positions = { ...saved, ...Object.fromEntries(news.map(({ servo, position }) => [servo, position])) };
   return { ...poses, [name]: { family, positions } };
 }
 

@@ -31,21 +31,21 @@ export interface LimitGate {
 /** `refuse` gets the sentence for the person and gives back what takes it back. */
 export function createLimitGate(robot: () => Robot, refuse: (refusal: string) => () => void): LimitGate {
   /** Of a hand that goes on beyond a limit, the latest word alone. */
-  let told: { readonly servo: number; takeBack(): void } | null = null;
+  let shownRefusal: { readonly servo: number; takeBack(): void } | null = null;
 
   function takeBack(): void {
-    told?.takeBack();
-    told = null;
+    shownRefusal?.takeBack();
+    shownRefusal = null;
   }
 
   function targets(asked: readonly ServoTarget[]): readonly ServoTarget[] | null {
     const refused = refusedTarget(robot(), asked);
     if (refused !== null) {
       takeBack();
-      told = { servo: refused.servo.servo, takeBack: refuse(refusalText(refused)) };
+      shownRefusal = { servo: refused.servo.servo, takeBack: refuse(refusalText(refused)) };
       return null;
     }
-    if (asked.some(({ servo }) => servo === told?.servo)) takeBack();
+    if (asked.some(({ servo }) => servo === shownRefusal?.servo)) takeBack();
     return onBoard(robot(), asked);
   }
 
@@ -66,11 +66,11 @@ export function createLimitGate(robot: () => Robot, refuse: (refusal: string) =>
   function lets(packet: Uint8Array): boolean {
     const command = commandIn(packet);
     if (command?.kind !== 'move') return true;
-    const meant = command.targets.map(({ servo, position }) => ({
+    const own = command.targets.map(({ servo, position }) => ({
       servo,
       position: fromBoard(robot(), servo, position),
     }));
-    return targets(meant) !== null;
+    return targets(own) !== null;
   }
 
   return { targets, frames, groups, lets };

@@ -6,35 +6,35 @@ import { errorSentence } from '../i18n/sentences.ts';
 import { speak } from '../i18n/words.ts';
 import { createNotices } from './notices.ts';
 
-function createDesk() {
+function createTestPage() {
   const clock = createVirtualClock();
   const notices = createNotices(clock);
-  return { clock, notices, told: () => notices.store.getState().map((notice) => notice.text) };
+  return { clock, notices, noticeTexts: () => notices.store.getState().map((notice) => notice.text) };
 }
 
 describe('notices', () => {
   test('good news leaves by itself, bad news stays', async () => {
-    const { clock, notices, told } = createDesk();
+    const { clock, notices, noticeTexts } = createTestPage();
     notices.tell('info', 'Slot 1 is downloaded.');
     notices.tellError(new LinkError('noAnswer', 'silence'));
     await clock.advance(60_000);
-    expect(told()).toEqual([errorSentence('noAnswer')]);
+    expect(noticeTexts()).toEqual([errorSentence('noAnswer')]);
   });
 
   test('the same thing is said once, and at most three things stand there', () => {
-    const { notices, told } = createDesk();
+    const { notices, noticeTexts } = createTestPage();
     for (const text of ['a', 'b', 'a', 'c', 'd']) notices.tell('warning', text);
-    expect(told()).toEqual(['a', 'c', 'd']);
+    expect(noticeTexts()).toEqual(['a', 'c', 'd']);
   });
 
   test('what the person called off is no failure', () => {
-    const { notices, told } = createDesk();
+    const { notices, noticeTexts } = createTestPage();
     notices.tellError(new LinkError('cancelled', 'called off'));
-    expect(told()).toEqual([]);
+    expect(noticeTexts()).toEqual([]);
   });
 
   test('a defect of ours is named as one', () => {
-    const { notices } = createDesk();
+    const { notices } = createTestPage();
     notices.tellError(new TypeError('x is undefined'));
     expect(notices.store.getState()[0]).toMatchObject({
       tone: 'danger',
@@ -43,7 +43,7 @@ describe('notices', () => {
   });
 
   test('a value that the board cannot take is told with its figures, in the language in use', async () => {
-    const { notices, told } = createDesk();
+    const { notices, noticeTexts } = createTestPage();
     const refusal = new RangeRefusal({
       field: 'position',
       value: 2600,
@@ -55,16 +55,16 @@ describe('notices', () => {
     await speak('zh');
     notices.tellError(failure);
     await speak('en');
-    expect(told()).toEqual([
+    expect(noticeTexts()).toEqual([
       'This value is out of range: the position of servo 3 is 2600, allowed is 500 to 2500.',
       '这个值超出范围：3号舵机的位置是2600，应在500到2500之间。',
     ]);
   });
 
   test('a dismissed notice is gone', () => {
-    const { notices, told } = createDesk();
+    const { notices, noticeTexts } = createTestPage();
     notices.tell('warning', 'a');
     notices.dismiss(notices.store.getState()[0]!.id);
-    expect(told()).toEqual([]);
+    expect(noticeTexts()).toEqual([]);
   });
 });

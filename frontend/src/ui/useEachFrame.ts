@@ -79,13 +79,13 @@ export function useFollow<T>(follow: Follow<T>): void {
   );
 }
 
-const TURNS = 15;
+const FRAMES_OF_ALL = 15;
 let lastTurn = 0;
 
 /** What is looked at out of sight is looked at in turns: hundreds of looks in one frame would make that one late. */
 function nextTurn(): number {
-  lastTurn = (lastTurn + 1) % TURNS;
-  return (lastTurn * REST_MS) / TURNS;
+  lastTurn = (lastTurn + 1) % FRAMES_OF_ALL;
+  return (lastTurn * REST_MS) / FRAMES_OF_ALL;
 }
 
 /** `nowMs` is the same for all of a frame. */
@@ -112,7 +112,7 @@ let request: number | null = null;
 let frame = 0;
 
 /** A number for all that is drawn before the next frame. */
-export const frameAtHand = (): number => frame;
+export const currentFrame = (): number => frame;
 
 function drawAll(nowMs: number): void {
   frame += 1;

@@ -9,7 +9,7 @@ import {
 } from '@vitest/browser/locators';
 import { commands } from 'vitest/browser';
 import type { MouseButton } from './commands.ts';
-import { act, clickAt, touchscreen, type Point } from './hands.ts';
+import { act, clickAt, touchscreen, type Point } from './input.ts';
 import { during, eventually, realFrame } from './time.ts';
 
 type Modifier = 'Control' | 'Shift' | 'Alt' | 'Meta' | 'ControlOrMeta';

@@ -12,7 +12,7 @@ import { fetchRest } from '../../src/ui/later.tsx';
 import { preferredLanguage, speak } from '../../src/i18n/words.ts';
 import type { Media, Screen } from './commands.ts';
 import { watchFiles } from './files.ts';
-import { act, keyboard, mouse, touchscreen } from './hands.ts';
+import { act, keyboard, mouse, touchscreen } from './input.ts';
 import { handleOf, Locator } from './locator.ts';
 import { advance, during, endTimers, eventually, FRAME_MS, realFrame, turn } from './time.ts';
 import '../../src/ui/fonts.css';

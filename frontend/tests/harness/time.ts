@@ -81,13 +81,13 @@ Object.assign(window, {
 performance.now = clock.now;
 
 const channel = new MessageChannel();
-const turns: (() => void)[] = [];
-channel.port1.onmessage = () => turns.shift()?.();
+const waiting: (() => void)[] = [];
+channel.port1.onmessage = () => waiting.shift()?.();
 
 /** One turn of the browser's own loop: React draws, and messages of workers and databases arrive. */
 export function turn(): Promise<void> {
   return new Promise((resolve) => {
-    turns.push(resolve);
+    waiting.push(resolve);
     channel.port2.postMessage(null);
   });
 }

@@ -4,7 +4,7 @@
 import { useState, useSyncExternalStore, type MouseEvent } from 'react';
 import { I18nProvider } from 'react-aria-components/I18nProvider';
 import { FAMILIES } from '#shared/codec/families.ts';
-import { FilesDesk } from '../../features/library/files/FilesArea.tsx';
+import { FilesProvider } from '../../features/library/files/FilesArea.tsx';
 import { StoresContext } from '../../features/stores.ts';
 import { useSpokenLocale } from '../../ui/useSpokenLocale.ts';
 import { CONNECT } from './ConnectSpecimens.tsx';
@@ -56,14 +56,14 @@ function Shown({ exhibit: { name, content, isInDialog = false, stores } }: { rea
   const [made] = useState(() => stores?.() ?? specimenStores(FAMILIES.doc));
   return (
     <StoresContext value={made}>
-      <FilesDesk>
+      <FilesProvider>
         <article className={styles.specimen} aria-label={name}>
           <h2 className={styles.name} lang="en">
             {name}
           </h2>
           {isInDialog ? <div className={styles.dialog}>{content}</div> : content}
         </article>
-      </FilesDesk>
+      </FilesProvider>
     </StoresContext>
   );
 }

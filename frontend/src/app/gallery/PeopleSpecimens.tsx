@@ -1,7 +1,7 @@
 // Coming in and letting in, in each state: a stranger's card, the stop-only page, and what an owner sees.
 
 import type { ReactNode } from 'react';
-import { NameCard, PairCard, StopFace, type StopOutcome } from '../../features/people/Outside.tsx';
+import { NameCard, PairCard, StopFace, type StopOutcome } from '../../features/people/EntryPage.tsx';
 import { OwnView, PeopleView } from '../../features/people/PeopleView.tsx';
 import { PeopleError, type PeopleState } from '../../features/people/people.ts';
 import type { Exhibit } from './exhibit.ts';

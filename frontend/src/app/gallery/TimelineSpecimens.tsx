@@ -7,7 +7,7 @@ import { moveKeys } from '#shared/group/keyEdits.ts';
 import { FAMILIES } from '#shared/codec/families.ts';
 import { actionsParts } from '../../features/animate/frames/ActionsPanel.tsx';
 import { AuthoringPanel } from '../Authoring.tsx';
-import { select } from '../../features/animate/timeline/desk.ts';
+import { select } from '../../features/animate/timeline/context.ts';
 import { pressFrame } from '../../features/animate/timeline/inStep.ts';
 import { keySet } from '../../features/animate/timeline/timeline.ts';
 import { freshRobot } from '../../features/profiles/robots.ts';

@@ -3,7 +3,7 @@
 import type { DocumentStore } from '#shared/files/documentStore.ts';
 import type { Family } from '#shared/codec/families.ts';
 import { pageClock } from '../page.ts';
-import { createMemoryKeeper } from '../../features/library/memoryKeeper.ts';
+import { createMemoryStore } from '../../features/library/memoryStore.ts';
 import { createBattery } from '../../features/battery/battery.ts';
 import { createBlend } from '../../features/poses/blend.ts';
 import { createBoards } from '../../robot/boards.ts';
@@ -22,7 +22,7 @@ import { createPeople, PeopleError, type PeopleApi } from '../../features/people
 import { createPlayback, createPlayhead } from '../../features/animate/play/playback.ts';
 import { createPoses } from '../../features/poses/poses.ts';
 import { createTeaching } from '../../features/drive/teaching.ts';
-import { createRobotKeeping } from '../../features/profiles/robotKeeping.ts';
+import { createRobotSync } from '../../features/profiles/robotSync.ts';
 import { createRobots } from '../../features/profiles/robots.ts';
 import { createGroupPlace } from '../../features/board/slots/groupPlace.ts';
 import { createReplacing } from '../../features/board/slots/replacing.ts';
@@ -57,21 +57,21 @@ export function specimenStores(
   const playhead = createPlayhead(timeline);
   const readPads = () => [held];
   let ids = 0;
-  const kept = {
+  const stored = {
     ...{ storage: NO_STORAGE, notices, robots, clock: pageClock },
-    keeper: Promise.resolve(createMemoryKeeper(libraryPlace)),
+    documentStore: Promise.resolve(createMemoryStore(libraryPlace)),
     epochMs: Date.now,
     newId: () => `specimen-${++ids}`,
   };
-  const library = createLibrary({ ...kept, document, view });
+  const library = createLibrary({ ...stored, document, view });
   const place = createGroupPlace({ document, opened: library.store, view, slots, device });
   const replacing = createReplacing({ device, robots, slots, place });
   const macros = createMacros(NO_STORAGE, notices, robots);
-  const keeping = createRobotKeeping({
-    ...{ ...kept, poses: poses.book, buttons: macros, pad: mappings, mayWrite: true },
+  const robotSync = createRobotSync({
+    ...{ ...stored, poses: poses.book, buttons: macros, pad: mappings, mayWrite: true },
   });
   return {
-    ...{ notices, robots, device, poses, mappings, document, view, library, keeping },
+    ...{ notices, robots, device, poses, mappings, document, view, library, robotSync },
     pad: createPad({ device, robots, view, poses, mappings, notices, clock: pageClock, readPads }),
     battery: createBattery(device, robots),
     blend: createBlend({ device, robots, view }),

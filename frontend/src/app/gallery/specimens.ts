@@ -10,7 +10,7 @@ import { INITIAL_STATE } from '#shared/robot/store.ts';
 import type { Way } from '../../robot/device.ts';
 import { SERVO_SPECIMENS, type ServoSpecimen } from './servoSpecimens.ts';
 import {
-  BATTERY_TOLD,
+  BATTERY_MESSAGES,
   codeOf,
   DOWNLOADING,
   DOWNLOADING_SEVERAL,
@@ -23,9 +23,9 @@ import {
   reported,
   running,
   SIMULATED,
-  TURNS,
+  FRAMES_OF_ALL,
   UNSURE,
-  VERSION_TOLD,
+  VERSION_MESSAGES,
   WATCHED,
   type BatteryFeed,
   type Pose,
@@ -60,7 +60,7 @@ type Shows = Required<Pick<Specimen, 'shows'>>;
 const BAR: Shows = { shows: ['bar'] };
 const DRIVEN: Shows = { shows: ['bar', 'live'] };
 const STORED: Shows = { shows: ['bar', 'board'] };
-const TOLD: Shows = { shows: ['bar', 'live', 'board'] };
+const WITH_MESSAGES: Shows = { shows: ['bar', 'live', 'board'] };
 
 const LATCHED = { pose: 'moving', frames: 3, ...DRIVEN } as const;
 
@@ -151,14 +151,14 @@ export const SPECIMENS: readonly Specimen[] = [
   { name: 'Broken slot', state: { ...READY, brokenSlots: [0] }, frames: 3, ...STORED },
   { name: 'Sixteen servos', board: 'lsc-16', pose: 'moving', ...DRIVEN },
   ...SERVO_SPECIMENS.map((specimen): Specimen => ({ pose: 'moving', frames: 3, ...specimen })),
-  { name: 'Old uHand', board: 'openarm-old', state: NO_BATTERY, frames: 3, ...TOLD },
-  { name: 'LeArm', board: 'learm-esp32', state: NO_BATTERY, frames: 2, ...TOLD },
+  { name: 'Old uHand', board: 'openarm-old', state: NO_BATTERY, frames: 3, ...WITH_MESSAGES },
+  { name: 'LeArm', board: 'learm-esp32', state: NO_BATTERY, frames: 2, ...WITH_MESSAGES },
   {
     name: 'Positions read',
     board: 'xarm',
     state: { ...READY, reported: reported([498, 512, 700, 350, 0, -3]) },
     frames: 2,
-    ...TOLD,
+    ...WITH_MESSAGES,
   },
   {
     name: 'LeArm, asked',
@@ -166,19 +166,19 @@ export const SPECIMENS: readonly Specimen[] = [
     nickname: 'Shelf arm',
     state: {
       ...NO_BATTERY,
-      identity: identityFrom(VERSION_TOLD),
+      identity: identityFrom(VERSION_MESSAGES),
       reported: reported([770, 1500, 644, 511, 1255, 1500]),
       version: 1,
       offsets: [1, 2, 3, 4, 5, 6].map((servo) => ({ servo, offset: servo === 2 ? -5 : 0 })),
     },
     frames: 2,
-    ...TOLD,
+    ...WITH_MESSAGES,
   },
-  { name: 'Bus servos', board: 'bus-ctrl', pose: 'moving', frames: 2, ...TOLD },
+  { name: 'Bus servos', board: 'bus-ctrl', pose: 'moving', frames: 2, ...WITH_MESSAGES },
   {
     name: 'Nicknamed',
     nickname: 'Desk arm',
-    state: { ...READY, identity: identityFrom(BATTERY_TOLD) },
+    state: { ...READY, identity: identityFrom(BATTERY_MESSAGES) },
     ...BAR,
   },
   {
@@ -186,7 +186,7 @@ export const SPECIMENS: readonly Specimen[] = [
     isUnknown: true,
     state: { ...INITIAL_STATE, link: { status: 'identifying' } },
     pose: 'unknown',
-    ...TOLD,
+    ...WITH_MESSAGES,
   },
   ...Object.entries(UNSURE).map(([name, evidence]): Specimen => ({
     name,
@@ -202,9 +202,9 @@ export const SPECIMENS: readonly Specimen[] = [
     pose: 'unknown',
     ...DRIVEN,
   },
-  ...Object.entries(TURNS).map(([name, lease]): Specimen => ({
+  ...Object.entries(FRAMES_OF_ALL).map(([name, lease]): Specimen => ({
     ...{ name, way: REMOTE, state: { ...READY, lease }, pose: 'moving', frames: 2 },
-    ...(lease.unattended === null ? DRIVEN : TOLD),
+    ...(lease.unattended === null ? DRIVEN : WITH_MESSAGES),
   })),
   {
     name: 'Another drives, stopped',
@@ -217,7 +217,7 @@ export const SPECIMENS: readonly Specimen[] = [
     way: REMOTE,
     state: { ...DOWNLOADING, lease: WATCHED, brokenSlots: [5] },
     frames: 21,
-    ...TOLD,
+    ...WITH_MESSAGES,
   },
   {
     name: 'Downloading several',

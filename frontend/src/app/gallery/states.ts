@@ -51,7 +51,7 @@ const PRESENT: Lease['candidates'] = [
 ];
 
 /** Whose turn it is, as each of the people there sees it. */
-export const TURNS: Readonly<Record<string, Lease>> = {
+export const FRAMES_OF_ALL: Readonly<Record<string, Lease>> = {
   'You drive': LEASE,
   'You drive, asked': { ...LEASE, asker: 'Bert', answerInMs: 5000 },
   'You drive, others may': { ...LEASE, candidates: PRESENT },
@@ -85,11 +85,11 @@ const SILENT_TO_ALL: readonly Evidence[] = [
   { kind: 'silent', question: 'readBattery' },
   { kind: 'silent', question: 'readVersion' },
 ];
-export const BATTERY_TOLD: readonly Evidence[] = [
+export const BATTERY_MESSAGES: readonly Evidence[] = [
   { kind: 'answered', question: 'readBattery', report: { kind: 'battery', batteryMv: 7500 } },
   { kind: 'silent', question: 'readPositions' },
 ];
-const POSITIONS_TOLD: readonly Evidence[] = [
+const POSITION_MESSAGES: readonly Evidence[] = [
   { kind: 'answered', question: 'readBattery', report: { kind: 'battery', batteryMv: 11_400 } },
   {
     kind: 'answered',
@@ -97,16 +97,16 @@ const POSITIONS_TOLD: readonly Evidence[] = [
     report: { kind: 'positions', positions: [{ servo: 1, position: 498 }] },
   },
 ];
-export const VERSION_TOLD: readonly Evidence[] = [
+export const VERSION_MESSAGES: readonly Evidence[] = [
   { kind: 'silent', question: 'readBattery' },
   { kind: 'answered', question: 'readVersion', report: { kind: 'version', unit: 'us', version: 1 } },
 ];
 
 export const UNSURE: Readonly<Record<string, readonly Evidence[]>> = {
   'Which board, silent': SILENT_TO_ALL,
-  'Which board, LSC': BATTERY_TOLD,
-  'Which board, bus servos': POSITIONS_TOLD,
-  'Which board, LeArm': VERSION_TOLD,
+  'Which board, LSC': BATTERY_MESSAGES,
+  'Which board, bus servos': POSITION_MESSAGES,
+  'Which board, LeArm': VERSION_MESSAGES,
   'Which board, noise': [...SILENT_TO_ALL, { kind: 'noise', byteCount: 118 }],
   'Which board, echo': [...SILENT_TO_ALL, { kind: 'echoed' }],
 };

@@ -23,7 +23,7 @@ const NOWHERE = { getItem: () => null, setItem: () => undefined };
 const WAY: Way = { kind: 'simulated', label: 'Simulated board', isSimulated: true };
 const FRAMES = [{ durationMs: 4000, targets: [{ servo: 1, position: 1600 }] }];
 
-async function createDesk(
+async function createTestPage(
   batteryMv: number,
   policy: BatteryPolicy = 'tell',
   board: 'doc' | 'bus-ctrl' = 'doc',
@@ -45,7 +45,7 @@ async function createDesk(
   const look = (on: boolean): boolean => (isWatched = on);
   pollBattery(device, () => isWatched);
   device.attach(rig.session, WAY);
-  const told = () => notices.store.getState().map(({ text }) => text);
+  const noticeTexts = () => notices.store.getState().map(({ text }) => text);
   return {
     ...rig,
     notices,
@@ -53,7 +53,7 @@ async function createDesk(
     poses,
     device,
     battery,
-    told,
+    noticeTexts,
     look,
     latch: () => rig.session.state.latch,
   };
@@ -63,7 +63,7 @@ const SETTLED_MS = 12_000;
 
 describe('the readings of a visit', () => {
   test('are kept with their times and judged together', async () => {
-    const { clock, battery } = await createDesk(7600);
+    const { clock, battery } = await createTestPage(7600);
     await clock.advance(SETTLED_MS);
     const { readings, gauge } = battery.getState();
     expect(readings.map(({ batteryMv }) => batteryMv)).toEqual([7600, 7600, 7600]);
@@ -71,7 +71,7 @@ describe('the readings of a visit', () => {
   });
 
   test('do not count while something moves', async () => {
-    const { clock, device, battery } = await createDesk(7600);
+    const { clock, device, battery } = await createTestPage(7600);
     await clock.advance(1000);
     device.move([{ servo: 1, position: 1700 }], 8000);
     await clock.advance(1000);
@@ -81,7 +81,7 @@ describe('the readings of a visit', () => {
   });
 
   test('count beside servos that only the board knows of', async () => {
-    const { clock, device, battery } = await createDesk(7600, 'tell', 'bus-ctrl');
+    const { clock, device, battery } = await createTestPage(7600, 'tell', 'bus-ctrl');
     await clock.advance(200);
     device.readPositions([1, 2, 3]);
     await clock.advance(2000);
@@ -93,7 +93,7 @@ describe('the readings of a visit', () => {
   });
 
   test('stand beside the runs', async () => {
-    const { clock, device, battery } = await createDesk(7600);
+    const { clock, device, battery } = await createTestPage(7600);
     await clock.advance(1000);
     device.play(FRAMES, 1, () => undefined);
     await clock.advance(2000);
@@ -104,7 +104,7 @@ describe('the readings of a visit', () => {
   });
 
   test('are judged anew when something else feeds the robot', async () => {
-    const { clock, robots, battery } = await createDesk(6900);
+    const { clock, robots, battery } = await createTestPage(6900);
     await clock.advance(SETTLED_MS);
     expect(battery.getState().gauge.level).toBe('warning');
     const thresholds = { warnMv: 6800, alarmMv: 6500 };
@@ -118,7 +118,7 @@ describe('the readings of a visit', () => {
   });
 
   test('stay when the same way is taken again, and go with another', async () => {
-    const { clock, device, battery } = await createDesk(7600);
+    const { clock, device, battery } = await createTestPage(7600);
     await clock.advance(1000);
     device.attach((await createRig()).session, WAY);
     expect(battery.getState().readings).toHaveLength(1);
@@ -129,29 +129,29 @@ describe('the readings of a visit', () => {
 
 describe('a low battery', () => {
   test('is told once, and only when readings agree', async () => {
-    const { clock, notices, told } = await createDesk(6900);
+    const { clock, notices, noticeTexts } = await createTestPage(6900);
     await clock.advance(9000);
-    expect(told()).toEqual([]);
+    expect(noticeTexts()).toEqual([]);
     await clock.advance(3000);
-    expect(told()).toEqual([words.battery.warned({ volts: words.numbers.formatVolts(6900) })]);
+    expect(noticeTexts()).toEqual([words.battery.warned({ volts: words.numbers.formatVolts(6900) })]);
     notices.dismiss(notices.store.getState()[0]!.id);
     await clock.advance(120_000);
-    expect(told()).toEqual([]);
+    expect(noticeTexts()).toEqual([]);
   });
 
   test('is told again when it is lower still', async () => {
-    const { clock, robots, told } = await createDesk(6900);
+    const { clock, robots, noticeTexts } = await createTestPage(6900);
     await clock.advance(SETTLED_MS);
     const thresholds = { warnMv: 7200, alarmMv: 7000 };
     robots.edit(
       () => 'thresholds',
       (robot) => ({ ...robot, batteryCare: { policy: 'tell', thresholds } }),
     );
-    expect(told().at(-1)).toBe(words.battery.alarmed({ volts: words.numbers.formatVolts(6900) }));
+    expect(noticeTexts().at(-1)).toBe(words.battery.alarmed({ volts: words.numbers.formatVolts(6900) }));
   });
 
   test('is told of another robot too', async () => {
-    const { clock, device, notices, told } = await createDesk(6900);
+    const { clock, device, notices, noticeTexts } = await createTestPage(6900);
     await clock.advance(SETTLED_MS);
     notices.dismiss(notices.store.getState()[0]!.id);
     const other = await createRig({ batteryMv: 6900 });
@@ -160,11 +160,11 @@ describe('a low battery', () => {
       await clock.advance(1000);
       await other.clock.advance(1000);
     }
-    expect(told()).toEqual([words.battery.warned({ volts: words.numbers.formatVolts(6900) })]);
+    expect(noticeTexts()).toEqual([words.battery.warned({ volts: words.numbers.formatVolts(6900) })]);
   });
 
   test('refuses nothing where the person only wants to know', async () => {
-    const { clock, device, ofKind } = await createDesk(6500, 'tell');
+    const { clock, device, ofKind } = await createTestPage(6500, 'tell');
     await clock.advance(SETTLED_MS);
     device.run(3, 1);
     await clock.advance(1000);
@@ -175,7 +175,7 @@ describe('a low battery', () => {
   test.each(['refuse', 'rest'] as const)(
     '%s: nothing new is run or played, but once if asked for',
     async (policy) => {
-      const { clock, device, notices, ofKind } = await createDesk(6500, policy);
+      const { clock, device, notices, ofKind } = await createTestPage(6500, policy);
       await clock.advance(SETTLED_MS);
       device.run(3, 1);
       device.play(FRAMES, 1, () => undefined);
@@ -197,18 +197,18 @@ describe('a low battery', () => {
   test.each([0, 9900])(
     'at %i mV nobody knows, so nothing is refused and nothing moves',
     async (batteryMv) => {
-      const { clock, device, ofKind, told } = await createDesk(batteryMv, 'rest');
+      const { clock, device, ofKind, noticeTexts } = await createTestPage(batteryMv, 'rest');
       await clock.advance(60_000);
       device.run(3, 1);
       await clock.advance(1000);
       expect(ofKind('run')).toHaveLength(1);
       expect(ofKind('move')).toEqual([]);
-      expect(told()).toEqual([]);
+      expect(noticeTexts()).toEqual([]);
     },
   );
 
   test('an old reading refuses nothing', async () => {
-    const { clock, device, look, ofKind } = await createDesk(6500, 'refuse');
+    const { clock, device, look, ofKind } = await createTestPage(6500, 'refuse');
     await clock.advance(SETTLED_MS);
     look(false);
     device.run(3, 1);
@@ -223,18 +223,18 @@ describe('a low battery', () => {
 describe('a robot that goes to rest', () => {
   /** Servo 2 stands away from home, and the battery is at its alarm. */
   async function createTiredRobot() {
-    const desk = await createDesk(6500, 'rest');
-    desk.device.move([{ servo: 2, position: 1900 }], 1500);
-    await desk.clock.advance(SETTLED_MS + 5000);
-    expect(desk.told()).toContain(words.battery.goingToRest({ ms: REST_WARNING_MS }));
-    return desk;
+    const page = await createTestPage(6500, 'rest');
+    page.device.move([{ servo: 2, position: 1900 }], 1500);
+    await page.clock.advance(SETTLED_MS + 5000);
+    expect(page.noticeTexts()).toContain(words.battery.goingToRest({ ms: REST_WARNING_MS }));
+    return page;
   }
 
   test.each([
     { driver: 'Bert', drives: false, goes: false },
     { driver: 'Anna', drives: true, goes: true },
   ])('is a matter of the screen that drives: $driver', async ({ driver, drives, goes }) => {
-    const { clock, device, notices } = await createDesk(6500, 'rest');
+    const { clock, device, notices } = await createTestPage(6500, 'rest');
     const announced = new Set<string>();
     notices.store.subscribe((list) => list.forEach(({ text }) => announced.add(text)));
     const line = createSimulatedTransport(clock, { onForMs: 60_000, batteryMv: 6500 });
@@ -265,7 +265,7 @@ describe('a robot that goes to rest', () => {
   });
 
   test('is announced, goes home slowly with the servos that are known, and is stopped', async () => {
-    const { clock, device, ofKind, latch, told } = await createTiredRobot();
+    const { clock, device, ofKind, latch, noticeTexts } = await createTiredRobot();
     expect(ofKind('move')).toHaveLength(1);
     await clock.advance(REST_WARNING_MS);
     expect(ofKind('move').slice(1)).toEqual([
@@ -274,8 +274,8 @@ describe('a robot that goes to rest', () => {
     expect(latch()).toBeNull();
     await clock.advance(REST_MOVE_MS);
     expect(latch()).toMatchObject({ reason: 'battery' });
-    expect(told()).not.toContain(words.battery.goingToRest({ ms: REST_WARNING_MS }));
-    expect(told()).toContain(words.battery.rested({ volts: '6.50\u00a0V' }));
+    expect(noticeTexts()).not.toContain(words.battery.goingToRest({ ms: REST_WARNING_MS }));
+    expect(noticeTexts()).toContain(words.battery.rested({ volts: '6.50\u00a0V' }));
     await clock.advance(1000);
     const moves = ofKind('move').length;
     device.resume();
@@ -307,10 +307,10 @@ describe('a robot that goes to rest', () => {
     ['as announced', 0],
     ['on its way', REST_WARNING_MS],
   ])('stays where it is after a stop, %s', async (_, afterMs) => {
-    const { clock, device, ofKind, told } = await createTiredRobot();
+    const { clock, device, ofKind, noticeTexts } = await createTiredRobot();
     await clock.advance(afterMs);
     device.halt();
-    expect(told()).not.toContain(words.battery.goingToRest({ ms: REST_WARNING_MS }));
+    expect(noticeTexts()).not.toContain(words.battery.goingToRest({ ms: REST_WARNING_MS }));
     await clock.advance(1000);
     device.resume();
     const moves = ofKind('move').length;
@@ -332,7 +332,7 @@ describe('a robot that goes to rest', () => {
   });
 
   test('where nothing is known of the pose, is only stopped', async () => {
-    const { clock, ofKind, latch } = await createDesk(6500, 'rest');
+    const { clock, ofKind, latch } = await createTestPage(6500, 'rest');
     await clock.advance(SETTLED_MS + REST_WARNING_MS + 1000);
     expect(ofKind('move')).toEqual([]);
     expect(latch()).not.toBeNull();

@@ -31,8 +31,8 @@ export interface BatteryState {
 export type BatteryStore = StoreApi<BatteryState>;
 
 /** Six hours of readings; then the oldest go. */
-const READINGS_KEPT = 4320;
-const RUNS_KEPT = 500;
+const READINGS_STORED = 4320;
+const RUNS_STORED = 500;
 
 export function createBattery(device: Device, robots: RobotStore): BatteryStore {
   const supply = (): Supply => supplyOf(robots.current().robot);
@@ -43,7 +43,7 @@ export function createBattery(device: Device, robots: RobotStore): BatteryStore 
     const { supply, gauge, readings } = store.getState();
     store.setState({
       gauge: gaugeAfter(gauge, reading, supply),
-      readings: [...readings, reading].slice(-READINGS_KEPT),
+      readings: [...readings, reading].slice(-READINGS_STORED),
     });
   }
 
@@ -52,7 +52,7 @@ export function createBattery(device: Device, robots: RobotStore): BatteryStore 
     const nowMs = device.clock.now();
     const ended = runs.map((run) => (run.toMs === null ? { ...run, toMs: nowMs } : run));
     const next = isRunning ? [...ended, { fromMs: nowMs, toMs: null }] : ended;
-    store.setState({ runs: next.slice(-RUNS_KEPT) });
+    store.setState({ runs: next.slice(-RUNS_STORED) });
   }
 
   /** Another way leads to another robot's battery; the same one, left and taken again, does not. */

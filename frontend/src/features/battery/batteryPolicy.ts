@@ -34,7 +34,7 @@ const REST_LIMIT_MS = 4 * REST_MOVE_MS;
 export function applyBatteryPolicy(options: BatteryPolicyOptions): void {
   const { device, battery, robots, poses, notices } = options;
   const { clock } = device;
-  let toldLevel: Level = 'good';
+  let notifiedLevel: Level = 'good';
   let restIsDue = false;
   let cancelRest: (() => void) | null = null;
 
@@ -49,11 +49,11 @@ export function applyBatteryPolicy(options: BatteryPolicyOptions): void {
   }
 
   function judge(): void {
-    if (battery.getState().gauge.level === null) toldLevel = 'good';
+    if (battery.getState().gauge.level === null) notifiedLevel = 'good';
     const level = actionableLevel();
     if (level === null) return;
-    if (SEVERITY[level] > SEVERITY[toldLevel]) cross(level);
-    toldLevel = level;
+    if (SEVERITY[level] > SEVERITY[notifiedLevel]) cross(level);
+    notifiedLevel = level;
     if (level !== 'danger') restIsDue = false;
     if (restIsDue && cancelRest === null && mayRest()) announceRest();
   }

@@ -8,7 +8,7 @@ import { createDevice } from '../../robot/device.ts';
 import { createNotices } from '../../state/notices.ts';
 import { createRobots } from '../profiles/robots.ts';
 
-async function createDesk(visible = () => true) {
+async function createTestPage(visible = () => true) {
   const rig = await createRig();
   const device = createDevice({
     family: FAMILIES.doc,
@@ -23,7 +23,7 @@ async function createDesk(visible = () => true) {
 
 describe('the battery poll', () => {
   test('asks as soon as a link is ready, then every five seconds', async () => {
-    const { clock, asked, device } = await createDesk();
+    const { clock, asked, device } = await createTestPage();
     await clock.advance(200);
     expect(asked()).toBe(1);
     expect(device.store.getState().snapshot.battery).toMatchObject({ kind: 'read', batteryMv: 7500 });
@@ -32,7 +32,7 @@ describe('the battery poll', () => {
   });
 
   test('asks nothing while a group runs', async () => {
-    const { clock, asked, device } = await createDesk();
+    const { clock, asked, device } = await createTestPage();
     device.download([{ slot: 1, frames: [{ durationMs: 20_000, targets: [{ servo: 1, position: 1500 }] }] }]);
     await clock.advance(3000);
     device.run(1, 1);
@@ -44,7 +44,7 @@ describe('the battery poll', () => {
   });
 
   test('asks nothing while a servo moves, and soon after a playing has ended', async () => {
-    const { clock, asked, device } = await createDesk();
+    const { clock, asked, device } = await createTestPage();
     await clock.advance(1000);
     device.move([{ servo: 1, position: 1600 }], 12_000);
     await clock.advance(11_000);
@@ -59,7 +59,7 @@ describe('the battery poll', () => {
 
   test('asks nothing while the page is hidden, and nothing after its end', async () => {
     let visible = false;
-    const { clock, asked, end } = await createDesk(() => visible);
+    const { clock, asked, end } = await createTestPage(() => visible);
     await clock.advance(12_000);
     expect(asked()).toBe(0);
     visible = true;
@@ -71,7 +71,7 @@ describe('the battery poll', () => {
   });
 
   test('asks nothing of a shared robot: its link does', async () => {
-    const { clock, device } = await createDesk();
+    const { clock, device } = await createTestPage();
     const rig = await createRig();
     const readBattery = () => Promise.reject(new Error('asked by the page'));
     const lease = { driver: null, drives: false, asker: null, asks: false, answerInMs: null, others: 0 };

@@ -70,7 +70,7 @@ function PlaceControl() {
   const times = useDocument(({ present }) => present.times);
   const isEmpty = useDocument(({ present }) => present.frames.length === 0);
   const chosenSlot = useSlot();
-  const isKept = useView((state) => chosenTimes(state) === times) && chosenSlot === slot;
+  const isUnchanged = useView((state) => chosenTimes(state) === times) && chosenSlot === slot;
   const keep = (): void =>
     document.edit(
       () => words.board.steps.place,
@@ -85,7 +85,7 @@ function PlaceControl() {
         tone="quiet"
         icon="save"
         hint={words.board.keepPlaceHint}
-        isDisabled={isKept || isEmpty}
+        isDisabled={isUnchanged || isEmpty}
         onPress={keep}
       >
         {words.board.keepPlace}

@@ -13,7 +13,7 @@ import styles from './BoardPanel.module.css';
 
 const LONGEST_MINUTES = 60;
 
-function GoOnControl() {
+function KeepRunningControl() {
   const { view } = useStores();
   const isShared = useSnapshot((snapshot) => snapshot.lease !== null);
   const isOn = useView((state) => state.goesOn);
@@ -22,8 +22,12 @@ function GoOnControl() {
     <div className={styles.row}>
       <MinutesField isDisabled={!isOn} />
       <div className={styles.actions}>
-        <Toggle label={words.board.goOn} isOn={isOn} onChange={(goesOn) => view.setState({ goesOn })} />
-        <p className={styles.hint}>{isOn ? words.board.goOnHint : ''}</p>
+        <Toggle
+          label={words.board.keepRunning}
+          isOn={isOn}
+          onChange={(goesOn) => view.setState({ goesOn })}
+        />
+        <p className={styles.hint}>{isOn ? words.board.keepRunningHint : ''}</p>
       </div>
     </div>
   );
@@ -31,23 +35,23 @@ function GoOnControl() {
 
 function MinutesField({ isDisabled }: { readonly isDisabled: boolean }) {
   const { view, notices } = useStores();
-  const minutes = useView((state) => state.goOnMinutes);
+  const minutes = useView((state) => state.keepRunningMinutes);
   return (
     <div className={field.named}>
       <span className={styles.label} aria-hidden="true">
-        {words.board.goOnAtMost}
+        {words.board.keepRunningAtMost}
       </span>
       <NumberField
-        label={words.board.goOnMinutes}
+        label={words.board.keepRunningMinutes}
         value={minutes}
         min={1}
         max={LONGEST_MINUTES}
-        unit={words.board.goOnUnit}
+        unit={words.board.keepRunningUnit}
         isDisabled={isDisabled}
-        onChange={(goOnMinutes) => view.setState({ goOnMinutes })}
+        onChange={(keepRunningMinutes) => view.setState({ keepRunningMinutes })}
         onRefused={(value) =>
           notices.refuse(
-            words.refused({ name: words.board.goOnMinutes, value, min: 1, max: LONGEST_MINUTES }),
+            words.refused({ name: words.board.keepRunningMinutes, value, min: 1, max: LONGEST_MINUTES }),
           )
         }
       />
@@ -76,7 +80,7 @@ export function RunSettings() {
           )}
         </div>
       </div>
-      <GoOnControl />
+      <KeepRunningControl />
     </>
   );
 }

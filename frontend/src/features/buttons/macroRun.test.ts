@@ -2,36 +2,36 @@ import { describe, expect, test } from 'vitest';
 import { addMacro } from '#shared/profile/macroEdits.ts';
 import { macroOf, type Macro, type MacroStep } from '#shared/profile/macro.ts';
 import { addPose } from '#shared/profile/pose.ts';
-import { createDesk } from '../deskUnderTest.ts';
+import { createTestPage } from '../pageUnderTest.ts';
 
 const GO = (pose: number, durationMs = 1500): MacroStep => ({ kind: 'pose', pose, durationMs });
 const WAIT: MacroStep = { kind: 'wait', waitMs: 1000 };
 const RUN: MacroStep = { kind: 'slot', slot: 5, times: 1 };
 
-async function deskWith(...steps: readonly MacroStep[]) {
-  const desk = await createDesk();
+async function pageWith(...steps: readonly MacroStep[]) {
+  const fixture = await createTestPage();
   const at = (position: number) => ({ unit: 'us' as const, targets: [{ servo: 1, position }] });
-  desk.poses.book.edit(
+  fixture.poses.book.edit(
     () => 'capture',
     (book) => addPose(book, { name: 'Wave', ...at(1800) }),
   );
-  desk.poses.book.edit(
+  fixture.poses.book.edit(
     () => 'capture',
     (book) => addPose(book, { name: 'Bow', ...at(1200) }),
   );
-  desk.macros.edit(
+  fixture.macros.edit(
     () => 'add',
     (page) => addMacro(page, 'Greet', steps),
   );
-  const greet: Macro = macroOf(desk.macros.store.getState().present, 1)!;
-  const positions = () => desk.moves().map(({ targets }) => targets[0]?.position);
-  const step = () => desk.macroRun.store.getState()?.stepIndex ?? null;
-  return { ...desk, greet, positions, step };
+  const greet: Macro = macroOf(fixture.macros.store.getState().present, 1)!;
+  const positions = () => fixture.moves().map(({ targets }) => targets[0]?.position);
+  const step = () => fixture.macroRun.store.getState()?.stepIndex ?? null;
+  return { ...fixture, greet, positions, step };
 }
 
 describe('a button', () => {
   test('does its steps one after another and then is done', async () => {
-    const { macroRun, greet, positions, step, clock, book } = await deskWith(GO(1), WAIT, GO(2, 500));
+    const { macroRun, greet, positions, step, clock, book } = await pageWith(GO(1), WAIT, GO(2, 500));
     macroRun.start(greet);
     await clock.advance(1400);
     expect([positions(), step()]).toEqual([[1800], 0]);
@@ -45,7 +45,7 @@ describe('a button', () => {
   });
 
   test('waits for a first move, which is slow whatever was asked for', async () => {
-    const { macroRun, greet, positions, clock } = await deskWith(GO(1, 100), GO(2, 100));
+    const { macroRun, greet, positions, clock } = await pageWith(GO(1, 100), GO(2, 100));
     macroRun.start(greet);
     await clock.advance(1400);
     expect(positions()).toEqual([1800]);
@@ -54,7 +54,7 @@ describe('a button', () => {
   });
 
   test('waits until the last of several first moves has ended: they begin one after another', async () => {
-    const { macroRun, greet, step, clock, moves } = await deskWith(
+    const { macroRun, greet, step, clock, moves } = await pageWith(
       { kind: 'pose', pose: 'home', durationMs: 100 },
       GO(1),
     );
@@ -66,7 +66,7 @@ describe('a button', () => {
   });
 
   test('goes on behind a slot once the board says that the group has ended', async () => {
-    const { macroRun, greet, positions, step, clock, device, ofKind } = await deskWith(RUN, GO(2));
+    const { macroRun, greet, positions, step, clock, device, ofKind } = await pageWith(RUN, GO(2));
     device.download([
       {
         slot: 5,
@@ -86,24 +86,24 @@ describe('a button', () => {
   });
 
   test.each([
-    ['STOP', (desk: Awaited<ReturnType<typeof deskWith>>) => desk.device.halt()],
-    ['a pulled cable', (desk: Awaited<ReturnType<typeof deskWith>>) => desk.transport.unplug()],
-    ['another robot', (desk: Awaited<ReturnType<typeof deskWith>>) => desk.robots.duplicate()],
-    ['its second press', (desk: Awaited<ReturnType<typeof deskWith>>) => desk.macroRun.end()],
+    ['STOP', (fixture: Awaited<ReturnType<typeof pageWith>>) => fixture.device.halt()],
+    ['a pulled cable', (fixture: Awaited<ReturnType<typeof pageWith>>) => fixture.transport.unplug()],
+    ['another robot', (fixture: Awaited<ReturnType<typeof pageWith>>) => fixture.robots.duplicate()],
+    ['its second press', (fixture: Awaited<ReturnType<typeof pageWith>>) => fixture.macroRun.end()],
   ])('is ended for good by %s, also after Resume', async (_, end) => {
-    const desk = await deskWith(WAIT, { kind: 'pose', pose: 'home', durationMs: 500 });
-    desk.macroRun.start(desk.greet);
-    await desk.clock.advance(500);
-    end(desk);
-    await desk.clock.advance(300);
-    expect(desk.step()).toBeNull();
-    desk.device.resume();
-    await desk.clock.advance(5000);
-    expect(desk.positions()).toEqual([]);
+    const fixture = await pageWith(WAIT, { kind: 'pose', pose: 'home', durationMs: 500 });
+    fixture.macroRun.start(fixture.greet);
+    await fixture.clock.advance(500);
+    end(fixture);
+    await fixture.clock.advance(300);
+    expect(fixture.step()).toBeNull();
+    fixture.device.resume();
+    await fixture.clock.advance(5000);
+    expect(fixture.positions()).toEqual([]);
   });
 
   test('ended during a slot, the group on the board is ended too', async () => {
-    const { macroRun, greet, clock, device, ofKind } = await deskWith(RUN, GO(2));
+    const { macroRun, greet, clock, device, ofKind } = await pageWith(RUN, GO(2));
     device.download([
       {
         slot: 5,
@@ -123,7 +123,7 @@ describe('a button', () => {
   });
 
   test('goes no further where the run of its slot is refused', async () => {
-    const { macroRun, greet, step, clock, device, heard } = await deskWith(RUN, GO(2));
+    const { macroRun, greet, step, clock, device, heard } = await pageWith(RUN, GO(2));
     device.guardRuns(() => false);
     macroRun.start(greet);
     await clock.advance(5000);
@@ -132,13 +132,13 @@ describe('a button', () => {
   });
 
   test('never begins while stopped, while another is at work, or without steps', async () => {
-    const { macroRun, greet, step, clock, device, told, positions } = await deskWith(GO(1, 3000));
+    const { macroRun, greet, step, clock, device, noticeTexts, positions } = await pageWith(GO(1, 3000));
     macroRun.start({ ...greet, steps: [] });
     device.halt();
     await clock.advance(500);
     macroRun.start(greet);
     expect(step()).toBeNull();
-    expect(told()).toEqual(['This button has no steps yet.', 'Stopped. Resume to move.']);
+    expect(noticeTexts()).toEqual(['This button has no steps yet.', 'Stopped. Resume to move.']);
     device.resume();
     await clock.advance(500);
     macroRun.start(greet);
@@ -148,19 +148,19 @@ describe('a button', () => {
   });
 
   test('with a step that cannot be, begins none of its steps', async () => {
-    const desk = await deskWith(GO(1), GO(2));
-    desk.robots.edit(
+    const fixture = await pageWith(GO(1), GO(2));
+    fixture.robots.edit(
       () => 'limits',
       (robot) => ({
         ...robot,
         servos: robot.servos.map((servo) => (servo.servo === 1 ? { ...servo, min: 1300 } : servo)),
       }),
     );
-    desk.macroRun.start(desk.greet);
-    desk.macroRun.start({ ...desk.greet, steps: [GO(1), GO(7)] });
-    await desk.clock.advance(5000);
-    expect(desk.positions()).toEqual([]);
-    expect(desk.told()[0]).toContain('Gripper: 1200 is out of range');
-    expect(desk.told()[1]).toContain('This pose was deleted');
+    fixture.macroRun.start(fixture.greet);
+    fixture.macroRun.start({ ...fixture.greet, steps: [GO(1), GO(7)] });
+    await fixture.clock.advance(5000);
+    expect(fixture.positions()).toEqual([]);
+    expect(fixture.noticeTexts()[0]).toContain('Gripper: 1200 is out of range');
+    expect(fixture.noticeTexts()[1]).toContain('This pose was deleted');
   });
 });

@@ -177,7 +177,7 @@ function activityWords(activity: Activity, played: Played | null): string {
     case 'idle':
       return words.activity.idle;
     case 'running':
-      return words.activity.told({
+      return words.activity.summary({
         activity: words.activity.running(activity),
         truth: words.activity.runTruth[activity.truth],
       });

@@ -10,7 +10,7 @@ import { Choice } from '../../ui/Toggle.tsx';
 import { useLayout } from '../../ui/useLayout.ts';
 import { servosText } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/words.ts';
-import { useHand } from './useHand.ts';
+import { useServoMoves } from './useServoMoves.ts';
 import styles from './SelectionBar.module.css';
 
 /** A servo may turn up to twice as far as the others, to either side. */
@@ -32,12 +32,12 @@ export function Selected({ selected }: SelectedProps) {
 
 function Tools({ selected }: SelectedProps) {
   const stores = useStores();
-  const hand = useHand();
+  const servoMoves = useServoMoves();
   const cannotMove = useSnapshot((snapshot) => motionHindrance(snapshot) !== null);
   const together = useServoView((view) => view.together);
   const isLocked = useServoView((view) => selected.every((servo) => isHeld(view, servo)));
   const edit = (change: (view: ServoView) => ServoView): void => editServoView(stores, change);
-  const isGang = selected.length > 1;
+  const isLinked = selected.length > 1;
   const layout = useLayout();
   const isPhone = layout === 'phone';
   // All in one line, so that no row below moves.
@@ -45,14 +45,14 @@ function Tools({ selected }: SelectedProps) {
   const clear = (): void => edit((view) => select(view, []));
   return (
     <div className={styles.line}>
-      {isGang && isPhone ? (
+      {isLinked && isPhone ? (
         <IconButton icon="close" label={words.servoPanel.unbind} onPress={clear} />
       ) : (
         <Button tone="quiet" onPress={clear}>
-          {isGang ? words.servoPanel.unbind : words.servoPanel.clear}
+          {isLinked ? words.servoPanel.unbind : words.servoPanel.clear}
         </Button>
       )}
-      {isGang ? (
+      {isLinked ? (
         <Ways
           label={words.servoPanel.together}
           value={together}
@@ -67,7 +67,7 @@ function Tools({ selected }: SelectedProps) {
           icon="home"
           label={words.servoPanel.home}
           isDisabled={cannotMove}
-          onPress={() => hand.home(selected)}
+          onPress={() => servoMoves.home(selected)}
         />
         <IconButton
           icon="lock"

@@ -17,7 +17,7 @@ import { servoLabel } from '../../i18n/sentences.ts';
 import { Estimate } from './Estimate.tsx';
 import { PositionSlider } from './PositionSlider.tsx';
 import { ServoName } from './ServoName.tsx';
-import { useHand } from './useHand.ts';
+import { useServoMoves } from './useServoMoves.ts';
 import { targetOf } from './useTarget.ts';
 import { useWheelSteps } from './useDrag.ts';
 import reportedStyles from './Reported.module.css';
@@ -77,7 +77,7 @@ interface ServoControlsProps {
 function ServoControls({ servo: own, onHeld }: ServoControlsProps) {
   const { servo } = own;
   const { device } = useStores();
-  const hand = useHand();
+  const servoMoves = useServoMoves();
   const family = useDevice((state) => state.family);
   const isKnown = useDevice((state) => state.known.includes(servo));
   const isRead = useDevice((state) => state.readServos.includes(servo));
@@ -106,11 +106,11 @@ function ServoControls({ servo: own, onHeld }: ServoControlsProps) {
   };
   const move = (position: number): void => {
     take();
-    hand.move(servo, position);
+    servoMoves.move(servo, position);
   };
   const leap = (position: number): void => {
     take();
-    hand.leap(servo, position);
+    servoMoves.leap(servo, position);
   };
   /** By a finger. */
   const isNewlyHeld = useRef(false);
@@ -118,7 +118,7 @@ function ServoControls({ servo: own, onHeld }: ServoControlsProps) {
     if (isNewlyHeld.current) onHeld();
     isNewlyHeld.current = false;
     take();
-    hand.drag(servo, position);
+    servoMoves.drag(servo, position);
   };
   useWheelSteps(area, {
     mayStep: () =>
@@ -146,14 +146,14 @@ function ServoControls({ servo: own, onHeld }: ServoControlsProps) {
         onMove={move}
         onLeap={leap}
         onDrag={drag}
-        onHome={() => hand.home([servo])}
+        onHome={() => servoMoves.home([servo])}
       />
       <TargetField
         {...{ servo: own, scale, isKnown, isRead, guess, blocked }}
         onStep={move}
         onTyped={(position) => {
           touch();
-          return hand.place(servo, position);
+          return servoMoves.place(servo, position);
         }}
         onRefused={(takeBack) => {
           isRefused.current = true;

@@ -33,9 +33,9 @@ import { Panel } from '../../ui/Panel.tsx';
 import { useLayout } from '../../ui/useLayout.ts';
 import { ServoList } from './ServoList.tsx';
 import { ServoTalk } from './ServoTalk.tsx';
-import { useHand } from './useHand.ts';
+import { useServoMoves } from './useServoMoves.ts';
 import moveTimeControlStyles from './MoveTimeControl.module.css';
-import servoAtHandStyles from './ServoAtHand.module.css';
+import currentServoStyles from './CurrentServo.module.css';
 import legendStyles from './Legend.module.css';
 import selectionBarStyles from './SelectionBar.module.css';
 import styles from './ServosPanel.module.css';
@@ -67,14 +67,14 @@ function SendRate() {
 
 const ALONE: readonly number[] = [];
 
-function ServoAtHand() {
+function CurrentServo() {
   const robot = useRobot();
   const last = useServoView(({ selected }) => selected.at(-1));
   const servo = last === undefined ? undefined : servoOf(robot, last);
   return (
-    <div className={servoAtHandStyles.place}>
+    <div className={currentServoStyles.place}>
       {servo === undefined ? (
-        <p className={servoAtHandStyles.hint}>{words.servoPanel.atHandHint}</p>
+        <p className={currentServoStyles.hint}>{words.servoPanel.pressHint}</p>
       ) : (
         <SharedSheet>
           <ol>
@@ -245,7 +245,7 @@ export function ServosPanel() {
       <SelectionBar
         hint={isTeaching ? words.teach.on : isPhone && why !== '' ? why : words.servoPanel.selectHint}
       />
-      {layout === 'list' ? <ServoList /> : <ServoAtHand />}
+      {layout === 'list' ? <ServoList /> : <CurrentServo />}
       <MoveTimeControl />
       <ServoTalk />
     </Panel>
@@ -269,7 +269,7 @@ function LayoutChoice() {
 }
 
 function CentreAll() {
-  const hand = useHand();
+  const servoMoves = useServoMoves();
   const { servos } = useRobot();
   const isDisabled = useSnapshot((snapshot) => motionHindrance(snapshot) !== null);
   const all = servos.map(({ servo }) => servo);
@@ -278,7 +278,7 @@ function CentreAll() {
       icon="centre"
       hint={words.servos.centreHint}
       isDisabled={isDisabled}
-      onPress={() => hand.home(all, GENTLE_MOVE_MS)}
+      onPress={() => servoMoves.home(all, GENTLE_MOVE_MS)}
     >
       {words.servos.centre}
     </Button>

@@ -4,18 +4,18 @@ import { isProfileName } from '#shared/simulator/profileNames.ts';
 import { servoLabel } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/words.ts';
 import { captureFrame } from '../animate/frames/capture.ts';
-import { createDesk } from '../deskUnderTest.ts';
+import { createTestPage } from '../pageUnderTest.ts';
 import { canTeach, createTeaching } from './teaching.ts';
 
 async function createXarm() {
-  const desk = await createDesk(new Map(), { profile: 'xarm', family: FAMILIES.xarm });
-  const teaching = createTeaching(desk);
-  const { board } = desk.transport;
+  const page = await createTestPage(new Map(), { profile: 'xarm', family: FAMILIES.xarm });
+  const teaching = createTeaching(page);
+  const { board } = page.transport;
   return {
-    ...{ ...desk, teaching, board },
+    ...{ ...page, teaching, board },
     isOn: () => teaching.store.getState().isOn,
-    kinds: () => desk.heard.map(({ command }) => command.kind),
-    reads: () => desk.ofKind('readPositions').length,
+    kinds: () => page.heard.map(({ command }) => command.kind),
+    reads: () => page.ofKind('readPositions').length,
   };
 }
 
@@ -47,17 +47,17 @@ describe('teaching by hand', () => {
   });
 
   test('captures frames, and records the way', async () => {
-    const desk = await createXarm();
-    const { teaching, board, draw, document, tape } = desk;
+    const page = await createXarm();
+    const { teaching, board, draw, document, tape } = page;
     teaching.begin();
     await draw(TWO_READS_MS);
-    captureFrame(desk, 'end');
+    captureFrame(page, 'end');
     tape.record();
     for (const position of [420, 480, 560]) {
       board.turn(1, position);
       await draw(TWO_READS_MS);
     }
-    captureFrame(desk, 'end');
+    captureFrame(page, 'end');
     const { frames } = document.store.getState().present;
     expect(frames.map(({ targets }) => targets[0]?.position)).toEqual([400, 560]);
     expect(tape.end([1]).map(({ position }) => position)).toEqual(
@@ -85,7 +85,7 @@ describe('teaching by hand', () => {
   });
 
   test('leaves a servo released that was turned beyond its limits, and says which', async () => {
-    const { teaching, board, draw, robots, told, ofKind } = await createXarm();
+    const { teaching, board, draw, robots, noticeTexts, ofKind } = await createXarm();
     const { robot } = robots.current();
     robots.edit(
       () => 'limits',
@@ -103,36 +103,36 @@ describe('teaching by hand', () => {
     expect(ofKind('move').flatMap(({ targets }) => targets.map(({ servo }) => servo))).toEqual([
       1, 3, 4, 5, 6,
     ]);
-    expect(told().some((text) => text.includes(servoLabel(robot.servos[1]!)))).toBe(true);
+    expect(noticeTexts().some((text) => text.includes(servoLabel(robot.servos[1]!)))).toBe(true);
   });
 
   test('a slider ends it, and moves its servo alone', async () => {
-    const { teaching, draw, device, kinds, board, isOn, told } = await createXarm();
+    const { teaching, draw, device, kinds, board, isOn, noticeTexts } = await createXarm();
     teaching.begin();
     await draw(TWO_READS_MS);
     device.move([{ servo: 4, position: 500 }], 'hand');
     await draw(TWO_READS_MS);
-    expect([isOn(), told()]).toEqual([false, [words.teach.staysReleased]]);
+    expect([isOn(), noticeTexts()]).toEqual([false, [words.teach.staysReleased]]);
     const asked = kinds().filter((kind) => kind === 'readPositions').length;
     await draw(3000);
     expect(kinds().filter((kind) => kind === 'readPositions')).toHaveLength(asked);
     expect(board.snapshot().targets).toEqual([400, 400, 400, 500, 400, 400]);
   });
 
-  const ENDINGS: readonly (readonly [string, (desk: Awaited<ReturnType<typeof createXarm>>) => unknown])[] = [
+  const ENDINGS: readonly (readonly [string, (page: Awaited<ReturnType<typeof createXarm>>) => unknown])[] = [
     ['Stop', ({ device }) => device.halt()],
     ['a lost link', ({ transport }) => transport.unplug()],
     ['a group of the board', ({ device }) => device.run(8, 1)],
   ];
   test.each(ENDINGS)('%s ends it without a move of ours, and the person is told', async (_, happen) => {
-    const desk = await createXarm();
-    const { teaching, draw, isOn, ofKind, told, reads } = desk;
+    const page = await createXarm();
+    const { teaching, draw, isOn, ofKind, noticeTexts, reads } = page;
     teaching.begin();
     await draw(TWO_READS_MS);
-    happen(desk);
+    happen(page);
     await draw(200);
     expect([isOn(), ofKind('move')]).toEqual([false, []]);
-    expect(told()).toContain(words.teach.staysReleased);
+    expect(noticeTexts()).toContain(words.teach.staysReleased);
     const before = reads();
     await draw(2000);
     expect(reads()).toBe(before);

@@ -42,11 +42,11 @@ export function draftFor(input: Input, { servos }: Robot): Draft {
   const [first] = servos;
   const unitsPerS = first === undefined ? FASTEST_UNITS_PER_S : usualUnitsPerS(first);
   const isReversed = input.kind === 'axis' && input.side === 'minus';
-  return { at: null, input, kind: 'rate', servo: first?.servo ?? 1, unitsPerS, isReversed, ...UNTOLD };
+  return { at: null, input, kind: 'rate', servo: first?.servo ?? 1, unitsPerS, isReversed, ...NOT_SHOWN };
 }
 
 /** Of what the action does not say. */
-const UNTOLD = { slot: 0, pose: 'home', durationMs: GENTLE_MOVE_MS } as const;
+const NOT_SHOWN = { slot: 0, pose: 'home', durationMs: GENTLE_MOVE_MS } as const;
 
 export function draftOf(at: number, { input, action }: Binding, robot: Robot): Draft {
   const draft = { ...draftFor(input, robot), at, kind: action.kind };
@@ -85,7 +85,7 @@ export function BindingForm({ initial, onSave, onRemove, onCancel }: BindingForm
   const change = (part: Partial<Draft>): void => setDraft({ ...draft, ...part });
   // Letting go of a key must never be what moves a servo.
   const kinds = KINDS.filter((one) => input.kind !== 'key' || one !== 'position');
-  const turns = kind === 'rate' || kind === 'position';
+  const movesServo = kind === 'rate' || kind === 'position';
   const name = inputName(input);
   return (
     <form
@@ -110,9 +110,9 @@ export function BindingForm({ initial, onSave, onRemove, onCancel }: BindingForm
           </option>
         ))}
       </select>
-      {turns && <ServoChoice servo={draft.servo} onChange={(servo) => change({ servo })} />}
+      {movesServo && <ServoChoice servo={draft.servo} onChange={(servo) => change({ servo })} />}
       {kind === 'rate' && <Speed value={draft.unitsPerS} onChange={(unitsPerS) => change({ unitsPerS })} />}
-      {turns && (
+      {movesServo && (
         <Toggle label={words.pad.reversed} isOn={isReversed} onChange={(on) => change({ isReversed: on })} />
       )}
       {kind === 'pose' && (

@@ -26,9 +26,9 @@ const CONTROLS: readonly Control[] = [
 
 export function FeelControls() {
   const { mappings } = useStores();
-  const { feel: kept } = useMapping();
+  const { feel: saved } = useMapping();
   const [draft, setDraft] = useState<Feel | null>(null);
-  const feel = draft ?? kept;
+  const feel = draft ?? saved;
   function keep(): void {
     if (draft !== null)
       mappings.edit(

@@ -9,7 +9,7 @@ import { homeTargets } from '#shared/profile/poseShapes.ts';
 import { FAMILIES } from '#shared/codec/families.ts';
 import { TIMES } from '#shared/robot/faults/amount.ts';
 import { RANGE_MS } from '#shared/robot/timings.ts';
-import { createDesk } from '../deskUnderTest.ts';
+import { createTestPage } from '../pageUnderTest.ts';
 import { GENTLE_MOVE_MS } from '../../robot/moveTime.ts';
 import { createMappings } from './mappings.ts';
 import { createFollower } from '../../robot/follower.ts';
@@ -72,8 +72,8 @@ test.each(BOARDS)('%s', { timeout: 60_000 * TIMES }, async (profile) => {
   const span = position.max - position.min;
 
   async function tryOut(history: readonly Event[]): Promise<void> {
-    const desk = await createDesk(new Map(), { profile, family: FAMILIES[profile] });
-    const { clock, device, robots, view, poses, notices, transport, blend, session } = desk;
+    const page = await createTestPage(new Map(), { profile, family: FAMILIES[profile] });
+    const { clock, device, robots, view, poses, notices, transport, blend, session } = page;
     const { board } = transport;
     const follower = createFollower(device);
     const mappings = createMappings({ getItem: () => null, setItem: () => undefined }, notices, robots);

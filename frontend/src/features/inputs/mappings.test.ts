@@ -5,7 +5,7 @@ import { createMappings } from './mappings.ts';
 import { createNotices } from '../../state/notices.ts';
 import { createRobots, freshRobot } from '../profiles/robots.ts';
 
-function desk(texts = new Map<string, string>()) {
+function page(texts = new Map<string, string>()) {
   const storage = {
     getItem: (key: string) => texts.get(key) ?? null,
     setItem: (key: string, text: string) => void texts.set(key, text),
@@ -13,23 +13,23 @@ function desk(texts = new Map<string, string>()) {
   const notices = createNotices(createVirtualClock());
   const robots = createRobots(storage, notices);
   const mappings = createMappings(storage, notices, robots);
-  const told = () => notices.store.getState().length;
+  const noticeTexts = () => notices.store.getState().length;
   const bindings = () => mappings.store.getState().present.bindings.length;
-  return { texts, robots, mappings, told, bindings };
+  return { texts, robots, mappings, noticeTexts, bindings };
 }
 
 const emptied = (mapping: Mapping): Mapping => ({ ...mapping, bindings: [] });
 
 describe('mappings', () => {
   test('a robot has the ready one until somebody changes it; then it is there at the next visit', () => {
-    const { texts, mappings, robots } = desk();
+    const { texts, mappings, robots } = page();
     expect(mappings.store.getState().present).toEqual(readyMapping(robots.current().robot));
     mappings.edit(() => 'empty', emptied);
-    expect(desk(texts).bindings()).toBe(0);
+    expect(page(texts).bindings()).toBe(0);
   });
 
   test('edits are undone and redone', () => {
-    const { mappings, bindings } = desk();
+    const { mappings, bindings } = page();
     const before = bindings();
     mappings.edit(() => 'empty', emptied);
     mappings.undo();
@@ -39,7 +39,7 @@ describe('mappings', () => {
   });
 
   test('each robot has its own, with its own undo', () => {
-    const { robots, mappings, bindings } = desk();
+    const { robots, mappings, bindings } = page();
     const { id } = robots.current();
     mappings.edit(() => 'empty', emptied);
     robots.add(() => 'add', freshRobot('hand', 'doc'));
@@ -53,9 +53,9 @@ describe('mappings', () => {
   });
 
   test('saved text that is none of ours is set aside', () => {
-    const { texts, told, bindings } = desk(new Map([['servodeck.mapping.1', 'x']]));
+    const { texts, noticeTexts, bindings } = page(new Map([['servodeck.mapping.1', 'x']]));
     expect(texts.get('servodeck.mapping.1.unreadable')).toBe('x');
-    expect(told()).toBe(1);
+    expect(noticeTexts()).toBe(1);
     expect(bindings()).toBeGreaterThan(0);
   });
 });

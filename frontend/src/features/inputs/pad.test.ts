@@ -21,7 +21,7 @@ const STOP = 1;
 const RIGHT_TRIGGER = 7;
 
 /** A robot whose first servo stands at 1500, and a pad lying beside it, switched on unless told otherwise. */
-async function createDesk({ drives = true } = {}) {
+async function createTestPage({ drives = true } = {}) {
   const rig = await createRig();
   const notices = createNotices(rig.clock);
   const storage = { getItem: () => null, setItem: () => undefined };
@@ -34,7 +34,7 @@ async function createDesk({ drives = true } = {}) {
   const poses = createPoses({ storage, notices, robots, device, view });
   const pad = createPad({ device, robots, view, poses, mappings, notices, clock: rig.clock, readPads });
   device.attach(rig.session, { kind: 'simulated', label: 'Simulated board', isSimulated: true });
-  const told = () => notices.store.getState().map((notice) => notice.text);
+  const noticeTexts = () => notices.store.getState().map((notice) => notice.text);
   const moves = () => rig.ofKind('move').length;
   const target = (servo = 1) => device.motion(servo).target ?? undefined;
 
@@ -64,7 +64,21 @@ async function createDesk({ drives = true } = {}) {
   if (drives) pad.drive(step);
   await frames(50);
   return {
-    ...{ ...rig, pad, device, robots, view, poses, mappings, told, moves, movesIn, target, hold, frames },
+    ...{
+      ...rig,
+      pad,
+      device,
+      robots,
+      view,
+      poses,
+      mappings,
+      noticeTexts,
+      moves,
+      movesIn,
+      target,
+      hold,
+      frames,
+    },
     isDriving: () => pad.store.getState().isDriving,
     unplug: () => (plugged = null),
   };
@@ -72,7 +86,7 @@ async function createDesk({ drives = true } = {}) {
 
 describe('driving by pad', () => {
   test('a trigger turns its servo while it is held, and not a moment longer', async () => {
-    const { hold, frames, target, device, movesIn } = await createDesk();
+    const { hold, frames, target, device, movesIn } = await createTestPage();
     hold(RIGHT_TRIGGER);
     await frames(500);
     const reached = target() ?? 0;
@@ -85,7 +99,7 @@ describe('driving by pad', () => {
   });
 
   test('off, nothing moves: neither connecting a pad nor pushing it', async () => {
-    const { hold, unplug, frames, movesIn } = await createDesk({ drives: false });
+    const { hold, unplug, frames, movesIn } = await createTestPage({ drives: false });
     unplug();
     await frames(50);
     hold(RIGHT_TRIGGER);
@@ -93,7 +107,7 @@ describe('driving by pad', () => {
   });
 
   test('a pad that comes with a trigger held moves nothing until it is let go', async () => {
-    const { hold, unplug, frames, pad, movesIn } = await createDesk();
+    const { hold, unplug, frames, pad, movesIn } = await createTestPage();
     unplug();
     await frames(50);
     pad.drive(step);
@@ -107,21 +121,21 @@ describe('driving by pad', () => {
   });
 
   test('pulling the pad ends the motion, switches off and says so', async () => {
-    const { hold, unplug, frames, isDriving, told, movesIn } = await createDesk();
+    const { hold, unplug, frames, isDriving, noticeTexts, movesIn } = await createTestPage();
     hold(RIGHT_TRIGGER);
     await frames(200);
     unplug();
     await frames(50);
     expect(isDriving()).toBe(false);
-    expect(told()).toEqual([words.pad.gone]);
+    expect(noticeTexts()).toEqual([words.pad.gone]);
     expect(await movesIn(300)).toBe(0);
   });
 
   test('a servo that nobody moved stays and is asked for; once it is known it turns', async () => {
-    const { hold, frames, device, told, target, movesIn } = await createDesk();
+    const { hold, frames, device, noticeTexts, target, movesIn } = await createTestPage();
     hold(5);
     expect(await movesIn(300)).toBe(0);
-    expect(told()).toEqual([words.pad.unknown({ servo: 'Wrist roll' })]);
+    expect(noticeTexts()).toEqual([words.pad.unknown({ servo: 'Wrist roll' })]);
     hold();
     device.move([{ servo: 2, position: 1500 }], 1500);
     await frames(4000);
@@ -131,36 +145,36 @@ describe('driving by pad', () => {
   });
 
   test('other robot, other hands: taking up another one switches off', async () => {
-    const { robots, isDriving } = await createDesk();
+    const { robots, isDriving } = await createTestPage();
     robots.add(() => 'add', freshRobot('hand', 'doc'));
     expect(isDriving()).toBe(false);
   });
 });
 
 test('a servo that is pushed on at its limit is told once while driving goes on, with its range', async () => {
-  const { hold, frames, told, target, movesIn } = await createDesk();
+  const { hold, frames, noticeTexts, target, movesIn } = await createTestPage();
   const push = async (): Promise<void> => {
     hold(RIGHT_TRIGGER);
     await frames(4000);
   };
   await push();
   expect(target()).toBe(2500);
-  expect(told()).toEqual([words.pad.atLimit({ servo: 'Gripper', min: 500, max: 2500 })]);
+  expect(noticeTexts()).toEqual([words.pad.atLimit({ servo: 'Gripper', min: 500, max: 2500 })]);
   expect(await movesIn(500)).toBe(0);
   hold();
   await frames(8000);
   await push();
-  expect(told()).toEqual([]);
+  expect(noticeTexts()).toEqual([]);
 });
 
 test('a locked servo stays, is told once a push, and turns once it is free', async () => {
-  const { hold, frames, view, robots, told, target, movesIn } = await createDesk();
+  const { hold, frames, view, robots, noticeTexts, target, movesIn } = await createTestPage();
   const lock = (...locked: readonly number[]): void =>
     view.setState({ servos: { ...INITIAL_SERVO_VIEW, robotId: robots.current().id, locked } });
   lock(1);
   hold(RIGHT_TRIGGER);
   expect(await movesIn(500)).toBe(0);
-  expect(told()).toEqual([stayingSentence(['Gripper'])]);
+  expect(noticeTexts()).toEqual([stayingSentence(['Gripper'])]);
   lock();
   hold();
   await frames(50);
@@ -172,13 +186,13 @@ test('a locked servo stays, is told once a push, and turns once it is free', asy
 describe('a button for a pose', () => {
   const X = 2;
 
-  async function deskWithPose() {
-    const desk = await createDesk();
-    desk.poses.book.edit(
+  async function pageWithPose() {
+    const page = await createTestPage();
+    page.poses.book.edit(
       () => 'capture',
       (book) => addPose(book, { name: 'Wave', unit: 'us', targets: [{ servo: 1, position: 1900 }] }),
     );
-    desk.mappings.edit(
+    page.mappings.edit(
       () => 'bind',
       (mapping) => ({
         ...mapping,
@@ -188,12 +202,12 @@ describe('a button for a pose', () => {
         ],
       }),
     );
-    await desk.frames(50);
-    return desk;
+    await page.frames(50);
+    return page;
   }
 
   test('goes there once a press, in the time that was chosen, and on when it is let go', async () => {
-    const { hold, frames, ofKind, target, poses, movesIn } = await deskWithPose();
+    const { hold, frames, ofKind, target, poses, movesIn } = await pageWithPose();
     hold(X);
     await frames(500);
     expect(ofKind('move').at(-1)).toMatchObject({
@@ -207,7 +221,7 @@ describe('a button for a pose', () => {
   });
 
   test('moves nothing while driving is off, and says where the pose is gone', async () => {
-    const { hold, frames, pad, poses, told, movesIn } = await deskWithPose();
+    const { hold, frames, pad, poses, noticeTexts, movesIn } = await pageWithPose();
     pad.drive(null);
     hold(X);
     expect(await movesIn(300)).toBe(0);
@@ -217,13 +231,13 @@ describe('a button for a pose', () => {
     await frames(50);
     hold(X);
     expect(await movesIn(300)).toBe(0);
-    expect(told()).toEqual([words.poses.gone]);
+    expect(noticeTexts()).toEqual([words.poses.gone]);
   });
 });
 
 describe('STOP', () => {
   test('on the pad halts and switches off; resuming does not switch on', async () => {
-    const { hold, frames, device, isDriving, ofKind, movesIn } = await createDesk();
+    const { hold, frames, device, isDriving, ofKind, movesIn } = await createTestPage();
     hold(RIGHT_TRIGGER);
     await frames(300);
     hold(RIGHT_TRIGGER, STOP);
@@ -237,7 +251,7 @@ describe('STOP', () => {
   });
 
   test('on the pad works while driving is off, once a press', async () => {
-    const { hold, frames, device, ofKind } = await createDesk({ drives: false });
+    const { hold, frames, device, ofKind } = await createTestPage({ drives: false });
     hold(STOP);
     await frames(1000);
     expect(device.store.getState().snapshot.latch).not.toBeNull();
@@ -247,7 +261,7 @@ describe('STOP', () => {
   });
 
   test('from anywhere else switches off, and stopped it cannot be switched on', async () => {
-    const { device, frames, pad, isDriving } = await createDesk();
+    const { device, frames, pad, isDriving } = await createTestPage();
     device.halt();
     await frames(50);
     expect(isDriving()).toBe(false);
@@ -258,7 +272,7 @@ describe('STOP', () => {
 
 describe('driving by keys', () => {
   test('a held key turns its servo; any key-up ends all of them', async () => {
-    const { pad, frames, target, movesIn } = await createDesk();
+    const { pad, frames, target, movesIn } = await createTestPage();
     expect(pad.keyDown('KeyQ', false)).toBe(true);
     await frames(400);
     expect(target()).toBeGreaterThan(1600);
@@ -269,7 +283,7 @@ describe('driving by keys', () => {
   });
 
   test('leaving the window lets go of the keys, and coming back does not press them', async () => {
-    const { pad, frames, movesIn } = await createDesk();
+    const { pad, frames, movesIn } = await createTestPage();
     pad.keyDown('KeyQ', false);
     await frames(200);
     pad.leave();
@@ -279,7 +293,7 @@ describe('driving by keys', () => {
   });
 
   test('keys that are not bound, that everybody needs, or while it is off, are for others', async () => {
-    const { pad } = await createDesk();
+    const { pad } = await createTestPage();
     expect(pad.keyDown('KeyM', false)).toBe(false);
     expect(pad.keyDown('Escape', false)).toBe(false);
     pad.drive(null);
@@ -289,7 +303,7 @@ describe('driving by keys', () => {
 
 describe('listening for an input', () => {
   test('tells the one that is moved and obeys none meanwhile', async () => {
-    const { pad, hold, frames, movesIn, device } = await createDesk();
+    const { pad, hold, frames, movesIn, device } = await createTestPage();
     const heard: Input[] = [];
     pad.listen((input) => heard.push(input));
     await frames(50);
@@ -306,7 +320,7 @@ describe('listening for an input', () => {
   });
 
   test('given up, the next press is obeyed as ever', async () => {
-    const { pad, hold, frames, device } = await createDesk();
+    const { pad, hold, frames, device } = await createTestPage();
     const giveUp = pad.listen(() => expect.unreachable());
     giveUp();
     hold(STOP);

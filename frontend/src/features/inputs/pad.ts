@@ -180,8 +180,8 @@ export function createPad(options: PadOptions): Pad {
     driven = moment.state;
     if (moment.moves.length > 0) device.move(moment.moves, 'hand');
     moment.begun.forEach(begin);
-    const among = (servos: readonly number[], told: readonly number[]): readonly RobotServo[] =>
-      robot.servos.filter(({ servo }) => servos.includes(servo) && !told.includes(servo));
+    const among = (servos: readonly number[], wanted: readonly number[]): readonly RobotServo[] =>
+      robot.servos.filter(({ servo }) => servos.includes(servo) && !wanted.includes(servo));
     for (const servo of among(moment.unknown, staying))
       notices.tell('warning', words.pad.unknown({ servo: servoLabel(servo) }));
     for (const servo of among(moment.locked, staying))

@@ -145,11 +145,11 @@ function useLooking(): void {
 /** Where it lies, and whether everything is there. */
 function Place() {
   const place = useLibrary((state) => state.place);
-  const isKept = useLibrary((state) => state.isKept);
+  const isSaved = useLibrary((state) => state.isSaved);
   return (
     <p className={styles.place}>
       {place === null ? words.library.looking : words.library.place[place]}
-      {!isKept && <span className={styles.waiting}>{words.library.waiting}</span>}
+      {!isSaved && <span className={styles.waiting}>{words.library.waiting}</span>}
     </p>
   );
 }

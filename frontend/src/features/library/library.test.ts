@@ -4,49 +4,49 @@ import { groupFromText, groupToText, emptyGroup, GROUP_NAME_LENGTH } from '#shar
 import { LibraryError, type DocumentStore } from '#shared/files/documentStore.ts';
 import { libraryFromText, type BundledDocument } from '#shared/files/libraryText.ts';
 import { createVirtualClock, type VirtualClock } from '#shared/testing/virtualClock.ts';
-import { createMemoryKeeper } from './memoryKeeper.ts';
+import { createMemoryStore } from './memoryStore.ts';
 import { libraryProblem } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/whole.ts';
 import { createVisit } from './libraryUnderTest.ts';
 
 const called = (name: string) => (group: Parameters<typeof rename>[0]) => rename(group, name);
 
-function createPlace(keeper: DocumentStore = createMemoryKeeper()) {
+function createPlace(documentStore: DocumentStore = createMemoryStore()) {
   const clock = createVirtualClock();
-  const visit = (texts?: Map<string, string>) => createVisit(keeper, clock, texts);
-  return { keeper, clock, visit };
+  const visit = (texts?: Map<string, string>) => createVisit(documentStore, clock, texts);
+  return { documentStore, clock, visit };
 }
 
 /** Goes away and comes back, as a gateway does. */
-function unreliable(keeper: DocumentStore) {
+function unreliable(documentStore: DocumentStore) {
   const state = { isAway: false };
   const away = <T>(ask: () => Promise<T>): Promise<T> =>
     state.isAway ? Promise.reject(new LibraryError('unreachable', 'away')) : ask();
   const flaky: DocumentStore = {
-    ...keeper,
-    list: () => away(keeper.list),
-    read: (id) => away(() => keeper.read(id)),
-    write: (id, writing) => away(() => keeper.write(id, writing)),
+    ...documentStore,
+    list: () => away(documentStore.list),
+    read: (id) => away(() => documentStore.read(id)),
+    write: (id, writing) => away(() => documentStore.write(id, writing)),
   };
   return { flaky, state };
 }
 
-const textAt = async (keeper: DocumentStore, id: string) => {
-  const read = groupFromText((await keeper.read(id)).text);
+const textAt = async (documentStore: DocumentStore, id: string) => {
+  const read = groupFromText((await documentStore.read(id)).text);
   return 'value' in read ? read.value : null;
 };
 
 describe('keeping', () => {
   test('what is captured is in the library after a pause, with what a list says of it', async () => {
-    const { visit, clock, keeper } = createPlace();
+    const { visit, clock, documentStore } = createPlace();
     const page = visit();
     await page.later();
     page.capture(1500);
     page.capture(1800);
     await clock.advance(515);
-    expect((await keeper.list()).documents).toEqual([]);
+    expect((await documentStore.list()).documents).toEqual([]);
     await clock.advance(1);
-    expect((await keeper.list()).documents).toHaveLength(1);
+    expect((await documentStore.list()).documents).toHaveLength(1);
     await page.library.refresh();
     const [listed] = page.library.store.getState().documents;
     expect(listed).toMatchObject({ id: page.openId(), revision: 1 });
@@ -78,14 +78,14 @@ describe('keeping', () => {
   });
 
   test('a page that only looks writes nothing', async () => {
-    const { visit, keeper } = createPlace();
+    const { visit, documentStore } = createPlace();
     const page = visit();
     await page.later();
-    expect((await keeper.list()).documents).toEqual([]);
+    expect((await documentStore.list()).documents).toEqual([]);
   });
 
   test('the next visit shows the same document, and its changes go on from its revision', async () => {
-    const { visit, keeper } = createPlace();
+    const { visit, documentStore } = createPlace();
     const first = visit();
     first.capture(1500);
     await first.later();
@@ -94,8 +94,8 @@ describe('keeping', () => {
     second.capture(1600);
     await second.later();
     expect(second.openId()).toBe(first.openId());
-    expect((await keeper.list()).documents).toMatchObject([{ revision: 2 }]);
-    expect(second.told()).toEqual([]);
+    expect((await documentStore.list()).documents).toMatchObject([{ revision: 2 }]);
+    expect(second.noticeTexts()).toEqual([]);
   });
 
   test('a group from before there was a library goes into it', async () => {
@@ -117,17 +117,19 @@ describe('keeping', () => {
     await clock.advance(0);
     first.document.edit(() => 'name', called('Wave'));
     first.capture(1500);
-    expect(first.library.store.getState().isKept).toBe(false);
+    expect(first.library.store.getState().isSaved).toBe(false);
     await end(first, clock);
     const second = visit(first.texts);
     await second.later();
     expect(second.names()).toEqual(['Wave']);
-    expect(second.told()).toEqual([words.library.recovered({ names: words.numbers.formatNames(['Wave']) })]);
+    expect(second.noticeTexts()).toEqual([
+      words.library.recovered({ names: words.numbers.formatNames(['Wave']) }),
+    ]);
     expect(second.group().frames).toHaveLength(1);
   });
 
   test('while the keeper is away everything waits here, is told once, and is kept when it is back', async () => {
-    const { flaky, state } = unreliable(createMemoryKeeper());
+    const { flaky, state } = unreliable(createMemoryStore());
     const { visit } = createPlace(flaky);
     const page = visit();
     await page.later();
@@ -135,46 +137,46 @@ describe('keeping', () => {
     page.capture(1500);
     await page.later();
     await page.later();
-    expect(page.told()).toEqual([libraryProblem('unreachable', '')]);
-    expect(page.library.store.getState().isKept).toBe(false);
+    expect(page.noticeTexts()).toEqual([libraryProblem('unreachable', '')]);
+    expect(page.library.store.getState().isSaved).toBe(false);
     page.library.create();
     page.capture(1700);
     state.isAway = false;
     await page.later();
     await page.library.refresh();
     expect(page.names()).toHaveLength(2);
-    expect(page.library.store.getState().isKept).toBe(true);
-    expect(page.told()).toEqual([]);
+    expect(page.library.store.getState().isSaved).toBe(true);
+    expect(page.noticeTexts()).toEqual([]);
   });
 
   test('what has no room here while the keeper is away is told until either has it', async () => {
-    const { flaky, state } = unreliable(createMemoryKeeper());
+    const { flaky, state } = unreliable(createMemoryStore());
     const { visit } = createPlace(flaky);
     const page = visit();
     page.full.add('servodeck.unkept');
     page.capture(1500);
     await page.later();
-    expect(page.told(), 'the library has it').toEqual([]);
+    expect(page.noticeTexts(), 'the library has it').toEqual([]);
     state.isAway = true;
     page.capture(1600);
     await page.later();
-    expect(page.told()).toEqual([libraryProblem('unreachable', ''), words.library.notHeldHere]);
+    expect(page.noticeTexts()).toEqual([libraryProblem('unreachable', ''), words.library.notHeldHere]);
     page.full.clear();
     page.capture(1700);
     await page.later();
-    expect(page.told()).toEqual([libraryProblem('unreachable', '')]);
+    expect(page.noticeTexts()).toEqual([libraryProblem('unreachable', '')]);
     page.full.add('servodeck.unkept');
     page.capture(1800);
     await page.later();
-    expect(page.told()).toContain(words.library.notHeldHere);
+    expect(page.noticeTexts()).toContain(words.library.notHeldHere);
     state.isAway = false;
     await page.later();
-    expect(page.told()).toEqual([]);
+    expect(page.noticeTexts()).toEqual([]);
   });
 
   test('until the place of the library is known everything waits here, and both sides of a conflict are kept', async () => {
-    const keeper = createMemoryKeeper();
-    const { visit, clock } = createPlace(keeper);
+    const documentStore = createMemoryStore();
+    const { visit, clock } = createPlace(documentStore);
     const before = visit();
     before.document.edit(() => 'name', called('Wave'));
     await before.later();
@@ -185,62 +187,64 @@ describe('keeping', () => {
     late.library.create();
     late.document.edit(() => 'name', called('Bow'));
     await late.later();
-    expect(late.library.store.getState()).toMatchObject({ place: null, isKept: false });
+    expect(late.library.store.getState()).toMatchObject({ place: null, isSaved: false });
     const other = visit();
     await other.library.open(before.openId());
     other.capture(1900);
     await other.later();
 
-    answer(keeper);
+    answer(documentStore);
     await late.later();
     expect(late.names()).toEqual(['Bow', 'Wave', 'Wave, other version']);
-    expect(late.library.store.getState().isKept).toBe(true);
-    expect(late.told()).toEqual([words.library.conflict({ name: 'Wave', copy: 'Wave, other version' })]);
+    expect(late.library.store.getState().isSaved).toBe(true);
+    expect(late.noticeTexts()).toEqual([
+      words.library.conflict({ name: 'Wave', copy: 'Wave, other version' }),
+    ]);
   });
 
   test('a drag is one write, and none while it lasts', async () => {
-    const { visit, keeper } = createPlace();
+    const { visit, documentStore } = createPlace();
     const page = visit();
     page.capture(1500);
     page.document.begin(() => 'drag');
     page.document.preview(called('Half way'));
     await page.later();
-    expect((await textAt(keeper, page.openId()))!.name).not.toBe('Half way');
+    expect((await textAt(documentStore, page.openId()))!.name).not.toBe('Half way');
     page.document.commit();
     await page.later();
-    expect((await textAt(keeper, page.openId()))!.name).toBe('Half way');
+    expect((await textAt(documentStore, page.openId()))!.name).toBe('Half way');
   });
 
   test('a group that is refused keeps no other waiting', async () => {
-    const keeper = createMemoryKeeper();
+    const documentStore = createMemoryStore();
     const write: DocumentStore['write'] = (id, writing) =>
       writing.facts.name === 'Huge'
         ? Promise.reject(new LibraryError('tooLarge', 'too large'))
-        : keeper.write(id, writing);
-    const { visit } = createPlace({ ...keeper, write });
+        : documentStore.write(id, writing);
+    const { visit } = createPlace({ ...documentStore, write });
     const page = visit();
     page.document.edit(() => 'name', called('Huge'));
     page.library.create();
     page.document.edit(() => 'name', called('Small'));
     await page.later();
-    expect((await keeper.list()).documents.map(({ facts }) => facts.name)).toEqual(['Small']);
+    expect((await documentStore.list()).documents.map(({ facts }) => facts.name)).toEqual(['Small']);
   });
 });
 
 describe('two pages at one library', () => {
   async function bothOpen() {
-    const { visit, keeper, clock } = createPlace();
+    const { visit, documentStore, clock } = createPlace();
     const one = visit();
     one.document.edit(() => 'name', called('Wave'));
     await one.later();
     const other = visit();
     await other.later();
     await other.library.open(one.openId());
-    return { one, other, keeper, clock };
+    return { one, other, documentStore, clock };
   }
 
   test('changes at the same time are both kept, and the later one is told', async () => {
-    const { one, other, keeper, clock } = await bothOpen();
+    const { one, other, documentStore, clock } = await bothOpen();
     const id = one.openId();
     one.capture(1111);
     await clock.advance(100);
@@ -249,11 +253,11 @@ describe('two pages at one library', () => {
     await one.library.refresh();
     const copy = words.library.otherVersion({ name: 'Wave' });
     expect(one.names()).toEqual(['Wave', copy]);
-    expect((await textAt(keeper, id))!.frames[0]!.targets[0]!.position).toBe(1111);
-    expect((await textAt(keeper, other.openId()))!.frames[0]!.targets[0]!.position).toBe(2222);
+    expect((await textAt(documentStore, id))!.frames[0]!.targets[0]!.position).toBe(1111);
+    expect((await textAt(documentStore, other.openId()))!.frames[0]!.targets[0]!.position).toBe(2222);
     expect(other.group().name).toBe(copy);
-    expect(other.told()).toEqual([words.library.conflict({ name: 'Wave', copy })]);
-    expect(one.told()).toEqual([]);
+    expect(other.noticeTexts()).toEqual([words.library.conflict({ name: 'Wave', copy })]);
+    expect(one.noticeTexts()).toEqual([]);
   });
 
   test('a page without changes of its own follows the other, and may undo that', async () => {
@@ -267,11 +271,11 @@ describe('two pages at one library', () => {
     await one.later();
     await other.library.refresh();
     expect(other.group().frames).toHaveLength(0);
-    expect([...one.told(), ...other.told()]).toEqual([]);
+    expect([...one.noticeTexts(), ...other.noticeTexts()]).toEqual([]);
   });
 
   test('a change during a conflict is not lost', async () => {
-    const { one, other, keeper } = await bothOpen();
+    const { one, other, documentStore } = await bothOpen();
     one.capture(1);
     await one.later();
     other.capture(2);
@@ -279,7 +283,7 @@ describe('two pages at one library', () => {
     other.capture(3);
     await flushed;
     await other.later();
-    expect((await textAt(keeper, other.openId()))!.frames).toHaveLength(2);
+    expect((await textAt(documentStore, other.openId()))!.frames).toHaveLength(2);
   });
 });
 
@@ -303,7 +307,7 @@ describe('several documents', () => {
   });
 
   test('the copy of a group with the longest name there is has another name', async () => {
-    const page = createPlace(createMemoryKeeper()).visit();
+    const page = createPlace(createMemoryStore()).visit();
     const name = 'x'.repeat(GROUP_NAME_LENGTH);
     page.document.edit(() => 'name', called(name));
     await page.later();
@@ -355,7 +359,7 @@ describe('several documents', () => {
     const [one] = await page.library.versions(page.openId());
     await page.library.removeVersion(page.openId(), one!);
     expect(await names()).toEqual(['Two']);
-    expect(page.told()).toEqual([words.library.versionRemoved({ name: 'One' })]);
+    expect(page.noticeTexts()).toEqual([words.library.versionRemoved({ name: 'One' })]);
     page.act();
     await page.later();
     expect((await names()).sort()).toEqual(['One', 'Two']);
@@ -368,16 +372,18 @@ describe('several documents', () => {
     await page.library.keepVersion(page.openId(), 'One');
     await page.library.keepVersion(page.openId(), 'Two');
     page.capture(1600);
-    const kept = await page.library.versions(page.openId());
-    await page.library.renameVersion(page.openId(), kept[0]!, 'Before the show');
-    const renamed = { ...kept[0]!, name: 'Before the show' };
-    expect(await page.library.versions(page.openId())).toEqual([renamed, kept[1]]);
-    expect(page.told()).toEqual([words.library.versionRenamed({ name: 'One', wanted: 'Before the show' })]);
+    const stored = await page.library.versions(page.openId());
+    await page.library.renameVersion(page.openId(), stored[0]!, 'Before the show');
+    const renamed = { ...stored[0]!, name: 'Before the show' };
+    expect(await page.library.versions(page.openId())).toEqual([renamed, stored[1]]);
+    expect(page.noticeTexts()).toEqual([
+      words.library.versionRenamed({ name: 'One', wanted: 'Before the show' }),
+    ]);
     await page.library.restoreVersion(page.openId(), renamed);
     expect(page.group().frames).toHaveLength(1);
     page.act();
     await page.later();
-    expect(await page.library.versions(page.openId())).toEqual(kept);
+    expect(await page.library.versions(page.openId())).toEqual(stored);
   });
 
   test('a named version stays as it was, and going back to it is a step', async () => {
@@ -408,7 +414,7 @@ describe('files', () => {
   }
 
   test('a damaged group is told by name, and one of its versions takes its place', async () => {
-    const { visit, clock, keeper } = createPlace();
+    const { visit, clock, documentStore } = createPlace();
     const first = visit();
     first.document.edit(() => 'rename', called('Wave'));
     first.capture(1500);
@@ -420,23 +426,23 @@ describe('files', () => {
 
     let isDamaged = true;
     const damaged: DocumentStore = {
-      ...keeper,
-      list: async () => ({ ...(await keeper.list()), changesLost: true }),
+      ...documentStore,
+      list: async () => ({ ...(await documentStore.list()), changesLost: true }),
       read: (wanted) =>
         isDamaged && wanted === id
           ? Promise.reject(new LibraryError('damaged', 'Wave is damaged.'))
-          : keeper.read(wanted),
+          : documentStore.read(wanted),
       write: (wanted, writing) => {
         isDamaged = false;
-        return keeper.write(wanted, writing);
+        return documentStore.write(wanted, writing);
       },
     };
     const page = createVisit(damaged, clock);
     await page.later();
     await page.library.refresh();
-    expect(page.told().filter((text) => text === words.library.changesLost)).toHaveLength(1);
+    expect(page.noticeTexts().filter((text) => text === words.library.changesLost)).toHaveLength(1);
     await page.library.open(id);
-    expect(page.told()).toContain(libraryProblem('damaged', 'Wave is damaged.'));
+    expect(page.noticeTexts()).toContain(libraryProblem('damaged', 'Wave is damaged.'));
     expect(page.openId()).not.toBe(id);
 
     const [version] = await page.library.versions(id);
@@ -444,7 +450,7 @@ describe('files', () => {
     expect(page.openId()).toBe(id);
     await page.later();
     expect(page.group().frames).toHaveLength(1);
-    expect((await textAt(keeper, id))?.frames).toHaveLength(1);
+    expect((await textAt(documentStore, id))?.frames).toHaveLength(1);
     expect(page.names()).toEqual(['Wave']);
   });
 
@@ -454,7 +460,7 @@ describe('files', () => {
     const other = elsewhere.visit();
     await other.library.importText(text);
     expect(other.names()).toEqual(['Bow', 'Wave']);
-    expect(other.told()).toEqual([words.library.imported({ added: 2, changed: 0, same: 0 })]);
+    expect(other.noticeTexts()).toEqual([words.library.imported({ added: 2, changed: 0, same: 0 })]);
     const wave = other.library.store.getState().documents.find(({ facts }) => facts.name === 'Wave')!;
     expect((await other.library.versions(wave.id)).map(({ name }) => name)).toEqual(['First']);
     expect(JSON.parse((await other.library.exportText())!)).toEqual(JSON.parse(text));
@@ -466,45 +472,45 @@ describe('files', () => {
   };
 
   /** Those texts that `isBroken` says, by the name of their group or version. */
-  function damagedAt(keeper: DocumentStore, isBroken: (name: string) => boolean): DocumentStore {
+  function damagedAt(documentStore: DocumentStore, isBroken: (name: string) => boolean): DocumentStore {
     const whole = async (name: string | undefined): Promise<void> => {
       if (isBroken(name ?? '')) throw new LibraryError('damaged', `${name ?? ''} is damaged.`);
       return Promise.resolve();
     };
     return {
-      ...keeper,
+      ...documentStore,
       async read(id) {
-        await whole((await keeper.list()).documents.find((one) => one.id === id)?.facts.name);
-        return keeper.read(id);
+        await whole((await documentStore.list()).documents.find((one) => one.id === id)?.facts.name);
+        return documentStore.read(id);
       },
       async readVersion(id, version) {
-        await whole((await keeper.versions(id)).find((one) => one.id === version)?.name);
-        return keeper.readVersion(id, version);
+        await whole((await documentStore.versions(id)).find((one) => one.id === version)?.name);
+        return documentStore.readVersion(id, version);
       },
     };
   }
 
   test('an export holds all that is whole, and what is not is told by name', async () => {
-    const { text, keeper, clock } = await twoGroups();
+    const { text, documentStore, clock } = await twoGroups();
     const all = documentsIn(text);
     const exported = async (...broken: readonly string[]) => {
       const page = createVisit(
-        damagedAt(keeper, (name) => broken.includes(name)),
+        damagedAt(documentStore, (name) => broken.includes(name)),
         clock,
       );
       const documents = documentsIn(await page.library.exportText());
-      return { documents, told: page.told() };
+      return { documents, noticeTexts: page.noticeTexts() };
     };
     expect(await exported('Bow')).toEqual({
       documents: all.filter(({ group }) => group.name === 'Wave'),
-      told: [
+      noticeTexts: [
         words.library.exported({ count: 1 }),
         words.library.notExported({ names: words.numbers.formatNames(['Bow']) }),
       ],
     });
     expect(await exported('First')).toEqual({
       documents: all.map((document) => ({ ...document, versions: [] })),
-      told: [
+      noticeTexts: [
         words.library.exported({ count: 2 }),
         words.library.notExported({
           names: words.numbers.formatNames([words.library.versionOf({ name: 'Wave', version: 'First' })]),
@@ -513,7 +519,7 @@ describe('files', () => {
     });
     expect(await exported('Wave', 'Bow')).toEqual({
       documents: all.flatMap((document) => document.versions.map(({ group }) => ({ ...document, group }))),
-      told: [
+      noticeTexts: [
         words.library.exported({ count: 1 }),
         words.library.notExported({
           names: words.numbers.formatNames([
@@ -524,30 +530,30 @@ describe('files', () => {
       ],
     });
     const unlisted = createVisit(
-      { ...keeper, versions: () => Promise.reject(new LibraryError('damaged', '')) },
+      { ...documentStore, versions: () => Promise.reject(new LibraryError('damaged', '')) },
       clock,
     );
     expect(documentsIn(await unlisted.library.exportText())).toHaveLength(2);
-    expect(unlisted.told()).toContain(
+    expect(unlisted.noticeTexts()).toContain(
       words.library.notExported({
         names: words.numbers.formatNames(['Wave', 'Bow'].map((name) => words.library.versionsOf({ name }))),
       }),
     );
     expect(await exported('Wave', 'Bow', 'First')).toEqual({
       documents: [],
-      told: [expect.stringContaining(libraryProblem('damaged', '').trim()) as string],
+      noticeTexts: [expect.stringContaining(libraryProblem('damaged', '').trim()) as string],
     });
   });
 
   test('beside a damaged group an import puts its own', async () => {
-    const { text, keeper, clock } = await twoGroups();
+    const { text, documentStore, clock } = await twoGroups();
     const page = createVisit(
-      damagedAt(keeper, (name) => name === 'Bow'),
+      damagedAt(documentStore, (name) => name === 'Bow'),
       clock,
     );
     await page.library.importText(text);
     expect(page.names()).toEqual(['Bow', 'Bow', 'Wave']);
-    expect(page.told()).toContain(words.library.imported({ added: 0, changed: 1, same: 1 }));
+    expect(page.noticeTexts()).toContain(words.library.imported({ added: 0, changed: 1, same: 1 }));
   });
 
   test('what is there already stays; what differs comes beside it', async () => {
@@ -555,66 +561,68 @@ describe('files', () => {
     page.capture(1700);
     await page.library.importText(text);
     expect(page.names()).toEqual(['Bow', 'Bow', 'Wave']);
-    expect(page.told()).toContain(words.library.imported({ added: 0, changed: 1, same: 1 }));
+    expect(page.noticeTexts()).toContain(words.library.imported({ added: 0, changed: 1, same: 1 }));
   });
 
   test('while the library is waited for, an import says so, and goes on once it answers', async () => {
     const { text } = await twoGroups();
     const clock = createVirtualClock();
-    let answer = (_keeper: DocumentStore): void => undefined;
+    let answer = (_documentStore: DocumentStore): void => undefined;
     const page = createVisit(new Promise<DocumentStore>((resolve) => (answer = resolve)), clock);
     const imported = page.library.importText(text);
     await clock.advance(1000);
-    expect(page.told()).toEqual([words.library.importWaits]);
-    answer(createMemoryKeeper());
+    expect(page.noticeTexts()).toEqual([words.library.importWaits]);
+    answer(createMemoryStore());
     await imported;
-    expect(page.told()).toEqual([words.library.imported({ added: 2, changed: 0, same: 0 })]);
+    expect(page.noticeTexts()).toEqual([words.library.imported({ added: 2, changed: 0, same: 0 })]);
     expect(page.names()).toEqual(['Bow', 'Wave']);
   });
 
   test('each that is asked of a library that is away says why nothing came of it', async () => {
     const { text } = await twoGroups();
-    const { flaky, state } = unreliable(createMemoryKeeper());
+    const { flaky, state } = unreliable(createMemoryStore());
     const page = createPlace(flaky).visit();
     await page.later();
     state.isAway = true;
     page.capture(1500);
     await page.later();
-    const told = async (asked: Promise<unknown>): Promise<readonly string[]> => {
+    const noticeTexts = async (asked: Promise<unknown>): Promise<readonly string[]> => {
       for (const { id } of page.notices.store.getState()) page.notices.dismiss(id);
       await asked;
-      return page.told();
+      return page.noticeTexts();
     };
     const away = libraryProblem('unreachable', '');
-    expect(await told(page.library.importText(text))).toEqual([
+    expect(await noticeTexts(page.library.importText(text))).toEqual([
       words.library.importFailed({ problem: libraryProblem('unreachable', '') }),
     ]);
-    expect(await told(page.library.exportText())).toEqual([away]);
-    expect(await told(page.library.keepVersion(page.openId(), 'First'))).toEqual([away]);
-    expect(await told(page.library.remove(page.openId()))).toEqual([away]);
+    expect(await noticeTexts(page.library.exportText())).toEqual([away]);
+    expect(await noticeTexts(page.library.keepVersion(page.openId(), 'First'))).toEqual([away]);
+    expect(await noticeTexts(page.library.remove(page.openId()))).toEqual([away]);
   });
 
   test('a file that breaks off in the middle brings nothing in', async () => {
     const { text } = await twoGroups();
-    const keeper = createMemoryKeeper();
+    const documentStore = createMemoryStore();
     let writes = 0;
     const write: DocumentStore['write'] = (id, writing) =>
-      ++writes > 1 ? Promise.reject(new LibraryError('full', 'no space')) : keeper.write(id, writing);
-    const other = createPlace({ ...keeper, write }).visit();
+      ++writes > 1 ? Promise.reject(new LibraryError('full', 'no space')) : documentStore.write(id, writing);
+    const other = createPlace({ ...documentStore, write }).visit();
     await other.library.importText(text);
     await other.library.refresh();
     expect(other.names()).toEqual([]);
-    expect(other.told()).toEqual([words.library.importFailed({ problem: libraryProblem('full', '') })]);
+    expect(other.noticeTexts()).toEqual([
+      words.library.importFailed({ problem: libraryProblem('full', '') }),
+    ]);
   });
 
   test.each(['', '{}', '[]', '{"format":"servodeck-library","version":2,"content":{"documents":[]}}'])(
     'a file that is no library changes nothing: %s',
     async (text) => {
-      const { visit, keeper } = createPlace();
+      const { visit, documentStore } = createPlace();
       const page = visit();
       await page.library.importText(text);
-      expect((await keeper.list()).documents).toEqual([]);
-      expect(page.told()).toHaveLength(1);
+      expect((await documentStore.list()).documents).toEqual([]);
+      expect(page.noticeTexts()).toHaveLength(1);
     },
   );
 });

@@ -29,7 +29,7 @@ import { longerName } from '../../state/longerName.ts';
 import { groupOf, createOpenDocument, unchanged } from './openDocument.ts';
 import type { LibraryFilesOptions } from './libraryFiles.ts';
 import { createLibraryVersions, type LibraryVersions } from './libraryVersions.ts';
-import { createOutbox, createShelving } from './outbox.ts';
+import { createOutbox, createDocumentChanges } from './outbox.ts';
 
 export interface LibraryState {
   /** Where it lies; null until that is known. */
@@ -40,7 +40,7 @@ export interface LibraryState {
   readonly listings: number;
   readonly openId: string;
   /** The keeper has every change. */
-  readonly isKept: boolean;
+  readonly isSaved: boolean;
 }
 
 /** What cannot be done is told to the person; nothing rejects. */
@@ -73,7 +73,7 @@ const ADDED_WITHIN_MS = 700;
 const WAITING: readonly LibraryErrorCode[] = ['full', 'busy', 'unreachable'];
 
 export interface LibraryOptions {
-  readonly keeper: Promise<DocumentStore>;
+  readonly documentStore: Promise<DocumentStore>;
   readonly document: Document;
   readonly storage: TextStorage;
   readonly notices: Notices;
@@ -93,7 +93,7 @@ export function createLibrary(options: LibraryOptions): Library {
   });
   const opened = createOpenDocument(document, storage, newId);
   const store = createStore<LibraryState>(() => ({
-    ...{ place: null, documents: [], listings: 0, openId: opened.id(), isKept: true },
+    ...{ place: null, documents: [], listings: 0, openId: opened.id(), isSaved: true },
   }));
   const shown = (): ActionGroup => document.store.getState().present;
   /** What waits or is kept already; anything else that is shown is a change. */
@@ -101,29 +101,29 @@ export function createLibrary(options: LibraryOptions): Library {
   /** In the outbox, or not to be there. */
   let isWritten = true;
   let isShowing = false;
-  const toldDamage = new Set<string>();
+  const notifiedDamage = new Set<string>();
   let isFound = true;
   /** The library did not take the last group in time: nobody waits for it until it has everything. */
   let isBehind = false;
   /** This browser's storage took the last change of what waits. */
   let isHeldHere = true;
-  let isKeeperAway = false;
+  let isStoreAway = false;
 
-  const shelving = createShelving({
-    ...{ keeper: options.keeper, outbox, clock: options.clock },
+  const documentChanges = createDocumentChanges({
+    ...{ documentStore: options.documentStore, outbox, clock: options.clock },
     factsOf: factsOfText,
-    onKept(id, revision) {
+    onSaved(id, revision) {
       opened.setRevision(id, revision);
-      tellKept();
+      notifySaved();
       if (outbox.entries().length > 0) return;
-      isBehind = isKeeperAway = false;
+      isBehind = isStoreAway = false;
       tellHeld();
       for (const code of WAITING) notices.takeBack(libraryProblem(code, ''));
     },
     onConflict: keepBoth,
     onFailure(error) {
       tell(error);
-      isKeeperAway = true;
+      isStoreAway = true;
       tellHeld();
     },
   });
@@ -136,7 +136,7 @@ export function createLibrary(options: LibraryOptions): Library {
 
   /** A change that is nowhere but in this page: for a moment always, but not for as long as the library is away. */
   function tellHeld(): void {
-    if (isHeldHere || !isKeeperAway) notices.takeBack(words.library.notHeldHere);
+    if (isHeldHere || !isStoreAway) notices.takeBack(words.library.notHeldHere);
     else notices.tell('warning', words.library.notHeldHere);
   }
 
@@ -151,38 +151,38 @@ export function createLibrary(options: LibraryOptions): Library {
     if (isWritten) return;
     isWritten = true;
     outbox.put(opened.id(), { text, revision: opened.revisionOf(opened.id()) });
-    shelving.soon();
+    documentChanges.soon();
   });
 
-  const tellKept = (): void =>
-    store.setState({ openId: opened.id(), isKept: isWritten && outbox.entries().length === 0 });
+  const notifySaved = (): void =>
+    store.setState({ openId: opened.id(), isSaved: isWritten && outbox.entries().length === 0 });
 
   function put(id: string, text: string): void {
     outbox.put(id, { text, revision: opened.revisionOf(id) });
-    shelving.soon();
-    tellKept();
+    documentChanges.soon();
+    notifySaved();
   }
 
   document.store.subscribe(({ present, gesture }) => {
     if (isShowing || gesture !== null || present === noted) return;
     noted = present;
     isWritten = false;
-    tellKept();
+    notifySaved();
   });
 
-  function unkeptOf(id: string): Stored | undefined {
+  function unsavedOf(id: string): Stored | undefined {
     document.flush();
     return outbox.get(id);
   }
 
   function flush(): Promise<boolean> {
     document.flush();
-    return shelving.flush();
+    return documentChanges.flush();
   }
 
   function settle(): Promise<void> {
     document.flush();
-    return shelving.settle();
+    return documentChanges.settle();
   }
 
   /** The newer text stays under its name; ours goes on as a document of its own. */
@@ -204,9 +204,9 @@ export function createLibrary(options: LibraryOptions): Library {
   /** As it is here, if something of it waits here; else as the keeper has it. */
   async function read(id: string): Promise<ActionGroup> {
     if (id === opened.id()) return shown();
-    const unkept = unkeptOf(id);
-    if (unkept !== undefined) return groupOf(unkept.text);
-    const { text, revision } = await (await options.keeper).read(id);
+    const unsaved = unsavedOf(id);
+    if (unsaved !== undefined) return groupOf(unsaved.text);
+    const { text, revision } = await (await options.documentStore).read(id);
     opened.setRevision(id, revision);
     return groupOf(text);
   }
@@ -218,7 +218,7 @@ export function createLibrary(options: LibraryOptions): Library {
     isShowing = false;
     noted = shown();
     view.setState({ selectedFrame: null });
-    tellKept();
+    notifySaved();
   }
 
   function create(): void {
@@ -250,20 +250,20 @@ export function createLibrary(options: LibraryOptions): Library {
   function tellDamage({ setAside, changesLost }: Listing): void {
     const damage = setAside === null ? [] : [words.library.setAside({ file: setAside })];
     if (changesLost) damage.push(words.library.changesLost);
-    for (const text of damage.filter((text) => !toldDamage.has(text))) {
-      toldDamage.add(text);
+    for (const text of damage.filter((text) => !notifiedDamage.has(text))) {
+      notifiedDamage.add(text);
       notices.tell('warning', text);
     }
   }
 
   async function refresh(): Promise<void> {
-    const keeper = await options.keeper;
-    const listing = await keeper.list();
+    const documentStore = await options.documentStore;
+    const listing = await documentStore.list();
     const documents = listedOf(listing, 'group');
     tellDamage(listing);
     const { documents: before, listings } = store.getState();
     const shared = unchanged(before, documents);
-    store.setState({ place: keeper.place, documents: shared, listings: listings + 1 });
+    store.setState({ place: documentStore.place, documents: shared, listings: listings + 1 });
     await follow(shared);
   }
 
@@ -271,12 +271,12 @@ export function createLibrary(options: LibraryOptions): Library {
   async function follow(documents: readonly Listed[]): Promise<void> {
     const id = opened.id();
     const listed = documents.find((one) => one.id === id);
-    if (unkeptOf(id) !== undefined) return;
+    if (unsavedOf(id) !== undefined) return;
     if (listed === undefined && opened.revisionOf(id) > 0) put(id, groupToText(shown()));
     if (listed === undefined || listed.revision === opened.revisionOf(id)) return;
-    const { text, revision } = await (await options.keeper).read(id);
+    const { text, revision } = await (await options.documentStore).read(id);
     const { gesture } = document.store.getState();
-    if (id !== opened.id() || gesture !== null || unkeptOf(id) !== undefined) return;
+    if (id !== opened.id() || gesture !== null || unsavedOf(id) !== undefined) return;
     opened.setRevision(id, revision);
     show(id, groupOf(text));
   }
@@ -306,7 +306,7 @@ export function createLibrary(options: LibraryOptions): Library {
     const { name } = await read(id);
     await settle();
     const wasOpen = id === opened.id();
-    await (await options.keeper).remove([id]);
+    await (await options.documentStore).remove([id]);
     if (wasOpen) create();
     const undo = (): void => void attempt(restore(id).then(() => (wasOpen ? open(id) : undefined)));
     notices.tell('info', words.library.removed({ name }), { label: words.library.undo, act: undo });
@@ -314,7 +314,7 @@ export function createLibrary(options: LibraryOptions): Library {
   }
 
   async function restore(id: string): Promise<void> {
-    await (await options.keeper).restore([id]);
+    await (await options.documentStore).restore([id]);
     await refresh();
   }
 
@@ -324,7 +324,7 @@ export function createLibrary(options: LibraryOptions): Library {
     if (own !== undefined && own.text !== groupToText(shown())) show(own.id, groupOf(own.text));
     else if (own === undefined && !opened.wasRemembered && shown().frames.length > 0)
       put(opened.id(), groupToText(shown()));
-    tellKept();
+    notifySaved();
     if (!(await flush())) return;
     if (waiting.length > 0)
       notices.tell(
@@ -340,11 +340,19 @@ export function createLibrary(options: LibraryOptions): Library {
 
   return {
     forFiles: {
-      ...{ keeper: options.keeper, clock: options.clock, notices, newId, tell, refresh, settle },
+      ...{
+        documentStore: options.documentStore,
+        clock: options.clock,
+        notices,
+        newId,
+        tell,
+        refresh,
+        settle,
+      },
       factsOf: (group, updatedAtMs) => factsOf(group, { updatedAtMs, robot: '' }),
     },
     ...createLibraryVersions({
-      ...{ keeper: options.keeper, document, notices, epochMs, newId },
+      ...{ documentStore: options.documentStore, document, notices, epochMs, newId },
       ...{ attempt, read, open, settle, refresh },
     }),
     store,

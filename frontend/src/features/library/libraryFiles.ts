@@ -29,7 +29,7 @@ export interface LibraryFiles {
 }
 
 export interface LibraryFilesOptions {
-  readonly keeper: Promise<DocumentStore>;
+  readonly documentStore: Promise<DocumentStore>;
   readonly notices: Notices;
   factsOf(group: ActionGroup, updatedAtMs: number): GroupFacts;
   newId(): string;
@@ -50,10 +50,10 @@ export function createLibraryFiles(options: LibraryFilesOptions): LibraryFiles {
 
   async function exportText(): Promise<string | null> {
     await options.settle();
-    const keeper = await options.keeper;
-    const documents = listedOf(await keeper.list(), 'group');
-    const kept = documents.filter(({ isRemoved }) => !isRemoved);
-    const read = await Promise.all(kept.map((document) => bundle(keeper, document)));
+    const documentStore = await options.documentStore;
+    const documents = listedOf(await documentStore.list(), 'group');
+    const stored = documents.filter(({ isRemoved }) => !isRemoved);
+    const read = await Promise.all(stored.map((document) => bundle(documentStore, document)));
     const bundled = read.flatMap(({ bundled: one }) => one ?? []);
     const lost = read.flatMap((one) => one.lost);
     const [first] = lost;
@@ -69,18 +69,18 @@ export function createLibraryFiles(options: LibraryFilesOptions): LibraryFiles {
 
   async function take(documents: readonly BundledDocument[]): Promise<void> {
     await options.settle();
-    const keeper = await options.keeper;
-    const present = listedOf(await keeper.list(), 'group');
+    const documentStore = await options.documentStore;
+    const present = listedOf(await documentStore.list(), 'group');
     const outcomes: Outcome[] = [];
     const staged: string[] = [];
     for (const document of documents) {
-      const { outcome, id } = await outcomeOf(keeper, present, document);
+      const { outcome, id } = await outcomeOf(documentStore, present, document);
       outcomes.push(outcome);
       staged.push(id);
-      if (outcome !== 'same') await stage(keeper, id, document);
+      if (outcome !== 'same') await stage(documentStore, id, document);
     }
     // Until here all of it lies in the trash: now it appears together, or never.
-    await keeper.restore(staged);
+    await documentStore.restore(staged);
     const count = (outcome: Outcome): number => outcomes.filter((one) => one === outcome).length;
     notices.tell(
       'info',
@@ -90,23 +90,23 @@ export function createLibraryFiles(options: LibraryFilesOptions): LibraryFiles {
   }
 
   async function outcomeOf(
-    keeper: DocumentStore,
+    documentStore: DocumentStore,
     present: readonly Listed[],
     { id, group }: BundledDocument,
   ): Promise<{ readonly outcome: Outcome; readonly id: string }> {
     if (!present.some((one) => one.id === id)) return { outcome: 'added', id };
-    const found = await wholeOrNot(async () => groupOf((await keeper.read(id)).text));
+    const found = await wholeOrNot(async () => groupOf((await documentStore.read(id)).text));
     return 'whole' in found && sameGroup(found.whole, group)
       ? { outcome: 'same', id }
       : { outcome: 'changed', id: newId() };
   }
 
-  async function stage(keeper: DocumentStore, id: string, document: BundledDocument): Promise<void> {
+  async function stage(documentStore: DocumentStore, id: string, document: BundledDocument): Promise<void> {
     const { group, updatedAtMs, versions } = document;
     const facts = options.factsOf(group, updatedAtMs);
-    await keeper.write(id, { text: groupToText(group), facts, expected: 0, isRemoved: true });
-    for (const { name, atMs, group: kept } of versions)
-      await keeper.keepVersion(id, { id: newId(), name, atMs }, groupToText(kept));
+    await documentStore.write(id, { text: groupToText(group), facts, expected: 0, isRemoved: true });
+    for (const { name, atMs, group: stored } of versions)
+      await documentStore.keepVersion(id, { id: newId(), name, atMs }, groupToText(stored));
   }
 
   return {
@@ -119,12 +119,12 @@ export function createLibraryFiles(options: LibraryFilesOptions): LibraryFiles {
       const read = libraryFromText(text);
       if ('problem' in read)
         notices.tell('warning', words.library.notImported({ flaw: flawSentence(read.problem) }));
-      else await whileToldOf(take(read.value.documents)).catch(tellNotImported);
+      else await whileReported(take(read.value.documents)).catch(tellNotImported);
     },
   };
 
   /** A keeper may let one wait long. */
-  async function whileToldOf(taking: Promise<void>): Promise<void> {
+  async function whileReported(taking: Promise<void>): Promise<void> {
     const waiting = words.library.importWaits;
     const leave = options.clock.after(PATIENCE_MS, () => notices.tell('warning', waiting));
     await taking.finally(() => {
@@ -140,17 +140,17 @@ export function createLibraryFiles(options: LibraryFilesOptions): LibraryFiles {
 }
 
 /** What is not whole is left out and named. In the place of a group there stands the newest of its versions that is. */
-async function bundle(keeper: DocumentStore, { id, facts }: Listed): Promise<Bundling> {
+async function bundle(documentStore: DocumentStore, { id, facts }: Listed): Promise<Bundling> {
   const { name, updatedAtMs } = facts;
-  const read = await wholeOrNot(async () => groupOf((await keeper.read(id)).text));
+  const read = await wholeOrNot(async () => groupOf((await documentStore.read(id)).text));
   const lost: Lost[] = [];
   const versions: BundledVersion[] = [];
-  const listed = await wholeOrNot(() => keeper.versions(id));
+  const listed = await wholeOrNot(() => documentStore.versions(id));
   if ('error' in listed) lost.push({ name: words.library.versionsOf({ name }), error: listed.error });
-  for (const { id: version, ...kept } of 'whole' in listed ? listed.whole : []) {
-    const found = await wholeOrNot(async () => groupOf(await keeper.readVersion(id, version)));
-    if ('whole' in found) versions.push({ ...kept, group: found.whole });
-    else lost.push({ name: words.library.versionOf({ name, version: kept.name }), error: found.error });
+  for (const { id: version, ...stored } of 'whole' in listed ? listed.whole : []) {
+    const found = await wholeOrNot(async () => groupOf(await documentStore.readVersion(id, version)));
+    if ('whole' in found) versions.push({ ...stored, group: found.whole });
+    else lost.push({ name: words.library.versionOf({ name, version: stored.name }), error: found.error });
   }
   if ('whole' in read) return { bundled: { id, updatedAtMs, group: read.whole, versions }, lost };
   const newest = versions.at(-1);

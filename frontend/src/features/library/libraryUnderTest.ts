@@ -14,7 +14,7 @@ export const EPOCH_MS = 1_790_000_000_000;
 
 /** `keeper`: known at once, or some time later. */
 export function createVisit(
-  keeper: DocumentStore | Promise<DocumentStore>,
+  documentStore: DocumentStore | Promise<DocumentStore>,
   clock: VirtualClock,
   texts = new Map<string, string>(),
 ) {
@@ -32,7 +32,7 @@ export function createVisit(
   const view = createView({ browser: storage, tab: storage });
   const robots = createRobots(storage, notices);
   const begun = createLibrary({
-    ...{ keeper: Promise.resolve(keeper), document, storage, notices, robots, view, clock },
+    ...{ documentStore: Promise.resolve(documentStore), document, storage, notices, robots, view, clock },
     epochMs: () => EPOCH_MS,
     newId: nextId,
   });
@@ -45,7 +45,7 @@ export function createVisit(
       .sort();
   return {
     ...{ texts, full, document, library, names, view, notices },
-    told: () => notices.store.getState().map(({ text }) => text),
+    noticeTexts: () => notices.store.getState().map(({ text }) => text),
     act: () => notices.store.getState().at(-1)?.action?.act(),
     group: () => document.store.getState().present,
     openId: () => library.store.getState().openId,

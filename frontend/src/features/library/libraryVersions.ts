@@ -19,7 +19,7 @@ export interface LibraryVersions {
 }
 
 interface LibraryVersionsOptions {
-  readonly keeper: Promise<DocumentStore>;
+  readonly documentStore: Promise<DocumentStore>;
   readonly document: Document;
   readonly notices: Notices;
   /** Milliseconds since 1970. */
@@ -40,34 +40,36 @@ export function createLibraryVersions(options: LibraryVersionsOptions): LibraryV
 
   async function versions(id: string): Promise<readonly Version[]> {
     let found: readonly Version[] = [];
-    await attempt(options.keeper.then(async (keeper) => void (found = await keeper.versions(id))));
+    await attempt(
+      options.documentStore.then(async (documentStore) => void (found = await documentStore.versions(id))),
+    );
     return found;
   }
 
   async function keepVersion(id: string, name: string): Promise<void> {
     const text = groupToText(await read(id));
     await settle();
-    await (await options.keeper).keepVersion(id, { id: newId(), name, atMs: epochMs() }, text);
-    notices.say(words.library.versionKept({ name }));
+    await (await options.documentStore).keepVersion(id, { id: newId(), name, atMs: epochMs() }, text);
+    notices.say(words.library.versionSaved({ name }));
     await refresh();
   }
 
   async function renameVersion(id: string, version: Version, name: string): Promise<void> {
-    const keeper = await options.keeper;
-    const text = await keeper.readVersion(id, version.id);
-    await keeper.keepVersion(id, { ...version, name }, text);
+    const documentStore = await options.documentStore;
+    const text = await documentStore.readVersion(id, version.id);
+    await documentStore.keepVersion(id, { ...version, name }, text);
     tellUndoably(words.library.versionRenamed({ name: version.name, wanted: name }), () =>
-      keeper.keepVersion(id, version, text),
+      documentStore.keepVersion(id, version, text),
     );
     await refresh();
   }
 
   async function removeVersion(id: string, version: Version): Promise<void> {
-    const keeper = await options.keeper;
-    const text = await keeper.readVersion(id, version.id);
-    await keeper.removeVersion(id, version.id);
+    const documentStore = await options.documentStore;
+    const text = await documentStore.readVersion(id, version.id);
+    await documentStore.removeVersion(id, version.id);
     tellUndoably(words.library.versionRemoved({ name: version.name }), () =>
-      keeper.keepVersion(id, version, text),
+      documentStore.keepVersion(id, version, text),
     );
     await refresh();
   }
@@ -78,7 +80,7 @@ export function createLibraryVersions(options: LibraryVersionsOptions): LibraryV
   }
 
   async function restoreVersion(id: string, { id: version, name }: Version): Promise<void> {
-    const group = groupOf(await (await options.keeper).readVersion(id, version));
+    const group = groupOf(await (await options.documentStore).readVersion(id, version));
     await open(id, group);
     document.edit(
       () => words.library.steps.version({ name }),

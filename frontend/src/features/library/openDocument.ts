@@ -58,7 +58,7 @@ export function createOpenDocument(
   const remembered = load(storage);
   let id = remembered?.id ?? newId();
   const revisions = new Map([[id, remembered?.revision ?? 0]]);
-  const aside = new Map<string, History<ActionGroup>>();
+  const histories = new Map<string, History<ActionGroup>>();
 
   const revisionOf = (of: string): number => revisions.get(of) ?? 0;
 
@@ -88,9 +88,9 @@ export function createOpenDocument(
     wasRemembered: remembered !== null,
     show(other, group, label) {
       document.commit();
-      aside.set(id, document.store.getState());
+      histories.set(id, document.store.getState());
       become(other);
-      document.take(goneOn(aside.get(other), group, label));
+      document.take(goneOn(histories.get(other), group, label));
     },
     become,
   };

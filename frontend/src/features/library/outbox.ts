@@ -8,20 +8,20 @@ import type { TextStorage } from '../../state/soon.ts';
 
 // Brings what waits in the outbox to the library: soon after a change, one at a time, again and again where it fails.
 
-interface ShelvingOptions {
-  readonly keeper: Promise<DocumentStore>;
+interface DocumentChangesOptions {
+  readonly documentStore: Promise<DocumentStore>;
   readonly outbox: Outbox;
   readonly clock: Clock;
   /** null for a text that this version cannot read: it goes on waiting. */
   factsOf(text: string): Facts | null;
-  onKept(id: string, revision: number): void;
+  onSaved(id: string, revision: number): void;
   /** Must put `unkept` elsewhere; it is forgotten here. */
-  onConflict(id: string, unkept: Stored): void;
+  onConflict(id: string, unsaved: Stored): void;
   /** Once, until it has succeeded again. */
   onFailure(error: unknown): void;
 }
 
-interface Shelving {
+interface DocumentChanges {
   /** After the next pause in the changes. */
   soon(): void;
   /** Now. True when nothing that can be kept waits any more. */
@@ -34,8 +34,8 @@ interface Shelving {
 const PAUSE_MS = 500;
 const RETRY_MS = 5000;
 
-export function createShelving(options: ShelvingOptions): Shelving {
-  const { keeper, outbox, clock, factsOf } = options;
+export function createDocumentChanges(options: DocumentChangesOptions): DocumentChanges {
+  const { documentStore, outbox, clock, factsOf } = options;
   let cancelTimer = (): void => undefined;
   let turn = Promise.resolve(true);
   let failure: unknown = null;
@@ -56,8 +56,8 @@ export function createShelving(options: ShelvingOptions): Shelving {
     const failures: unknown[] = [];
     for (let round = readable(); round.length > 0 && failures.length === 0; round = readable()) {
       // One that is refused must not keep the others waiting.
-      for (const [id, unkept] of round)
-        await keep(id, unkept).catch((error: unknown) => failures.push(error));
+      for (const [id, unsaved] of round)
+        await keep(id, unsaved).catch((error: unknown) => failures.push(error));
     }
     const isFirst = failure === null;
     failure = failures[0] ?? null;
@@ -76,9 +76,9 @@ export function createShelving(options: ShelvingOptions): Shelving {
     const facts = factsOf(text);
     if (facts === null) return void unreadable.add(text);
     try {
-      const revision = await (await keeper).write(id, { text, facts, expected, isRemoved: false });
+      const revision = await (await documentStore).write(id, { text, facts, expected, isRemoved: false });
       outbox.settle(id, { text, revision });
-      options.onKept(id, revision);
+      options.onSaved(id, revision);
     } catch (error) {
       if (!(error instanceof LibraryError) || error.code !== 'conflict') throw error;
       options.onConflict(id, outbox.get(id) ?? { text, revision: expected });
@@ -90,12 +90,12 @@ export function createShelving(options: ShelvingOptions): Shelving {
 }
 
 interface Outbox {
-  entries(): readonly (readonly [id: string, unkept: Stored])[];
+  entries(): readonly (readonly [id: string, unsaved: Stored])[];
   get(id: string): Stored | undefined;
   /** Replaces an older text of that document, which was based on the same revision. */
-  put(id: string, unkept: Stored): void;
+  put(id: string, unsaved: Stored): void;
   /** The library has that text at that revision now; a newer one goes on waiting. */
-  settle(id: string, kept: Stored): void;
+  settle(id: string, stored: Stored): void;
   drop(id: string): void;
 }
 
@@ -106,7 +106,7 @@ const revision = v.pipe(v.number(), v.safeInteger(), v.minValue(0));
 const headSchema = v.array(v.object({ id: v.string(), revision }));
 /** Of earlier versions. */
 const earlierSchema = v.record(v.string(), v.object({ text: v.string(), revision }));
-type Unkept = ReadonlyMap<string, Stored>;
+type Unsaved = ReadonlyMap<string, Stored>;
 
 /** `onWritten`: whether the storage took the last change. */
 export function createOutbox(
@@ -118,11 +118,11 @@ export function createOutbox(
   /** Other tabs' texts stay as they are there. */
   function save(id: string): void {
     try {
-      const unkept = new Map(load(storage));
+      const unsaved = new Map(load(storage));
       const now = own.get(id);
-      if (now === undefined) unkept.delete(id);
-      else unkept.set(id, now);
-      storage.setItem(KEY, written(unkept));
+      if (now === undefined) unsaved.delete(id);
+      else unsaved.set(id, now);
+      storage.setItem(KEY, written(unsaved));
       onWritten(true);
     } catch {
       // What is gone from here may stay there: it is sent once more in the next visit, and nothing is lost.
@@ -130,8 +130,8 @@ export function createOutbox(
     }
   }
 
-  function put(id: string, unkept: Stored): void {
-    own.set(id, unkept);
+  function put(id: string, unsaved: Stored): void {
+    own.set(id, unsaved);
     save(id);
   }
 
@@ -155,12 +155,12 @@ export function createOutbox(
 }
 
 /** What is said of each, as JSON, then the texts as they are. */
-function written(unkept: Unkept): string {
-  const head = [...unkept].map(([id, { revision: at }]) => ({ id, revision: at }));
-  return [JSON.stringify(head), ...[...unkept].map(([, { text }]) => text)].join(MARK);
+function written(unsaved: Unsaved): string {
+  const head = [...unsaved].map(([id, { revision: at }]) => ({ id, revision: at }));
+  return [JSON.stringify(head), ...[...unsaved].map(([, { text }]) => text)].join(MARK);
 }
 
-function load(storage: TextStorage): Unkept {
+function load(storage: TextStorage): Unsaved {
   try {
     const [head = '', ...texts] = (storage.getItem(KEY) ?? '[]').split(MARK);
     const said: unknown = JSON.parse(head);

@@ -154,7 +154,7 @@ export function LogPanel({ onFold }: { readonly onFold?: () => void }) {
           icon={heldId === null ? 'pause' : 'play'}
           onPress={() => setHeldId(heldId === null ? nextId : null)}
         >
-          {heldId === null ? words.log.pause : words.log.goOn}
+          {heldId === null ? words.log.pause : words.log.continue}
         </Button>
         <Button tone="quiet" icon="save" hint={words.log.saveHint} onPress={save}>
           {words.log.save}

@@ -63,8 +63,8 @@ export function createLogView(
       shown.push(entry);
     }
     nextId = endId;
-    const firstKept = passedIds.findIndex((id) => id >= oldestId);
-    if (firstKept !== 0) passedIds = firstKept < 0 ? [] : passedIds.slice(firstKept);
+    const firstStored = passedIds.findIndex((id) => id >= oldestId);
+    if (firstStored !== 0) passedIds = firstStored < 0 ? [] : passedIds.slice(firstStored);
     const passedCount = passedIds.length;
     shown = shown.slice(shown.length - Math.min(DRAWN, passedCount));
     snapshot = { shown, passedCount, hiddenCount: endId - oldestId - passedCount };

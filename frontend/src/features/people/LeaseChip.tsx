@@ -14,7 +14,7 @@ import { Icon } from '../../ui/Icon.tsx';
 import { MenuButton } from '../../ui/MenuButton.tsx';
 import { useLayout } from '../../ui/useLayout.ts';
 import { secondsLeft } from '../../i18n/numbers.ts';
-import { turnOf, type Turn, type TurnAct } from './turn.ts';
+import { turnOf, type Turn, type TurnAct } from './leaseText.ts';
 import styles from './LeaseChip.module.css';
 
 // The run that goes on, or may, without whoever began it: said to everybody, also where nobody else is there.
@@ -36,7 +36,7 @@ export function UnattendedChip() {
         <Mark truth="commanded" />
         <div className={styles.words}>
           <p className={styles.text} aria-live="polite">
-            {isOurs ? mayGoOn(run) : goesOn(run, you)}
+            {isOurs ? mayKeepRunning(run) : goesOn(run, you)}
           </p>
           <p className={styles.more}>
             <Left key={run.endsInMs} run={run} />
@@ -52,8 +52,8 @@ export function UnattendedChip() {
   );
 }
 
-function mayGoOn({ slot }: Unattended): string {
-  return slot === null ? words.lease.playingMayGoOn : words.lease.mayGoOn({ slot });
+function mayKeepRunning({ slot }: Unattended): string {
+  return slot === null ? words.lease.playingMayContinue : words.lease.mayKeepRunning({ slot });
 }
 
 function goesOn({ slot, by }: Unattended, you: string): string {
@@ -64,9 +64,9 @@ function goesOn({ slot, by }: Unattended, you: string): string {
 /** Counts from when it was told. */
 function Left({ run: { endsInMs } }: { readonly run: Unattended }) {
   const { device } = useStores();
-  const [toldMs] = useState(device.clock.now);
+  const [heardMs] = useState(device.clock.now);
   const nowMs = useNow(device.clock.now, 250);
-  return words.lease.goesOnFor({ ms: endsInMs - (nowMs - toldMs) });
+  return words.lease.goesOnFor({ ms: endsInMs - (nowMs - heardMs) });
 }
 
 export function LeaseChip() {
@@ -168,8 +168,8 @@ function Said({ lease, turn: { truth, text, more } }: TurnProps) {
 /** Counts from when it was told. */
 function PassesIn({ lease: { answerInMs, asks } }: { readonly lease: Lease }) {
   const { device } = useStores();
-  const [toldMs] = useState(device.clock.now);
+  const [heardMs] = useState(device.clock.now);
   const nowMs = useNow(device.clock.now, 250);
-  const leftMs = (answerInMs ?? 0) - (nowMs - toldMs);
+  const leftMs = (answerInMs ?? 0) - (nowMs - heardMs);
   return (asks ? words.lease.yoursIn : words.lease.theirsIn)({ seconds: secondsLeft(leftMs) });
 }

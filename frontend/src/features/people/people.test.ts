@@ -46,15 +46,15 @@ function gateway() {
 const settled = (): Promise<void> => new Promise((resolve) => setTimeout(resolve));
 
 let nowMs = 0;
-let told: string[] = [];
+let texts: string[] = [];
 let robot: ReturnType<typeof gateway>;
 let people: PeopleStore;
 
 beforeEach(() => {
   nowMs = 0;
-  told = [];
+  texts = [];
   robot = gateway();
-  const notices = { tell: (_tone: string, text: string) => void told.push(text) };
+  const notices = { tell: (_tone: string, text: string) => void texts.push(text) };
   people = createPeople({ api: robot.api, me: ANNA, notices, now: () => nowMs });
 });
 
@@ -112,7 +112,7 @@ test('what the gateway refuses is told with its reason', async () => {
   people.change('anna', { role: 'viewer' });
   people.revoke('ben', false);
   await settled();
-  expect(told).toEqual([
+  expect(texts).toEqual([
     'The gateway refused this: This is the last owner',
     'The gateway does not answer. Is this device still on the robot’s network?',
   ]);
@@ -121,7 +121,7 @@ test('what the gateway refuses is told with its reason', async () => {
 test('whoever lets nobody in says their own name, and hears when an owner changes it', async () => {
   const { api, asked } = gateway();
   const guest = { ...ANNA, you: BEN };
-  const notices = { tell: (_tone: string, text: string) => void told.push(text) };
+  const notices = { tell: (_tone: string, text: string) => void texts.push(text) };
   let now: Me | null = { ...guest, you: { ...BEN, name: 'Ben' } };
   people = createPeople({
     api: { ...api, me: () => Promise.resolve(now) },
@@ -138,5 +138,5 @@ test('whoever lets nobody in says their own name, and hears when an owner change
   now = null;
   await people.refresh();
   expect(people.store.getState().me?.you?.name).toBe('Benno');
-  expect([asked, told]).toEqual([[], []]);
+  expect([asked, texts]).toEqual([[], []]);
 });

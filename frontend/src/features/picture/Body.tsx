@@ -8,7 +8,7 @@ import { cx } from '../../ui/cx.ts';
 import { Canvas, type Size } from './Canvas.tsx';
 import { words } from '../../i18n/words.ts';
 import { DialFace } from './Dial.tsx';
-import { paintHands, type Spot } from './hands.ts';
+import { paintNeedles, type Spot } from './needles.ts';
 import { motionInFrame } from './motionInFrame.ts';
 import { dialDegrees, halfDegree, type Pose } from './pose.ts';
 import { usePreview } from './usePreview.ts';
@@ -45,7 +45,7 @@ function Dials() {
             </li>
           ))}
         </ol>
-        <AllHands list={list} servos={servos.map(({ servo }) => servo)} family={family} />
+        <AllNeedles list={list} servos={servos.map(({ servo }) => servo)} family={family} />
       </div>
     </div>
   );
@@ -58,13 +58,13 @@ interface Faces {
   readonly spots: readonly Spot[];
 }
 
-interface AllHandsProps {
+interface AllNeedlesProps {
   readonly list: React.RefObject<HTMLElement | null>;
   readonly servos: readonly number[];
   readonly family: Family;
 }
 
-function AllHands({ list, servos, family }: AllHandsProps) {
+function AllNeedles({ list, servos, family }: AllNeedlesProps) {
   const { device } = useStores();
   const pose = useRef<Pose | null>(null);
   const faces = useRef<Faces>({ size: null, diameter: 0, spots: [] });
@@ -91,9 +91,9 @@ function AllHands({ list, servos, family }: AllHandsProps) {
         const { diameter, spots } = facesAt(size);
         const dials = spots.map((spot, index) => {
           const [target = null, needle = null, preview = null] = shown.slice(3 * index, 3 * index + 3);
-          return { spot, hands: { target, needle, preview } };
+          return { spot, needles: { target, needle, preview } };
         });
-        paintHands(ctx, look, diameter, dials);
+        paintNeedles(ctx, look, diameter, dials);
       }}
     />
   );

@@ -28,7 +28,7 @@ export interface Picture<Shown extends readonly unknown[]> {
 export interface CanvasProps<Shown extends readonly unknown[]> extends Pick<Picture<Shown>, 'shown'> {
   readonly className?: string | undefined;
   /** What was painted stays on it, for whoever paints only what is another. */
-  readonly isKept?: boolean;
+  readonly isStill?: boolean;
   paint(pen: Pen, shown: Shown, isClean: boolean): void;
 }
 
@@ -44,7 +44,7 @@ interface Read<Shown> extends Ground {
 }
 
 export function Canvas<Shown extends readonly unknown[]>(props: CanvasProps<Shown>) {
-  const { className, isKept = false, shown, paint } = props;
+  const { className, isStill = false, shown, paint } = props;
   const canvas = useRef<HTMLCanvasElement>(null);
   const size = useRef<Size>({ width: 0, height: 0 });
   const painted = useRef<Ground | null>(null);
@@ -58,7 +58,7 @@ export function Canvas<Shown extends readonly unknown[]>(props: CanvasProps<Show
 
   function draw(now: Read<Shown> | null): void {
     if (canvas.current === null || now === null) return;
-    const isClean = !isKept || painted.current === null || !isSameGround(painted.current, now);
+    const isClean = !isStill || painted.current === null || !isSameGround(painted.current, now);
     const ctx = isClean ? cleanContext(canvas.current, now) : canvas.current.getContext('2d');
     if (ctx !== null) paint({ ctx, look: now.look, size: now.size }, now.shown, isClean);
     painted.current = now;

@@ -7,7 +7,7 @@ import { useStores } from '../stores.ts';
 import { READABLE_MS, useFollow } from '../../ui/useEachFrame.ts';
 import { words } from '../../i18n/words.ts';
 import { Drawing } from './Drawing.tsx';
-import { paintHands } from './hands.ts';
+import { paintNeedles } from './needles.ts';
 import { motionInFrame } from './motionInFrame.ts';
 import { dialDegrees, halfDegree } from './pose.ts';
 import overlay from './overlay.module.css';
@@ -28,7 +28,7 @@ export function Dial({ servo, family }: { readonly servo: number; readonly famil
         }}
         paint={({ ctx, look, size }, [target, needle]) => {
           const spot = { x: size.width / 2, y: size.height / 2 };
-          paintHands(ctx, look, size.width, [{ spot, hands: { target, needle, preview: null } }]);
+          paintNeedles(ctx, look, size.width, [{ spot, needles: { target, needle, preview: null } }]);
         }}
       />
     </span>

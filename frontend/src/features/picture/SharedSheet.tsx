@@ -71,7 +71,7 @@ export function SharedSheet({ className = styles.sheet, children }: SharedSheetP
           <Sight value={isInSight}>
             <Canvas
               className={styles.canvas}
-              isKept
+              isStill
               shown={shown}
               paint={(pen, _, isClean) => paintOn(pen, parts.current, covered.current, isClean)}
             />

@@ -57,7 +57,7 @@ describe('a body by bones', () => {
   };
   const top = ({ trunk }: BonePicture): number => Math.min(...trunk.map(({ y }) => y));
   const feet = ({ bones }: BonePicture): number => Math.max(...bones.map(({ to }) => to.y));
-  const aside = ({ trunk, shadow }: BonePicture): number => shadow[0]!.x - trunk[0]!.x;
+  const offset = ({ trunk, shadow }: BonePicture): number => shadow[0]!.x - trunk[0]!.x;
 
   test('a humanoid that squats sinks onto its feet, and one that lifts a leg stands on the other', () => {
     const [stands, squats] = examplePoses('humanoid16', 'squat');
@@ -69,10 +69,10 @@ describe('a body by bones', () => {
 
   test('a hexapod that rises has its shadow farther beside it, one that waves a leg has not', () => {
     const [sunk, risen] = examplePoses('hexapod18', 'rise');
-    expect(aside(risen!)).toBeGreaterThan(aside(sunk!) + 4);
+    expect(offset(risen!)).toBeGreaterThan(offset(sunk!) + 4);
     const [lies, waves] = examplePoses('hexapod18', 'wave');
-    expect(aside(waves!)).toBe(aside(lies!));
-    expect(aside(bonesOf(robot('hexapod18'), posed({ 2: 1000 }))!)).toBe(aside(lies!));
+    expect(offset(waves!)).toBe(offset(lies!));
+    expect(offset(bonesOf(robot('hexapod18'), posed({ 2: 1000 }))!)).toBe(offset(lies!));
   });
 
   test('a finger folds, and the base turns the whole hand', () => {

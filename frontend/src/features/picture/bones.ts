@@ -57,12 +57,12 @@ interface Turn {
 }
 
 /** Turn of the joints of a limb up to and with the last one given, all in degrees. */
-type Kinematics = (turns: readonly number[]) => Turn;
+type Kinematics = (angles: readonly number[]) => Turn;
 
-const bending: Kinematics = (turns) => ({ degrees: sum(turns) * BEND, length: 1 });
+const bending: Kinematics = (angles) => ({ degrees: sum(angles) * BEND, length: 1 });
 
 /** A leg that bends looks shorter, too. */
-const standing: Kinematics = (turns) => ({ ...bending(turns), length: foreshortened(sum(turns)) });
+const standing: Kinematics = (angles) => ({ ...bending(angles), length: foreshortened(sum(angles)) });
 
 /** Seen from above the first joint swings the leg, the others lift it. */
 const lifting: Kinematics = ([swing = 0, ...lifts]) => ({
@@ -122,10 +122,10 @@ function hexapod(limbs: readonly Limb[], pose: Pose): BonePicture {
   const trunk = trunkOf(limbs);
   const reaches = limbs.map(({ chain }) => reachDown(chain, pose)).toSorted((one, other) => other - one);
   const height = Math.max(0, reaches[STANDS_ON - 1] ?? 0);
-  const aside = SHADOW.least + height * SHADOW.each;
+  const offset = SHADOW.least + height * SHADOW.each;
   return {
     trunk,
-    shadow: trunk.map((corner) => added(corner, { x: aside, y: aside })),
+    shadow: trunk.map((corner) => added(corner, { x: offset, y: offset })),
     bones: limbs.flatMap((limb) => bonesOfLimb(limb, pose)),
   };
 }
@@ -147,12 +147,12 @@ function bonesOfLimb(limb: Limb, pose: Pose): Bone[] {
   const bones: Bone[] = [];
   let from = rootOf(limb.chain);
   let known = true;
-  const turns: number[] = [];
+  const angles: number[] = [];
   for (const servo of limb.chain) {
     const position = pose(servo.servo);
     known &&= position !== null;
-    turns.push(degreesOf(servo, position ?? servo.home));
-    const to = added(from, lastBone(limb, turns));
+    angles.push(degreesOf(servo, position ?? servo.home));
+    const to = added(from, lastBone(limb, angles));
     bones.push({ servo: servo.servo, from, to, known });
     from = to;
   }
@@ -160,9 +160,9 @@ function bonesOfLimb(limb: Limb, pose: Pose): Bone[] {
 }
 
 /** The bone of the joint that turned last, from its own start. */
-export function lastBone({ chain, kinematics }: Limb, turns: readonly number[]): Point {
-  const { degrees, length } = kinematics(turns);
-  return turned(restBone(chain, turns.length - 1), degrees, length);
+export function lastBone({ chain, kinematics }: Limb, angles: readonly number[]): Point {
+  const { degrees, length } = kinematics(angles);
+  return turned(restBone(chain, angles.length - 1), degrees, length);
 }
 
 export const rootOf = (chain: Chain): Point => chain[0]?.place ?? CENTRE;

@@ -2,7 +2,7 @@
 
 import type { Motions, ServoMotion } from '#shared/robot/state.ts';
 import type { Device } from '../../robot/device.ts';
-import { frameAtHand } from '../../ui/useEachFrame.ts';
+import { currentFrame } from '../../ui/useEachFrame.ts';
 
 interface Seen {
   readonly frame: number;
@@ -14,7 +14,7 @@ const seen = new WeakMap<Device, Seen>();
 export const motionInFrame = (device: Device, servo: number): ServoMotion => motionsInFrame(device)(servo);
 
 export function motionsInFrame(device: Device): Motions {
-  const frame = frameAtHand();
+  const frame = currentFrame();
   const before = seen.get(device);
   if (before?.frame === frame) return before.motion;
   const motion = eachOnce(device.motions());

@@ -38,7 +38,7 @@ interface Box {
   readonly size: Size;
 }
 
-interface Kept {
+interface Registered {
   readonly sight: InSight;
   /** null: to be measured. */
   box: Box | null;
@@ -47,30 +47,30 @@ interface Kept {
 }
 
 export function createSheet(): Sheet {
-  const all = new Set<Kept>();
+  const all = new Set<Registered>();
   return {
     add(part) {
-      const kept = keep(part);
-      all.add(kept);
-      return () => all.delete(kept);
+      const placed = keep(part);
+      all.add(placed);
+      return () => all.delete(placed);
     },
     measureAnew() {
-      for (const kept of all) kept.box = null;
+      for (const placed of all) placed.box = null;
     },
     inSight(around) {
       let corner: DOMRect | undefined;
       const seen: Placed[] = [];
-      for (const kept of all) {
-        if (!kept.sight.current) continue;
-        kept.box ??= kept.measured((corner ??= around.getBoundingClientRect()));
-        seen.push({ part: kept, ...kept.box, ...kept.picture() });
+      for (const placed of all) {
+        if (!placed.sight.current) continue;
+        placed.box ??= placed.measured((corner ??= around.getBoundingClientRect()));
+        seen.push({ part: placed, ...placed.box, ...placed.picture() });
       }
       return seen;
     },
   };
 }
 
-function keep<Shown extends readonly unknown[]>({ place, sight, shown, paint }: Part<Shown>): Kept {
+function keep<Shown extends readonly unknown[]>({ place, sight, shown, paint }: Part<Shown>): Registered {
   let size: Size = { width: 0, height: 0 };
   return {
     sight,

@@ -1,12 +1,12 @@
 import { describe, expect, test } from 'vitest';
-import { createDesk } from '../deskUnderTest.ts';
+import { createTestPage } from '../pageUnderTest.ts';
 import { INITIAL_SERVO_VIEW } from '../drive/servoView.ts';
 
 const at = (position: number) => [{ servo: 1, position }];
 
 describe('a blend of two poses', () => {
   test('is only looked at until the robot is to follow; then gently at first, and along with the slider', async () => {
-    const { blend, draw, moves, transport } = await createDesk();
+    const { blend, draw, moves, transport } = await createTestPage();
     blend.show(at(1200));
     await draw(500);
     expect(moves()).toEqual([]);
@@ -19,19 +19,19 @@ describe('a blend of two poses', () => {
   });
 
   test('follows between two ticks of the clock, too, while it is still on its gentle way', async () => {
-    const { blend, clock, draw, moves, told } = await createDesk();
+    const { blend, clock, draw, moves, noticeTexts } = await createTestPage();
     blend.show(at(1200));
     blend.follow(true);
     await draw(200);
     await clock.advance(0.3);
     blend.show(at(1300));
     await draw(200);
-    expect(told()).toEqual([]);
+    expect(noticeTexts()).toEqual([]);
     expect(moves().at(-1)).toMatchObject({ targets: at(1300) });
   });
 
   test('leaves locked servos where they are', async () => {
-    const { blend, draw, moves, view, robots } = await createDesk();
+    const { blend, draw, moves, view, robots } = await createTestPage();
     view.setState({ servos: { ...INITIAL_SERVO_VIEW, robotId: robots.current().id, locked: [1] } });
     blend.show([...at(1200), { servo: 2, position: 1300 }]);
     blend.follow(true);
@@ -40,7 +40,7 @@ describe('a blend of two poses', () => {
   });
 
   test('moves nothing any more once it is put away', async () => {
-    const { blend, draw, moves } = await createDesk();
+    const { blend, draw, moves } = await createTestPage();
     blend.show(at(1200));
     blend.follow(true);
     await draw(1700);
@@ -51,7 +51,7 @@ describe('a blend of two poses', () => {
   });
 
   test('STOP ends it, and Resume does not begin it again', async () => {
-    const { blend, device, draw, moves } = await createDesk();
+    const { blend, device, draw, moves } = await createTestPage();
     blend.show(at(1200));
     blend.follow(true);
     await draw(1700);

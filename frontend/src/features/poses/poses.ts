@@ -92,7 +92,7 @@ export function createPoses({ storage, notices, robots, device, view }: PosesOpt
     const targets = imported.poses.flatMap((pose) => pose.targets);
     const unknown = unknownServos(robots.current().robot, targets);
     if (unknown.length > 0)
-      notices.tell('warning', words.poses.strangers({ servos: words.numbers.formatList(unknown) }));
+      notices.tell('warning', words.poses.unknownServos({ servos: words.numbers.formatList(unknown) }));
   }
 
   return {

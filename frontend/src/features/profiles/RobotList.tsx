@@ -173,9 +173,9 @@ function fitting(board: FamilyId): readonly ReadyRobotId[] {
 }
 
 export function RobotList() {
-  const { robots, keeping } = useStores();
+  const { robots, robotSync } = useStores();
   const { own, currentId } = useStore(robots.store, ({ present }) => present);
-  const place = useStore(keeping.store, (state) => state.place);
+  const place = useStore(robotSync.store, (state) => state.place);
   const isEveryones = useSnapshot(
     ({ robotOnBoard }) => robotOnBoard !== null && robotOnBoard.document !== null,
   );
@@ -201,7 +201,7 @@ export function RobotList() {
         <ul ref={list} className={styles.own}>
           <li data-robot={current.id} className={styles.current}>
             <Described {...current} />
-            <Chip truth="confirmed">{isEveryones ? words.robots.everyones : words.robots.atHand}</Chip>
+            <Chip truth="confirmed">{isEveryones ? words.robots.everyones : words.robots.inUse}</Chip>
             <RobotTools {...current} isLast={isLast} />
           </li>
           {others

@@ -92,7 +92,7 @@ export function createRobotDocument<T>(options: RobotDocumentOptions<T>): RobotD
   const { storage, notices, robots, key, toText } = options;
   const { shared = { of: (value: T) => value, onto: (_mine: T, theirs: T) => theirs } } = options;
   /** Histories of robots that are not at hand. */
-  const aside = new Map<number, History<T>>();
+  const histories = new Map<number, History<T>>();
   const listeners = new Set<() => void>();
   let owner = robots.current().id;
 
@@ -114,13 +114,13 @@ export function createRobotDocument<T>(options: RobotDocumentOptions<T>): RobotD
     const { id } = taken;
     if (id === owner) return;
     document.commit();
-    aside.set(owner, document.store.getState());
+    histories.set(owner, document.store.getState());
     owner = id;
-    document.store.setState(aside.get(id) ?? startHistory(load(options, taken)), true);
+    document.store.setState(histories.get(id) ?? startHistory(load(options, taken)), true);
   });
 
   function of(robot: OwnRobot): T {
-    if (robot.id !== owner) return aside.get(robot.id)?.present ?? load(options, robot);
+    if (robot.id !== owner) return histories.get(robot.id)?.present ?? load(options, robot);
     const { gesture, present } = document.store.getState();
     return gesture?.value ?? present;
   }
@@ -136,7 +136,7 @@ export function createRobotDocument<T>(options: RobotDocumentOptions<T>): RobotD
     const read = text === null ? { value: options.fresh(robot.robot) } : options.fromText(text);
     if (!('value' in read) || text === textOf(robot)) return;
     const value = shared.onto(of(robot), read.value);
-    if (robot.id !== owner) aside.delete(robot.id);
+    if (robot.id !== owner) histories.delete(robot.id);
     else if (hasSteps()) document.edit(elsewhere, () => value);
     else document.store.setState(startHistory(value), true);
     save(robot.id, value);

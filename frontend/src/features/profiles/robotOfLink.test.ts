@@ -8,7 +8,7 @@ import { INITIAL_STATE } from '#shared/robot/store.ts';
 import type { SessionState } from '#shared/robot/state.ts';
 import { createVirtualClock, type VirtualClock } from '#shared/testing/virtualClock.ts';
 import type { DocumentStore } from '#shared/files/documentStore.ts';
-import { createMemoryKeeper } from '../library/memoryKeeper.ts';
+import { createMemoryStore } from '../library/memoryStore.ts';
 import { followRobot } from './robotOfLink.ts';
 import { freshRobot } from './robots.ts';
 import { createVisit, named } from './robotVisitUnderTest.ts';
@@ -64,12 +64,12 @@ type Gateway = ReturnType<typeof createGateway>;
 
 function createScreen(
   gateway: Gateway,
-  keeper: DocumentStore,
+  documentStore: DocumentStore,
   clock: VirtualClock,
   mayWrite = true,
   texts = new Map<string, string>(),
 ) {
-  const visit = createVisit(keeper, clock, texts, mayWrite);
+  const visit = createVisit(documentStore, clock, texts, mayWrite);
   let state: SessionState = {
     ...INITIAL_STATE,
     ...{ family: FAMILIES.doc, link: { status: 'ready' }, lease: LEASE },
@@ -80,71 +80,77 @@ function createScreen(
   return {
     ...visit,
     change,
-    atHand: () => visit.robots.current().robot.name,
-    isTheBoards: () => visit.keeping.robotOf(gateway.document() ?? '') === visit.robots.current().id,
+    inUse: () => visit.robots.current().robot.name,
+    isTheBoards: () => visit.robotSync.robotOf(gateway.document() ?? '') === visit.robots.current().id,
   };
 }
 
 function lesson() {
   const clock = createVirtualClock();
-  return { clock, gateway: createGateway(clock), keeper: createMemoryKeeper('gateway') };
+  return { clock, gateway: createGateway(clock), documentStore: createMemoryStore('gateway') };
 }
 
 describe('the robot of a shared board', () => {
   test('is the usual one where nobody has described any, the same for two screens at once', async () => {
-    const { clock, gateway, keeper } = lesson();
-    const screens = [createScreen(gateway, keeper, clock), createScreen(gateway, keeper, clock)];
+    const { clock, gateway, documentStore } = lesson();
+    const screens = [
+      createScreen(gateway, documentStore, clock),
+      createScreen(gateway, documentStore, clock),
+    ];
     await clock.advance(1000);
     expect(gateway.document()).toBe('usual-doc');
     expect(gateway.asked).toHaveLength(2);
     for (const screen of screens) {
       expect(screen.isTheBoards()).toBe(true);
       expect(screen.names()).toHaveLength(1);
-      expect(screen.told()).toEqual([]);
+      expect(screen.noticeTexts()).toEqual([]);
     }
   });
 
   test('is at hand of whoever joins, and each edit follows', async () => {
-    const { clock, gateway, keeper } = lesson();
-    const teacher = createScreen(gateway, keeper, clock);
+    const { clock, gateway, documentStore } = lesson();
+    const teacher = createScreen(gateway, documentStore, clock);
     teacher.robots.add(() => 'add', { ...freshRobot('arm', 'doc'), name: 'Crane' });
     await clock.advance(1000);
-    const pupil = createScreen(gateway, keeper, clock);
+    const pupil = createScreen(gateway, documentStore, clock);
     await clock.advance(1000);
-    expect([pupil.atHand(), pupil.isTheBoards()]).toEqual(['Crane', true]);
+    expect([pupil.inUse(), pupil.isTheBoards()]).toEqual(['Crane', true]);
     teacher.robots.edit(() => 'rename', named('Digger'));
     teacher.capture('Wave');
     await clock.advance(300);
     pupil.change({ robotOnBoard: { document: gateway.document() } });
     await clock.advance(300);
-    expect([pupil.atHand(), pupil.poses()]).toEqual(['Digger', ['Wave']]);
+    expect([pupil.inUse(), pupil.poses()]).toEqual(['Digger', ['Wave']]);
   });
 
   test('is changed for everybody by whoever takes up another one', async () => {
-    const { clock, gateway, keeper } = lesson();
-    const [one, other] = [createScreen(gateway, keeper, clock), createScreen(gateway, keeper, clock)];
+    const { clock, gateway, documentStore } = lesson();
+    const [one, other] = [
+      createScreen(gateway, documentStore, clock),
+      createScreen(gateway, documentStore, clock),
+    ];
     await clock.advance(1000);
     one.robots.add(() => 'add', { ...freshRobot('hand', 'doc'), name: 'Hand' });
     await clock.advance(1000);
-    expect([one.atHand(), other.atHand()]).toEqual(['Hand', 'Hand']);
+    expect([one.inUse(), other.inUse()]).toEqual(['Hand', 'Hand']);
     other.robots.takeUp(other.robots.store.getState().present.own[0]?.id ?? 0);
     await clock.advance(1000);
-    expect(one.atHand()).toBe(other.atHand());
-    expect(one.atHand()).not.toBe('Hand');
+    expect(one.inUse()).toBe(other.inUse());
+    expect(one.inUse()).not.toBe('Hand');
   });
 
   test('and its limits are left to whoever drives; poses are not', async () => {
-    const { clock, gateway, keeper } = lesson();
-    const pupil = createScreen(gateway, keeper, clock);
+    const { clock, gateway, documentStore } = lesson();
+    const pupil = createScreen(gateway, documentStore, clock);
     await clock.advance(1000);
     pupil.change({ lease: { ...LEASE, driver: 'Ada' } });
     expect(pupil.robots.edit(() => 'limits', narrowed)).toBe(false);
-    expect(pupil.told().at(-1)).toContain('Ada drives');
+    expect(pupil.noticeTexts().at(-1)).toContain('Ada drives');
     expect(pupil.robots.edit(() => 'rename', named('Crane'))).toBe(true);
     pupil.capture('Wave');
     expect(pupil.poses()).toEqual(['Wave']);
     pupil.robots.add(() => 'add', { ...freshRobot('hand', 'doc'), name: 'Hand' });
-    expect(pupil.atHand()).toBe('Crane');
+    expect(pupil.inUse()).toBe('Crane');
     for (const lease of [
       { driver: 'Ada', drives: true },
       { driver: 'Ada', mayTake: true },
@@ -157,27 +163,27 @@ describe('the robot of a shared board', () => {
   });
 
   test('a viewer sees it and changes nothing', async () => {
-    const { clock, gateway, keeper } = lesson();
-    const teacher = createScreen(gateway, keeper, clock);
+    const { clock, gateway, documentStore } = lesson();
+    const teacher = createScreen(gateway, documentStore, clock);
     teacher.robots.add(() => 'add', { ...freshRobot('arm', 'doc'), name: 'Crane' });
     await clock.advance(1000);
     const asked = gateway.asked.length;
-    const viewer = createScreen(gateway, keeper, clock, false);
+    const viewer = createScreen(gateway, documentStore, clock, false);
     await clock.advance(1000);
-    expect(viewer.atHand()).toBe('Crane');
+    expect(viewer.inUse()).toBe('Crane');
     viewer.robots.edit(() => 'rename', named('Mine'));
     viewer.capture('Wave');
     const before = viewer.names();
     viewer.robots.duplicate();
-    expect([viewer.atHand(), viewer.poses(), viewer.names()]).toEqual(['Crane', [], before]);
-    expect(viewer.told()[0]).toContain('Viewers');
+    expect([viewer.inUse(), viewer.poses(), viewer.names()]).toEqual(['Crane', [], before]);
+    expect(viewer.noticeTexts()[0]).toContain('Viewers');
     await clock.advance(1000);
     expect(gateway.asked).toHaveLength(asked);
   });
 
   test('what was put there stays at hand and is put once, however late the word about it comes', async () => {
-    const { clock, gateway, keeper } = lesson();
-    const one = createScreen(gateway, keeper, clock);
+    const { clock, gateway, documentStore } = lesson();
+    const one = createScreen(gateway, documentStore, clock);
     const putTimes: number[] = [];
     for (const wish of [() => undefined, () => one.robots.duplicate()]) {
       wish();
@@ -194,12 +200,15 @@ describe('the robot of a shared board', () => {
       putTimes.push(gateway.asked.length - asked);
     }
     expect(putTimes).toEqual([1, 1]);
-    expect(one.told()).toEqual([]);
+    expect(one.noticeTexts()).toEqual([]);
   });
 
   test('is the one that was put there last, also where the word about it overtakes the answer', async () => {
-    const { clock, gateway, keeper } = lesson();
-    const [one, other] = [createScreen(gateway, keeper, clock), createScreen(gateway, keeper, clock)];
+    const { clock, gateway, documentStore } = lesson();
+    const [one, other] = [
+      createScreen(gateway, documentStore, clock),
+      createScreen(gateway, documentStore, clock),
+    ];
     await clock.advance(1000);
     const first = gateway.document() ?? '';
     gateway.answerAfter(200);
@@ -213,8 +222,8 @@ describe('the robot of a shared board', () => {
   });
 
   test('is put there by whoever was not ready when it was kept, as soon as that is over', async () => {
-    const { clock, gateway, keeper } = lesson();
-    const one = createScreen(gateway, keeper, clock);
+    const { clock, gateway, documentStore } = lesson();
+    const one = createScreen(gateway, documentStore, clock);
     one.change({ link: { status: 'identifying' } });
     await clock.advance(1000);
     expect(gateway.asked).toEqual([]);
@@ -224,16 +233,16 @@ describe('the robot of a shared board', () => {
   });
 
   test('whoever was slower takes up what was put there, and asks no more', async () => {
-    const { clock, gateway, keeper } = lesson();
+    const { clock, gateway, documentStore } = lesson();
     const described = ['Crane', 'Digger'].map((name) => {
-      const { robots, texts } = createVisit(createMemoryKeeper('browser'), clock);
+      const { robots, texts } = createVisit(createMemoryStore('browser'), clock);
       robots.edit(() => 'rename', named(name));
       return texts;
     });
-    const screens = described.map((texts) => createScreen(gateway, keeper, clock, true, texts));
+    const screens = described.map((texts) => createScreen(gateway, documentStore, clock, true, texts));
     const refusals = (): number =>
-      screens.flatMap(({ told }) => told()).filter((text) => text.includes(FASTER)).length;
-    for (const told of [0, 1]) {
+      screens.flatMap(({ noticeTexts }) => noticeTexts()).filter((text) => text.includes(FASTER)).length;
+    for (const noticeTexts of [0, 1]) {
       const asked = gateway.asked.length;
       while (gateway.asked.length < asked + 2) await clock.advance(1);
       for (const status of ['identifying', 'ready'] as const)
@@ -242,15 +251,15 @@ describe('the robot of a shared board', () => {
       expect(gateway.asked).toHaveLength(asked + 2);
       expect(screens.map(({ isTheBoards }) => isTheBoards())).toEqual([true, true]);
       // A wish that somebody had is not lost without a word.
-      expect(refusals()).toBe(told);
+      expect(refusals()).toBe(noticeTexts);
       for (const { robots } of screens) robots.duplicate();
     }
   });
 
   test('who described one before the word came that somebody was faster asks nothing either', async () => {
-    const { clock, gateway, keeper } = lesson();
+    const { clock, gateway, documentStore } = lesson();
     gateway.refuseBy(new LinkError('gatewayRefused', FASTER));
-    const one = createScreen(gateway, keeper, clock);
+    const one = createScreen(gateway, documentStore, clock);
     while (gateway.asked.length === 0) await clock.advance(1);
     one.robots.duplicate();
     await clock.advance(1000);
@@ -262,21 +271,21 @@ describe('the robot of a shared board', () => {
   });
 
   test('stays what it is where the gateway refuses another one, which is told once', async () => {
-    const { clock, gateway, keeper } = lesson();
-    const one = createScreen(gateway, keeper, clock);
+    const { clock, gateway, documentStore } = lesson();
+    const one = createScreen(gateway, documentStore, clock);
     await clock.advance(1000);
-    const before = one.atHand();
+    const before = one.inUse();
     gateway.refuseBy(new LinkError('gatewayRefused', 'Somebody else drives.'));
     one.robots.add(() => 'add', { ...freshRobot('hand', 'doc'), name: 'Hand' });
     await clock.advance(1000);
-    expect(one.atHand()).toBe(before);
-    expect(one.told()).toHaveLength(1);
+    expect(one.inUse()).toBe(before);
+    expect(one.noticeTexts()).toHaveLength(1);
     expect(gateway.asked.filter((document) => document !== 'usual-doc')).toHaveLength(1);
   });
 
   test('a link of its own asks nobody, and nothing is asked before it is ready', async () => {
-    const { clock, gateway, keeper } = lesson();
-    const screen = createScreen(gateway, keeper, clock);
+    const { clock, gateway, documentStore } = lesson();
+    const screen = createScreen(gateway, documentStore, clock);
     screen.change({ link: { status: 'opening' } });
     await clock.advance(1000);
     const asked = gateway.asked.length;
@@ -284,6 +293,6 @@ describe('the robot of a shared board', () => {
     screen.robots.add(() => 'add', { ...freshRobot('hand', 'doc'), name: 'Hand' });
     await clock.advance(1000);
     expect(gateway.asked).toHaveLength(asked);
-    expect(screen.atHand()).toBe('Hand');
+    expect(screen.inUse()).toBe('Hand');
   });
 });

@@ -9,12 +9,12 @@ import type { SessionState } from '#shared/robot/state.ts';
 import type { RobotOnBoard } from '#shared/robot/transport.ts';
 import { words } from '../../i18n/words.ts';
 import type { Notices } from '../../state/notices.ts';
-import type { RobotKeeping } from './robotKeeping.ts';
+import type { RobotSync } from './robotSync.ts';
 import type { RobotStore } from './robots.ts';
 
 export interface RobotOfLinkOptions {
   readonly robots: RobotStore;
-  readonly keeping: RobotKeeping;
+  readonly robotSync: RobotSync;
   readonly notices: Notices;
   /** False in a viewer's browser, which only looks at what the library has. */
   readonly mayWrite: boolean;
@@ -24,9 +24,9 @@ export interface RobotOfLinkOptions {
 
 /** Returns what is to be called with each state of the session. */
 export function followRobot(options: RobotOfLinkOptions): (snapshot: SessionState) => void {
-  const { robots, keeping, notices, mayWrite } = options;
-  let { family, link, lease, robotOnBoard: told } = INITIAL_STATE;
-  let lastWord = told;
+  const { robots, robotSync, notices, mayWrite } = options;
+  let { family, link, lease, robotOnBoard: reported } = INITIAL_STATE;
+  let lastWord = reported;
   /** The word that was followed; another robot at hand since then is the person's wish. */
   let followed: string | null = null;
   let isOffering = false;
@@ -37,12 +37,12 @@ export function followRobot(options: RobotOfLinkOptions): (snapshot: SessionStat
   let echoes = 0;
 
   function settle(): void {
-    if (family.id !== 'unknown' && told !== null && link.status === 'ready' && !isOffering)
-      agree(told.document, family.id);
+    if (family.id !== 'unknown' && reported !== null && link.status === 'ready' && !isOffering)
+      agree(reported.document, family.id);
   }
 
   function agree(document: string | null, board: FamilyId): void {
-    const there = document === null ? null : keeping.robotOf(document);
+    const there = document === null ? null : robotSync.robotOf(document);
     if (document !== null && there === null) return; // it is on its way
     const isNews = document !== followed;
     followed = document;
@@ -62,23 +62,23 @@ export function followRobot(options: RobotOfLinkOptions): (snapshot: SessionStat
   }
 
   const whyNot = (): string =>
-    mayWrite ? words.robots.othersHands({ driver: lease?.driver ?? '' }) : words.robots.onlyLooking;
+    mayWrite ? words.robots.onlyTheDriver({ driver: lease?.driver ?? '' }) : words.robots.onlyLooking;
 
   /** A link that has just opened tells it too, and may be asked anew. */
   function hear(word: RobotOnBoard | null): void {
-    if (link.status !== 'ready' || word?.document !== told?.document) asked = '';
-    lastWord = told = word;
+    if (link.status !== 'ready' || word?.document !== reported?.document) asked = '';
+    lastWord = reported = word;
     if (word?.document === followed) echoes += 1;
-    if (word !== null) keeping.refresh();
+    if (word !== null) robotSync.refresh();
   }
 
   async function offer(id: number, insteadOf: string | null): Promise<void> {
     isOffering = true;
     asked = `${id} ${insteadOf}`;
     try {
-      const document = await keeping.keep(id);
+      const document = await robotSync.keep(id);
       waitsForLibrary = document === null;
-      const isWanted = link.status === 'ready' && told?.document === insteadOf;
+      const isWanted = link.status === 'ready' && reported?.document === insteadOf;
       if (!isWanted) asked = '';
       else if (document !== null && document !== insteadOf) {
         // Our own word is no news: what was taken up meanwhile is wished for.
@@ -86,13 +86,13 @@ export function followRobot(options: RobotOfLinkOptions): (snapshot: SessionStat
         const before = echoes;
         await options.putOnBoard(document, insteadOf);
         // The word about it may be on its way still; where it has come, whatever came behind it is newer.
-        if (echoes === before) told = { document };
+        if (echoes === before) reported = { document };
       }
     } catch (error) {
       followed = insteadOf;
       if (insteadOf !== null) notices.tellError(error);
       // Somebody was faster: nothing is asked in place of none before the word about it comes.
-      else if (told?.document === null) told = null;
+      else if (reported?.document === null) reported = null;
     } finally {
       isOffering = false;
     }
@@ -101,12 +101,12 @@ export function followRobot(options: RobotOfLinkOptions): (snapshot: SessionStat
 
   robots.refuseBy((before, next) => {
     if (!mayWrite) return whyNot();
-    const isShared = link.status === 'ready' && told !== null;
+    const isShared = link.status === 'ready' && reported !== null;
     if (!isShared || mayResume(lease) || next === null || sameLimits(before, next)) return null;
     return whyNot();
   });
   robots.store.subscribe(settle);
-  keeping.store.subscribe(() => {
+  robotSync.store.subscribe(() => {
     if (waitsForLibrary) asked = '';
     settle();
   });

@@ -11,13 +11,13 @@ import { createMappings } from '../inputs/mappings.ts';
 import { createNotices } from '../../state/notices.ts';
 import { createPoses } from '../poses/poses.ts';
 import { createView } from '../view.ts';
-import { createRobotKeeping } from './robotKeeping.ts';
+import { createRobotSync } from './robotSync.ts';
 import { createRobots } from './robots.ts';
 
 const EPOCH_MS = 1_790_000_000_000;
 
 export function createVisit(
-  keeper: DocumentStore,
+  documentStore: DocumentStore,
   clock: VirtualClock,
   texts = new Map<string, string>(),
   mayWrite = true,
@@ -36,18 +36,26 @@ export function createVisit(
     device,
     view: createView({ browser: storage, tab: storage }),
   });
-  const keeping = createRobotKeeping({
-    ...{ keeper: Promise.resolve(keeper), mayWrite, robots, poses: book, storage, notices, clock },
+  const robotSync = createRobotSync({
+    ...{
+      documentStore: Promise.resolve(documentStore),
+      mayWrite,
+      robots,
+      poses: book,
+      storage,
+      notices,
+      clock,
+    },
     buttons: createMacros(storage, notices, robots),
     pad: createMappings(storage, notices, robots),
     epochMs: () => EPOCH_MS,
     newId: nextId,
   });
   return {
-    ...{ texts, robots, book, keeping, notices },
+    ...{ texts, robots, book, robotSync, notices },
     names: () => robots.store.getState().present.own.map(({ robot }) => robot.name),
     poses: () => book.store.getState().present.poses.map(({ name }) => name),
-    told: () => notices.store.getState().map(({ text }) => text),
+    noticeTexts: () => notices.store.getState().map(({ text }) => text),
     capture: (name: string) =>
       book.edit(
         () => 'capture',

@@ -16,9 +16,9 @@ function storageWith(texts = new Map<string, string>()) {
 function shelf(storage = storageWith()) {
   const notices = createNotices(createVirtualClock());
   const robots = createRobots(storage, notices);
-  const told = () => notices.store.getState().map(({ text }) => text);
+  const noticeTexts = () => notices.store.getState().map(({ text }) => text);
   const names = () => robots.store.getState().present.own.map(({ robot }) => robot.name);
-  return { robots, told, names, storage };
+  return { robots, noticeTexts, names, storage };
 }
 
 const named =
@@ -44,12 +44,12 @@ describe('robots', () => {
   });
 
   test('an edit that leaves nonsense is refused with its reason, and changes nothing', async () => {
-    const { robots, told } = shelf();
+    const { robots, noticeTexts } = shelf();
     const before = robots.current();
     expect(robots.edit(() => 'limits', narrowed)).toBe(false);
     expect(robots.current()).toBe(before);
     await vi.waitFor(() =>
-      expect(told()).toEqual([expect.stringContaining('Elbow (servo 4): its lowest position 2000')]),
+      expect(noticeTexts()).toEqual([expect.stringContaining('Elbow (servo 4): its lowest position 2000')]),
     );
   });
 
@@ -94,9 +94,9 @@ describe('robots', () => {
     robots.edit(() => 'rename', named('a'.repeat(64)));
     robots.duplicate();
     robots.duplicate();
-    const { names, told } = shelf(storage);
+    const { names, noticeTexts } = shelf(storage);
     expect(names()).toEqual(['a'.repeat(64), `${'a'.repeat(60)} (2)`, `${'a'.repeat(60)} (3)`]);
-    expect(told()).toEqual([]);
+    expect(noticeTexts()).toEqual([]);
   });
 
   test('duplicates and removals are steps; the last robot stays', () => {
@@ -117,10 +117,10 @@ describe('robots', () => {
     '{"files":[{"id":1,"file":"no"}],"currentId":1,"nextId":2}',
   ])('saved text that is none of ours is set aside: %s', (text) => {
     const storage = storageWith(new Map([['servodeck.robots', text]]));
-    const { robots, told } = shelf(storage);
+    const { robots, noticeTexts } = shelf(storage);
     expect(robots.current().robot.body).toBe('arm');
     expect(storage.texts.get('servodeck.robots.unreadable')).toBe(text);
-    expect(told()).toHaveLength(1);
+    expect(noticeTexts()).toHaveLength(1);
   });
 });
 

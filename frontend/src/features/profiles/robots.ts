@@ -60,7 +60,7 @@ export interface RobotStore {
 }
 
 const KEY = 'servodeck.robots';
-const ASIDE_KEY = 'servodeck.robots.unreadable';
+const REPLACED_KEY = 'servodeck.robots.unreadable';
 
 export function createRobots(storage: TextStorage, notices: Notices): RobotStore {
   const store = createStore<History<Robots>>(() => startHistory(load(storage, notices)));
@@ -246,7 +246,7 @@ function load(storage: TextStorage, notices: Notices): Robots {
     if (text === null) return fresh;
     const robots = fromText(text);
     if (robots !== null) return robots;
-    storage.setItem(ASIDE_KEY, text);
+    storage.setItem(REPLACED_KEY, text);
     notices.tell('warning', words.robots.unreadable);
   } catch {
     notices.tell('warning', words.robots.notSaved);

@@ -2,7 +2,7 @@ import { describe, expect, test } from 'vitest';
 import { insertFrame } from '#shared/group/groupEdits.ts';
 import { keepInStep, pressFrame } from '../timeline/inStep.ts';
 import { bringSelectionBack } from '../timeline/selectionBack.ts';
-import { createTimelineDesk } from '../timeline/timelineUnderTest.ts';
+import { createTestTimeline } from '../timeline/timelineUnderTest.ts';
 import { words } from '../../../i18n/whole.ts';
 import {
   chosenFrames,
@@ -17,8 +17,8 @@ import {
 
 /** Frames 1 to 5 of 500 ms, the first three with keys of several servos. */
 async function createStrip() {
-  const desk = await createTimelineDesk();
-  const { stores, group } = desk;
+  const context = await createTestTimeline();
+  const { stores, group } = context;
   for (const position of [1100, 1300])
     stores.document.edit(
       () => 'more',
@@ -27,7 +27,7 @@ async function createStrip() {
   bringSelectionBack(stores);
   keepInStep(stores);
   return {
-    ...{ ...desk, stores },
+    ...{ ...context, stores },
     ids: () => group().frames.map(({ id }) => id),
     chosen: () => chosenFrames(stores),
     label: () => stores.document.store.getState().past.at(-1)?.label(),
@@ -154,13 +154,13 @@ describe('frames on the clipboard', () => {
   });
 
   test('are not pasted where the robot must not go, nor when there are none', async () => {
-    const { stores, ids, told } = await createStrip();
+    const { stores, ids, noticeTexts } = await createStrip();
     paste(stores, null);
     const moments = [{ atMs: 0, easing: 'linear', note: '', colour: null, targets: [] }] as const;
     const far = [{ servo: 1, position: 9000 }];
     paste(stores, { unit: 'us', leadMs: 500, moments: [{ ...moments[0], targets: far }] });
     expect(ids()).toEqual([1, 2, 3, 4, 5]);
-    expect(told()).toEqual([
+    expect(noticeTexts()).toEqual([
       words.actions.nothingToPaste,
       expect.stringContaining('Not pasted: Gripper at 9000 is out of range'),
     ]);

@@ -4,7 +4,7 @@
 import { copyFrames, pasteFrames, type Clip } from '#shared/group/clip.ts';
 import { deleteFrames, duplicateFrames, moveFrames } from '#shared/group/groupEdits.ts';
 import type { ActionGroup } from '#shared/group/group.ts';
-import { type DeskStores, deskOf, rangeOf, rowOf } from '../timeline/desk.ts';
+import { type TimelineStores, contextOf, rangeOf, rowOf } from '../timeline/context.ts';
 import { spanFrames, showFrame, showFrames } from '../timeline/inStep.ts';
 import { chordOf } from '../timeline/keymap.ts';
 import { neighbour } from './useCards.ts';
@@ -21,12 +21,12 @@ import { words } from '../../../i18n/whole.ts';
 type StripKeys = (event: Pressed, id: number) => boolean;
 type Pressed = Parameters<typeof chordOf>[0];
 
-const VERBS: Readonly<Record<string, (stores: DeskStores, id: number) => void>> = {
+const VERBS: Readonly<Record<string, (stores: TimelineStores, id: number) => void>> = {
   'Ctrl+a': selectAllFrames,
   'Ctrl+d': (stores, id) => duplicate(stores, togetherNow(stores, id)),
 };
 
-export function createStripKeys(stores: DeskStores): StripKeys {
+export function createStripKeys(stores: TimelineStores): StripKeys {
   /** What Shift has selected so far: it grows and shrinks at the other end. */
   let span = { from: 0, to: 0 };
 
@@ -56,23 +56,23 @@ type Numbers = readonly number[];
 /** The frame that is meant alone, or all that are selected where it is one of them. */
 export const together = (whole: FrameIds, id: number): FrameIds => (whole.includes(id) ? whole : [id]);
 
-export function togetherNow(stores: DeskStores, id: number): FrameIds {
-  const desk = deskOf(stores);
-  const shown = new Set(rowOf(desk, ALL_ROW)?.servos);
-  return together(wholeFrames(desk.times, desk.state.selected, shown), id);
+export function togetherNow(stores: TimelineStores, id: number): FrameIds {
+  const context = contextOf(stores);
+  const shown = new Set(rowOf(context, ALL_ROW)?.servos);
+  return together(wholeFrames(context.times, context.state.selected, shown), id);
 }
 
 /** None where no frame is selected. */
-export function chosenFrames(stores: DeskStores): FrameIds {
+export function chosenFrames(stores: TimelineStores): FrameIds {
   const { selectedFrame } = stores.view.getState();
   const isThere = framesNow(stores).some(({ id }) => id === selectedFrame);
   return selectedFrame === null || !isThere ? [] : togetherNow(stores, selectedFrame);
 }
 
-const framesNow = ({ document }: DeskStores): ActionGroup['frames'] =>
+const framesNow = ({ document }: TimelineStores): ActionGroup['frames'] =>
   document.store.getState().present.frames;
 
-export function numbersOf(stores: DeskStores, ids: FrameIds): Numbers {
+export function numbersOf(stores: TimelineStores, ids: FrameIds): Numbers {
   const wanted = new Set(ids);
   return framesNow(stores).flatMap(({ id }, index) => (wanted.has(id) ? [index + 1] : []));
 }
@@ -89,7 +89,7 @@ export function counted(numbers: Numbers): Counted {
 }
 
 /** Those that belong with the frame go so many places on, or with a negative number back; where they were apart they meet. */
-export function moveBy(stores: DeskStores, id: number, places: number): void {
+export function moveBy(stores: TimelineStores, id: number, places: number): void {
   const ids = togetherNow(stores, id);
   const before = numbersOf(stores, ids);
   const from = (places < 0 ? before[0] : before.at(-1)) ?? 1;
@@ -109,11 +109,11 @@ export function moveBy(stores: DeskStores, id: number, places: number): void {
 }
 
 /** What comes next is selected then. */
-export function removeFrames(stores: DeskStores, ids: FrameIds): void {
+export function removeFrames(stores: TimelineStores, ids: FrameIds): void {
   takeOut(stores, ids, words.actions.steps.delete);
 }
 
-function takeOut(stores: DeskStores, ids: FrameIds, step: (values: Counted) => string): void {
+function takeOut(stores: TimelineStores, ids: FrameIds, step: (values: Counted) => string): void {
   const numbers = numbersOf(stores, ids);
   const frames = framesNow(stores);
   const first = (numbers[0] ?? 1) - 1;
@@ -126,7 +126,7 @@ function takeOut(stores: DeskStores, ids: FrameIds, step: (values: Counted) => s
   showFrame(stores, next?.id ?? null);
 }
 
-export function duplicate(stores: DeskStores, ids: FrameIds): void {
+export function duplicate(stores: TimelineStores, ids: FrameIds): void {
   const numbers = numbersOf(stores, ids);
   add(
     stores,
@@ -136,7 +136,7 @@ export function duplicate(stores: DeskStores, ids: FrameIds): void {
 }
 
 /** The new frames are selected then. */
-function add(stores: DeskStores, step: () => string, edit: (group: ActionGroup) => ActionGroup): void {
+function add(stores: TimelineStores, step: () => string, edit: (group: ActionGroup) => ActionGroup): void {
   const { nextId } = stores.document.store.getState().present;
   stores.document.edit(step, edit);
   const ids = framesNow(stores).flatMap(({ id }) => (id >= nextId ? [id] : []));
@@ -145,7 +145,7 @@ function add(stores: DeskStores, step: () => string, edit: (group: ActionGroup) 
 }
 
 /** null where nothing is selected. */
-export function copy(stores: DeskStores, ids: FrameIds): Clip | null {
+export function copy(stores: TimelineStores, ids: FrameIds): Clip | null {
   if (ids.length === 0) return null;
   const clip = copyFrames(stores.document.store.getState().present, ids);
   stores.timeline.setState({ clip });
@@ -153,20 +153,21 @@ export function copy(stores: DeskStores, ids: FrameIds): Clip | null {
   return clip;
 }
 
-export function cut(stores: DeskStores, ids: FrameIds): Clip | null {
+export function cut(stores: TimelineStores, ids: FrameIds): Clip | null {
   const clip = copy(stores, ids);
   if (clip !== null) takeOut(stores, ids, words.actions.steps.cut);
   return clip;
 }
 
 /** Behind those that are selected, else at the end. All of it or nothing: what the robot must not do is not pasted. */
-export function paste(stores: DeskStores, clip: Clip | null): void {
+export function paste(stores: TimelineStores, clip: Clip | null): void {
   if (clip === null) return stores.notices.tell('info', words.actions.nothingToPaste);
-  const desk = deskOf(stores);
-  const index = numbersOf(stores, chosenFrames(stores)).at(-1) ?? desk.group.frames.length;
-  const pasted = pasteFrames(desk.group, clip, index, { rangeOf: (servo) => rangeOf(desk, servo) });
+  const context = contextOf(stores);
+  const index = numbersOf(stores, chosenFrames(stores)).at(-1) ?? context.group.frames.length;
+  const pasted = pasteFrames(context.group, clip, index, { rangeOf: (servo) => rangeOf(context, servo) });
   const [problem] = pasted.problems;
-  if (problem !== undefined) return stores.notices.tell('warning', notPasted(problem, namesIn(desk.robot)));
+  if (problem !== undefined)
+    return stores.notices.tell('warning', notPasted(problem, namesIn(context.robot)));
   add(
     stores,
     () => words.actions.steps.paste({ count: clip.moments.length }),
@@ -174,7 +175,7 @@ export function paste(stores: DeskStores, clip: Clip | null): void {
   );
 }
 
-export function selectAllFrames(stores: DeskStores, lead: number): void {
+export function selectAllFrames(stores: TimelineStores, lead: number): void {
   showFrames(
     stores,
     framesNow(stores).map(({ id }) => id),

@@ -1,10 +1,10 @@
 import { expect, test } from 'vitest';
 import { keepInStep, pressFrame } from '../timeline/inStep.ts';
-import { createTimelineDesk } from '../timeline/timelineUnderTest.ts';
+import { createTestTimeline } from '../timeline/timelineUnderTest.ts';
 import { chosenFrames, createStripKeys } from './frameVerbs.ts';
 
 async function createStrip() {
-  const { stores, group } = await createTimelineDesk();
+  const { stores, group } = await createTestTimeline();
   keepInStep(stores);
   const keys = createStripKeys(stores);
   const NONE = { shiftKey: false, ctrlKey: false, metaKey: false, altKey: false };

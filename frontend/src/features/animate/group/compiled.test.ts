@@ -2,33 +2,33 @@ import { describe, expect, test } from 'vitest';
 import { insertFrame, setMeta } from '#shared/group/groupEdits.ts';
 import { groupFromText, groupToText } from '#shared/group/group.ts';
 import { createCompiled, obstacles } from './compiled.ts';
-import { createDesk } from '../../deskUnderTest.ts';
-import { workedOut, type Source } from './workedOut.ts';
+import { createTestPage } from '../../pageUnderTest.ts';
+import { compileSource, type Source } from './compileSource.ts';
 
 const frame = (position: number, easing: 'linear' | 'inOut' = 'linear') => ({
   ...{ durationMs: 800, easing },
   targets: [{ servo: 1, position }],
 });
 
-async function openDesk() {
-  const desk = await createDesk();
-  const state = () => desk.compiled.store.getState();
+async function openTestPage() {
+  const page = await createTestPage();
+  const state = () => page.compiled.store.getState();
   const add = (position: number, easing?: 'linear' | 'inOut') =>
-    desk.document.edit(
+    page.document.edit(
       () => 'add',
       (group) => insertFrame(group, group.frames.length, frame(position, easing)),
     );
   const setMax = (maxErrorUnits: number) =>
-    desk.document.edit(
+    page.document.edit(
       () => 'error',
       (group) => setMeta(group, { maxErrorUnits }),
     );
-  return { ...desk, state, add, setMax };
+  return { ...page, state, add, setMax };
 }
 
 describe('the group as the board gets it', () => {
   test('is worked out when the last change is a while ago, once', async () => {
-    const { add, state, clock } = await openDesk();
+    const { add, state, clock } = await openTestPage();
     const before = state().latest;
     add(1000);
     await clock.advance(200);
@@ -42,7 +42,7 @@ describe('the group as the board gets it', () => {
   });
 
   test('is not worked out within a gesture', async () => {
-    const { document, state, clock, add } = await openDesk();
+    const { document, state, clock, add } = await openTestPage();
     add(1000);
     await clock.advance(300);
     document.begin(() => 'drag');
@@ -55,7 +55,7 @@ describe('the group as the board gets it', () => {
   });
 
   test('is there at once for whoever sends it', async () => {
-    const { add, compiled, state } = await openDesk();
+    const { add, compiled, state } = await openTestPage();
     add(1000);
     expect(compiled.now().report.frameCount).toBe(1);
     expect(state().isFresh).toBe(true);
@@ -63,13 +63,17 @@ describe('the group as the board gets it', () => {
   });
 
   test('worked out beside the page: the last one stands until the next is there, one at a time, the newest wins', async () => {
-    const { document, device, robots, clock, add } = await openDesk();
+    const { document, device, robots, clock, add } = await openTestPage();
     const orders: { readonly source: Source; answer(): void; fail(): void }[] = [];
     const { store, now } = createCompiled({
       ...{ document, device, robots, clock },
-      aside: (source) =>
+      compileElsewhere: (source) =>
         new Promise((resolve, reject) =>
-          orders.push({ source, answer: () => resolve(workedOut(source)), fail: () => reject(new Error()) }),
+          orders.push({
+            source,
+            answer: () => resolve(compileSource(source)),
+            fail: () => reject(new Error()),
+          }),
         ),
     });
     const frames = (): readonly [number, boolean] => {
@@ -105,7 +109,7 @@ describe('the group as the board gets it', () => {
   });
 
   test('needs fewer frames where a larger error may be', async () => {
-    const { add, compiled, clock, state, setMax } = await openDesk();
+    const { add, compiled, clock, state, setMax } = await openTestPage();
     add(1000);
     add(2000, 'inOut');
     const exact = compiled.now().frames.length;
@@ -116,7 +120,7 @@ describe('the group as the board gets it', () => {
   });
 
   test('how far off it may be is the group’s: undone, kept and of no other one', async () => {
-    const { add, compiled, document, device, robots, setMax } = await openDesk();
+    const { add, compiled, document, device, robots, setMax } = await openTestPage();
     add(1000);
     const { present: before } = document.store.getState();
     setMax(60);
@@ -130,7 +134,7 @@ describe('the group as the board gets it', () => {
   });
 
   test('of another group is worked out once for each robot, however often it is asked for', async () => {
-    const { compiled, document, device, robots } = await openDesk();
+    const { compiled, document, device, robots } = await openTestPage();
     const { present: group } = document.store.getState();
     const on = { family: device.store.getState().family, robot: robots.current().robot };
     const first = compiled.of(group, on);
@@ -139,7 +143,7 @@ describe('the group as the board gets it', () => {
   });
 
   test('goes back to fresh when a change is undone', async () => {
-    const { add, document, state, clock } = await openDesk();
+    const { add, document, state, clock } = await openTestPage();
     add(1000);
     await clock.advance(300);
     const { latest } = state();
@@ -151,7 +155,7 @@ describe('the group as the board gets it', () => {
   });
 
   test('a servo that comes late is said and keeps nothing from being sent', async () => {
-    const { document, compiled } = await openDesk();
+    const { document, compiled } = await openTestPage();
     document.edit(
       () => 'fast',
       (group) => ({

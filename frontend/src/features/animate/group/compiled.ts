@@ -10,9 +10,9 @@ import type { Document } from './document.ts';
 import { knownFamily } from './groupBoard.ts';
 import type { RobotStore } from '../../profiles/robots.ts';
 import { setChanged } from '../../../state/setChanged.ts';
-import { workedOut, type Source, type WorkedOut } from './workedOut.ts';
+import { compileSource, type Source, type CompileResult } from './compileSource.ts';
 
-export interface CompiledGroup extends WorkedOut {
+export interface CompiledGroup extends CompileResult {
   readonly source: Source;
 }
 
@@ -39,10 +39,16 @@ export interface CompiledOptions {
   readonly robots: RobotStore;
   readonly clock: Clock;
   /** Works a group out while the page goes on; left out: the page does it. */
-  aside?(source: Source): Promise<WorkedOut>;
+  compileElsewhere?(source: Source): Promise<CompileResult>;
 }
 
-export function createCompiled({ document, device, robots, clock, aside }: CompiledOptions): CompiledStore {
+export function createCompiled({
+  document,
+  device,
+  robots,
+  clock,
+  compileElsewhere,
+}: CompiledOptions): CompiledStore {
   let cancelTimer = (): void => undefined;
   let isBusy = false;
   const others = new WeakMap<ActionGroup, CompiledGroup>();
@@ -66,11 +72,11 @@ export function createCompiled({ document, device, robots, clock, aside }: Compi
 
   /** One at a time; what has changed meanwhile is worked out next. */
   async function workOut(): Promise<void> {
-    if (aside === undefined) return void now();
+    if (compileElsewhere === undefined) return void now();
     if (isBusy) return;
     isBusy = true;
     const source = wanted();
-    const result = await aside(source).catch(() => workedOut(source));
+    const result = await compileElsewhere(source).catch(() => compileSource(source));
     isBusy = false;
     if (isSame(source, wanted()) && !isLatest(source))
       store.setState({ latest: { source, ...result }, isFresh: true });
@@ -108,7 +114,7 @@ const sourceOf = (group: ActionGroup, { family, robot }: Pick<Source, 'family' |
   ...{ group, family, robot, maxErrorUnits: maxErrorOf(group, family) },
 });
 
-const compiled = (source: Source): CompiledGroup => ({ source, ...workedOut(source) });
+const compiled = (source: Source): CompiledGroup => ({ source, ...compileSource(source) });
 
 const isSame = (one: Source, other: Source): boolean =>
   (Object.keys(one) as (keyof Source)[]).every((key) => one[key] === other[key]);

@@ -10,7 +10,7 @@ import { createNotices } from '../../../state/notices.ts';
 
 const FRAME = { durationMs: 500, targets: [{ servo: 1, position: 1500 }] };
 
-function createDesk(texts: Record<string, string> = {}, broken: Partial<TextStorage> = {}) {
+function createTestPage(texts: Record<string, string> = {}, broken: Partial<TextStorage> = {}) {
   const stored = new Map(Object.entries(texts));
   const storage: TextStorage = {
     getItem: (key) => stored.get(key) ?? null,
@@ -26,13 +26,21 @@ function createDesk(texts: Record<string, string> = {}, broken: Partial<TextStor
     const read = groupFromText(stored.get('servodeck.group') ?? '');
     return 'value' in read ? read.value : null;
   };
-  const told = () => notices.store.getState().map((notice) => notice.text);
-  return { document, stored, storage, saved, told, clock, group: () => document.store.getState().present };
+  const noticeTexts = () => notices.store.getState().map((notice) => notice.text);
+  return {
+    document,
+    stored,
+    storage,
+    saved,
+    noticeTexts,
+    clock,
+    group: () => document.store.getState().present,
+  };
 }
 
 describe('the document', () => {
   test('is saved after each edit, undo and redo, and found again', () => {
-    const { document, storage, saved } = createDesk();
+    const { document, storage, saved } = createTestPage();
     document.edit(
       () => 'capture',
       (group) => insertFrame(group, 0, FRAME),
@@ -53,7 +61,7 @@ describe('the document', () => {
 
   test('a crash loses no more than the last frame that was drawn', async () => {
     const written: string[] = [];
-    const { document, clock } = createDesk({}, { setItem: (_, text) => void written.push(text) });
+    const { document, clock } = createTestPage({}, { setItem: (_, text) => void written.push(text) });
     const add = () =>
       document.edit(
         () => 'capture',
@@ -78,7 +86,7 @@ describe('the document', () => {
   });
 
   test('what a drag shows is not saved by an edit that came before it', async () => {
-    const { document, saved, clock } = createDesk();
+    const { document, saved, clock } = createTestPage();
     document.edit(
       () => 'capture',
       (group) => insertFrame(group, 0, FRAME),
@@ -90,7 +98,7 @@ describe('the document', () => {
   });
 
   test('a drag is one step, saved once it ends', () => {
-    const { document, saved, group } = createDesk();
+    const { document, saved, group } = createTestPage();
     for (const at of [0, 1, 2])
       document.edit(
         () => 'capture',
@@ -107,7 +115,7 @@ describe('the document', () => {
   });
 
   test('a cancelled drag leaves everything as it was', () => {
-    const { document, group } = createDesk();
+    const { document, group } = createTestPage();
     for (const at of [0, 1])
       document.edit(
         () => 'capture',
@@ -121,7 +129,7 @@ describe('the document', () => {
   });
 
   test('an edit that changes nothing is no step', () => {
-    const { document } = createDesk();
+    const { document } = createTestPage();
     document.edit(
       () => 'capture',
       (group) => insertFrame(group, 0, FRAME),
@@ -134,17 +142,17 @@ describe('the document', () => {
   });
 
   test('text that cannot be read is set aside unharmed, and the person is told', () => {
-    const { group, stored, told } = createDesk({ 'servodeck.group': '{"version":9}' });
+    const { group, stored, noticeTexts } = createTestPage({ 'servodeck.group': '{"version":9}' });
     expect(group().frames).toHaveLength(0);
     expect(stored.get('servodeck.group.unreadable')).toBe('{"version":9}');
-    expect(told()).toEqual([words.actions.broken]);
+    expect(noticeTexts()).toEqual([words.actions.broken]);
   });
 
   test('a browser that stores nothing is told once; editing goes on', () => {
     const refuse = (): never => {
       throw new Error('storage is forbidden');
     };
-    const { document, group, told } = createDesk({}, { getItem: refuse, setItem: refuse });
+    const { document, group, noticeTexts } = createTestPage({}, { getItem: refuse, setItem: refuse });
     document.edit(
       () => 'capture',
       (before) => insertFrame(before, 0, FRAME),
@@ -156,7 +164,7 @@ describe('the document', () => {
     );
     document.flush();
     expect(group().frames).toHaveLength(2);
-    expect(told()).toEqual([words.actions.notSaved]);
+    expect(noticeTexts()).toEqual([words.actions.notSaved]);
   });
 
   test('a browser that stores again has it said no longer', () => {
@@ -164,7 +172,7 @@ describe('the document', () => {
     const setItem = (): void => {
       if (isFull) throw new Error('full');
     };
-    const { document, told } = createDesk({}, { getItem: () => null, setItem });
+    const { document, noticeTexts } = createTestPage({}, { getItem: () => null, setItem });
     const capture = (): void => {
       document.edit(
         () => 'capture',
@@ -173,9 +181,9 @@ describe('the document', () => {
       document.flush();
     };
     capture();
-    expect(told()).toEqual([words.actions.notSaved]);
+    expect(noticeTexts()).toEqual([words.actions.notSaved]);
     isFull = false;
     capture();
-    expect(told()).toEqual([]);
+    expect(noticeTexts()).toEqual([]);
   });
 });

@@ -21,7 +21,7 @@ export interface Document extends Undoable<ActionGroup> {
 }
 
 const KEY = 'servodeck.group';
-const ASIDE_KEY = 'servodeck.group.unreadable';
+const REPLACED_KEY = 'servodeck.group.unreadable';
 /** Once the edit is drawn: to write a large group takes longer than the edit. */
 const SAVED_AFTER_MS = 16;
 
@@ -72,7 +72,7 @@ function load(storage: TextStorage, notices: Notices): ActionGroup {
     if (text === null) return fresh;
     const read = groupFromText(text);
     if ('value' in read) return read.value;
-    storage.setItem(ASIDE_KEY, text);
+    storage.setItem(REPLACED_KEY, text);
     notices.tell('warning', words.actions.broken);
   } catch {
     notices.tell('warning', words.actions.notSaved);

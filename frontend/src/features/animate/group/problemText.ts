@@ -3,7 +3,7 @@
 import type { CompileProblem } from '#shared/group/compileReport.ts';
 import { words } from '../../../i18n/words.ts';
 import { namesIn } from '../../profiles/servoName.ts';
-import type { Source } from './workedOut.ts';
+import type { Source } from './compileSource.ts';
 
 export function problemText(problem: CompileProblem, { group, robot }: Source): string {
   const reasons = words.compile.reasons;

@@ -56,7 +56,7 @@ export function PlayBar() {
       />
       <PreviewButton phase={phase} />
       <RunOnBoard isDisabled={!mayPlay || !isIdle} />
-      <div className={cx(styles.aside, !isIdle && styles.busy)}>
+      <div className={cx(styles.side, !isIdle && styles.busy)}>
         <Settings isDisabled={!isIdle} />
         <Phase phase={phase} />
       </div>

@@ -2,13 +2,13 @@ import { describe, expect, test } from 'vitest';
 import { totalDurationMs } from '#shared/group/group.ts';
 import { simplify } from '#shared/group/simplify.ts';
 import { positionAt, tracksOf } from '#shared/group/tracks.ts';
-import { createDesk } from '../../deskUnderTest.ts';
+import { createTestPage } from '../../pageUnderTest.ts';
 
 const at = (servo: number, position: number) => [{ servo, position }];
 
 describe('the tape of motions', () => {
   test('gives what was recorded on purpose, of the servos that are meant, without the rest around it', async () => {
-    const { tape, device, draw } = await createDesk();
+    const { tape, device, draw } = await createTestPage();
     device.move([...at(1, 1000), ...at(2, 1500)], 500);
     await draw(3000);
     tape.record();
@@ -25,7 +25,7 @@ describe('the tape of motions', () => {
   });
 
   test('what has come to rest before is no part of a recording', async () => {
-    const { tape, device, clock } = await createDesk();
+    const { tape, device, clock } = await createTestPage();
     for (const position of [1000, 1500, 1250]) {
       device.move(at(1, position), 400);
       while (device.motion(1).estimated !== position) await clock.advance(1);
@@ -36,7 +36,7 @@ describe('the tape of motions', () => {
   });
 
   test('a recording that begins amid a motion begins with where that was', async () => {
-    const { tape, device, clock } = await createDesk();
+    const { tape, device, clock } = await createTestPage();
     device.move(at(1, 1000), 0);
     await clock.advance(2000);
     device.move(at(1, 2000), 1000);
@@ -50,7 +50,7 @@ describe('the tape of motions', () => {
   });
 
   test('a rest between two motions stays as long as it was', async () => {
-    const { tape, device, draw } = await createDesk();
+    const { tape, device, draw } = await createTestPage();
     device.move(at(1, 1000), 0);
     await draw(2000);
     tape.record();
@@ -69,7 +69,7 @@ describe('the tape of motions', () => {
   });
 
   test('always keeps the last two minutes, and no more', async () => {
-    const { tape, device, clock } = await createDesk();
+    const { tape, device, clock } = await createTestPage();
     device.move(at(1, 1500), 0);
     await clock.advance(2000);
     for (let round = 0; round < 50; round += 1) {
@@ -86,7 +86,7 @@ describe('the tape of motions', () => {
   });
 
   test('a servo that becomes known has not moved', async () => {
-    const { tape, device, clock } = await createDesk();
+    const { tape, device, clock } = await createTestPage();
     device.move(at(1, 1500), 0);
     await clock.advance(3000);
     expect(tape.takeThat()).toEqual([]);

@@ -5,7 +5,7 @@ import { startHistory } from '#shared/document/history.ts';
 import { positionAt, tracksOf } from '#shared/group/tracks.ts';
 import type { Lease } from '#shared/robot/lease.ts';
 import { downloadCancelled } from '../../../i18n/sentences.ts';
-import { createDesk } from '../../deskUnderTest.ts';
+import { createTestPage } from '../../pageUnderTest.ts';
 import { createSharedSlots } from '../../board/slots/sharedSlotsUnderTest.ts';
 import { INITIAL_SERVO_VIEW } from '../../drive/servoView.ts';
 
@@ -25,20 +25,20 @@ const THEIRS: Lease = {
 
 const WAVE = groupOf(frame(400, 1000), frame(400, 1600), frame(600, 1300));
 
-async function deskWith(group: ActionGroup, board: Parameters<typeof createDesk>[1] = {}) {
-  const desk = await createDesk(new Map(), board);
-  desk.document.edit(
+async function pageWith(group: ActionGroup, board: Parameters<typeof createTestPage>[1] = {}) {
+  const page = await createTestPage(new Map(), board);
+  page.document.edit(
     () => 'write',
     () => group,
   );
-  const phase = () => desk.playback.store.getState().phase;
-  const activity = () => desk.device.store.getState().snapshot.activity;
-  return { ...desk, phase, activity };
+  const phase = () => page.playback.store.getState().phase;
+  const activity = () => page.device.store.getState().snapshot.activity;
+  return { ...page, phase, activity };
 }
 
 describe('playing on the drawing alone', () => {
   test('goes by the clock at the chosen speed and sends nothing, also without a robot and while stopped', async () => {
-    const { playback, playhead, session, draw, moves, phase } = await deskWith(WAVE);
+    const { playback, playhead, session, draw, moves, phase } = await pageWith(WAVE);
     void session.halt();
     await draw(500);
     playback.set({ speedPercent: 50 });
@@ -59,7 +59,7 @@ describe('playing on the drawing alone', () => {
   });
 
   test('the robot does not follow it, and Stop and a hidden page end it', async () => {
-    const { playback, session, draw, moves, phase } = await deskWith(WAVE);
+    const { playback, session, draw, moves, phase } = await pageWith(WAVE);
     playback.set({ isLive: true });
     playback.togglePreview();
     await draw(400);
@@ -74,7 +74,7 @@ describe('playing on the drawing alone', () => {
   });
 
   test('runs through what is marked as often as the group is run, from within it at first', async () => {
-    const { playback, playhead, timeline, view, draw, phase } = await deskWith(WAVE);
+    const { playback, playhead, timeline, view, draw, phase } = await pageWith(WAVE);
     timeline.setState({ range: { fromMs: 400, toMs: 800 } });
     view.setState({ times: 2 });
     playback.togglePreview();
@@ -91,7 +91,7 @@ describe('playing on the drawing alone', () => {
 
 describe('playing from the page', () => {
   test('goes gently to the first pose, says so, and then moves as written; the playhead goes along', async () => {
-    const { playback, playhead, phase, draw, moves } = await deskWith(WAVE);
+    const { playback, playhead, phase, draw, moves } = await pageWith(WAVE);
     playback.play();
     await draw(100);
     expect(phase()).toBe('leading');
@@ -111,7 +111,7 @@ describe('playing from the page', () => {
   });
 
   test('begins where the playhead is, and goes on from there after a pause', async () => {
-    const { playback, playhead, draw, moves } = await deskWith(WAVE);
+    const { playback, playhead, draw, moves } = await pageWith(WAVE);
     playhead.go(600);
     playback.play();
     await draw(1600);
@@ -131,7 +131,7 @@ describe('playing from the page', () => {
   test.each([50, 200])(
     'at %i percent each frame takes that much longer or shorter, to the millisecond',
     async (speedPercent) => {
-      const { playback, draw, heard } = await deskWith(WAVE);
+      const { playback, draw, heard } = await pageWith(WAVE);
       playback.set({ speedPercent });
       playback.play();
       await draw(6000);
@@ -141,7 +141,7 @@ describe('playing from the page', () => {
   );
 
   test('in a loop it goes on until it is paused, without drift', async () => {
-    const { playback, draw, heard, phase } = await deskWith(WAVE);
+    const { playback, draw, heard, phase } = await pageWith(WAVE);
     playback.set({ loops: true });
     playback.play();
     await draw(1500 + 1000 + 1400 * 20 + 40);
@@ -156,7 +156,7 @@ describe('playing from the page', () => {
   });
 
   test('a marked part that ends where it begins is looped without a seam', async () => {
-    const { playback, timeline, draw, heard, phase } = await deskWith(WAVE);
+    const { playback, timeline, draw, heard, phase } = await pageWith(WAVE);
     timeline.setState({ range: { fromMs: 600, toMs: 1400 } });
     playback.set({ loops: true });
     playback.play();
@@ -172,7 +172,7 @@ describe('playing from the page', () => {
   });
 
   test('one that ends far from there goes back gently, and says so', async () => {
-    const { playback, timeline, draw, moves, phase } = await deskWith(WAVE);
+    const { playback, timeline, draw, moves, phase } = await pageWith(WAVE);
     timeline.setState({ range: { fromMs: 400, toMs: 800 } });
     playback.set({ loops: true });
     playback.play();
@@ -184,7 +184,7 @@ describe('playing from the page', () => {
   });
 
   test('plays as often as the group is run, from within it the rest once', async () => {
-    const { playback, playhead, view, draw, moves, phase } = await deskWith(WAVE);
+    const { playback, playhead, view, draw, moves, phase } = await pageWith(WAVE);
     view.setState({ times: 3 });
     expect(playback.next()).toEqual({ fromMs: null, times: 3 });
     playback.play();
@@ -206,7 +206,7 @@ describe('playing from the page', () => {
 
   test('sends what compile says: an eased way is as near as the bound', async () => {
     const group = groupOf(frame(400, 1000), frame(1200, 2000, { easing: 'inOut' }));
-    const { playback, draw, transport, compiled, document, clock, heard } = await deskWith(group);
+    const { playback, draw, transport, compiled, document, clock, heard } = await pageWith(group);
     document.edit(
       () => 'error',
       (now) => setMeta(now, { maxErrorUnits: 8 }),
@@ -234,7 +234,7 @@ describe('playing from the page', () => {
     });
     const group = groupOf(both(400, 1000, 1500), both(400, 1600, 1500), both(600, 1600, 1800));
     for (const silence of [{ muted: [2] }, { solo: [1] }]) {
-      const { playback, playhead, draw, moves, ofKind, view, robots, phase } = await deskWith(group);
+      const { playback, playhead, draw, moves, ofKind, view, robots, phase } = await pageWith(group);
       view.setState({ servos: { ...INITIAL_SERVO_VIEW, robotId: robots.current().id, ...silence } });
       playback.play();
       await draw(1500 + 400 + 300);
@@ -259,7 +259,7 @@ describe('playing from the page', () => {
 
   test('a hidden page and STOP end it', async () => {
     for (const end of ['hidden', 'halt'] as const) {
-      const { playback, device, draw, phase, activity } = await deskWith(WAVE);
+      const { playback, device, draw, phase, activity } = await pageWith(WAVE);
       playback.set({ loops: true });
       playback.play();
       await draw(1800);
@@ -272,15 +272,17 @@ describe('playing from the page', () => {
   });
 
   test('what does not fit the robot is not begun, and the person is told which', async () => {
-    const { playback, told, draw, heard } = await deskWith(groupOf(frame(400, 1000), frame(400, 2600)));
+    const { playback, noticeTexts, draw, heard } = await pageWith(
+      groupOf(frame(400, 1000), frame(400, 2600)),
+    );
     playback.play();
     await draw(500);
     expect(heard).toEqual([]);
-    expect(told()[0]).toContain('Gripper in frame 2: 2600 is out of range');
+    expect(noticeTexts()[0]).toContain('Gripper in frame 2: 2600 is out of range');
   });
 
   test('a step goes to the next frame and back, and the robot only where it follows', async () => {
-    const { playback, playhead, draw, moves } = await deskWith(WAVE);
+    const { playback, playhead, draw, moves } = await pageWith(WAVE);
     playback.step(1);
     playback.step(1);
     await draw(2000);
@@ -305,17 +307,17 @@ describe('playing from the page', () => {
 describe('the playhead', () => {
   const FAR = { fromMs: 90_000, msPerPx: 1 };
 
-  async function deskLookingFar() {
-    const desk = await deskWith(WAVE);
-    const lookFar = (): void => desk.timeline.setState({ widthPx: 300, time: FAR });
-    const fromMs = (): number => desk.timeline.getState().time.fromMs;
-    desk.playhead.go(600);
+  async function pageLookingFar() {
+    const page = await pageWith(WAVE);
+    const lookFar = (): void => page.timeline.setState({ widthPx: 300, time: FAR });
+    const fromMs = (): number => page.timeline.getState().time.fromMs;
+    page.playhead.go(600);
     lookFar();
-    return { ...desk, lookFar, fromMs };
+    return { ...page, lookFar, fromMs };
   }
 
   test('is brought into sight where playing begins; whoever looks away meanwhile is left alone', async () => {
-    const { playback, lookFar, fromMs, draw } = await deskLookingFar();
+    const { playback, lookFar, fromMs, draw } = await pageLookingFar();
     playback.play();
     expect(fromMs()).toBe(576);
     lookFar();
@@ -324,19 +326,19 @@ describe('the playhead', () => {
   });
 
   test('is brought into sight where a preview begins', async () => {
-    const { playback, fromMs } = await deskLookingFar();
+    const { playback, fromMs } = await pageLookingFar();
     playback.togglePreview();
     expect(fromMs()).toBe(576);
   });
 
   test('is brought into sight by a step', async () => {
-    const { playback, fromMs } = await deskLookingFar();
+    const { playback, fromMs } = await pageLookingFar();
     playback.step(-1);
     expect(fromMs()).toBe(376);
   });
 
   test('is brought into sight when the board begins', async () => {
-    const { playback, fromMs, draw } = await deskLookingFar();
+    const { playback, fromMs, draw } = await pageLookingFar();
     playback.runOnBoard();
     await draw(800);
     expect(fromMs()).toBe(-24);
@@ -345,7 +347,7 @@ describe('the playhead', () => {
 
 describe('the robot that follows', () => {
   test('goes gently to the pose at the playhead, then along with it and with each edit', async () => {
-    const { playback, playhead, document, draw, moves, transport } = await deskWith(WAVE);
+    const { playback, playhead, document, draw, moves, transport } = await pageWith(WAVE);
     playhead.go(400);
     playback.set({ isLive: true });
     await draw(1700);
@@ -365,7 +367,7 @@ describe('the robot that follows', () => {
   });
 
   test('moves nothing once STOP was pressed, and not again after Resume', async () => {
-    const { playback, playhead, device, draw, moves } = await deskWith(WAVE);
+    const { playback, playhead, device, draw, moves } = await pageWith(WAVE);
     playback.set({ isLive: true });
     playhead.go(400);
     await draw(1700);
@@ -385,7 +387,7 @@ describe('a robot that follows where somebody else takes it over', () => {
   test.each(['playback', 'blend', 'macroRun'] as const)(
     'does so no longer, and not again: %s',
     async (which) => {
-      const { playback, playhead, blend, macroRun, device, draw, moves } = await deskWith(WAVE);
+      const { playback, playhead, blend, macroRun, device, draw, moves } = await pageWith(WAVE);
       const isOn = (): boolean =>
         which === 'macroRun'
           ? macroRun.store.getState() !== null
@@ -415,7 +417,7 @@ describe('a robot that follows where somebody else takes it over', () => {
 
 describe('playing on the board', () => {
   test('downloads first where the board has not just this, then runs; the playhead follows the clock', async () => {
-    const { playback, playhead, phase, draw, ofKind } = await deskWith(WAVE);
+    const { playback, playhead, phase, draw, ofKind } = await pageWith(WAVE);
     playback.runOnBoard();
     await draw(40);
     expect(phase()).toBe('storing');
@@ -436,7 +438,7 @@ describe('playing on the board', () => {
   });
 
   test('goes to the slot and runs as often as was chosen', async () => {
-    const { playback, view, draw, ofKind } = await deskWith(WAVE);
+    const { playback, view, draw, ofKind } = await pageWith(WAVE);
     view.setState({ slot: 7, times: 3 });
     playback.runOnBoard();
     await draw(1000);
@@ -444,7 +446,7 @@ describe('playing on the board', () => {
   });
 
   test('downloads again after an edit', async () => {
-    const { playback, document, draw, ofKind } = await deskWith(WAVE);
+    const { playback, document, draw, ofKind } = await pageWith(WAVE);
     playback.runOnBoard();
     await draw(3000);
     document.edit(
@@ -458,21 +460,21 @@ describe('playing on the board', () => {
   });
 
   test('a download that is called off runs nothing', async () => {
-    const { playback, draw, ofKind, phase, told } = await deskWith(WAVE);
+    const { playback, draw, ofKind, phase, noticeTexts } = await pageWith(WAVE);
     playback.runOnBoard();
     await draw(40);
     playback.pause();
     await draw(1000);
     expect(phase()).toBeNull();
     expect(ofKind('run')).toEqual([]);
-    expect(told()).toEqual([downloadCancelled(21)]);
+    expect(noticeTexts()).toEqual([downloadCancelled(21)]);
   });
 
   describe('where the slot holds another group', () => {
     /** The first group is in slot 21, the second one at hand is to go there. */
-    async function deskWithAnother(name: string, board: Parameters<typeof createDesk>[1] = {}) {
-      const desk = await deskWith(WAVE, board);
-      const { playback, document, opened, view, replacing, ofKind, draw } = desk;
+    async function pageWithAnother(name: string, board: Parameters<typeof createTestPage>[1] = {}) {
+      const page = await pageWith(WAVE, board);
+      const { playback, document, opened, view, replacing, ofKind, draw } = page;
       playback.runOnBoard();
       await draw(3000);
       opened.setState({ openId: 'another' });
@@ -480,12 +482,12 @@ describe('playing on the board', () => {
       view.setState({ slot: 21 });
       const counts = () => [ofKind('download').length, ofKind('run').length];
       const asked = () => replacing.store.getState().question?.conflicts[0] ?? null;
-      return { ...desk, counts, asked };
+      return { ...page, counts, asked };
     }
 
     for (const name of ['Bow', 'Wave'])
       test(`asks before “${name}” takes the place of “Wave”`, async () => {
-        const { playback, replacing, draw, counts, asked } = await deskWithAnother(name);
+        const { playback, replacing, draw, counts, asked } = await pageWithAnother(name);
         playback.runOnBoard();
         await draw(1000);
         expect(asked()).toMatchObject({ name, record: { slot: 21, name: 'Wave' } });
@@ -503,7 +505,7 @@ describe('playing on the board', () => {
       });
 
     test('asks again where the slot got still another one meanwhile', async () => {
-      const { playback, replacing, slots, draw, counts, asked } = await deskWithAnother('Bow');
+      const { playback, replacing, slots, draw, counts, asked } = await pageWithAnother('Bow');
       playback.runOnBoard();
       slots.download([{ slot: 21, name: 'Third', documentId: 'third', frames: [frame(500, 1300)] }]);
       await draw(2000);
@@ -515,7 +517,7 @@ describe('playing on the board', () => {
 
     test('asks again where somebody else has stored something there meanwhile, and before', async () => {
       const { sharedSlots, othersStore, asked: stored } = createSharedSlots();
-      const { playback, replacing, draw, asked, phase } = await deskWithAnother('Bow', { sharedSlots });
+      const { playback, replacing, draw, asked, phase } = await pageWithAnother('Bow', { sharedSlots });
       // Of a board that holds nothing only the clock tells when a run is over.
       await draw(6000);
       expect(phase()).toBeNull();
@@ -533,7 +535,7 @@ describe('playing on the board', () => {
     });
 
     test('of which an earlier version noted the name alone, it asks too', async () => {
-      const { playback, slots, draw, asked } = await deskWithAnother('Wave');
+      const { playback, slots, draw, asked } = await pageWithAnother('Wave');
       slots.store.setState(({ book }) => ({
         book: { ...book, stored: book.stored.map((record) => ({ ...record, documentId: null })) },
       }));

@@ -50,10 +50,10 @@ export function runAsChosen(
   times: number,
   settled: (isTaken: boolean) => void = () => undefined,
 ): void {
-  const { goesOn, goOnMinutes } = view.getState();
+  const { goesOn, keepRunningMinutes } = view.getState();
   view.setState({ goesOn: false });
   device.run(slot, times, (isTaken) => {
-    if (isTaken && goesOn) device.letGoOn(goOnMinutes * 60_000);
+    if (isTaken && goesOn) device.letGoOn(keepRunningMinutes * 60_000);
     settled(isTaken);
   });
 }

@@ -10,7 +10,7 @@ import { createBoardRun, pageAt, previewAt, type PagePlay, type PreviewPlay } fr
 import { obstacles, type CompiledGroup } from '../group/compiled.ts';
 import { problemText } from '../group/problemText.ts';
 import { createFollower } from '../../../robot/follower.ts';
-import { createMeantPart } from './meantPart.ts';
+import { createPlayedPart } from './playedPart.ts';
 import type { Playback, PlaybackOptions, PlaybackPhase, PlaybackState, Player } from './playback.ts';
 import { endsMotion, startHindrance } from '../../../robot/readiness.ts';
 
@@ -24,7 +24,7 @@ function createPlayer(options: PlaybackOptions, store: StoreApi<PlaybackState>):
   const { device, document, compiled, slots, notices, view, playhead, robots } = options;
   const { clock } = device;
   const follower = createFollower(device);
-  const meant = createMeantPart({
+  const playedPart = createPlayedPart({
     ...{ device, document, view, playhead, robots },
     chosen: () => store.getState(),
   });
@@ -33,7 +33,7 @@ function createPlayer(options: PlaybackOptions, store: StoreApi<PlaybackState>):
 
   function followPlayhead(): void {
     if (document.store.getState().present.unit === device.store.getState().family.unit)
-      follower.follow(meant.poseAt(playhead.at()));
+      follower.follow(playedPart.poseAt(playhead.at()));
   }
 
   const activity = (): Activity => device.store.getState().snapshot.activity;
@@ -63,10 +63,10 @@ function createPlayer(options: PlaybackOptions, store: StoreApi<PlaybackState>):
     const group = playable('page');
     if (group === null) return;
     store.setState({ isLive: false });
-    const passage = meant.passage(group);
+    const passage = playedPart.passage(group);
     following = { passage, index: 0, beganMs: clock.now(), isLead: true };
     phase('leading');
-    const times = meant.passes();
+    const times = playedPart.passes();
     playhead.show(passage.atMs[0] ?? 0);
     const ended = (isDone: boolean): void => {
       if (isDone) playhead.go(passage.atMs.at(-1) ?? 0);
@@ -79,9 +79,9 @@ function createPlayer(options: PlaybackOptions, store: StoreApi<PlaybackState>):
   function preview(): void {
     store.setState({ isLive: false });
     const { speedPercent } = store.getState();
-    const part = meant.part();
-    const startMs = meant.within() ?? part.fromMs;
-    previewing = { ...part, startMs, passes: meant.passes(), speedPercent, beganMs: clock.now() };
+    const part = playedPart.part();
+    const startMs = playedPart.within() ?? part.fromMs;
+    previewing = { ...part, startMs, passes: playedPart.passes(), speedPercent, beganMs: clock.now() };
     phase('previewing');
     playhead.show(startMs);
   }
@@ -157,12 +157,12 @@ function createPlayer(options: PlaybackOptions, store: StoreApi<PlaybackState>):
     const to =
       direction === 1 ? ends.find((endMs) => endMs > at) : (ends.findLast((endMs) => endMs < at) ?? ends[0]);
     if (to === undefined) return;
-    if (store.getState().isLive) follower.go(meant.poseAt(to), Math.abs(to - at), meant.poseAt(at));
+    if (store.getState().isLive) follower.go(playedPart.poseAt(to), Math.abs(to - at), playedPart.poseAt(at));
     playhead.show(to);
   }
 
   return {
-    next: () => ({ fromMs: meant.within(), times: meant.passes() }),
+    next: () => ({ fromMs: playedPart.within(), times: playedPart.passes() }),
     set(change) {
       if (change.isLive === true) follower.begin();
       store.setState(change);

@@ -12,7 +12,7 @@ import { paintFrames, paintPlayhead } from './paintMinimap.ts';
 import { panned, seenSpan } from './timeScale.ts';
 import styles from './Minimap.module.css';
 
-export const Minimap = memo(function Minimap({ lanes }: { readonly lanes: string }) {
+export const Minimap = memo(function Minimap({ tracks }: { readonly tracks: string }) {
   const stores = useStores();
   const time = useTimeline((state) => state.time);
   const widthPx = useTimeline((state) => state.widthPx);
@@ -36,7 +36,7 @@ export const Minimap = memo(function Minimap({ lanes }: { readonly lanes: string
       className={styles.map}
       role="scrollbar"
       aria-label={words.timeline.minimap}
-      aria-controls={lanes}
+      aria-controls={tracks}
       aria-orientation="horizontal"
       aria-valuenow={Math.round(from * 100)}
       aria-valuetext={words.timeline.seen({ from, to })}

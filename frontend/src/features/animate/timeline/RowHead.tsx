@@ -19,8 +19,8 @@ import { Icon } from '../../../ui/Icon.tsx';
 import { cx } from '../../../ui/cx.ts';
 import { words } from '../../../i18n/whole.ts';
 import { useWords } from '../../../i18n/words.ts';
-import { rowName, scaleAt } from './told.ts';
-import { deskOf, rangeOf } from './desk.ts';
+import { rowName, scaleAt } from './valueText.ts';
+import { contextOf, rangeOf } from './context.ts';
 import { timesOf } from './groupTimes.ts';
 import { selectRow } from './looking.ts';
 import type { Row } from './rows.ts';
@@ -46,7 +46,7 @@ export const RowHead = memo(function RowHead({ row, isAtCursor, openRowMenu }: R
         aria-label={words.timeline.rows.select({ row: name })}
         onClick={(event) =>
           selectRow(
-            deskOf(stores),
+            contextOf(stores),
             row.id,
             event.ctrlKey || event.metaKey || stores.view.getState().addsToSelection
               ? 'toggles'

@@ -7,7 +7,7 @@ import { useDocument, useGroupBoard, useStores, useTimeline, useView } from '../
 import { keyName, type KeySet } from './timeline.ts';
 import { cx } from '../../../ui/cx.ts';
 import { useWords } from '../../../i18n/words.ts';
-import { nameOfKey } from './told.ts';
+import { nameOfKey } from './valueText.ts';
 import { keysOfFrame, timesOf, type GroupTimes } from './groupTimes.ts';
 import { RowHead } from './RowHead.tsx';
 import type { Row } from './rows.ts';

@@ -5,12 +5,12 @@ import type { IconName } from '../../../ui/Icon.tsx';
 import { useStores, useServoView, editServoView } from '../../stores.ts';
 import { IconButton, Button } from '../../../ui/Button.tsx';
 import { words, type Words } from '../../../i18n/whole.ts';
-import { deskOf, changeable, whyHeld } from './desk.ts';
+import { contextOf, changeable, whyHeld } from './context.ts';
 import { selectedKeys } from './groupTimes.ts';
 import { nudgeMarker, selectedMarker } from './markers.ts';
-import { nudge, servoAtHand } from './moving.ts';
-import { turnText, instantText, cellName } from './told.ts';
-import { type SeenDesk, useDesk } from './useDesk.ts';
+import { nudge, currentServo } from './moving.ts';
+import { turnText, instantText, cellName } from './valueText.ts';
+import { type ShownContext, useTimelineContext } from './useTimelineContext.ts';
 import { LiveText } from '../../../ui/LiveText.tsx';
 import { isTouch } from '../../../ui/touch.ts';
 import { READABLE_MS } from '../../../ui/useEachFrame.ts';
@@ -26,33 +26,33 @@ interface Step {
   readonly name: keyof Words['timeline']['nudges'];
   readonly icon: IconName;
   readonly ticks: number;
-  readonly turns: number;
+  readonly valueSteps: number;
 }
 
 const STEPS: readonly Step[] = [
-  { name: 'earlier', icon: 'earlier', ticks: -1, turns: 0 },
-  { name: 'later', icon: 'later', ticks: 1, turns: 0 },
-  { name: 'lower', icon: 'down', ticks: 0, turns: -1 },
-  { name: 'higher', icon: 'up', ticks: 0, turns: 1 },
+  { name: 'earlier', icon: 'earlier', ticks: -1, valueSteps: 0 },
+  { name: 'later', icon: 'later', ticks: 1, valueSteps: 0 },
+  { name: 'lower', icon: 'down', ticks: 0, valueSteps: -1 },
+  { name: 'higher', icon: 'up', ticks: 0, valueSteps: 1 },
 ];
 
-function NudgeTools({ desk }: { readonly desk: SeenDesk }) {
+function NudgeTools({ context }: { readonly context: ShownContext }) {
   const stores = useStores();
-  const { state, times, family } = desk;
+  const { state, times, family } = context;
   const hasMarker = state.marker !== null;
-  const turn = turnText(desk, servoAtHand(desk, selectedKeys(times, state.selected)) ?? 0);
+  const turn = turnText(context, currentServo(context, selectedKeys(times, state.selected)) ?? 0);
   return (
     <div className={nudgeToolsStyles.tools} role="group" aria-label={words.timeline.nudge}>
-      {STEPS.map(({ name, icon, ticks, turns }) => (
+      {STEPS.map(({ name, icon, ticks, valueSteps }) => (
         <IconButton
           key={name}
           icon={icon}
           label={words.timeline.nudges[name]({
-            by: turns === 0 ? words.numbers.formatMs(family.motion.tickMs) : turn,
+            by: valueSteps === 0 ? words.numbers.formatMs(family.motion.tickMs) : turn,
           })}
           isDisabled={hasMarker ? ticks === 0 : state.selected.size === 0}
           onPress={() =>
-            hasMarker ? nudgeMarker(deskOf(stores), ticks) : nudge(deskOf(stores), ticks, turns)
+            hasMarker ? nudgeMarker(contextOf(stores), ticks) : nudge(contextOf(stores), ticks, valueSteps)
           }
         />
       ))}
@@ -66,16 +66,16 @@ export interface Said {
 }
 
 export const StatusText = memo(function StatusText({ status, tells }: Said) {
-  const desk = useDesk();
+  const context = useTimelineContext();
   const stores = useStores();
   const hidden = useServoView((view) => view.hidden.length);
   return (
     <div className={styles.line}>
       <p className={styles.text}>
         {tells !== undefined && <LiveText className={styles.dragged} text={tells} eachMs={READABLE_MS} />}
-        {textOf(desk, status)}
+        {textOf(context, status)}
       </p>
-      {isTouch() && <NudgeTools desk={desk} />}
+      {isTouch() && <NudgeTools context={context} />}
       {hidden > 0 && (
         <Button tone="quiet" onPress={() => editServoView(stores, (view) => ({ ...view, hidden: [] }))}>
           {words.timeline.rows.showHidden({ count: hidden })}
@@ -88,27 +88,31 @@ export const StatusText = memo(function StatusText({ status, tells }: Said) {
 /** Fingers hold no keys down. */
 const ABOUT_KEYS = new Set<StatusName>(['move', 'box', 'scrub', 'duration', 'stretch', 'stretchBack']);
 
-function textOf(desk: SeenDesk, status: StatusName | null): string {
-  const { state, family } = desk;
+function textOf(context: ShownContext, status: StatusName | null): string {
+  const { state, family } = context;
   if (status !== null && status !== 'selected' && status !== 'nothing')
     return isTouch() && ABOUT_KEYS.has(status) ? '' : words.timeline.status[status];
-  const marker = selectedMarker(desk);
+  const marker = selectedMarker(context);
   if (marker !== undefined) {
     const about = words.timeline.draggedMarker({ text: marker.text, at: instantText(marker.atMs) });
     return isTouch()
       ? words.timeline.byTouch.marker({ about })
       : words.timeline.markerSelected({ about, tickMs: family.motion.tickMs });
   }
-  const keys = selectedKeys(desk.times, state.selected);
-  const servo = servoAtHand(desk, keys);
+  const keys = selectedKeys(context.times, state.selected);
+  const servo = currentServo(context, keys);
   const [only] = keys;
   if (only === undefined || servo === undefined)
     return isTouch() ? words.timeline.byTouch.nothing : words.timeline.status.nothing;
-  if (changeable(desk).length === 0) return words.timeline.held[whyHeld(desk)];
+  if (changeable(context).length === 0) return words.timeline.held[whyHeld(context)];
   const about =
     keys.length === 1
-      ? cellName(desk, { row: servoRowId(servo), frameId: only.frameId })
+      ? cellName(context, { row: servoRowId(servo), frameId: only.frameId })
       : words.timeline.keys({ count: keys.length });
   if (isTouch()) return words.timeline.byTouch.selected({ about });
-  return words.timeline.status.selected({ about, tickMs: family.motion.tickMs, turn: turnText(desk, servo) });
+  return words.timeline.status.selected({
+    about,
+    tickMs: family.motion.tickMs,
+    turn: turnText(context, servo),
+  });
 }

@@ -17,15 +17,15 @@ import {
 import { useTimeline, useDocument, useStores } from '../../stores.ts';
 import { cellId, Rows } from './Rows.tsx';
 import { MovingLabel } from '../../picture/MovingText.tsx';
-import { instantText } from './told.ts';
+import { instantText } from './valueText.ts';
 import { words } from '../../../i18n/whole.ts';
-import { AskBox } from './AskBox.tsx';
+import { AskBox } from './QuestionBox.tsx';
 import { copy, cut, paste } from './changes.ts';
 import { clipFromText, clipToText } from './clipText.ts';
-import { deskOf } from './desk.ts';
+import { contextOf } from './context.ts';
 import { keepInStep } from './inStep.ts';
 import { actionOf } from './keymap.ts';
-import { bringToLife, sizesNow } from './lanes.ts';
+import { bringToLife, sizesNow } from './trackCanvas.ts';
 import { Minimap } from './Minimap.tsx';
 import { PlayheadLine } from './PlayheadLine.tsx';
 import { heightOf, placedRows } from './rows.ts';
@@ -33,7 +33,7 @@ import { topOfRows } from './sizes.ts';
 import { StatusText, type Said } from './StatusText.tsx';
 import { TimelineMenu, type OpenMenu } from './TimelineMenu.tsx';
 import { TimelineTools } from './TimelineTools.tsx';
-import { useRows } from './useDesk.ts';
+import { useRows } from './useTimelineContext.ts';
 import { PART } from '../../../ui/useParts.ts';
 import styles from './Timeline.module.css';
 
@@ -69,7 +69,7 @@ export const Timeline = memo(function Timeline({ onPlay }: { onPlay(isPreview: b
   const [said, setSaid] = useState<Said>(SAYS_NOTHING);
   const scroller = useRef<HTMLDivElement>(null);
   const grid = useRef<HTMLDivElement>(null);
-  const lanes = useRef<HTMLDivElement>(null);
+  const tracks = useRef<HTMLDivElement>(null);
   const canvas = useRef<HTMLCanvasElement>(null);
   const box = useRef<HTMLDivElement>(null);
   const menuSpot = useRef<HTMLSpanElement>(null);
@@ -90,7 +90,7 @@ export const Timeline = memo(function Timeline({ onPlay }: { onPlay(isPreview: b
   );
 
   useLayoutEffect(() => {
-    const [area, lane] = [scroller.current, lanes.current];
+    const [area, lane] = [scroller.current, tracks.current];
     if (area === null || lane === null) return undefined;
     const measure = (): void =>
       stores.timeline.setState({
@@ -110,7 +110,7 @@ export const Timeline = memo(function Timeline({ onPlay }: { onPlay(isPreview: b
 
   useEffect(() => {
     const parts = {
-      ...{ scroller: scroller.current, lanes: lanes.current },
+      ...{ scroller: scroller.current, tracks: tracks.current },
       ...{ canvas: canvas.current, box: box.current },
     };
     if (!areThere(parts)) return undefined;
@@ -134,7 +134,7 @@ export const Timeline = memo(function Timeline({ onPlay }: { onPlay(isPreview: b
     if (isMenuKey) openMenu('keys', cellAtCursor());
     else if (event.key === ' ' && !event.ctrlKey) onPlay(event.shiftKey);
     else if (action === undefined) return;
-    else action(deskOf(stores));
+    else action(contextOf(stores));
     event.preventDefault();
   }
 
@@ -152,7 +152,7 @@ export const Timeline = memo(function Timeline({ onPlay }: { onPlay(isPreview: b
 
   function take(event: ClipboardEvent): void {
     const text = event.clipboardData.getData('text/plain');
-    paste(deskOf(stores), (text === '' ? null : clipFromText(text)) ?? stores.timeline.getState().clip);
+    paste(contextOf(stores), (text === '' ? null : clipFromText(text)) ?? stores.timeline.getState().clip);
     event.preventDefault();
   }
 
@@ -188,14 +188,14 @@ export const Timeline = memo(function Timeline({ onPlay }: { onPlay(isPreview: b
               aria-colcount={columns}
               aria-multiselectable="true"
               onKeyDown={key}
-              onCopy={(event) => put(event, copy(deskOf(stores)))}
-              onCut={(event) => put(event, cut(deskOf(stores)))}
+              onCopy={(event) => put(event, copy(contextOf(stores)))}
+              onCut={(event) => put(event, cut(contextOf(stores)))}
               onPaste={take}
               onPointerDown={takeFocus}
               // It is one stop: what is pressed in it takes no focus, and keys go on meaning the timeline.
               onMouseDown={(event) => event.preventDefault()}
             >
-              <div ref={lanes} className={styles.lanes} role="presentation">
+              <div ref={tracks} className={styles.tracks} role="presentation">
                 <canvas ref={canvas} className={styles.canvas} aria-hidden="true" />
                 <PlayheadLine />
                 <div ref={box} className={styles.box} aria-hidden="true" hidden />
@@ -209,7 +209,7 @@ export const Timeline = memo(function Timeline({ onPlay }: { onPlay(isPreview: b
           </Stage>
         </div>
       </div>
-      <Minimap lanes={`${id}lanes`} />
+      <Minimap tracks={`${id}lanes`} />
       <StatusText {...said} />
       <TimelineMenu menu={menu} onClose={closeMenu} />
     </section>

@@ -11,7 +11,7 @@ import { editServoView, useServoView, useStores } from '../../stores.ts';
 import { Icon } from '../../../ui/Icon.tsx';
 import { words } from '../../../i18n/whole.ts';
 import { colour, ease } from './changes.ts';
-import { deskOf, rowOf } from './desk.ts';
+import { contextOf, rowOf } from './context.ts';
 import { chordText } from './keymap.ts';
 import type { Row } from './rows.ts';
 import { mayRun, verbName, VERBS, type VerbName } from './verbs.ts';
@@ -64,7 +64,7 @@ export const TimelineMenu = memo(function TimelineMenu({
 
 function KeysMenu({ onClose }: { onClose(): void }) {
   const stores = useStores();
-  const desk = deskOf(stores);
+  const context = contextOf(stores);
   const items = (verbs: readonly VerbName[]): React.ReactElement[] =>
     verbs.map((verb) => <VerbItem key={verb} verb={verb} />);
   return (
@@ -78,26 +78,30 @@ function KeysMenu({ onClose }: { onClose(): void }) {
       <Submenu label={words.timeline.change} isDisabled={false} onClose={onClose}>
         {items(CHANGES)}
       </Submenu>
-      <Submenu label={words.timeline.easing} isDisabled={desk.state.selected.size === 0} onClose={onClose}>
+      <Submenu label={words.timeline.easing} isDisabled={context.state.selected.size === 0} onClose={onClose}>
         {EASINGS.map((easing) => (
-          <MenuItem key={easing} className={styles.item ?? ''} onAction={() => ease(deskOf(stores), easing)}>
+          <MenuItem
+            key={easing}
+            className={styles.item ?? ''}
+            onAction={() => ease(contextOf(stores), easing)}
+          >
             {words.timeline.easings[easing]}
           </MenuItem>
         ))}
       </Submenu>
-      <Submenu label={words.timeline.colour} isDisabled={desk.state.selected.size === 0} onClose={onClose}>
+      <Submenu label={words.timeline.colour} isDisabled={context.state.selected.size === 0} onClose={onClose}>
         {[...COLOURS, null].map((one) => (
           <MenuItem
             key={one ?? ''}
             className={styles.item ?? ''}
-            onAction={() => colour(deskOf(stores), one)}
+            onAction={() => colour(contextOf(stores), one)}
           >
             {one === null ? words.timeline.noColour : words.timeline.colours[one]}
           </MenuItem>
         ))}
       </Submenu>
       <Submenu label={words.timeline.rows.menu} isDisabled={false} onClose={onClose}>
-        {rowItems(desk.servoView, rowOf(desk, desk.state.cursor.row), (change) =>
+        {rowItems(context.servoView, rowOf(context, context.state.cursor.row), (change) =>
           editServoView(stores, change),
         )}
       </Submenu>
@@ -111,14 +115,14 @@ function KeysMenu({ onClose }: { onClose(): void }) {
 function VerbItem({ verb }: { readonly verb: VerbName }) {
   const stores = useStores();
   const { icon, keys, run } = VERBS[verb];
-  const { state } = deskOf(stores);
+  const { state } = contextOf(stores);
   const name = verbName(verb, state);
   return (
     <MenuItem
       className={styles.item ?? ''}
       textValue={name}
-      isDisabled={!mayRun(deskOf(stores), VERBS[verb])}
-      onAction={() => run(deskOf(stores))}
+      isDisabled={!mayRun(contextOf(stores), VERBS[verb])}
+      onAction={() => run(contextOf(stores))}
     >
       <Icon name={icon} />
       {name}
@@ -154,7 +158,7 @@ function Submenu(props: {
 function RowMenu({ onClose }: { onClose(): void }) {
   const stores = useStores();
   const view = useServoView((servoView) => servoView);
-  const desk = deskOf(stores);
+  const context = contextOf(stores);
   return (
     <Menu
       className={styles.menu ?? ''}
@@ -162,7 +166,7 @@ function RowMenu({ onClose }: { onClose(): void }) {
       autoFocus="first"
       onClose={onClose}
     >
-      {rowItems(view, rowOf(desk, desk.state.cursor.row), (change) => editServoView(stores, change))}
+      {rowItems(view, rowOf(context, context.state.cursor.row), (change) => editServoView(stores, change))}
     </Menu>
   );
 }

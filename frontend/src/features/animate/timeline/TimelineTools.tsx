@@ -11,7 +11,7 @@ import { Select } from '../../../ui/Select.tsx';
 import type { KeySet } from './timeline.ts';
 import { useWords } from '../../../i18n/words.ts';
 import { ease } from './changes.ts';
-import { deskOf } from './desk.ts';
+import { contextOf } from './context.ts';
 import { selectedKeys, timesOf, type GroupTimes } from './groupTimes.ts';
 import { mayRun, verbName, VERBS, type VerbName } from './verbs.ts';
 import addsSwitchStyles from './AddsSwitch.module.css';
@@ -93,7 +93,7 @@ function VerbButton({ verb }: { readonly verb: VerbName }) {
       icon={VERBS[verb].icon}
       label={label}
       isDisabled={!mayNow}
-      onPress={() => VERBS[verb].run(deskOf(stores))}
+      onPress={() => VERBS[verb].run(contextOf(stores))}
     />
   );
 }
@@ -112,7 +112,7 @@ function EasingChoice() {
         ...(value === '' ? [{ value, label: words.timeline.easing } as const] : []),
         ...EASINGS.map((easing) => ({ value: easing, label: words.timeline.easings[easing] })),
       ]}
-      onChange={(easing) => easing !== '' && ease(deskOf(stores), easing)}
+      onChange={(easing) => easing !== '' && ease(contextOf(stores), easing)}
     />
   );
 }

@@ -25,26 +25,29 @@ import {
   select,
   selectedFrames,
   whyHeld,
-  type Desk,
-} from './desk.ts';
+  type TimelineContext,
+} from './context.ts';
 import { allKeys, selectedKeys, spanOf, type GroupTimes } from './groupTimes.ts';
 
 /** The servos of the cursor's row get a key where the playhead is, so that their motion stays as it is there. */
-export function setKeys(desk: Desk): void {
-  setKeysAt(desk, rowOf(desk, desk.state.cursor.row)?.servos ?? [], desk.state.playheadMs);
+export function setKeys(context: TimelineContext): void {
+  setKeysAt(context, rowOf(context, context.state.cursor.row)?.servos ?? [], context.state.playheadMs);
 }
 
 /** Of several servos those of which nothing is known stay without, unless it is so of all: these get one at home. */
-export function setKeysAt(desk: Desk, servos: readonly number[], atMs: number): void {
-  const free = servos.filter((servo) => !isHeld(desk.servoView, servo));
+export function setKeysAt(context: TimelineContext, servos: readonly number[], atMs: number): void {
+  const free = servos.filter((servo) => !isHeld(context.servoView, servo));
   if (free.length === 0)
-    return desk.stores.notices.tell('warning', words.timeline.status[whyHeld(desk, servos)]);
-  const known = placedAt(free, (servo) => positionNow(desk, servo, atMs));
-  const placed = known.length > 0 ? known : placedAt(free, (servo) => homeOf(desk, servo));
+    return context.stores.notices.tell('warning', words.timeline.status[whyHeld(context, servos)]);
+  const known = placedAt(free, (servo) => positionNow(context, servo, atMs));
+  const placed = known.length > 0 ? known : placedAt(free, (servo) => homeOf(context, servo));
   if (placed.length === 0)
-    return desk.stores.notices.tell('info', words.actions.otherUnit({ unit: words.units[desk.group.unit] }));
-  const { unit } = desk.family;
-  apply(desk, {
+    return context.stores.notices.tell(
+      'info',
+      words.actions.otherUnit({ unit: words.units[context.group.unit] }),
+    );
+  const { unit } = context.family;
+  apply(context, {
     label: () => words.timeline.steps.setKey,
     edit: (group) =>
       placed.reduce(
@@ -69,79 +72,82 @@ const placedAt = (
   });
 
 /** On its way at that time; else where the robot was asked to be; null where neither is known. */
-function positionNow(desk: Desk, servo: number, atMs: number): number | null {
-  const track = desk.times.tracks.get(servo);
+function positionNow(context: TimelineContext, servo: number, atMs: number): number | null {
+  const track = context.times.tracks.get(servo);
   const onItsWay = track === undefined ? null : positionAt(track, atMs);
-  return onItsWay ?? (countsAlike(desk) ? desk.stores.device.motion(servo).target : null);
+  return onItsWay ?? (countsAlike(context) ? context.stores.device.motion(servo).target : null);
 }
 
 /** null where the robot at hand counts otherwise, or knows no such servo. */
-const homeOf = (desk: Desk, servo: number): number | null =>
-  countsAlike(desk) ? (servoOf(desk.robot, servo)?.home ?? null) : null;
+const homeOf = (context: TimelineContext, servo: number): number | null =>
+  countsAlike(context) ? (servoOf(context.robot, servo)?.home ?? null) : null;
 
-const countsAlike = ({ isOther }: Desk): boolean => !isOther;
+const countsAlike = ({ isOther }: TimelineContext): boolean => !isOther;
 
-export function remove(desk: Desk): void {
-  const { marker } = desk.state;
+export function remove(context: TimelineContext): void {
+  const { marker } = context.state;
   if (marker !== null) {
-    apply(desk, {
+    apply(context, {
       label: () => words.timeline.steps.deleteMarker,
       edit: (group) => deleteMarker(group, marker),
     });
-  } else if (hasChangeable(desk)) {
-    const refs = changeable(desk);
-    apply(desk, {
+  } else if (hasChangeable(context)) {
+    const refs = changeable(context);
+    apply(context, {
       label: () => words.timeline.steps.delete({ count: refs.length }),
-      edit: (group) => deleteKeys(group, refs, { ripple: desk.state.ripples }),
+      edit: (group) => deleteKeys(group, refs, { ripple: context.state.ripples }),
     });
   }
 }
 
 /** From the first to the last of the selected keys: the frames go with their time, which begins where the one before ends. */
-export function removeTime(desk: Desk): void {
-  const span = spanOf(selectedKeys(desk.times, desk.state.selected));
+export function removeTime(context: TimelineContext): void {
+  const span = spanOf(selectedKeys(context.times, context.state.selected));
   if (span === null) return;
-  const fromMs = desk.times.ends.findLast((endMs) => endMs < span.fromMs) ?? 0;
-  apply(desk, {
+  const fromMs = context.times.ends.findLast((endMs) => endMs < span.fromMs) ?? 0;
+  apply(context, {
     label: () => words.timeline.steps.deleteTime,
     edit: (group) => deleteTime(group, { fromMs, toMs: span.toMs }),
   });
 }
 
 /** null where nothing is selected. */
-function clipOf({ group, times, state }: Desk): Clip | null {
+function clipOf({ group, times, state }: TimelineContext): Clip | null {
   const keys = selectedKeys(times, state.selected);
   return keys.length === 0 ? null : copyKeys(group, keys);
 }
 
-export function copy(desk: Desk): Clip | null {
-  const clip = clipOf(desk);
+export function copy(context: TimelineContext): Clip | null {
+  const clip = clipOf(context);
   if (clip !== null) {
-    desk.stores.timeline.setState({ clip });
-    desk.stores.notices.say(words.timeline.copied({ count: desk.state.selected.size }));
+    context.stores.timeline.setState({ clip });
+    context.stores.notices.say(words.timeline.copied({ count: context.state.selected.size }));
   }
   return clip;
 }
 
 /** Keys on locked rows are copied and stay. */
-export function cut(desk: Desk): Clip | null {
-  const clip = copy(desk);
-  const refs = changeable(desk);
+export function cut(context: TimelineContext): Clip | null {
+  const clip = copy(context);
+  const refs = changeable(context);
   if (clip !== null)
-    apply(desk, {
+    apply(context, {
       label: () => words.timeline.steps.cut({ count: refs.length }),
-      edit: (group) => deleteKeys(group, refs, { ripple: desk.state.ripples }),
+      edit: (group) => deleteKeys(group, refs, { ripple: context.state.ripples }),
     });
   return clip;
 }
 
-export function paste(desk: Desk, clip: Clip | null): void {
-  if (clip === null) return desk.stores.notices.tell('info', words.timeline.nothingToPaste);
-  const { playheadMs, ripples } = desk.state;
+export function paste(context: TimelineContext, clip: Clip | null): void {
+  if (clip === null) return context.stores.notices.tell('info', words.timeline.nothingToPaste);
+  const { playheadMs, ripples } = context.state;
   put(
-    desk,
+    context,
     () => words.timeline.steps.paste,
-    pasteKeys(desk.group, clip, playheadMs, { ripple: ripples, rangeOf: (servo) => rangeOf(desk, servo) }),
+    pasteKeys(context.group, clip, playheadMs, {
+      ripple: ripples,
+      rangeOf: (servo) => rangeOf(context, servo),
+    }),
     ({ tracks }) => keysAt(tracks, clipKeys(clip, playheadMs)),
   );
 }
@@ -152,16 +158,16 @@ const clipKeys = ({ moments }: Clip, atMs: number) =>
   );
 
 /** Right behind the selection, in the rhythm of its first frame. */
-export function duplicate(desk: Desk): void {
-  const keys = selectedKeys(desk.times, desk.state.selected);
+export function duplicate(context: TimelineContext): void {
+  const keys = selectedKeys(context.times, context.state.selected);
   const span = spanOf(keys);
   if (span === null) return;
-  const first = desk.times.frames.find(({ id }) => keys.some(({ frameId }) => frameId === id));
-  const deltaMs = span.toMs - span.fromMs + Math.max(desk.family.motion.tickMs, first?.durationMs ?? 0);
+  const first = context.times.frames.find(({ id }) => keys.some(({ frameId }) => frameId === id));
+  const deltaMs = span.toMs - span.fromMs + Math.max(context.family.motion.tickMs, first?.durationMs ?? 0);
   put(
-    desk,
+    context,
     () => words.timeline.steps.duplicate,
-    duplicateKeys(desk.group, keys, deltaMs, { ripple: desk.state.ripples }),
+    duplicateKeys(context.group, keys, deltaMs, { ripple: context.state.ripples }),
     ({ tracks }) =>
       keysAt(
         tracks,
@@ -172,29 +178,34 @@ export function duplicate(desk: Desk): void {
 
 /** All of it or nothing: what the robot must not do is not put into the group either. */
 function put(
-  desk: Desk,
+  context: TimelineContext,
   label: Label,
   { group, problems }: Pasted,
   selects: (times: GroupTimes) => readonly KeyRef[],
 ): void {
   const [problem] = problems;
-  if (problem !== undefined) desk.stores.notices.tell('warning', notPasted(problem, namesIn(desk.robot)));
-  else apply(desk, { label, edit: () => group, selects });
+  if (problem !== undefined)
+    context.stores.notices.tell('warning', notPasted(problem, namesIn(context.robot)));
+  else apply(context, { label, edit: () => group, selects });
 }
 
 /** Each in its row; those of locked rows stay. */
-export function turnRound(desk: Desk): void {
-  if (!hasChangeable(desk)) return;
-  const refs = changeable(desk);
-  apply(desk, {
+export function turnRound(context: TimelineContext): void {
+  if (!hasChangeable(context)) return;
+  const refs = changeable(context);
+  apply(context, {
     label: () => words.timeline.steps.reverse,
     edit: (group) => reverseKeys(group, refs),
-    selects: (after) => reversedRefs(desk, refs, after),
+    selects: (after) => reversedRefs(context, refs, after),
   });
 }
 
 /** What is selected where all its names are still there: a key that stays keeps its name, and none is lost. */
-function reversedRefs({ state }: Desk, keys: readonly Key[], after: GroupTimes): readonly KeyRef[] {
+function reversedRefs(
+  { state }: TimelineContext,
+  keys: readonly Key[],
+  after: GroupTimes,
+): readonly KeyRef[] {
   const named = selectedKeys(after, state.selected);
   const span = spanOf(keys);
   const areSame = [keys.length, named.length].every((count) => count === state.selected.size);
@@ -205,37 +216,40 @@ function reversedRefs({ state }: Desk, keys: readonly Key[], after: GroupTimes):
   );
 }
 
-export function mirrorFrames(desk: Desk): void {
-  const frameIds = selectedFrames(desk);
-  const { group, held } = mirror(desk.group, desk.robot, frameIds);
-  if (group === desk.group) desk.stores.notices.tell('info', words.timeline.nothingToMirror);
+export function mirrorFrames(context: TimelineContext): void {
+  const frameIds = selectedFrames(context);
+  const { group, held } = mirror(context.group, context.robot, frameIds);
+  if (group === context.group) context.stores.notices.tell('info', words.timeline.nothingToMirror);
   if (held.length > 0)
-    desk.stores.notices.tell('warning', heldAtLimit(held.map(({ servo }) => servoName(desk.robot, servo))));
-  apply(desk, { label: () => words.timeline.steps.mirror, edit: () => group });
+    context.stores.notices.tell(
+      'warning',
+      heldAtLimit(held.map(({ servo }) => servoName(context.robot, servo))),
+    );
+  apply(context, { label: () => words.timeline.steps.mirror, edit: () => group });
 }
 
-export function ease(desk: Desk, easing: Easing): void {
-  const frames = selectedFrames(desk);
-  apply(desk, {
+export function ease(context: TimelineContext, easing: Easing): void {
+  const frames = selectedFrames(context);
+  apply(context, {
     label: () => words.timeline.easings[easing],
     edit: (group) => setEasing(group, frames, easing),
   });
 }
 
-export function colour(desk: Desk, wanted: Colour | null): void {
-  const frames = selectedFrames(desk);
-  apply(desk, {
+export function colour(context: TimelineContext, wanted: Colour | null): void {
+  const frames = selectedFrames(context);
+  apply(context, {
     label: () => words.timeline.steps.colour,
     edit: (group) => setColour(group, frames, wanted),
   });
 }
 
-export function selectAll(desk: Desk): void {
-  const servos = desk.rows.find(({ kind }) => kind === 'all')?.servos ?? [];
-  select(desk.stores, keySet(allKeys(desk.times, servos)));
+export function selectAll(context: TimelineContext): void {
+  const servos = context.rows.find(({ kind }) => kind === 'all')?.servos ?? [];
+  select(context.stores, keySet(allKeys(context.times, servos)));
 }
 
-export function selectNone({ stores }: Desk): void {
+export function selectNone({ stores }: TimelineContext): void {
   select(stores, NO_KEYS);
 }
 

@@ -1,15 +1,15 @@
 import { expect, test } from 'vitest';
 import { editServoView } from '../../stores.ts';
 import { ALL_ROW } from './timeline.ts';
-import { keepCursorInSight } from './lanes.ts';
+import { keepCursorInSight } from './trackCanvas.ts';
 import { sizesOf, topOfRows } from './sizes.ts';
-import { createTimelineDesk } from './timelineUnderTest.ts';
+import { createTestTimeline } from './timelineUnderTest.ts';
 
 const SIZES = sizesOf(false, false);
 const TWO_ROWS = topOfRows(SIZES) + 2 * SIZES.servo;
 
 test('rows scroll below the cursor, no farther than they have to', async () => {
-  const { stores, key } = await createTimelineDesk();
+  const { stores, key } = await createTestTimeline();
   const scroller = { scrollTop: 0, clientHeight: TWO_ROWS };
   keepCursorInSight(scroller, stores, () => SIZES);
   key('ArrowDown');
@@ -26,7 +26,7 @@ test('rows scroll below the cursor, no farther than they have to', async () => {
 });
 
 test('keys on a row that is hidden are no longer selected', async () => {
-  const { stores, select, selected } = await createTimelineDesk();
+  const { stores, select, selected } = await createTestTimeline();
   keepCursorInSight({ scrollTop: 0, clientHeight: TWO_ROWS }, stores, () => SIZES);
   select([1, 1], [2, 2]);
   editServoView(stores, (view) => ({ ...view, hidden: [1] }));
@@ -34,7 +34,7 @@ test('keys on a row that is hidden are no longer selected', async () => {
 });
 
 test('where its row is hidden the cursor is in the row of all servos, on the same frame', async () => {
-  const { stores, key } = await createTimelineDesk();
+  const { stores, key } = await createTestTimeline();
   keepCursorInSight({ scrollTop: 0, clientHeight: TWO_ROWS }, stores, () => SIZES);
   key('ArrowDown');
   key('ArrowRight');

@@ -1,13 +1,13 @@
 import { expect, test } from 'vitest';
 import { createVirtualClock } from '#shared/testing/virtualClock.ts';
-import { createMemoryKeeper } from '../../library/memoryKeeper.ts';
+import { createMemoryStore } from '../../library/memoryStore.ts';
 import { lookAfresh } from './selectionBack.ts';
 import { createVisit } from '../../library/libraryUnderTest.ts';
 import { keySet, createTimeline } from './timeline.ts';
 
 test('what was selected and looked at in one group is not in another, whose frames have the same ids', async () => {
   const timeline = createTimeline();
-  const visit = createVisit(createMemoryKeeper(), createVirtualClock());
+  const visit = createVisit(createMemoryStore(), createVirtualClock());
   lookAfresh({ ...visit, timeline });
   await visit.later();
   visit.capture(1000);

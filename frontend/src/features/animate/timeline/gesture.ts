@@ -5,7 +5,7 @@ import type { ActionGroup } from '#shared/group/group.ts';
 import type { Label } from '#shared/document/history.ts';
 import type { SelectMode } from './timeline.ts';
 import type { Words } from '../../../i18n/whole.ts';
-import type { Desk, DeskStores } from './desk.ts';
+import type { TimelineContext, TimelineStores } from './context.ts';
 import type { Spot } from './hit.ts';
 import type { Sizes } from './sizes.ts';
 import { msAt } from './timeScale.ts';
@@ -44,7 +44,7 @@ export interface Held {
 }
 
 export interface Press {
-  readonly stores: DeskStores;
+  readonly stores: TimelineStores;
   readonly sizes: Sizes;
   readonly spot: Spot;
   readonly held: Held;
@@ -115,8 +115,8 @@ export function edits(
 }
 
 /** Where the playhead comes to rest: what is set there shall be where the board can do it. */
-export function onRaster({ stores }: Press, desk: Desk, atMs: number, { alt }: Held): number {
-  const { tickMs } = desk.family.motion;
+export function onRaster({ stores }: Press, context: TimelineContext, atMs: number, { alt }: Held): number {
+  const { tickMs } = context.family.motion;
   const isFree = alt || !stores.timeline.getState().snaps;
   return Math.max(0, snapped(atMs, isFree ? null : { placesMs: [], tickMs, reachMs: 0 }));
 }
@@ -124,11 +124,11 @@ export function onRaster({ stores }: Press, desk: Desk, atMs: number, { alt }: H
 /** What a thing at `atMs` comes to when it is dragged so far. `own` are the instants that move along. */
 export function draggedTo(
   press: Press,
-  desk: Desk,
+  context: TimelineContext,
   atMs: number,
   own: ReadonlySet<number>,
 ): (spot: Spot, held: Held) => number {
-  const { times, state, group, family } = desk;
+  const { times, state, group, family } = context;
   const others = [...times.ends, ...group.markers.map((marker) => marker.atMs), state.playheadMs, 0];
   const placesMs = others.filter((placeMs) => !own.has(placeMs));
   const pressedMs = msAt(state.time, press.spot.x);

@@ -5,9 +5,9 @@ import { moveMarker } from '#shared/group/frameEdits.ts';
 import { setDuration } from '#shared/group/timeEdits.ts';
 import { keySet, withKeys } from './timeline.ts';
 import type { KeyRef } from '#shared/group/tracks.ts';
-import { instantText, toldOfBox, toldOfFrame, toldOfMarker, toldOfRange } from './told.ts';
+import { instantText, boxText, frameText, markerText, rangeText } from './valueText.ts';
 import { words } from '../../../i18n/whole.ts';
-import { changeable, deskOf, select, whyHeld, type Desk } from './desk.ts';
+import { changeable, contextOf, select, whyHeld, type TimelineContext } from './context.ts';
 import {
   draggedTo,
   edits,
@@ -29,62 +29,64 @@ import { topOfRows } from './sizes.ts';
 import { msAt, panned, seenSpan, xOf } from './timeScale.ts';
 
 export function gestureOf(press: Press): Gesture {
-  const desk = deskOf(press.stores);
-  const scene = sceneOf(desk, press.sizes);
+  const context = contextOf(press.stores);
+  const scene = sceneOf(context, press.sizes);
   const hit = hitAt(scene, press.spot);
   switch (hit.kind) {
     case 'ruler':
-      return press.held.shift ? rangeGesture(press, desk, hit.atMs) : scrubGesture(press, desk, hit.atMs);
+      return press.held.shift
+        ? rangeGesture(press, context, hit.atMs)
+        : scrubGesture(press, context, hit.atMs);
     case 'marker':
-      return markerGesture(press, desk, hit.id);
+      return markerGesture(press, context, hit.id);
     case 'edge':
-      return durationGesture(press, desk, hit);
+      return durationGesture(press, context, hit);
     case 'head':
-      return headGesture(press, desk, hit.frameId);
+      return headGesture(press, context, hit.frameId);
     case 'handle':
-      return stretchGesture(press, desk, hit);
+      return stretchGesture(press, context, hit);
     case 'key':
       return keyGesture(press, scene, hit);
     case 'empty':
-      return press.isTouch ? panGesture(press, desk) : boxGesture(press, desk, hit);
+      return press.isTouch ? panGesture(press, context) : boxGesture(press, context, hit);
   }
 }
 
-function scrubGesture(press: Press, desk: Desk, atMs: number): Gesture {
-  lookAt(desk, onRaster(press, desk, atMs, press.held));
+function scrubGesture(press: Press, context: TimelineContext, atMs: number): Gesture {
+  lookAt(context, onRaster(press, context, atMs, press.held));
   const move = ({ x }: Spot, held: Held): void =>
     press.stores.timeline.setState(({ time, widthPx }) => {
       const { fromMs, toMs } = seenSpan(time, widthPx);
-      const wanted = onRaster(press, desk, msAt(time, x), held);
+      const wanted = onRaster(press, context, msAt(time, x), held);
       return { playheadMs: Math.max(0, Math.ceil(fromMs), Math.min(Math.floor(toMs), wanted)) };
     });
   return { status: 'scrub', leadsOn: 'throughTime', move, end: nothing, cancel: nothing };
 }
 
-function rangeGesture(press: Press, desk: Desk, fromMs: number): Gesture {
+function rangeGesture(press: Press, context: TimelineContext, fromMs: number): Gesture {
   const { timeline } = press.stores;
-  const before = desk.state.range;
+  const before = context.state.range;
   return {
     status: 'scrub',
     leadsOn: 'throughTime',
     move({ x }, held) {
       const toMs = msAt(timeline.getState().time, x);
       const [first = 0, last = 0] = [fromMs, toMs]
-        .map((atMs) => onRaster(press, desk, atMs, held))
+        .map((atMs) => onRaster(press, context, atMs, held))
         .toSorted((a, b) => a - b);
       timeline.setState({ range: { fromMs: first, toMs: last } });
     },
-    tells: () => toldOfRange(press.stores),
+    tells: () => rangeText(press.stores),
     end: (isClick) => isClick && timeline.setState({ range: null }),
     cancel: () => timeline.setState({ range: before }),
   };
 }
 
-function markerGesture(press: Press, desk: Desk, id: number): Gesture {
-  const marker = desk.group.markers.find((one) => one.id === id);
+function markerGesture(press: Press, context: TimelineContext, id: number): Gesture {
+  const marker = context.group.markers.find((one) => one.id === id);
   const atMs = marker?.atMs ?? 0;
   press.stores.timeline.setState({ marker: id });
-  const to = draggedTo(press, desk, atMs, new Set([atMs]));
+  const to = draggedTo(press, context, atMs, new Set([atMs]));
   return edits(
     press,
     'move',
@@ -93,15 +95,19 @@ function markerGesture(press: Press, desk: Desk, id: number): Gesture {
       const target = to(spot, held);
       return (group) => moveMarker(group, id, target);
     },
-    { tells: () => toldOfMarker(press.stores, id) },
+    { tells: () => markerText(press.stores, id) },
   );
 }
 
-function durationGesture(press: Press, desk: Desk, { frameId, atMs }: Hit & { kind: 'edge' }): Gesture {
-  const place = desk.times.places.get(frameId) ?? -1;
-  const frame = desk.times.frames[place];
-  const to = draggedTo(press, desk, atMs, new Set([atMs]));
-  const longest = desk.family.durationMs.max;
+function durationGesture(
+  press: Press,
+  context: TimelineContext,
+  { frameId, atMs }: Hit & { kind: 'edge' },
+): Gesture {
+  const place = context.times.places.get(frameId) ?? -1;
+  const frame = context.times.frames[place];
+  const to = draggedTo(press, context, atMs, new Set([atMs]));
+  const longest = context.family.durationMs.max;
   return edits(
     press,
     'duration',
@@ -112,16 +118,20 @@ function durationGesture(press: Press, desk: Desk, { frameId, atMs }: Hit & { ki
       return (group) =>
         setDuration(group, frameId, Math.min(longest, Math.max(0, durationMs)), { ripple: ripples });
     },
-    { tells: () => toldOfFrame(press.stores, frameId) },
+    { tells: () => frameText(press.stores, frameId) },
   );
 }
 
-function stretchGesture(press: Press, desk: Desk, { end, span }: Hit & { kind: 'handle' }): Gesture {
+function stretchGesture(
+  press: Press,
+  context: TimelineContext,
+  { end, span }: Hit & { kind: 'handle' },
+): Gesture {
   const isFirst = end === 'first';
   const [pulledMs, fixedMs] = isFirst ? [span.fromMs, span.toMs] : [span.toMs, span.fromMs];
-  const to = draggedTo(press, desk, pulledMs, new Set([pulledMs]));
-  const refs = changeable(desk);
-  if (refs.length === 0) return { status: whyHeld(desk), move: nothing, end: nothing, cancel: nothing };
+  const to = draggedTo(press, context, pulledMs, new Set([pulledMs]));
+  const refs = changeable(context);
+  if (refs.length === 0) return { status: whyHeld(context), move: nothing, end: nothing, cancel: nothing };
   let factor = 1;
   let stretched: readonly KeyRef[] = refs;
   return edits(
@@ -130,7 +140,7 @@ function stretchGesture(press: Press, desk: Desk, { end, span }: Hit & { kind: '
     () => words.timeline.steps.stretch,
     (spot, held) => {
       const wanted = Math.max(0, (to(spot, held) - fixedMs) / (pulledMs - fixedMs));
-      const stretching = stretchingOf(desk, span, { factor: wanted, fixed: isFirst ? 'last' : 'first' });
+      const stretching = stretchingOf(context, span, { factor: wanted, fixed: isFirst ? 'last' : 'first' });
       factor = stretching.factor;
       return (group) => {
         const next = stretching.edit(group);
@@ -144,22 +154,22 @@ function stretchGesture(press: Press, desk: Desk, { end, span }: Hit & { kind: '
           ...{ share: factor, length: instantText(Math.round((span.toMs - span.fromMs) * factor)) },
         }),
       shown: () => press.stores.timeline.setState({ selected: keySet(stretched) }),
-      ended: () => select(press.stores, keySet(stretched), cursorAfter(desk, refs, stretched)),
-      cancelled: () => select(press.stores, desk.state.selected, desk.state.cursor),
+      ended: () => select(press.stores, keySet(stretched), cursorAfter(context, refs, stretched)),
+      cancelled: () => select(press.stores, context.state.selected, context.state.cursor),
     },
   );
 }
 
 /** The frames that the pointer goes over come along. */
-function headGesture(press: Press, desk: Desk, frameId: number): Gesture {
-  const before = desk.state.selected;
+function headGesture(press: Press, context: TimelineContext, frameId: number): Gesture {
+  const before = context.state.selected;
   if (press.held.shift || press.held.ctrl) pressFrame(press.stores, frameId, press.held);
-  else selectFrame(desk, frameId, 'replaces');
+  else selectFrame(context, frameId, 'replaces');
   return {
     status: 'box',
-    tells: () => toldOfBox(press.stores),
+    tells: () => boxText(press.stores),
     move(spot) {
-      const now = deskOf(press.stores);
+      const now = contextOf(press.stores);
       const hit = hitAt(sceneOf(now, press.sizes), { ...spot, y: press.spot.y });
       if (hit.kind === 'head') selectFrame(now, hit.frameId, 'adds');
     },
@@ -168,24 +178,24 @@ function headGesture(press: Press, desk: Desk, frameId: number): Gesture {
   };
 }
 
-function boxGesture(press: Press, desk: Desk, { row }: Hit & { kind: 'empty' }): Gesture {
+function boxGesture(press: Press, context: TimelineContext, { row }: Hit & { kind: 'empty' }): Gesture {
   const { stores, held, spot: from } = press;
-  const before = desk.state.selected;
+  const before = context.state.selected;
   const mode = modeOf(held);
-  const fromMs = msAt(desk.state.time, from.x);
+  const fromMs = msAt(context.state.time, from.x);
   const isOnRows = from.y >= topOfRows(press.sizes);
   const close = (): void => press.showBox(null);
   return {
     status: 'box',
     leadsOn: isOnRows ? 'throughRowsToo' : 'throughTime',
-    tells: () => toldOfBox(stores),
+    tells: () => boxText(stores),
     move(spot) {
       // Where it was begun: the lanes may have gone on.
       const { time, scrollTop } = stores.timeline.getState();
-      const scrolledPx = isOnRows ? scrollTop - desk.state.scrollTop : 0;
+      const scrolledPx = isOnRows ? scrollTop - context.state.scrollTop : 0;
       const corner = { x: xOf(time, fromMs), y: from.y - scrolledPx };
       press.showBox({ from: corner, to: spot });
-      const scene = wholeSceneOf(deskOf(stores), press.sizes);
+      const scene = wholeSceneOf(contextOf(stores), press.sizes);
       select(
         stores,
         withKeys(
@@ -198,7 +208,7 @@ function boxGesture(press: Press, desk: Desk, { row }: Hit & { kind: 'empty' }):
     end(isClick) {
       close();
       if (isClick && mode === 'replaces')
-        select(stores, new Set(), { row: row?.row.id ?? desk.state.cursor.row, frameId: null });
+        select(stores, new Set(), { row: row?.row.id ?? context.state.cursor.row, frameId: null });
     },
     cancel() {
       close();
@@ -208,13 +218,13 @@ function boxGesture(press: Press, desk: Desk, { row }: Hit & { kind: 'empty' }):
 }
 
 /** Sideways through time, up and down through the rows. */
-function panGesture(press: Press, desk: Desk): Gesture {
+function panGesture(press: Press, context: TimelineContext): Gesture {
   let last = press.spot;
   return {
     status: 'nothing',
     move(spot) {
       const byPx = last.x - spot.x;
-      setTime(desk, (time) => panned(time, byPx));
+      setTime(context, (time) => panned(time, byPx));
       press.scroll(last.y - spot.y);
       last = spot;
     },
@@ -223,10 +233,10 @@ function panGesture(press: Press, desk: Desk): Gesture {
   };
 }
 
-export const panFrom = (press: Press): Gesture => panGesture(press, deskOf(press.stores));
+export const panFrom = (press: Press): Gesture => panGesture(press, contextOf(press.stores));
 
 /** What a finger that rests for a while does when it goes on: a box. */
 export function boxFrom(press: Press): Gesture {
-  const desk = deskOf(press.stores);
-  return boxGesture(press, desk, { kind: 'empty', row: null, atMs: 0 });
+  const context = contextOf(press.stores);
+  return boxGesture(press, context, { kind: 'empty', row: null, atMs: 0 });
 }

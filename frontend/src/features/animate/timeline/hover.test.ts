@@ -1,10 +1,10 @@
 import { expect, test } from 'vitest';
-import { hoverAt } from './lanes.ts';
-import { createTimelineDesk } from './timelineUnderTest.ts';
+import { hoverAt } from './trackCanvas.ts';
+import { createTestTimeline } from './timelineUnderTest.ts';
 import { sizesOf } from './sizes.ts';
 
 test('what a press would do is said of each place before it is pressed', async () => {
-  const { stores, spotOf, select } = await createTimelineDesk();
+  const { stores, spotOf, select } = await createTestTimeline();
   const statusAt = (spot: { x: number; y: number }) => hoverAt(stores, sizesOf(false, false), spot).status;
   expect(statusAt({ x: 30, y: 5 })).toBe('scrub');
   expect(statusAt({ x: 100, y: 33 })).toBe('duration');

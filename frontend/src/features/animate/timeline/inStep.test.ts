@@ -1,10 +1,10 @@
 import { expect, test } from 'vitest';
 import { deleteFrames, duplicateFrames, insertFrame } from '#shared/group/groupEdits.ts';
 import { keepInStep } from './inStep.ts';
-import { createTimelineDesk } from './timelineUnderTest.ts';
+import { createTestTimeline } from './timelineUnderTest.ts';
 
 test('a frame that is selected elsewhere is selected here, and looked at', async () => {
-  const { stores, selected } = await createTimelineDesk();
+  const { stores, selected } = await createTestTimeline();
   const end = keepInStep(stores);
   stores.view.setState({ selectedFrame: 2 });
   expect(selected()).toEqual([
@@ -21,7 +21,7 @@ test('a frame that is selected elsewhere is selected here, and looked at', async
 });
 
 test('a frame may be announced before it is there', async () => {
-  const { stores, selected } = await createTimelineDesk();
+  const { stores, selected } = await createTestTimeline();
   keepInStep(stores);
   stores.view.setState({ selectedFrame: 4 });
   stores.document.edit(
@@ -37,7 +37,7 @@ test('a frame may be announced before it is there', async () => {
 });
 
 test('a frame without keys is looked at, too', async () => {
-  const { stores, selected } = await createTimelineDesk();
+  const { stores, selected } = await createTestTimeline();
   stores.document.edit(
     () => 'rest',
     (group) => insertFrame(group, 1, { durationMs: 300, targets: [] }),
@@ -53,7 +53,7 @@ test('a frame without keys is looked at, too', async () => {
 });
 
 test('what is gone is no longer selected', async () => {
-  const { stores, select, selected } = await createTimelineDesk();
+  const { stores, select, selected } = await createTestTimeline();
   keepInStep(stores);
   select([1, 1], [2, 1]);
   stores.document.edit(
@@ -64,7 +64,7 @@ test('what is gone is no longer selected', async () => {
 });
 
 test('of a frame that loses a key the others are not selected instead, and the playhead stays', async () => {
-  const { stores, key, click, drag, spotOf, selected, keys } = await createTimelineDesk();
+  const { stores, key, click, drag, spotOf, selected, keys } = await createTestTimeline();
   keepInStep(stores);
   stores.timeline.setState({ playheadMs: 200 });
   const left = (): unknown => [selected(), stores.timeline.getState().playheadMs];
@@ -81,7 +81,7 @@ test('of a frame that loses a key the others are not selected instead, and the p
 });
 
 test('where the cursor’s key is gone it is at the nearest one of its row', async () => {
-  const { stores, key } = await createTimelineDesk();
+  const { stores, key } = await createTestTimeline();
   keepInStep(stores);
   key('ArrowDown');
   for (let presses = 0; presses < 3; presses += 1) key('ArrowRight', { ctrlKey: true });
@@ -93,7 +93,7 @@ test('where the cursor’s key is gone it is at the nearest one of its row', asy
 });
 
 test('all of the group stays in sight until one looks closer', async () => {
-  const { stores } = await createTimelineDesk();
+  const { stores } = await createTestTimeline();
   keepInStep(stores);
   const { time } = stores.timeline.getState();
   stores.document.edit(
@@ -104,7 +104,7 @@ test('all of the group stays in sight until one looks closer', async () => {
 });
 
 test('a playhead that moves out of sight is followed a page at a time, unless one has looked away', async () => {
-  const { stores } = await createTimelineDesk();
+  const { stores } = await createTestTimeline();
   keepInStep(stores);
   const { timeline } = stores;
   const xOfPlayhead = (): number => {

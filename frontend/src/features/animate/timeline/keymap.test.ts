@@ -9,7 +9,7 @@ import { words } from '../../../i18n/whole.ts';
 import { chordOf, chordText } from './keymap.ts';
 import { keepInStep } from './inStep.ts';
 import { VERBS } from './verbs.ts';
-import { createTimelineDesk } from './timelineUnderTest.ts';
+import { createTestTimeline } from './timelineUnderTest.ts';
 
 test('a key is named by what is held with it, Command like Ctrl, and Shift only where it makes no other sign', () => {
   const plain = { ctrlKey: false, metaKey: false, shiftKey: false, altKey: false };
@@ -35,16 +35,16 @@ test('the menu names a key as it is written on it', () => {
 });
 
 test('a typed number opens the field of the selected keys, with its first digit', async () => {
-  const { key, select, stores } = await createTimelineDesk();
+  const { key, select, stores } = await createTestTimeline();
   key('7');
-  expect(stores.timeline.getState().asks).toBeNull();
+  expect(stores.timeline.getState().question).toBeNull();
   select([2, 1]);
   key('7');
-  expect(stores.timeline.getState()).toMatchObject({ asks: 'value', typed: '7' });
+  expect(stores.timeline.getState()).toMatchObject({ question: 'value', typed: '7' });
 });
 
 test('a minus begins a number where one can be below zero, and zooms elsewhere', async () => {
-  const { key, select, stores } = await createTimelineDesk();
+  const { key, select, stores } = await createTestTimeline();
   const state = () => stores.timeline.getState();
   const zoomedOut = (press: string): boolean => {
     const { msPerPx } = state().time;
@@ -56,8 +56,8 @@ test('a minus begins a number where one can be below zero, and zooms elsewhere',
   expect(zoomedOut('-')).toBe(true);
   stores.view.setState({ positionsIn: 'degrees' });
   expect(zoomedOut('-')).toBe(false);
-  expect(state()).toMatchObject({ asks: 'value', typed: '-' });
-  stores.timeline.setState({ asks: null, typed: '' });
+  expect(state()).toMatchObject({ question: 'value', typed: '-' });
+  stores.timeline.setState({ question: null, typed: '' });
   expect(zoomedOut('_')).toBe(true);
   select();
   expect(zoomedOut('-')).toBe(true);
@@ -65,7 +65,7 @@ test('a minus begins a number where one can be below zero, and zooms elsewhere',
 
 describe('arrows', () => {
   test('with nothing selected go from key to key and change nothing', async () => {
-    const { key, stores, steps, selected } = await createTimelineDesk();
+    const { key, stores, steps, selected } = await createTestTimeline();
     keepInStep(stores);
     key('ArrowDown');
     key('ArrowRight');
@@ -81,7 +81,7 @@ describe('arrows', () => {
   });
 
   test('nudge what is selected by one of the board’s ticks, with Shift by ten', async () => {
-    const { key, keys, select } = await createTimelineDesk();
+    const { key, keys, select } = await createTestTimeline();
     select([2, 1]);
     key('ArrowRight');
     key('ArrowRight', { shiftKey: true });
@@ -91,18 +91,18 @@ describe('arrows', () => {
   });
 
   test('turn by a degree where degrees are shown', async () => {
-    const { key, keys, stores, desk } = await createTimelineDesk();
+    const { key, keys, stores, context } = await createTestTimeline();
     stores.view.setState({ positionsIn: 'degrees' });
     key('ArrowDown');
     key('ArrowRight', { ctrlKey: true });
     key('ArrowUp');
-    const degree = Math.round(1 / servoOf(desk().robot, 1)!.degreesPerUnit);
+    const degree = Math.round(1 / servoOf(context().robot, 1)!.degreesPerUnit);
     expect(keys(1).map(([, position]) => position)).toContain(1200 + degree);
     expect(stores.notices.said.getState()).toMatch(/, -?\d+\.\d°, linear$/);
   });
 
   test('keep the cursor on the key they nudge', async () => {
-    const { key, stores, selected } = await createTimelineDesk();
+    const { key, stores, selected } = await createTestTimeline();
     key('ArrowDown');
     key('ArrowDown', { ctrlKey: true });
     key('ArrowRight');
@@ -112,7 +112,7 @@ describe('arrows', () => {
   });
 
   test('go no farther than all of the selected keys can', async () => {
-    const { key, keys, select } = await createTimelineDesk();
+    const { key, keys, select } = await createTestTimeline();
     select([1, 1], [2, 1]);
     for (let presses = 0; presses < 4; presses++) key('ArrowLeft', { shiftKey: true });
     expect(keys(1).map(([atMs]) => atMs)).toEqual([0, 500, 1500]);
@@ -121,7 +121,7 @@ describe('arrows', () => {
 
 describe('keys', () => {
   test('walk the playhead: frames, keys, both ends', async () => {
-    const { key, stores, selected } = await createTimelineDesk();
+    const { key, stores, selected } = await createTestTimeline();
     const at = () => stores.timeline.getState().playheadMs;
     key('.');
     expect(at()).toBe(500);
@@ -141,7 +141,7 @@ describe('keys', () => {
   });
 
   test('walk the playhead by the board’s ticks, and say where it is', async () => {
-    const { key, stores } = await createTimelineDesk();
+    const { key, stores } = await createTestTimeline();
     const at = () => stores.timeline.getState().playheadMs;
     stores.timeline.setState({ playheadMs: 507 });
     key('>', { shiftKey: true });
@@ -164,7 +164,7 @@ describe('keys', () => {
   });
 
   test('zoom where the cursor is, else at the playhead: neither leaves the sight', async () => {
-    const { key, stores } = await createTimelineDesk();
+    const { key, stores } = await createTestTimeline();
     const xOfMs = (atMs: number): number => {
       const { fromMs, msPerPx } = stores.timeline.getState().time;
       return (atMs - fromMs) / msPerPx;
@@ -179,7 +179,7 @@ describe('keys', () => {
   });
 
   test('Shift+A selects the keys of the cursor’s row, and once more none of them', async () => {
-    const { key, selected } = await createTimelineDesk();
+    const { key, selected } = await createTestTimeline();
     key('ArrowDown');
     key('A', { shiftKey: true });
     expect(selected()).toEqual([
@@ -192,7 +192,7 @@ describe('keys', () => {
   });
 
   test('look a page on and back, and leave the playhead where it is', async () => {
-    const { key, stores } = await createTimelineDesk();
+    const { key, stores } = await createTestTimeline();
     key('PageDown');
     expect(stores.timeline.getState()).toMatchObject({ time: { fromMs: 6400 }, playheadMs: 0 });
     key('PageUp');
@@ -200,7 +200,7 @@ describe('keys', () => {
   });
 
   test('Enter sets a key where the servo passes just then, and moves nothing else', async () => {
-    const { key, stores, keys, selected } = await createTimelineDesk();
+    const { key, stores, keys, selected } = await createTestTimeline();
     stores.timeline.setState({ playheadMs: 750, cursor: { row: 'servo 1', frameId: null } });
     key('Enter');
     expect(keys(1)).toEqual([
@@ -214,7 +214,7 @@ describe('keys', () => {
   });
 
   test('Enter sets a key of a servo of which nothing is known: at its home', async () => {
-    const { key, stores, keys, steps } = await createTimelineDesk();
+    const { key, stores, keys, steps } = await createTestTimeline();
     stores.timeline.setState({ playheadMs: 750, cursor: { row: 'servo 5', frameId: null } });
     const before = steps();
     key('Enter');
@@ -226,7 +226,7 @@ describe('keys', () => {
   });
 
   test('Enter sets keys of all servos in an empty group, and none on a locked row, which is told', async () => {
-    const { key, stores, keys, told, group } = await createTimelineDesk();
+    const { key, stores, keys, noticeTexts, group } = await createTestTimeline();
     stores.document.edit(
       () => 'empty',
       () => emptyGroup('New', 'us'),
@@ -235,7 +235,7 @@ describe('keys', () => {
     stores.timeline.setState({ playheadMs: 500, cursor: { row: 'servo 2', frameId: null } });
     key('Enter');
     expect(group().frames).toEqual([]);
-    expect(told()).toEqual([words.timeline.status.locked]);
+    expect(noticeTexts()).toEqual([words.timeline.status.locked]);
     stores.timeline.setState({ cursor: { row: ALL_ROW, frameId: null } });
     key('Enter');
     expect([1, 2, 3, 4, 5, 6].map((servo) => keys(servo))).toEqual([
@@ -246,11 +246,11 @@ describe('keys', () => {
   });
 
   test('copy, paste and duplicate; each is one step', async () => {
-    const { key, keys, select, stores, desk, steps } = await createTimelineDesk();
+    const { key, keys, select, stores, context, steps } = await createTestTimeline();
     select([1, 3], [3, 3]);
-    VERBS.copy.run(desk());
+    VERBS.copy.run(context());
     stores.timeline.setState({ playheadMs: 2000 });
-    VERBS.paste.run(desk());
+    VERBS.paste.run(context());
     expect(stores.timeline.getState().cursor).toMatchObject({ row: ALL_ROW, frameId: 4 });
     expect(keys(3)).toEqual([
       [500, 2000],
@@ -264,13 +264,13 @@ describe('keys', () => {
   });
 
   test('keys go from one group to another, and each group undoes its own', async () => {
-    const { key, keys, select, stores, desk, group } = await createTimelineDesk();
+    const { key, keys, select, stores, context, group } = await createTestTimeline();
     select([1, 3], [3, 3]);
-    VERBS.copy.run(desk());
+    VERBS.copy.run(context());
     const first = stores.document.store.getState();
     stores.document.take(startHistory(emptyGroup('Other', 'us')));
     stores.timeline.setState({ playheadMs: 300, ripples: true });
-    VERBS.paste.run(desk());
+    VERBS.paste.run(context());
     expect(keys(3)).toEqual([
       [300, 2000],
       [1300, 1000],
@@ -289,7 +289,7 @@ describe('keys', () => {
   });
 
   test('Shift+Delete takes the frames of the selected keys, each with the time before it', async () => {
-    const { key, keys, select } = await createTimelineDesk();
+    const { key, keys, select } = await createTestTimeline();
     select([2, 1]);
     key('Delete', { shiftKey: true });
     expect(keys(1)).toEqual([
@@ -302,7 +302,7 @@ describe('keys', () => {
   });
 
   test('reverse turns the selected stretch round', async () => {
-    const { key, keys, stores } = await createTimelineDesk();
+    const { key, keys, stores } = await createTestTimeline();
     key('a', { ctrlKey: true });
     key('r');
     expect(keys(1).map(([, position]) => position)).toEqual([1400, 1200, 1000]);
@@ -311,7 +311,7 @@ describe('keys', () => {
   });
 
   test('reverse turns the selected keys alone, and they stay selected', async () => {
-    const { key, keys, select, selected } = await createTimelineDesk();
+    const { key, keys, select, selected } = await createTestTimeline();
     const others = [keys(2), keys(3)];
     select([1, 1], [2, 1]);
     key('r');
@@ -328,7 +328,7 @@ describe('keys', () => {
   });
 
   test('reversed keys stay selected where they come between frames, and come back by the same key', async () => {
-    const { key, keys, select, selected, stores, group } = await createTimelineDesk();
+    const { key, keys, select, selected, stores, group } = await createTestTimeline();
     stores.document.edit(
       () => 'later',
       (before) => setDuration(before, 2, 700, { ripple: true }),
@@ -349,7 +349,7 @@ describe('keys', () => {
   });
 
   test('reverse leaves locked rows, and says so where nothing else is selected', async () => {
-    const { key, keys, select, stores, steps, told } = await createTimelineDesk();
+    const { key, keys, select, stores, steps, noticeTexts } = await createTestTimeline();
     editServoView(stores, (view) => ({ ...view, locked: [1] }));
     key('a', { ctrlKey: true });
     key('r');
@@ -359,36 +359,36 @@ describe('keys', () => {
     select([1, 1], [3, 1]);
     key('r');
     expect(steps()).toBe(before);
-    expect(told()).toEqual(['The selected keys are on locked rows.']);
+    expect(noticeTexts()).toEqual(['The selected keys are on locked rows.']);
   });
 
   test('delete takes what is selected, but nothing of a locked row, and says so', async () => {
-    const { key, keys, select, stores, told } = await createTimelineDesk();
+    const { key, keys, select, stores, noticeTexts } = await createTestTimeline();
     editServoView(stores, (view) => ({ ...view, locked: [1] }));
     select([2, 1], [2, 2]);
     key('Delete');
     expect([keys(1).length, keys(2).length]).toEqual([3, 2]);
     key('Delete');
-    expect(told()).toEqual(['The selected keys are on locked rows.']);
+    expect(noticeTexts()).toEqual(['The selected keys are on locked rows.']);
   });
 
   test('where nothing has a partner on the other side, mirroring says so', async () => {
-    const { key, select, steps, told } = await createTimelineDesk();
+    const { key, select, steps, noticeTexts } = await createTestTimeline();
     const before = steps();
     select([1, 1]);
     key('x');
     expect(steps()).toBe(before);
-    expect(told()).toEqual(['These frames are the same when left and right change places.']);
+    expect(noticeTexts()).toEqual(['These frames are the same when left and right change places.']);
   });
 
   test('nothing is pasted that the robot must not do', async () => {
-    const { stores, desk, group, told } = await createTimelineDesk();
+    const { stores, context, group, noticeTexts } = await createTestTimeline();
     const targets = [{ servo: 1, position: 2600 }];
     const moments = [{ atMs: 0, easing: 'linear', note: '', colour: null, targets }] as const;
     stores.timeline.setState({ clip: { unit: 'us', leadMs: 0, moments } });
     const before = group();
-    VERBS.paste.run(desk());
+    VERBS.paste.run(context());
     expect(group()).toBe(before);
-    expect(told()).toEqual(['Not pasted: Gripper at 2600 is out of range; it takes 500 to 2500.']);
+    expect(noticeTexts()).toEqual(['Not pasted: Gripper at 2600 is out of range; it takes 500 to 2500.']);
   });
 });

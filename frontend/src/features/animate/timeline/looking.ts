@@ -3,9 +3,9 @@
 import type { Key } from '#shared/group/tracks.ts';
 import { type Cursor, ALL_ROW, type TimeView, withKeys, type SelectMode } from './timeline.ts';
 import { setChanged } from '../../../state/setChanged.ts';
-import { rowOf, select, type Desk } from './desk.ts';
+import { rowOf, select, type TimelineContext } from './context.ts';
 import { allKeys, endOfFrame, keysOfFrame, selectedKeys, spanOf } from './groupTimes.ts';
-import { instantText } from './told.ts';
+import { instantText } from './valueText.ts';
 import { fitted, panned, showing, xOf, zoomedAt, type Span } from './timeScale.ts';
 
 // Where the arrow keys lead in the grid: along a row from key to key, across the rows to the key that is nearest in
@@ -68,49 +68,53 @@ const ZOOM = 1.5;
 const EMPTY_MS = 5000;
 
 /** Brings the instant into sight. */
-export function lookAt({ stores }: Desk, atMs: number): void {
+export function lookAt({ stores }: TimelineContext, atMs: number): void {
   const playheadMs = Math.max(0, Math.round(atMs));
   stores.timeline.setState(({ time, widthPx }) => ({ playheadMs, time: showing(time, playheadMs, widthPx) }));
 }
 
 /** The same by keys, for ears too. */
-export function stepTo(desk: Desk, atMs: number): void {
-  lookAt(desk, atMs);
-  desk.stores.notices.say(instantText(desk.stores.timeline.getState().playheadMs));
+export function stepTo(context: TimelineContext, atMs: number): void {
+  lookAt(context, atMs);
+  context.stores.notices.say(instantText(context.stores.timeline.getState().playheadMs));
 }
 
 /** By so many of the board's ticks, the first one from where it is. */
-export function stepTicks(desk: Desk, count: number): void {
-  const { tickMs } = desk.family.motion;
-  const ticks = desk.state.playheadMs / tickMs;
-  stepTo(desk, ((count > 0 ? Math.floor(ticks) : Math.ceil(ticks)) + count) * tickMs);
+export function stepTicks(context: TimelineContext, count: number): void {
+  const { tickMs } = context.family.motion;
+  const ticks = context.state.playheadMs / tickMs;
+  stepTo(context, ((count > 0 ? Math.floor(ticks) : Math.ceil(ticks)) + count) * tickMs);
 }
 
 /** Most of what is in sight, so that the eye finds where it was. */
 const PAGE = 0.8;
 
-export function page(desk: Desk, side: -1 | 1): void {
-  setTime(desk, (time) => panned(time, side * PAGE * desk.state.widthPx));
+export function page(context: TimelineContext, side: -1 | 1): void {
+  setTime(context, (time) => panned(time, side * PAGE * context.state.widthPx));
 }
 
 /** The cursor, or where its key is gone the nearest one of its row. */
-export function cursorLeft(desk: Desk, wasAtMs: number): Cursor {
-  const { cursor } = desk.state;
+export function cursorLeft(context: TimelineContext, wasAtMs: number): Cursor {
+  const { cursor } = context.state;
   const isThere =
     cursor.row === ALL_ROW
-      ? endOfFrame(desk.times, cursor.frameId) !== null
-      : keysAtCursor(desk, cursor).length > 0;
-  return isThere ? cursor : settled(gridOf(desk), cursor, wasAtMs);
+      ? endOfFrame(context.times, cursor.frameId) !== null
+      : keysAtCursor(context, cursor).length > 0;
+  return isThere ? cursor : settled(gridOf(context), cursor, wasAtMs);
 }
 
-function gridOf({ rows, times }: Desk): Grid {
+function gridOf({ rows, times }: TimelineContext): Grid {
   return {
     rows: rows.map(({ id }) => id),
     cellsOf: (id) => cellsOf(rows.find((row) => row.id === id)?.servos ?? [], times, id === ALL_ROW),
   };
 }
 
-function cellsOf(servos: readonly number[], times: Desk['times'], isAll: boolean): readonly Cell[] {
+function cellsOf(
+  servos: readonly number[],
+  times: TimelineContext['times'],
+  isAll: boolean,
+): readonly Cell[] {
   const frames = new Set(allKeys(times, servos).map(({ frameId }) => frameId));
   return times.frames.flatMap(({ id: frameId }, index) =>
     isAll || frames.has(frameId) ? [{ frameId, atMs: times.ends[index] ?? 0 }] : [],
@@ -118,78 +122,81 @@ function cellsOf(servos: readonly number[], times: Desk['times'], isAll: boolean
 }
 
 function keysAtCursor(
-  { rows, times }: Pick<Desk, 'rows' | 'times'>,
+  { rows, times }: Pick<TimelineContext, 'rows' | 'times'>,
   { row, frameId }: Cursor,
 ): readonly Key[] {
   return frameId === null ? [] : keysOfFrame(times, rowOf({ rows }, row)?.servos ?? [], frameId);
 }
 
 /** Null: the cursor goes alone, the selection stays. */
-export function walk(desk: Desk, direction: Direction, mode: SelectMode | null): void {
-  goTo(desk, walked(gridOf(desk), desk.state.cursor, direction, desk.state.playheadMs), mode);
+export function walk(context: TimelineContext, direction: Direction, mode: SelectMode | null): void {
+  goTo(context, walked(gridOf(context), context.state.cursor, direction, context.state.playheadMs), mode);
 }
 
-function goTo(desk: Desk, cursor: Cursor, mode: SelectMode | null): void {
-  const keys = keysAtCursor(desk, cursor);
-  const selected = mode === null ? null : withKeys(desk.state.selected, keys, mode);
-  select(desk.stores, selected, cursor);
-  const endMs = endOfFrame(desk.times, cursor.frameId);
+function goTo(context: TimelineContext, cursor: Cursor, mode: SelectMode | null): void {
+  const keys = keysAtCursor(context, cursor);
+  const selected = mode === null ? null : withKeys(context.state.selected, keys, mode);
+  select(context.stores, selected, cursor);
+  const endMs = endOfFrame(context.times, cursor.frameId);
   if (endMs !== null)
-    desk.stores.timeline.setState(({ time, widthPx }) => ({ time: showing(time, endMs, widthPx) }));
+    context.stores.timeline.setState(({ time, widthPx }) => ({ time: showing(time, endMs, widthPx) }));
 }
 
-export function toggleAtCursor(desk: Desk): void {
-  goTo(desk, desk.state.cursor, 'toggles');
+export function toggleAtCursor(context: TimelineContext): void {
+  goTo(context, context.state.cursor, 'toggles');
 }
 
 /** From the playhead to the next key of the cursor's row, which is selected then. */
-export function goToKey(desk: Desk, side: -1 | 1): void {
-  const { row } = desk.state.cursor;
-  const cell = beside(gridOf(desk).cellsOf(row), desk.state.playheadMs, side);
+export function goToKey(context: TimelineContext, side: -1 | 1): void {
+  const { row } = context.state.cursor;
+  const cell = beside(gridOf(context).cellsOf(row), context.state.playheadMs, side);
   if (cell === null) return;
-  goTo(desk, { row, frameId: cell.frameId }, 'replaces');
-  lookAt(desk, cell.atMs);
+  goTo(context, { row, frameId: cell.frameId }, 'replaces');
+  lookAt(context, cell.atMs);
 }
 
 /** From frame to frame, with the beginning as the first stop. */
-export function goToFrame(desk: Desk, side: -1 | 1): void {
-  const stops = [0, ...desk.times.ends].map((atMs) => ({ atMs, frameId: 0 }));
-  stepTo(desk, beside(stops, desk.state.playheadMs, side)?.atMs ?? desk.state.playheadMs);
+export function goToFrame(context: TimelineContext, side: -1 | 1): void {
+  const stops = [0, ...context.times.ends].map((atMs) => ({ atMs, frameId: 0 }));
+  stepTo(context, beside(stops, context.state.playheadMs, side)?.atMs ?? context.state.playheadMs);
 }
 
-export function selectRow(desk: Desk, id: string, mode: SelectMode): void {
-  const keys = allKeys(desk.times, rowOf(desk, id)?.servos ?? []);
-  select(desk.stores, withKeys(desk.state.selected, keys, mode), {
+export function selectRow(context: TimelineContext, id: string, mode: SelectMode): void {
+  const keys = allKeys(context.times, rowOf(context, id)?.servos ?? []);
+  select(context.stores, withKeys(context.state.selected, keys, mode), {
     row: id,
     frameId: keys[0]?.frameId ?? null,
   });
 }
 
 /** Of all rows that are shown. */
-export const shownKeys = (desk: Desk, frameId: number): readonly Key[] =>
-  keysOfFrame(desk.times, rowOf(desk, ALL_ROW)?.servos ?? [], frameId);
+export const shownKeys = (context: TimelineContext, frameId: number): readonly Key[] =>
+  keysOfFrame(context.times, rowOf(context, ALL_ROW)?.servos ?? [], frameId);
 
-export function selectFrame(desk: Desk, frameId: number, mode: SelectMode): void {
-  const keys = shownKeys(desk, frameId);
-  select(desk.stores, withKeys(desk.state.selected, keys, mode), { row: ALL_ROW, frameId });
+export function selectFrame(context: TimelineContext, frameId: number, mode: SelectMode): void {
+  const keys = shownKeys(context, frameId);
+  select(context.stores, withKeys(context.state.selected, keys, mode), { row: ALL_ROW, frameId });
   // A frame without keys is selected too, though nothing of it is.
-  if (mode === 'replaces') desk.stores.view.setState({ selectedFrame: frameId });
+  if (mode === 'replaces') context.stores.view.setState({ selectedFrame: frameId });
 }
 
-export function setTime({ stores }: Pick<Desk, 'stores'>, change: (time: TimeView) => TimeView): void {
+export function setTime(
+  { stores }: Pick<TimelineContext, 'stores'>,
+  change: (time: TimeView) => TimeView,
+): void {
   stores.timeline.setState(({ time }) => ({ time: change(time), followsGroup: false }));
 }
 
 /** Where the eye is: at the cursor's key, else at the playhead; where neither is in sight, in the middle. */
-export function zoom(desk: Desk, step: 1 | -1): void {
-  const { widthPx, playheadMs, cursor, time } = desk.state;
-  const seen = [endOfFrame(desk.times, cursor.frameId), playheadMs]
+export function zoom(context: TimelineContext, step: 1 | -1): void {
+  const { widthPx, playheadMs, cursor, time } = context.state;
+  const seen = [endOfFrame(context.times, cursor.frameId), playheadMs]
     .map((atMs) => (atMs === null ? NaN : xOf(time, atMs)))
     .find((x) => x >= 0 && x <= widthPx);
-  setTime(desk, (before) => zoomedAt(before, seen ?? widthPx / 2, ZOOM ** -step));
+  setTime(context, (before) => zoomedAt(before, seen ?? widthPx / 2, ZOOM ** -step));
 }
 
-export function fitAll({ stores, times }: Pick<Desk, 'stores' | 'times'>): void {
+export function fitAll({ stores, times }: Pick<TimelineContext, 'stores' | 'times'>): void {
   const { time, widthPx } = stores.timeline.getState();
   const whole = fitted({ fromMs: 0, toMs: times.lengthMs || EMPTY_MS }, widthPx);
   setChanged(stores.timeline, { time: sameOr(time, whole), followsGroup: true });
@@ -199,16 +206,17 @@ export function fitAll({ stores, times }: Pick<Desk, 'stores' | 'times'>): void 
 const sameOr = (before: TimeView, after: TimeView): TimeView =>
   before.fromMs === after.fromMs && before.msPerPx === after.msPerPx ? before : after;
 
-const selectedSpan = ({ times, state }: Desk): Span | null => spanOf(selectedKeys(times, state.selected));
+const selectedSpan = ({ times, state }: TimelineContext): Span | null =>
+  spanOf(selectedKeys(times, state.selected));
 
-export function fitSelection(desk: Desk): void {
-  const span = selectedSpan(desk);
-  if (span !== null) setTime(desk, () => fitted(span, desk.state.widthPx));
+export function fitSelection(context: TimelineContext): void {
+  const span = selectedSpan(context);
+  if (span !== null) setTime(context, () => fitted(span, context.state.widthPx));
 }
 
 /** The selected stretch, or none any more. */
-export function toggleRange(desk: Desk): void {
-  const span = selectedSpan(desk);
-  const isNew = span !== null && span.toMs > span.fromMs && desk.state.range === null;
-  desk.stores.timeline.setState({ range: isNew ? span : null });
+export function toggleRange(context: TimelineContext): void {
+  const span = selectedSpan(context);
+  const isNew = span !== null && span.toMs > span.fromMs && context.state.range === null;
+  context.stores.timeline.setState({ range: isNew ? span : null });
 }

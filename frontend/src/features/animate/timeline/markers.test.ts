@@ -1,21 +1,21 @@
 import { describe, expect, test } from 'vitest';
 import { addMarker } from '#shared/group/frameEdits.ts';
-import { createTimelineDesk } from './timelineUnderTest.ts';
+import { createTestTimeline } from './timelineUnderTest.ts';
 import { verbName } from './verbs.ts';
 
 async function withMarkers() {
-  const desk = await createTimelineDesk();
-  desk.stores.document.edit(
+  const context = await createTestTimeline();
+  context.stores.document.edit(
     () => 'mark',
     (group) => addMarker(addMarker(group, 900, 'Bow'), 200, 'Wave'),
   );
-  const { stores, group } = desk;
+  const { stores, group } = context;
   const marks = () =>
     group()
       .markers.toSorted((one, other) => one.atMs - other.atMs)
       .map(({ atMs, text }) => [atMs, text]);
   const chosen = () => group().markers.find(({ id }) => id === stores.timeline.getState().marker)?.text;
-  return { ...desk, marks, chosen };
+  return { ...context, marks, chosen };
 }
 
 describe('markers by keyboard', () => {
@@ -55,14 +55,14 @@ describe('markers by keyboard', () => {
     key('M', { shiftKey: true });
     expect(named()).toEqual(['Rename marker', 'Delete marker']);
     key('m');
-    expect(stores.timeline.getState().asks).toBe('marker');
+    expect(stores.timeline.getState().question).toBe('marker');
     key('Delete');
     expect(marks()).toEqual([[900, 'Bow']]);
   });
 
   test('where there is none, that is said', async () => {
-    const { key, told } = await createTimelineDesk();
+    const { key, noticeTexts } = await createTestTimeline();
     key('M', { shiftKey: true });
-    expect(told()).toEqual(['There is no marker yet.']);
+    expect(noticeTexts()).toEqual(['There is no marker yet.']);
   });
 });

@@ -9,8 +9,8 @@ import type { ActionGroup } from '#shared/group/group.ts';
 import type { Range } from '#shared/codec/families.ts';
 import { words } from '../../../i18n/whole.ts';
 import type { Cursor } from './timeline.ts';
-import { cellName, nudgeUnits } from './told.ts';
-import { apply, changeable, hasChangeable, rangeOf, rowOf, type Desk } from './desk.ts';
+import { cellName, nudgeUnits } from './valueText.ts';
+import { apply, changeable, hasChangeable, rangeOf, rowOf, type TimelineContext } from './context.ts';
 import { timesOf, type GroupTimes } from './groupTimes.ts';
 
 export interface Move {
@@ -24,10 +24,10 @@ export interface Stretching extends Move {
   readonly factor: number;
 }
 
-export function moveOf(desk: Desk, keys: readonly Key[], wanted: KeyMove): Move {
-  const within = { ...wanted, deltaPosition: withinLimits(desk, keys, wanted.deltaPosition) };
+export function moveOf(context: TimelineContext, keys: readonly Key[], wanted: KeyMove): Move {
+  const within = { ...wanted, deltaPosition: withinLimits(context, keys, wanted.deltaPosition) };
   const { deltaMs } = boundedMove(keys, within);
-  const { ripples } = desk.state;
+  const { ripples } = context.state;
   const moved = keys.map(({ servo, atMs }) => ({ servo, atMs: atMs + deltaMs }));
   return {
     edit: (before) => moveKeys(before, keys, within, { ripple: ripples }),
@@ -46,8 +46,8 @@ const sameRefs = (before: readonly KeyRef[], after: readonly KeyRef[]): readonly
     : after;
 
 /** The same keys once more, so far from them, in the place of what they meet; they themselves stay. */
-export function copyOf(desk: Desk, keys: readonly Key[], wanted: KeyMove): Move {
-  const deltaPosition = withinLimits(desk, keys, wanted.deltaPosition);
+export function copyOf(context: TimelineContext, keys: readonly Key[], wanted: KeyMove): Move {
+  const deltaPosition = withinLimits(context, keys, wanted.deltaPosition);
   const { deltaMs } = boundedMove(keys, { ...wanted, deltaPosition });
   const places = keys.map(({ servo, atMs }) => ({ servo, atMs: atMs + deltaMs }));
   const copies = ({ tracks }: GroupTimes): readonly KeyRef[] => keysAt(tracks, places);
@@ -65,13 +65,13 @@ const STAYS = { ripple: false } as const;
 
 /** The selected keys that may change, so many times as long together; `fixed`: the end that stays. */
 export function stretchingOf(
-  desk: Desk,
+  context: TimelineContext,
   span: TimeRange,
   { factor, fixed }: Pick<KeyStretch, 'factor' | 'fixed'>,
 ): Stretching {
-  const keys = changeable(desk);
-  const wanted = { ...span, factor, fixed, ripple: desk.stores.timeline.getState().ripples };
-  const by = { ...wanted, factor: boundedFactor(desk.group, keys, wanted) };
+  const keys = changeable(context);
+  const wanted = { ...span, factor, fixed, ripple: context.stores.timeline.getState().ripples };
+  const by = { ...wanted, factor: boundedFactor(context.group, keys, wanted) };
   const stretched = keys.map(({ servo, atMs }) => ({ servo, atMs: stretchedMs(atMs, by) }));
   return {
     factor: by.factor,
@@ -81,10 +81,10 @@ export function stretchingOf(
 }
 
 /** All together stop where the first of them meets its limit. Keys beyond their limits may come back. */
-function withinLimits(desk: Desk, keys: readonly Key[], delta: number): number {
+function withinLimits(context: TimelineContext, keys: readonly Key[], delta: number): number {
   const ranges = new Map<number, Range>();
   return keys.reduce((least, { servo, position }) => {
-    const range = ranges.get(servo) ?? rangeOf(desk, servo);
+    const range = ranges.get(servo) ?? rangeOf(context, servo);
     ranges.set(servo, range);
     const room = delta > 0 ? Math.max(0, range.max - position) : Math.min(0, range.min - position);
     return Math.abs(room) < Math.abs(least) ? room : least;
@@ -92,36 +92,40 @@ function withinLimits(desk: Desk, keys: readonly Key[], delta: number): number {
 }
 
 /** The servo whose arrows count: that of the cursor's key, else of the first one. */
-export function servoAtHand(
-  desk: Pick<Desk, 'rows'> & { readonly state: Pick<Desk['state'], 'cursor'> },
+export function currentServo(
+  context: Pick<TimelineContext, 'rows'> & { readonly state: Pick<TimelineContext['state'], 'cursor'> },
   refs: readonly KeyRef[],
 ): number | undefined {
-  const { frameId, row } = desk.state.cursor;
-  const servos = rowOf(desk, row)?.servos ?? [];
+  const { frameId, row } = context.state.cursor;
+  const servos = rowOf(context, row)?.servos ?? [];
   return (refs.find((ref) => ref.frameId === frameId && servos.includes(ref.servo)) ?? refs[0])?.servo;
 }
 
 /** Where the cursor is then: on the same key, whatever it is called. */
-export function cursorAfter(desk: Desk, refs: readonly KeyRef[], moved: readonly KeyRef[]): Cursor {
-  const { cursor } = desk.state;
-  const servos = rowOf(desk, cursor.row)?.servos ?? [];
+export function cursorAfter(
+  context: TimelineContext,
+  refs: readonly KeyRef[],
+  moved: readonly KeyRef[],
+): Cursor {
+  const { cursor } = context.state;
+  const servos = rowOf(context, cursor.row)?.servos ?? [];
   const index = refs.findIndex((ref) => ref.frameId === cursor.frameId && servos.includes(ref.servo));
   return { ...cursor, frameId: moved[index]?.frameId ?? cursor.frameId };
 }
 
 /** `turns`: by one of what is shown, degrees or units. */
-export function nudge(desk: Desk, ticks: number, turns: number): void {
-  if (!hasChangeable(desk)) return;
-  const deltaMs = ticks * desk.family.motion.tickMs;
-  const refs = changeable(desk);
-  const deltaPosition = turns * nudgeUnits(desk, servoAtHand(desk, refs) ?? 0);
-  const move = moveOf(desk, refs, { deltaMs, deltaPosition });
-  let { cursor } = desk.state;
-  apply(desk, {
+export function nudge(context: TimelineContext, ticks: number, valueSteps: number): void {
+  if (!hasChangeable(context)) return;
+  const deltaMs = ticks * context.family.motion.tickMs;
+  const refs = changeable(context);
+  const deltaPosition = valueSteps * nudgeUnits(context, currentServo(context, refs) ?? 0);
+  const move = moveOf(context, refs, { deltaMs, deltaPosition });
+  let { cursor } = context.state;
+  apply(context, {
     label: () => words.timeline.steps.move,
     ...move,
-    cursor: (_times, moved) => (cursor = cursorAfter(desk, refs, moved)),
+    cursor: (_times, moved) => (cursor = cursorAfter(context, refs, moved)),
   });
-  const times = timesOf(desk.stores.document.store.getState().present);
-  desk.stores.notices.say(cellName({ ...desk, times }, cursor));
+  const times = timesOf(context.stores.document.store.getState().present);
+  context.stores.notices.say(cellName({ ...context, times }, cursor));
 }

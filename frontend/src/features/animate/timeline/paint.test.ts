@@ -4,13 +4,13 @@ import { editServoView } from '../../stores.ts';
 import { paint } from './paint.ts';
 import { sceneOf } from './scene.ts';
 import { sizesOf } from './sizes.ts';
-import { createTimelineDesk } from './timelineUnderTest.ts';
+import { createTestTimeline } from './timelineUnderTest.ts';
 
 /** So wide is what is left of a key where there are many. */
 const TICK_PX = 2;
 
 test('keys that are crowded are as pale as their row: all of them where it is muted', async () => {
-  const { stores, desk } = await createTimelineDesk();
+  const { stores, context } = await createTestTimeline();
   stores.timeline.setState({ time: { fromMs: 0, msPerPx: 100 } });
   editServoView(stores, (view) => ({ ...view, muted: [1] }));
   const ticks: { y: number; alpha: number }[] = [];
@@ -22,7 +22,7 @@ test('keys that are crowded are as pale as their row: all of them where it is mu
     measureText: () => ({ width: 10 }),
   };
   const canvas = new Proxy(ctx, { get: (own, name: string) => own[name] ?? (() => undefined) });
-  const scene = sceneOf(desk(), sizesOf(false, false));
+  const scene = sceneOf(context(), sizesOf(false, false));
   paint(
     {
       ctx: canvas as unknown as CanvasRenderingContext2D,

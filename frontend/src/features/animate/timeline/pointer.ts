@@ -92,7 +92,7 @@ interface PointerHost {
 const CLICK_PX = 4;
 const REST_MS = 500;
 
-export function followPointer(lanes: HTMLElement, host: PointerHost): () => void {
+export function followPointer(tracks: HTMLElement, host: PointerHost): () => void {
   const fingers = new Map<number, Spot>();
   let gesture: Gesture | null = null;
   let press: Press | null = null;
@@ -101,8 +101,8 @@ export function followPointer(lanes: HTMLElement, host: PointerHost): () => void
   let rest: ReturnType<typeof setTimeout> | undefined;
   let hasRested = false;
   const edge = createEdgePan({
-    widthPx: () => lanes.clientWidth,
-    rowsPx: () => ({ top: press === null ? 0 : topOfRows(press.sizes), bottom: lanes.clientHeight }),
+    widthPx: () => tracks.clientWidth,
+    rowsPx: () => ({ top: press === null ? 0 : topOfRows(press.sizes), bottom: tracks.clientHeight }),
     pan: host.pan,
     scroll: (byPx) => press?.scroll(byPx),
     panned: () => again(),
@@ -111,7 +111,7 @@ export function followPointer(lanes: HTMLElement, host: PointerHost): () => void
   const { signal } = listening;
 
   const spotOf = ({ clientX, clientY }: MouseEvent): Spot => {
-    const { left, top } = lanes.getBoundingClientRect();
+    const { left, top } = tracks.getBoundingClientRect();
     return { x: clientX - left, y: clientY - top };
   };
   const heldOf = ({ ctrlKey, metaKey, shiftKey, altKey }: MouseEvent): Held => ({
@@ -134,7 +134,7 @@ export function followPointer(lanes: HTMLElement, host: PointerHost): () => void
     const isPan = event.button === 1;
     if ((event.button !== 0 && !isPan) || !(event.target instanceof HTMLCanvasElement)) return;
     const isTouch = event.pointerType === 'touch';
-    lanes.setPointerCapture(event.pointerId);
+    tracks.setPointerCapture(event.pointerId);
     if (isTouch) fingers.set(event.pointerId, spotOf(event));
     if (fingers.size > 1) return callOff();
     hasMoved = false;
@@ -195,13 +195,13 @@ export function followPointer(lanes: HTMLElement, host: PointerHost): () => void
     callOff();
   }
 
-  lanes.addEventListener('pointerdown', down, { signal });
-  lanes.addEventListener('pointermove', move, { signal });
-  lanes.addEventListener('pointerup', up, { signal });
-  lanes.addEventListener('pointercancel', lost, { signal });
-  lanes.addEventListener('pointerleave', () => host.hover(null), { signal });
-  lanes.addEventListener('dblclick', (event) => host.doubleClick(spotOf(event)), { signal });
-  lanes.addEventListener(
+  tracks.addEventListener('pointerdown', down, { signal });
+  tracks.addEventListener('pointermove', move, { signal });
+  tracks.addEventListener('pointerup', up, { signal });
+  tracks.addEventListener('pointercancel', lost, { signal });
+  tracks.addEventListener('pointerleave', () => host.hover(null), { signal });
+  tracks.addEventListener('dblclick', (event) => host.doubleClick(spotOf(event)), { signal });
+  tracks.addEventListener(
     'contextmenu',
     (event) => {
       event.preventDefault();

@@ -3,15 +3,15 @@ import { setColour } from '#shared/group/frameEdits.ts';
 import { changedStretch } from './repaint.ts';
 import { sceneOf } from './scene.ts';
 import { sizesOf } from './sizes.ts';
-import { createTimelineDesk } from './timelineUnderTest.ts';
+import { createTestTimeline } from './timelineUnderTest.ts';
 
 /** A key and its frame reach so far beside their place. */
 const BESIDE_PX = 12;
 const SIZES = sizesOf(false, false);
 
 test('a key that is moved up or down has its place painted anew, everything else the whole', async () => {
-  const { stores, desk, select, key } = await createTimelineDesk();
-  const scene = () => sceneOf(desk(), SIZES);
+  const { stores, context, select, key } = await createTestTimeline();
+  const scene = () => sceneOf(context(), SIZES);
   select([2, 1]);
   const changedBy = (change: () => void) => {
     const before = scene();

@@ -5,7 +5,7 @@ import { positionRange, type Family, type Range } from '#shared/codec/families.t
 import { isHeld, isSilent } from '../../drive/servoView.ts';
 import { ALL_ROW, type TimelineState } from './timeline.ts';
 import { selectedKeys, type GroupTimes } from './groupTimes.ts';
-import type { Desk } from './desk.ts';
+import type { TimelineContext } from './context.ts';
 import { placedRows, seenRows, type PlacedRow, type Row } from './rows.ts';
 import { topOfAll, topOfRows, type Sizes } from './sizes.ts';
 
@@ -27,8 +27,8 @@ export interface Scene {
   readonly selectedFrames: ReadonlySet<number>;
 }
 
-export function sceneOf(desk: Desk, sizes: Sizes): Scene {
-  const { state, times, rows, group, family, servoView } = desk;
+export function sceneOf(context: TimelineContext, sizes: Sizes): Scene {
+  const { state, times, rows, group, family, servoView } = context;
   const [first, ...rest] = rows;
   const all = first ?? { id: ALL_ROW, kind: 'all', servos: [], name: '', servo: null };
   const isOf = (test: (servo: number) => boolean): ReadonlySet<string> =>
@@ -45,13 +45,13 @@ export function sceneOf(desk: Desk, sizes: Sizes): Scene {
 }
 
 /** With the rows that are scrolled out of sight. */
-export function wholeSceneOf(desk: Desk, sizes: Sizes): Scene {
-  const { scrollTop } = desk.state;
-  const placed = placedRows(desk.rows.slice(1), sizes);
-  return { ...sceneOf(desk, sizes), rows: placed.map((one) => onLanes(one, scrollTop, sizes)) };
+export function wholeSceneOf(context: TimelineContext, sizes: Sizes): Scene {
+  const { scrollTop } = context.state;
+  const placed = placedRows(context.rows.slice(1), sizes);
+  return { ...sceneOf(context, sizes), rows: placed.map((one) => onTracks(one, scrollTop, sizes)) };
 }
 
-const onLanes = (placed: PlacedRow, scrollTop: number, sizes: Sizes): PlacedRow => ({
+const onTracks = (placed: PlacedRow, scrollTop: number, sizes: Sizes): PlacedRow => ({
   ...placed,
   top: placed.top - scrollTop + topOfRows(sizes),
 });
@@ -71,7 +71,7 @@ function rowsInSight(
   sizes: Sizes,
 ): readonly PlacedRow[] {
   const seen = seenRows(placedRows(rows, sizes), scrollTop, heightPx - topOfRows(sizes));
-  return seen.map((one) => onLanes(one, scrollTop, sizes));
+  return seen.map((one) => onTracks(one, scrollTop, sizes));
 }
 
 const placedAll = (row: Row, sizes: Sizes): PlacedRow => ({

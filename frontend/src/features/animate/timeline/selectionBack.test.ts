@@ -4,35 +4,35 @@ import { startHistory } from '#shared/document/history.ts';
 import { keepInStep } from './inStep.ts';
 import { servoRowId } from './rows.ts';
 import { bringSelectionBack } from './selectionBack.ts';
-import { createTimelineDesk } from './timelineUnderTest.ts';
+import { createTestTimeline } from './timelineUnderTest.ts';
 
 /** As on the page: it hears of an edit before whoever forgets what is gone. */
-async function createKeptDesk() {
-  const desk = await createTimelineDesk();
-  bringSelectionBack(desk.stores);
-  keepInStep(desk.stores);
-  const { document, timeline, view } = desk.stores;
+async function createStoredPage() {
+  const page = await createTestTimeline();
+  bringSelectionBack(page.stores);
+  keepInStep(page.stores);
+  const { document, timeline, view } = page.stores;
   return {
-    ...desk,
+    ...page,
     document,
-    seen: () => [desk.selected(), timeline.getState().cursor.frameId, view.getState().selectedFrame],
+    seen: () => [page.selected(), timeline.getState().cursor.frameId, view.getState().selectedFrame],
   };
 }
 
-type Desk = Awaited<ReturnType<typeof createKeptDesk>>;
+type TimelineContext = Awaited<ReturnType<typeof createStoredPage>>;
 
-test.each<[string, (desk: Desk) => void]>([
+test.each<[string, (page: TimelineContext) => void]>([
   ['deleting', ({ key }) => key('Delete')],
   ['duplicating', ({ key }) => key('d', { ctrlKey: true })],
   ['turning round', ({ key }) => key('r')],
   ['dragging', ({ drag, spotOf }) => drag(spotOf(1, 1), 30, 0)],
 ])('undo selects what was selected before %s, redo what was afterwards', async (_, edit) => {
-  const desk = await createKeptDesk();
-  const { select, seen, document } = desk;
+  const page = await createStoredPage();
+  const { select, seen, document } = page;
   select([1, 1], [1, 2], [3, 3]);
-  desk.stores.timeline.setState({ cursor: { row: servoRowId(1), frameId: 1 } });
+  page.stores.timeline.setState({ cursor: { row: servoRowId(1), frameId: 1 } });
   const before = seen();
-  edit(desk);
+  edit(page);
   const after = seen();
   document.undo();
   expect(seen()).toEqual(before);
@@ -44,7 +44,7 @@ test.each<[string, (desk: Desk) => void]>([
 });
 
 test('a drag that is undone amid it has done nothing, and what the hand still does counts no more', async () => {
-  const { press, spotOf, seen, keys, document, steps } = await createKeptDesk();
+  const { press, spotOf, seen, keys, document, steps } = await createStoredPage();
   const [from, before] = [steps(), keys(1)];
   const gesture = press(spotOf(1, 1));
   const pressed = seen();
@@ -59,7 +59,7 @@ test('a drag that is undone amid it has done nothing, and what the hand still do
 });
 
 test('keys that are deleted amid a drag are not selected when the hand lets go', async () => {
-  const { press, spotOf, selected, key } = await createKeptDesk();
+  const { press, spotOf, selected, key } = await createStoredPage();
   const gesture = press(spotOf(1, 1));
   gesture.by(30, 0);
   key('Delete');
@@ -68,7 +68,7 @@ test('keys that are deleted amid a drag are not selected when the hand lets go',
 });
 
 test('a group that is opened again is looked at afresh', async () => {
-  const { key, select, selected, document } = await createKeptDesk();
+  const { key, select, selected, document } = await createStoredPage();
   select([2, 1]);
   key('Delete');
   document.undo();

@@ -7,7 +7,7 @@ import type { Library } from '../../library/library.ts';
 import { afresh, type Timeline } from './timeline.ts';
 import type { View } from '../../view.ts';
 import { setChanged } from '../../../state/setChanged.ts';
-import type { DeskStores } from './desk.ts';
+import type { TimelineStores } from './context.ts';
 
 // Another group is opened: nothing of it is selected yet, all of it is in sight, and the playhead is at its
 // beginning. Frames of two groups may have the same ids.
@@ -24,7 +24,7 @@ export function lookAfresh(stores: {
   });
 }
 
-type Selecting = Pick<DeskStores, 'document' | 'timeline' | 'view'>;
+type Selecting = Pick<TimelineStores, 'document' | 'timeline' | 'view'>;
 
 export function bringSelectionBack({ document, timeline, view }: Selecting): void {
   const left = new WeakMap<ActionGroup, ReturnType<typeof looks>>();

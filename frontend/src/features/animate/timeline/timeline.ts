@@ -86,7 +86,7 @@ export interface Cursor {
 }
 
 /** A number or text that the person is asked for, in place. */
-const ASKS = [
+const QUESTIONS = [
   'value',
   'scaleTime',
   'scaleTimeBack',
@@ -95,7 +95,7 @@ const ASKS = [
   'note',
   'marker',
 ] as const;
-export type Ask = (typeof ASKS)[number];
+export type Ask = (typeof QUESTIONS)[number];
 
 export interface TimelineState {
   readonly selected: KeySet;
@@ -117,7 +117,7 @@ export interface TimelineState {
   /** The body shows the pose at the playhead. */
   readonly showsPreview: boolean;
   readonly clip: Clip | null;
-  readonly asks: Ask | null;
+  readonly question: Ask | null;
   /** The answer as far as it was typed before its field was there. */
   readonly typed: string;
   /** The marker that is selected, by its id. */
@@ -151,7 +151,7 @@ export function afresh() {
     playheadMs: 0,
     range: null,
     followsGroup: true,
-    asks: null,
+    question: null,
     typed: '',
     marker: null,
   } satisfies Partial<TimelineState>;

@@ -3,11 +3,11 @@
 
 import { insertFrame } from '#shared/group/groupEdits.ts';
 import { emptyGroup, type ActionGroup } from '#shared/group/group.ts';
-import { createDesk } from '../../deskUnderTest.ts';
+import { createTestPage } from '../../pageUnderTest.ts';
 import { createDocument } from '../group/document.ts';
 import { keySet, createTimeline } from './timeline.ts';
 import { createView } from '../../view.ts';
-import { deskOf, select } from './desk.ts';
+import { contextOf, select } from './context.ts';
 import type { Held } from './gesture.ts';
 import { gestureOf } from './gestures.ts';
 import { selectedKeys } from './groupTimes.ts';
@@ -31,8 +31,8 @@ export function smallGroup(): ActionGroup {
 const SIZES = sizesOf(false, false);
 const NOTHING_HELD: Held = { ctrl: false, shift: false, alt: false };
 
-export async function createTimelineDesk() {
-  const { device, notices, robots, told } = await createDesk();
+export async function createTestTimeline() {
+  const { device, notices, robots, noticeTexts } = await createTestPage();
   const storage = { getItem: () => null, setItem: () => undefined };
   const document = createDocument(storage, notices, device.clock);
   const view = createView({ browser: storage, tab: storage });
@@ -44,14 +44,14 @@ export async function createTimelineDesk() {
     heightPx: 400,
     followsGroup: false,
   });
-  const desk = () => deskOf(stores);
+  const context = () => contextOf(stores);
   const group = () => document.store.getState().present;
 
   /** Where a key of the servo is on the lanes. */
   const spotOf = (servo: number, frame: number) => {
-    const scene = sceneOf(desk(), SIZES);
+    const scene = sceneOf(context(), SIZES);
     const row = scene.rows.find(({ row: { servos } }) => servos[0] === servo);
-    const key = desk()
+    const key = context()
       .times.tracks.get(servo)
       ?.keys.find(({ frameId }) => frameId === frame);
     if (row === undefined || key === undefined)
@@ -73,12 +73,12 @@ export async function createTimelineDesk() {
   };
 
   return {
-    ...{ stores, desk, group, told, spotOf, press },
+    ...{ stores, context, group, noticeTexts, spotOf, press },
     select: (...keys: readonly (readonly [frameId: number, servo: number])[]) =>
       select(stores, keySet(keys.map(([frameId, servo]) => ({ frameId, servo })))),
     /** Servo by servo, in the order of time. */
     selected: () =>
-      selectedKeys(desk().times, stores.timeline.getState().selected).map(({ frameId, servo }) => [
+      selectedKeys(context().times, stores.timeline.getState().selected).map(({ frameId, servo }) => [
         frameId,
         servo,
       ]),
@@ -89,11 +89,11 @@ export async function createTimelineDesk() {
     },
     click: (spot: { x: number; y: number }, held: Partial<Held> = {}) => press(spot, held).end(true),
     key: (key: string, held: { ctrlKey?: boolean; shiftKey?: boolean } = {}) =>
-      actionOf({ key, ctrlKey: false, metaKey: false, shiftKey: false, altKey: false, ...held })?.(desk()),
+      actionOf({ key, ctrlKey: false, metaKey: false, shiftKey: false, altKey: false, ...held })?.(context()),
     steps: () => document.store.getState().past.length - 1,
     /** Times and positions of a servo's keys. */
     keys: (servo: number) =>
-      desk()
+      context()
         .times.tracks.get(servo)
         ?.keys.map(({ atMs, position }) => [atMs, position]) ?? [],
   };

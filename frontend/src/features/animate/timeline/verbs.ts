@@ -16,7 +16,7 @@ import {
   setKeys,
   turnRound,
 } from './changes.ts';
-import type { Desk } from './desk.ts';
+import type { TimelineContext } from './context.ts';
 import { fitAll, fitSelection, goToFrame, goToKey, selectRow, toggleRange, zoom } from './looking.ts';
 import { goToMarker } from './markers.ts';
 
@@ -28,22 +28,27 @@ export interface Verb {
   readonly needs: 'keys' | 'keysOrMarker' | 'nothing';
   /** For the menu; what the keymap knows. */
   readonly keys: string;
-  run(desk: Desk): void;
+  run(context: TimelineContext): void;
 }
 
 const asking =
-  (asks: Ask) =>
-  ({ stores }: Desk): void =>
-    stores.timeline.setState({ asks });
+  (question: Ask) =>
+  ({ stores }: TimelineContext): void =>
+    stores.timeline.setState({ question });
 
 export const VERBS: Readonly<Record<VerbName, Verb>> = {
   setKey: { icon: 'plus', needs: 'nothing', keys: 'Enter', run: setKeys },
   editValue: { icon: 'edit', needs: 'keys', keys: 'F2', run: asking('value') },
   remove: { icon: 'trash', needs: 'keysOrMarker', keys: 'Delete', run: remove },
   removeTime: { icon: 'erase', needs: 'keys', keys: 'Shift+Delete', run: removeTime },
-  cut: { icon: 'cut', needs: 'keys', keys: 'Ctrl+x', run: (desk) => void cut(desk) },
-  copy: { icon: 'copy', needs: 'keys', keys: 'Ctrl+c', run: (desk) => void copy(desk) },
-  paste: { icon: 'paste', needs: 'nothing', keys: 'Ctrl+v', run: (desk) => paste(desk, desk.state.clip) },
+  cut: { icon: 'cut', needs: 'keys', keys: 'Ctrl+x', run: (context) => void cut(context) },
+  copy: { icon: 'copy', needs: 'keys', keys: 'Ctrl+c', run: (context) => void copy(context) },
+  paste: {
+    icon: 'paste',
+    needs: 'nothing',
+    keys: 'Ctrl+v',
+    run: (context) => paste(context, context.state.clip),
+  },
   duplicate: { icon: 'duplicate', needs: 'keys', keys: 'Ctrl+d', run: duplicate },
   insertTime: { icon: 'later', needs: 'nothing', keys: 'i', run: asking('insertTime') },
   reverse: { icon: 'reverse', needs: 'keys', keys: 'r', run: turnRound },
@@ -59,18 +64,18 @@ export const VERBS: Readonly<Record<VerbName, Verb>> = {
     icon: 'frames',
     needs: 'nothing',
     keys: 'Shift+a',
-    run: (desk) => selectRow(desk, desk.state.cursor.row, 'toggles'),
+    run: (context) => selectRow(context, context.state.cursor.row, 'toggles'),
   },
   selectNone: { icon: 'close', needs: 'nothing', keys: 'Ctrl+Shift+a', run: selectNone },
-  zoomIn: { icon: 'plus', needs: 'nothing', keys: '+', run: (desk) => zoom(desk, 1) },
-  zoomOut: { icon: 'minus', needs: 'nothing', keys: '-', run: (desk) => zoom(desk, -1) },
+  zoomIn: { icon: 'plus', needs: 'nothing', keys: '+', run: (context) => zoom(context, 1) },
+  zoomOut: { icon: 'minus', needs: 'nothing', keys: '-', run: (context) => zoom(context, -1) },
   fitAll: { icon: 'fit', needs: 'nothing', keys: 'f', run: fitAll },
   fitSelection: { icon: 'fit', needs: 'keys', keys: 'Shift+f', run: fitSelection },
   range: { icon: 'refresh', needs: 'nothing', keys: 'l', run: toggleRange },
-  frameBefore: { icon: 'earlier', needs: 'nothing', keys: ',', run: (desk) => goToFrame(desk, -1) },
-  frameAfter: { icon: 'later', needs: 'nothing', keys: '.', run: (desk) => goToFrame(desk, 1) },
-  keyBefore: { icon: 'earlier', needs: 'nothing', keys: 'j', run: (desk) => goToKey(desk, -1) },
-  keyAfter: { icon: 'later', needs: 'nothing', keys: 'k', run: (desk) => goToKey(desk, 1) },
+  frameBefore: { icon: 'earlier', needs: 'nothing', keys: ',', run: (context) => goToFrame(context, -1) },
+  frameAfter: { icon: 'later', needs: 'nothing', keys: '.', run: (context) => goToFrame(context, 1) },
+  keyBefore: { icon: 'earlier', needs: 'nothing', keys: 'j', run: (context) => goToKey(context, -1) },
+  keyAfter: { icon: 'later', needs: 'nothing', keys: 'k', run: (context) => goToKey(context, 1) },
 };
 
 type Marked = Pick<TimelineState, 'marker'>;

@@ -8,7 +8,7 @@ import { framesByServo, type KeySet } from './timeline.ts';
 import { useStores } from '../../stores.ts';
 import { useInFrame } from '../../../ui/useInFrame.ts';
 import { selectedKeys, timesOf, type GroupTimes } from './groupTimes.ts';
-import { useRows } from './useDesk.ts';
+import { useRows } from './useTimelineContext.ts';
 
 /** In the order of time. A frame without a key to select goes with the frames on both sides of it. */
 export function wholeFrames(

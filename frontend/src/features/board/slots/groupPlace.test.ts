@@ -3,17 +3,17 @@ import { FAMILIES } from '#shared/codec/families.ts';
 import { emptyGroup } from '#shared/group/group.ts';
 import { setMeta } from '#shared/group/groupEdits.ts';
 import { startHistory } from '#shared/document/history.ts';
-import { createDesk } from '../../deskUnderTest.ts';
+import { createTestPage } from '../../pageUnderTest.ts';
 import { chosenTimes } from './groupPlace.ts';
 import { createSharedSlots, storedGroup } from './sharedSlotsUnderTest.ts';
 
 const FRAMES = [{ durationMs: 400, targets: [{ servo: 1, position: 1000 }] }];
 
-async function openDesk(...options: Parameters<typeof createDesk>) {
-  const desk = await createDesk(...options);
-  const { document, opened, view, place } = desk;
+async function openTestPage(...options: Parameters<typeof createTestPage>) {
+  const page = await createTestPage(...options);
+  const { document, opened, view, place } = page;
   return {
-    ...desk,
+    ...page,
     keep: (change: Parameters<typeof setMeta>[1]) =>
       document.edit(
         () => 'keep',
@@ -29,7 +29,7 @@ async function openDesk(...options: Parameters<typeof createDesk>) {
 }
 
 test('a group’s own slot and times are what is chosen, also when they are undone', async () => {
-  const { keep, slot, times, document } = await openDesk();
+  const { keep, slot, times, document } = await openTestPage();
   keep({ slot: 5, times: 2 });
   expect([slot(), times()]).toEqual([5, 2]);
   keep({ times: 0 });
@@ -39,9 +39,9 @@ test('a group’s own slot and times are what is chosen, also when they are undo
 });
 
 test('what is chosen otherwise holds until another group is opened, which never gets the slot of the one before', async () => {
-  const { open, slot, times, view, capture } = await openDesk().then((desk) => ({
-    ...desk,
-    capture: () => desk.keep({ name: 'Waving' }),
+  const { open, slot, times, view, capture } = await openTestPage().then((page) => ({
+    ...page,
+    capture: () => page.keep({ name: 'Waving' }),
   }));
   open('wave', { slot: 2 });
   expect(slot()).toBe(2);
@@ -55,7 +55,7 @@ test('what is chosen otherwise holds until another group is opened, which never 
 });
 
 test('a group without a slot gets the one that has it, else a free one that no pad plays', async () => {
-  const { open, slot, slots, draw } = await openDesk();
+  const { open, slot, slots, draw } = await openTestPage();
   slots.download([{ slot: 30, name: 'wave', documentId: 'wave', frames: FRAMES }]);
   await draw(2000);
   open('wave');
@@ -68,7 +68,7 @@ test('a group without a slot gets the one that has it, else a free one that no p
 });
 
 test('an erase takes the group off the board, not its slot from the group', async () => {
-  const { open, slot, slots, draw } = await openDesk();
+  const { open, slot, slots, draw } = await openTestPage();
   slots.download([{ slot: 30, name: 'wave', documentId: 'wave', frames: FRAMES }]);
   await draw(2000);
   open('wave');
@@ -80,14 +80,14 @@ test('an erase takes the group off the board, not its slot from the group', asyn
 
 test('what others have stored is not free', async () => {
   const { sharedSlots, othersStore } = createSharedSlots({ 21: storedGroup({ version: 'of Bert' }) });
-  const { slot } = await openDesk(new Map(), { sharedSlots });
+  const { slot } = await openTestPage(new Map(), { sharedSlots });
   expect(slot()).toBe(22);
   othersStore(22, { version: 'of Bert' });
   expect(slot()).toBe(23);
 });
 
 test('of a board that takes no groups the first slot is run until another one is chosen', async () => {
-  const { open, slot, view } = await openDesk(new Map(), { family: FAMILIES['lsc-16'] });
+  const { open, slot, view } = await openTestPage(new Map(), { family: FAMILIES['lsc-16'] });
   expect(slot()).toBe(0);
   view.setState({ slot: 8 });
   expect(slot()).toBe(8);

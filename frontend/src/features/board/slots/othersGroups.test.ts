@@ -4,8 +4,8 @@ import { emptyGroup, type ActionGroup, groupToText } from '#shared/group/group.t
 import { insertFrame } from '#shared/group/groupEdits.ts';
 import { factsOf } from '#shared/files/facts.ts';
 import type { Listed } from '#shared/files/documentStore.ts';
-import { createMemoryKeeper } from '../../library/memoryKeeper.ts';
-import { createDesk } from '../../deskUnderTest.ts';
+import { createMemoryStore } from '../../library/memoryStore.ts';
+import { createTestPage } from '../../pageUnderTest.ts';
 import type { Way } from '../../../robot/device.ts';
 import type { LibraryState } from '../../library/library.ts';
 import { findOthersGroups } from './othersGroups.ts';
@@ -19,28 +19,28 @@ const groupAt = (...positions: readonly number[]): ActionGroup =>
     emptyGroup('Wave', 'us'),
   );
 
-async function openDesk() {
+async function openTestPage() {
   const gateway = createSharedSlots();
-  const desk = await createDesk(new Map(), { way: WAY, sharedSlots: gateway.sharedSlots });
-  const { device, robots, compiled, slots } = desk;
-  const keeper = createMemoryKeeper();
+  const page = await createTestPage(new Map(), { way: WAY, sharedSlots: gateway.sharedSlots });
+  const { device, robots, compiled, slots } = page;
+  const documentStore = createMemoryStore();
   const store = createStore<LibraryState>(() => ({
-    ...{ place: 'gateway', documents: [], listings: 0, openId: 'at hand', isKept: true },
+    ...{ place: 'gateway', documents: [], listings: 0, openId: 'at hand', isSaved: true },
   }));
   const refreshed: string[] = [];
   const library = { store, refresh: () => Promise.resolve(void refreshed.push('the list')) };
   const read: string[] = [];
-  const watched = { ...keeper, read: (id: string) => (read.push(id), keeper.read(id)) };
-  findOthersGroups({ device, robots, compiled, slots, library, keeper: Promise.resolve(watched) });
+  const watched = { ...documentStore, read: (id: string) => (read.push(id), documentStore.read(id)) };
+  findOthersGroups({ device, robots, compiled, slots, library, documentStore: Promise.resolve(watched) });
   const on = { family: device.store.getState().family, robot: robots.current().robot };
   let revision = 0;
   return {
-    ...{ ...desk, ...gateway, keeper, read, refreshed },
+    ...{ ...page, ...gateway, documentStore, read, refreshed },
     versionOf: (group: ActionGroup) => compiled.of(group, on).fingerprint,
     async shelve(group: ActionGroup): Promise<void> {
       const facts = factsOf(group, { updatedAtMs: 0, robot: '' });
       const writing = { text: groupToText(group), facts, expected: revision, isRemoved: false };
-      revision = await keeper.write('wave', writing);
+      revision = await documentStore.write('wave', writing);
       const listed: Listed = { id: 'wave', revision, isRemoved: false, facts };
       store.setState({ documents: [listed] });
     },
@@ -49,7 +49,7 @@ async function openDesk() {
 }
 
 test('what others stored is known whole where the library holds that version of the document', async () => {
-  const { shelve, othersStore, versionOf, known, draw } = await openDesk();
+  const { shelve, othersStore, versionOf, known, draw } = await openTestPage();
   await shelve(groupAt(1000, 1400));
   othersStore(5, { version: versionOf(groupAt(1000, 1400)), documentId: 'wave', name: 'Wave', by: 'Bert' });
   othersStore(6, { version: versionOf(groupAt(1000, 1500)), documentId: 'wave', name: 'Wave', by: 'Bert' });
@@ -60,7 +60,7 @@ test('what others stored is known whole where the library holds that version of 
 });
 
 test('what the library does not list is asked of the list, once, and not read', async () => {
-  const { othersStore, read, refreshed, draw } = await openDesk();
+  const { othersStore, read, refreshed, draw } = await openTestPage();
   othersStore(5, { version: 'of Bert', documentId: 'new' });
   othersStore(6, { version: 'of Bert', documentId: 'new' });
   await draw(100);
@@ -68,10 +68,10 @@ test('what the library does not list is asked of the list, once, and not read', 
 });
 
 test('a version that was kept under a name counts, and one that the library gets later', async () => {
-  const { shelve, keeper, othersStore, versionOf, known, draw } = await openDesk();
+  const { shelve, documentStore, othersStore, versionOf, known, draw } = await openTestPage();
   await shelve(groupAt(1000));
-  const kept = { id: 'kept', name: 'First', atMs: 1 };
-  await keeper.keepVersion('wave', kept, groupToText(groupAt(1000, 1200)));
+  const version = { id: 'kept', name: 'First', atMs: 1 };
+  await documentStore.keepVersion('wave', version, groupToText(groupAt(1000, 1200)));
   othersStore(5, { version: versionOf(groupAt(1000, 1200)), documentId: 'wave', by: 'Bert' });
   othersStore(6, { version: versionOf(groupAt(1000, 1200, 1300)), documentId: 'wave', by: 'Bert' });
   await draw(100);
@@ -85,7 +85,7 @@ test('a version that was kept under a name counts, and one that the library gets
 });
 
 test('an erase takes one’s own and theirs, and all of it comes back', async () => {
-  const { slots, shelve, othersStore, othersErase, versions, versionOf, known, draw } = await openDesk();
+  const { slots, shelve, othersStore, othersErase, versions, versionOf, known, draw } = await openTestPage();
   await shelve(groupAt(1000, 1400));
   othersStore(5, { version: versionOf(groupAt(1000, 1400)), documentId: 'wave', by: 'Bert' });
   const own = { slot: 9, name: 'Bow', documentId: null, frames: groupAt(1200).frames };

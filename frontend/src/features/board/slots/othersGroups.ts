@@ -17,7 +17,7 @@ export interface OthersGroupsOptions {
   readonly slots: Slots;
   readonly compiled: CompiledStore;
   readonly library: Pick<Library, 'store' | 'refresh'>;
-  readonly keeper: Promise<Pick<DocumentStore, 'read' | 'versions' | 'readVersion'>>;
+  readonly documentStore: Promise<Pick<DocumentStore, 'read' | 'versions' | 'readVersion'>>;
 }
 
 export function findOthersGroups(options: OthersGroupsOptions): void {
@@ -70,10 +70,10 @@ export function findOthersGroups(options: OthersGroupsOptions): void {
 
   /** As it is now, then its named versions from the newest on. */
   async function* textsOf(id: string): AsyncGenerator<string> {
-    const keeper = await options.keeper;
-    yield (await keeper.read(id)).text;
-    for (const version of (await keeper.versions(id)).toReversed())
-      yield await keeper.readVersion(id, version.id);
+    const documentStore = await options.documentStore;
+    yield (await documentStore.read(id)).text;
+    for (const version of (await documentStore.versions(id)).toReversed())
+      yield await documentStore.readVersion(id, version.id);
   }
 
   device.store.subscribe(({ snapshot: { link, slotVersions } }, { snapshot: before }) => {

@@ -2,7 +2,7 @@ import fc from 'fast-check';
 import { expect, test } from 'vitest';
 import { isLiveSlot } from '#shared/codec/families.ts';
 import { TIMES } from '#shared/robot/faults/amount.ts';
-import { createDesk } from '../../deskUnderTest.ts';
+import { createTestPage } from '../../pageUnderTest.ts';
 import type { ReplaceAnswer } from './replacing.ts';
 
 const groupAt = (documentId: string, slot: number, position: number) => ({
@@ -11,14 +11,14 @@ const groupAt = (documentId: string, slot: number, position: number) => ({
 });
 type Group = ReturnType<typeof groupAt>;
 
-async function openDesk(...stored: readonly Group[]) {
-  const desk = await createDesk();
-  const { slots, replacing, ofKind, draw } = desk;
+async function openTestPage(...stored: readonly Group[]) {
+  const page = await createTestPage();
+  const { slots, replacing, ofKind, draw } = page;
   slots.download(stored);
   await draw(3000);
   const before = ofKind('download').length;
   return {
-    ...desk,
+    ...page,
     question: () => replacing.store.getState().question,
     /** Slots that frames have gone to, since the desk was opened. */
     sent: () =>
@@ -29,7 +29,7 @@ async function openDesk(...stored: readonly Group[]) {
 }
 
 test('nothing leaves for a slot that holds another group before the answer; left, it stays', async () => {
-  const { replacing, question, sent, draw } = await openDesk(groupAt('bow', 2, 1000));
+  const { replacing, question, sent, draw } = await openTestPage(groupAt('bow', 2, 1000));
   const heard: boolean[] = [];
   replacing.download([groupAt('wave', 2, 1200)], { settled: (isDone) => void heard.push(isDone) });
   await draw(5000);
@@ -44,7 +44,7 @@ test('nothing leaves for a slot that holds another group before the answer; left
 });
 
 test('of several groups those that would replace another one go to free slots, the others to theirs', async () => {
-  const { replacing, question, sent, draw } = await openDesk(
+  const { replacing, question, sent, draw } = await openTestPage(
     groupAt('bow', 2, 1000),
     groupAt('nod', 3, 1100),
   );
@@ -61,7 +61,7 @@ test('of several groups those that would replace another one go to free slots, t
 });
 
 test('an older version of the same group, the same motion and what is empty are not asked about', async () => {
-  const { replacing, question, sent, draw } = await openDesk(
+  const { replacing, question, sent, draw } = await openTestPage(
     groupAt('bow', 2, 1000),
     groupAt('nod', 3, 1100),
   );
@@ -86,7 +86,7 @@ test('no group goes from the board but by the answer that names it', async () =>
       ...([close, close, fc.constantFrom<ReplaceAnswer>('replace', 'free', 'leave')] as const),
       async (first, second, answered) => {
         const held = distinct(first).map(({ slot, position }) => groupAt(`held ${slot}`, slot, position));
-        const { replacing, question, sent, draw, slots } = await openDesk(...held);
+        const { replacing, question, sent, draw, slots } = await openTestPage(...held);
         replacing.download(distinct(second).map(({ slot, position }) => groupAt('new', slot, position)));
         const asked = question()?.conflicts.map(({ slot }) => slot) ?? [];
         expect(question()?.free?.some(isLiveSlot) ?? false).toBe(false);

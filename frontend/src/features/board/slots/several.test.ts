@@ -3,11 +3,11 @@ import { emptyGroup } from '#shared/group/group.ts';
 import { insertFrame } from '#shared/group/groupEdits.ts';
 import { slotFor } from '#shared/group/slotPlaces.ts';
 import { EMPTY_SLOT_BOOK } from '#shared/group/slotBook.ts';
-import { createDesk } from '../../deskUnderTest.ts';
+import { createTestPage } from '../../pageUnderTest.ts';
 import { downloadOf, hindranceOf, thoseThatCan, type Wanted } from './several.ts';
 
 test('what does not fit, is empty or wants the slot of another is told; the rest can be downloaded', async () => {
-  const { compiled, device, robots } = await createDesk();
+  const { compiled, device, robots } = await createTestPage();
   const on = { family: device.store.getState().family, robot: robots.current().robot };
   const wantedOf = (documentId: string, slot: number, ...positions: readonly number[]): Wanted => {
     const group = positions.reduce(
@@ -29,7 +29,7 @@ test('what does not fit, is empty or wants the slot of another is told; the rest
 });
 
 test('of all groups those are taken that can go, each in its slot or a free one, and no two in the same', async () => {
-  const { compiled, device, robots } = await createDesk();
+  const { compiled, device, robots } = await createTestPage();
   const on = { family: device.store.getState().family, robot: robots.current().robot };
   const asked = (documentId: string, slot: number | null, ...positions: readonly number[]) => {
     const group = positions.reduce(

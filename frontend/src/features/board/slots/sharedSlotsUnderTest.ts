@@ -33,9 +33,9 @@ export function createSharedSlots(before: SlotVersions = {}) {
     asked,
     versions: () => versions,
     /** Told at once, or only to who comes later. */
-    othersStore(slot: number, stored: Partial<StoredGroup>, isTold = true) {
+    othersStore(slot: number, stored: Partial<StoredGroup>, isReported = true) {
       versions = { ...versions, [slot]: storedGroup(stored) };
-      if (isTold) changed();
+      if (isReported) changed();
     },
     othersErase() {
       versions = {};

@@ -1,6 +1,6 @@
 import { describe, expect, test } from 'vitest';
 import { recordOf } from '#shared/group/slotBook.ts';
-import { createDesk } from '../../deskUnderTest.ts';
+import { createTestPage } from '../../pageUnderTest.ts';
 import { createSharedSlots, storedGroup } from './sharedSlotsUnderTest.ts';
 import { downloadedSentence, downloadCancelled, errorSentence } from '../../../i18n/sentences.ts';
 import { words } from '../../../i18n/words.ts';
@@ -11,16 +11,16 @@ const at = (position: number) => [{ durationMs: 400, targets: [{ servo: 1, posit
 const WAVE = { slot: 5, name: 'Wave', documentId: 'wave', frames: at(1000) };
 const BOW = { slot: 9, name: 'Bow', documentId: 'bow', frames: [...at(1200), ...at(1400)] };
 
-async function openDesk(...args: Parameters<typeof createDesk>) {
-  const desk = await createDesk(...args);
-  const state = () => desk.slots.store.getState();
+async function openTestPage(...args: Parameters<typeof createTestPage>) {
+  const page = await createTestPage(...args);
+  const state = () => page.slots.store.getState();
   const stored = () => state().book.stored.map(({ slot, name }) => `${slot} ${name}`);
-  return { ...desk, state, stored };
+  return { ...page, state, stored };
 }
 
 describe('the slots of a board', () => {
   test('several groups are downloaded one after the other with one progress', async () => {
-    const { slots, device, stored, draw, told, transport } = await openDesk();
+    const { slots, device, stored, draw, noticeTexts, transport } = await openTestPage();
     const heard: boolean[] = [];
     const activity = () => device.store.getState().snapshot.activity;
     slots.download([WAVE, BOW], (isDone) => void heard.push(isDone));
@@ -29,41 +29,41 @@ describe('the slots of a board', () => {
     expect(stored()).toEqual(['5 Wave']);
     await draw(4000);
     expect(activity()).toEqual({ kind: 'idle' });
-    expect(told()).toEqual([downloadedSentence([5, 9])]);
+    expect(noticeTexts()).toEqual([downloadedSentence([5, 9])]);
     expect(heard).toEqual([true]);
     expect(stored()).toEqual(['5 Wave', '9 Bow']);
     expect(transport.board.frameCount(9)).toBe(2);
   });
 
   test('what is called off ends the others too, and is not in the book', async () => {
-    const { slots, stored, draw, told } = await openDesk();
+    const { slots, stored, draw, noticeTexts } = await openTestPage();
     const heard: boolean[] = [];
     slots.download([BOW, WAVE], (isDone) => void heard.push(isDone));
     await draw(40);
     slots.cancel();
     await draw(4000);
     expect(heard).toEqual([false]);
-    expect(told()).toEqual([downloadCancelled(9)]);
+    expect(noticeTexts()).toEqual([downloadCancelled(9)]);
     expect(stored()).toEqual([]);
   });
 
   test('that a slot is broken is not said any longer once it is empty or whole again', async () => {
     for (const mend of ['erase', 'download'] as const) {
-      const { slots, draw, told } = await openDesk();
+      const { slots, draw, noticeTexts } = await openTestPage();
       slots.download([BOW]);
       await draw(40);
       slots.cancel();
       await draw(4000);
-      expect(told()).toEqual([downloadCancelled(9)]);
+      expect(noticeTexts()).toEqual([downloadCancelled(9)]);
       if (mend === 'erase') slots.erase();
       else slots.download([BOW]);
       await draw(4000);
-      expect(told()).toEqual([mend === 'erase' ? words.board.erased : downloadedSentence([9])]);
+      expect(noticeTexts()).toEqual([mend === 'erase' ? words.board.erased : downloadedSentence([9])]);
     }
   });
 
   test('called off in its last frame, a group is whole, and the next one is not begun', async () => {
-    const { slots, stored, draw, told, transport } = await openDesk();
+    const { slots, stored, draw, noticeTexts, transport } = await openTestPage();
     const heard: boolean[] = [];
     slots.download([WAVE, BOW], (isDone) => void heard.push(isDone));
     await draw(40);
@@ -71,12 +71,12 @@ describe('the slots of a board', () => {
     await draw(4000);
     expect(heard).toEqual([false]);
     expect(stored()).toEqual(['5 Wave']);
-    expect(told()).toEqual([downloadCancelled(null)]);
+    expect(noticeTexts()).toEqual([downloadCancelled(null)]);
     expect(transport.board.frameCount(9)).toBe(0);
   });
 
   test('STOP ends them', async () => {
-    const { slots, device, state, draw, transport } = await openDesk();
+    const { slots, device, state, draw, transport } = await openTestPage();
     slots.download([WAVE, BOW]);
     await draw(40);
     device.halt();
@@ -87,7 +87,7 @@ describe('the slots of a board', () => {
   });
 
   test('an erase leaves every slot empty, and what it took comes back', async () => {
-    const { slots, state, stored, draw, transport } = await openDesk();
+    const { slots, state, stored, draw, transport } = await openTestPage();
     slots.download([WAVE, BOW]);
     await draw(4000);
     slots.erase();
@@ -103,7 +103,7 @@ describe('the slots of a board', () => {
   });
 
   test('after an erase that the board did not answer nobody knows what is left', async () => {
-    const { slots, state, stored, draw } = await openDesk(new Map(), {
+    const { slots, state, stored, draw } = await openTestPage(new Map(), {
       faults: [{ name: 'lostAck', nth: 2 }],
     });
     slots.download([WAVE]);
@@ -116,7 +116,7 @@ describe('the slots of a board', () => {
   });
 
   test('an erase that was refused takes nothing from the book', async () => {
-    const { slots, device, stored, draw } = await openDesk();
+    const { slots, device, stored, draw } = await openTestPage();
     slots.download([WAVE]);
     await draw(4000);
     device.halt();
@@ -128,43 +128,43 @@ describe('the slots of a board', () => {
 
   test('are remembered for a board at its port, not for another one, and not for one in the page', async () => {
     const texts = new Map<string, string>();
-    const first = await openDesk(texts, { way: USB });
+    const first = await openTestPage(texts, { way: USB });
     first.slots.download([WAVE]);
     await first.draw(4000);
-    const later = await openDesk(texts, { way: USB });
+    const later = await openTestPage(texts, { way: USB });
     expect(later.stored()).toEqual(['5 Wave']);
     expect(recordOf(later.state().book, 5)?.frames).toEqual(WAVE.frames);
-    expect((await openDesk(texts, { way: { ...USB, label: 'USB 0001:0002' } })).stored()).toEqual([]);
+    expect((await openTestPage(texts, { way: { ...USB, label: 'USB 0001:0002' } })).stored()).toEqual([]);
 
-    const inPage = await openDesk(texts);
+    const inPage = await openTestPage(texts);
     inPage.slots.download([BOW]);
     await inPage.draw(4000);
     expect(inPage.stored()).toEqual(['9 Bow']);
-    expect((await openDesk(texts)).stored()).toEqual([]);
+    expect((await openTestPage(texts)).stored()).toEqual([]);
   });
 
   test('what was on its way when the page went is noted once it is there, or forgotten where it broke', async () => {
     for (const breaks of [false, true]) {
       const texts = new Map<string, string>();
-      const first = await openDesk(texts, { way: USB });
+      const first = await openTestPage(texts, { way: USB });
       first.slots.download([BOW]);
       await first.draw(40);
       expect(first.state().book.begun).toMatchObject([{ slot: 9, name: 'Bow' }]);
       const slotMemory = { read: () => (breaks ? [9] : []), write: () => undefined };
-      const later = await openDesk(texts, { way: USB, slotMemory });
+      const later = await openTestPage(texts, { way: USB, slotMemory });
       expect(later.stored()).toEqual(breaks ? [] : ['9 Bow']);
-      expect(later.told()).toEqual(breaks ? [] : [downloadedSentence([9])]);
+      expect(later.noticeTexts()).toEqual(breaks ? [] : [downloadedSentence([9])]);
       expect(later.state().book.begun).toEqual([]);
     }
   });
 
   test('of several that were on their way, each is noted that had arrived', async () => {
     const texts = new Map<string, string>();
-    const first = await openDesk(texts, { way: USB });
+    const first = await openTestPage(texts, { way: USB });
     first.slots.download([WAVE, BOW]);
     await first.draw(400);
     expect(first.state().book.begun).toMatchObject([{ slot: 9 }]);
-    const later = await openDesk(texts, {
+    const later = await openTestPage(texts, {
       way: USB,
       slotMemory: { read: () => [9], write: () => undefined },
     });
@@ -173,7 +173,7 @@ describe('the slots of a board', () => {
   });
 
   test('what somebody else stores in a slot makes it unknown', async () => {
-    const { slots, device, stored, draw } = await openDesk();
+    const { slots, device, stored, draw } = await openTestPage();
     slots.download([WAVE, BOW]);
     await draw(4000);
     device.download([{ slot: 5, frames: at(1700) }]);
@@ -186,17 +186,17 @@ describe('the slots of a board', () => {
     const gateway = createSharedSlots();
     const way: Way = { kind: 'gateway', label: '/dev/board', isSimulated: false };
     const { sharedSlots, othersStore } = gateway;
-    const first = await openDesk(texts, { way, sharedSlots });
+    const first = await openTestPage(texts, { way, sharedSlots });
     first.slots.download([WAVE, BOW]);
     await first.draw(100);
     expect(first.stored()).toEqual(['5 Wave', '9 Bow']);
     othersStore(5, { version: 'of Bert' }, false);
-    expect((await openDesk(texts, { way, sharedSlots })).stored()).toEqual(['9 Bow']);
+    expect((await openTestPage(texts, { way, sharedSlots })).stored()).toEqual(['9 Bow']);
   });
 
   test('what somebody else stores while it looks on does so at once, what one has seen is told with a download', async () => {
     const { sharedSlots, othersStore, asked } = createSharedSlots({ 5: storedGroup({ version: 'of Bert' }) });
-    const { slots, stored, draw, told } = await openDesk(new Map(), { way: USB, sharedSlots });
+    const { slots, stored, draw, noticeTexts } = await openTestPage(new Map(), { way: USB, sharedSlots });
     slots.download([WAVE, BOW]);
     await draw(100);
     expect(asked.map(({ slot, replaces }) => [slot, replaces])).toEqual([
@@ -207,12 +207,12 @@ describe('the slots of a board', () => {
     expect(stored()).toEqual(['5 Wave']);
     slots.download([{ ...BOW, replaces: 'seen before' }]);
     await draw(100);
-    expect(told()).toContain(errorSentence('slotChanged', ''));
+    expect(noticeTexts()).toContain(errorSentence('slotChanged', ''));
     expect(stored()).toEqual(['5 Wave']);
   });
 
   test('another trim makes the copy another motion', async () => {
-    const { slots, robots, compiled, document, state, draw } = await openDesk();
+    const { slots, robots, compiled, document, state, draw } = await openTestPage();
     document.edit(
       () => 'write',
       (group) => ({

@@ -24,7 +24,7 @@ const FilesContext = createContext<Files>({ counts: NO_COUNTS, show: nothing, op
 const dialog = later(async () => (await import('./FilesDialog.tsx')).FilesDialog);
 
 /** Around everything that shows files: keeps them, and the dialog, while panels come and go. */
-export function FilesDesk({ children }: { readonly children: ReactNode }) {
+export function FilesProvider({ children }: { readonly children: ReactNode }) {
   const [counts, setCounts] = useState(NO_COUNTS);
   const [dropped, setDropped] = useState(NO_FILES);
   const [isOpen, setOpen] = useState(false);

@@ -2,7 +2,7 @@ import { expect, test } from 'vitest';
 import { emptyGroup } from '#shared/group/group.ts';
 import { insertFrame } from '#shared/group/groupEdits.ts';
 import { createVirtualClock } from '#shared/testing/virtualClock.ts';
-import { createMemoryKeeper } from '../memoryKeeper.ts';
+import { createMemoryStore } from '../memoryStore.ts';
 import { createVisit } from '../libraryUnderTest.ts';
 import { takeGroup, takeGroups } from './openedFiles.ts';
 
@@ -16,9 +16,9 @@ function course() {
 }
 
 test('groups of files become documents; what was being written is still there', async () => {
-  const page = createVisit(createMemoryKeeper(), createVirtualClock());
+  const page = createVisit(createMemoryStore(), createVirtualClock());
   await takeGroups(page, [group('Wave'), group('Bow')], course());
-  expect(page.told()).toEqual(['One more group is in the library.']);
+  expect(page.noticeTexts()).toEqual(['One more group is in the library.']);
   await page.later();
   expect(page.group().name).toBe('Wave');
   takeGroup(page, group('Nod'));
@@ -29,7 +29,7 @@ test('groups of files become documents; what was being written is still there', 
 });
 
 test('what is taken is shown, whatever was worked on', () => {
-  const page = createVisit(createMemoryKeeper(), createVirtualClock());
+  const page = createVisit(createMemoryStore(), createVirtualClock());
   page.view.setState({ authoring: 'poses' });
   takeGroup(page, group('Wave'));
   expect(page.view.getState().authoring).toBe('group');
@@ -38,22 +38,22 @@ test('what is taken is shown, whatever was worked on', () => {
 const MANY = Array.from({ length: 103 }, (_, index) => group(`Wave ${index + 1}`));
 
 test('of many each is in the library before the next is begun', async () => {
-  const keeper = createMemoryKeeper();
-  const page = createVisit(keeper, createVirtualClock());
+  const documentStore = createMemoryStore();
+  const page = createVisit(documentStore, createVirtualClock());
   const inLibrary: number[] = [];
   const { signal } = new AbortController();
   const onTaken = (index: number) =>
-    void keeper.list().then(({ documents }) => inLibrary.push(documents.length - index));
+    void documentStore.list().then(({ documents }) => inLibrary.push(documents.length - index));
   await takeGroups(page, MANY, { signal, onTaken });
   expect(Math.max(...inLibrary.slice(1))).toBeLessThanOrEqual(2);
   await page.later();
-  expect(page.told()).toEqual(['102 more groups are in the library.']);
+  expect(page.noticeTexts()).toEqual(['102 more groups are in the library.']);
   await page.library.refresh();
   expect(page.names()).toHaveLength(103);
 });
 
 test('after a cancel those that were taken are in the library, and the others are not', async () => {
-  const page = createVisit(createMemoryKeeper(), createVirtualClock());
+  const page = createVisit(createMemoryStore(), createVirtualClock());
   const cancelled = course();
   await takeGroups(page, MANY, {
     signal: cancelled.signal,
@@ -76,7 +76,7 @@ test('where the library never answers all of them wait here, and are there in th
   await clock.advance(1000);
   await taking;
   page.leave();
-  const next = createVisit(createMemoryKeeper(), clock, texts);
+  const next = createVisit(createMemoryStore(), clock, texts);
   await next.later();
   await next.library.refresh();
   expect(next.names()).toHaveLength(103);

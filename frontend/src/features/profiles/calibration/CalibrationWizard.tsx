@@ -16,7 +16,7 @@ import type { CalibrationStep } from '#shared/profile/calibration.ts';
 import { servoLabel } from '../../../i18n/sentences.ts';
 import { words } from '../../../i18n/whole.ts';
 import { Answer, Ask } from './Answer.tsx';
-import { type CalibrationAtHand, useCalibration } from './useCalibration.ts';
+import { type CurrentCalibration, useCalibration } from './useCalibration.ts';
 import { RobotHead } from '../RobotPicture.tsx';
 import { useStores } from '../../stores.ts';
 import { Button } from '../../../ui/Button.tsx';
@@ -29,7 +29,7 @@ import styles from './CalibrationWizard.module.css';
 
 // Offers the servo on the other side the mirror image of what was set.
 
-function PartnerStep({ at: { robot, servo, accept, keep } }: { readonly at: CalibrationAtHand }) {
+function PartnerStep({ at: { robot, servo, accept, keep } }: { readonly at: CurrentCalibration }) {
   const partner = servo.mirror === null ? undefined : servoOf(robot, servo.mirror);
   if (partner === undefined) return null;
   const change = fromPartner(robot, servo);
@@ -59,7 +59,7 @@ function PartnerStep({ at: { robot, servo, accept, keep } }: { readonly at: Cali
 
 // Gives home the figure that it has on every robot of this build, and the trim what it is off by.
 
-function TrimStep({ at: { robot, servo, isFinished, accept, keep } }: { readonly at: CalibrationAtHand }) {
+function TrimStep({ at: { robot, servo, isFinished, accept, keep } }: { readonly at: CurrentCalibration }) {
   const { centre } = FAMILIES[robot.board];
   const change = servo.home === centre ? null : homeAtCentre(robot, servo);
   return (
@@ -76,7 +76,7 @@ function TrimStep({ at: { robot, servo, isFinished, accept, keep } }: { readonly
         )}
         {!isFinished && (
           <Answer tone={change === null ? 'primary' : 'quiet'} onPress={keep}>
-            {change === null ? words.calibration.goOn : words.calibration.leaveAsIs}
+            {change === null ? words.calibration.continue : words.calibration.leaveAsIs}
           </Answer>
         )}
       </div>
@@ -123,7 +123,7 @@ export function CalibrationWizard() {
   );
 }
 
-function contentOf(at: CalibrationAtHand) {
+function contentOf(at: CurrentCalibration) {
   const { step } = at.progress;
   switch (step) {
     case 'min':
@@ -148,7 +148,7 @@ function contentOf(at: CalibrationAtHand) {
 }
 
 interface At {
-  readonly at: CalibrationAtHand;
+  readonly at: CurrentCalibration;
 }
 
 function Servos({ at: { robot, servo, progress, go } }: At) {

@@ -11,12 +11,12 @@ import { motionHindrance } from '../../../robot/readiness.ts';
 import { useDevice, useStores } from '../../stores.ts';
 import { words } from '../../../i18n/whole.ts';
 import { Answer, Ask } from './Answer.tsx';
-import { sightOf, type CalibrationAtHand } from './useCalibration.ts';
+import { sightOf, type CurrentCalibration } from './useCalibration.ts';
 import { awayFrom, homeward, sideOf, startTurning, type TurnPhase } from './turning.ts';
 import styles from './CalibrationWizard.module.css';
 
 interface At {
-  readonly at: CalibrationAtHand;
+  readonly at: CurrentCalibration;
 }
 
 export function DirectionStep({ at }: At) {

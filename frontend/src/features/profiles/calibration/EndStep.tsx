@@ -18,7 +18,7 @@ import { ReachBar } from '../ReachBar.tsx';
 import { GENTLE_MOVE_MS } from '../../../robot/moveTime.ts';
 import { useTarget } from '../../drive/useTarget.ts';
 import { Answer, Ask } from './Answer.tsx';
-import { sightOf, type CalibrationAtHand } from './useCalibration.ts';
+import { sightOf, type CurrentCalibration } from './useCalibration.ts';
 import creepControlStyles from './CreepControl.module.css';
 import styles from './CalibrationWizard.module.css';
 
@@ -115,7 +115,7 @@ function useCreeping(servo: number, reach: Range): Creep {
 }
 
 interface EndStepProps {
-  readonly at: CalibrationAtHand;
+  readonly at: CurrentCalibration;
   readonly end: 'min' | 'max' | 'home';
 }
 
@@ -127,7 +127,7 @@ export function EndStep({ at, end }: EndStepProps) {
   const reach = reachOf(robot, servo);
   if (target === null) return null;
   // A servo that has just been crept to an end seldom rests there.
-  const isHomeKept = end === 'home' && (target <= servo.min || target >= servo.max);
+  const isHomeUnchanged = end === 'home' && (target <= servo.min || target >= servo.max);
   const isAwayFromHome = end === 'home' && target !== servo.home;
   const endsFor = sightOf(robot, servo) === 'gripper' ? 'gripperEnds' : 'ends';
   const keepAndGo = (): void => {
@@ -136,7 +136,7 @@ export function EndStep({ at, end }: EndStepProps) {
   };
   const [setTone, keepTone] = isFinished
     ? (['plain', 'quiet'] as const)
-    : isHomeKept
+    : isHomeUnchanged
       ? (['plain', 'primary'] as const)
       : (['primary', 'quiet'] as const);
   return (
@@ -163,7 +163,7 @@ export function EndStep({ at, end }: EndStepProps) {
   );
 }
 
-function take({ servo, progress, accept }: CalibrationAtHand, end: EndStepProps['end'], at: number): void {
+function take({ servo, progress, accept }: CurrentCalibration, end: EndStepProps['end'], at: number): void {
   if (end === 'home') accept((all) => changeServo(all, servo.servo, { home: at }));
   else
     accept((all) => endFound(all, progress, servo, end, at), {

@@ -9,7 +9,7 @@ import { FAMILIES } from '#shared/codec/families.ts';
 import { GENTLE_MOVE_MS } from '../../../robot/moveTime.ts';
 import { motionHindrance } from '../../../robot/readiness.ts';
 import { useDevice, useSnapshot, useStores } from '../../stores.ts';
-import { turnOf } from '../../people/turn.ts';
+import { turnOf } from '../../people/leaseText.ts';
 import { mayResumeText } from '../../../i18n/sentences.ts';
 import { words } from '../../../i18n/whole.ts';
 import { Answer, Ask } from './Answer.tsx';

@@ -34,7 +34,7 @@ const ARM_SIGHTS: Readonly<Record<number, Sight>> = {
 export const sightOf = ({ body }: Robot, { servo }: RobotServo): Sight =>
   (body === 'arm' ? ARM_SIGHTS[servo] : undefined) ?? 'horn';
 
-export interface CalibrationAtHand {
+export interface CurrentCalibration {
   readonly robot: Robot;
   readonly servo: RobotServo;
   readonly progress: Calibration;
@@ -61,14 +61,14 @@ export interface More {
 /** How far it had come with each state of a robot: what is undone is not done any longer. */
 const reached = new WeakMap<Robot, Calibration>();
 
-export function useCalibration(): CalibrationAtHand {
+export function useCalibration(): CurrentCalibration {
   const { view, robots } = useStores();
   const robot = useRobot();
   const robotId = robots.current().id;
-  const kept = useView(({ calibration }) => calibration);
+  const saved = useView(({ calibration }) => calibration);
   const selected = useServoView(({ selected }) => selected.at(-1) ?? null);
   const [problem, setProblem] = useState<Problem | null>(null);
-  const latest = reached.get(robot) ?? (kept?.robotId === robotId ? kept.progress : null);
+  const latest = reached.get(robot) ?? (saved?.robotId === robotId ? saved.progress : null);
   const begun = latest === null ? beginCalibration(robot, selected) : settled(robot, latest);
   const servo = servoOf(robot, begun.servo);
   if (servo === undefined) throw new Error('a settled calibration has its servo');

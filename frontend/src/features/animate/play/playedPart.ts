@@ -1,0 +1,98 @@
+// What playing means now: which part of the group, from where, how often, and which servos hear of it. Plays nothing.
+
+import { totalDurationMs } from '#shared/group/group.ts';
+import { passageOf, type Passage, type PassageOptions } from '#shared/group/passage.ts';
+import { poseAtMs, tracksOf } from '#shared/group/tracks.ts';
+import type { Frame, ServoTarget } from '#shared/codec/commands.ts';
+import type { Family } from '#shared/codec/families.ts';
+import { startsKnown } from '#shared/robot/state.ts';
+import { RANGE_MS } from '#shared/robot/timings.ts';
+import type { CompiledGroup } from '../group/compiled.ts';
+import type { Device } from '../../../robot/device.ts';
+import type { Document } from '../group/document.ts';
+import type { FollowedPose } from '../../../robot/follower.ts';
+import { chosenTimes } from '../../board/slots/groupPlace.ts';
+import type { Playhead } from './playback.ts';
+import type { RobotStore } from '../../profiles/robots.ts';
+import { isSilent, servoViewFor } from '../../drive/servoView.ts';
+import type { View } from '../../view.ts';
+
+export interface PlayedPart {
+  /** Where the playhead is within what is meant; null: it begins at the beginning, as a loop always does. */
+  within(): number | null;
+  /** What was marked, or all of it. */
+  part(): { readonly fromMs: number; readonly toMs: number };
+  /** As often as the group is run on its board; from within it, the rest once. 0: until stopped. */
+  passes(): number;
+  /** What goes to the robot of it. */
+  passage(group: CompiledGroup): Passage;
+  /** Of the servos that hear of it. */
+  poseAt(atMs: number): FollowedPose;
+}
+
+export interface PlayedPartOptions {
+  readonly device: Device;
+  readonly document: Document;
+  readonly view: View;
+  readonly playhead: Playhead;
+  readonly robots: RobotStore;
+  chosen(): { readonly loops: boolean; readonly speedPercent: number };
+}
+
+/** Of a servo's range: so much further on nobody sees a jerk. */
+const LARGEST_SEAM = 0.05;
+
+const seamOf = ({ position: { min, max } }: Family): PassageOptions['seam'] => ({
+  largestStep: (max - min) * LARGEST_SEAM,
+  unitsPerMs: (max - min) / RANGE_MS,
+});
+
+export function createPlayedPart(options: PlayedPartOptions): PlayedPart {
+  const { device, document, view, playhead, robots, chosen } = options;
+
+  function within(): number | null {
+    const { fromMs, toMs } = part();
+    const at = playhead.at();
+    return at > fromMs && at < toMs && !chosen().loops ? at : null;
+  }
+
+  function part(): { readonly fromMs: number; readonly toMs: number } {
+    const { frames } = document.store.getState().present;
+    return playhead.range() ?? { fromMs: 0, toMs: totalDurationMs(frames) };
+  }
+
+  function passes(): number {
+    if (chosen().loops) return 0;
+    return within() === null ? chosenTimes(view.getState()) : 1;
+  }
+
+  /** Rows that are muted, or beside those that play alone, are not sent. */
+  function isSent({ servo }: Pick<ServoTarget, 'servo'>): boolean {
+    return !isSilent(servoViewFor(view.getState().servos, robots.current().id), servo);
+  }
+
+  const heard = (frame: Frame): Frame => ({ ...frame, targets: frame.targets.filter(isSent) });
+
+  function passage({ frames, source }: CompiledGroup): Passage {
+    const range = playhead.range();
+    return passageOf(frames.map(heard), {
+      fromMs: within() ?? range?.fromMs ?? 0,
+      toMs: range?.toMs ?? null,
+      seam: seamOf(source.family),
+      longestMs: source.family.durationMs.max,
+      speedPercent: chosen().speedPercent,
+      unknownServos: source.robot.servos
+        .map(({ servo }) => servo)
+        .filter((servo) => !startsKnown(device.motion(servo))),
+    });
+  }
+
+  function poseAt(atMs: number): FollowedPose {
+    const pose = poseAtMs(tracksOf(document.store.getState().present), atMs);
+    return new Map(
+      [...pose].flatMap(([servo, position]) => (isSent({ servo }) ? [[servo, Math.round(position)]] : [])),
+    );
+  }
+
+  return { within, part, passes, passage, poseAt };
+}

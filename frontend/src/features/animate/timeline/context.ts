@@ -1,0 +1,143 @@
+// What a verb of the timeline works with, gathered anew each time, and how it leaves the selection. Edits go to the document
+// alone, as one step each.
+
+import type { ActionGroup } from '#shared/group/group.ts';
+import type { Label } from '#shared/document/history.ts';
+import type { Key, KeyRef } from '#shared/group/tracks.ts';
+import type { Robot } from '#shared/profile/robot.ts';
+import { servoOf } from '#shared/profile/robot.ts';
+import { positionRange, type Family, type Range } from '#shared/codec/families.ts';
+import { framesByServo, keySet, type KeySet, ALL_ROW, type Cursor, type TimelineState } from './timeline.ts';
+import { isHeld, type ServoView } from '../../drive/servoView.ts';
+import { setChanged } from '../../../state/setChanged.ts';
+import { groupBoardOf, servoViewOf, type Stores } from '../../stores.ts';
+import type { PositionsIn } from '../../view.ts';
+import { words } from '../../../i18n/whole.ts';
+import { selectedKeys, timesOf, type GroupTimes } from './groupTimes.ts';
+import { rowsNow, type Row } from './rows.ts';
+
+export type TimelineStores = Pick<Stores, 'device' | 'document' | 'view' | 'notices' | 'robots' | 'timeline'>;
+
+export interface TimelineContext {
+  readonly stores: TimelineStores;
+  readonly group: ActionGroup;
+  readonly times: GroupTimes;
+  readonly state: TimelineState;
+  readonly rows: readonly Row[];
+  /** They count as the group does; `isOther`: not as the board at hand does. */
+  readonly robot: Robot;
+  readonly family: Family;
+  readonly isOther: boolean;
+  readonly servoView: ServoView;
+  readonly positionsIn: PositionsIn;
+}
+
+export function contextOf(stores: TimelineStores): TimelineContext {
+  const group = stores.document.store.getState().present;
+  const { family, robot, isOther } = groupBoardOf(stores);
+  const times = timesOf(group);
+  const servoView = servoViewOf(stores);
+  return {
+    ...{ stores, group, times, robot, family, isOther, servoView },
+    state: stores.timeline.getState(),
+    rows: rowsNow(robot, times.servos, servoView),
+    positionsIn: stores.view.getState().positionsIn,
+  };
+}
+
+export const rowOf = ({ rows }: Pick<TimelineContext, 'rows'>, id: string): Row | undefined =>
+  rows.find((row) => row.id === id);
+
+type Chosen = Pick<TimelineContext, 'times' | 'servoView'> & {
+  readonly state: Pick<TimelineState, 'selected'>;
+};
+
+/** Selected, and not locked. */
+export function changeable({ times, state, servoView }: Chosen): readonly Key[] {
+  const keys = selectedKeys(times, state.selected);
+  const held = new Set([...framesByServo(state.selected).keys()].filter((servo) => isHeld(servoView, servo)));
+  return held.size === 0 ? keys : keys.filter(({ servo }) => !held.has(servo));
+}
+
+/** Of servos that nothing changes, those of the selected keys if not others: a row that alone plays and changes holds the rest. */
+export function whyHeld(context: Chosen, servos = selectedServos(context)): 'locked' | 'beside' {
+  return servos.every((servo) => context.servoView.locked.includes(servo)) ? 'locked' : 'beside';
+}
+
+const selectedServos = ({ times, state }: Chosen): readonly number[] =>
+  selectedKeys(times, state.selected).map(({ servo }) => servo);
+
+/** The frames of the selected keys, in the order of time. */
+export function selectedFrames({ times, state }: TimelineContext): readonly number[] {
+  const wanted = new Set(selectedKeys(times, state.selected).map(({ frameId }) => frameId));
+  return times.frames.map(({ id }) => id).filter((id) => wanted.has(id));
+}
+
+/** How far a servo may go in this group. */
+export function rangeOf({ robot, family }: Pick<TimelineContext, 'robot' | 'family'>, servo: number): Range {
+  return servoOf(robot, servo) ?? positionRange(family, servo);
+}
+
+export interface Change {
+  readonly label: Label;
+  edit(group: ActionGroup): ActionGroup;
+  /** What is selected afterwards; left out: what is still there of the selection. */
+  selects?(times: GroupTimes): readonly KeyRef[];
+  /** Where the cursor is then; left out: on what is selected, or where it was. `selected`: as `selects` says. */
+  cursor?(times: GroupTimes, selected: readonly KeyRef[]): Cursor;
+}
+
+export function apply(
+  { stores }: Pick<TimelineContext, 'stores'>,
+  { label, edit, selects, cursor }: Change,
+): void {
+  stores.document.edit(label, edit);
+  const times = timesOf(stores.document.store.getState().present);
+  const wanted = selects?.(times) ?? null;
+  const next =
+    cursor?.(times, wanted ?? []) ?? (wanted === null ? undefined : cursorAmong(contextOf(stores), wanted));
+  select(stores, wanted === null ? null : keySet(wanted), next);
+}
+
+/** In its own row where one of the keys is. */
+function cursorAmong({ rows, state: { cursor } }: TimelineContext, refs: readonly KeyRef[]): Cursor {
+  const own = rowOf({ rows }, cursor.row)?.servos ?? [];
+  const among = refs.filter(({ servo }) => own.includes(servo));
+  if (among.some(({ frameId }) => frameId === cursor.frameId)) return cursor;
+  const [ref] = among.length > 0 ? among : refs;
+  if (ref === undefined) return cursor;
+  const row = rows.find(({ kind, servos }) => kind === 'servo' && servos.includes(ref.servo));
+  return { row: among.length > 0 ? cursor.row : (row?.id ?? ALL_ROW), frameId: ref.frameId };
+}
+
+/** The very set that was there, where it says the same: whoever shows it has nothing to do. */
+const sameOr = (before: KeySet, after: KeySet): KeySet =>
+  before === after || (before.size === after.size && [...after].every((name) => before.has(name)))
+    ? before
+    : after;
+
+/** Null: what is still there. The frame strip goes along. */
+export function select(stores: TimelineStores, wanted: KeySet | null, cursor?: Cursor): void {
+  const times = timesOf(stores.document.store.getState().present);
+  const before = stores.timeline.getState();
+  const selection = wanted ?? before.selected;
+  const keys = selectedKeys(times, selection);
+  const selected = sameOr(before.selected, keys.length === selection.size ? selection : keySet(keys));
+  setChanged(stores.timeline, { selected, marker: null, cursor: sameCursor(before.cursor, cursor) });
+  const frames = new Set(keys.map(({ frameId }) => frameId));
+  const at = (cursor ?? before.cursor).frameId;
+  const [first = null] = frames;
+  setChanged(stores.view, { selectedFrame: at !== null && frames.has(at) ? at : first });
+}
+
+/** Left out: where it was. */
+const sameCursor = (before: Cursor, after: Cursor = before): Cursor =>
+  before.row === after.row && before.frameId === after.frameId ? before : after;
+
+/** False where nothing may be changed; then the person is told why. */
+export function hasChangeable(context: TimelineContext): boolean {
+  if (changeable(context).length > 0) return true;
+  if (context.state.selected.size > 0)
+    context.stores.notices.tell('warning', words.timeline.held[whyHeld(context)]);
+  return false;
+}

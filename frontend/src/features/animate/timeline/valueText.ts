@@ -1,0 +1,125 @@
+// What is dragged, in words: where it is by now. Read while the hand is still on it; changes nothing.
+
+import { servoOf } from '#shared/profile/robot.ts';
+import { secondsText } from '../../../i18n/instants.ts';
+import { words } from '../../../i18n/whole.ts';
+import { inUnits, scaleOf, type Scale } from '../../drive/scale.ts';
+import { rangeOf, type TimelineContext, contextOf, type TimelineStores } from './context.ts';
+import type { Cursor } from './timeline.ts';
+import { keysOfFrame, endOfFrame } from './groupTimes.ts';
+import type { Row } from './rows.ts';
+
+// An instant of a group with its unit, as it stands in sentences.
+
+export const instantText = (atMs: number): string => words.timeline.instant({ seconds: secondsText(atMs) });
+
+// Positions as the person reads them: in the units of the group, or in degrees where the robot at hand counts in the
+// same.
+
+type Reader = Pick<TimelineContext, 'robot' | 'family' | 'positionsIn'> & {
+  readonly group: Pick<TimelineContext['group'], 'unit'>;
+};
+
+export function scaleAt({ robot, family, group, positionsIn }: Reader, servo: number): Scale {
+  const own = servoOf(robot, servo);
+  return own !== undefined && group.unit === family.unit
+    ? scaleOf(own, family, positionsIn)
+    : inUnits(rangeOf({ robot, family }, servo), group.unit);
+}
+
+/** How far an arrow key turns the servo, in the group's units: by one of what is shown, as near as can be. */
+export function nudgeUnits(reader: Reader, servo: number): number {
+  return Math.max(1, Math.round(1 / unitsShown(reader, servo)));
+}
+
+export function turnText(reader: Reader, servo: number): string {
+  const scale = scaleAt(reader, servo);
+  const shown = nudgeUnits(reader, servo) * unitsShown(reader, servo);
+  return scale.isDegrees
+    ? words.numbers.formatDegrees(shown, scale.decimals)
+    : words.position[reader.group.unit]({ position: shown });
+}
+
+/** What one unit of the group comes to where it is shown. */
+function unitsShown(reader: Reader, servo: number): number {
+  return scaleAt(reader, servo).isDegrees ? (servoOf(reader.robot, servo)?.degreesPerUnit ?? 1) : 1;
+}
+
+// What a row and a cell of the grid are called, for ears.
+
+export function rowName({ kind, name, servos }: Row): string {
+  if (kind === 'all') return words.timeline.rowAll;
+  if (kind === 'limb') return name === '' ? words.servoPanel.noGroup : name;
+  return name === '' ? words.servos.name({ servo: servos[0] ?? 0 }) : name;
+}
+
+export function cellName(
+  context: Reader & Pick<TimelineContext, 'rows' | 'times'>,
+  { row: id, frameId }: Cursor,
+): string {
+  const row = context.rows.find((one) => one.id === id);
+  return row === undefined ? '' : nameOfKey(context, row, frameId);
+}
+
+export function nameOfKey(
+  context: Reader & Pick<TimelineContext, 'times'>,
+  row: Row,
+  frameId: number | null,
+): string {
+  const { times } = context;
+  const name = rowName(row);
+  const place = frameId === null ? undefined : times.places.get(frameId);
+  if (frameId === null || place === undefined) return words.timeline.noKey({ row: name });
+  const keys = keysOfFrame(times, row.servos, frameId);
+  const [key] = keys;
+  if (row.kind === 'servo' && key !== undefined)
+    return words.timeline.key({
+      ...{ row: name, at: instantText(key.atMs), position: scaleAt(context, key.servo).text(key.position) },
+      easing: words.timeline.easings[key.easing],
+    });
+  const at = instantText(times.ends[place] ?? 0);
+  return words.timeline.summary({ row: name, frame: place + 1, at, count: keys.length });
+}
+
+/** The key under the hand, how far it has come in time, and how many come along. */
+export function keyText(stores: TimelineStores, cursor: Cursor, fromMs: number): string {
+  const context = contextOf(stores);
+  const byMs = (endOfFrame(context.times, cursor.frameId) ?? fromMs) - fromMs;
+  return draggedKey(cellName(context, cursor), byMs, context.state.selected.size);
+}
+
+export function frameText(stores: TimelineStores, frameId: number): string {
+  const { times } = contextOf(stores);
+  const place = times.places.get(frameId) ?? -1;
+  const durationMs = times.frames[place]?.durationMs ?? 0;
+  return words.timeline.draggedEnd({ frame: place + 1, durationMs, at: instantText(times.ends[place] ?? 0) });
+}
+
+export function markerText({ document }: TimelineStores, id: number): string {
+  const marker = document.store.getState().present.markers.find((one) => one.id === id);
+  return marker === undefined
+    ? ''
+    : words.timeline.draggedMarker({ text: marker.text, at: instantText(marker.atMs) });
+}
+
+export function rangeText({ timeline }: TimelineStores): string {
+  const { range } = timeline.getState();
+  if (range === null) return '';
+  const { fromMs, toMs } = range;
+  return words.timeline.draggedRange({
+    ...{ from: instantText(fromMs), to: instantText(toMs), length: instantText(toMs - fromMs) },
+  });
+}
+
+export const boxText = ({ timeline }: TimelineStores): string =>
+  words.timeline.keys({ count: timeline.getState().selected.size });
+
+/** `count`: with those that come along. */
+function draggedKey(key: string, byMs: number, count: number): string {
+  const facts = [
+    key,
+    ...(byMs === 0 ? [] : [`${byMs < 0 ? '−' : '+'}${instantText(Math.abs(byMs))}`]),
+    ...(count < 2 ? [] : [words.timeline.keys({ count })]),
+  ];
+  return facts.reduce((one, other) => words.timeline.draggedParts({ one, other }));
+}

@@ -1,0 +1,33 @@
+import { expect, test } from 'vitest';
+import { createStore } from 'zustand/vanilla';
+import type { Lease } from '#shared/robot/lease.ts';
+import { INITIAL_STATE } from '#shared/robot/store.ts';
+import { FAMILIES } from '#shared/codec/families.ts';
+import type { DeviceState } from '../../robot/device.ts';
+import { tellHandedOver } from './leaseText.ts';
+
+const OURS: Lease = {
+  ...{ driver: 'Bert', drives: true, asker: null, asks: false, answerInMs: null, mayDrive: true },
+  ...{ you: 'Bert', mayTake: false, givenBy: null, candidates: [], others: 2, unattended: null },
+};
+
+test('whoever is handed the robot is told from whom, once', () => {
+  const texts: string[] = [];
+  const store = createStore<DeviceState>(() => ({
+    ...{
+      family: FAMILIES.doc,
+      way: null,
+      known: [],
+      readServos: [],
+      isMoving: false,
+      snapshot: INITIAL_STATE,
+    },
+  }));
+  tellHandedOver(store, { tell: (_tone, text) => void texts.push(text) });
+  const given = { ...OURS, givenBy: 'Anna' };
+  const theirs = { ...OURS, driver: 'Anna', drives: false };
+  for (const lease of [OURS, given, { ...given, others: 3 }, theirs, OURS, null, given]) {
+    store.setState({ snapshot: { ...INITIAL_STATE, lease } });
+  }
+  expect(texts).toEqual(['Anna handed the robot to you', 'Anna handed the robot to you']);
+});

@@ -1,0 +1,39 @@
+import { expect, test } from 'vitest';
+import type { Lease } from '#shared/robot/lease.ts';
+import { turnOf } from './leaseText.ts';
+
+const LOOKS_ON: Lease = {
+  ...{ driver: 'Anna', drives: false, asker: null, asks: false, answerInMs: null },
+  ...{
+    you: 'Ben',
+    mayDrive: false,
+    mayTake: false,
+    givenBy: null,
+    candidates: [],
+    others: 1,
+    unattended: null,
+  },
+};
+const PUPIL = { ...LOOKS_ON, mayDrive: true };
+const OWNER = { ...PUPIL, mayTake: true };
+const DRIVER = { ...PUPIL, drives: true };
+
+test.each<[string, Lease, readonly unknown[]]>([
+  ['who drives may let go', DRIVER, ['release']],
+  ['who is asked agrees or refuses', { ...DRIVER, asker: 'Bert' }, ['release', 'refuse']],
+  ['who may drive asks', PUPIL, ['request']],
+  ['who has asked takes it back', { ...PUPIL, asks: true }, ['release']],
+  ['an owner need not ask', OWNER, ['request', 'take']],
+  ['an owner need not wait', { ...OWNER, asks: true }, ['release', 'take']],
+  ['a viewer does nothing', LOOKS_ON, []],
+  ['what nobody has is not asked for', { ...PUPIL, driver: null }, []],
+])('%s', (_, lease, wishes) => {
+  expect(turnOf(lease).acts.map(({ wish }) => wish)).toEqual(wishes);
+});
+
+test.each([
+  ['Anna', 'Anna drives'],
+  ['Ben', 'Another window drives'],
+])('%s is said to Ben as: %s', (driver, said) => {
+  expect(turnOf({ ...PUPIL, driver }).text).toBe(said);
+});
