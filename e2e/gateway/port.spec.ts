@@ -64,7 +64,7 @@ test.describe('when the gateway is killed', () => {
     const dashboard = dashboardOf(page);
     await expect(dashboard.link).toHaveText(READY);
     // What works the group out beside the page comes from the gateway, too.
-    const beside = page.waitForResponse(/asideWorker/);
+    const beside = page.waitForResponse(/compileWorker/);
     await captureGroup(dashboard, [1000, 1200]);
     await (await beside).finished();
 

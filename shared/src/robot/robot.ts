@@ -5,7 +5,7 @@ import type { Clock } from '../clock.ts';
 import type { MotionBefore } from '../motion/before.ts';
 import type { Command, Frame, ServoTarget } from '../codec/commands.ts';
 import { encodeCommand } from '../codec/encode.ts';
-import { UNKNOWN_BOARD, type Family } from '../codec/families.ts';
+import { FAMILIES, UNKNOWN_BOARD, type Family } from '../codec/families.ts';
 import { commandIn } from '../codec/parse.ts';
 import type { Report } from '../codec/reports.ts';
 import type { ByteChannel } from './byteChannel.ts';
@@ -260,7 +260,8 @@ export function createSession(options: SessionOptions): Session {
 
   /** A link that stores groups says so itself: told late, its frame would pass for one that is being stored now. */
   function sentElsewhere(command: Command): void {
-    note(bytesForLog(command, driver.core.family), command);
+    const bytes = bytesForLog(command, driver.core.family);
+    if (bytes !== null) note(bytes, command);
     if (command.kind !== 'download') take(command);
   }
 
@@ -376,11 +377,14 @@ export function createSession(options: SessionOptions): Session {
   };
 }
 
-/** Empty where this end knows of no such packet for that board. */
-function bytesForLog(command: Command, family: Family): Uint8Array {
-  try {
-    return encodeCommand(command, family);
-  } catch {
-    return new Uint8Array();
+/** A board that is asked who it is gets questions that only others know. */
+function bytesForLog(command: Command, family: Family): Uint8Array | null {
+  for (const one of [family, ...Object.values(FAMILIES)]) {
+    try {
+      return encodeCommand(command, one);
+    } catch {
+      continue;
+    }
   }
+  return null;
 }

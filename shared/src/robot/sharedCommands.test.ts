@@ -4,6 +4,7 @@ import { expect, test } from 'vitest';
 import type { Command } from '../codec/commands.ts';
 import { encodeCommand } from '../codec/encode.ts';
 import { family as familyOf } from '../codec/families.ts';
+import { fromHex } from '../codec/packet.ts';
 import { createSimulatedTransport } from '../testing/simulatedTransport.ts';
 import { createVirtualClock } from '../testing/virtualClock.ts';
 import { LinkError } from './linkError.ts';
@@ -104,4 +105,13 @@ test('what leaves there stands in the log once, by its word', async () => {
   left(RUN);
   await session.sendRaw(encodeCommand({ kind: 'stop' }, familyOf('doc')));
   expect(kinds).toEqual(['run']);
+});
+
+test('a question that only other boards know is told with its bytes: a board is asked who it is', async () => {
+  const { session, left } = await shared(() => Promise.resolve('sent'));
+  const packets: Uint8Array[] = [];
+  session.subscribe({ traffic: (entry) => entry.direction === 'out' && packets.push(entry.bytes) });
+  left({ kind: 'readVersion' });
+  left({ kind: 'readPositions', servos: [1] });
+  expect(packets).toEqual([fromHex('55550201'), fromHex('555504150101')]);
 });
