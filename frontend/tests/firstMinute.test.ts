@@ -59,6 +59,7 @@ test('who has a hexapod says so, and has one described', async ({ page, url }) =
   await expect(connectDialog.getByRole('radio', { name: 'Arm' })).toBeChecked();
   await connectDialog.getByRole('radio', { name: 'Hexapod' }).check();
   await expect(dashboard.slider(18)).toBeAttached();
+  await expect(connectDialog.getByRole('heading', { level: 4 }).first()).toHaveText('USB cable of the board');
   await connectDialog.getByRole('combobox').selectOption('lsc-24');
   await connectDialog.getByRole('button', { name: 'Use the simulated robot' }).click();
   await expect(dashboard.bar).toContainText('Hexapod');

@@ -53,11 +53,16 @@ interface WayOffer {
   readonly guide?: ReactNode;
 }
 
+/** The cable in the box of most such robots; it stands first. */
+const LIKELIEST: Partial<Record<BodyKind, Way['kind']>> = { humanoid: 'webHid', hexapod: 'webHid' };
+
 export function ConnectWays(props: ConnectWaysProps) {
   const { state, current, body } = props;
   const headingId = useId();
   const offers = offersOf(props);
-  const usable = offers.filter(({ obstacle }) => obstacle === null);
+  const usable = offers
+    .filter(({ obstacle }) => obstacle === null)
+    .sort((one, other) => Number(other.kind === LIKELIEST[body]) - Number(one.kind === LIKELIEST[body]));
   const others = offers.filter(({ obstacle }) => obstacle !== null);
   return (
     <div className={styles.ways}>
