@@ -115,7 +115,7 @@ async function askInPage({
   let nonce: unknown = null;
 
   /** Resolves with the time of the message whose `field` says `value`, of the link `status` where one is given. */
-  const heard = (field: 'type' | 'packet', value: string, status?: string): Promise<number> =>
+  const heard = (field: 'type' | 'bytes', value: string, status?: string): Promise<number> =>
     new Promise((resolve, reject) => {
       const late = setTimeout(() => reject(new Error(`no message with ${field} ${value}`)), 5_000);
       socket.onmessage = ({ data }) => {
@@ -140,7 +140,7 @@ async function askInPage({
   const microseconds: number[] = [];
   for (let id = 1; id <= trips; id += 1) {
     await new Promise((resolve) => setTimeout(resolve, pauseMs));
-    const answered = heard('packet', answer);
+    const answered = heard('bytes', answer);
     const askedMs = performance.now();
     say({ type: 'packet', id, bytes: question, nonce });
     microseconds.push(((await answered) - askedMs) * 1_000);

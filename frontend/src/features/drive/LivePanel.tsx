@@ -11,6 +11,10 @@ const WhichBoard = laterComponent(
 );
 
 export function LivePanel() {
-  const isUnknown = useDevice(({ family, way }) => family.id === 'unknown' && way !== null);
-  return isUnknown ? <WhichBoard /> : <ServosPanel />;
+  const isAsked = useDevice(
+    // Before the link is open there is nothing to ask about: a gateway may know the board.
+    ({ family, way, snapshot: { link } }) =>
+      family.id === 'unknown' && way !== null && link.status !== 'closed' && link.status !== 'opening',
+  );
+  return isAsked ? <WhichBoard /> : <ServosPanel />;
 }
