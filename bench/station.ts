@@ -161,7 +161,8 @@ async function eventually<Found>(
 
 /** The log's first line says when its clock began. */
 function parseBusLog(text: string): readonly BusLogEntry[] {
-  const [head = '{}', ...lines] = text.trimEnd().split('\n');
+  // Behind the last newline stands what the board is writing now.
+  const [head = '{}', ...lines] = text.split('\n').slice(0, -1);
   const { startedAtEpochMs } = JSON.parse(head) as { startedAtEpochMs: number };
   return lines.map((line) => {
     const entry = JSON.parse(line) as BusLogEntry;

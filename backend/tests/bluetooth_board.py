@@ -64,5 +64,6 @@ class BluetoothBoard:
 
     def taken(self) -> bytes:
         """The bytes that reached the board since it was switched on."""
-        entries = [json.loads(line) for line in self._log.read_text().splitlines()[1:]]
+        *lines, _half_written = self._log.read_text().split("\n")
+        entries = [json.loads(line) for line in lines[1:]]
         return bytes(entry["byte"] for entry in entries if entry["direction"] == "in")

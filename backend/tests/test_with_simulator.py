@@ -63,7 +63,8 @@ class Board:
 
     def taken(self) -> list[tuple[float, int]]:
         """Each byte that reached the board, with its time in ms."""
-        entries = [json.loads(line) for line in self.log.read_text().splitlines()[1:]]
+        *lines, _half_written = self.log.read_text().split("\n")
+        entries = [json.loads(line) for line in lines[1:]]
         return [(entry["atMs"], entry["byte"]) for entry in entries if entry["direction"] == "in"]
 
     async def packets_taken(self) -> list[tuple[float, bytes]]:

@@ -1,5 +1,5 @@
-import { spawn, type ChildProcessWithoutNullStreams } from 'node:child_process';
-import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { execFileSync, spawn, type ChildProcessWithoutNullStreams } from 'node:child_process';
+import { closeSync, mkdtempSync, openSync, readFileSync, rmSync } from 'node:fs';
 import { connect, type Socket } from 'node:net';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
@@ -84,6 +84,17 @@ test('on stdio it answers the battery query, writes the bus log and ends with it
   expect(lines[0]).toMatch(/^\{"startedAtEpochMs":\d+(\.\d+)?\}$/);
   expect(lines[1]).toMatch(/^\{"atMs":\d+(\.\d{1,3})?,"direction":"in","byte":85\}$/);
   expect(lines).toHaveLength(11);
+});
+
+test.skipIf(process.platform === 'win32')('a bus log that takes nothing holds up no answer', async () => {
+  const log = join(folder, 'full.fifo');
+  execFileSync('mkfifo', [log]);
+  const reader = openSync(log, 'r+');
+  const child = start('--stdio', '--baud', '0', '--bus-log', log);
+  for (let asked = 0; asked < 400; asked += 1) child.stdin.write(bytesOf(READ_BATTERY));
+  const answers = await firstBytes(child.stdout, 400 * 6);
+  expect(answers.slice(-ANSWER.length)).toBe(ANSWER);
+  closeSync(reader);
 });
 
 test('on TCP it answers one host after the other, one at a time', async () => {

@@ -1,7 +1,7 @@
 // The simulated board as a program: raw bytes on stdio or TCP, real time, a bus log in a file. The only file of shared/
 // that knows Node; what the board does is board.ts.
 
-import { closeSync, openSync, writeSync } from 'node:fs';
+import { createWriteStream, openSync } from 'node:fs';
 import { createServer, type Socket } from 'node:net';
 import { performance } from 'node:perf_hooks';
 import type { Readable } from 'node:stream';
@@ -78,35 +78,29 @@ function address(text: string): { host: string; port: number } {
   return { host: match[1] ?? match[2] ?? '', port: wholeNumber('tcp port', match[3] ?? '', 0, 65_535) };
 }
 
-/** JSON lines; written in the turn in which the bytes passed, so that a reader beside us sees them at once. */
-function openBusLog(path: string): (entry: BusLogEntry) => void {
-  const file = openSync(path, 'w');
+interface BusLog {
+  readonly add: (entry: BusLogEntry) => void;
+  /** Ends the program when all is written. */
+  readonly end: () => void;
+}
+
+/** JSON lines, written beside the board: a disk that stands still holds up the log, never a byte on the line. */
+function openBusLog(path: string): BusLog {
+  const file = createWriteStream(path, { fd: openSync(path, 'w') });
   // Not `Date.now()`: that one is cut to whole milliseconds.
-  writeSync(file, `${JSON.stringify({ startedAtEpochMs: performance.timeOrigin + startedAtMs })}\n`);
-  let waiting = '';
-
-  function flush(): void {
-    writeSync(file, waiting);
-    waiting = '';
-  }
-
-  process.on('exit', () => {
-    flush();
-    closeSync(file);
-  });
-  return (entry) => {
-    if (waiting === '') queueMicrotask(flush);
-    const atMs = Math.round(entry.atMs * 1000) / 1000;
-    waiting += `${JSON.stringify({ ...entry, atMs })}\n`;
+  file.write(`${JSON.stringify({ startedAtEpochMs: performance.timeOrigin + startedAtMs })}\n`);
+  file.on('finish', () => process.exit(0));
+  return {
+    add(entry) {
+      if (!file.writableEnded)
+        file.write(`${JSON.stringify({ ...entry, atMs: Math.round(entry.atMs * 1000) / 1000 })}\n`);
+    },
+    end: () => file.end(),
   };
 }
 
 type Wire = Pick<BoardOptions, 'send' | 'onUnplug'>;
 type Build = (wire: Wire) => Board;
-
-function end(): void {
-  process.exit(0);
-}
 
 /** Reads no faster than the line takes it, as a driver does: a flooding host waits, not this program's memory. */
 function feed(board: Board, source: Readable): void {
@@ -123,7 +117,7 @@ function feed(board: Board, source: Readable): void {
   });
 }
 
-function serveStdio(build: Build): void {
+function serveStdio(build: Build, end: () => void): void {
   const board = build({
     send: (bytes) => process.stdout.write(bytes),
     onUnplug: end,
@@ -135,7 +129,7 @@ function serveStdio(build: Build): void {
 }
 
 /** One host at a time, as on a cable; the board stays on between two of them. */
-function serveTcp(build: Build, { host, port }: { host: string; port: number }): void {
+function serveTcp(build: Build, { host, port }: { host: string; port: number }, end: () => void): void {
   let client: Socket | null = null;
   const board = build({ send: (bytes) => client?.write(bytes), onUnplug: end });
   const server = createServer({ noDelay: true }, (socket) => {
@@ -168,6 +162,8 @@ function main(): void {
   }
   const profile = profileName(values.board);
   const { usualServoCount, maxServoCount } = PROFILES[profile];
+  const log = values['bus-log'] === undefined ? null : openBusLog(values['bus-log']);
+  const end = log ? log.end : () => process.exit(0);
   const settings = {
     clock,
     seed: wholeNumber('seed', values.seed, 0, 2 ** 32 - 1),
@@ -176,13 +172,13 @@ function main(): void {
     profile,
     servoCount: wholeNumber('servos', values.servos ?? String(usualServoCount), 1, maxServoCount),
     baud: wholeNumber('baud', values.baud, 0, 1_000_000),
-    ...(values['bus-log'] === undefined ? {} : { onByte: openBusLog(values['bus-log']) }),
+    ...(log && { onByte: log.add }),
   };
   const build: Build = (wire) => createBoard({ ...settings, ...wire });
   process.on('SIGTERM', end);
   process.on('SIGINT', end);
-  if (values.tcp === undefined) serveStdio(build);
-  else serveTcp(build, address(values.tcp));
+  if (values.tcp === undefined) serveStdio(build, end);
+  else serveTcp(build, address(values.tcp), end);
 }
 
 try {
