@@ -64,7 +64,7 @@ class Driver:
             message = json.loads(text)
             if message["type"] == "tick":
                 self._nonce = message["nonce"]
-                await self._say(type="beat", nonce=self._nonce)
+                await self._say(type="heartbeat", nonce=self._nonce)
                 self.drives.set()
             if message["type"] == "refused" and message["id"] == BOARD_ID:
                 sys.stderr.write(message["detail"])

@@ -33,7 +33,7 @@ async function comesTo(socket: WebSocket) {
   let noticed = (_message: GatewayMessage): void => undefined;
   socket.onmessage = ({ data }) => {
     const message = JSON.parse(String(data)) as GatewayMessage;
-    if (message.type === 'tick') say({ type: 'beat', nonce: (nonce = message.nonce) });
+    if (message.type === 'tick') say({ type: 'heartbeat', nonce: (nonce = message.nonce) });
     noticed(message);
   };
 
@@ -75,7 +75,7 @@ async function comesTo(socket: WebSocket) {
     /** When, in milliseconds since the epoch; the sequence goes on behind it. */
     press(): number {
       const atMs = Date.now();
-      say({ type: 'stop', why: 'person' });
+      say({ type: 'stop', reason: 'person' });
       return atMs;
     },
     /** Presses, and resumes when the whole sequence has left. */

@@ -122,7 +122,7 @@ async function askInPage({
         const atMs = performance.now();
         const message = JSON.parse(String(data)) as Record<string, unknown>;
         if (message.type === 'refused') reject(new Error(String(data)));
-        if (message.type === 'tick') say({ type: 'beat', nonce: (nonce = message.nonce) });
+        if (message.type === 'tick') say({ type: 'heartbeat', nonce: (nonce = message.nonce) });
         const link = message.link as { readonly status: string } | undefined;
         if (message[field] !== value || (status !== undefined && link?.status !== status)) return;
         clearTimeout(late);

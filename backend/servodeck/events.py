@@ -31,7 +31,7 @@ from servodeck.snapshots import (
     UnheldServos,
 )
 
-PROTOCOL = 7
+PROTOCOL = 8
 """Counted up with each change that a page of before would not understand: it is told to load itself again."""
 
 
@@ -175,7 +175,9 @@ class LeftMessage(Message):
 
 
 class TickMessage(Message):
-    """To the driver, four times a second: answer it with a `beat`, and put its nonce into each `send`."""
+    """To the driver, four times a second. It is answered with `heartbeat`; its nonce goes into each message
+    that moves.
+    """
 
     type: Literal["tick"] = "tick"
     nonce: str

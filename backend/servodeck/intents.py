@@ -48,7 +48,9 @@ MessageId = Annotated[
 
 Slot = Annotated[int, Field(ge=0, le=255)]
 LeaseAction = Literal["request", "release", "take", "refuse"]
-Nonce = Annotated[str, Field(max_length=40, description="Of the latest `tick`: shows how old this is.")]
+Nonce = Annotated[
+    str, Field(max_length=40, description="Of the latest `tick`: shows how old the message is.")
+]
 
 
 class Target(Message):
@@ -133,7 +135,7 @@ class StopMessage(Message):
     model_config = ConfigDict(extra="ignore")
 
     type: Literal["stop"]
-    why: StopFor = "person"
+    reason: StopFor = "person"
 
 
 class ResumeMessage(Message):
@@ -171,8 +173,9 @@ class CalibrateMessage(Message):
 
 
 class LeaseMessage(Message):
-    """`request` a lease that is free, or ask its driver for it; `release` it, also to whoever asks, or take
-    the question back; `refuse` whoever asks; `take` it without asking.
+    """`request` the lease: granted at once where it is free, otherwise unless its driver refuses. `release`
+    it, to the client that has requested it if there is one; also withdraws a request. `refuse` a request.
+    `take` it, without a request.
     """
 
     type: Literal["lease"]
@@ -182,10 +185,10 @@ class LeaseMessage(Message):
 PersonId = Annotated[str, Field(min_length=1, max_length=64)]
 
 
-class GiveMessage(Message):
-    """The driver's or an owner's: whoever of that id is here and may drive shall drive now, unasked."""
+class GrantMessage(Message):
+    """The driver or an owner grants the lease to the connected client of that id, without a request."""
 
-    type: Literal["give"]
+    type: Literal["grant"]
     to: PersonId
 
 
@@ -195,16 +198,16 @@ ContinueMs = Annotated[
 
 
 class ContinueMessage(Message):
-    """The driver's: the run under way may go on without me, for so long at most. `null`: it may not."""
+    """The driver lets the run in progress continue without one, for so long at most. `null`: not at all."""
 
     type: Literal["continue"]
     for_ms: ContinueMs | None
 
 
-class BeatMessage(Message):
-    """The answer to each `tick`: somebody is there who drives."""
+class HeartbeatMessage(Message):
+    """The driver's answer to each `tick`."""
 
-    type: Literal["beat"]
+    type: Literal["heartbeat"]
     nonce: Nonce
 
 
@@ -240,9 +243,9 @@ AnyClientMessage = (
     | ReadMessage
     | CalibrateMessage
     | LeaseMessage
-    | GiveMessage
+    | GrantMessage
     | ContinueMessage
-    | BeatMessage
+    | HeartbeatMessage
 )
 ClientMessage = Annotated[AnyClientMessage, Field(discriminator="type")]
 

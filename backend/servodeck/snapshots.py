@@ -25,20 +25,21 @@ class Candidate(Message):
 
 
 class LeaseState(Message):
-    """Who drives and who asks to, by name; `drives` and `asks`: that is this client. `answerInMs`: how long
-    the driver may still refuse. `givenBy`: who handed it to this client, which drives. `candidates`: whom
-    this client may hand it to. `you`: this client's own name; several windows of one browser share it.
+    """The lease, by name: who drives, and who has requested it. `drives` and `hasRequested`: this client
+    does or has. `grantedInMs`: until then the driver may refuse the request. `grantedBy`: the driver or owner
+    who granted it to this client, which drives. `candidates`: the clients to which this one may grant it.
+    `you`: this client's own name; several windows of one browser share it.
     """
 
     you: str
     driver: str | None
     drives: bool
-    asker: str | None
-    asks: bool
-    answer_in_ms: int | None
+    requested_by: str | None
+    has_requested: bool
+    granted_in_ms: int | None
     may_drive: bool
     may_take: bool
-    given_by: str | None
+    granted_by: str | None
     candidates: list[Candidate]
 
 

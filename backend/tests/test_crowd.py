@@ -94,7 +94,7 @@ class Hand:
                 message = json.loads(text)
                 if message["type"] == "tick":
                     self.nonce = message["nonce"]
-                    await self.say(type="beat", nonce=self.nonce)
+                    await self.say(type="heartbeat", nonce=self.nonce)
                 self.refused += message["type"] == "refused"
 
 

@@ -7,7 +7,7 @@ import pytest
 from servodeck.api.websocket import take
 from servodeck.callers import Caller
 from servodeck.errors import BusyError, ExpiredError, ForbiddenError, NotDrivingError
-from servodeck.intents import GiveMessage, ResumeMessage, StopMessage
+from servodeck.intents import GrantMessage, ResumeMessage, StopMessage
 from servodeck.port.wire import Left
 from servodeck.robot.hub import Session
 from tests.client import Client, driven, gateway_on
@@ -44,12 +44,12 @@ async def test_the_first_who_wants_to_move_drives_and_everybody_hears_it() -> No
             "you": "Anna",
             "driver": "Anna",
             "drives": True,
-            "asker": None,
-            "asks": False,
-            "answerInMs": None,
+            "requestedBy": None,
+            "hasRequested": False,
+            "grantedInMs": None,
             "mayDrive": True,
             "mayTake": False,
-            "givenBy": None,
+            "grantedBy": None,
             "candidates": [{"id": "local", "name": "This computer"}],
         }
         assert (bert.lease["driver"], bert.lease["drives"], bert.lease["mayTake"]) == ("Anna", False, True)
@@ -69,11 +69,11 @@ async def test_the_driver_hands_it_to_somebody_present_who_reads_from_whom_and_w
         assert anna.lease["candidates"] == [{"id": "carl", "name": "Carl"}]
         assert carl.lease["candidates"] == bert.lease["candidates"] == []
         for nobody in ("bert", "guest", "elsewhere"):
-            take(GiveMessage(type="give", to=nobody), anna, control)
+            take(GrantMessage(type="grant", to=nobody), anna, control)
             assert anna.lease["drives"] is True
-        take(GiveMessage(type="give", to="carl"), anna, control)
-        assert (carl.lease["drives"], carl.lease["givenBy"]) == (True, "Anna")
-        assert (anna.lease["driver"], anna.lease["givenBy"]) == ("Carl", None)
+        take(GrantMessage(type="grant", to="carl"), anna, control)
+        assert (carl.lease["drives"], carl.lease["grantedBy"]) == (True, "Anna")
+        assert (anna.lease["driver"], anna.lease["grantedBy"]) == ("Carl", None)
         assert anna.lease["candidates"] == []
         await asyncio.sleep(0.5)
         assert port.packets()[:5] == [STOP, MOVE, *STOPS]
@@ -83,7 +83,7 @@ async def test_the_driver_hands_it_to_somebody_present_who_reads_from_whom_and_w
             anna.send(MOVE)
         control.driving.act(carl, "release")
         control.driving.act(carl, "request")
-        assert carl.lease["givenBy"] is None
+        assert carl.lease["grantedBy"] is None
 
 
 @in_virtual_time
@@ -92,17 +92,17 @@ async def test_an_owner_hands_it_over_too_and_nobody_else() -> None:
         anna, carl, owner = Client(control, PUPIL), Client(control, CARL), Client(control)
         control.driving.act(anna, "request")
         assert owner.lease["candidates"] == [{"id": "carl", "name": "Carl"}]
-        take(GiveMessage(type="give", to="carl"), carl, control)
+        take(GrantMessage(type="grant", to="carl"), carl, control)
         assert carl.lease["drives"] is False
         bert = Client(control, GUEST)
-        take(GiveMessage(type="give", to="carl"), bert, control)
+        take(GrantMessage(type="grant", to="carl"), bert, control)
         assert [message["code"] for message in await bert.heard() if message["type"] == "refused"] == [
             "forbidden"
         ]
         control.driving.act(owner, "take")
         control.driving.act(owner, "release")
-        take(GiveMessage(type="give", to="carl"), owner, control)
-        assert (carl.lease["drives"], carl.lease["givenBy"]) == (True, "This computer")
+        take(GrantMessage(type="grant", to="carl"), owner, control)
+        assert (carl.lease["drives"], carl.lease["grantedBy"]) == (True, "This computer")
 
 
 @in_virtual_time
@@ -148,7 +148,7 @@ async def test_a_stop_for_the_battery_is_told_as_such_with_whose_page_it_was() -
         anna, bert = Client(control, PUPIL), Client(control, GUEST)
         await anna.send(MOVE)
         await bert.heard()
-        take(StopMessage(type="stop", why="battery"), anna, control)
+        take(StopMessage(type="stop", reason="battery"), anna, control)
         stopped = [message for message in await bert.heard() if message["type"] == "state"]
         assert [(state["latchedBy"], state["stoppedBy"]) for state in stopped][-1:] == [("battery", "Anna")]
 
@@ -201,7 +201,11 @@ async def test_a_request_passes_after_five_seconds_and_motion_ends_first_without
         anna, bert, carl = Client(control), Client(control, PUPIL), Client(control)
         await anna.send(RUN)
         control.driving.act(bert, "request")
-        assert (anna.lease["asker"], anna.lease["answerInMs"], bert.lease["asks"]) == ("Anna", 5000, True)
+        assert (anna.lease["requestedBy"], anna.lease["grantedInMs"], bert.lease["hasRequested"]) == (
+            "Anna",
+            5000,
+            True,
+        )
         with pytest.raises(BusyError):
             control.driving.act(carl, "request")
         await asyncio.sleep(4.9)
@@ -223,7 +227,7 @@ async def test_a_refused_request_changes_nothing_and_an_allowed_one_passes_at_on
         control.driving.act(bert, "request")
         control.driving.act(anna, "refuse")
         await asyncio.sleep(6)
-        assert (bert.lease["drives"], bert.lease["asks"]) == (False, False)
+        assert (bert.lease["drives"], bert.lease["hasRequested"]) == (False, False)
         control.driving.act(bert, "request")
         control.driving.act(anna, "release")
         assert bert.lease["drives"] is True

@@ -88,7 +88,7 @@ class Driver:
                 message = json.loads(self._client.recv(timeout=0.05))
                 if message["type"] == "tick":
                     self._nonce = message["nonce"]
-                    self._say(type="beat", nonce=self._nonce)
+                    self._say(type="heartbeat", nonce=self._nonce)
                 if message["type"] == "done":
                     self.begun.set()
                 if message.get("id") == number:

@@ -52,14 +52,14 @@ def test_a_request_passes_when_the_driver_has_said_nothing_for_five_seconds() ->
     lease.request("anna", 0.0)
     nonce = lease.issue(0.0)
     lease.request("bert", 0.1)
-    assert lease.answer_in_s(1.1) == pytest.approx(4.0)
+    assert lease.granted_in_s(1.1) == pytest.approx(4.0)
     for beat in range(1, 20):
         at_s = beat * 0.25
         lease.beat("anna", lease.issue(at_s))
         lease.advance(at_s)
     assert lease.driver == "anna"
     lease.advance(0.1 + ANSWER_S)
-    assert (lease.driver, lease.asker, lease.epoch) == ("bert", None, 2)
+    assert (lease.driver, lease.requester, lease.epoch) == ("bert", None, 2)
     assert told.take() == ["changed"]
     with pytest.raises(NotDrivingError):
         lease.permit("anna", nonce, 5.1)
@@ -74,9 +74,9 @@ def test_a_refused_request_may_be_made_again_and_only_the_driver_refuses() -> No
     with pytest.raises(NotDrivingError):
         lease.refuse("bert")
     lease.refuse("anna")
-    assert (lease.driver, lease.asker, lease.answer_in_s(0.0)) == ("anna", None, None)
+    assert (lease.driver, lease.requester, lease.granted_in_s(0.0)) == ("anna", None, None)
     lease.request("carl", 0.0)
-    assert lease.asker == "carl"
+    assert lease.requester == "carl"
 
 
 def test_giving_it_up_is_allowing_whoever_asks() -> None:
@@ -95,9 +95,9 @@ def test_whoever_asks_may_take_that_back_and_a_stranger_can_give_up_nothing() ->
     lease.request("anna", 0.0)
     lease.request("bert", 0.0)
     lease.release("carl", 0.0)
-    assert (lease.driver, lease.asker) == ("anna", "bert")
+    assert (lease.driver, lease.requester) == ("anna", "bert")
     lease.release("bert", 0.0)
-    assert (lease.driver, lease.asker) == ("anna", None)
+    assert (lease.driver, lease.requester) == ("anna", None)
 
 
 def test_taking_asks_nobody_and_forgets_who_asked() -> None:
@@ -106,7 +106,7 @@ def test_taking_asks_nobody_and_forgets_who_asked() -> None:
     lease.request("bert", 0.0)
     told.take()
     lease.take("carl", 0.0)
-    assert (lease.driver, lease.asker, told.take()) == ("carl", None, ["changed"])
+    assert (lease.driver, lease.requester, told.take()) == ("carl", None, ["changed"])
 
 
 def test_a_silent_driver_loses_motion_then_groups_then_the_lease() -> None:
@@ -227,13 +227,13 @@ def test_a_nonce_of_an_earlier_epoch_is_worth_nothing() -> None:
         lease.permit("anna", nonce, 0.1)
 
 
-def test_a_driver_who_leaves_is_lost_and_an_asker_who_leaves_is_forgotten() -> None:
+def test_a_driver_who_leaves_is_lost_and_a_requester_who_leaves_is_forgotten() -> None:
     lease, told = new_lease()
     lease.request("anna", 0.0)
     lease.request("bert", 0.0)
     told.take()
     lease.leave("bert", 0.0)
-    assert (lease.asker, told.take()) == (None, [])
+    assert (lease.requester, told.take()) == (None, [])
     lease.leave("anna", 0.0)
     assert (lease.driver, told.take()) == (None, ["lost", "changed"])
 

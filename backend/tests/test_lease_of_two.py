@@ -57,7 +57,7 @@ class TwoDrivers(RuleBasedStateMachine):
         self.lease.give(giver, to, self.now)
         assert self.lease.driver == to
         if before != to:
-            assert (self.lease.epoch, self.lease.giver, self.lease.asker) == (epoch + 1, giver, None)
+            assert (self.lease.epoch, self.lease.giver, self.lease.requester) == (epoch + 1, giver, None)
         self.note_grant(epoch)
 
     @precondition(lambda self: self.lease.driver is not None)

@@ -175,8 +175,8 @@ def test_a_damaged_file_is_set_aside_and_told(library: Library, tmp_path: Path) 
     (tmp_path / FILE).write_bytes(damaged)
     again = reopened(tmp_path)
     assert again.list() == []
-    assert again.set_aside
-    assert (tmp_path / again.set_aside).read_bytes() == damaged
+    assert again.damaged_file
+    assert (tmp_path / again.damaged_file).read_bytes() == damaged
     assert again.write("b", "text", "f", 0) == 1
 
 
@@ -240,7 +240,7 @@ def test_whichever_bit_is_flipped_all_is_as_it_was_or_said_to_be_damaged(seed: i
         damaged = Library(after)
         with suppress(StorageError, DamagedTextError):
             found = content_of(damaged)
-            assert found == expected or damaged.set_aside or damaged.changes_lost
+            assert found == expected or damaged.damaged_file or damaged.changes_lost
         damaged.close()
 
 
@@ -326,7 +326,7 @@ def test_a_file_that_is_no_database_is_set_aside(tmp_path: Path) -> None:
     (tmp_path / FILE).write_text("not a database at all " * 100)
     library = Library(tmp_path)
     assert library.list() == []
-    assert library.set_aside
+    assert library.damaged_file
 
 
 def test_an_upgrade_keeps_a_copy_from_before(library: Library, tmp_path: Path) -> None:

@@ -49,7 +49,7 @@ async def test_a_document_is_kept_listed_and_read(tmp_path: Path) -> None:
         listed = {"id": "a", "revision": 1, "isRemoved": False, "facts": FACTS}
         assert (await client.get("/api/library")).json() == {
             "documents": [listed],
-            "setAside": None,
+            "damagedFile": None,
             "changesLost": False,
         }
         assert (await client.get("/api/library/a")).json() == {"text": '{"x": "é"}', "revision": 1}

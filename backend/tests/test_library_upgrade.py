@@ -133,7 +133,7 @@ def test_of_many_documents_each_is_there_and_whole_behind_it(sql: Path, tmp_path
     before = content_of(tmp_path / FILE)
     library = opened(tmp_path)
     assert_holds(library, kept)
-    assert (library.set_aside, library.changes_lost) == (None, False)
+    assert (library.damaged_file, library.changes_lost) == (None, False)
     library.close()
     assert content_of(tmp_path / BACKUP) == before
     assert_holds(restored(tmp_path), kept)

@@ -29,7 +29,7 @@ WELL_FORMED: list[dict[str, Any]] = [
     {"type": "board", "id": 2, "board": "doc"},
     {"type": "calibrate", "servo": 1},
     {"type": "lease", "action": "request"},
-    {"type": "beat", "nonce": "1-1"},
+    {"type": "heartbeat", "nonce": "1-1"},
 ]
 ODD: list[Any] = [
     None,

@@ -33,7 +33,7 @@ async def test_a_script_has_frames_played_looks_how_far_it_is_and_how_it_ended()
         await asyncio.sleep(1.6)
         assert (await latest(here))["frameIndex"] == 1
         assert (await here.client.get("/api/status")).json()["driver"] == "Dance"
-        await here.post("lease", action="beat")
+        await here.post("lease", action="heartbeat")
         await asyncio.sleep(1.5)
         assert here.sent() == [LEAD, SECOND, AGAIN, SECOND]
         ended = await latest(here)
@@ -135,7 +135,7 @@ async def test_who_is_not_let_in_any_more_is_stopped_unless_an_owner_lets_it_go_
         async with script() as here:
             await here.post("play", frames=FRAMES, times=0, continueForMs=60_000)
             await asyncio.sleep(2.5)
-            path = f"/api/people/{here.token_id}?groupGoesOn={'true' if goes_on else 'false'}"
+            path = f"/api/people/{here.token_id}?continues={'true' if goes_on else 'false'}"
             assert (await here.client.delete(path, headers=here.owner)).status_code == 204
             count = len(here.port.written)
             await asyncio.sleep(2)

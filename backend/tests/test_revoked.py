@@ -145,7 +145,7 @@ async def test_the_owner_may_let_that_group_go_on(after_s: float) -> None:
         anna = Client(here.control, ANNA)
         await here.post("slots/8/run", times=2, continueForMs=60_000)
         await asyncio.sleep(after_s)
-        await disconnect(here, REVOKE, groupGoesOn=True)
+        await disconnect(here, REVOKE, continues=True)
         await asyncio.sleep(40)
         assert here.sent() == [RUN_TWICE]
         assert (await latest_state(anna))["unattended"]["by"] == "Dance"
@@ -157,7 +157,7 @@ async def test_the_owner_may_let_that_group_go_on(after_s: float) -> None:
 async def test_a_group_that_nobody_let_go_on_is_stopped_whatever_the_owner_says() -> None:
     async with script() as here:
         await here.post("slots/8/run", times=2)
-        await disconnect(here, REVOKE, groupGoesOn=True)
+        await disconnect(here, REVOKE, continues=True)
         await asyncio.sleep(1)
         assert here.sent() == [RUN_TWICE, *STOPS]
 

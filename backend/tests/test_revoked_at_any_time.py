@@ -182,7 +182,7 @@ class History:
             slot = self._mark("download", number, sender)
             self._post(party, "download", {"groups": [{"slot": slot, "frames": FRAMES * FRAME_COUNT}]})
         else:
-            self._post(party, "lease", {"action": ("request", "release", "beat")[number % 3]})
+            self._post(party, "lease", {"action": ("request", "release", "heartbeat")[number % 3]})
 
     def _say(self, party: Party, what: What, number: int) -> None:
         page, sender = party.page, f"{party.name} on a page"

@@ -35,7 +35,7 @@ async def test_beats_keep_a_run_going_and_letting_go_ends_it_without_the_latch()
         assert (await here.post("slots/8/run")).json() == {"outcome": "silent"}
         for _ in range(10):
             await asyncio.sleep(1)
-            assert (await here.post("lease", action="beat")).json()["drives"] is True
+            assert (await here.post("lease", action="heartbeat")).json()["drives"] is True
         assert here.sent() == [RUN]
         assert (await here.post("lease", action="release")).json()["driver"] is None
         await asyncio.sleep(1)
@@ -77,7 +77,7 @@ async def test_of_a_group_that_the_gateway_stored_itself_it_says_how_long_it_may
         assert 2000 < ends_in_ms < 3600
         assert f"up to {ends_in_ms / 1000:.1f} s" in (await here.move(1500, s1=2000)).json()["detail"]
         for _ in range(4):
-            await here.post("lease", action="beat")
+            await here.post("lease", action="heartbeat")
             await asyncio.sleep(ends_in_ms / 4000)
         assert await running(here) is None
         assert (await here.move(1500, s1=2000)).status_code == 200

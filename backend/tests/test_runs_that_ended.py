@@ -16,7 +16,7 @@ GROUP_MS = 2000
 async def watched(here: Scripted, seconds: float) -> None:
     """Somebody watches over what the script has begun."""
     for _ in range(round(seconds)):
-        await here.post("lease", action="beat")
+        await here.post("lease", action="heartbeat")
         await asyncio.sleep(1)
 
 

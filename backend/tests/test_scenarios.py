@@ -92,7 +92,7 @@ class Player:
                 self._ports.opened[-1].say(bytes.fromhex(packet))
             case {"port": state}:
                 self._ports.plug(state)
-            case {"asks": intent}:
+            case {"intent": intent}:
                 self._tasks.append(asyncio.create_task(self._ask(intent, event.get("id"))))
 
     async def watch(self) -> None:
@@ -100,7 +100,7 @@ class Player:
         while True:
             await asyncio.sleep(1)
             if self._control.driving.driver not in (None, self._session):
-                self._scripts.act(ANNA, "beat")
+                self._scripts.act(ANNA, "heartbeat")
 
     def leaves(self) -> list[tuple[float, str]]:
         """Behind the stop that is the gateway's own: it sends one when it opens a port."""

@@ -80,7 +80,7 @@ async def test_a_later_frame_is_held_on_its_way_too() -> None:
     async with script(board="openarm-old", behind=old_board()) as here:
         begun_s = await begun_long_ago(here, frames=3)
         for _ in range(9):
-            await here.post("lease", action="beat")
+            await here.post("lease", action="heartbeat")
             await asyncio.sleep(1)
         pressed_s = now()
         await over_http(here)

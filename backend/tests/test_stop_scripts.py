@@ -24,7 +24,7 @@ async def ask(here: Scripted, chance: random.Random) -> None:
         lambda: here.move(chance.choice([20, 300, 3000]), owner=owner, s1=chance.randint(500, 2500)),
         lambda: here.post("slots/8/run", owner=owner, times=chance.randint(0, 2), take=owner),
         lambda: here.post("slots/8/run", owner=owner, times=1, continueForMs=5000),
-        lambda: here.post("lease", owner=owner, action=chance.choice(["beat", "release", "request"])),
+        lambda: here.post("lease", owner=owner, action=chance.choice(["heartbeat", "release", "request"])),
         lambda: here.post("erase", owner=True),
     ]
     answer = await chance.choice(wishes)()

@@ -107,7 +107,7 @@ async def cancel(job: str, control: Controlled) -> JobState:
 
 class PlayWish(PlayIntent):
     """`id` and `nonce`: of the page that drives, which hears `played` with that id on its WebSocket. A
-    program needs neither. `continueForMs`: it goes on without a `beat`, for so long at most.
+    program needs neither. `continueForMs`: it goes on without a `heartbeat`, for so long at most.
     """
 
     id: MessageId | None = None
@@ -124,7 +124,7 @@ async def play(
     wish: PlayWish, caller: Annotated[Caller, DRIVER], control: Controlled, scripts: Scripted
 ) -> PlayState:
     """Plays frames by the gateway's clock, gently to the first one. Answers when the first one has begun. It
-    is stopped 2 s after the last `beat`, unless it may continue; one of a page ends with its page.
+    is stopped 2 s after the last `heartbeat`, unless it may continue; one of a page ends with its page.
     """
     group = FrameGroup(await frames_of(wish.frames), wish.times, wish.loop_from)
     if wish.nonce is None:

@@ -68,7 +68,9 @@ def list_documents(library: OfLibrary) -> LibraryListing:
         )
         for one in library.list()
     ]
-    return LibraryListing(documents=documents, set_aside=library.set_aside, changes_lost=library.changes_lost)
+    return LibraryListing(
+        documents=documents, damaged_file=library.damaged_file, changes_lost=library.changes_lost
+    )
 
 
 @library_api.post("/remove", status_code=204, dependencies=[OWNER])

@@ -43,7 +43,7 @@ class MoveBegun(Message):
 
 
 class RunWish(Message):
-    """`times` 0: until stopped. `continueForMs`: it goes on without a `beat`, for so long at most."""
+    """`times` 0: until stopped. `continueForMs`: it goes on without a `heartbeat`, for so long at most."""
 
     times: Annotated[int, Field(ge=0, le=0xFFFF)] = 1
     continue_for_ms: ContinueMs | None = None
@@ -67,7 +67,7 @@ class Erased(Message):
 
 
 class LeaseWish(Message):
-    """`beat`: somebody watches over what this script has begun. The others as in a page: `request`, `take`,
+    """`heartbeat`: what this script has begun may go on. The others as in a page: `request`, `take`,
     `release`.
     """
 
@@ -123,8 +123,8 @@ async def begin_move(
 async def run(
     slot: Annotated[int, Path(ge=0, le=255)], caller: Driving, scripts: Scripted, wish: RunWish = ONCE
 ) -> RunBegun:
-    """Runs the group in that slot; what moves ends first. It is stopped 2 s after the last `beat`, unless it
-    may continue.
+    """Runs the group in that slot; what moves ends first. It is stopped 2 s after the last `heartbeat`,
+    unless it may continue.
     """
     outcome = await scripts.run(caller, slot, wish.times, take=wish.take, continue_ms=wish.continue_for_ms)
     return RunBegun(outcome=outcome)

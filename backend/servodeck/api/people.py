@@ -38,9 +38,7 @@ from servodeck.robot.hub import is_of
 # As long as browsers keep one: a device stays until it is revoked.
 COOKIE_S = 400 * 24 * 3600
 
-GroupGoesOn = Annotated[
-    bool, Query(alias="groupGoesOn", description="The group that it let go on is not stopped with it.")
-]
+Continues = Annotated[bool, Query(description="Whether a group that it let continue without it may go on.")]
 Entered = Annotated[Entrance, Depends(entrance_of)]
 people_api = routes("/api", "people")
 
@@ -98,7 +96,7 @@ async def pair(
     caller, credential = accept_invite(wish, entrance, present)
     if present and not entrance.still_lets_in(present):
         reason = "This device was paired again."
-        await scripts.disconnect(present.id, reason, caller.name, group_goes_on=True)
+        await scripts.disconnect(present.id, reason, caller.name, run_continues=True)
     if credential:
         access = entrance.access
         response.set_cookie(
@@ -181,14 +179,14 @@ async def revoke(
     entrance: Entered,
     scripts: Scripted,
     by: Annotated[Caller, OWNER],
-    group_goes_on: GroupGoesOn = False,
+    continues: Continues = False,
 ) -> None:
     """May not come in any more; what it has open is closed at once, what it moves is stopped, and nothing
     that it asked for leaves the gateway behind the answer.
     """
     entrance.devices.revoke(person)
     reason = "This device is not paired any more."
-    await scripts.disconnect(person, reason, by.name, group_goes_on=group_goes_on)
+    await scripts.disconnect(person, reason, by.name, run_continues=continues)
     await entrance.devices.keep()
 
 

@@ -20,12 +20,12 @@ from servodeck.errors import BusyError, GatewayError, MalformedError
 from servodeck.events import PROTOCOL, DoneMessage, PlayedMessage, RefusedMessage, encode
 from servodeck.intents import (
     AnyClientMessage,
-    BeatMessage,
     BoardMessage,
     CalibrateMessage,
     ContinueMessage,
     EraseMessage,
-    GiveMessage,
+    GrantMessage,
+    HeartbeatMessage,
     LeaseMessage,
     MoveMessage,
     PacketMessage,
@@ -70,9 +70,9 @@ ROLES: dict[type[AnyClientMessage], Role] = {
     ReadMessage: "viewer",
     CalibrateMessage: "driver",
     LeaseMessage: "viewer",
-    GiveMessage: "driver",
+    GrantMessage: "driver",
     ContinueMessage: "driver",
-    BeatMessage: "driver",
+    HeartbeatMessage: "driver",
 }
 
 
@@ -258,7 +258,7 @@ def answering_with_lease(session: Session, control: Control) -> Iterator[None]:
 
 def take_stop(message: StopMessage, session: Session, control: Control) -> None:
     with refusing(session, None):
-        control.stop(Cause(message.why, session.caller.name))
+        control.stop(Cause(message.reason, session.caller.name))
 
 
 def allow_unattended(message: ContinueMessage, session: Session, control: Control) -> None:
@@ -271,7 +271,7 @@ def act_on_lease(message: LeaseMessage, session: Session, control: Control) -> N
         control.driving.act(session, message.action)
 
 
-def give(message: GiveMessage, session: Session, control: Control) -> None:
+def grant(message: GrantMessage, session: Session, control: Control) -> None:
     with answering_with_lease(session, control):
         control.driving.give(session, message.to)
 
@@ -311,9 +311,9 @@ ACTS: dict[type[AnyClientMessage], Callable[[Any, Session, Control], None]] = {
     ReadMessage: read,
     CalibrateMessage: lambda message, session, control: control.limits.calibrate(session, message.servo),
     LeaseMessage: act_on_lease,
-    GiveMessage: give,
+    GrantMessage: grant,
     ContinueMessage: allow_unattended,
-    BeatMessage: lambda message, session, control: control.driving.beat(session, message.nonce),
+    HeartbeatMessage: lambda message, session, control: control.driving.beat(session, message.nonce),
 }
 
 

@@ -173,7 +173,7 @@ def watch(remote: Remote, limit_s: float | None) -> float | None:
             if left_s <= 0:
                 let_go(remote)
                 return limit_s
-            asked(remote, "POST", "/api/lease", {"action": "beat"})
+            asked(remote, "POST", "/api/lease", {"action": "heartbeat"})
             time.sleep(min(BEAT_S, left_s))
     except KeyboardInterrupt:
         let_go(remote)

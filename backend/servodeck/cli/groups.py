@@ -163,7 +163,7 @@ def watched(remote: Remote, state: dict[str, Any]) -> dict[str, Any]:
                 return state | {"status": "ended", "code": "cancelled", "detail": "Another one is played."}
             state = latest
             if state["status"] == "playing" and time.monotonic() - beaten_s >= BEAT_S:
-                asked(remote, "POST", "/api/lease", {"action": "beat"})
+                asked(remote, "POST", "/api/lease", {"action": "heartbeat"})
                 beaten_s = time.monotonic()
     except KeyboardInterrupt:
         asked(remote, "DELETE", "/api/play")

@@ -59,7 +59,7 @@ class Library:
         now_ms: Callable[[], int] = wall_clock_ms,
         steps: Sequence[Sequence[str]] = STEPS,
     ) -> None:
-        self.set_aside: str | None = None
+        self.damaged_file: str | None = None
         """The name of a damaged file that was found and kept."""
         self.changes_lost = False
         """The last ones before the start may be missing."""
@@ -210,11 +210,11 @@ class Library:
                 raise storage_error(error) from error
 
     def _open(self) -> sqlite3.Connection:
-        db, aside, changes_lost = open_library(self.folder, self._steps)
-        self.set_aside = aside or self.set_aside
+        db, damaged_file, changes_lost = open_library(self.folder, self._steps)
+        self.damaged_file = damaged_file or self.damaged_file
         self.changes_lost |= changes_lost
-        if aside:
-            log.warning("library set aside", extra={"facts": {"damaged": aside}})
+        if damaged_file:
+            log.warning("library damaged", extra={"facts": {"kept_as": damaged_file}})
         if changes_lost:
             log.warning("library's journal damaged: its last changes may be missing")
         past_ms = self._now_ms() - TRASH_MS

@@ -1,4 +1,4 @@
-"""Opens the library's SQLite file: makes it, brings it up to date, sets it aside where it is damaged.
+"""Opens the library's SQLite file: makes it, brings it up to date, renames a damaged one.
 
 Knows the tables' shape and its history, no document. A file of a newer Servodeck is left alone.
 """
@@ -61,7 +61,7 @@ class DamagedError(Exception):
 
 class Opened(NamedTuple):
     db: sqlite3.Connection
-    set_aside: str | None
+    damaged_file: str | None
     """The name under which a damaged file was kept."""
     changes_lost: bool
     """The journal is damaged before its end: what was written last may be missing."""
@@ -74,11 +74,11 @@ def open_library(folder: Path, steps: Sequence[Sequence[str]] = STEPS) -> Opened
         folder.mkdir(parents=True, exist_ok=True)
         announced = announced_frames(path)
         try:
-            db, aside = open_sound(path, steps), None
+            db, damaged_file = open_sound(path, steps), None
         except DamagedError:
-            aside, announced = set_aside(path), 0
+            damaged_file, announced = keep_damaged(path), 0
             db = open_sound(path, steps)
-        return Opened(db, aside, changes_lost=announced > found_frames(db))
+        return Opened(db, damaged_file, changes_lost=announced > found_frames(db))
     except (OSError, DamagedError) as error:
         raise StorageError(f"The library in {folder} cannot be opened: {error}.") from error
 
@@ -165,7 +165,7 @@ def back_up(db: sqlite3.Connection, path: Path) -> None:
         half.unlink(missing_ok=True)
 
 
-def set_aside(path: Path) -> str:
+def keep_damaged(path: Path) -> str:
     """Renames the file with what belongs to it. Its new name."""
     name = f"library-unreadable-{time.time_ns() // 1_000_000}.sqlite"
     for ending in ("", "-wal", "-shm"):

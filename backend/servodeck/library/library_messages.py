@@ -56,12 +56,12 @@ class ListedDocument(Message):
 
 
 class LibraryListing(Message):
-    """`setAside` names a damaged file that was found and kept; `changesLost`: the last changes before the
+    """`damagedFile` names a damaged file that was found and kept; `changesLost`: the last changes before the
     gateway's start may be missing.
     """
 
     documents: list[ListedDocument]
-    set_aside: str | None
+    damaged_file: str | None
     changes_lost: bool
 
 

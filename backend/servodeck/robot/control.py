@@ -145,14 +145,14 @@ class Control:
         by: str,
         *,
         still_drives: bool = False,
-        group_goes_on: bool = False,
+        run_continues: bool = False,
         also: Sequence[Session] = (),
     ) -> None:
         """What they move stops, what they still say is not heard, and nothing that they asked for leaves any
         more but stops. `still_drives`: they may come back and drive, so their download goes on, and the group
         that they let go on. `also`: sessions of theirs that are not connected clients.
         """
-        self._watch.disconnected(caller_id, by, group_goes_on=group_goes_on or still_drives)
+        self._watch.disconnected(caller_id, by, run_continues=run_continues or still_drives)
         if not still_drives:
             self.board.jobs.disown(caller_id, CancelledError(reason))
         for session in (*self.hub.sessions, *also):

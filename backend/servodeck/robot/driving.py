@@ -84,8 +84,8 @@ class Driving:
         ]
         if not found:
             raise NotFoundError("No connected client with that id may drive.")
-        asker = self._lease.asker
-        return asker if asker in found else found[-1]
+        requester = self._lease.requester
+        return requester if requester in found else found[-1]
 
     def leave(self, session: Session) -> None:
         self._lease.leave(session, self._now())
@@ -175,17 +175,17 @@ class Driving:
 
     def state_for(self, session: Session) -> LeaseState:
         lease = self._lease
-        answer_in_s = lease.answer_in_s(self._now())
+        granted_in_s = lease.granted_in_s(self._now())
         return LeaseState(
             you=session.caller.name,
             driver=name_of(lease.driver),
             drives=lease.driver is session,
-            asker=name_of(lease.asker),
-            asks=lease.asker is session,
-            answer_in_ms=None if answer_in_s is None else round(answer_in_s * 1000),
+            requested_by=name_of(lease.requester),
+            has_requested=lease.requester is session,
+            granted_in_ms=None if granted_in_s is None else round(granted_in_s * 1000),
             may_drive=session.caller.may("driver"),
             may_take=session.caller.may("owner"),
-            given_by=name_of(lease.giver) if lease.driver is session else None,
+            granted_by=name_of(lease.giver) if lease.driver is session else None,
             candidates=self._candidates(session),
         )
 

@@ -102,13 +102,13 @@ class Watch:
             self.end_quietly(NotDrivingError("Another client drives now."))
         driving.send_states()
 
-    def disconnected(self, caller_id: str, by: str, *, group_goes_on: bool) -> None:
+    def disconnected(self, caller_id: str, by: str, *, run_continues: bool) -> None:
         """`by` has revoked them: STOP for what they move, and for the group that they let go on unless it
         may. Nobody who is out answers for what moves.
         """
         board, driver = self._control.board, self._control.driving.driver
         if is_of(board.unattended.by, caller_id):
-            if group_goes_on:
+            if run_continues:
                 return
             board.unattended.end()
         elif not is_of(driver, caller_id):

@@ -56,7 +56,7 @@ class Lease(Generic[H]):
         """Every grant and every loss counts on from `epoch`: a permit holds for one driver's one time."""
         self.epoch = epoch
         self.driver: H | None = None
-        self.asker: H | None = None
+        self.requester: H | None = None
         # Who handed it to the driver; None where nobody did.
         self.giver: H | None = None
         self.silence: Silence = "none"
@@ -72,25 +72,25 @@ class Lease(Generic[H]):
         """Gets a free lease at once, another one when its driver has let `ANSWER_S` pass. Raises BusyError
         where somebody asks already.
         """
-        if who in (self.driver, self.asker):
+        if who in (self.driver, self.requester):
             return
         if self.driver is None:
             self._grant(who, now)
             return
-        if self.asker is not None:
+        if self.requester is not None:
             raise BusyError("Another client has asked already.")
-        self.asker, self._answer_until_s = who, now + ANSWER_S
+        self.requester, self._answer_until_s = who, now + ANSWER_S
         self._events.lease_changed()
 
     def refuse(self, who: H) -> None:
         if who is not self.driver:
             raise NotDrivingError("Only the driver can refuse.")
-        self._forget_asker()
+        self._forget_requester()
 
     def release(self, who: H, now: float) -> None:
         """To whoever asks, or to nobody. Whoever asks may take the question back."""
-        if who is self.asker:
-            self._forget_asker()
+        if who is self.requester:
+            self._forget_requester()
         elif who is self.driver:
             self._pass_on(now)
 
@@ -110,8 +110,8 @@ class Lease(Generic[H]):
         if who is self.driver:
             self._events.driver_lost()
             self._pass_on(now)
-        elif who is self.asker:
-            self._forget_asker()
+        elif who is self.requester:
+            self._forget_requester()
 
     def issue(self, now: float) -> str:
         """A nonce for the driver, who shows with it how old at most is what it says: its own clock counts
@@ -168,23 +168,23 @@ class Lease(Generic[H]):
         if now > permit.until_s:
             raise ExpiredError("This request waited too long to be sent.")
 
-    def answer_in_s(self, now: float) -> float | None:
+    def granted_in_s(self, now: float) -> float | None:
         """How long the driver may still refuse; None where nobody asks."""
-        return None if self.asker is None else max(0.0, self._answer_until_s - now)
+        return None if self.requester is None else max(0.0, self._answer_until_s - now)
 
     def due_s(self) -> float | None:
         """When `advance` has something to do, if nothing is heard until then."""
         if self.driver is None:
             return None
         rung_s = self._heard_s + min(NEXT_RUNG_S[self.silence], self._patience_s)
-        return rung_s if self.asker is None else min(rung_s, self._answer_until_s)
+        return rung_s if self.requester is None else min(rung_s, self._answer_until_s)
 
     def advance(self, now: float) -> None:
         """Does everything that is due."""
         if self.driver is None:
             return
         self._climb(now - self._heard_s)
-        if self.asker is not None and now >= self._answer_until_s:
+        if self.requester is not None and now >= self._answer_until_s:
             self._pass_on(now)
 
     def _climb(self, silence_s: float) -> None:
@@ -199,8 +199,8 @@ class Lease(Generic[H]):
             self._pass_on(self._heard_s + silence_s)
 
     def _pass_on(self, now: float) -> None:
-        if self.asker is not None:
-            self._grant(self.asker, now)
+        if self.requester is not None:
+            self._grant(self.requester, now)
             return
         self.epoch += 1
         self.driver = self.giver = None
@@ -211,7 +211,7 @@ class Lease(Generic[H]):
     def _grant(self, who: H, now: float, giver: H | None = None) -> None:
         before = self.driver
         self.epoch += 1
-        self.driver, self.asker, self.giver = who, None, giver
+        self.driver, self.requester, self.giver = who, None, giver
         self.silence, self._heard_s = "none", now
         self._patience_s = SILENT_S if who in self._programs else GONE_S
         self._issued.clear()
@@ -219,7 +219,7 @@ class Lease(Generic[H]):
             self._events.driver_changed()
         self._events.lease_changed()
 
-    def _forget_asker(self) -> None:
-        if self.asker is not None:
-            self.asker = None
+    def _forget_requester(self) -> None:
+        if self.requester is not None:
+            self.requester = None
             self._events.lease_changed()

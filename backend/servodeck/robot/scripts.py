@@ -48,7 +48,7 @@ class ScriptSession(Session):
             await asyncio.wait(pending)
 
 
-ScriptAction = Literal["request", "take", "release", "beat"]
+ScriptAction = Literal["request", "take", "release", "heartbeat"]
 IsWanted = Callable[[], Awaitable[bool]]
 
 
@@ -201,9 +201,9 @@ class Scripts:
         await session.do(self._control.operations.erase(claim))
 
     def act(self, caller: Caller, action: ScriptAction) -> LeaseState:
-        """On the lease alone; `beat` says that somebody watches over what this script has begun."""
+        """On the lease alone; after a `heartbeat` what this script has begun may go on."""
         session, driving = self._session_of(caller), self._control.driving
-        if action != "beat":
+        if action != "heartbeat":
             driving.act(session, action)
         driving.vouch(session, 0.0)
         return driving.state_for(session)
@@ -221,7 +221,7 @@ class Scripts:
         by: str,
         *,
         still_drives: bool = False,
-        group_goes_on: bool = False,
+        run_continues: bool = False,
     ) -> None:
         """They may not come in any more, or in another role: what they asked for on pages and over HTTP has
         ended when this returns. The group that they let go on is stopped in the name of `by`, or goes on.
@@ -229,7 +229,7 @@ class Scripts:
         own = self._sessions.pop(caller_id, None)
         also = (own,) if own else ()
         self._control.disconnect(
-            caller_id, reason, by, still_drives=still_drives, group_goes_on=group_goes_on, also=also
+            caller_id, reason, by, still_drives=still_drives, run_continues=run_continues, also=also
         )
         if own:
             await own.end_pending()

@@ -6,12 +6,12 @@ import { mayBrush, motionHindrance } from './readiness.ts';
 
 const READY: SessionState = { ...INITIAL_STATE, link: { status: 'ready' } };
 const LEASE: Lease = {
-  ...{ driver: null, drives: false, asker: null, asks: false, answerInMs: null },
+  ...{ driver: null, drives: false, requestedBy: null, hasRequested: false, grantedInMs: null },
   ...{
     you: 'Ben',
     mayDrive: true,
     mayTake: false,
-    givenBy: null,
+    grantedBy: null,
     candidates: [],
     others: 0,
     unattended: null,
@@ -48,7 +48,7 @@ describe('what only brushes a servo', () => {
 test.each([
   ['nobody drives and it may', LEASE, null],
   ['somebody else drives', { ...LEASE, driver: 'Anna' }, 'watching'],
-  ['it has asked whoever drives', { ...LEASE, driver: 'Anna', asks: true }, 'asking'],
+  ['it has asked whoever drives', { ...LEASE, driver: 'Anna', hasRequested: true }, 'asking'],
   ['a viewer, while nobody drives', { ...LEASE, mayDrive: false }, 'viewing'],
   ['a viewer, while somebody drives', { ...LEASE, mayDrive: false, driver: 'Anna' }, 'viewing'],
 ] as const)('what keeps a page from moving: %s', (_, lease, hindrance) => {

@@ -25,7 +25,7 @@ export function motionHindrance({ link, latch, lease, activity }: SessionState):
   if (link.status !== 'ready') return 'closed';
   if (latch !== null) return 'latched';
   if (lease?.mayDrive === false) return 'viewing';
-  if (isWatching(lease)) return lease?.asks === true ? 'asking' : 'watching';
+  if (isWatching(lease)) return lease?.hasRequested === true ? 'asking' : 'watching';
   return activity.kind === 'downloading' || activity.kind === 'erasing' ? 'busy' : null;
 }
 

@@ -17,7 +17,7 @@ export interface Listed<F extends Facts = GroupFacts> {
 export interface Listing {
   readonly documents: readonly Listed<Facts>[];
   /** The name of a damaged file that the keeper found and kept; null for none. */
-  readonly setAside: string | null;
+  readonly damagedFile: string | null;
   /** The last changes before the keeper's start may be missing. */
   readonly changesLost: boolean;
 }

@@ -11,8 +11,8 @@ import { createSession } from './robot.ts';
 import type { SharedLatchReason, Transport, TransportEvents } from './transport.ts';
 
 const FREE: Lease = {
-  ...{ driver: null, drives: false, asker: null, asks: false, answerInMs: null, others: 1 },
-  ...{ you: 'Ben', mayDrive: true, mayTake: false, givenBy: null, candidates: [], unattended: null },
+  ...{ driver: null, drives: false, requestedBy: null, hasRequested: false, grantedInMs: null, others: 1 },
+  ...{ you: 'Ben', mayDrive: true, mayTake: false, grantedBy: null, candidates: [], unattended: null },
 };
 const OURS: Lease = { ...FREE, driver: 'Anna', drives: true };
 const THEIRS: Lease = { ...FREE, driver: 'Bert' };

@@ -25,16 +25,17 @@ export interface Lease {
   readonly driver: string | null;
   /** That is this end. */
   readonly drives: boolean;
-  /** Whoever asks the driver for it. */
-  readonly asker: string | null;
-  readonly asks: boolean;
-  /** How long the driver may still refuse, when this was told. */
-  readonly answerInMs: number | null;
+  /** Name of the client that has requested it from the driver. */
+  readonly requestedBy: string | null;
+  /** That is this end. */
+  readonly hasRequested: boolean;
+  /** Until then the driver may refuse the request; from when this arrived. */
+  readonly grantedInMs: number | null;
   readonly mayDrive: boolean;
   /** Without asking. */
   readonly mayTake: boolean;
   /** Who handed it to this end, which drives; null where nobody did. */
-  readonly givenBy: string | null;
+  readonly grantedBy: string | null;
   /** Whom this end may hand it to. */
   readonly candidates: readonly Candidate[];
   /** Others who look on or drive. */
@@ -44,10 +45,10 @@ export interface Lease {
 }
 
 /**
- * `request` a free one, or ask its driver; `release` it, also to whoever asks, or take the question back; `refuse` whoever
- * asks; `take` it without asking; `giveTo` one of the candidates, by id.
+ * `request` it; `release` it, to the client that has requested it if there is one, or withdraw a request; `refuse` a request;
+ * `take` it without a request; `grantTo` one of the candidates, by id.
  */
-export type LeaseAction = 'request' | 'release' | 'refuse' | 'take' | { readonly giveTo: string };
+export type LeaseAction = 'request' | 'release' | 'refuse' | 'take' | { readonly grantTo: string };
 
 /** Somebody else drives, or this end never may. On a link of its own there is no lease. */
 export function isWatching(lease: Lease | null): boolean {

@@ -30,7 +30,7 @@ export type Intent =
 
 /** What comes from outside. */
 type Input =
-  | { readonly asks: Intent; readonly id?: number }
+  | { readonly intent: Intent; readonly id?: number }
   | { readonly says: string }
   /** Pulled, it takes no attempt to open it until it is there again. */
   | { readonly port: 'gone' | 'back' };
@@ -67,7 +67,7 @@ interface Told {
 const QUIET_MS = 10_000;
 /** So long the link is open before the first input: what others had set in motion is then no longer than this from its end. */
 const OPEN_FOR_MS = 100;
-const isInput = (event: ScenarioEvent): boolean => 'asks' in event || 'says' in event || 'port' in event;
+const isInput = (event: ScenarioEvent): boolean => 'intent' in event || 'says' in event || 'port' in event;
 const exactly = (ms: number): number => Math.round(ms * 1000) / 1000;
 
 /** Its inputs with what came of them, in the order of time. */
@@ -118,7 +118,7 @@ export async function played({ events, ...head }: Scenario): Promise<Scenario> {
     clock.after(atMs, () => {
       if ('says' in input) channel.events?.received(fromHex(input.says));
       else if ('port' in input) plug(input.port === 'back');
-      else if ('asks' in input) begin(session, input.asks, input.id ?? null, note);
+      else if ('intent' in input) begin(session, input.intent, input.id ?? null, note);
     });
   await clock.advance(Math.max(0, ...inputs.map(({ atMs }) => atMs)) + QUIET_MS);
   const all = [

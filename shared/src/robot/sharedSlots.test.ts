@@ -72,12 +72,12 @@ async function sharedSession(known: Told) {
     },
     lease: (driver: string, drives: boolean) =>
       heard?.leased?.({
-        ...{ driver, drives, asker: null, asks: false, answerInMs: null },
+        ...{ driver, drives, requestedBy: null, hasRequested: false, grantedInMs: null },
         ...{
           you: 'Ben',
           mayDrive: true,
           mayTake: true,
-          givenBy: null,
+          grantedBy: null,
           candidates: [],
           others: 1,
           unattended: null,

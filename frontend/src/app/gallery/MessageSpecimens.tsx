@@ -12,7 +12,7 @@ import { LEASE, READY, REMOTE } from './states.ts';
 
 const SHARED: SessionState = {
   ...READY,
-  lease: { ...LEASE, asker: 'Bert', answerInMs: 5000, mayTake: true },
+  lease: { ...LEASE, requestedBy: 'Bert', grantedInMs: 5000, mayTake: true },
 };
 
 function prepared(prepare: (stores: Stores) => void, state = READY): Stores {

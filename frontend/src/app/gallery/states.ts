@@ -29,12 +29,12 @@ export const READY: SessionState = {
 export const NO_BATTERY: SessionState = { ...READY, battery: { kind: 'unread' } };
 
 export const LEASE: Lease = {
-  ...{ driver: 'Anna', drives: true, asker: null, asks: false, answerInMs: null },
+  ...{ driver: 'Anna', drives: true, requestedBy: null, hasRequested: false, grantedInMs: null },
   ...{
     you: 'Anna',
     mayDrive: true,
     mayTake: false,
-    givenBy: null,
+    grantedBy: null,
     candidates: [],
     others: 3,
     unattended: null,
@@ -53,11 +53,11 @@ const PRESENT: Lease['candidates'] = [
 /** Whose turn it is, as each of the people there sees it. */
 export const FRAMES_OF_ALL: Readonly<Record<string, Lease>> = {
   'You drive': LEASE,
-  'You drive, asked': { ...LEASE, asker: 'Bert', answerInMs: 5000 },
+  'You drive, asked': { ...LEASE, requestedBy: 'Bert', grantedInMs: 5000 },
   'You drive, others may': { ...LEASE, candidates: PRESENT },
-  'You drive, handed over': { ...LEASE, you: 'Bert', driver: 'Bert', givenBy: 'Anna', candidates: PRESENT },
+  'You drive, handed over': { ...LEASE, you: 'Bert', driver: 'Bert', grantedBy: 'Anna', candidates: PRESENT },
   'Another drives': WATCHED,
-  'Another drives, asked': { ...WATCHED, asker: 'Bert', asks: true, answerInMs: 5000 },
+  'Another drives, asked': { ...WATCHED, requestedBy: 'Bert', hasRequested: true, grantedInMs: 5000 },
   'Another drives, yours to take': { ...WATCHED, mayTake: true, candidates: PRESENT },
   'Another window drives, yours to take': { ...WATCHED, driver: 'Cleo', mayTake: true },
   'Nobody drives': { ...WATCHED, driver: null },

@@ -239,8 +239,8 @@ describe('a robot that goes to rest', () => {
     notices.store.subscribe((list) => list.forEach(({ text }) => announced.add(text)));
     const line = createSimulatedTransport(clock, { onForMs: 60_000, batteryMv: 6500 });
     const others = {
-      ...{ asker: null, asks: false, answerInMs: null, others: 1 },
-      ...{ you: 'Ben', mayDrive: true, mayTake: false, givenBy: null, candidates: [], unattended: null },
+      ...{ requestedBy: null, hasRequested: false, grantedInMs: null, others: 1 },
+      ...{ you: 'Ben', mayDrive: true, mayTake: false, grantedBy: null, candidates: [], unattended: null },
     };
     /** A shared link asks by itself. */
     const tell = (events: TransportEvents): void => {

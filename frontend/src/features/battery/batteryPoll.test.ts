@@ -74,12 +74,19 @@ describe('the battery poll', () => {
     const { clock, device } = await createTestPage();
     const rig = await createRig();
     const readBattery = () => Promise.reject(new Error('asked by the page'));
-    const lease = { driver: null, drives: false, asker: null, asks: false, answerInMs: null, others: 0 };
+    const lease = {
+      driver: null,
+      drives: false,
+      requestedBy: null,
+      hasRequested: false,
+      grantedInMs: null,
+      others: 0,
+    };
     const person = {
       you: 'Ben',
       mayDrive: true,
       mayTake: false,
-      givenBy: null,
+      grantedBy: null,
       candidates: [],
       unattended: null,
     };

@@ -74,7 +74,7 @@ export function createBrowserStore(name: string, nowMs: () => number): DocumentS
           ...{ id, revision, facts: { ...OLDEST, ...facts } },
           isRemoved: removedAtMs !== null,
         }));
-        return { documents, setAside: null, changesLost: false };
+        return { documents, damagedFile: null, changesLost: false };
       }),
     read: (id) => inside('readonly', async (store) => required(await storedOf(store, id))),
     write: (id, writing) =>

@@ -33,7 +33,7 @@ const listingSchema: v.GenericSchema<unknown, LibraryListing> = v.object({
   documents: v.array(
     v.object({ id: v.string(), revision: whole, isRemoved: v.boolean(), facts: factsSchema }),
   ),
-  setAside: v.nullable(v.string()),
+  damagedFile: v.nullable(v.string()),
   changesLost: v.boolean(),
 });
 const storedSchema: v.GenericSchema<unknown, StoredDocument> = v.object({

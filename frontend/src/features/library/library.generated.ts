@@ -96,12 +96,12 @@ export interface VersionWrite {
   text: string;
 }
 /**
- * `setAside` names a damaged file that was found and kept; `changesLost`: the last changes before the
+ * `damagedFile` names a damaged file that was found and kept; `changesLost`: the last changes before the
  * gateway's start may be missing.
  */
 export interface LibraryListing {
   documents: ListedDocument[];
-  setAside: string | null;
+  damagedFile: string | null;
   changesLost: boolean;
 }
 export interface ListedDocument {

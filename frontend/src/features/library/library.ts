@@ -247,8 +247,8 @@ export function createLibrary(options: LibraryOptions): Library {
   }
 
   /** Each once. */
-  function tellDamage({ setAside, changesLost }: Listing): void {
-    const damage = setAside === null ? [] : [words.library.setAside({ file: setAside })];
+  function tellDamage({ damagedFile, changesLost }: Listing): void {
+    const damage = damagedFile === null ? [] : [words.library.setAside({ file: damagedFile })];
     if (changesLost) damage.push(words.library.changesLost);
     for (const text of damage.filter((text) => !notifiedDamage.has(text))) {
       notifiedDamage.add(text);

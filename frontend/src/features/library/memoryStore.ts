@@ -32,7 +32,8 @@ export function createMemoryStore(place: DocumentStore['place'] = 'browser'): Do
 
   return {
     place,
-    list: () => asked(() => ({ documents: [...documents].map(listed), setAside: null, changesLost: false })),
+    list: () =>
+      asked(() => ({ documents: [...documents].map(listed), damagedFile: null, changesLost: false })),
     read: (id) =>
       asked(() => {
         const { text, revision } = required(documents.get(id));

@@ -74,7 +74,7 @@ export function LeaseChip() {
   const isPhone = useLayout() === 'phone';
   if (lease === null || isAlone(lease)) return null;
   const turn = turnOf(lease);
-  const isAsked = lease.drives && lease.asker !== null;
+  const isAsked = lease.drives && lease.requestedBy !== null;
   const isFolded = isPhone && !isAsked && !isOneButton(lease, turn);
   return (
     <div
@@ -90,7 +90,7 @@ export function LeaseChip() {
 
 /** No other page is here, and no script drives or asks to. */
 function isAlone(lease: Lease): boolean {
-  return lease.others === 0 && lease.mayDrive && !isWatching(lease) && lease.asker === null;
+  return lease.others === 0 && lease.mayDrive && !isWatching(lease) && lease.requestedBy === null;
 }
 
 /** Nothing to do, or the one thing that is worth a button beside the words. */
@@ -112,12 +112,12 @@ function Laid({ lease, turn }: TurnProps) {
           {label}
         </Button>
       ))}
-      {lease.asker === null && lease.candidates.length > 0 && (
+      {lease.requestedBy === null && lease.candidates.length > 0 && (
         <MenuButton
           tone="quiet"
           label={words.lease.handOver}
           choices={lease.candidates}
-          onChoose={(giveTo) => device.lease({ giveTo })}
+          onChoose={(grantTo) => device.lease({ grantTo })}
         />
       )}
     </>
@@ -130,7 +130,7 @@ function Folded({ lease, turn }: TurnProps) {
     ...turn.acts,
     ...lease.candidates.map(({ id, name }) => ({
       label: words.lease.handOverTo({ name }),
-      wish: { giveTo: id },
+      wish: { grantTo: id },
     })),
   ];
   const choose = (act?: Pick<TurnAct, 'wish'>): void => {
@@ -166,10 +166,10 @@ function Said({ lease, turn: { truth, text, more } }: TurnProps) {
 }
 
 /** Counts from when it was told. */
-function PassesIn({ lease: { answerInMs, asks } }: { readonly lease: Lease }) {
+function PassesIn({ lease: { grantedInMs, hasRequested } }: { readonly lease: Lease }) {
   const { device } = useStores();
   const [heardMs] = useState(device.clock.now);
   const nowMs = useNow(device.clock.now, 250);
-  const leftMs = (answerInMs ?? 0) - (nowMs - heardMs);
-  return (asks ? words.lease.yoursIn : words.lease.theirsIn)({ seconds: secondsLeft(leftMs) });
+  const leftMs = (grantedInMs ?? 0) - (nowMs - heardMs);
+  return (hasRequested ? words.lease.yoursIn : words.lease.theirsIn)({ seconds: secondsLeft(leftMs) });
 }

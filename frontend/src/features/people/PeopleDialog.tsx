@@ -55,7 +55,7 @@ export function PeopleDialog() {
           state={state}
           wishes={people}
           candidates={candidates}
-          onHandOver={(giveTo) => device.lease({ giveTo })}
+          onHandOver={(grantTo) => device.lease({ grantTo })}
           now={device.clock.now}
         />
       ) : (

@@ -7,8 +7,15 @@ import type { DeviceState } from '../../robot/device.ts';
 import { tellHandedOver } from './leaseText.ts';
 
 const OURS: Lease = {
-  ...{ driver: 'Bert', drives: true, asker: null, asks: false, answerInMs: null, mayDrive: true },
-  ...{ you: 'Bert', mayTake: false, givenBy: null, candidates: [], others: 2, unattended: null },
+  ...{
+    driver: 'Bert',
+    drives: true,
+    requestedBy: null,
+    hasRequested: false,
+    grantedInMs: null,
+    mayDrive: true,
+  },
+  ...{ you: 'Bert', mayTake: false, grantedBy: null, candidates: [], others: 2, unattended: null },
 };
 
 test('whoever is handed the robot is told from whom, once', () => {
@@ -24,7 +31,7 @@ test('whoever is handed the robot is told from whom, once', () => {
     },
   }));
   tellHandedOver(store, { tell: (_tone, text) => void texts.push(text) });
-  const given = { ...OURS, givenBy: 'Anna' };
+  const given = { ...OURS, grantedBy: 'Anna' };
   const theirs = { ...OURS, driver: 'Anna', drives: false };
   for (const lease of [OURS, given, { ...given, others: 3 }, theirs, OURS, null, given]) {
     store.setState({ snapshot: { ...INITIAL_STATE, lease } });

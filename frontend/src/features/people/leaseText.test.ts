@@ -3,12 +3,12 @@ import type { Lease } from '#shared/robot/lease.ts';
 import { turnOf } from './leaseText.ts';
 
 const LOOKS_ON: Lease = {
-  ...{ driver: 'Anna', drives: false, asker: null, asks: false, answerInMs: null },
+  ...{ driver: 'Anna', drives: false, requestedBy: null, hasRequested: false, grantedInMs: null },
   ...{
     you: 'Ben',
     mayDrive: false,
     mayTake: false,
-    givenBy: null,
+    grantedBy: null,
     candidates: [],
     others: 1,
     unattended: null,
@@ -20,11 +20,11 @@ const DRIVER = { ...PUPIL, drives: true };
 
 test.each<[string, Lease, readonly unknown[]]>([
   ['who drives may let go', DRIVER, ['release']],
-  ['who is asked agrees or refuses', { ...DRIVER, asker: 'Bert' }, ['release', 'refuse']],
+  ['who is asked agrees or refuses', { ...DRIVER, requestedBy: 'Bert' }, ['release', 'refuse']],
   ['who may drive asks', PUPIL, ['request']],
-  ['who has asked takes it back', { ...PUPIL, asks: true }, ['release']],
+  ['who has asked takes it back', { ...PUPIL, hasRequested: true }, ['release']],
   ['an owner need not ask', OWNER, ['request', 'take']],
-  ['an owner need not wait', { ...OWNER, asks: true }, ['release', 'take']],
+  ['an owner need not wait', { ...OWNER, hasRequested: true }, ['release', 'take']],
   ['a viewer does nothing', LOOKS_ON, []],
   ['what nobody has is not asked for', { ...PUPIL, driver: null }, []],
 ])('%s', (_, lease, wishes) => {

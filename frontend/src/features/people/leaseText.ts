@@ -14,8 +14,8 @@ export function tellHandedOver(
   notices: Pick<Notices, 'tell'>,
 ): void {
   store.subscribe(({ snapshot: { lease } }, { snapshot: before }) => {
-    const giver = lease?.givenBy ?? null;
-    if (lease !== null && giver !== null && giver !== before.lease?.givenBy)
+    const giver = lease?.grantedBy ?? null;
+    if (lease !== null && giver !== null && giver !== before.lease?.grantedBy)
       notices.tell('info', words.lease.given({ name: personName(giver, lease.you) }));
   });
 }
@@ -36,25 +36,25 @@ export interface Turn {
 }
 
 export function turnOf(lease: Lease): Turn {
-  if (lease.drives) return lease.asker === null ? driving(lease) : beingAsked(lease, lease.asker);
+  if (lease.drives) return lease.requestedBy === null ? driving(lease) : beingAsked(lease, lease.requestedBy);
   return lease.driver === null ? unclaimed(lease) : watching(lease, lease.driver);
 }
 
-const driving = ({ you, givenBy, others }: Lease): Turn => ({
+const driving = ({ you, grantedBy, others }: Lease): Turn => ({
   truth: 'confirmed',
   text: words.lease.drives,
   more: {
     said:
-      givenBy === null
+      grantedBy === null
         ? words.lease.others({ count: others })
-        : words.lease.given({ name: personName(givenBy, you) }),
+        : words.lease.given({ name: personName(grantedBy, you) }),
   },
   acts: [{ label: words.lease.release, hint: words.lease.releaseHint, tone: 'quiet', wish: 'release' }],
 });
 
-const beingAsked = ({ you }: Lease, asker: string): Turn => ({
+const beingAsked = ({ you }: Lease, requestedBy: string): Turn => ({
   truth: 'warning',
-  text: words.lease.asker({ name: personName(asker, you) }),
+  text: words.lease.asker({ name: personName(requestedBy, you) }),
   more: 'countdown',
   acts: [
     { label: words.lease.allow, tone: 'plain', wish: 'release' },
@@ -69,15 +69,15 @@ const unclaimed = ({ mayDrive }: Lease): Turn => ({
   acts: [],
 });
 
-function watching({ you, asks, mayDrive, mayTake }: Lease, driver: string): Turn {
-  const ask: TurnAct = asks
+function watching({ you, hasRequested, mayDrive, mayTake }: Lease, driver: string): Turn {
+  const ask: TurnAct = hasRequested
     ? { label: words.lease.takeBack, tone: 'quiet', wish: 'release' }
     : { label: words.lease.request, hint: words.lease.requestHint, tone: 'plain', wish: 'request' };
   const take = { label: words.lease.take, hint: words.lease.takeHint, tone: 'quiet', wish: 'take' } as const;
   return {
-    truth: asks ? 'commanded' : 'neutral',
-    text: (asks ? words.lease.asked : words.lease.driver)({ name: personName(driver, you) }),
-    more: asks ? 'countdown' : { said: words.lease.watching },
-    acts: [...(asks || mayDrive ? [ask] : []), ...(mayTake ? [take] : [])],
+    truth: hasRequested ? 'commanded' : 'neutral',
+    text: (hasRequested ? words.lease.asked : words.lease.driver)({ name: personName(driver, you) }),
+    more: hasRequested ? 'countdown' : { said: words.lease.watching },
+    acts: [...(hasRequested || mayDrive ? [ask] : []), ...(mayTake ? [take] : [])],
   };
 }

@@ -38,8 +38,8 @@ export interface PeopleApi {
   invite(wish: InviteWish): Promise<Invitation>;
   withdraw(invitation: string): Promise<void>;
   change(person: string, wanted: PersonChange): Promise<void>;
-  /** `groupGoesOn`: the group that they let go on is not stopped with them. */
-  revoke(person: string, groupGoesOn: boolean): Promise<void>;
+  /** `continues`: the group that they let go on is not stopped with them. */
+  revoke(person: string, continues: boolean): Promise<void>;
   makeToken(wish: TokenWish): Promise<Token>;
   makeStopLink(name: string): Promise<StopLink>;
 }
@@ -80,7 +80,7 @@ export interface PeopleStore {
   invite(role: PersonRole, name: string): void;
   endInvitation(): void;
   change(person: string, wanted: PersonChange): void;
-  revoke(person: string, groupGoesOn: boolean): void;
+  revoke(person: string, continues: boolean): void;
   makeToken(name: string, role: PersonRole): void;
   makeStopLink(name: string): void;
   closeShown(): void;
@@ -154,7 +154,7 @@ export function createPeople({ api, me, notices, now }: PeopleOptions): PeopleSt
       }),
     endInvitation: () => void withdraw(),
     change: (person, wanted) => act(() => api.change(person, wanted)),
-    revoke: (person, groupGoesOn) => act(() => api.revoke(person, groupGoesOn)),
+    revoke: (person, continues) => act(() => api.revoke(person, continues)),
     makeToken: (name, role) =>
       act(async () => {
         const { token } = await api.makeToken({ name, role });

@@ -38,13 +38,13 @@ test.each([
 
 test.each([
   [false, 'DELETE api/people/dance'],
-  [true, 'DELETE api/people/dance?groupGoesOn=true'],
-])('who is revoked takes the group along, or it goes on: %j', async (groupGoesOn, expected) => {
+  [true, 'DELETE api/people/dance?continues=true'],
+])('who is revoked takes the group along, or it goes on: %j', async (continues, expected) => {
   const asked: string[] = [];
   vi.stubGlobal('fetch', (url: string, { method }: { method: string }) => {
     asked.push(`${method} ${url}`);
     return Promise.resolve(new Response(null, { status: 204 }));
   });
-  await peopleApi.revoke('dance', groupGoesOn);
+  await peopleApi.revoke('dance', continues);
   expect(asked).toEqual([expected]);
 });

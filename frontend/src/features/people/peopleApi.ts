@@ -77,8 +77,8 @@ export const peopleApi: PeopleApi = {
   change: async (id, wanted) => {
     await ask(`people/${id}`, 'PATCH', nothing, wanted);
   },
-  revoke: async (id, groupGoesOn) => {
-    await ask(`people/${id}${groupGoesOn ? '?groupGoesOn=true' : ''}`, 'DELETE', nothing);
+  revoke: async (id, continues) => {
+    await ask(`people/${id}${continues ? '?continues=true' : ''}`, 'DELETE', nothing);
   },
   makeToken: (wish) => ask('tokens', 'POST', tokenSchema, wish),
   makeStopLink: (name) => ask('stop-links', 'POST', stopLinkSchema, { name }),

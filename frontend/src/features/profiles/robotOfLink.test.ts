@@ -14,12 +14,12 @@ import { freshRobot } from './robots.ts';
 import { createVisit, named } from './robotVisitUnderTest.ts';
 
 const LEASE: Lease = {
-  ...{ driver: null, drives: false, asker: null, asks: false, answerInMs: null },
+  ...{ driver: null, drives: false, requestedBy: null, hasRequested: false, grantedInMs: null },
   ...{
     you: 'Ben',
     mayDrive: true,
     mayTake: false,
-    givenBy: null,
+    grantedBy: null,
     candidates: [],
     others: 1,
     unattended: null,

@@ -354,12 +354,12 @@ export function createGatewayTransport(url: string, clock: Clock, { mayDrive = t
     },
     lease: (action) =>
       postIfOpen(
-        typeof action === 'string' ? { type: 'lease', action } : { type: 'give', to: action.giveTo },
+        typeof action === 'string' ? { type: 'lease', action } : { type: 'grant', to: action.grantTo },
       ),
     letGoOn: (forMs) => postIfOpen({ type: 'continue', forMs }),
     async halt(why) {
       stopPlaying();
-      await answered(halting, { type: 'stop', why: why === 'battery' ? 'battery' : 'person' });
+      await answered(halting, { type: 'stop', reason: why === 'battery' ? 'battery' : 'person' });
     },
     async resume() {
       if (latched !== null) await answered(resuming, { type: 'resume' });

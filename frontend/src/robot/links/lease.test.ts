@@ -3,8 +3,8 @@ import type { ClientMessage, LeaseState } from './messages.generated.ts';
 import { createTurn, type Turn } from './lease.ts';
 
 const FREE: LeaseState = {
-  ...{ driver: null, drives: false, asker: null, asks: false, answerInMs: null },
-  ...{ you: 'Ben', mayDrive: true, mayTake: false, givenBy: null, candidates: [] },
+  ...{ driver: null, drives: false, requestedBy: null, hasRequested: false, grantedInMs: null },
+  ...{ you: 'Ben', mayDrive: true, mayTake: false, grantedBy: null, candidates: [] },
 };
 const OURS: LeaseState = { ...FREE, driver: 'Anna', drives: true };
 const THEIRS: LeaseState = { ...FREE, driver: 'Bert' };
@@ -31,7 +31,7 @@ test('a lease that nobody has is requested, and with its first tick the turn beg
   await turn.begin();
   expect(said).toEqual([
     { type: 'lease', action: 'request' },
-    { type: 'beat', nonce: '1-1' },
+    { type: 'heartbeat', nonce: '1-1' },
   ]);
 });
 
@@ -40,8 +40,8 @@ test('each tick is answered at once, and the newest counts', () => {
   turn.ticked('1-1');
   turn.ticked('1-2');
   expect(said).toEqual([
-    { type: 'beat', nonce: '1-1' },
-    { type: 'beat', nonce: '1-2' },
+    { type: 'heartbeat', nonce: '1-1' },
+    { type: 'heartbeat', nonce: '1-2' },
   ]);
   expect(turn.nonce).toBe('1-2');
 });
@@ -58,7 +58,7 @@ test('a page that was busy says nothing with an old nonce, but waits for the nex
   expect(hasBegun).toBe(false);
   turn.ticked('1-2');
   await begun;
-  expect(said.map(({ type }) => type)).toEqual(['beat', 'beat']);
+  expect(said.map(({ type }) => type)).toEqual(['heartbeat', 'heartbeat']);
 });
 
 test('whoever needs newer words waits for the next tick', async () => {
@@ -78,7 +78,7 @@ test('a page that wakes when its turn is over is told so, and waits for no tick'
   const begun = turn.begin();
   turn.told(FREE);
   await expect(begun).rejects.toMatchObject({ code: 'expired' });
-  expect(said).toEqual([{ type: 'beat', nonce: '1-1' }]);
+  expect(said).toEqual([{ type: 'heartbeat', nonce: '1-1' }]);
 });
 
 test('while another drives nothing is requested by moving', async () => {

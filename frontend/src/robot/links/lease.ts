@@ -69,7 +69,7 @@ export function createTurn(post: (message: ClientMessage) => void, now: () => nu
     ticked(next) {
       nonce = next;
       tickedMs = now();
-      post({ type: 'beat', nonce });
+      post({ type: 'heartbeat', nonce });
       settle(({ resolve }) => resolve());
     },
     begin(withinMs = FRESH_MS) {

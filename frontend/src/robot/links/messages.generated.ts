@@ -17,9 +17,9 @@ export type ClientMessage =
   | ReadMessage
   | CalibrateMessage
   | LeaseMessage
-  | GiveMessage
+  | GrantMessage
   | ContinueMessage
-  | BeatMessage;
+  | HeartbeatMessage;
 export type GatewayMessage =
   | WelcomeMessage
   | BatteryMessage
@@ -83,7 +83,7 @@ export interface PlayMessage {
    */
   id: number;
   /**
-   * Of the latest `tick`: shows how old this is.
+   * Of the latest `tick`: shows how old the message is.
    */
   nonce: string;
 }
@@ -190,7 +190,7 @@ export interface PacketMessage {
  */
 export interface StopMessage {
   type: 'stop';
-  why?: 'person' | 'battery';
+  reason?: 'person' | 'battery';
 }
 /**
  * Allow motion again. Moves nothing.
@@ -234,34 +234,35 @@ export interface CalibrateMessage {
   servo: number | null;
 }
 /**
- * `request` a lease that is free, or ask its driver for it; `release` it, also to whoever asks, or take
- * the question back; `refuse` whoever asks; `take` it without asking.
+ * `request` the lease: granted at once where it is free, otherwise unless its driver refuses. `release`
+ * it, to the client that has requested it if there is one; also withdraws a request. `refuse` a request.
+ * `take` it, without a request.
  */
 export interface LeaseMessage {
   type: 'lease';
   action: 'request' | 'release' | 'take' | 'refuse';
 }
 /**
- * The driver's or an owner's: whoever of that id is here and may drive shall drive now, unasked.
+ * The driver or an owner grants the lease to the connected client of that id, without a request.
  */
-export interface GiveMessage {
-  type: 'give';
+export interface GrantMessage {
+  type: 'grant';
   to: string;
 }
 /**
- * The driver's: the run under way may go on without me, for so long at most. `null`: it may not.
+ * The driver lets the run in progress continue without one, for so long at most. `null`: not at all.
  */
 export interface ContinueMessage {
   type: 'continue';
   forMs: number | null;
 }
 /**
- * The answer to each `tick`: somebody is there who drives.
+ * The driver's answer to each `tick`.
  */
-export interface BeatMessage {
-  type: 'beat';
+export interface HeartbeatMessage {
+  type: 'heartbeat';
   /**
-   * Of the latest `tick`: shows how old this is.
+   * Of the latest `tick`: shows how old the message is.
    */
   nonce: string;
 }
@@ -481,20 +482,21 @@ export interface RobotState {
   revision: number;
 }
 /**
- * Who drives and who asks to, by name; `drives` and `asks`: that is this client. `answerInMs`: how long
- * the driver may still refuse. `givenBy`: who handed it to this client, which drives. `candidates`: whom
- * this client may hand it to. `you`: this client's own name; several windows of one browser share it.
+ * The lease, by name: who drives, and who has requested it. `drives` and `hasRequested`: this client
+ * does or has. `grantedInMs`: until then the driver may refuse the request. `grantedBy`: the driver or owner
+ * who granted it to this client, which drives. `candidates`: the clients to which this one may grant it.
+ * `you`: this client's own name; several windows of one browser share it.
  */
 export interface LeaseState {
   you: string;
   driver: string | null;
   drives: boolean;
-  asker: string | null;
-  asks: boolean;
-  answerInMs: number | null;
+  requestedBy: string | null;
+  hasRequested: boolean;
+  grantedInMs: number | null;
   mayDrive: boolean;
   mayTake: boolean;
-  givenBy: string | null;
+  grantedBy: string | null;
   candidates: Candidate[];
 }
 /**
@@ -838,7 +840,8 @@ export interface LeaseStateMessage {
   lease: LeaseState;
 }
 /**
- * To the driver, four times a second: answer it with a `beat`, and put its nonce into each `send`.
+ * To the driver, four times a second. It is answered with `heartbeat`; its nonce goes into each message
+ * that moves.
  */
 export interface TickMessage {
   type: 'tick';
@@ -925,4 +928,4 @@ export interface PlayedMessage {
   play: PlayState;
 }
 /** Of these messages. */
-export const PROTOCOL = 7;
+export const PROTOCOL = 8;

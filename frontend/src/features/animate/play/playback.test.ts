@@ -19,8 +19,8 @@ const groupOf = (...frames: readonly NewFrame[]): ActionGroup =>
   frames.reduce((group, each) => insertFrame(group, group.frames.length, each), emptyGroup('Wave', 'us'));
 
 const THEIRS: Lease = {
-  ...{ driver: 'Bert', drives: false, asker: null, asks: false, answerInMs: null, others: 1 },
-  ...{ you: 'Ben', mayDrive: true, mayTake: false, givenBy: null, candidates: [], unattended: null },
+  ...{ driver: 'Bert', drives: false, requestedBy: null, hasRequested: false, grantedInMs: null, others: 1 },
+  ...{ you: 'Ben', mayDrive: true, mayTake: false, grantedBy: null, candidates: [], unattended: null },
 };
 
 const WAVE = groupOf(frame(400, 1000), frame(400, 1600), frame(600, 1300));
