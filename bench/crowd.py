@@ -27,9 +27,8 @@ JOIN_AT_ONCE = 20
 # Between Resume and the next press: at any moment of the driver's.
 PAUSE_S = (0.060, 0.110)
 FIRST_POSITION = 500
-# The last packet of a message, and in it the first servo's position.
-LEFT = re.compile(r'"([0-9a-f]+)"\]\}$')
-POSITION_AT = slice(16, 20)
+# The first servo's position in the last move of a message.
+LEFT = re.compile(r'^\{"type":"left",.*"targets":\[\{"servo":1,"position":(\d+)')
 UPGRADE = (
     "GET /ws HTTP/1.1\r\nHost: {host}\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n"
     "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: {key}\r\n\r\n"
@@ -118,8 +117,8 @@ async def watch(client: ClientConnection, said_s: list[float], ages_ms: list[flo
     async for text in client:
         now_s = time.perf_counter()
         found = LEFT.search(str(text))
-        if found and found[1][6:8] == "03":
-            number = int.from_bytes(bytes.fromhex(found[1][POSITION_AT]), "little") - FIRST_POSITION
+        if found:
+            number = int(found[1]) - FIRST_POSITION
             if 0 <= number < len(said_s):
                 ages_ms.append((now_s - said_s[number]) * 1000)
 
