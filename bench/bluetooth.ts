@@ -13,7 +13,7 @@ import { openDashboard, withBluetoothBoard, withBoard, withPage, type BoardOnPor
 import { percentile } from './statistics.ts';
 import { measureStopDragging } from './stop.ts';
 
-const DRAG_MS = amount(5_000, 800);
+const DRAG_MS = amount(3_000, 800);
 /** First moves of six servos, one after another. */
 const FIRST_MOVES_MS = 3_500;
 /** What waits behind the last event has left by then. */

@@ -12,7 +12,7 @@ import { median } from './statistics.ts';
 const SLOWER = 4;
 const BITS_PER_S = 10_000_000;
 const LATENCY_MS = 40;
-const REPEATS = amount(5, 1);
+const REPEATS = amount(3, 1);
 const USABLE_LIMIT_MS = 1500;
 const NARROW = { width: 820, height: 1180 };
 /** All parts of the page have come by then. */
