@@ -63,7 +63,12 @@ export async function openPage({ me, problem }: Arrival): Promise<Page> {
   // Documents begin with names in the language of whoever opens the page.
   await followLanguage({ view, notices, tags: navigator.languages });
   const robots = createRobots(storage, notices);
-  const device = createDevice({ family: FAMILIES.doc, clock: pageClock, notices, robots });
+  const device = createDevice({
+    family: FAMILIES[robots.current().robot.board],
+    clock: pageClock,
+    notices,
+    robots,
+  });
   const boards = createBoards(storage);
   const battery = createBattery(device, robots);
   const mappings = createMappings(storage, notices, robots);

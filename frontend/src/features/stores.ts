@@ -118,6 +118,14 @@ export function useKnownFamily(): Family {
   return useDevice(({ family }) => knownFamily(family, robot));
 }
 
+/** The link is open to a board of which neither it nor a person has said what it is. Before that a gateway may know it. */
+export function useIsUnidentified(): boolean {
+  return useDevice(
+    ({ family, way, snapshot: { link } }) =>
+      family.id === 'unknown' && way !== null && link.status !== 'closed' && link.status !== 'opening',
+  );
+}
+
 /** What the group at hand is drawn by. */
 export function useGroupBoard(): GroupBoard {
   const [robot, family] = [useRobot(), useKnownFamily()];

@@ -1,6 +1,6 @@
-// The place of live control: the servos, or, while nobody has said which board this is, the question.
+// The place of live control: the servos, or, on a board that is not identified, the question which one it is.
 
-import { useDevice } from '../stores.ts';
+import { useIsUnidentified } from '../stores.ts';
 import { laterComponent } from '../../ui/later.tsx';
 import { ServosPanel } from './ServosPanel.tsx';
 
@@ -11,10 +11,5 @@ const WhichBoard = laterComponent(
 );
 
 export function LivePanel() {
-  const isAsked = useDevice(
-    // Before the link is open there is nothing to ask about: a gateway may know the board.
-    ({ family, way, snapshot: { link } }) =>
-      family.id === 'unknown' && way !== null && link.status !== 'closed' && link.status !== 'opening',
-  );
-  return isAsked ? <WhichBoard /> : <ServosPanel />;
+  return useIsUnidentified() ? <WhichBoard /> : <ServosPanel />;
 }

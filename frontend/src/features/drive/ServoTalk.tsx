@@ -2,7 +2,7 @@
 
 import { mayAsk, startHindrance, tellsPositions } from '../../robot/readiness.ts';
 import { canTeach } from './teaching.ts';
-import { useDevice, useIsTeaching, useRobot, useSnapshot, useStores } from '../stores.ts';
+import { useIsTeaching, useKnownFamily, useRobot, useSnapshot, useStores } from '../stores.ts';
 import { Button } from '../../ui/Button.tsx';
 import { Confirm } from '../../ui/Confirm.tsx';
 import { words } from '../../i18n/words.ts';
@@ -10,7 +10,7 @@ import styles from './ServoTalk.module.css';
 
 export function ServoTalk() {
   const { device } = useStores();
-  const family = useDevice((state) => state.family);
+  const family = useKnownFamily();
   const isTeaching = useIsTeaching();
   const isAllowed = useSnapshot((snapshot) => mayAsk(snapshot, family)) && !isTeaching;
   const servos = useRobot().servos.map(({ servo }) => servo);

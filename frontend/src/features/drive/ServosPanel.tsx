@@ -8,6 +8,7 @@ import {
   useRobot,
   useServoView,
   useDevice,
+  useKnownFamily,
   useIsGuessing,
   useView,
   editServoView,
@@ -90,14 +91,13 @@ function CurrentServo() {
 
 function Legend() {
   const { view } = useStores();
-  const isTelling = useDevice((state) => tellsPositions(state.family));
+  const family = useKnownFamily();
   const isGuessing = useIsGuessing();
-  const unit = useDevice((state) => state.family.unit);
   const positionsIn = useView((state) => state.positionsIn);
   return (
     <div className={legendStyles.line}>
       <ul className={legendStyles.legend} aria-label={words.truth.legend}>
-        {(isTelling ? ALL : COMPUTED).map((truth) => (
+        {(tellsPositions(family) ? ALL : COMPUTED).map((truth) => (
           <li key={truth}>
             <Chip truth={truth}>{words.truth[truth]}</Chip>
           </li>
@@ -112,7 +112,7 @@ function Legend() {
         label={words.servoPanel.positionsIn}
         value={positionsIn}
         options={[
-          { value: 'board', label: words.units[unit] },
+          { value: 'board', label: words.units[family.unit] },
           { value: 'degrees', label: words.servoPanel.degrees },
         ]}
         onChange={(wanted) => view.setState({ positionsIn: wanted })}

@@ -2,7 +2,7 @@
 // as a pose, in one press. Says what was captured and offers to take it back.
 
 import { tellsPositions } from '../../../robot/readiness.ts';
-import { useDevice, useStores, type Stores } from '../../stores.ts';
+import { useDevice, useIsUnidentified, useKnownFamily, useStores, type Stores } from '../../stores.ts';
 import { Button, type ButtonProps } from '../../../ui/Button.tsx';
 import { words } from '../../../i18n/words.ts';
 import { capturePose } from '../../poses/capturePose.ts';
@@ -32,9 +32,7 @@ export function CaptureButton({ label, hint, onPress }: CaptureButtonProps) {
 
 /** What makes a pose known. */
 const useUnknownText = (): string =>
-  useDevice(({ family }) => tellsPositions(family))
-    ? words.actions.nothingKnownOrRead
-    : words.actions.nothingKnown;
+  tellsPositions(useKnownFamily()) ? words.actions.nothingKnownOrRead : words.actions.nothingKnown;
 
 export const useKnowsPose = (): boolean => useDevice(({ known }) => known.length > 0);
 
@@ -42,8 +40,7 @@ export function CaptureStrip() {
   const stores = useStores();
   const isKnown = useKnowsPose();
   const unknown = useUnknownText();
-  const isUnknownBoard = useDevice(({ family }) => family.id === 'unknown');
-  if (isUnknownBoard) return null;
+  if (useIsUnidentified()) return null;
   return (
     <section className={styles.strip} aria-label={words.actions.captureHere}>
       {isKnown ? <Captures stores={stores} /> : <p className={styles.hint}>{unknown}</p>}
