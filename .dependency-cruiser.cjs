@@ -7,6 +7,24 @@ const documents = '^shared/src/(document|group|profile|files)/';
 const test = `[.]test[.]tsx?$|${testSupport}`;
 const page = '^frontend/src/';
 
+/** Which feature may import which, besides the files directly in features/: what is not listed goes through these or through app/. */
+const FEATURES = {
+  animate: ['board', 'drive', 'library', 'picture', 'poses', 'profiles', 'undo'],
+  battery: ['poses'],
+  board: ['animate', 'library', 'profiles'],
+  buttons: ['picture', 'poses', 'profiles', 'undo'],
+  connect: ['animate', 'people', 'profiles'],
+  drive: ['picture'],
+  inputs: ['poses', 'profiles', 'undo'],
+  library: ['animate', 'picture', 'profiles'],
+  log: [],
+  people: [],
+  picture: ['animate', 'undo'],
+  poses: ['animate', 'picture', 'profiles', 'undo'],
+  profiles: ['drive', 'people', 'picture', 'undo'],
+  undo: [],
+};
+
 /** Code in `from` knows nothing of `to`; tests may, so far as `except` allows. */
 function forbid(name, comment, from, to) {
   return { name, comment, severity: 'error', from, to };
@@ -150,6 +168,23 @@ module.exports = {
       'The catalogue is read by everyone and reads nobody of the page.',
       { path: `${page}i18n/` },
       { path: page, pathNot: `${page}i18n/` },
+    ),
+    ...Object.entries(FEATURES).map(([feature, others]) =>
+      forbid(
+        `feature-${feature}`,
+        `A feature imports those that FEATURES lists for it.`,
+        { path: `${page}features/${feature}/`, pathNot: test },
+        {
+          path: `${page}features/[^/]+/`,
+          pathNot: `${page}features/(${[feature, ...others].join('|')})/`,
+        },
+      ),
+    ),
+    forbid(
+      'features-are-listed',
+      'A new feature begins with its line in FEATURES.',
+      { path: `${page}features/[^/]+/`, pathNot: `${page}features/(${Object.keys(FEATURES).join('|')})/` },
+      { path: `${page}features/` },
     ),
     forbid(
       'features-know-no-app',

@@ -94,6 +94,37 @@ test('only robot and app know the links', () => {
   expect(users.map(partOf).filter((part) => !/^frontend\/(robot|app)$/.test(part))).toEqual([]);
 });
 
+/** As FEATURES in .dependency-cruiser.cjs; the files directly in features/ are for all of them. */
+const featuresKnow: Readonly<Record<string, readonly string[]>> = {
+  animate: ['board', 'drive', 'library', 'picture', 'poses', 'profiles', 'undo'],
+  battery: ['poses'],
+  board: ['animate', 'library', 'profiles'],
+  buttons: ['picture', 'poses', 'profiles', 'undo'],
+  connect: ['animate', 'people', 'profiles'],
+  drive: ['picture'],
+  inputs: ['poses', 'profiles', 'undo'],
+  library: ['animate', 'picture', 'profiles'],
+  log: [],
+  people: [],
+  picture: ['animate', 'undo'],
+  poses: ['animate', 'picture', 'profiles', 'undo'],
+  profiles: ['drive', 'people', 'picture', 'undo'],
+  undo: [],
+};
+
+test('features import each other as listed, and every listed import exists', () => {
+  const featureOf = (file: string) => /^frontend\/src\/features\/([^/]+)\//.exec(file)?.[1];
+  const found = Object.fromEntries(Object.keys(featuresKnow).map((feature) => [feature, new Set<string>()]));
+  for (const file of sourcesOf('frontend')) {
+    const feature = featureOf(file);
+    const others = importsOf(file).map(featureOf);
+    for (const other of others)
+      if (feature !== undefined && other !== undefined && other !== feature) found[feature]?.add(other);
+  }
+  const sorted = Object.entries(found).map(([feature, others]) => [feature, [...others].toSorted()]);
+  expect(Object.fromEntries(sorted)).toEqual(featuresKnow);
+});
+
 test('no `if` asks which family a board is of: what it would know is a field of shared/protocol/families.json', () => {
   const ids = Object.keys(families.families).join('|');
   const compared = new RegExp(

@@ -18,7 +18,7 @@ import { TakeThat } from '../features/animate/play/TakeThat.tsx';
 import { RobotDialog } from '../features/profiles/RobotDialog.tsx';
 import { Authoring } from './Authoring.tsx';
 import { ReplaceQuestion } from '../features/board/slots/ReplaceQuestion.tsx';
-import { LivePanel } from '../features/drive/LivePanel.tsx';
+import { LivePanel } from './LivePanel.tsx';
 import { StopButton } from '../features/drive/StopButton.tsx';
 import { StoresContext, useStores, useView } from '../features/stores.ts';
 import type { Undoable } from '../state/undoable.ts';

@@ -11,7 +11,7 @@ import {
 import { LANGUAGE_CODES, type Language } from '../i18n/words.ts';
 import type { TextStorage } from '../state/soon.ts';
 import { GENTLE_MOVE_MS, type MoveTime } from '../robot/moveTime.ts';
-import { INITIAL_SERVO_VIEW, type ServoView } from './drive/servoView.ts';
+import { INITIAL_SERVO_VIEW, type ServoView } from './servoView.ts';
 
 /** On a wide screen all but the buttons are side by side. */
 export type Tab = 'live' | 'actions' | 'board' | 'log' | 'buttons';

@@ -11,7 +11,7 @@ import { BoardPanel } from '../../features/board/BoardPanel.tsx';
 import { pageClock } from '../page.ts';
 import { LogPanel } from '../../features/log/LogPanel.tsx';
 import { ThisBoard } from '../../features/connect/identity/ThisBoard.tsx';
-import { LivePanel } from '../../features/drive/LivePanel.tsx';
+import { LivePanel } from '../LivePanel.tsx';
 import type { BatteryStore } from '../../features/battery/battery.ts';
 import { nameOf } from '../../robot/boards.ts';
 import type { RobotStore } from '../../features/profiles/robots.ts';

@@ -3,7 +3,7 @@
 import type { Robot } from '#shared/profile/robot.ts';
 import type { FamilyId } from '#shared/codec/families.ts';
 import { freshRobot } from '../../features/profiles/robots.ts';
-import type { ServoView } from '../../features/drive/servoView.ts';
+import type { ServoView } from '../../features/servoView.ts';
 import type { ViewState } from '../../features/view.ts';
 
 /** 64 characters, the most that any name may have. */

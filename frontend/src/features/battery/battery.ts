@@ -12,8 +12,7 @@ import {
   type Supply,
 } from '#shared/profile/battery.ts';
 import { nameOf } from '../../robot/boards.ts';
-import type { Device, DeviceState } from '../../robot/device.ts';
-import type { RobotStore } from '../profiles/robots.ts';
+import type { Device, DeviceState, RobotProfiles } from '../../robot/device.ts';
 
 /** A group of the board, or one played from the page. `toMs` is null while it goes on. */
 export interface RunSpan {
@@ -34,7 +33,7 @@ export type BatteryStore = StoreApi<BatteryState>;
 const READINGS_STORED = 4320;
 const RUNS_STORED = 500;
 
-export function createBattery(device: Device, robots: RobotStore): BatteryStore {
+export function createBattery(device: Device, robots: RobotProfiles): BatteryStore {
   const supply = (): Supply => supplyOf(robots.current().robot);
   const store = createStore<BatteryState>(() => ({ supply: supply(), ...NOTHING_READ }));
   let wayName = '';

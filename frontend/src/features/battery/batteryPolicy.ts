@@ -9,17 +9,16 @@ import type { ServoTarget } from '#shared/codec/commands.ts';
 import { wasCommanded } from '#shared/robot/state.ts';
 import { words } from '../../i18n/words.ts';
 import type { BatteryStore } from './battery.ts';
-import type { Device } from '../../robot/device.ts';
+import type { Device, RobotProfiles } from '../../robot/device.ts';
 import { limitRefusal } from '../../robot/limitGate.ts';
 import type { Poses } from '../poses/poses.ts';
 import type { Notices } from '../../state/notices.ts';
 import { motionHindrance } from '../../robot/readiness.ts';
-import type { RobotStore } from '../profiles/robots.ts';
 
 export interface BatteryPolicyOptions {
   readonly device: Device;
   readonly battery: BatteryStore;
-  readonly robots: RobotStore;
+  readonly robots: RobotProfiles;
   readonly poses: Pick<Poses, 'targetsOf'>;
   readonly notices: Notices;
 }

@@ -4,7 +4,7 @@ import { addMacro, moveMacro, removeMacro } from '#shared/profile/macroEdits.ts'
 import type { Macro } from '#shared/profile/macro.ts';
 import { useStores, useMacros, useView } from '../stores.ts';
 import { words } from '../../i18n/whole.ts';
-import { useCards } from '../animate/frames/useCards.ts';
+import { useCards } from '../../ui/useCards.ts';
 import { Button } from '../../ui/Button.tsx';
 import { cx } from '../../ui/cx.ts';
 import { Icon } from '../../ui/Icon.tsx';

@@ -1,7 +1,7 @@
 // Servos that are selected: how they move together, and what can be done with them.
 
 import { motionHindrance } from '../../robot/readiness.ts';
-import { isHeld, select, toggled, TOGETHER, type ServoView } from './servoView.ts';
+import { isHeld, select, toggled, TOGETHER, type ServoView } from '../servoView.ts';
 import { editServoView, useServoView, useSnapshot, useStores } from '../stores.ts';
 import { Button, IconButton } from '../../ui/Button.tsx';
 import { NumberField } from '../../ui/NumberField.tsx';

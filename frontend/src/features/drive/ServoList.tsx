@@ -4,7 +4,7 @@ import { useMemo } from 'react';
 import type { RobotServo } from '#shared/profile/robot.ts';
 import { limbsOf } from '../picture/pose.ts';
 import { SharedSheet } from '../picture/SharedSheet.tsx';
-import { select, toggled } from './servoView.ts';
+import { select, toggled } from '../servoView.ts';
 import { editServoView, useRobot, useServoView, useStores } from '../stores.ts';
 import { Button } from '../../ui/Button.tsx';
 import { cx } from '../../ui/cx.ts';

@@ -3,7 +3,7 @@
 import type { Ref } from 'react';
 import type { RobotServo } from '#shared/profile/robot.ts';
 import { Dial } from '../picture/Dial.tsx';
-import { isHeld, selectByClick } from './servoView.ts';
+import { isHeld, selectByClick } from '../servoView.ts';
 import { editServoView, useDevice, useServoView, useStores } from '../stores.ts';
 import { Icon } from '../../ui/Icon.tsx';
 import { selectHow } from '../../ui/pressOnce.ts';

@@ -9,7 +9,7 @@ import { words, useWords } from '../../i18n/words.ts';
 import { type Scale, scaleOf, stepped } from './scale.ts';
 import { MovingText } from '../picture/MovingText.tsx';
 import { mayBrush, motionHindrance, tellsPositions } from '../../robot/readiness.ts';
-import { isHeld } from './servoView.ts';
+import { isHeld } from '../servoView.ts';
 import { cx } from '../../ui/cx.ts';
 import { Sight, useSight } from '../../ui/sight.ts';
 import { NumberField } from '../../ui/NumberField.tsx';

@@ -23,7 +23,7 @@ import { ServoRow } from './ServoRow.tsx';
 import { tellsPositions, motionHindrance } from '../../robot/readiness.ts';
 import { Chip } from '../../ui/Chip.tsx';
 import { Choice } from '../../ui/Toggle.tsx';
-import { select, type ServoView } from './servoView.ts';
+import { select, type ServoView } from '../servoView.ts';
 import { Button } from '../../ui/Button.tsx';
 import { laterComponent } from '../../ui/later.tsx';
 import { NumberField } from '../../ui/NumberField.tsx';

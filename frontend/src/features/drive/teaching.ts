@@ -4,14 +4,14 @@
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { ServoTarget } from '#shared/codec/commands.ts';
 import type { Family } from '#shared/codec/families.ts';
+import type { Robot } from '#shared/profile/robot.ts';
 import { servoLabel } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/words.ts';
-import type { Device, DeviceState } from '../../robot/device.ts';
+import type { Device, DeviceState, RobotProfiles } from '../../robot/device.ts';
 import { limitRefusal } from '../../robot/limitGate.ts';
 import { GENTLE_MOVE_MS } from '../../robot/moveTime.ts';
 import { endsMotion, startHindrance, tellsPositions } from '../../robot/readiness.ts';
 import type { Notices } from '../../state/notices.ts';
-import type { RobotStore } from '../profiles/robots.ts';
 
 export interface TeachingState {
   readonly isOn: boolean;
@@ -27,7 +27,9 @@ export interface Teaching {
 
 export interface TeachingOptions {
   readonly device: Device;
-  readonly robots: RobotStore;
+  readonly robots: Pick<RobotProfiles, 'store'> & {
+    current(): { readonly id: number; readonly robot: Robot };
+  };
   readonly notices: Notices;
 }
 

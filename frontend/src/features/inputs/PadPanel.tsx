@@ -21,7 +21,7 @@ import { words } from '../../i18n/whole.ts';
 import { useEachFrame } from '../../ui/useEachFrame.ts';
 import { GENTLE_MOVE_MS } from '../../robot/moveTime.ts';
 import { motionHindrance } from '../../robot/readiness.ts';
-import { isHeld } from '../drive/servoView.ts';
+import { isHeld } from '../servoView.ts';
 import { Button } from '../../ui/Button.tsx';
 import type { PanelParts } from '../../ui/Panel.tsx';
 import { Toggle } from '../../ui/Toggle.tsx';

@@ -12,7 +12,7 @@ import { createNotices } from '../../state/notices.ts';
 import { createPad, type Gamepadlike } from './pad.ts';
 import { createPoses } from '../poses/poses.ts';
 import { createView } from '../view.ts';
-import { INITIAL_SERVO_VIEW } from '../drive/servoView.ts';
+import { INITIAL_SERVO_VIEW } from '../servoView.ts';
 import { createRobots, freshRobot } from '../profiles/robots.ts';
 
 const STANDARD = { id: 'Pad', index: 0, mapping: 'standard' };

@@ -9,7 +9,7 @@ import {
   type RefObject,
 } from 'react';
 import type { RobotServo, Robot } from '#shared/profile/robot.ts';
-import { isHeld, selectByClick } from '../drive/servoView.ts';
+import { isHeld, selectByClick } from '../servoView.ts';
 import { editServoView, useDevice, useServoView, useStores } from '../stores.ts';
 import { Icon } from '../../ui/Icon.tsx';
 import { selectHow } from '../../ui/pressOnce.ts';

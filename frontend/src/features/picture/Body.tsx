@@ -2,7 +2,7 @@
 
 import { useRef } from 'react';
 import type { Family } from '#shared/codec/families.ts';
-import { select } from '../drive/servoView.ts';
+import { select } from '../servoView.ts';
 import { editServoView, useDevice, useRobot, useServoView, useStores } from '../stores.ts';
 import { cx } from '../../ui/cx.ts';
 import { Canvas, type Size } from './Canvas.tsx';

@@ -4,8 +4,8 @@
 import { useRef } from 'react';
 import { rescaled } from '#shared/profile/units.ts';
 import { poseAtMs } from '#shared/group/tracks.ts';
-import { knownFamily } from '../animate/group/groupBoard.ts';
-import { isSilent } from '../drive/servoView.ts';
+import { knownFamily } from '../groupBoard.ts';
+import { isSilent } from '../servoView.ts';
 import { servoViewOf, useStores, type Stores } from '../stores.ts';
 import { timesOf } from '../animate/timeline/groupTimes.ts';
 import { useEachFrame } from '../../ui/useEachFrame.ts';

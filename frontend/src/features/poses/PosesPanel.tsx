@@ -9,7 +9,7 @@ import { useDevice, useRobot, usePoses, useStores, useView } from '../stores.ts'
 import { PoseThumb } from '../picture/PoseThumb.tsx';
 import { EmptyState } from '../../ui/EmptyState.tsx';
 import { words } from '../../i18n/whole.ts';
-import { useCards } from '../animate/frames/useCards.ts';
+import { useCards } from '../../ui/useCards.ts';
 import { poseName } from './poses.ts';
 import { PoseCard } from './PoseCard.tsx';
 import { limbsOf } from '../picture/pose.ts';

@@ -1,6 +1,6 @@
 import { describe, expect, test } from 'vitest';
 import { createTestPage } from '../pageUnderTest.ts';
-import { INITIAL_SERVO_VIEW } from '../drive/servoView.ts';
+import { INITIAL_SERVO_VIEW } from '../servoView.ts';
 
 const at = (position: number) => [{ servo: 1, position }];
 

@@ -3,7 +3,7 @@ import { EMPTY_BOOK, addPose, markRest, poseBookToText } from '#shared/profile/p
 import { undoLabel } from '#shared/document/history.ts';
 import { createTestPage } from '../pageUnderTest.ts';
 import { words } from '../../i18n/words.ts';
-import { INITIAL_SERVO_VIEW } from '../drive/servoView.ts';
+import { INITIAL_SERVO_VIEW } from '../servoView.ts';
 
 const at = (position: number) => ({ unit: 'us' as const, targets: [{ servo: 1, position }] });
 

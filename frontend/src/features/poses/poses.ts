@@ -18,7 +18,7 @@ import { flawSentence } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/words.ts';
 import type { Device } from '../../robot/device.ts';
 import { limitRefusal } from '../../robot/limitGate.ts';
-import { freeOf, stayingOf } from '../drive/locks.ts';
+import { freeOf, stayingOf } from '../locks.ts';
 import type { Notices } from '../../state/notices.ts';
 import { createRobotDocument, type RobotDocument } from '../profiles/robotDocument.ts';
 import type { RobotStore } from '../profiles/robots.ts';

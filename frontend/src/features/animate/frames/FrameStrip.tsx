@@ -14,7 +14,7 @@ import { indexOfFrame } from '#shared/group/groupEdits.ts';
 import { useStores } from '../../stores.ts';
 import { clipFromText, clipToText } from '../timeline/clipText.ts';
 import { copy, cut, paste, togetherNow, moveBy, removeFrames, createStripKeys } from './frameVerbs.ts';
-import { cardOf, useCards } from './useCards.ts';
+import { cardOf, useCards } from '../../../ui/useCards.ts';
 import { usePlayedFrame } from '../play/usePlayedFrame.ts';
 import { showFrame } from '../timeline/inStep.ts';
 import { useWholeFrames } from '../timeline/wholeFrames.ts';

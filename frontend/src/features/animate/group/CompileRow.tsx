@@ -6,7 +6,7 @@ import type { CompileProblem } from '#shared/group/compileReport.ts';
 import { type ActionGroup, MOST_ERROR_UNITS, maxErrorOf } from '#shared/group/group.ts';
 import { tracksOf, type KeyRef } from '#shared/group/tracks.ts';
 import { setMeta } from '#shared/group/groupEdits.ts';
-import { select } from '../../drive/servoView.ts';
+import { select } from '../../servoView.ts';
 import {
   editServoView,
   type Stores,

@@ -7,7 +7,7 @@ import { type ActionGroup, maxErrorOf } from '#shared/group/group.ts';
 import type { Clock } from '#shared/clock.ts';
 import type { Device } from '../../../robot/device.ts';
 import type { Document } from './document.ts';
-import { knownFamily } from './groupBoard.ts';
+import { knownFamily } from '../../groupBoard.ts';
 import type { RobotStore } from '../../profiles/robots.ts';
 import { setChanged } from '../../../state/setChanged.ts';
 import { compileSource, type Source, type CompileResult } from './compileSource.ts';

@@ -19,7 +19,7 @@ import {
 import { chosenTimes } from '../../board/slots/groupPlace.ts';
 import { useSlotContents } from '../../board/slots/useSlotContents.ts';
 import { motionHindrance, startHindrance } from '../../../robot/readiness.ts';
-import { isSilent } from '../../drive/servoView.ts';
+import { isSilent } from '../../servoView.ts';
 import { timesOf } from '../timeline/groupTimes.ts';
 import { Button, IconButton } from '../../../ui/Button.tsx';
 import { cx } from '../../../ui/cx.ts';

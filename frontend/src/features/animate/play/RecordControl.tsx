@@ -1,7 +1,7 @@
 // Recording by hand: on purpose, from a press to the next one, or after the fact, what moved in the last two minutes.
 
 import { useStore } from 'zustand';
-import { recorded } from '../../drive/servoView.ts';
+import { recorded } from '../../servoView.ts';
 import { servoViewOf, useRobot, useServoView, useStores, type Stores } from '../../stores.ts';
 import { Button } from '../../../ui/Button.tsx';
 import { useNow } from '../../../ui/useNow.ts';

@@ -7,7 +7,7 @@ import type { Lease } from '#shared/robot/lease.ts';
 import { downloadCancelled } from '../../../i18n/sentences.ts';
 import { createTestPage } from '../../pageUnderTest.ts';
 import { createSharedSlots } from '../../board/slots/sharedSlotsUnderTest.ts';
-import { INITIAL_SERVO_VIEW } from '../../drive/servoView.ts';
+import { INITIAL_SERVO_VIEW } from '../../servoView.ts';
 
 const frame = (durationMs: number, position: number, more: Partial<NewFrame> = {}): NewFrame => ({
   durationMs,

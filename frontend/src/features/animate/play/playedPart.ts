@@ -14,7 +14,7 @@ import type { FollowedPose } from '../../../robot/follower.ts';
 import { chosenTimes } from '../../board/slots/groupPlace.ts';
 import type { Playhead } from './playback.ts';
 import type { RobotStore } from '../../profiles/robots.ts';
-import { isSilent, servoViewFor } from '../../drive/servoView.ts';
+import { isSilent, servoViewFor } from '../../servoView.ts';
 import type { View } from '../../view.ts';
 
 export interface PlayedPart {

@@ -3,7 +3,7 @@
 import { memo } from 'react';
 import { positionAt } from '#shared/group/tracks.ts';
 import { MovingLabel } from '../../picture/MovingText.tsx';
-import { isHeld, isSilent, toggled } from '../../drive/servoView.ts';
+import { isHeld, isSilent, toggled } from '../../servoView.ts';
 import {
   editServoView,
   groupBoardOf,

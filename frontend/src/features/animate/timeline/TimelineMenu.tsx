@@ -6,7 +6,7 @@ import { Popover } from 'react-aria-components/Popover';
 import { Separator } from 'react-aria-components/Separator';
 import { COLOURS } from '#shared/document/schema.ts';
 import { EASINGS } from '#shared/group/group.ts';
-import { toggled, type ServoView } from '../../drive/servoView.ts';
+import { toggled, type ServoView } from '../../servoView.ts';
 import { editServoView, useServoView, useStores } from '../../stores.ts';
 import { Icon } from '../../../ui/Icon.tsx';
 import { words } from '../../../i18n/whole.ts';

@@ -12,7 +12,7 @@ import type { Label } from '#shared/document/history.ts';
 import { servoOf } from '#shared/profile/robot.ts';
 import { keysAt, positionAt, type Key, type KeyRef } from '#shared/group/tracks.ts';
 import { keySet, NO_KEYS } from './timeline.ts';
-import { isHeld } from '../../drive/servoView.ts';
+import { isHeld } from '../../servoView.ts';
 import { namesIn, servoName } from '../../profiles/servoName.ts';
 import { notPasted } from './clipText.ts';
 import { words } from '../../../i18n/whole.ts';

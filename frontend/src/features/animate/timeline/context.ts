@@ -8,7 +8,7 @@ import type { Robot } from '#shared/profile/robot.ts';
 import { servoOf } from '#shared/profile/robot.ts';
 import { positionRange, type Family, type Range } from '#shared/codec/families.ts';
 import { framesByServo, keySet, type KeySet, ALL_ROW, type Cursor, type TimelineState } from './timeline.ts';
-import { isHeld, type ServoView } from '../../drive/servoView.ts';
+import { isHeld, type ServoView } from '../../servoView.ts';
 import { setChanged } from '../../../state/setChanged.ts';
 import { groupBoardOf, servoViewOf, type Stores } from '../../stores.ts';
 import type { PositionsIn } from '../../view.ts';

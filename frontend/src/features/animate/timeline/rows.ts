@@ -2,7 +2,7 @@
 
 import type { Robot, RobotServo } from '#shared/profile/robot.ts';
 import { limbsOf } from '../../picture/pose.ts';
-import type { ServoView } from '../../drive/servoView.ts';
+import type { ServoView } from '../../servoView.ts';
 import { ALL_ROW } from './timeline.ts';
 
 export interface Row {

@@ -2,7 +2,7 @@
 
 import type { Marker } from '#shared/group/group.ts';
 import { positionRange, type Family, type Range } from '#shared/codec/families.ts';
-import { isHeld, isSilent } from '../../drive/servoView.ts';
+import { isHeld, isSilent } from '../../servoView.ts';
 import { ALL_ROW, type TimelineState } from './timeline.ts';
 import { selectedKeys, type GroupTimes } from './groupTimes.ts';
 import type { TimelineContext } from './context.ts';

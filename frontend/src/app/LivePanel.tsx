@@ -1,11 +1,11 @@
 // The place of live control: the servos, or, on a board that is not identified, the question which one it is.
 
-import { useIsUnidentified } from '../stores.ts';
-import { laterComponent } from '../../ui/later.tsx';
-import { ServosPanel } from './ServosPanel.tsx';
+import { useIsUnidentified } from '../features/stores.ts';
+import { laterComponent } from '../ui/later.tsx';
+import { ServosPanel } from '../features/drive/ServosPanel.tsx';
 
 const WhichBoard = laterComponent(
-  async () => (await import('../connect/identity/WhichBoard.tsx')).WhichBoard,
+  async () => (await import('../features/connect/identity/WhichBoard.tsx')).WhichBoard,
   '100%',
   'guards',
 );

@@ -1,10 +1,10 @@
 // What a person has locked on this screen stays out of everything that is driven from it by hand. Knows no device.
 
-import { stayingSentence } from '../../i18n/sentences.ts';
-import type { RobotStore } from '../profiles/robots.ts';
-import { servoName } from '../profiles/servoName.ts';
+import { stayingSentence } from '../i18n/sentences.ts';
+import type { RobotStore } from './profiles/robots.ts';
+import { servoName } from './profiles/servoName.ts';
 import { isHeld, servoViewFor } from './servoView.ts';
-import type { View } from '../view.ts';
+import type { View } from './view.ts';
 
 export interface Locking {
   readonly view: View;
