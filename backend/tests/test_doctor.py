@@ -12,6 +12,7 @@ from typer.testing import CliRunner
 from servodeck.cli.main import app
 from servodeck.port.diagnosis import looks_like
 from tests.test_ports import Pty
+from tests.vectors import load_vectors
 
 NOBODY = "http://127.0.0.1:1"
 
@@ -72,8 +73,6 @@ def test_without_a_gateway_it_says_how_to_start_one(pty: Pty) -> None:
     assert "Nothing answers on" in said
 
 
-@pytest.mark.parametrize(
-    ("noise", "kind"), [(b"boot", "text"), (b"\xff\x00", "rate"), (b"\x12\x9a", "other")]
-)
-def test_what_noise_looks_like(noise: bytes, kind: str) -> None:
-    assert looks_like(noise) == kind
+@pytest.mark.parametrize("case", load_vectors("noise"), ids=lambda case: str(case["name"]))
+def test_what_noise_looks_like(case: dict[str, str]) -> None:
+    assert looks_like(bytes.fromhex(case["hex"])) == case["kind"]

@@ -98,7 +98,10 @@ def heard_on(port: OpenPort) -> Heard:
 
 
 def looks_like(noise: bytes | bytearray) -> str:
-    """`text` of a program that prints, `rate` for bytes at another speed, else `other`. As in doctor.ts."""
+    """`text` of a program that prints, `rate` for bytes at another speed, else `other`.
+
+    Twin of kindOfNoise in frontend/src/features/connect/doctor.ts; vectors/noise.json holds both.
+    """
     if share(noise, PRINTABLE) >= DECODER.noise_share:
         return "text"
     return "rate" if share(noise, RUNS) >= DECODER.noise_share else "other"

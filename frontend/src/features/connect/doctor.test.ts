@@ -1,4 +1,6 @@
 import { describe, expect, test } from 'vitest';
+import { fromHex } from '#shared/codec/packet.ts';
+import NOISE from '../../../../shared/protocol/vectors/noise.json' with { type: 'json' };
 import { createTrafficLog } from '../../robot/traffic.ts';
 import { findingsOf, heardIn, kindOfNoise, type Facts } from './doctor.ts';
 
@@ -39,12 +41,8 @@ describe('findings', () => {
   });
 });
 
-test.each([
-  ['text', [...new TextEncoder().encode('rst:0x1 (POWERON_RESET),boot:0x13\r\n')]],
-  ['rate', [0x00, 0xff, 0xfe, 0x80, 0xe0, 0x00, 0xf8, 0x12]],
-  ['other', [0x55, 0x12, 0x9a, 0x34, 0xd1, 0x07, 0xc3]],
-] as const)('noise that looks like %s', (kind, bytes) => {
-  expect(kindOfNoise(bytes)).toBe(kind);
+test.each(NOISE)('noise: $name', ({ hex, kind }) => {
+  expect(kindOfNoise([...fromHex(hex)])).toBe(kind);
 });
 
 test('what was heard before the link was lost does not count for the present one', () => {

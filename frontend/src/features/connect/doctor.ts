@@ -72,7 +72,7 @@ function heardFindings({ packets, noise }: Heard): readonly Finding[] {
   ];
 }
 
-/** At another speed bits run together: what arrives is nearly all ones or zeros. */
+/** At another speed bits run together: what arrives is nearly all ones or zeros. Its twin is `looks_like`; vectors/noise.json holds both. */
 export function kindOfNoise(bytes: readonly number[]): NoiseKind {
   const share = (test: (byte: number) => boolean): number => bytes.filter(test).length / bytes.length;
   if (
