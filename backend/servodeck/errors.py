@@ -19,6 +19,7 @@ ErrorCode = Literal[
     "boardSilent",
     "noAnswer",
     "notSupported",
+    "notOnThisCable",
     "latched",
     "notDriving",
     "expired",
@@ -201,6 +202,13 @@ class NotSupportedError(GatewayError):
     """This board has no such command."""
 
     code: ClassVar[ErrorCode] = "notSupported"
+    status: ClassVar[int] = 409
+
+
+class NotOnThisCableError(GatewayError):
+    """The board has it, and no hardware has confirmed how this cable carries it."""
+
+    code: ClassVar[ErrorCode] = "notOnThisCable"
     status: ClassVar[int] = 409
 
 

@@ -4,7 +4,7 @@ import asyncio
 
 import pytest
 
-from servodeck.errors import NotSupportedError
+from servodeck.errors import NotOnThisCableError
 from servodeck.protocol.packets import parse_command
 from servodeck.protocol.values import Frame, Move, ServoTarget
 from servodeck.robot.board.move_plan import FIRST_MOVE_STAGGER_S
@@ -85,10 +85,10 @@ async def test_download_and_erase_are_refused_with_the_reason() -> None:
     port = FakeHidPort()
     async with gateway_on(port) as control:
         client = Client(control)
-        with pytest.raises(NotSupportedError, match=f"{REFUSED} erase"):
+        with pytest.raises(NotOnThisCableError, match=f"{REFUSED} erase"):
             client.send(ERASE)
         part = made_of(WAVE, list(packets_of(WAVE, "doc")), "doc")
-        with pytest.raises(NotSupportedError, match=f"{REFUSED} download"):
+        with pytest.raises(NotOnThisCableError, match=f"{REFUSED} download"):
             control.requests.download([part], ANNA, lambda: None)
         assert port.packets() == [STOP]
 

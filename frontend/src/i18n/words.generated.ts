@@ -2068,6 +2068,7 @@ export interface Messages {
     readonly boardSilent: string;
     readonly noAnswer: string;
     readonly notSupported: string;
+    readonly notOnThisCable: string;
     readonly latched: string;
     readonly notDriving: string;
     readonly expired: string;

@@ -64,7 +64,7 @@ test('a packet by hand that is too long is refused', async () => {
 
 test('what the link is not to carry is refused, and the page is told', async () => {
   const { session, clock, heard } = await createRig({ withheld: ['download', 'erase'] });
-  const refused = { code: 'notSupported' };
+  const refused = { code: 'notOnThisCable' };
   const frames = [{ durationMs: 500, targets: [{ servo: 1, position: 1_500 }] }];
   await expect(session.download([{ slot: 3, frames }])).rejects.toMatchObject(refused);
   await expect(session.erase()).rejects.toMatchObject(refused);

@@ -30,7 +30,7 @@ export interface Core {
 /** Whether the board knows it is another question. */
 export function requireCarried({ store }: Core, kind: Withheld): void {
   if (store.state.withheld.includes(kind))
-    throw new LinkError('notSupported', `this link does not carry "${kind}"`);
+    throw new LinkError('notOnThisCable', `this link does not carry "${kind}"`);
 }
 
 export function setActivity({ store }: Core, activity: Activity): void {

@@ -26,6 +26,7 @@ export const LINK_ERROR_CODES = [
   'boardSilent', // it does not answer what such a board always answers
   'noAnswer', // the board did not answer in time
   'notSupported', // this board has no such command
+  'notOnThisCable', // the board has it, and no hardware has confirmed how this cable carries it
   'latched', // stopped: motion waits for Resume
   'notDriving', // somebody else drives this robot
   'expired', // it was said too long ago to be done now

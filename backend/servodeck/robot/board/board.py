@@ -20,7 +20,7 @@ from servodeck.errors import (
     LatchedError,
     MovingError,
     NoAnswerError,
-    NotSupportedError,
+    NotOnThisCableError,
     PortLostError,
 )
 from servodeck.port.hid_reports import ReportInbox
@@ -145,9 +145,9 @@ class Board:
     def judge_carried(self, kind: Withheld) -> None:
         """Raises where no hardware has confirmed how such a cable carries it."""
         if kind in self.link.withheld:
-            raise NotSupportedError(
+            raise NotOnThisCableError(
                 f"The board's own USB cable carries no {kind} yet: no hardware has confirmed how. "
-                "Use its serial header with an adapter."
+                "Use its serial header with an adapter, or Bluetooth."
             )
 
     @property

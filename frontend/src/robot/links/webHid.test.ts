@@ -115,7 +115,7 @@ test('download and erase are refused: the cable is not to carry them', async () 
   const board = browser.plugIn();
   const { robot } = await ready(board);
   expect(robot.state.withheld).toEqual(['download', 'erase']);
-  await expect(robot.erase()).rejects.toMatchObject({ code: 'notSupported' });
+  await expect(robot.erase()).rejects.toMatchObject({ code: 'notOnThisCable' });
   expect(board.reports).toEqual([]);
 });
 
