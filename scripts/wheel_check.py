@@ -26,6 +26,7 @@ NEEDED = (
     *("servodeck/static/index.html", "servodeck/static/index.html.br", "servodeck/__main__.py"),
     *("servodeck/protocol/families.json", "servodeck/protocol/timings.json"),
     "servodeck/protocol/bluetooth.json",
+    "servodeck/protocol/usb.json",
 )
 STOP = bytes.fromhex("55550207")
 # In KiB of gzipped JavaScript; see ADR 20. What makes it grow comes later, or pays for it.

@@ -310,3 +310,10 @@ def test_where_the_system_keeps_no_lasting_names_none_is_told(dev: FakeDev) -> N
 def test_the_list_for_people_names_it_too(dev: FakeDev) -> None:
     dev.plug("ttyUSB0", TWIN, LEFT)
     assert f"lasting name: {dev.folder}/serial/by-path/{LEFT}" in CliRunner().invoke(app, ["ports"]).stdout
+
+
+def test_a_known_chip_gives_the_port_a_name_that_people_know(dev: FakeDev) -> None:
+    device = dev.plug("ttyUSB0", TWIN, LEFT)
+    (port,) = [port for port in list_devices() if port.device == device]
+    assert port.description == "CH340 USB serial adapter"
+    assert port.likely

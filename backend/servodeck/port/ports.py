@@ -12,7 +12,7 @@ import socket
 from collections.abc import Awaitable, Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Protocol, TypeVar
+from typing import Any, Final, Protocol, TypeVar
 
 import serial
 from serial.tools import list_ports
@@ -22,6 +22,7 @@ from servodeck.port import hid
 from servodeck.port.whereabouts import SHARED_NUMBERS, UsbDevice
 from servodeck.protocol.decoder import LONGEST_PACKET
 from servodeck.protocol.families import Withheld
+from servodeck.protocol.shared_data import load_shared
 from servodeck.protocol.timings import LINE
 
 POSIX = os.name == "posix"
@@ -30,8 +31,9 @@ READ_WAIT_S = 0.2
 # POSIX with 0 spins while the buffer is full.
 WRITE_WAIT_S = 0.2 if POSIX else 0.0
 READ_BYTES = 4096
-# USB serial chips found on these boards and on their cables: WCH CH340/CH341, Silicon Labs CP210x, FTDI.
-LIKELY_VENDORS = frozenset({0x1A86, 0x10C4, 0x0403})
+# On these boards and on their cables, by vendor and product: `1a86:7523` is a CH340.
+ADAPTERS: Final[dict[str, str]] = load_shared("usb")["adapters"]
+LIKELY_VENDORS = frozenset(int(ids[:4], 16) for ids in ADAPTERS)
 URL_SCHEME = "socket://"
 LASTING = Path("/dev/serial")
 # Ports of one interface share its place on the bus; only the system's name for their socket counts them.
@@ -232,7 +234,10 @@ def usb_device(port: Any) -> UsbDevice:
 
 def describe(port: Any) -> PortInfo:
     """`port` is pyserial's ListPortInfo, whose fields its stubs leave half typed."""
+    chip = None if port.vid is None else ADAPTERS.get(f"{port.vid:04x}:{port.pid:04x}")
     text = port.description if port.description not in (None, "n/a") else port.name
+    if chip:
+        text = f"{chip} USB serial adapter"
     device = str(port.device)
     has_number = (port.serial_number or "") not in SHARED_NUMBERS
     lasting = lasting_name(device, has_number=has_number)

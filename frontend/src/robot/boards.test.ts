@@ -1,7 +1,7 @@
 import { expect, test } from 'vitest';
 import { createBoards } from './boards.ts';
 
-const ARM = { kind: 'webSerial', label: 'USB serial 1A86:7523' } as const;
+const ARM = { kind: 'webSerial', label: 'CH340 USB serial adapter' } as const;
 const HAND = { kind: 'gateway', label: '/dev/ttyUSB0' } as const;
 
 function storageWith(text: string | null = null) {

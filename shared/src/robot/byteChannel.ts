@@ -22,7 +22,7 @@ export interface OpenOptions {
 }
 
 export interface ByteChannel {
-  /** Names the device for people, e.g. `USB serial 1A86:7523`. */
+  /** Names the device for people, e.g. `CH340 USB serial adapter`. */
   readonly label: string;
   /** In bytes; Infinity where a packet of any length passes. Longer ones never reach `write`. */
   readonly longestPacket: number;

@@ -36,13 +36,13 @@ const CASES: readonly {
   },
   {
     name: 'Connect, a port is open',
-    current: { kind: 'webSerial', label: 'USB 1A86:7523', isSimulated: false },
+    current: { kind: 'webSerial', label: 'CH340 USB serial adapter', isSimulated: false },
     state: {
       ...BASE,
       openPort: PORT,
       granted: [
-        { port: PORT, label: 'USB 1A86:7523' },
-        { port: OTHER_PORT, label: 'USB 0403:6001' },
+        { port: PORT, label: 'CH340 USB serial adapter' },
+        { port: OTHER_PORT, label: 'FT232 USB serial adapter' },
       ],
     },
   },

@@ -16,7 +16,7 @@ export interface BatteryFeed {
 }
 
 export const SIMULATED: Way = { kind: 'simulated', label: 'Simulated board', isSimulated: true };
-export const USB: Way = { kind: 'webSerial', label: 'USB 1A86:7523', isSimulated: false };
+export const USB: Way = { kind: 'webSerial', label: 'CH340 USB serial adapter', isSimulated: false };
 export const REMOTE: Way = { kind: 'gateway', label: '/dev/ttyUSB0', isSimulated: false };
 
 export const READY: SessionState = {

@@ -1,7 +1,8 @@
 // Which board a lost link comes back to, as the browser hands out its ports: never one that was there beside ours.
 
 import { expect, test } from 'vitest';
-import { CH340, type FakeBrowser, type FakePort } from './serialUnderTest.ts';
+import { portLabel } from './serialPorts.ts';
+import { CH340, createBrowser, type FakeBrowser, type FakePort } from './serialUnderTest.ts';
 import { expectUse, openReady, openTab, outcome, pass, freshBrowser, type Outcome } from './tabUnderTest.ts';
 
 const CP2102: SerialPortInfo = { usbVendorId: 0x10c4, usbProductId: 0xea60 };
@@ -109,4 +110,13 @@ test('ours is found again though the browser noticed late that it went, and a tw
   const again = it.browser.plugIn();
   await pass(100);
   expect([outcome(tab), again.isOpen(), twin.isOpen()]).toEqual(['ready', true, false]);
+});
+
+test.each([
+  [CH340, 'CH340 USB serial adapter'],
+  [CP2102, 'CP2102 USB serial adapter'],
+  [{ usbVendorId: 0x1234, usbProductId: 0x0678 }, 'USB serial 1234:0678'],
+  [NO_USB, 'Serial port'],
+])('a port is called by its chip where that is known', (ids, label) => {
+  expect(portLabel(createBrowser().plugIn(ids).port)).toBe(label);
 });

@@ -2,6 +2,7 @@
 // Opens none.
 
 import { LinkError, type LinkErrorCode } from '#shared/robot/linkError.ts';
+import USB from '../../../../shared/protocol/usb.json' with { type: 'json' };
 
 /** Why Web Serial cannot be used here, or null when it can. An insecure address hides it in every browser. */
 export function webSerialObstacle(): Extract<LinkErrorCode, 'insecureAddress' | 'unsupported'> | null {
@@ -27,8 +28,11 @@ export async function choosePort(): Promise<SerialPort> {
 export function portLabel(port: SerialPort): string {
   const { usbVendorId, usbProductId } = port.getInfo();
   if (usbVendorId === undefined) return 'Serial port';
-  const hex = (id: number | undefined): string => (id ?? 0).toString(16).toUpperCase().padStart(4, '0');
-  return `USB serial ${hex(usbVendorId)}:${hex(usbProductId)}`;
+  const hex = (id: number | undefined): string => (id ?? 0).toString(16).padStart(4, '0');
+  const ids = `${hex(usbVendorId)}:${hex(usbProductId)}`;
+  const chips: Readonly<Record<string, string>> = USB.adapters;
+  const chip = chips[ids];
+  return chip === undefined ? `USB serial ${ids}` : `${chip} USB serial adapter`;
 }
 
 export function nameOf(error: unknown): string {

@@ -101,7 +101,7 @@ test('a tab that crashed lets go late: the next one waits for it', async () => {
   const port = it.browser.plugIn();
   let letGo = (): void => undefined;
   const held = (): Promise<void> => new Promise((resolve) => (letGo = resolve));
-  void navigator.locks.request('servodeck port USB serial 1A86:7523', {}, held);
+  void navigator.locks.request('servodeck port CH340 USB serial adapter', {}, held);
   const next = openTab(port);
   await pass(1200);
   letGo();
@@ -140,7 +140,11 @@ test('a robot that cannot be stopped changes hands all the same, in bounded time
 
 test('a tab that does not answer keeps the robot, and the other one is told', async () => {
   const port = it.browser.plugIn();
-  void navigator.locks.request('servodeck port USB serial 1A86:7523', {}, () => new Promise(() => undefined));
+  void navigator.locks.request(
+    'servodeck port CH340 USB serial adapter',
+    {},
+    () => new Promise(() => undefined),
+  );
   const tab = openTab(port);
   await pass(TOLD_IN_TURN_MS);
   const taking = tab.session.takeOver();
