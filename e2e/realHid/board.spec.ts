@@ -3,48 +3,51 @@
 
 import { lastTarget, ofKind } from '../fixtures/bus.ts';
 import { dashboardOf, ONCE_BACK, READY } from '../fixtures/dashboard.ts';
-import { BOARD_LABEL, BOARD_NAME } from '../fixtures/mockBoard.ts';
-import { expect, poll, test } from '../fixtures/realBoard.ts';
+import { BOARD_LABEL, BOARD_NAME, HID_BOARD } from '../fixtures/mockBoard.ts';
+import { testOn } from '../fixtures/realDevice.ts';
+import { expect, poll } from '../fixtures/test.ts';
+
+const test = testOn(HID_BOARD);
 
 test('a board on its own USB cable is driven, stopped, pulled and found again', async ({
-  openBoard,
+  connected,
   ptyBoard,
   pull,
   plugIn,
 }) => {
-  await expect(openBoard.battery).toContainText('7.50 V');
-  await openBoard.type(openBoard.target(1), 2000);
-  await expect(openBoard.estimate(1)).toHaveText('≈ 2000');
-  await openBoard.stop.click();
-  await expect(openBoard.status).toContainText('Stop sent');
+  await expect(connected.battery).toContainText('7.50 V');
+  await connected.type(connected.target(1), 2000);
+  await expect(connected.estimate(1)).toHaveText('≈ 2000');
+  await connected.stop.click();
+  await expect(connected.status).toContainText('Stop sent');
   await poll(async () => ofKind(await ptyBoard.bus(), 'stop')).toHaveLength(3);
   await pull();
-  await expect(openBoard.link).toHaveText(/^Lost/);
+  await expect(connected.link).toHaveText(/^Lost/);
   await plugIn();
-  await expect(openBoard.link).toHaveText(READY, ONCE_BACK);
-  await expect(openBoard.status).toContainText('The link was restored; check the robot first');
+  await expect(connected.link).toHaveText(READY, ONCE_BACK);
+  await expect(connected.status).toContainText('The link was restored; check the robot first');
 });
 
 test('a board that was chosen is opened without a chooser at the next visit @exhaustive', async ({
-  openBoard,
+  connected,
   open,
   page,
 }) => {
-  await openBoard.link.click();
-  await expect(openBoard.button(`${BOARD_LABEL} is open`)).toBeDisabled();
+  await connected.link.click();
+  await expect(connected.button(`${BOARD_LABEL} is open`)).toBeDisabled();
   const again = await open(page);
   await expect(again.link).toHaveText(READY);
 });
 
 test('a gateway drives a board on its own USB cable, and finds it again @exhaustive', async ({
-  mockBoard,
+  mockDevice,
   newGateway,
   ptyBoard,
   browser,
   pull,
   plugIn,
 }) => {
-  const gateway = await newGateway({ serial: 'hid', mockTree: mockBoard.tree });
+  const gateway = await newGateway({ serial: 'hid', mockTree: mockDevice.tree });
   const page = await browser.newPage();
   await page.goto(gateway.url);
   const dashboard = dashboardOf(page);

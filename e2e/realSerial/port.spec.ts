@@ -3,46 +3,50 @@
 
 import { kindsAfter, lastTarget, ofKind } from '../fixtures/bus.ts';
 import { READY } from '../fixtures/dashboard.ts';
-import { expect, poll, test } from '../fixtures/realPort.ts';
+import { testOn } from '../fixtures/realDevice.ts';
+import { expect, poll } from '../fixtures/test.ts';
+import { USB_ADAPTER } from '../fixtures/mockDevice.ts';
 
-test('a real port is opened and tells the battery @exhaustive', async ({ openPort, ptyBoard }) => {
-  await expect(openPort.battery).toContainText('7.50 V');
+const test = testOn(USB_ADAPTER);
+
+test('a real port is opened and tells the battery @exhaustive', async ({ connected, ptyBoard }) => {
+  await expect(connected.battery).toContainText('7.50 V');
   expect(new Set(await kindsAfter(ptyBoard.bus, 0))).toEqual(new Set(['readBattery', 'readPositions']));
 });
 
 test('a port that is open says so, and is not opened once more @exhaustive', async ({
-  openPort,
+  connected,
   ptyBoard,
 }) => {
   const before = (await ptyBoard.bus()).length;
-  await openPort.link.click();
-  await expect(openPort.button('USB serial 1234:5678 is open')).toBeDisabled();
-  await openPort.button('Close').click();
-  await expect(openPort.link).toHaveText(READY);
+  await connected.link.click();
+  await expect(connected.button('USB serial 1234:5678 is open')).toBeDisabled();
+  await connected.button('Close').click();
+  await expect(connected.link).toHaveText(READY);
   expect((await kindsAfter(ptyBoard.bus, before)).filter((kind) => kind !== 'readBattery')).toEqual([]);
 });
 
 test('a slider moves the servo behind a real port, and the estimate follows', async ({
-  openPort,
+  connected,
   ptyBoard,
 }) => {
-  await openPort.slider(2).press('PageUp');
+  await connected.slider(2).press('PageUp');
   await poll(() => lastTarget(ptyBoard.bus, 2)).toBe(1600);
-  await expect(openPort.estimate(2)).toHaveText('≈ 1600');
+  await expect(connected.estimate(2)).toHaveText('≈ 1600');
 });
 
-test('STOP goes out three times over a real port, and holds', async ({ openPort, ptyBoard }) => {
-  await openPort.type(openPort.target(1), 2000);
-  await expect(openPort.estimate(1)).toHaveText('≈ 2000');
-  await openPort.stop.click();
-  await expect(openPort.status).toContainText('Stop sent');
+test('STOP goes out three times over a real port, and holds', async ({ connected, ptyBoard }) => {
+  await connected.type(connected.target(1), 2000);
+  await expect(connected.estimate(1)).toHaveText('≈ 2000');
+  await connected.stop.click();
+  await expect(connected.status).toContainText('Stop sent');
   await poll(async () => ofKind(await ptyBoard.bus(), 'stop')).toHaveLength(3);
   expect(ofKind(await ptyBoard.bus(), 'move').at(-1)?.targets).toEqual([{ servo: 1, position: 2000 }]);
 });
 
-test('an adapter that goes away is told as such @exhaustive', async ({ openPort, ptyBoard }) => {
+test('an adapter that goes away is told as such @exhaustive', async ({ connected, ptyBoard }) => {
   await ptyBoard.unplug();
-  await expect(openPort.link).toHaveText(/^Lost/);
-  await expect(openPort.status).toContainText(/Check the robot’s cable|Plug the robot in|Another program/);
-  await expect(openPort.bar).toContainText(/Next try in \d+ s/);
+  await expect(connected.link).toHaveText(/^Lost/);
+  await expect(connected.status).toContainText(/Check the robot’s cable|Plug the robot in|Another program/);
+  await expect(connected.bar).toContainText(/Next try in \d+ s/);
 });

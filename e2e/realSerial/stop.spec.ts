@@ -5,7 +5,11 @@ import { lastTarget, ofKind, type Bus } from '../fixtures/bus.ts';
 import type { Dashboard } from '../fixtures/dashboard.ts';
 import { captureGroup, downloadGroup } from '../fixtures/group.ts';
 import { SLOW_FLASH } from '../fixtures/robot.ts';
-import { expect, poll, test } from '../fixtures/realPort.ts';
+import { testOn } from '../fixtures/realDevice.ts';
+import { expect, poll } from '../fixtures/test.ts';
+import { USB_ADAPTER } from '../fixtures/mockDevice.ts';
+
+const test = testOn(USB_ADAPTER);
 
 /** Stops, and sees that nothing but the stop is heard until it is over; then a person resumes. */
 async function stopIn(
@@ -31,29 +35,29 @@ async function kindsFromStop(bus: Bus, stopsBefore: number): Promise<string> {
 
 test.use({ boardSettings: SLOW_FLASH });
 
-test('STOP is heard over a real port in each state @exhaustive', async ({ openPort, ptyBoard, page }) => {
+test('STOP is heard over a real port in each state @exhaustive', async ({ connected, ptyBoard, page }) => {
   const { bus } = ptyBoard;
-  await stopIn(openPort, bus);
+  await stopIn(connected, bus);
 
-  await captureGroup(openPort, [1000, 1400], 200);
-  await expect(openPort.estimate(1)).toHaveText('≈ 1400');
-  await openPort.button('Download').click();
-  await expect(openPort.progress).toHaveAttribute('aria-valuetext', '0 of 2 frames');
-  await stopIn(openPort, bus);
-  await expect(openPort.board).toContainText('Its download did not finish.');
+  await captureGroup(connected, [1000, 1400], 200);
+  await expect(connected.estimate(1)).toHaveText('≈ 1400');
+  await connected.button('Download').click();
+  await expect(connected.progress).toHaveAttribute('aria-valuetext', '0 of 2 frames');
+  await stopIn(connected, bus);
+  await expect(connected.board).toContainText('Its download did not finish.');
 
-  await downloadGroup(openPort, 5, 1400);
-  await openPort.untilStopped.check();
-  await openPort.button('Run').click();
-  await expect(openPort.status).toContainText('received by the board');
-  await stopIn(openPort, bus);
+  await downloadGroup(connected, 5, 1400);
+  await connected.untilStopped.check();
+  await connected.button('Run').click();
+  await expect(connected.status).toContainText('received by the board');
+  await stopIn(connected, bus);
 
-  const track = (await openPort.slider(2).boundingBox())!;
-  await openPort.slider(2).hover();
+  const track = (await connected.slider(2).boundingBox())!;
+  await connected.slider(2).hover();
   await page.mouse.down();
   await page.mouse.move(track.x + track.width * 0.6, track.y + track.height / 2, { steps: 5 });
   await poll(() => lastTarget(bus, 2)).toBeDefined();
-  await stopIn(openPort, bus, async () => {
+  await stopIn(connected, bus, async () => {
     await page.keyboard.press('Escape');
     await page.mouse.up();
   });

@@ -5,7 +5,11 @@ import type { Page } from '@playwright/test';
 import { ofKind, type Bus } from '../fixtures/bus.ts';
 import { READY, type Dashboard } from '../fixtures/dashboard.ts';
 import { captureGroup } from '../fixtures/group.ts';
-import { expect, poll, test } from '../fixtures/realPort.ts';
+import { testOn } from '../fixtures/realDevice.ts';
+import { expect, poll } from '../fixtures/test.ts';
+import { USB_ADAPTER } from '../fixtures/mockDevice.ts';
+
+const test = testOn(USB_ADAPTER);
 
 const FRAMES = 12;
 
@@ -32,29 +36,29 @@ function hide(page: Page): Promise<void> {
 }
 
 test('a hidden tab pauses; the next one is told who drives, moves the robot here, and gives it back @exhaustive', async ({
-  openPort,
+  connected,
   open,
   context,
   ptyBoard,
 }) => {
-  await playOn(openPort, ptyBoard.bus);
-  await hide(openPort.page);
+  await playOn(connected, ptyBoard.bus);
+  await hide(connected.page);
   const other = await open(await context.newPage());
   await expect(other.status).toContainText('Another Servodeck tab drives this robot.');
-  await expect(openPort.status).toHaveText('Idle');
+  await expect(connected.status).toHaveText('Idle');
   const movesSoFar = await moveCount(ptyBoard.bus);
   expect(movesSoFar).toBeLessThan(2 + FRAMES);
 
   await other.button('Move it here').click();
   await expect(other.link).toHaveText(READY);
-  await expect(openPort.status).toContainText('Another tab took over this robot.');
+  await expect(connected.status).toContainText('Another tab took over this robot.');
   await poll(async () => ofKind(await ptyBoard.bus(), 'stop').length).toBe(3);
   // A hold behind the first stop, and one behind the last.
   await poll(() => moveCount(ptyBoard.bus)).toBe(movesSoFar + 2);
 
-  await openPort.page.bringToFront();
-  await openPort.button('Move it here').click();
-  await expect(openPort.link).toHaveText(READY);
+  await connected.page.bringToFront();
+  await connected.button('Move it here').click();
+  await expect(connected.link).toHaveText(READY);
   await expect(other.status).toContainText('Another tab took over this robot.');
 });
 
@@ -77,13 +81,13 @@ for (const { name, stops, end } of ENDINGS) {
   test(`a tab that ${name} moves nothing more, and the next one has the robot at once @exhaustive`, async ({
     context,
     open,
-    openPort,
+    connected,
     ptyBoard,
   }) => {
     const next = await context.newPage();
-    await openPort.page.bringToFront();
-    await playOn(openPort, ptyBoard.bus);
-    await end(openPort.page);
+    await connected.page.bringToFront();
+    await playOn(connected, ptyBoard.bus);
+    await end(connected.page);
     if (stops) await poll(async () => ofKind(await ptyBoard.bus(), 'stop').length).toBe(1);
     const movesSoFar = await moveCount(ptyBoard.bus);
     await expect((await open(next)).link).toHaveText(READY);

@@ -5,7 +5,11 @@ import { ofKind } from '../fixtures/bus.ts';
 import { captureGroup } from '../fixtures/group.ts';
 import { SLOW_FLASH } from '../fixtures/robot.ts';
 import { ONCE_BACK, READY } from '../fixtures/dashboard.ts';
-import { expect, poll, test } from '../fixtures/realPort.ts';
+import { testOn } from '../fixtures/realDevice.ts';
+import { expect, poll } from '../fixtures/test.ts';
+import { USB_ADAPTER } from '../fixtures/mockDevice.ts';
+
+const test = testOn(USB_ADAPTER);
 
 /** After the first one, which waits for the flash, 20 ms each: time to cut the middle. */
 const FRAMES = 24;
@@ -38,19 +42,19 @@ const timeOf = (seen: readonly Seen[], wanted: string): number =>
   seen.findLast(({ event }) => event === wanted)!.atMs;
 
 test('a cable that is pulled and comes back is told within half a second', async ({
-  openPort,
+  connected,
   page,
   pull,
   plugIn,
 }) => {
   const seen = await watchLink(page);
   await pull();
-  await expect(openPort.link).toHaveText(/^Lost/);
+  await expect(connected.link).toHaveText(/^Lost/);
   // Longer than half a second: only the browser's word can bring the link back soon.
-  await expect(openPort.bar).toContainText('Next try in 5 s', ONCE_BACK);
+  await expect(connected.bar).toContainText('Next try in 5 s', ONCE_BACK);
   await plugIn();
-  await expect(openPort.link).toHaveText(READY);
-  await expect(openPort.status).toContainText('The link was restored; check the robot first');
+  await expect(connected.link).toHaveText(READY);
+  await expect(connected.status).toContainText('The link was restored; check the robot first');
 
   const list = await seen();
   expect(timeOf(list, 'Lost') - timeOf(list, 'disconnect')).toBeLessThan(TOLD_WITHIN_MS);
@@ -62,27 +66,27 @@ test.describe('on a board with slow flash', () => {
   test.use({ boardSettings: SLOW_FLASH });
 
   test('a download that is cut is never run, wherever it was cut @exhaustive', async ({
-    openPort,
+    connected,
     ptyBoard,
     pull,
     plugIn,
   }) => {
-    await captureGroup(openPort, [1000]);
-    for (let frame = 2; frame <= FRAMES; frame += 1) await openPort.capture.click();
-    await expect(openPort.frames).toHaveCount(FRAMES);
-    await expect(openPort.estimate(1)).toHaveText('≈ 1000');
+    await captureGroup(connected, [1000]);
+    for (let frame = 2; frame <= FRAMES; frame += 1) await connected.capture.click();
+    await expect(connected.frames).toHaveCount(FRAMES);
+    await expect(connected.estimate(1)).toHaveText('≈ 1000');
 
     for (const heard of [0, 1, FRAMES / 3]) {
-      await openPort.button('Download').click();
+      await connected.button('Download').click();
       await poll(async () => ofKind(await ptyBoard.bus(), 'download').length).toBeGreaterThanOrEqual(heard);
       await pull();
-      await expect(openPort.link).toHaveText(/^Lost/);
-      await expect(openPort.board).toContainText('Its download did not finish.');
+      await expect(connected.link).toHaveText(/^Lost/);
+      await expect(connected.board).toContainText('Its download did not finish.');
       await plugIn();
-      await expect(openPort.link).toHaveText(READY);
-      await openPort.resume.click();
-      await expect(openPort.board).toContainText('Its download did not finish.');
-      await expect(openPort.button('Run')).toBeDisabled();
+      await expect(connected.link).toHaveText(READY);
+      await connected.resume.click();
+      await expect(connected.board).toContainText('Its download did not finish.');
+      await expect(connected.button('Run')).toBeDisabled();
     }
   });
 });
