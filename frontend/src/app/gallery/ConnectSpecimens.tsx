@@ -2,7 +2,8 @@
 
 import type { Way } from '../../robot/device.ts';
 import type { ConnectState } from '../../robot/connector.ts';
-import { ConnectWays } from '../../features/connect/ConnectWays.tsx';
+import type { Actions } from '../../features/connect/cables.ts';
+import { Ways } from '../../features/connect/ConnectWays.tsx';
 import type { Exhibit } from './exhibit.ts';
 
 const BASE: ConnectState = {
@@ -27,16 +28,16 @@ const OTHER_PORT = Object.create(null) as SerialPort;
 const CASES: readonly {
   readonly name: string;
   readonly state: ConnectState;
-  readonly current: Way | null;
+  readonly current: Way['kind'] | null;
 }[] = [
   {
     name: 'Connect, no gateway',
     state: BASE,
-    current: { kind: 'simulated', label: 'Simulated board', isSimulated: true },
+    current: 'simulated',
   },
   {
     name: 'Connect, a port is open',
-    current: { kind: 'webSerial', label: 'CH340 USB serial adapter', isSimulated: false },
+    current: 'webSerial',
     state: {
       ...BASE,
       openPort: PORT,
@@ -48,7 +49,7 @@ const CASES: readonly {
   },
   {
     name: 'Connect, gateway with ports',
-    current: { kind: 'gateway', label: '/dev/ttyUSB0', isSimulated: false },
+    current: 'gateway',
     state: {
       ...BASE,
       gateway: { device: '/dev/ttyUSB0', isSimulated: false },
@@ -83,29 +84,35 @@ const CASES: readonly {
 ];
 
 const nothing = (): void => undefined;
+const later = (): Promise<void> => Promise.resolve();
+const ACTIONS: Actions = {
+  look: later,
+  simulate: later,
+  setReconnects: nothing,
+  setBody: nothing,
+  useGateway: nothing,
+  useGatewayPort: later,
+  useSerialPort: later,
+  chooseSerialPort: later,
+  useBoard: later,
+  chooseBoard: later,
+  useModule: later,
+  chooseModule: later,
+  disconnect: nothing,
+};
 
 export const CONNECT: readonly Exhibit[] = CASES.map(({ name, state, current }) => ({
   name,
   isInDialog: true,
   content: (
-    <ConnectWays
+    <Ways
       state={state}
       current={current}
       body="arm"
-      onBody={nothing}
       isReady={current !== null}
+      actions={ACTIONS}
+      onChoose={nothing}
       onLook={nothing}
-      onSimulate={nothing}
-      onReconnects={nothing}
-      onGateway={nothing}
-      onGatewayPort={nothing}
-      onSerialPort={nothing}
-      onChooseSerial={nothing}
-      onBoard={nothing}
-      onChooseBoard={nothing}
-      onModule={nothing}
-      onChooseModule={nothing}
-      onDisconnect={nothing}
     />
   ),
 }));
