@@ -32,6 +32,7 @@ from servodeck.port.bluetooth import (
     write_in_chunks,
 )
 from servodeck.port.link import BackgroundPorts
+from servodeck.protocol.decoder import Decoder, DecoderEvent
 from servodeck.protocol.timings import wire_s
 from tests.amount import TIMES
 from tests.bluetooth_board import BluetoothBoard, why_not
@@ -39,6 +40,7 @@ from tests.running import Running, server_on
 from tests.samples import BATTERY, MOVE, STOP
 from tests.test_clients import drive, hear_until, say
 from tests.test_with_simulator import hear_port
+from tests.vectors import load_vectors
 from tests.virtual_time import in_virtual_time, now
 
 ADDRESS = "48:87:2D:62:C6:00"
@@ -113,6 +115,36 @@ def test_however_a_board_is_heard_every_byte_comes_through_in_order(pieces: list
     heard: list[tuple[float, bytes]] = []
     hear(pieces, heard)
     assert b"".join(data for _, data in heard) == b"".join(piece for _, piece in pieces)
+
+
+REPORTS = [bytes.fromhex(vector["hex"]) for vector in load_vectors("reports")]
+DELAYS_MS = st.lists(st.integers(0, 140), min_size=13, max_size=13)
+
+
+@settings(max_examples=30 * TIMES)
+@given(st.lists(st.tuples(st.sampled_from(REPORTS), DELAYS_MS), max_size=5))
+def test_however_the_radio_cuts_and_delays_packets_they_are_those_of_a_serial_line(
+    said: list[tuple[bytes, list[int]]],
+) -> None:
+    pieces = [
+        (delays_ms[at // CHUNK_BYTES] + (0 if at else 300), packet[at : at + CHUNK_BYTES])
+        for packet, delays_ms in said
+        for at in range(0, len(packet), CHUNK_BYTES)
+    ]
+    heard: list[tuple[float, bytes]] = []
+    hear(pieces, heard)
+    assert decoded(heard) == decoded([(at * 300, packet) for at, (packet, _) in enumerate(said)])
+
+
+def decoded(heard: list[tuple[float, bytes]]) -> list[DecoderEvent]:
+    """A silence of 60 ms is the end of what was said."""
+    events: list[DecoderEvent] = []
+    decoder = Decoder(events.append)
+    for (at_ms, data), (next_ms, _) in pairwise([*heard, (float("inf"), b"")]):
+        decoder.push(data)
+        if next_ms - at_ms >= 60:
+            decoder.idle()
+    return events
 
 
 @pytest.mark.parametrize(

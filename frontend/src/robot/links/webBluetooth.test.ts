@@ -4,8 +4,9 @@
 import fc from 'fast-check';
 import { beforeEach, describe, expect, test, vi } from 'vitest';
 import { createDecoder, type DecoderEvent } from '#shared/codec/decoder.ts';
-import { wireMs } from '#shared/codec/packet.ts';
+import { fromHex, wireMs } from '#shared/codec/packet.ts';
 import type { LinkErrorCode } from '#shared/robot/linkError.ts';
+import reports from '../../../../shared/protocol/vectors/reports.json' with { type: 'json' };
 import { chooseCharacteristics, chunksOf, createGatherer, type Offered } from './bluetoothConnection.ts';
 import { createModule, FFF0, STEPS, type FakeModule, type Step } from './bluetoothUnderTest.ts';
 import {
@@ -197,6 +198,29 @@ describe('what goes through a module is what goes through a cable', () => {
     gather(report.slice(20));
     await pass(300);
     expect(decoded(heard)).toEqual(decoded([{ atMs: 0, piece: report }]));
+  });
+
+  test('in, however the radio cuts and delays packets: those that a serial line gives', async () => {
+    const packets = reports.map(({ hex }) => fromHex(hex));
+    const delays = fc.array(fc.integer({ min: 0, max: 140 }), { minLength: 13, maxLength: 13 });
+    await fc.assert(
+      fc.asyncProperty(
+        fc.array(fc.tuple(fc.constantFrom(...packets), delays), { maxLength: 5 }),
+        async (said) => {
+          const heard: { atMs: number; piece: Uint8Array }[] = [];
+          const gather = createGatherer((piece) => heard.push({ atMs: performance.now(), piece }));
+          for (const [packet, delaysMs] of said) {
+            for (const [index, piece] of chunksOf(packet).entries()) {
+              await pass(delaysMs[index] ?? 0);
+              gather(piece);
+            }
+            await pass(300);
+          }
+          const serial = said.map(([piece], index) => ({ atMs: index * 300, piece }));
+          expect(decoded(heard)).toEqual(decoded(serial));
+        },
+      ),
+    );
   });
 
   test('in, in whatever pieces', async () => {
