@@ -28,22 +28,27 @@ from servodeck.protocol.values import (
 )
 from servodeck.robot.board.slots import GroupMemory
 from servodeck.robot.motion.halt_plan import HaltPlan, Unheld, halt_plan, hold_after_stop, unheld_since
-from servodeck.robot.motion.model import UNKNOWN_MOTION, UnknownRun, held_at, only_released
+from servodeck.robot.motion.model import (
+    UNKNOWN_MOTION,
+    UnknownRun,
+    farthest_from,
+    gentle_ms,
+    held_at,
+    only_released,
+    position_at,
+    remaining_ms,
+    target_of,
+    without_servos,
+)
 from servodeck.robot.motion.motion import (
     advance,
     after_command,
     after_cut_packet,
     either_of,
-    farthest_from,
     forgotten,
-    gentle_ms,
     hears,
     inherited,
     latest_end_ms,
-    position_at,
-    remaining_ms,
-    target_of,
-    without_servos,
 )
 from servodeck.robot.motion.reports import after_cut, after_end, after_report
 from servodeck.snapshots import MotionState, ServoWay

@@ -10,8 +10,8 @@ from math import inf
 from servodeck.protocol.families import Family
 from servodeck.protocol.timings import MOVE, STOP, wire_ms
 from servodeck.protocol.values import Move, ServoTarget, Stop
-from servodeck.robot.motion.model import KnownBoard, Motion
-from servodeck.robot.motion.motion import advance, after_command, hears, rounded
+from servodeck.robot.motion.model import KnownBoard, Motion, rounded
+from servodeck.robot.motion.motion import advance, after_command, hears
 from servodeck.robot.motion.tracks import LONGEST_MOVE_MS, Track, end_ms, guess_of, leeway_of, stands
 
 STOP_OFFSETS_MS = [STOP.repeat_every_ms * (index + 1) for index in range(STOP.repeats)]

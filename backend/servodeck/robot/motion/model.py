@@ -1,18 +1,29 @@
 """The motion estimate as a value, with the positions that the board has reported for servos at rest, and what
-a way of playing groups has to answer. Twin of shared/src/motion/model.ts.
+a way of playing groups has to answer; and what can be read of it. Twin of shared/src/motion/model.ts.
 
 Knows what can be known of a board's motion; no rule of any board: those are tracks.py, deadlines.py and
 polled.py.
 """
 
-from collections.abc import Mapping, Sequence
+import math
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from math import inf
 from typing import Literal, Protocol
 
 from servodeck.protocol.families import Family
 from servodeck.protocol.values import Command, Frame, Move, Release, Report, Run, ServoTarget
-from servodeck.robot.motion.tracks import Order, Tracks, doubted
+from servodeck.robot.motion.tracks import (
+    Order,
+    Tracks,
+    doubted,
+    end_ms,
+    last_end_ms,
+    leeway_of,
+    only,
+    position_of,
+    share,
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -180,3 +191,69 @@ def running_unknown(motion: Motion, slot: int | None, ends_to_hear: int = 1, unt
     """
     run = UnknownRun(slot, ends_to_hear, until_ms)
     return replace(motion, tracks=doubted(motion.tracks), readings=only_released(motion.readings), run=run)
+
+
+def position_at(motion: Motion, servo: int, now_ms: float) -> int | None:
+    """Present position of a servo in board units, or None while it is unknown."""
+    readings = held_at(motion.readings, servo)
+    if readings is not None:
+        return readings
+    track = motion.tracks.get(servo)
+    position = position_of(track, now_ms) if track else None
+    return None if position is None else rounded(position)
+
+
+def rounded(position: float) -> int:
+    """Half up, as JavaScript does."""
+    return math.floor(position + 0.5)
+
+
+def leeway_at(motion: Motion, servo: int, now_ms: float, family: Family) -> float:
+    """How far off `position_at` may be, in board units: the way of one tick, and more for a servo redirected
+    on its way.
+    """
+    if held_at(motion.readings, servo) is not None:
+        return 0
+    track = motion.tracks.get(servo)
+    return leeway_of(track, now_ms, family) if track else inf
+
+
+def farthest_from(motion: Motion, servo: int, to: float, now_ms: float, family: Family) -> float:
+    """How far it may be from there at most, in board units."""
+    at = position_at(motion, servo, now_ms)
+    if at is not None:
+        return abs(to - at)
+    position, track = family.position, motion.tracks.get(servo)
+    if track is None or track.to_leeway == inf:
+        return max(to - position.min, position.max - to)
+    return abs(to - track.to) + (position.max - position.min) * (1 - share(track, now_ms))
+
+
+def target_of(motion: Motion, servo: int) -> float | None:
+    """Where a servo was last asked to be, or None when it never was."""
+    track = motion.tracks.get(servo)
+    return None if track is None or track.to_leeway == inf else track.to
+
+
+def without_servos(motion: Motion, servos: Collection[int]) -> Motion:
+    """The motion of the others alone."""
+    return replace(motion, tracks=only(motion.tracks, lambda _, servo: servo not in servos))
+
+
+def remaining_ms(motion: Motion, now_ms: float) -> float:
+    """Milliseconds until the moves in progress end; 0 at rest."""
+    return last_end_ms(motion.tracks, now_ms) - now_ms
+
+
+def gentle_ms(motion: Motion, servos: Collection[int], now_ms: float, family: Family) -> float:
+    """How long a move must take at least, so that no servo whose start is unknown snaps to its target."""
+    is_shared = family.motion.timing == "shared"
+    if is_shared and isinstance(motion.run, UnknownRun):
+        return inf
+    ends_ms = [
+        end_ms(track)
+        for servo, track in motion.tracks.items()
+        if position_of(track, now_ms) is None and (is_shared or servo in servos)
+    ]
+    restless_ms = motion.restless_until_ms - now_ms if is_shared else 0
+    return math.ceil(max([0, restless_ms, *(end - now_ms for end in ends_ms)]))

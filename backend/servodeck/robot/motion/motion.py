@@ -53,6 +53,7 @@ from servodeck.robot.motion.model import (
     held_at,
     only_released,
     running_unknown,
+    without_servos,
 )
 from servodeck.robot.motion.polled import polled
 from servodeck.robot.motion.tracks import (
@@ -64,13 +65,10 @@ from servodeck.robot.motion.tracks import (
     contested,
     end_ms,
     last_end_ms,
-    leeway_of,
     lengthened,
     only,
     ordered,
-    position_of,
     retarget,
-    share,
     standing_at,
     stands,
     starting_at,
@@ -346,69 +344,3 @@ def either_of(one: Motion, other: Motion) -> Motion:
         restless_until_ms=max(one.restless_until_ms, other.restless_until_ms),
         inherited_until_ms=max(one.inherited_until_ms, other.inherited_until_ms),
     )
-
-
-def position_at(motion: Motion, servo: int, now_ms: float) -> int | None:
-    """Present position of a servo in board units, or None while it is unknown."""
-    readings = held_at(motion.readings, servo)
-    if readings is not None:
-        return readings
-    track = motion.tracks.get(servo)
-    position = position_of(track, now_ms) if track else None
-    return None if position is None else rounded(position)
-
-
-def rounded(position: float) -> int:
-    """Half up, as JavaScript does."""
-    return math.floor(position + 0.5)
-
-
-def leeway_at(motion: Motion, servo: int, now_ms: float, family: Family) -> float:
-    """How far off `position_at` may be, in board units: the way of one tick, and more for a servo redirected
-    on its way.
-    """
-    if held_at(motion.readings, servo) is not None:
-        return 0
-    track = motion.tracks.get(servo)
-    return leeway_of(track, now_ms, family) if track else inf
-
-
-def farthest_from(motion: Motion, servo: int, to: float, now_ms: float, family: Family) -> float:
-    """How far it may be from there at most, in board units."""
-    at = position_at(motion, servo, now_ms)
-    if at is not None:
-        return abs(to - at)
-    position, track = family.position, motion.tracks.get(servo)
-    if track is None or track.to_leeway == inf:
-        return max(to - position.min, position.max - to)
-    return abs(to - track.to) + (position.max - position.min) * (1 - share(track, now_ms))
-
-
-def target_of(motion: Motion, servo: int) -> float | None:
-    """Where a servo was last asked to be, or None when it never was."""
-    track = motion.tracks.get(servo)
-    return None if track is None or track.to_leeway == inf else track.to
-
-
-def without_servos(motion: Motion, servos: Collection[int]) -> Motion:
-    """The motion of the others alone."""
-    return replace(motion, tracks=only(motion.tracks, lambda _, servo: servo not in servos))
-
-
-def remaining_ms(motion: Motion, now_ms: float) -> float:
-    """Milliseconds until the moves in progress end; 0 at rest."""
-    return last_end_ms(motion.tracks, now_ms) - now_ms
-
-
-def gentle_ms(motion: Motion, servos: Collection[int], now_ms: float, family: Family) -> float:
-    """How long a move must take at least, so that no servo whose start is unknown snaps to its target."""
-    is_shared = family.motion.timing == "shared"
-    if is_shared and isinstance(motion.run, UnknownRun):
-        return inf
-    ends_ms = [
-        end_ms(track)
-        for servo, track in motion.tracks.items()
-        if position_of(track, now_ms) is None and (is_shared or servo in servos)
-    ]
-    restless_ms = motion.restless_until_ms - now_ms if is_shared else 0
-    return math.ceil(max([0, restless_ms, *(end - now_ms for end in ends_ms)]))
