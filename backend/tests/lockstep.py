@@ -45,8 +45,9 @@ class Simulator:
         self._process.stdin.write(json.dumps(request) + "\n")
         return json.loads(self._process.stdout.readline())
 
-    def draw(self, board: str, seed: int, count: int) -> list[History]:
-        drawn: list[History] = self.ask(draw=board, seed=seed, count=count)
+    def draw(self, board: str, seed: int, count: int, *, is_plain: bool = False) -> list[History]:
+        """`is_plain`: in which the gateway knows all that moves the robot."""
+        drawn: list[History] = self.ask(draw=board, seed=seed, count=count, isPlain=is_plain)
         return drawn
 
     def end(self) -> None:

@@ -8,13 +8,13 @@ import { fromHex, toHex } from '../codec/packet.ts';
 import { createBoard, type Board } from '../simulator/board.ts';
 import type { Fault } from '../simulator/faults.ts';
 import { isProfileName, type ProfileName } from '../simulator/profileNames.ts';
-import { SERVOS, someStopHistory, type StopHistory } from './historiesUnderTest.ts';
+import { SERVOS, somePlainHistory, someStopHistory, type StopHistory } from './historiesUnderTest.ts';
 import { foreignFlash, SLOW_FLASH } from './stopUnderTest.ts';
 
 type Happening = readonly [atMs: number, what: 'unplug' | 'plugIn' | (string & {})];
 
 type Request =
-  | { readonly draw: string; readonly seed: number; readonly count: number }
+  | { readonly draw: string; readonly seed: number; readonly count: number; readonly isPlain: boolean }
   | { readonly start: string; readonly history: StopHistory; readonly faults?: readonly Fault[] }
   /** Until then, or until it says something. */
   | { readonly untilMs: number; readonly happened: readonly Happening[] };
@@ -104,7 +104,7 @@ let bench: Bench | null = null;
 
 function answer(request: Request): unknown {
   if ('draw' in request) {
-    const some = someStopHistory(profileName(request.draw));
+    const some = (request.isPlain ? somePlainHistory : someStopHistory)(profileName(request.draw));
     return fc.sample(some, { seed: request.seed, numRuns: request.count });
   }
   if ('start' in request) {
