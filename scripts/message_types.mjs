@@ -9,8 +9,8 @@ import { readTree, typesText } from './words.mjs';
 
 const TARGETS = [
   { module: 'events', target: 'frontend/src/robot/links/messages.generated.ts' },
-  { module: 'library.library_messages', target: 'frontend/src/features/library/library.generated.ts' },
-  { module: 'api.people_messages', target: 'frontend/src/robot/people.generated.ts' },
+  { module: 'api.library', target: 'frontend/src/features/library/library.generated.ts' },
+  { module: 'api.people', target: 'frontend/src/robot/people.generated.ts' },
 ];
 
 /** @param {string} module @returns {Promise<string>} */

@@ -8,11 +8,11 @@ from pathlib import Path
 
 import pytest
 
-from servodeck.api.process import WANTED
+from servodeck.api.health import WANTED
 from tests.test_cli import Served
 
 SHOWN = "import resource; print(*resource.getrlimit(resource.RLIMIT_NOFILE))"
-ALLOW = f"from servodeck.api.process import allow_descriptors; allow_descriptors(); {SHOWN}"
+ALLOW = f"from servodeck.api.health import allow_descriptors; allow_descriptors(); {SHOWN}"
 
 pytestmark = pytest.mark.skipif(not Path("/bin/sh").exists(), reason="the limits are set by a shell")
 

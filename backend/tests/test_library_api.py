@@ -11,9 +11,9 @@ from typing import Any
 import pytest
 from httpx2 import AsyncClient
 
+from servodeck.api.library import MAX_TEXT
 from servodeck.errors import PortMissingError
 from servodeck.library.library import Library
-from servodeck.library.library_messages import MAX_TEXT
 from tests.fake_port import FakePorts
 from tests.running import http_to
 

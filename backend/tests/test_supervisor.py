@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from servodeck.api.process import BEAT_S
+from servodeck.api.health import BEAT_S
 from servodeck.api.server import END_S
 from servodeck.cli.main import app
 from tests.test_cli import Served

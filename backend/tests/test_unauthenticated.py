@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from servodeck.access import connections
 from servodeck.access.connections import MOST, MOST_OF_ONE, Unauthenticated
-from servodeck.api.process import WANTED
+from servodeck.api.health import WANTED
 from servodeck.robot.hub import SESSIONS_AT_MOST
 from tests.amount import TIMES
 

@@ -18,10 +18,9 @@ from servodeck import __version__, metrics
 from servodeck.access.entrance import Entrance
 from servodeck.access.guard import Guard, log_refusal
 from servodeck.access.roles import ANYBODY, JudgingRoute, named_roles, require_roles
-from servodeck.api.health import health_api
+from servodeck.api.health import Pulse, health_api, sign_of_life
 from servodeck.api.later import LaterApp, add_routes
 from servodeck.api.page import STATIC, page
-from servodeck.api.process import Pulse, sign_of_life
 from servodeck.errors import ErrorCode, GatewayError, MalformedError
 from servodeck.files import Disk
 from servodeck.library.library import Library

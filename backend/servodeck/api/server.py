@@ -28,7 +28,7 @@ from servodeck.access.connections import (
     State,
 )
 from servodeck.access.guard import Guard
-from servodeck.api import process
+from servodeck.api.health import notify_systemd
 from servodeck.errors import PortError
 from servodeck.protocol.timings import PLAY
 from servodeck.robot.control import Control
@@ -85,7 +85,7 @@ class Server(uvicorn.Server):
         await super().startup(sockets)
         if self.started:
             log.info("ready", extra={"facts": {"version": __version__}})
-            process.notify_systemd("READY=1")
+            notify_systemd("READY=1")
             self._ready()
 
     async def main_loop(self) -> None:
@@ -99,7 +99,7 @@ class Server(uvicorn.Server):
 
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
         log.info("ending")
-        process.notify_systemd("STOPPING=1")
+        notify_systemd("STOPPING=1")
         self._opening.cancel()
         await self._control.shut_down()
         asyncio.get_running_loop().call_later(LEAVE_S, self._cut_off)

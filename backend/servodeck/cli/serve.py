@@ -131,7 +131,7 @@ def serve(
     from servodeck.access import addresses
     from servodeck.access.announcement import Announcement
     from servodeck.api.app import create_app
-    from servodeck.api.process import allow_descriptors
+    from servodeck.api.health import allow_descriptors
     from servodeck.api.server import Server, leave_with_stdin
     from servodeck.cli.config import data_folder
     from servodeck.cli.greeting import greeting, urls_for_others

@@ -1,4 +1,4 @@
-// Made from the gateway's models by `npm run messages`; a check fails when the two differ. Change backend/servodeck/api/people_messages.py instead.
+// Made from the gateway's models by `npm run messages`; a check fails when the two differ. Change backend/servodeck/api/people.py instead.
 
 export type PeopleMessage = PeopleRequest | PeopleAnswer;
 export type PeopleRequest = PairWish | OwnName | PersonChange | InviteWish | TokenWish | StopLinkWish;

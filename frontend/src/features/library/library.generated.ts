@@ -1,4 +1,4 @@
-// Made from the gateway's models by `npm run messages`; a check fails when the two differ. Change backend/servodeck/library/library_messages.py instead.
+// Made from the gateway's models by `npm run messages`; a check fails when the two differ. Change backend/servodeck/api/library.py instead.
 
 export type Library = LibraryRequest | LibraryAnswer;
 export type LibraryRequest = DocumentWrite | DocumentIds | VersionWrite;
