@@ -27,7 +27,7 @@ test('an owner comes in by the terminal’s link, lets a viewer in, who stops th
   await ben.stop.click();
   await poll(() => stops(ptyBoard.bus)).toBeGreaterThanOrEqual(before + 3);
   // The gateway has just opened the port: what somebody else set in motion before may go on.
-  await expect(ben.status).toContainText('The robot may move on for up to');
+  await expect(ben.status).toContainText('The robot may keep moving for up to');
   await expect(owner.status).toContainText('Stopped by Ben');
 
   const used = await newDevice(browser, invitation.link);

@@ -33,7 +33,7 @@ test('a window that froze while it played wakes, and moves nothing @exhaustive',
   const before = (await robot.bus()).length;
   await freeze(window);
   await poll(async () => ofKind((await robot.bus()).slice(before), 'stop').length).toBe(3);
-  await expect(other.status).toContainText('The driver was gone while the robot moved');
+  await expect(other.status).toContainText('The driver disconnected while the robot moved');
   await other.turn.getByRole('button', { name: 'Take over', exact: true }).click();
   await expect(other.turn).toContainText('You drive');
   // The latch shall not be what keeps it still.

@@ -54,7 +54,7 @@ test('one drives, the other looks on, asks, is refused, asks again and is let', 
 }) => {
   const before = await topOfWork(dashboard);
   const other = await joins(robot, context);
-  await expect(dashboard.turn).toContainText('Nobody drives');
+  await expect(dashboard.turn).toContainText('No driver');
   // Nothing moves under a finger when somebody joins.
   await poll(() => topOfWork(dashboard)).toEqual(before);
   expect(before[0], 'a phone keeps its room for the work').toBeLessThanOrEqual(112);
@@ -96,7 +96,7 @@ test('whoever calibrates asks to drive where it is said @exhaustive', async ({
   await expect(robots.button('Cancel request')).toBeVisible();
   await act(dashboard, 'Allow');
   await expect(robots.button('Cancel request')).toBeHidden();
-  await expect(robots.button('Go slowly to the middle').or(robots.creep('lower'))).toBeVisible();
+  await expect(robots.button('Go slowly to the middle').or(robots.jog('lower'))).toBeVisible();
 });
 
 test.describe('with a finger', () => {
@@ -158,7 +158,7 @@ test('when the driver’s window closes in a move the robot is stopped, and the 
   const before = (await robot.bus()).length;
   await driver.page.close();
   await poll(async () => ofKind((await robot.bus()).slice(before), 'stop').length).toBe(3);
-  await expect(dashboard.status).toContainText('The driver was gone while the robot moved');
+  await expect(dashboard.status).toContainText('The driver disconnected while the robot moved');
   await dashboard.resume.click();
   await dashboard.type(dashboard.target(2), 1700);
   await poll(() => lastTarget(robot.bus, 2)).toBe(1700);

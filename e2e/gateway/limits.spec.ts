@@ -34,19 +34,19 @@ test('limits set on one screen hold on the other, while it calibrates too @exhau
   await expect(other.notices).toContainText('Elbow: 900 is out of range; it takes 1000 to 2500.');
   await other.type(other.target(4), 1010);
   await poll(() => lastTarget(robot.bus, 4)).toBe(1010);
-  await other.turn.getByRole('button', { name: 'Let go' }).click();
+  await other.turn.getByRole('button', { name: 'Release control' }).click();
 
   await robots.button('All robots').click();
   await robots.button('Calibrate').click();
   await robots.button(/^Elbow, /).click();
   // What the other screen did is known here, so nothing has to find out where the servo stands.
   await expect(robots.now).toContainText('1010');
-  await robots.creepUntil('lower', () =>
+  await robots.jogUntil('lower', () =>
     poll(async () => (await lastTarget(robot.bus, 4)) ?? 9999).toBeLessThan(980),
   );
   await other.turn.getByRole('button', { name: 'Take over' }).click();
   // What is typed before is not sent, and not judged.
-  await expect(other.turn.getByRole('button', { name: 'Let go' })).toBeVisible();
+  await expect(other.turn.getByRole('button', { name: 'Release control' })).toBeVisible();
   // Nowhere on the way that it crept, in steps of 20: what a servo is at already is not judged.
   await other.type(other.target(4), 915);
   await expect(other.notices).toContainText('Elbow: 915 is out of range');

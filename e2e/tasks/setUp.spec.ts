@@ -49,7 +49,7 @@ test('an arm is set up in 33 acts, and nothing moves that was not asked to', asy
   await expect(robots.dialog.getByText('≈ 1500')).toBeVisible({ timeout: 15_000 });
   // Of one servo everything is set, of the others only what is usual.
   await act(
-    robots.creepByMouse('lower', () =>
+    robots.jogByMouse('lower', () =>
       poll(async () => (await lastTarget(board.bus, 1)) ?? 9999).toBeLessThan(1400),
     ),
   );

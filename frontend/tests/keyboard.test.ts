@@ -222,7 +222,7 @@ test('robots, library, files, keys over time, slots and poses need no mouse', as
   await throughDialog(page, robots.opener, 'Robots', async () => {
     await tabTo(page, robots.button('Calibrate'));
     await keyboard.press('Enter');
-    await tabTo(page, robots.creep('higher'));
+    await tabTo(page, robots.jog('higher'));
     await keyboard.down(' ');
     await expect(robots.now).toContainText(/15[1-9]\d|1[6-9]\d\d/);
     await keyboard.up(' ');

@@ -68,7 +68,7 @@ test('the folded log says a stop before anything that follows it', async ({ dash
 });
 
 function typed({ button, field }: Dashboard, page: Page) {
-  const form = page.getByRole('form', { name: 'Send by hand' });
+  const form = page.getByRole('form', { name: 'Send a packet' });
   return {
     form,
     packet: field('Packet in hex'),

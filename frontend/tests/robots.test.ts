@@ -25,7 +25,7 @@ test('a servo is calibrated from nothing, and what was set holds everywhere', as
   expect(ofKind(await robot.bus(), 'move')[0]?.durationMs).toBeGreaterThanOrEqual(1500);
   await expect(robots.dialog.getByText('≈ 1500')).toBeVisible();
 
-  await robots.creepUntil('lower', () =>
+  await robots.jogUntil('lower', () =>
     poll(async () => (await lastTarget(robot.bus, 1)) ?? 9999).toBeLessThan(1420),
   );
   const lowest = await settledAt(robots);
@@ -33,12 +33,12 @@ test('a servo is calibrated from nothing, and what was set holds everywhere', as
   await robots.button('Undo: lowest of Gripper').click();
   await expect(robots.button('Lowest')).toHaveAttribute('aria-current', 'step');
   await robots.button('Set lowest here').click();
-  await robots.creepUntil('higher', () =>
+  await robots.jogUntil('higher', () =>
     poll(async () => (await lastTarget(robot.bus, 1)) ?? 0).toBeGreaterThan(1550),
   );
   const highest = await settledAt(robots);
   await robots.button('Set highest here').click();
-  await robots.creep('lower').press('Enter');
+  await robots.jog('lower').press('Enter');
   await settledAt(robots);
   await robots.button('Set home here').click();
 
@@ -67,7 +67,7 @@ test('a double press answers one question of the calibration, not the next one t
   await robots.button('Go slowly to the middle').click();
   await expect(robots.dialog.getByText('≈ 1500')).toBeVisible();
   await robots.button(/^Keep 500/).click();
-  await robots.creepUntil('higher', () => poll(() => settledAt(robots)).toBeGreaterThan(1550));
+  await robots.jogUntil('higher', () => poll(() => settledAt(robots)).toBeGreaterThan(1550));
   await settledAt(robots);
   await robots.button('Set highest here').dblclick();
   await expect(robots.button('Home')).toHaveAttribute('aria-current', 'step');
@@ -91,17 +91,13 @@ async function settledAt({ now }: ReturnType<typeof robotDialogOf>): Promise<num
   }
 }
 
-test('STOP ends a creeping servo, and the calibration waits for Resume', async ({
-  dashboard,
-  robot,
-  page,
-}) => {
+test('STOP ends a jogged servo, and the calibration waits for Resume', async ({ dashboard, robot, page }) => {
   const robots = robotDialogOf(dashboard);
   await dashboard.type(dashboard.target(1), 1500);
   await expect(dashboard.estimate(1)).toHaveText('≈ 1500');
   await robots.opener.click();
   await robots.button('Calibrate').click();
-  await robots.creep('higher').focus();
+  await robots.jog('higher').focus();
   await page.keyboard.down(' ');
   await poll(async () => (await lastTarget(robot.bus, 1)) ?? 0).toBeGreaterThan(1540);
   await dashboard.stop.click();
@@ -109,7 +105,7 @@ test('STOP ends a creeping servo, and the calibration waits for Resume', async (
   const moves = ofKind(await robot.bus(), 'move').length;
   await page.keyboard.up(' ');
   await robots.button('Resume').click();
-  await expect(robots.creep('higher')).toBeVisible();
+  await expect(robots.jog('higher')).toBeVisible();
   // The pose that the stop holds is the last one.
   expect(ofKind(await robot.bus(), 'move').length - moves).toBeLessThanOrEqual(2);
 });

@@ -113,7 +113,7 @@ test('erasing asks first and names what is lost', async ({ dashboard, robot, pag
   const erase = dashboard.button('Erase everything');
   const dialog = page.getByRole('alertdialog', { name: 'Erase every slot of the board?' });
   await erase.click();
-  await expect(dialog).toContainText('All 256 slots are emptied, with the groups the maker put there.');
+  await expect(dialog).toContainText('All 256 slots are emptied, including the manufacturer’s groups.');
   await dialog.getByRole('button', { name: 'Keep them' }).click();
   await expect(dialog).toBeHidden();
   expect(ofKind(await robot.bus(), 'erase')).toEqual([]);
@@ -152,5 +152,5 @@ test('behind an erase a run runs nothing: a move is held by STOP, and nothing is
   const held = await lastTarget(robot.bus, 1);
   expect(held, 'where it is by then').toBeLessThan(1100);
   await expect(dashboard.estimate(1)).toHaveText(`≈ ${held}`);
-  await expect(page.getByText(/may move on/)).toHaveCount(0);
+  await expect(page.getByText(/may keep moving/)).toHaveCount(0);
 });

@@ -29,7 +29,7 @@ test('behind the end of a group that the board alone knows STOP says for how lon
   await dashboard.type(dashboard.target(1), 1500);
   await advance(31_000);
   await stopAndCheck(dashboard, robot.bus, () => dashboard.stop.click());
-  await expect(page.getByText(/may move on/)).toHaveCount(0);
+  await expect(page.getByText(/may keep moving/)).toHaveCount(0);
   await dashboard.resume.click();
   await dashboard.type(dashboard.slot, 77);
   await dashboard.button('Run').click();
@@ -37,7 +37,7 @@ test('behind the end of a group that the board alone knows STOP says for how lon
   await dashboard.button('End group').click();
   await poll(async () => ofKind(await robot.bus(), 'stop')).toHaveLength(6);
   await dashboard.stop.click();
-  await expect(dashboard.status).toContainText(/The robot may move on for up to \d+\.\d s/);
+  await expect(dashboard.status).toContainText(/The robot may keep moving for up to \d+\.\d s/);
 });
 
 test('STOP ends playing from the page', async ({ dashboard, robot }) => {

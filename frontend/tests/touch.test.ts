@@ -169,12 +169,12 @@ test.describe('on a screen of fine pixels', () => {
     url,
   }) => {
     const robots = await startCalibration(page, url);
-    const { y } = await middleOf(robots.creep('lower'));
+    const { y } = await middleOf(robots.jog('lower'));
     for (const servo of ['Gripper', 'Wrist', 'Base']) {
       await robots.button(new RegExp(`^${servo}, `)).tap();
       for (const step of ['Lowest', 'Highest', 'Home']) {
         await robots.button(step).tap();
-        expect.soft((await middleOf(robots.creep('lower'))).y, `${servo}, ${step}`).toBe(y);
+        expect.soft((await middleOf(robots.jog('lower'))).y, `${servo}, ${step}`).toBe(y);
         await expect.soft(robots.button(`Leave all of ${servo} as it is`)).toBeInViewport({ ratio: 1 });
       }
       await expect.soft(robots.button(new RegExp(`^${servo}, `))).toBeInViewport({ ratio: 0.99 });

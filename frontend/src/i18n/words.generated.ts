@@ -1197,7 +1197,7 @@ export interface Messages {
     readonly removed: (values: { readonly name: string }) => string;
     readonly recovered: (values: { readonly names: string }) => string;
     readonly conflict: (values: { readonly name: string; readonly copy: string }) => string;
-    readonly setAside: (values: { readonly file: string }) => string;
+    readonly damagedFile: (values: { readonly file: string }) => string;
     readonly changesLost: string;
     readonly steps: {
       readonly rename: string;

@@ -60,7 +60,7 @@ export const FRAMES_OF_ALL: Readonly<Record<string, Lease>> = {
   'Another drives, asked': { ...WATCHED, requestedBy: 'Bert', hasRequested: true, grantedInMs: 5000 },
   'Another drives, yours to take': { ...WATCHED, mayTake: true, candidates: PRESENT },
   'Another window drives, yours to take': { ...WATCHED, driver: 'Cleo', mayTake: true },
-  'Nobody drives': { ...WATCHED, driver: null },
+  'No driver': { ...WATCHED, driver: null },
   'You drive, it may go on': { ...LEASE, unattended: ALONE },
   'It goes on alone': { ...WATCHED, driver: null, others: 0, unattended: ALONE },
   'Looking on only': { ...WATCHED, driver: null, mayDrive: false },

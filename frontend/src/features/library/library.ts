@@ -248,7 +248,7 @@ export function createLibrary(options: LibraryOptions): Library {
 
   /** Each once. */
   function tellDamage({ damagedFile, changesLost }: Listing): void {
-    const damage = damagedFile === null ? [] : [words.library.setAside({ file: damagedFile })];
+    const damage = damagedFile === null ? [] : [words.library.damagedFile({ file: damagedFile })];
     if (changesLost) damage.push(words.library.changesLost);
     for (const text of damage.filter((text) => !notifiedDamage.has(text))) {
       notifiedDamage.add(text);
