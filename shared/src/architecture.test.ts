@@ -138,3 +138,26 @@ test('no `if` asks which family a board is of: what it would know is a field of 
   );
   expect(asking).toEqual([]);
 });
+
+test('no identifier of the page is a word that says nothing by itself', () => {
+  const banned =
+    /^(told|kept|keeper|gang|aside|fate|desk|asks|shelving|workedOut|playedAt|lateNews)$|^(?:told|keeper|gang|shelving|lateNews)[A-Z]/;
+  /** A file that does not say its unit asks for it. */
+  const allowed = ['asksUnit'];
+  const identifiersOf = (file: string): readonly string[] =>
+    readFileSync(join(root, file), 'utf8')
+      .replaceAll(/\/\*[\s\S]*?\*\/|(?<!:)\/\/.*|'(?:[^'\\\n]|\\.)*'/g, '')
+      .match(/[A-Za-z_$][\w$]*/g) ?? [];
+  const partsOf = (name: string): readonly string[] =>
+    name.split(/_|(?=[A-Z])/).map((part) => part.toLowerCase());
+  const found = sourcesOf('frontend')
+    .filter((file) => /^frontend\/src\/(app|features|state|ui|i18n)\//.test(file))
+    .flatMap((file) =>
+      identifiersOf(file)
+        .filter(
+          (name) => !allowed.includes(name) && [name, ...partsOf(name)].some((part) => banned.test(part)),
+        )
+        .map((name) => `${name} in ${file}`),
+    );
+  expect([...new Set(found)]).toEqual([]);
+});

@@ -63,15 +63,15 @@ export function BarThumb(props: PoseThumbProps) {
   );
 }
 
-const LOOKS = ['unknown', 'changed', 'kept'] as const;
+const LOOKS = ['unknown', 'changed', 'same'] as const;
 
 /** One path for all that look alike: a strip of cards shows hundreds of bars. */
 function Bars({ servos, pose, changed, family }: PoseThumbProps & { readonly servos: readonly number[] }) {
   const width = 100 / servos.length;
-  const paths = { unknown: '', changed: '', kept: '' };
+  const paths = { unknown: '', changed: '', same: '' };
   for (const [index, servo] of servos.entries()) {
     const position = pose.get(servo);
-    const look = position === undefined ? 'unknown' : changed.includes(servo) ? 'changed' : 'kept';
+    const look = position === undefined ? 'unknown' : changed.includes(servo) ? 'changed' : 'same';
     const [top, bottom] = position === undefined ? [10, 12] : [topOf(position, family), 22];
     const left = ((index + 0.15) * width).toFixed(2);
     paths[look] += `M${left} ${bottom}V${top.toFixed(2)}h${(width * 0.7).toFixed(2)}V${bottom}z`;
