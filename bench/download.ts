@@ -46,12 +46,12 @@ function overLimit(key: string, value: number, note: string): Figure {
 
 /** In virtual time, from the call to the moment the session says that all is stored. */
 async function downloadMs(group: Group): Promise<number> {
-  const { clock, session, transport } = await createRig({ servoCount: group.servoCount });
+  const { clock, session, channel } = await createRig({ servoCount: group.servoCount });
   const startMs = clock.now();
   let storedMs = NaN;
   void session.download([{ slot, frames: framesOf(group) }]).then(() => (storedMs = clock.now()));
   while (Number.isNaN(storedMs) && clock.now() - startMs < GIVE_UP_MS) await clock.advance(100);
-  if (transport.board.frameCount(slot) !== group.frameCount) throw new Error('the group was not stored');
+  if (channel.board.frameCount(slot) !== group.frameCount) throw new Error('the group was not stored');
   return storedMs - startMs;
 }
 

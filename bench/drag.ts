@@ -14,7 +14,7 @@ import { encodeCommand } from '#shared/codec/encode.ts';
 import { family as familyOf } from '#shared/codec/families.ts';
 import { wireMs } from '#shared/codec/packet.ts';
 import { firstMovesMs } from '#shared/robot/rig.ts';
-import { createLocalRobot } from '#shared/robot/robot.ts';
+import { createLocalRobot } from '#shared/robot/localRobot.ts';
 import type { BusLogEntry } from '#shared/simulator/line.ts';
 import { createSimulatedChannel } from '#shared/simulator/channel.ts';
 import { createVirtualClock } from '#shared/testing/virtualClock.ts';
@@ -143,7 +143,7 @@ async function dragInRealTime(servoCount: number): Promise<Ages> {
 async function openSession(clock: Clock, servoCount: number): Promise<Client> {
   const log: BusLogEntry[] = [];
   const channel = createSimulatedChannel(clock, { servoCount, onByte: (entry) => log.push(entry) });
-  const session = createLocalRobot({ channel, kind: 'simulated', family, clock });
+  const session = createLocalRobot({ channel, isNew: true, family, clock });
   await session.open();
   session.move(targetsOf(servoCount, family.centre), 0);
   await sleep(clock, firstMovesMs(servoCount));

@@ -1,5 +1,5 @@
 // How old a slider's value is when its last byte leaves the wire, and how much of what the wire takes is used, where the gateway is
-// 0 to 50 ms away: the page's own session and gateway transport, a network that delays, the real gateway, a pty and the simulated
+// 0 to 50 ms away: the page's own session and gateway channel, a network that delays, the real gateway, a pty and the simulated
 // board at 9600 baud. All sliders are dragged at once by a quick pointer, see drag.ts.
 //
 // Beside the age stands what nothing can pass: half of an echo by the gateway's kind of server over the same network, and the
@@ -12,8 +12,8 @@ import { encodeCommand } from '#shared/codec/encode.ts';
 import { family as familyOf } from '#shared/codec/families.ts';
 import { wireMs } from '#shared/codec/packet.ts';
 import { firstMovesMs } from '#shared/robot/rig.ts';
-import { createSession, type Session } from '#shared/robot/robot.ts';
-import { createGatewayTransport } from '../frontend/src/robot/links/gateway.ts';
+import type { Robot } from '#shared/robot/robot.ts';
+import { createGatewayRobot } from '../frontend/src/robot/gatewayRobot.ts';
 import { python } from '../scripts/python.mjs';
 import { mustRun } from '../scripts/steps.mjs';
 import { amount } from './amounts.ts';
@@ -89,8 +89,7 @@ function figuresOf(
 
 /** All are brought to the centre first, for `restMs`. */
 async function dragsOver(address: string, board: BoardOnPort, restMs: number): Promise<readonly Drag[]> {
-  const transport = createGatewayTransport(`ws://${address}/ws`, realClock);
-  const session = createSession({ transport, family, clock: realClock });
+  const session = createGatewayRobot({ url: `ws://${address}/ws`, clock: realClock });
   try {
     await session.open();
     await session.choose(family);
@@ -105,7 +104,7 @@ async function dragsOver(address: string, board: BoardOnPort, restMs: number): P
   }
 }
 
-async function drag(session: Session, servoCount: number, board: BoardOnPort): Promise<Drag> {
+async function drag(session: Robot, servoCount: number, board: BoardOnPort): Promise<Drag> {
   const fromMs = performance.timeOrigin + performance.now();
   const eventsMs: number[] = [];
   while (eventsMs.length < DRAG_MS / POINTER_MS) {

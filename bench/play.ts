@@ -4,10 +4,11 @@
 import { sleep } from '#shared/clock.ts';
 import type { Frame } from '#shared/codec/commands.ts';
 import { family as familyOf } from '#shared/codec/families.ts';
-import { createLocalRobot, createSession, type Session } from '#shared/robot/robot.ts';
+import { createLocalRobot } from '#shared/robot/localRobot.ts';
+import type { Robot } from '#shared/robot/robot.ts';
 import { createSimulatedChannel } from '#shared/simulator/channel.ts';
 import type { BusLogEntry } from '#shared/simulator/line.ts';
-import { createGatewayTransport } from '../frontend/src/robot/links/gateway.ts';
+import { createGatewayRobot } from '../frontend/src/robot/gatewayRobot.ts';
 import { amount } from './amounts.ts';
 import { packetsInto } from './busPackets.ts';
 import type { Figure } from './figure.ts';
@@ -61,7 +62,7 @@ async function playedLocally(): Promise<readonly number[]> {
     servoCount: SERVO_COUNT,
     onByte: (entry) => log.push(entry),
   });
-  const session = createLocalRobot({ channel, kind: 'simulated', family, clock: realClock });
+  const session = createLocalRobot({ channel, isNew: true, family, clock: realClock });
   await session.open();
   return played(session, () => log);
 }
@@ -70,8 +71,7 @@ async function playedOver(
   address: string,
   readLog: () => readonly BusLogEntry[],
 ): Promise<readonly number[]> {
-  const transport = createGatewayTransport(`ws://${address}/ws`, realClock);
-  const session = createSession({ transport, family, clock: realClock });
+  const session = createGatewayRobot({ url: `ws://${address}/ws`, clock: realClock });
   try {
     await session.open();
     await session.choose(family);
@@ -82,7 +82,7 @@ async function playedOver(
 }
 
 /** How far each frame behind the way to the first one was from its time, by the bus. */
-async function played(session: Session, readLog: () => readonly BusLogEntry[]): Promise<readonly number[]> {
+async function played(session: Robot, readLog: () => readonly BusLogEntry[]): Promise<readonly number[]> {
   const before = readLog().length;
   await session.play(frames());
   await sleep(realClock, 200);

@@ -3,6 +3,7 @@
 import { createStore } from 'zustand/vanilla';
 import { FAMILIES } from '#shared/codec/families.ts';
 import { createRig } from '#shared/robot/rig.ts';
+import type { Robot } from '#shared/robot/robot.ts';
 import { createBlend } from './poses/blend.ts';
 import { createCompiled } from './animate/group/compiled.ts';
 import { createDevice, type Way } from '../robot/device.ts';
@@ -25,7 +26,11 @@ const SIMULATED: Way = { kind: 'simulated', label: 'Simulated board', isSimulate
 /** `texts` is what the browser kept; two desks with the same texts are two visits. */
 export async function createTestPage(
   texts = new Map<string, string>(),
-  { way = SIMULATED, ...board }: { readonly way?: Way } & Parameters<typeof createRig>[0] = {},
+  {
+    way = SIMULATED,
+    share = (robot) => robot,
+    ...board
+  }: { readonly way?: Way; readonly share?: (robot: Robot) => Robot } & Parameters<typeof createRig>[0] = {},
 ) {
   const rig = await createRig(board);
   const { clock } = rig;
@@ -51,7 +56,7 @@ export async function createTestPage(
     documentId: () => opened.getState().openId,
   });
   const playback = { ...prepared, ...playerOf(prepared) };
-  device.attach(rig.session, way);
+  device.attach(share(rig.session), way);
   const tape = createMotionTape({ device, robots, clock });
   const poses = createPoses({ storage, notices, robots, device, view });
   const macros = createMacros(storage, notices, robots);

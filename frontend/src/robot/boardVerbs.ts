@@ -1,11 +1,11 @@
-// What is asked of the board and its session besides motion by hand: STOP, groups, readings, memory. Whatever fails becomes a
+// What is asked of the board and its link besides motion by hand: STOP, groups, readings, memory. Whatever fails becomes a
 // notice. Keeps nothing; knows no panel.
 
 import type { Frame } from '#shared/codec/commands.ts';
 import type { Family } from '#shared/codec/families.ts';
 import { LinkError } from '#shared/robot/linkError.ts';
-import type { Session } from '#shared/robot/robot.ts';
-import type { HaltReason, SlotGroup } from '#shared/robot/transport.ts';
+import type { Robot } from '#shared/robot/robot.ts';
+import type { HaltReason, SlotGroup } from '#shared/robot/state.ts';
 import { downloadedSentence, downloadCancelled } from '../i18n/sentences.ts';
 import { words } from '../i18n/words.ts';
 import type { Notices } from '../state/notices.ts';
@@ -48,7 +48,7 @@ export type RunGuard = (anyway: () => void) => boolean;
 
 export interface BoardVerbsOptions {
   /** null while nothing is connected. */
-  session(): Session | null;
+  session(): Robot | null;
   readonly gate: LimitGate;
   readonly notices: Notices;
   readonly lateNotices: LateNotices;
@@ -64,7 +64,7 @@ export function createBoardVerbs({
 }: BoardVerbsOptions): BoardVerbs {
   let mayBegin: RunGuard = () => true;
 
-  function attempt(work: (session: Session) => Promise<unknown>, settled: Settled = () => undefined): void {
+  function attempt(work: (session: Robot) => Promise<unknown>, settled: Settled = () => undefined): void {
     const session = now();
     if (session === null) return settled(false);
     work(session).then(
@@ -80,10 +80,7 @@ export function createBoardVerbs({
   }
 
   /** As `attempt`, where nothing forbids that something runs. */
-  function attemptRun(
-    work: (session: Session) => Promise<unknown>,
-    settled: Settled = () => undefined,
-  ): void {
+  function attemptRun(work: (session: Robot) => Promise<unknown>, settled: Settled = () => undefined): void {
     const asked = now();
     const anyway = (): void => {
       if (now() === asked) attempt(work);
@@ -93,7 +90,7 @@ export function createBoardVerbs({
   }
 
   /** False where it was called off. */
-  async function downloadTo(current: Session, groups: readonly SlotGroup[]): Promise<boolean> {
+  async function downloadTo(current: Robot, groups: readonly SlotGroup[]): Promise<boolean> {
     const slots = groups.map(({ slot }) => slot);
     try {
       await current.download(groups);

@@ -1,27 +1,21 @@
-// Picks the way to the robot: this computer's port, the gateway, or the simulated robot, and remembers the last one chosen.
-// The only place that knows transports; hands a session to the device store and forgets it.
+// Picks the way to the robot: this computer's port, the gateway, or the simulated robot, and remembers the last one chosen. The only
+// place that knows links; hands a robot to the device and forgets it. What a robot on a cable needs is loaded with the first one.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
-import type { BodyKind, Robot } from '#shared/profile/robot.ts';
+import type { BodyKind, Robot as RobotProfile } from '#shared/profile/robot.ts';
 import { FAMILIES, UNKNOWN_BOARD, type BoardId, type FamilyId } from '#shared/codec/families.ts';
-import {
-  createLocalRobot,
-  createSession,
-  type LocalRobotOptions,
-  type Session,
-} from '#shared/robot/robot.ts';
+import type { LocalRobotOptions } from '#shared/robot/localRobot.ts';
+import type { Robot } from '#shared/robot/robot.ts';
 import { isProfileName } from '#shared/simulator/profileNames.ts';
-import type { Transport } from '#shared/robot/transport.ts';
 import type { Boards } from './boards.ts';
-import type { Device, Way } from './device.ts';
+import type { Device, Way, WayKind } from './device.ts';
 import type { TextStorage } from '../state/soon.ts';
 import type { Notices } from '../state/notices.ts';
 import type { You } from './people.generated.ts';
-import { createGatewayTransport } from './links/gateway.ts';
+import { createGatewayRobot } from './gatewayRobot.ts';
 import { choosePort, grantedPorts, portLabel, webSerialObstacle } from './links/serialPorts.ts';
 import type { BluetoothHere, GrantedModule } from './links/webBluetooth.ts';
 import type { GrantedBoard, HidHere } from './links/webHid.ts';
-import { createWebSerialChannel } from './links/webSerial.ts';
 import { later } from '../ui/later.tsx';
 import { words } from '../i18n/words.ts';
 import {
@@ -97,9 +91,14 @@ export interface Connector {
 
 const GREETING_MS = 2000;
 
-type Link =
-  | Pick<LocalRobotOptions, 'kind' | 'channel' | 'withheld'>
-  | { readonly kind: 'gateway'; readonly transport: Transport };
+/** A way to a robot, and the robot at its end. */
+interface Opening {
+  readonly robot: Robot;
+  /** What it leads to; a gateway says so once it is open. */
+  way(): Way;
+  /** Of this computer's devices the one that it is. */
+  readonly port?: object;
+}
 
 export interface ConnectorOptions {
   readonly device: Device;
@@ -111,16 +110,20 @@ export interface ConnectorOptions {
   /** It has answered already. */
   readonly isAtGateway: boolean;
   /** The one at hand. */
-  robot(): Robot;
+  robot(): RobotProfile;
   /** Of that build, on that board. */
   describeRobot(body: BodyKind, board: FamilyId): void;
   isWatched(): boolean;
 }
 
+const loadLocalRobot = () => import('#shared/robot/localRobot.ts');
+const loadSerial = () => import('./links/webSerial.ts');
 const loadSimulated = () => import('./links/simulated.ts');
 const loadHid = () => import('./links/webHid.ts');
 const loadBluetooth = () => import('./links/webBluetooth.ts');
 // They need no gateway: they are there before they are wanted.
+later(loadLocalRobot);
+later(loadSerial);
 later(loadSimulated);
 later(loadHid);
 later(loadBluetooth);
@@ -142,45 +145,74 @@ export function createConnector(options: ConnectorOptions): Connector {
     body: null,
   }));
 
-  let current: { readonly session: Session; way(): Way } | null = null;
+  let current: Opening | null = null;
 
-  function openSerial(port: SerialPort): Link {
-    store.setState({ openPort: port });
-    return { kind: 'webSerial', channel: createWebSerialChannel(port) };
+  /** Asked who it is, and taken for what it was the last time. */
+  async function onCable(
+    kind: WayKind,
+    port: object,
+    { channel, ...options }: Pick<LocalRobotOptions, 'channel' | 'withheld'>,
+  ): Promise<Opening> {
+    const { createLocalRobot } = await loadLocalRobot();
+    const way = (): Way => ({ kind, label: channel.label, isSimulated: false });
+    const known = boards.recall(way())?.family;
+    const robot = createLocalRobot({
+      ...{ ...options, channel, isWatched, clock: device.clock, identifies: true },
+      family: known === undefined ? UNKNOWN_BOARD : FAMILIES[known],
+      slotMemory: rememberSlots(storage, way),
+    });
+    return { robot, way, port };
   }
 
-  async function openBoard(board: HIDDevice): Promise<Link> {
+  async function openSerial(port: SerialPort): Promise<Opening> {
+    const { createWebSerialChannel } = await loadSerial();
+    store.setState({ openPort: port });
+    return onCable('webSerial', port, { channel: createWebSerialChannel(port) });
+  }
+
+  async function openBoard(board: HIDDevice): Promise<Opening> {
     const { createWebHidChannel, HID_WITHHELD } = await loadHid();
     store.setState({ openBoard: board });
-    return { kind: 'webHid', channel: createWebHidChannel(board), withheld: HID_WITHHELD };
+    return onCable('webHid', board, { channel: createWebHidChannel(board), withheld: HID_WITHHELD });
   }
 
-  async function openModule(module: BluetoothDevice): Promise<Link> {
+  async function openModule(module: BluetoothDevice): Promise<Opening> {
     const { createWebBluetoothChannel } = await loadBluetooth();
     store.setState({ openModule: module });
-    return { kind: 'webBluetooth', channel: createWebBluetoothChannel(module) };
+    return onCable('webBluetooth', module, { channel: createWebBluetoothChannel(module) });
+  }
+
+  function openGateway(): Opening {
+    const robot = createGatewayRobot({ url: gatewayUrl(), clock: device.clock, mayDrive: role !== 'viewer' });
+    const way = (): Way => ({ kind: 'gateway', label: robot.label, isSimulated: robot.isSimulated });
+    return { robot, way };
+  }
+
+  /** A new one at each visit, which is what it was made as: nothing of it is worth remembering. */
+  async function simulated(): Promise<Opening> {
+    const [{ createLocalRobot }, { createSimulatedChannel }] = await Promise.all([
+      loadLocalRobot(),
+      loadSimulated(),
+    ]);
+    const { board } = store.getState();
+    const channel = createSimulatedChannel(simulatedAs(board));
+    const robot = createLocalRobot({
+      ...{ channel, isWatched, clock: device.clock, isNew: true },
+      family: FAMILIES[board],
+    });
+    return { robot, way: () => ({ kind: 'simulated', label: channel.label, isSimulated: true }) };
   }
 
   /** What is open already is left alone, and that is said: the browser's chooser does not know it. */
-  async function openOnce(
-    kind: Way['kind'],
-    isSame: boolean,
-    open: () => Link | Promise<Link>,
-  ): Promise<void> {
-    const way = current?.way();
-    if (isSame && way?.kind === kind && current?.session.state.link.status === 'ready')
-      notices.tell('info', words.connect.isOpen({ label: way.label }));
-    else chosen(await open());
+  async function openOnce<T extends object>(port: T, open: (port: T) => Promise<Opening>): Promise<void> {
+    if (current?.port === port && current.robot.state.link.status === 'ready')
+      notices.tell('info', words.connect.isOpen({ label: current.way().label }));
+    else chosen(await open(port));
   }
 
-  const takePort = (port: SerialPort): Promise<void> =>
-    openOnce('webSerial', port === store.getState().openPort, () => openSerial(port));
-
-  const takeBoard = (board: HIDDevice): Promise<void> =>
-    openOnce('webHid', board === store.getState().openBoard, () => openBoard(board));
-
-  const takeModule = (module: BluetoothDevice): Promise<void> =>
-    openOnce('webBluetooth', module === store.getState().openModule, () => openModule(module));
+  const takePort = (port: SerialPort): Promise<void> => openOnce(port, openSerial);
+  const takeBoard = (board: HIDDevice): Promise<void> => openOnce(board, openBoard);
+  const takeModule = (module: BluetoothDevice): Promise<void> => openOnce(module, openModule);
 
   async function lookForBoards(): Promise<readonly GrantedBoard[]> {
     const { lookForHid } = await loadHid();
@@ -196,43 +228,27 @@ export function createConnector(options: ConnectorOptions): Connector {
     return bluetooth.granted;
   }
 
-  /** A board in the page is what it was made as; any other is asked, and taken for what it was the last time. A gateway asks itself. */
-  async function connect(link: Link): Promise<void> {
-    const { board } = store.getState();
-    const isOwn = link.kind === 'simulated';
-    const way = (): Way => wayOf(link);
-    const known = boards.recall(way())?.family;
-    const options = {
-      clock: device.clock,
-      family: isOwn ? FAMILIES[board] : known === undefined ? UNKNOWN_BOARD : FAMILIES[known],
-      identifies: !isOwn,
-      isWatched,
-      // The simulated robot in the page is a new one at each visit: nothing of it is worth remembering. A gateway remembers by itself.
-      slotMemory: isOwn ? undefined : rememberSlots(storage, way),
-    };
-    const session =
-      'transport' in link
-        ? createSession({ ...options, ...link })
-        : createLocalRobot({ ...options, ...link });
-    current = { session, way };
+  async function connect(opening: Opening): Promise<void> {
+    const { robot, way } = opening;
+    current = opening;
     // Before the page itself hears that it is ready: where somebody has changed the gateway's port, it leads to another board.
     let wasReady = false;
     let isNew = true;
-    session.subscribe({
+    robot.subscribe({
       state({ link: { status }, family }) {
         if (status === 'ready' && !wasReady) {
-          device.describe(session, way());
+          device.describe(robot, way());
           if (isNew) describeRobot(family.id);
           isNew = false;
         }
         wasReady = status === 'ready';
       },
     });
-    device.attach(session, way());
+    device.attach(robot, way());
     // A first attempt that fails is in the link's state, with its sentence and its next try.
-    await session.open().catch(() => undefined);
+    await robot.open().catch(() => undefined);
     // The gateway tells what it leads to only once it is open.
-    device.describe(session, way());
+    device.describe(robot, way());
   }
 
   /** As what the person has said it is. */
@@ -242,9 +258,9 @@ export function createConnector(options: ConnectorOptions): Connector {
     options.describeRobot(body, family);
   }
 
-  function chosen(link: Link): void {
-    rememberWay(storage, { kind: link.kind, board: store.getState().board });
-    void connect(link);
+  function chosen(opening: Opening): void {
+    rememberWay(storage, { kind: opening.way().kind, board: store.getState().board });
+    void connect(opening);
   }
 
   async function look(withinMs?: number): Promise<void> {
@@ -269,10 +285,10 @@ export function createConnector(options: ConnectorOptions): Connector {
       await connect(await simulated());
       if (last === null) greet();
     } else if (!reconnects) return;
-    else if (last?.kind === 'webSerial' && port !== undefined) await connect(openSerial(port.port));
+    else if (last?.kind === 'webSerial' && port !== undefined) await connect(await openSerial(port.port));
     else if (board !== undefined) await connect(await openBoard(board.board));
     else if (module !== undefined) await connect(await openModule(module.module));
-    else if (typeof gateway === 'object') await connect(gatewayLink());
+    else if (typeof gateway === 'object') await connect(openGateway());
     else await connect(await simulated());
     if (gateway === 'absent') void offerLateGateway();
   }
@@ -283,18 +299,8 @@ export function createConnector(options: ConnectorOptions): Connector {
     await look();
     notices.tell('warning', words.link.gatewayAnswers, {
       label: words.link.useGateway,
-      act: () => chosen(gatewayLink()),
+      act: () => chosen(openGateway()),
     });
-  }
-
-  const gatewayLink = (): Link => ({
-    kind: 'gateway',
-    transport: createGatewayTransport(gatewayUrl(), device.clock, { mayDrive: role !== 'viewer' }),
-  });
-
-  async function simulated(): Promise<Link> {
-    const { createSimulatedChannel } = await loadSimulated();
-    return { kind: 'simulated', channel: createSimulatedChannel(simulatedAs(store.getState().board)) };
   }
 
   /** Until a way is chosen the simulated arm rises, so that the page is alive; no real robot ever moves by itself. */
@@ -325,11 +331,11 @@ export function createConnector(options: ConnectorOptions): Connector {
       store.setState({ board });
       chosen(await simulated());
     },
-    useGateway: () => chosen(gatewayLink()),
+    useGateway: () => chosen(openGateway()),
     async useGatewayPort(path) {
       await openGatewayPort(path);
       await look();
-      chosen(gatewayLink());
+      chosen(openGateway());
     },
     useSerialPort: takePort,
     async chooseSerialPort() {
@@ -347,17 +353,11 @@ export function createConnector(options: ConnectorOptions): Connector {
     },
     disconnect: () => void device.detach().catch(notices.tellError),
     async moveHere() {
-      await current?.session.takeOver();
+      await current?.robot.takeOver();
     },
-    leave: () => current?.session.leave(),
+    leave: () => current?.robot.leave(),
   };
 }
 
 /** A board that nobody has modelled is simulated by the usual one. */
 const simulatedAs = (board: FamilyId) => (isProfileName(board) ? { profile: board } : {});
-
-function wayOf(link: Link): Way {
-  const { label } = 'transport' in link ? link.transport : link.channel;
-  const isSimulated = 'transport' in link ? link.transport.isSimulated : link.kind === 'simulated';
-  return { kind: link.kind, label, isSimulated };
-}

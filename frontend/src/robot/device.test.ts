@@ -62,11 +62,11 @@ describe('what playing could not keep', () => {
   });
 
   test('a frame that was left out is told instead', async () => {
-    const { device, transport, asleep, draw, noticeTexts } = await createTestPage();
-    const { send } = transport;
+    const { device, channel, asleep, draw, noticeTexts } = await createTestPage();
+    const { write } = channel;
     let sent = 0;
-    transport.send = (packet) =>
-      ++sent === 2 ? Promise.reject(new LinkError('expired', 'too late')) : send(packet);
+    channel.write = (packet) =>
+      ++sent === 2 ? Promise.reject(new LinkError('expired', 'too late')) : write(packet);
     device.play(MANY, 1, () => undefined);
     await draw(1900);
     await asleep(300);
@@ -142,12 +142,12 @@ describe('a device with a session', () => {
   });
 
   test('sends a drag at once, and the store has what comes of it with the next frame', async () => {
-    const { device, state, targets, clock, transport } = await createTestPage();
+    const { device, state, targets, clock, channel } = await createTestPage();
     device.drag([{ servo: 3, position: 1700 }], 500);
     expect(targets()).toEqual({ 3: 1700 });
     expect(state().known).toEqual([]);
     await clock.advance(15);
-    expect(transport.board.target(3)).toBe(1700);
+    expect(channel.board.target(3)).toBe(1700);
     device.refresh();
     expect(state().known).toEqual([3]);
   });
@@ -314,13 +314,13 @@ describe('a device with a session', () => {
   });
 
   test('stores a group and tells when it is done', async () => {
-    const { device, state, noticeTexts, draw, transport } = await createTestPage();
+    const { device, state, noticeTexts, draw, channel } = await createTestPage();
     device.download([{ slot: 5, frames: FRAMES }]);
     await draw(60);
     expect(state().snapshot.activity).toMatchObject({ kind: 'downloading', slot: 5, frameCount: 3 });
     await draw(4000);
     expect(state().snapshot.storedSlots).toEqual([5]);
-    expect(transport.board.frameCount(5)).toBe(3);
+    expect(channel.board.frameCount(5)).toBe(3);
     expect(noticeTexts()).toEqual([downloadedSentence([5])]);
   });
 
@@ -373,14 +373,14 @@ describe('a device with a session', () => {
   });
 
   test('a lost link keeps no position and comes back latched', async () => {
-    const { device, state, draw, transport, targets } = await createTestPage();
+    const { device, state, draw, channel, targets } = await createTestPage();
     device.move([{ servo: 1, position: 1600 }], 300);
     await draw(2500);
-    transport.unplug();
+    channel.unplug();
     await draw(100);
     expect(state().snapshot.link).toMatchObject({ status: 'lost' });
     expect(targets()).toEqual({});
-    transport.plugIn();
+    channel.plugIn();
     await draw(6000);
     expect(state().snapshot.link.status).toBe('ready');
     expect(state().snapshot.latch).toMatchObject({ reason: 'reconnected' });
@@ -397,14 +397,14 @@ describe('a device with a session', () => {
   });
 
   test('logs each packet and what becomes of the link, once and in order', async () => {
-    const { device, draw, transport } = await createTestPage();
+    const { device, draw, channel } = await createTestPage();
     device.move([{ servo: 1, position: 1700 }], 0);
     await draw(200);
     device.halt();
     await draw(400);
     device.resume();
     await draw(100);
-    transport.unplug();
+    channel.unplug();
     await draw(100);
     await device.detach();
     const { entries } = device.traffic.content('doc');

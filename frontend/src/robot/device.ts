@@ -1,18 +1,17 @@
-// The robot as the page sees it: wraps one session at a time, keeps its latest snapshot, and turns intents of the panels into
-// calls whose failures become notices. Live, never undoable; knows no transport and no panel. What changes in each frame is asked
+// The robot as the page sees it: wraps one robot at a time, keeps its latest snapshot, and turns intents of the panels into calls
+// whose failures become notices. Live, never undoable; knows no link and no panel. What changes in each frame is asked
 // for and not in the store: whoever listens to that would be woken for it.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import { sameList } from '#shared/group/groupEdits.ts';
-import { fromBoard, onBoard, type Robot } from '#shared/profile/robot.ts';
+import { fromBoard, onBoard, type Robot as RobotProfile } from '#shared/profile/robot.ts';
 import type { Clock } from '#shared/clock.ts';
 import type { ServoTarget } from '#shared/codec/commands.ts';
 import type { Family, FamilyId } from '#shared/codec/families.ts';
 import type { LeaseAction } from '#shared/robot/lease.ts';
-import type { Session } from '#shared/robot/robot.ts';
+import type { Robot } from '#shared/robot/robot.ts';
 import { INITIAL_STATE } from '#shared/robot/store.ts';
 import type { Motions, ServoMotion, SessionState } from '#shared/robot/state.ts';
-import type { Transport } from '#shared/robot/transport.ts';
 import { personName, errorSentence } from '../i18n/sentences.ts';
 import { words } from '../i18n/words.ts';
 import { createBoardVerbs, type BoardVerbs } from './boardVerbs.ts';
@@ -23,9 +22,11 @@ import { createMovingWatch, createTargetBook } from './targetBook.ts';
 import type { Notices } from '../state/notices.ts';
 import { createTrafficLog, type TrafficLog } from './traffic.ts';
 
+export type WayKind = 'webSerial' | 'webHid' | 'webBluetooth' | 'gateway' | 'simulated';
+
 /** Which way leads to the robot, and the name of the port or machine for people. */
 export interface Way {
-  readonly kind: Transport['kind'];
+  readonly kind: WayKind;
   readonly label: string;
   /** Nothing real moves, whichever way leads there. */
   readonly isSimulated: boolean;
@@ -47,10 +48,10 @@ export interface Device extends BoardVerbs {
   readonly store: StoreApi<DeviceState>;
   readonly traffic: TrafficLog;
   readonly clock: Clock;
-  /** Takes the session over and closes the one before it. */
-  attach(session: Session, way: Way): void;
-  /** What the session's way leads to became known. */
-  describe(session: Session, way: Way): void;
+  /** Takes the robot over and closes the one before it. */
+  attach(robot: Robot, way: Way): void;
+  /** What the robot's way leads to became known. */
+  describe(robot: Robot, way: Way): void;
   detach(): Promise<void>;
   /** What each was last asked for, from the moment on that it was, and where it is by now: as of this moment. */
   motions(): Motions;
@@ -90,7 +91,7 @@ const NO_MOTION: ServoMotion = { target: null, estimated: null };
 /** The robot profile in use: its limits and trims hold for everything that moves. */
 export interface RobotProfiles {
   readonly store: { subscribe(listener: () => void): () => void };
-  current(): { readonly robot: Robot };
+  current(): { readonly robot: RobotProfile };
   /** On a link of one's own the profile becomes one for the board that is connected. */
   takeUpFor(board: FamilyId): void;
 }
@@ -108,13 +109,13 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
   const book = createTargetBook(clock);
   const watch = createMovingWatch(clock, isUnderWay);
   const lateNotices = createLateNotices(clock, notices);
-  let session: Session | null = null;
+  let session: Robot | null = null;
   let unsubscribe = (): void => undefined;
   let autoReconnect = true;
   let saidOfResume = '';
   let calibrated: number | null = null;
 
-  const robot = (): Robot => robots.current().robot;
+  const robot = (): RobotProfile => robots.current().robot;
   const inRobotUnits = (servo: number, onBoardAt: number): number => fromBoard(robot(), servo, onBoardAt);
   const gate = createLimitGate(robot, notices.refuse);
 
@@ -290,7 +291,7 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
       if (send(targets, onBoard(robot(), targets), durationMs)) refresh();
     },
     lease: (action) => session?.lease(action),
-    letGoOn: (forMs) => session?.letGoOn(forMs),
+    letGoOn: (forMs) => session?.letRun(forMs),
     retryNow: () => session?.retryNow(),
     setAutoReconnect(enabled) {
       autoReconnect = enabled;

@@ -50,14 +50,14 @@ test('a board is guessed where it was last sent, at the next visit, and nothing 
 });
 
 test('after a loss of the link the pose before it is the guess', async () => {
-  const { device, draw, guesses, transport } = await visit(new Map(), USB);
+  const { device, draw, guesses, channel } = await visit(new Map(), USB);
   device.move(pose(1_700), 0);
   await draw(firstMovesMs(3));
   device.move([{ servo: 1, position: 1_200 }], 300);
   await draw(100);
-  transport.unplug();
+  channel.unplug();
   await draw(100);
-  transport.plugIn();
+  channel.plugIn();
   await draw(8_000);
   expect(device.store.getState().snapshot.link.status).toBe('ready');
   expect(guesses()).toEqual({ 1: 1_200, 2: 1_700, 3: 1_700 });

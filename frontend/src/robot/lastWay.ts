@@ -1,11 +1,11 @@
 // Remembers which way to the robot was chosen last, which board was simulated, and whether links come back by themselves. Storage that is forbidden means: nothing remembered.
 
 import { FAMILIES, type FamilyId } from '#shared/codec/families.ts';
-import type { Transport } from '#shared/robot/transport.ts';
+import type { WayKind } from './device.ts';
 import type { TextStorage } from '../state/soon.ts';
 
 export interface LastWay {
-  readonly kind: Transport['kind'];
+  readonly kind: WayKind;
   readonly board: FamilyId;
 }
 
@@ -16,7 +16,7 @@ const KINDS: readonly string[] = [
   'webBluetooth',
   'gateway',
   'simulated',
-] satisfies Transport['kind'][];
+] satisfies WayKind[];
 
 export function rememberWay(storage: TextStorage, { kind, board }: LastWay): void {
   try {

@@ -4,7 +4,7 @@
 import { refusedTarget, type LimitRefusal, type Robot, fromBoard, onBoard } from '#shared/profile/robot.ts';
 import type { ServoTarget, Frame } from '#shared/codec/commands.ts';
 import { commandIn } from '#shared/codec/parse.ts';
-import type { SlotGroup } from '#shared/robot/transport.ts';
+import type { SlotGroup } from '#shared/robot/state.ts';
 import { servoLabel } from '../i18n/sentences.ts';
 import { words } from '../i18n/words.ts';
 

@@ -1,7 +1,7 @@
 // Remembers which slots of a board hold half a group, across reloads. Knows the browser's storage and a board's name for
 // people; no slot's content. Storage that is forbidden means: remembered until the page is closed.
 
-import type { SlotMemory } from '#shared/robot/slotMemory.ts';
+import type { SlotMemory } from '#shared/robot/storing.ts';
 import { nameOf, type BoardWay } from './boards.ts';
 import type { TextStorage } from '../state/soon.ts';
 

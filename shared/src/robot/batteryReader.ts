@@ -1,23 +1,19 @@
 // Asks for the battery voltage and remembers how often the board stayed silent. Knows when it may ask; not what the
 // figure means for a pack.
 
-import { requireLine, type Core } from './core.ts';
+import type { Core } from './core.ts';
 import { LinkError } from './linkError.ts';
-import type { Transport } from './transport.ts';
+import { requireLine } from './rules.ts';
 import { BATTERY_SILENT_LIMIT, BATTERY_TIMEOUT_MS } from './timings.ts';
 
-/**
- * Returns the read operation: resolves with millivolts. Calls while one is under way share its answer. `shared`: the link asks, and
- * tells the state itself.
- */
-export function createBatteryReader(core: Core, shared: Transport['readBattery']): () => Promise<number> {
+/** Returns the read operation: resolves with millivolts. Calls while one is under way share its answer. */
+export function createBatteryReader(core: Core): () => Promise<number> {
   let underWay: Promise<number> | null = null;
   let silences = 0;
 
   async function read(): Promise<number> {
     const { store, clock, exchange } = core;
-    requireLine(core.store);
-    if (shared) return shared();
+    requireLine(store.state);
     try {
       const report = await exchange.ask({ kind: 'readBattery' }, 'battery', BATTERY_TIMEOUT_MS);
       const batteryMv = report.kind === 'battery' ? report.batteryMv : 0;

@@ -36,7 +36,7 @@ test('a move of more servos than a packet holds leaves as two, back to back', as
 });
 
 test('STOP holds all of them, in two packets', async () => {
-  const { session, clock, heard, transport } = await shortRig();
+  const { session, clock, heard, channel } = await shortRig();
   session.move(allTo(2_000), 5_000);
   await clock.advance(1_000);
   const before = heard.length;
@@ -45,10 +45,10 @@ test('STOP holds all of them, in two packets', async () => {
   await halted;
   const kinds = heard.slice(before).map(({ command }) => command.kind);
   expect(kinds).toEqual(['stop', 'move', 'move', 'stop', 'stop', 'move', 'move']);
-  const held = SERVOS.map((servo) => transport.board.pulse(servo));
+  const held = SERVOS.map((servo) => channel.board.pulse(servo));
   expect(Math.max(...held)).toBeLessThan(1_300);
   await clock.advance(5_000);
-  expect(SERVOS.map((servo) => transport.board.pulse(servo))).toEqual(held);
+  expect(SERVOS.map((servo) => channel.board.pulse(servo))).toEqual(held);
   expect(session.state.latch).toMatchObject({ stop: 'sent', unheld: null });
 });
 

@@ -2,15 +2,17 @@
 // overwrites the first one's data (S11). Knows the order and restarts; one frame's answer is frameStore.ts.
 
 import type { Clock } from '../clock.ts';
-import type { Command, Frame } from '../codec/commands.ts';
+import type { Command } from '../codec/commands.ts';
 import { isNoAnswer, type Exchange } from './exchange.ts';
 import { createFrameStore } from './frameStore.ts';
 import { LinkError } from './linkError.ts';
 import { DOWNLOAD_RESTARTS } from './timings.ts';
 
+type FrameCommand = Extract<Command, { kind: 'download' }>;
+
 export interface DownloadJob {
-  readonly slot: number;
-  readonly frames: readonly Frame[];
+  /** One for each frame, in order. */
+  readonly commands: readonly FrameCommand[];
   readonly clock: Clock;
   readonly exchange: Exchange;
   /** How long from now answers to earlier packets may still come; 0 when every one was heard. */
@@ -23,15 +25,12 @@ export interface DownloadJob {
   stored(frameCount: number): void;
 }
 
-type FrameCommand = Extract<Command, { kind: 'download' }>;
-
 /**
- * Rejects with `outOfRange` where there is no frame, `cancelled` between frames, or `noAnswer` when the board stayed
+ * Rejects with `cancelled` between frames, or `noAnswer` when the board stayed
  * silent through every restart. A frame that cannot be stored for sure sends the whole group again from frame 0, which
  * erases the slot first (S33): nothing else repairs it, because a frame written over another one is ANDed (S36).
  */
 export async function download(job: DownloadJob): Promise<void> {
-  const commands = frameCommands(job);
   const storeFrame = createFrameStore(job.clock, job.exchange);
 
   refuseIfCancelled(job);
@@ -42,7 +41,7 @@ export async function download(job: DownloadJob): Promise<void> {
   job.begun();
   for (let restarts = 0; ; restarts += 1) {
     try {
-      await storeAll(job, commands, storeFrame);
+      await storeAll(job, storeFrame);
       return;
     } catch (error) {
       if (!isNoAnswer(error) || restarts === DOWNLOAD_RESTARTS) throw error;
@@ -50,23 +49,12 @@ export async function download(job: DownloadJob): Promise<void> {
   }
 }
 
-/** Throws `outOfRange` where there is no frame. */
-export function frameCommands({
-  slot,
-  frames,
-}: Pick<DownloadJob, 'slot' | 'frames'>): readonly FrameCommand[] {
-  const frameCount = frames.length;
-  if (frameCount === 0) throw new LinkError('outOfRange', 'an action group needs at least one frame');
-  return frames.map((frame, frameIndex) => ({ kind: 'download', slot, frameCount, frameIndex, frame }));
-}
-
 async function storeAll(
   job: DownloadJob,
-  commands: readonly FrameCommand[],
   storeFrame: (command: FrameCommand) => Promise<void>,
 ): Promise<void> {
   job.stored(0);
-  for (const [index, command] of commands.entries()) {
+  for (const [index, command] of job.commands.entries()) {
     refuseIfCancelled(job);
     await storeFrame(command);
     job.stored(index + 1);

@@ -1,33 +1,29 @@
-// What a session does with one kind of board: everything that depends on the family, put together. Another board makes
-// another driver; the line, its queues and the snapshot stay. Knows no transport by name.
+// What a robot does with one kind of board: everything that depends on the family, put together. Another board makes another driver;
+// the link, its queue and the snapshot stay.
 
 import { COMMAND_NUMBER, type Command } from '../codec/commands.ts';
 import type { Family } from '../codec/families.ts';
 import { createBatteryReader } from './batteryReader.ts';
-import type { Core } from './core.ts';
-import { createExchange, encodeOrRefuse } from './exchange.ts';
-import { createGroups, type Groups } from './groups.ts';
-import { createLive, type Live } from './live.ts';
-import type { LinkError } from './linkError.ts';
-import { createMoveBuffer, servosIn } from './moveBuffer.ts';
-import { createRaw } from './raw.ts';
-import { createReadings, type Readings } from './readings.ts';
-import { release } from './release.ts';
-import type { Replies } from './replies.ts';
+import { requireAtRest, type Core } from './core.ts';
 import { createRobotEstimate } from './estimate.ts';
-import type { SlotMemory } from './slotMemory.ts';
-import { setSpeed } from './speed.ts';
-import type { Transport } from './transport.ts';
-import { createTurns } from './firstMoves.ts';
+import { createExchange } from './exchange.ts';
+import { createFirstMoves } from './firstMoves.ts';
+import { createGroups, type Groups } from './groups.ts';
+import type { LinkError } from './linkError.ts';
+import { createLive, type Live } from './live.ts';
+import { createMoveBuffer, servosIn } from './moveBuffer.ts';
+import { sendRaw } from './raw.ts';
+import { createReadings, type Readings } from './readings.ts';
+import type { Replies } from './replies.ts';
+import { encodeOrRefuse, releaseCommands } from './rules.ts';
+import { noteCommand } from './store.ts';
+import type { SlotMemory } from './storing.ts';
 
-export interface DriverOptions extends Pick<Core, 'clock' | 'store' | 'lanes'> {
+export interface DriverOptions extends Pick<Core, 'clock' | 'store' | 'queue'> {
   readonly replies: Replies;
   readonly slotMemory: SlotMemory | undefined;
-  /** What a shared link does itself. */
-  readonly shared: Pick<
-    Transport,
-    'longestPacket' | 'slots' | 'moves' | 'player' | 'commands' | 'readBattery'
-  >;
+  /** What the link carries, in bytes. */
+  readonly longestPacket: number;
 }
 
 export interface Driver {
@@ -37,7 +33,6 @@ export interface Driver {
   readonly readings: Readings;
   readBattery(): Promise<number>;
   sendRaw(packet: Uint8Array): Promise<void>;
-  setSpeed(slot: number | null, percent: number): Promise<void>;
   release(servos: readonly number[]): Promise<void>;
   /** A command's last bit left the wire just now. */
   applied(command: Command): void;
@@ -48,53 +43,58 @@ export interface Driver {
 }
 
 export function createDriver(family: Family, options: DriverOptions): Driver {
-  const { clock, store, lanes, replies, slotMemory, shared } = options;
-  const robot = createRobotEstimate(family, clock);
-  const servosPerMove = Math.min(family.servosPerMove, servosIn(shared.longestPacket));
+  const { clock, store, queue, replies, slotMemory, longestPacket } = options;
+  const estimate = createRobotEstimate(family, clock);
+  const servosPerMove = Math.min(family.servosPerMove, servosIn(longestPacket));
   const core: Core = {
-    ...{ family, clock, store, robot, lanes, servosPerMove, commands: shared.commands },
-    exchange: createExchange(family, clock, lanes, replies),
-    unsettled: () => moves.servos().length > 0 || groups.isStopping() || isMotion(lanes.unfinished()),
+    ...{ family, clock, store, estimate, queue, servosPerMove },
+    exchange: createExchange(family, clock, queue, replies),
+    isUnsettled: () => moves.servos().length > 0 || groups.isStopping() || isMotion(queue.unfinished()),
   };
-  const buffer = createMoveBuffer(family, servosPerMove);
-  const moves = shared.moves ?? buffer;
-  const turns = createTurns({ clock, isUnknown: robot.isUnknown, due: lanes.wake, waiting });
-  const live = createLive(core, moves, turns, shared.player);
-  const groups = createGroups(core, slotMemory, shared.slots);
-  const readBattery = createBatteryReader(core, shared.readBattery);
-  const readings = createReadings(core);
-  const releaseServos = (servos: readonly number[]): Promise<void> => release(core, servos);
+  const moves = createMoveBuffer(family, servosPerMove);
+  const firstMoves = createFirstMoves({ clock, isUnknown: estimate.isUnknown, due: queue.wake, waiting });
+  const live = createLive(core, moves, firstMoves);
+  const groups = createGroups(core, slotMemory);
+  const readBattery = createBatteryReader(core);
 
   function waiting(waitingToStart: readonly number[]): void {
     if (!sameList(waitingToStart, store.state.waitingToStart)) store.update({ waitingToStart });
+  }
+
+  /** At rest only: a move that goes on or still waits for the wire would power the servos again (X7). */
+  async function release(servos: readonly number[]): Promise<void> {
+    requireAtRest(core);
+    for (const command of releaseCommands(servos, servosPerMove, family)) await core.exchange.tell(command);
   }
 
   return {
     core,
     live,
     groups,
-    readings,
+    readings: createReadings(core),
     readBattery,
-    setSpeed: (slot, percent) => setSpeed(core, slot, percent),
-    release: releaseServos,
-    sendRaw: createRaw(core, { run: groups.run, stop: groups.stop, release: releaseServos, readBattery }),
+    release,
+    sendRaw: (packet) =>
+      sendRaw(packet, store.state, estimate, {
+        ...{ run: groups.run, stop: groups.stop, release, readBattery, send: queue.request },
+      }),
     applied(command) {
-      robot.applied(command);
-      readings.applied(command);
+      estimate.applied(command);
+      noteCommand(store, command);
     },
     takeMove() {
-      const servos = turns.next(buffer.servos());
+      const servos = firstMoves.next(moves.servos());
       if (servos.length === 0) return null;
-      const { move, swift } = buffer.take(servos);
-      return encodeOrRefuse(robot.softened(move, swift), family);
+      const { move, swift } = moves.take(servos);
+      return encodeOrRefuse(estimate.softened(move, swift), family);
     },
     drop(error) {
       live.drop();
       waiting([]);
-      const activity = groups.drop();
-      lanes.purge(error);
+      groups.drop();
+      queue.purge(error);
       replies.fail(error);
-      store.update({ activity });
+      store.update({ activity: { kind: 'idle' } });
     },
   };
 }

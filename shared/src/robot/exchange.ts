@@ -1,37 +1,16 @@
-// One question and its answer: encode, expect, send in the request lane, wait. The operations with a reply are built from
+// One question and its answer: encode, expect, send as a request, wait. The operations with a reply are built from
 // this. Knows commands and reports; not what they mean for the robot.
 
 import type { Clock } from '../clock.ts';
 import type { Command } from '../codec/commands.ts';
-import { encodeCommand, RangeRefusal } from '../codec/encode.ts';
 import type { Family } from '../codec/families.ts';
-import { checkCommand } from '../codec/limits.ts';
 import { wireMs } from '../codec/packet.ts';
 import type { Report, ReportKind } from '../codec/reports.ts';
-import type { Lanes } from './queue.ts';
 import { LinkError } from './linkError.ts';
+import type { Queue } from './queue.ts';
 import type { Replies } from './replies.ts';
+import { encodeOrRefuse } from './rules.ts';
 import { BABBLE_LIMIT } from './timings.ts';
-
-/** Like `encodeCommand`, with the refusal as a LinkError the page has words for. */
-export const encodeOrRefuse = (command: Command, family: Family): Uint8Array =>
-  orRefuse(encodeCommand, command, family);
-
-/** The same refusal, of what is encoded later. */
-export const refuseUnfit = (command: Command, family: Family): void =>
-  orRefuse(checkCommand, command, family);
-
-function orRefuse<T>(work: (command: Command, family: Family) => T, command: Command, family: Family): T {
-  if (!family.commands.includes(command.kind)) {
-    throw new LinkError('notSupported', `${family.name} has no command "${command.kind}"`);
-  }
-  try {
-    return work(command, family);
-  } catch (error) {
-    if (error instanceof RangeRefusal) throw new LinkError('outOfRange', error.message, { cause: error });
-    throw error;
-  }
-}
 
 export interface Exchange {
   /** Sends a command the board does not answer. */
@@ -46,7 +25,7 @@ export function isNoAnswer(error: unknown): boolean {
   return error instanceof LinkError && error.code === 'noAnswer';
 }
 
-export function createExchange(family: Family, clock: Clock, lanes: Lanes, replies: Replies): Exchange {
+export function createExchange(family: Family, clock: Clock, queue: Queue, replies: Replies): Exchange {
   /** False when the time passed without one. */
   async function comes(answer: ReportKind, withinMs: number): Promise<boolean> {
     try {
@@ -60,14 +39,14 @@ export function createExchange(family: Family, clock: Clock, lanes: Lanes, repli
 
   return {
     async tell(command) {
-      await lanes.request(encodeOrRefuse(command, family));
+      await queue.request(encodeOrRefuse(command, family));
     },
     async ask(command, answer, timeoutMs) {
       const packet = encodeOrRefuse(command, family);
-      // No board answers what has not reached it yet: whatever the lanes do, the packet needs its time on the wire.
+      // No board answers what has not reached it yet: however short the queue is, the packet needs its time on the wire.
       const expectation = replies.expect(answer, clock.now() + wireMs(packet.length));
       try {
-        await lanes.request(packet);
+        await queue.request(packet);
         return await expectation.within(timeoutMs);
       } finally {
         expectation.cancel();

@@ -41,7 +41,7 @@ describe('servos nobody knows', () => {
     expect(startsOf(rig).map(({ servo }) => servo)).toEqual(SERVOS);
     expect(rig.session.state.waitingToStart).toEqual([]);
     expect(rig.session.motions()(6)).toEqual({ target: 1_800, estimated: 1_800 });
-    expect(rig.transport.board.pulse(6)).toBe(1_800);
+    expect(rig.channel.board.pulse(6)).toBe(1_800);
   });
 
   test('never start after STOP, whenever it comes, nor after Resume', async () => {
@@ -56,7 +56,7 @@ describe('servos nobody knows', () => {
       await rig.clock.advance(5_000);
       const started = 1 + Math.floor(afterMs / FIRST_MOVE_STAGGER_MS);
       expect(startsOf(rig).map(({ servo }) => servo)).toEqual(SERVOS.slice(0, started));
-      if (started < 6) expect(rig.transport.board.target(6)).toBe(1_500);
+      if (started < 6) expect(rig.channel.board.target(6)).toBe(1_500);
     }
   });
 
@@ -126,7 +126,7 @@ describe('servos nobody knows', () => {
         await rig.clock.advance(firstMovesMs(SERVOS.length) + 2_500);
         expectSlowOneByOne(rig);
         for (const servo of startsOf(rig).map((start) => start.servo))
-          expect(rig.session.motions()(servo).estimated).toBe(rig.transport.board.pulse(servo));
+          expect(rig.session.motions()(servo).estimated).toBe(rig.channel.board.pulse(servo));
       }),
       { numRuns: 60 * TIMES },
     );

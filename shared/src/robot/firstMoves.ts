@@ -1,10 +1,10 @@
-// Whose wishes may leave in the next move. Servos nobody knows the position of start one after another, each in a packet of
+// Which servos may leave in the next move. Those of unknown position start one after another, each in a packet of
 // its own, so that a person can see and stop what is about to happen. Knows the clock and who is unknown; no packet.
 
 import type { Clock } from '../clock.ts';
 import { FIRST_MOVE_STAGGER_MS } from './timings.ts';
 
-export interface TurnOptions {
+export interface FirstMoveOptions {
   readonly clock: Clock;
   isUnknown(servo: number): boolean;
   /** Another one may start now. */
@@ -13,14 +13,14 @@ export interface TurnOptions {
   waiting(servos: readonly number[]): void;
 }
 
-export interface Turns {
-  /** Of the servos that wait for the wire, those of the next move. Empty: nobody's turn has come. */
+export interface FirstMoves {
+  /** Of the servos that wait for the wire, those of the next move. Empty: none may start yet. */
   next(servos: readonly number[]): readonly number[];
   /** Until the last of them has started, if no others are asked for. */
   startsWithinMs(servos: readonly number[]): number;
 }
 
-export function createTurns({ clock, isUnknown, due, waiting }: TurnOptions): Turns {
+export function createFirstMoves({ clock, isUnknown, due, waiting }: FirstMoveOptions): FirstMoves {
   let nextStartMs = -Infinity;
   let cancelTimer = (): void => undefined;
 

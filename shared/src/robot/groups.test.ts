@@ -18,8 +18,8 @@ describe('download', () => {
   test('stores every frame as it was asked', async () => {
     const rig = await createRig();
     await stored(rig, 5);
-    expect(rig.transport.board.frameCount(5)).toBe(2);
-    expect([0, 1].map((index) => rig.transport.board.storedFrame(5, index))).toEqual(WAVE);
+    expect(rig.channel.board.frameCount(5)).toBe(2);
+    expect([0, 1].map((index) => rig.channel.board.storedFrame(5, index))).toEqual(WAVE);
     expect(rig.session.state.storedSlots).toEqual([5]);
   });
 
@@ -82,8 +82,8 @@ describe('download', () => {
       const done = rig.session.download([{ slot: 5, frames: [...WAVE, ...WAVE].slice(0, 3) }]);
       await rig.clock.advance(15_000);
       await done;
-      expect(rig.transport.board.frameCount(5)).toBe(3);
-      expect([0, 1].map((index) => rig.transport.board.storedFrame(5, index))).toEqual(WAVE);
+      expect(rig.channel.board.frameCount(5)).toBe(3);
+      expect([0, 1].map((index) => rig.channel.board.storedFrame(5, index))).toEqual(WAVE);
     }
   });
 
@@ -115,7 +115,7 @@ describe('download', () => {
     const done = rig.session.download([{ slot: 5, frames: WAVE }]);
     await rig.clock.advance(6_000);
     await done;
-    expect(rig.transport.board.frameCount(5)).toBe(2);
+    expect(rig.channel.board.frameCount(5)).toBe(2);
   });
 
   test('that broke is remembered for that board and its run refused after a reload', async () => {
@@ -222,11 +222,11 @@ describe('run', () => {
     await rig.clock.advance(100);
     await done;
     expect(rig.session.state.activity).toMatchObject({ truth: 'acknowledged' });
-    expect(rig.transport.board.runningSlot()).toBe(5);
+    expect(rig.channel.board.runningSlot()).toBe(5);
     await rig.clock.advance(1_200);
     expect(rig.session.state.activity).toEqual({ kind: 'idle' });
-    expect(rig.transport.board.runningSlot()).toBeNull();
-    expect(rig.session.motions()(1).estimated).toBe(rig.transport.board.pulse(1));
+    expect(rig.channel.board.runningSlot()).toBeNull();
+    expect(rig.session.motions()(1).estimated).toBe(rig.channel.board.pulse(1));
   });
 
   test('of another group stops the one that runs first (S46)', async () => {
@@ -244,7 +244,7 @@ describe('run', () => {
       'stop',
       'run',
     ]);
-    expect(rig.transport.board.runningSlot()).toBe(6);
+    expect(rig.channel.board.runningSlot()).toBe(6);
   });
 
   test('is never repeated by itself: a lost acknowledgement leaves it unknown', async () => {
@@ -265,7 +265,7 @@ describe('erase', () => {
     expect(rig.session.state.activity).toEqual({ kind: 'erasing' });
     await rig.clock.advance(1_000);
     await done;
-    expect(rig.transport.board.frameCount(5)).toBe(0);
+    expect(rig.channel.board.frameCount(5)).toBe(0);
     expect(rig.session.state.storedSlots).toEqual([]);
   });
 });

@@ -4,10 +4,10 @@ import { family } from '../codec/families.ts';
 import { encodeCommand } from '../codec/encode.ts';
 import { wireMs } from '../codec/packet.ts';
 import { createFlashChip } from '../simulator/groupStore.ts';
-import { createSimulatedTransport } from '../testing/simulatedTransport.ts';
+import { createSimulatedChannel } from '../simulator/channel.ts';
 import { createVirtualClock } from '../testing/virtualClock.ts';
 import { createRig, type Rig } from './rig.ts';
-import { createSession } from './robot.ts';
+import { createLocalRobot } from './localRobot.ts';
 
 async function knownAtRest(rig: Rig, position = 1_000): Promise<void> {
   rig.session.move([{ servo: 1, position }], 0);
@@ -29,8 +29,8 @@ describe('STOP', () => {
     const after = rig.heard.slice(before);
     expect(after.map(({ command }) => command.kind)).toEqual(['stop', 'move', 'stop', 'stop', 'move']);
     expect(after[0]?.atMs).toBeLessThan(pressedMs + 5);
-    expect(rig.transport.board.pulse(1)).toBeGreaterThan(1_400);
-    expect(rig.transport.board.pulse(1)).toBeLessThan(1_550);
+    expect(rig.channel.board.pulse(1)).toBeGreaterThan(1_400);
+    expect(rig.channel.board.pulse(1)).toBeLessThan(1_550);
     expect(rig.session.state.latch).toMatchObject({ reason: 'pressed', stop: 'sent' });
   });
 
@@ -84,10 +84,10 @@ describe('STOP', () => {
   test('pressed while a link that came back is stopped, its own stops take their place', async () => {
     const rig = await createRig();
     await knownAtRest(rig);
-    rig.transport.unplug();
+    rig.channel.unplug();
     await rig.clock.advance(100);
     const before = rig.heard.length;
-    rig.transport.plugIn();
+    rig.channel.plugIn();
     rig.session.retryNow();
     await rig.clock.advance(30);
     const pressedMs = rig.clock.now();
@@ -126,12 +126,12 @@ describe('STOP', () => {
     void rig.session.halt();
     expect(rig.session.state.latch, 'pressed once more').toMatchObject({ unheld: { servos: null } });
     await rig.clock.advance(3_000);
-    expect(rig.transport.board.pulse(1)).toBe(2_000);
+    expect(rig.channel.board.pulse(1)).toBe(2_000);
   });
 
   test('says that what others set in motion before the link was opened may go on', async () => {
     const clock = createVirtualClock();
-    const simulated = createSimulatedTransport(clock, { onForMs: 60_000 });
+    const simulated = createSimulatedChannel(clock, { onForMs: 60_000 });
     simulated.board.receive(
       encodeCommand(
         { kind: 'move', durationMs: 6_000, targets: [{ servo: 3, position: 2_000 }] },
@@ -139,9 +139,9 @@ describe('STOP', () => {
       ),
     );
     await clock.advance(500);
-    const session = createSession({
+    const session = createLocalRobot({
       ...{ clock, family: family('doc') },
-      transport: { ...simulated, isSimulated: false },
+      channel: simulated,
     });
     await session.open();
     expect(session.state.link.status).toBe('ready');
@@ -170,12 +170,12 @@ describe('STOP', () => {
   }
 
   /** Servo 1 until the last time it moves, counted from now. */
-  async function movesForMs({ clock, transport }: Rig): Promise<number> {
+  async function movesForMs({ clock, channel }: Rig): Promise<number> {
     const sinceMs = clock.now();
     let lastMs = sinceMs;
-    for (let at = transport.board.pulse(1); clock.now() - sinceMs < 12_000;) {
+    for (let at = channel.board.pulse(1); clock.now() - sinceMs < 12_000;) {
       await clock.advance(10);
-      const now = transport.board.pulse(1);
+      const now = channel.board.pulse(1);
       if (now !== at) lastMs = clock.now();
       at = now;
     }
@@ -209,7 +209,7 @@ describe('STOP', () => {
     await running;
     expect(rig.heard.slice(-4).map(({ command }) => command.kind)).toEqual(['stop', 'stop', 'stop', 'run']);
     expect(rig.session.state.activity).toMatchObject({ kind: 'running', slot: 7 });
-    expect(rig.transport.board.runningSlot()).toBe(7);
+    expect(rig.channel.board.runningSlot()).toBe(7);
   });
 
   test.each([
@@ -251,9 +251,9 @@ describe('STOP', () => {
       await rig.clock.advance(500);
       rig.session.move(TARGETS, 1_000);
       await rig.clock.advance(wireMs(bytes + 0.5));
-      rig.transport.unplug();
+      rig.channel.unplug();
       await rig.clock.advance(100);
-      rig.transport.plugIn();
+      rig.channel.plugIn();
       await rig.clock.advance(400);
       return rig;
     }
@@ -263,9 +263,9 @@ describe('STOP', () => {
       expect(rig.session.state.latch?.unheld).toEqual({ servos: null, forMs: Infinity });
       void rig.session.halt();
       await rig.clock.advance(300);
-      const at = rig.transport.board.pulse(2);
+      const at = rig.channel.board.pulse(2);
       await rig.clock.advance(3_000);
-      expect(rig.transport.board.pulse(2)).toBeGreaterThan(at + 500);
+      expect(rig.channel.board.pulse(2)).toBeGreaterThan(at + 500);
       expect(rig.session.state.latch?.unheld).toEqual({ servos: null, forMs: Infinity });
     });
 
@@ -291,11 +291,11 @@ describe('STOP', () => {
     await rig.clock.advance(25);
     void rig.session.halt();
     await rig.clock.advance(250);
-    expect(rig.transport.board.runningSlot()).toBe(1);
+    expect(rig.channel.board.runningSlot()).toBe(1);
     expect(rig.session.state.latch?.unheld?.servos).toBeNull();
     await rig.clock.advance(600);
     await asked.catch(() => undefined);
-    expect(rig.transport.board.runningSlot()).toBeNull();
+    expect(rig.channel.board.runningSlot()).toBeNull();
     expect(rig.session.state.latch).toMatchObject({ stop: 'confirmed' });
     expect(rig.ofKind('stop')).toHaveLength(6);
   });
@@ -307,9 +307,9 @@ describe('STOP', () => {
     await rig.clock.advance(500);
     for (let presses = 0; presses < 6; presses += 1) void rig.session.halt();
     let backBy = 0;
-    for (let at = rig.transport.board.pulse(1), pass = 0; pass < 100; pass += 1) {
+    for (let at = rig.channel.board.pulse(1), pass = 0; pass < 100; pass += 1) {
       await rig.clock.advance(5);
-      const now = rig.transport.board.pulse(1);
+      const now = rig.channel.board.pulse(1);
       backBy = Math.max(backBy, at - now);
       at = now;
     }
@@ -379,11 +379,11 @@ describe('STOP', () => {
     await rig.clock.advance(3_000);
     void rig.session.halt();
     await rig.clock.advance(300);
-    const held = rig.transport.board.pulse(1);
+    const held = rig.channel.board.pulse(1);
     await rig.clock.advance(10_000);
-    expect(rig.transport.board.pulse(1)).toBe(held);
+    expect(rig.channel.board.pulse(1)).toBe(held);
     expect(held).toBeLessThan(1_600);
-    expect(rig.transport.board.runningSlot()).toBeNull();
+    expect(rig.channel.board.runningSlot()).toBeNull();
   });
 
   test('during a download leaves the slot marked as broken', async () => {
@@ -404,7 +404,7 @@ describe('STOP', () => {
 
   test('without a link says that it failed and stays latched', async () => {
     const rig = await createRig();
-    rig.transport.unplug();
+    rig.channel.unplug();
     await expect(rig.session.halt()).rejects.toMatchObject({ code: 'lost' });
     expect(rig.session.state.latch).toMatchObject({ reason: 'pressed', stop: 'failed' });
   });

@@ -1,30 +1,21 @@
-// STOP: latch, drop what is queued, tell the board three times, hold the robot where it is estimated to be. Also keeps
-// what is known of the stop's fate. Motion waits until a person resumes.
+// STOP: latch, drop what is queued, tell the board three times, hold the robot where it is estimated to be. Also notes how far the stop
+// has come. Motion waits until a person resumes.
 
 import { sleep, type Clock } from '../clock.ts';
 import type { HaltPlan, Unheld } from '../motion/haltPlan.ts';
-import { encodeCommand } from '../codec/encode.ts';
-import { UNKNOWN_BOARD } from '../codec/families.ts';
-import { wireMs } from '../codec/packet.ts';
-import { requireReady } from './core.ts';
-import type { Lanes } from './queue.ts';
 import { LinkError } from './linkError.ts';
-import type { Latch } from './state.ts';
+import type { Queue } from './queue.ts';
+import { requireReady } from './rules.ts';
+import type { HaltReason, Latch } from './state.ts';
+import { repeatStop, sendStop } from './stops.ts';
 import type { SessionStore } from './store.ts';
 import { STOP_EVERY_MS, STOP_REPEATS } from './timings.ts';
-import type { HaltReason, SharedLatchReason, Transport } from './transport.ts';
 
 export interface Halt {
   halt(why?: HaltReason): Promise<void>;
   resume(): Promise<void>;
-  /** Another screen stopped a shared link, `by` where a person did; what that sent is told apart. */
-  latchedElsewhere(reason: SharedLatchReason, by: string | null): void;
-  /** A shared link has sent anybody's stop: what it says counts, since it knows all that has left. */
-  sharedHalted(unheld: Unheld | null): void;
   /** The link went: whoever brings it back must look before anything moves again. */
   latchedByLoss(): void;
-  /** Another screen released a shared link. */
-  released(): void;
   /** The link is back after a loss: end what may still run, wait for a person. */
   stopAfterReturn(): void;
   /**
@@ -36,7 +27,7 @@ export interface Halt {
   confirmed(): void;
 }
 
-/** A STOP of the page's own link that is leaving. */
+/** A STOP that is leaving. */
 interface Sequence {
   readonly pressedMs: number;
   stopsToGo: number;
@@ -45,32 +36,10 @@ interface Sequence {
   left: Promise<Unheld | null>;
 }
 
-/** Resolves, when it has left, with the time at which it began to. */
-async function sendStop(clock: Clock, lanes: Pick<Lanes, 'stop'>): Promise<number> {
-  await lanes.stop(STOP_PACKET);
-  return clock.now() - wireMs(STOP_PACKET.length);
-}
-
-/**
- * Sends a stop now, and repeats of it: each begins to leave so long after the one before, or later where the wire is taken. Two that
- * are closer may both fall into the time in which a board hears none (S54). No more of them leave once `isWanted` says no.
- */
-export async function repeatStop(
-  clock: Clock,
-  lanes: Pick<Lanes, 'stop'>,
-  isWanted = (): boolean => true,
-): Promise<void> {
-  for (let repeat = 0; repeat <= STOP_REPEATS && isWanted(); repeat += 1) {
-    const begunMs = await sendStop(clock, lanes);
-    if (repeat < STOP_REPEATS) await sleep(clock, Math.max(0, begunMs + STOP_EVERY_MS - clock.now()));
-  }
-}
-
 export interface HaltOptions {
   readonly clock: Clock;
   readonly store: SessionStore;
-  readonly lanes: Lanes;
-  readonly transport: Transport;
+  readonly queue: Queue;
   /** What a STOP pressed now holds, and what not. */
   plan(): HaltPlan;
   /** The move that holds the robot and begins to leave now; null where there is nothing to hold. */
@@ -83,11 +52,8 @@ export interface HaltOptions {
   dropAll(error: LinkError): void;
 }
 
-/** The same on every board, so also on one that nobody has identified. */
-export const STOP_PACKET = encodeCommand({ kind: 'stop' }, UNKNOWN_BOARD);
-
 export function createHalt(options: HaltOptions): Halt {
-  const { clock, store, lanes, transport, dropAll } = options;
+  const { clock, store, queue, dropAll } = options;
 
   let underWay: Promise<void> = Promise.resolve();
   let sequence: Sequence | null = null;
@@ -137,7 +103,7 @@ export function createHalt(options: HaltOptions): Halt {
     };
     do {
       if (part() === null) return;
-      await lanes.stop(packet);
+      await queue.stop(packet);
     } while (held.size < wanted);
   }
 
@@ -150,7 +116,7 @@ export function createHalt(options: HaltOptions): Halt {
       for (let isFirst = true; mine.stopsToGo > 0; isFirst = false) {
         if (mine.dueMs > clock.now()) await sleep(clock, mine.dueMs - clock.now());
         mine.stopsToGo -= 1;
-        mine.dueMs = (await sendStop(clock, lanes)) + STOP_EVERY_MS;
+        mine.dueMs = (await sendStop(clock, queue.stop)) + STOP_EVERY_MS;
         if (isFirst || mine.stopsToGo === 0) await sendHold();
       }
     } finally {
@@ -162,7 +128,7 @@ export function createHalt(options: HaltOptions): Halt {
   const stopsFollow = (): boolean => sequence !== null && sequence.stopsToGo > 0;
 
   /** Pressed again it joins the one under way: each press is followed by a stop, but presses never put off the hold. */
-  function haltOwnLink(): Promise<Unheld | null> {
+  function sendOrJoin(): Promise<Unheld | null> {
     if (sequence !== null) {
       if (sequence.stopsToGo === 0) Object.assign(sequence, { stopsToGo: 1, dueMs: clock.now() });
       return sequence.left;
@@ -176,14 +142,8 @@ export function createHalt(options: HaltOptions): Halt {
     return mine.left;
   }
 
-  /** What it sends and what goes on it says itself. */
-  async function haltSharedLink(why: HaltReason): Promise<undefined> {
-    await transport.halt?.(why);
-    return undefined;
-  }
-
-  /** Behind its last packet more is known of what goes on than at the press; undefined where that is said elsewhere. */
-  async function send(sequence: () => Promise<Unheld | null | undefined>): Promise<void> {
+  /** Behind its last packet more is known of what goes on than at the press. */
+  async function send(sequence: () => Promise<Unheld | null>): Promise<void> {
     const sending = sequence();
     underWay = sending.then(
       () => undefined,
@@ -200,46 +160,36 @@ export function createHalt(options: HaltOptions): Halt {
   }
 
   return {
-    latchedElsewhere(reason, by) {
-      latch({ reason, by, stop: 'sent', unheld: options.plan().unheld });
-    },
-    sharedHalted(unheld) {
-      const { latch: current } = store.state;
-      if (current !== null) store.update({ latch: { ...current, unheld } });
-    },
     latchedByLoss: () =>
       latch({ reason: 'reconnected', by: null, stop: 'failed', unheld: options.plan().unheld }),
     async halt(why = 'pressed') {
       const { unheld } = options.plan();
       latch({ reason: why, by: null, stop: 'sending', unheld });
       pressedMs = clock.now();
-      await send(transport.halt ? () => haltSharedLink(why) : haltOwnLink);
+      await send(sendOrJoin);
     },
     async resume() {
-      requireReady(store);
+      requireReady(store.state);
       const resumed = latches;
       // Its last hold would take back what is moved meanwhile.
       await underWay;
-      if (resumed === latches) await transport.resume?.();
       if (resumed !== latches) throw new LinkError('latched', 'stopped again');
       store.update({ latch: null });
     },
-    released: () => store.update({ latch: null }),
     stopAfterReturn() {
       // Its failure is the latch's `failed`; there is no caller to tell.
       pressedMs = clock.now();
       send(async () => {
-        await repeatStop(clock, lanes, () => sequence === null);
+        await repeatStop(clock, queue.stop, () => sequence === null);
         // Somebody has pressed STOP meanwhile, and its stops leave in place of these.
         return sequence?.left ?? options.unheldSince(pressedMs);
       }).catch(() => undefined);
     },
     again() {
       const { latch: current } = store.state;
-      // A shared link has its own eye on it.
-      if (current === null || stopsFollow() || transport.halt !== undefined) return;
+      if (current === null || stopsFollow()) return;
       store.update({ latch: { ...current, stop: 'sending' } });
-      void underWay.then(() => send(haltOwnLink)).catch(() => undefined);
+      void underWay.then(() => send(sendOrJoin)).catch(() => undefined);
     },
     confirmed: () => note('confirmed'),
   };

@@ -5,12 +5,11 @@ import { describe, expect, test } from 'vitest';
 import { COMMAND_NUMBER } from '../codec/commands.ts';
 import { family, FAMILIES, UNKNOWN_BOARD, type FamilyId } from '../codec/families.ts';
 import type { ProfileName } from '../simulator/profileNames.ts';
-import { createSimulatedTransport } from '../testing/simulatedTransport.ts';
+import { createSimulatedChannel } from '../simulator/channel.ts';
 import { createVirtualClock } from '../testing/virtualClock.ts';
 import { LinkError } from './linkError.ts';
 import { createRig, type Rig } from './rig.ts';
-import { createSession } from './robot.ts';
-import type { Transport } from './transport.ts';
+import { createLocalRobot } from './localRobot.ts';
 
 const HARMLESS = ['stop', 'readBattery', 'readVersion', 'readPositions'];
 const kindsHeard = ({ heard }: Rig): readonly string[] => [
@@ -135,7 +134,7 @@ describe('a board that was known', () => {
       identifies: true,
       isWatched: () => true,
     });
-    rig.transport.board.reboot(20_000);
+    rig.channel.board.reboot(20_000);
     await rig.clock.advance(3_000);
     expect(rig.session.state.link).toMatchObject({ status: 'stale' });
     expect(() => rig.session.move([{ servo: 1, position: 1500 }], 0)).toThrow(
@@ -149,7 +148,7 @@ describe('a board that was known', () => {
   test('and another one comes back on its line is not driven as the one before', async () => {
     const rig = await createRig({ profile: 'learm-esp32', family: family('learm-esp32'), identifies: true });
     await rig.clock.advance(3_000);
-    rig.transport.unplug();
+    rig.channel.unplug();
     await rig.clock.advance(100);
     const other = await createRig({ profile: 'xarm', family: family('learm-esp32'), identifies: true });
     await other.clock.advance(3_000);
@@ -188,7 +187,7 @@ describe('the heartbeat', () => {
     await stored;
     void rig.session.run(1, 5);
     await rig.clock.advance(18_000);
-    expect(rig.transport.board.runningSlot()).toBe(1);
+    expect(rig.channel.board.runningSlot()).toBe(1);
     expect(rig.ofKind('readVersion')).toEqual([]);
   });
 
@@ -196,7 +195,7 @@ describe('the heartbeat', () => {
     const rig = await watched('lsc-6', 'lsc-6');
     rig.session.move([{ servo: 1, position: 1_500 }], 0);
     await rig.clock.advance(4_000);
-    rig.transport.board.reboot(12_000);
+    rig.channel.board.reboot(12_000);
     await rig.clock.advance(2_000);
     expect(rig.session.state.link).toEqual({ status: 'ready' });
     await rig.clock.advance(4_000);
@@ -216,7 +215,7 @@ describe('the heartbeat', () => {
     });
     await rig.clock.advance(3_000);
     expect(rig.session.state.link).toEqual({ status: 'ready' });
-    rig.transport.board.reboot(20_000);
+    rig.channel.board.reboot(20_000);
     await rig.clock.advance(15_000);
     expect(rig.session.state.link).toMatchObject({ status: 'stale' });
     void rig.session.choose(family('lsc-16'));
@@ -242,10 +241,10 @@ describe('automatic reconnecting', () => {
   test('can be switched off, on every path', async () => {
     const rig = await createRig({});
     rig.session.setAutoReconnect(false);
-    rig.transport.unplug();
+    rig.channel.unplug();
     await rig.clock.advance(100);
     expect(rig.session.state.link).toMatchObject({ status: 'lost', retryAtMs: null });
-    rig.transport.plugIn();
+    rig.channel.plugIn();
     await rig.clock.advance(60_000);
     expect(rig.session.state.link).toMatchObject({ status: 'lost' });
     rig.session.retryNow();
@@ -256,7 +255,7 @@ describe('automatic reconnecting', () => {
 
   test('switched while the link is lost, it plans or drops the next attempt at once', async () => {
     const rig = await createRig({});
-    rig.transport.unplug();
+    rig.channel.unplug();
     await rig.clock.advance(100);
     rig.session.setAutoReconnect(false);
     expect(rig.session.state.link).toMatchObject({ status: 'lost', retryAtMs: null });
@@ -267,15 +266,19 @@ describe('automatic reconnecting', () => {
 
 test('questions that cannot be asked end in a named state, not in a wait', async () => {
   const clock = createVirtualClock();
-  const board = createSimulatedTransport(clock, { profile: 'lsc-6', onForMs: 60_000 });
-  const refusing: Transport = {
-    ...board,
-    send: (packet) =>
-      packet[3] === COMMAND_NUMBER.readPositions
-        ? Promise.reject(new LinkError('notSupported', 'no such question'))
-        : board.send(packet),
-  };
-  const session = createSession({ transport: refusing, clock, family: family('lsc-6'), identifies: true });
+  const board = createSimulatedChannel(clock, { profile: 'lsc-6', onForMs: 60_000 });
+  const { write } = board;
+  board.write = (packet) =>
+    packet[3] === COMMAND_NUMBER.readPositions
+      ? Promise.reject(new LinkError('notSupported', 'no such question'))
+      : write(packet);
+  const session = createLocalRobot({
+    channel: board,
+    isNew: true,
+    clock,
+    family: family('lsc-6'),
+    identifies: true,
+  });
   await session.open();
   await clock.advance(3_000);
   expect(session.state.link).toMatchObject({ status: 'refused', error: { code: 'notSupported' } });

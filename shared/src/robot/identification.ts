@@ -3,26 +3,25 @@
 // identity.ts.
 
 import type { Clock } from '../clock.ts';
-import { family as familyOf, UNKNOWN_BOARD, type Family, type Question } from '../codec/families.ts';
+import { UNKNOWN_BOARD, type Family, type Question } from '../codec/families.ts';
 import type { Report } from '../codec/reports.ts';
 import { createExchange, isNoAnswer } from './exchange.ts';
 import { createHeartbeat } from './heartbeat.ts';
 import { isEcho, QUESTIONS, identify } from './identify.ts';
-import { fitOf, identityFrom, NOTHING_HEARD, type SharedBoard } from './identity.ts';
-import type { Lanes } from './queue.ts';
+import { fitOf, identityFrom, NOTHING_HEARD } from './identity.ts';
 import { LinkError, type LinkErrorCode } from './linkError.ts';
+import type { Queue } from './queue.ts';
 import type { Replies } from './replies.ts';
+import { requireIdle } from './rules.ts';
 import type { LinkState } from './state.ts';
 import type { SessionStore } from './store.ts';
 import { IDENTIFY_TIMEOUT_MS } from './timings.ts';
-import type { Transport } from './transport.ts';
 
 export interface IdentificationOptions {
   readonly clock: Clock;
   readonly store: SessionStore;
-  readonly lanes: Lanes;
+  readonly queue: Queue;
   readonly replies: Replies;
-  readonly transport: Transport;
   /** What the board is taken for until somebody says otherwise. */
   readonly family: Family;
   readonly identifies: boolean;
@@ -31,7 +30,7 @@ export interface IdentificationOptions {
   readBattery(): Promise<number>;
   /** Something moves: no time for questions. */
   isMoving(): boolean;
-  /** From now on the session speaks to such a board. */
+  /** From now on such a board is spoken to. */
   drive(family: Family): void;
   entered(state: LinkState): void;
 }
@@ -41,22 +40,20 @@ export interface Identification {
   begin(): void;
   /** The line is down. */
   ended(): void;
-  /** A shared link asks the board itself: its word counts. */
-  told(board: SharedBoard): void;
-  again(): Promise<void>;
-  choose(family: Family): Promise<void>;
+  /** Throws where the link is not open or something moves. */
+  again(): void;
+  choose(family: Family): void;
   /** What a report is read as at this moment. */
-  heardAs(): Family;
+  familyOnLine(): Family;
   heard(report: Report, bytes: Uint8Array): void;
   heardNoise(bytes: Uint8Array): void;
 }
 
 export function createIdentification(options: IdentificationOptions): Identification {
-  const { clock, store, lanes, replies, transport, identifies, drive, entered } = options;
-  const exchange = createExchange(UNKNOWN_BOARD, clock, lanes, replies);
+  const { clock, store, queue, replies, identifies, drive, entered } = options;
+  const exchange = createExchange(UNKNOWN_BOARD, clock, queue, replies);
   let claim = options.family;
   let lineIsOpen = false;
-  let shared: SharedBoard | null = null;
   /** Counts what makes a round of questions pointless: the line went, or another round began. */
   let round = 0;
   let noiseBytes = 0;
@@ -126,13 +123,6 @@ export function createIdentification(options: IdentificationOptions): Identifica
     heartbeat.start(isSilent);
   }
 
-  function follow({ board, status, error, identity }: SharedBoard): void {
-    drive(board === 'unknown' ? UNKNOWN_BOARD : familyOf(board));
-    store.update({ identity });
-    if (status === 'refused') entered({ status, error });
-    else entered(status === 'stale' ? { status, sinceMs: clock.now() } : { status });
-  }
-
   function hears(bytes: Uint8Array): void {
     if (isEcho(bytes)) echoes += 1;
   }
@@ -141,40 +131,31 @@ export function createIdentification(options: IdentificationOptions): Identifica
     begin() {
       lineIsOpen = true;
       store.update({ identity: NOTHING_HEARD });
-      if (shared !== null) follow(shared);
-      else if (identifies) begunCheck();
+      if (identifies) begunCheck();
       else accept(false);
     },
     ended() {
       lineIsOpen = false;
-      shared = null;
       round += 1;
       heartbeat.stop();
     },
-    told(board) {
-      shared = board;
-      if (lineIsOpen) follow(board);
-    },
-    async again() {
+    again() {
       if (!lineIsOpen) throw new LinkError('closed', 'the link is not open');
-      if (store.state.activity.kind !== 'idle' || options.isMoving())
-        throw new LinkError('busy', 'the robot is moving: wait or stop it first');
-      if (transport.setBoard !== undefined) return transport.setBoard('unknown');
+      requireIdle(store.state, options);
       begunCheck();
     },
-    async choose(family) {
-      if (transport.setBoard !== undefined) return transport.setBoard(family.id);
+    choose(family) {
       claim = family;
       if (!lineIsOpen || status() === 'identifying') return;
       // What a board that is silent answered once says nothing of what is there now.
       if (status() === 'stale') begunCheck();
       else judge();
     },
-    heardAs: () => (status() === 'identifying' ? UNKNOWN_BOARD : store.state.family),
+    familyOnLine: () => (status() === 'identifying' ? UNKNOWN_BOARD : store.state.family),
     heard(report, bytes) {
       hears(bytes);
       heartbeat.heard();
-      if (status() !== 'stale' || shared !== null || report.kind === 'unknown') return;
+      if (status() !== 'stale' || report.kind === 'unknown') return;
       if (identifies) begunCheck();
       else accept(false);
     },

@@ -1,9 +1,8 @@
 // Which board answers like that: what was heard, weighed against the family table (boards.md 2.5). Pure; knows no link and
 // no time. Answers never name one family for certain, so a person chooses among those that fit, once a board.
 
-import { FAMILIES, type BoardId, type Family, type FamilyId, type Question } from '../codec/families.ts';
+import { FAMILIES, type Family, type FamilyId, type Question } from '../codec/families.ts';
 import type { Report } from '../codec/reports.ts';
-import type { LinkError } from './linkError.ts';
 
 export type Evidence =
   | { readonly kind: 'answered'; readonly question: Question; readonly report: Report }
@@ -18,12 +17,6 @@ export interface Identity {
   /** Families that answer like this. */
   readonly candidates: readonly FamilyId[];
 }
-
-/** What a shared link says of the board at its end; `board` is what it is driven as. */
-export type SharedBoard = { readonly board: BoardId; readonly identity: Identity } & (
-  | { readonly status: 'identifying' | 'ready' | 'stale'; readonly error: null }
-  | { readonly status: 'refused'; readonly error: LinkError }
-);
 
 /** `silent`: such a board answers something that this one did not; it may be off. `contradicts`: it never answers so. */
 export type Fit = 'fits' | 'silent' | 'contradicts';

@@ -3,8 +3,8 @@ import { createRig } from './rig.ts';
 
 describe('a lost link', () => {
   test('says why, when it tries again, and latches', async () => {
-    const { session, transport, clock } = await createRig();
-    transport.unplug();
+    const { session, channel, clock } = await createRig();
+    channel.unplug();
     expect(session.state.link).toMatchObject({
       status: 'lost',
       error: { code: 'lost' },
@@ -14,23 +14,23 @@ describe('a lost link', () => {
   });
 
   test('is tried again with growing pauses of at most 5 s', async () => {
-    const { session, transport, clock } = await createRig();
+    const { session, channel, clock } = await createRig();
     const waits: number[] = [];
     session.subscribe({
       state({ link }) {
         if (link.status === 'lost' && link.retryAtMs !== null) waits.push(link.retryAtMs - clock.now());
       },
     });
-    transport.unplug();
+    channel.unplug();
     await clock.advance(30_000);
     expect([...new Set(waits.filter((ms) => ms > 0))]).toEqual([250, 500, 1_000, 2_000, 5_000]);
   });
 
   test('comes back by itself, sends stop first, and moves nothing until a person resumes', async () => {
-    const { session, transport, clock, heard } = await createRig();
-    transport.unplug();
+    const { session, channel, clock, heard } = await createRig();
+    channel.unplug();
     await clock.advance(1_000);
-    transport.plugIn();
+    channel.plugIn();
     await clock.advance(1_000);
     expect(session.state.link).toEqual({ status: 'ready' });
     expect(heard.map(({ command }) => command.kind)).toEqual(['stop', 'stop', 'stop']);
@@ -44,12 +44,12 @@ describe('a lost link', () => {
   });
 
   test('leaves what was under way unknown, and forgets where the servos are', async () => {
-    const { session, transport, clock } = await createRig();
+    const { session, channel, clock } = await createRig();
     session.move([{ servo: 1, position: 1_500 }], 0);
     await clock.advance(2_000);
     const run = session.run(5, 1).catch((error: unknown) => error);
     await clock.advance(2);
-    transport.unplug();
+    channel.unplug();
     await clock.advance(100);
     expect(await run).toMatchObject({ code: 'lost' });
     expect(session.motions()(1)).toEqual({ target: null, estimated: null });
@@ -57,16 +57,16 @@ describe('a lost link', () => {
   });
 
   test('leaves no slot called stored: another board may be at the other end', async () => {
-    const { session, transport, clock } = await createRig();
+    const { session, channel, clock } = await createRig();
     const stored = session.download([
       { slot: 5, frames: [{ durationMs: 100, targets: [{ servo: 1, position: 1_500 }] }] },
     ]);
     await clock.advance(2_000);
     await stored;
     expect(session.state.storedSlots).toEqual([5]);
-    transport.unplug();
+    channel.unplug();
     expect(session.state.storedSlots).toEqual([]);
-    transport.plugIn();
+    channel.plugIn();
     await clock.advance(1_000);
     expect(session.state.storedSlots).toEqual([]);
   });

@@ -1,20 +1,19 @@
-// One line's life: opening, open, lost and back again. Knows a transport and the clock; nothing of packets, nor which board is
-// at the other end. Every failure leaves here as a LinkError.
+// One channel's life: opening, open, lost and back again. Knows the clock; nothing of packets, nor which board is at the other end.
+// Every failure leaves here as a LinkError.
 
 import type { Clock } from '../clock.ts';
-import { LinkError, type LinkErrorCode } from './linkError.ts';
-import type { OpenOptions } from './byteChannel.ts';
+import type { ByteChannel, ChannelEvents, OpenOptions } from './byteChannel.ts';
+import { asLinkError, LinkError, passesByItself } from './linkError.ts';
 import { createReconnect } from './reconnect.ts';
 import type { LinkState } from './state.ts';
-import type { Transport, TransportEvents } from './transport.ts';
 
 /** What the line itself can be; who answers on it is decided above. */
 export type LineState =
   | Extract<LinkState, { status: 'closed' | 'opening' | 'lost' | 'refused' }>
   | { readonly status: 'open'; readonly isReturn: boolean };
 
-export interface LinkOptions extends Omit<TransportEvents, 'lost'> {
-  readonly transport: Transport;
+export interface LinkOptions extends Omit<ChannelEvents, 'lost' | 'available'> {
+  readonly channel: ByteChannel;
   readonly clock: Clock;
   changed(state: LineState): void;
 }
@@ -32,19 +31,10 @@ export interface Link {
   send(packet: Uint8Array): Promise<void>;
 }
 
-/** Failures that pass by themselves; the others need the person. */
-const PASSING: readonly LinkErrorCode[] = [
-  'lost',
-  'portMissing',
-  'portBusy',
-  'moduleMissing',
-  'bluetoothOff',
-  'gatewayUnreachable',
-];
-
-export function createLink({ transport, clock, changed, ...events }: LinkOptions): Link {
+export function createLink({ channel, clock, changed, ...events }: LinkOptions): Link {
   let state: LineState = { status: 'closed' };
   let wasOpenBefore = false;
+  let mayBeBack = (): void => undefined;
   /** Counts connections, so that a late word of an old one is not taken for the new one's. */
   let generation = 0;
 
@@ -54,7 +44,10 @@ export function createLink({ transport, clock, changed, ...events }: LinkOptions
   const reconnect = createReconnect({
     clock,
     attempt: retry,
-    watch: (notify) => transport.whenAvailable?.(notify),
+    watch(notify) {
+      mayBeBack = notify;
+      return () => (mayBeBack = () => undefined);
+    },
     planned(retryAtMs) {
       if (state.status === 'lost') enter({ ...state, retryAtMs });
     },
@@ -66,7 +59,7 @@ export function createLink({ transport, clock, changed, ...events }: LinkOptions
   }
 
   function fail(error: LinkError): void {
-    const passes = PASSING.includes(error.code);
+    const passes = passesByItself(error);
     const retryAtMs = reconnect.plan(passes);
     enter(passes ? { status: 'lost', error, retryAtMs } : { status: 'refused', error });
   }
@@ -80,16 +73,20 @@ export function createLink({ transport, clock, changed, ...events }: LinkOptions
   async function connect(options?: OpenOptions): Promise<void> {
     const mine = (generation += 1);
     if (!isDown()) enter({ status: 'opening' });
-    const told = Object.entries({ ...events, lost: fail }).map(([name, tell]) => [
-      name,
-      (...values: unknown[]): unknown =>
-        mine === generation ? Reflect.apply(tell, undefined, values) : undefined,
-    ]);
+    const isCurrent = (): boolean => mine === generation;
+    channel.events = {
+      received: (bytes, whole) => isCurrent() && events.received(bytes, whole),
+      unread: (bytes) => isCurrent() && events.unread(bytes),
+      lost: (error) => isCurrent() && fail(error),
+      available: () => mayBeBack(),
+      claimed: async () => {
+        if (isCurrent()) await events.claimed();
+      },
+    };
     try {
-      await transport.open(Object.fromEntries(told) as TransportEvents, options);
+      await channel.open(options);
     } catch (error) {
-      const reason =
-        error instanceof LinkError ? error : new LinkError('internal', String(error), { cause: error });
+      const reason = asLinkError(error);
       if (mine === generation) fail(reason);
       throw reason;
     }
@@ -106,13 +103,10 @@ export function createLink({ transport, clock, changed, ...events }: LinkOptions
       throw isDown()
         ? new LinkError('lost', 'the link is gone')
         : new LinkError('closed', 'the link is not open');
-    if (packet.length > transport.longestPacket)
-      throw new LinkError(
-        'outOfRange',
-        `${packet.length} bytes, the link carries ${transport.longestPacket}`,
-      );
-    await transport.send(packet);
-    // A transport may count the wire's time without looking at the cable.
+    if (packet.length > channel.longestPacket)
+      throw new LinkError('outOfRange', `${packet.length} bytes, the link carries ${channel.longestPacket}`);
+    await channel.write(packet);
+    // A channel may count the wire's time without looking at the cable.
     if (!isOpen(mine)) throw new LinkError('lost', 'the link went while the packet left');
   }
 
@@ -130,7 +124,7 @@ export function createLink({ transport, clock, changed, ...events }: LinkOptions
       generation += 1;
       wasOpenBefore = false;
       if (state.status !== 'closed') enter({ status: 'closed' });
-      await transport.close();
+      await channel.close();
     },
     retryNow() {
       if (isDown()) retry();
@@ -141,7 +135,7 @@ export function createLink({ transport, clock, changed, ...events }: LinkOptions
     },
     leave(lastPacket) {
       if (state.status !== 'open') return;
-      void transport.close(lastPacket);
+      void channel.close(lastPacket);
       fail(new LinkError('lost', 'the page was left'));
     },
     setAutoReconnect: reconnect.setEnabled,

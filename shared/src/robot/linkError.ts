@@ -1,5 +1,5 @@
 // Everything that can go wrong between a person and a board, as one union of codes. The page has one sentence for each
-// code that tells what to do; no code path may invent another. Knows no transport and no words.
+// code that tells what to do; no code path may invent another. Knows no cable and no words.
 
 export const LINK_ERROR_CODES = [
   'closed', // the link is not open
@@ -44,6 +44,21 @@ export type LinkErrorCode = (typeof LINK_ERROR_CODES)[number];
 export function isLinkErrorCode(text: string): text is LinkErrorCode {
   return (LINK_ERROR_CODES as readonly string[]).includes(text);
 }
+
+/** Failures that pass by themselves; the others need the person. */
+const PASSING: readonly LinkErrorCode[] = [
+  'lost',
+  'portMissing',
+  'portBusy',
+  'moduleMissing',
+  'bluetoothOff',
+  'gatewayUnreachable',
+];
+
+export const passesByItself = ({ code }: LinkError): boolean => PASSING.includes(code);
+
+export const asLinkError = (error: unknown): LinkError =>
+  error instanceof LinkError ? error : new LinkError('internal', String(error), { cause: error });
 
 export class LinkError extends Error {
   override readonly name = 'LinkError';

@@ -56,20 +56,20 @@ describe('moving', () => {
   });
 
   test('a jog does not hasten a slow servo where the board has one time for all (S26)', async () => {
-    const { clock, session, transport } = await createRig();
+    const { clock, session, channel } = await createRig();
     for (const servo of [1, 2]) session.move([{ servo, position: 1_000 }], 0);
     await clock.advance(firstMovesMs(2));
     session.move([{ servo: 1, position: 2_000 }], 5_000);
     await clock.advance(1_000);
     session.move([{ servo: 2, position: 1_020 }], 0);
     await clock.advance(1_000);
-    expect(transport.board.pulse(1)).toBeLessThanOrEqual(1_410);
+    expect(channel.board.pulse(1)).toBeLessThanOrEqual(1_410);
     await clock.advance(3_100);
-    expect([transport.board.pulse(1), transport.board.pulse(2)]).toEqual([2_000, 1_020]);
+    expect([channel.board.pulse(1), channel.board.pulse(2)]).toEqual([2_000, 1_020]);
   });
 
   test('the newest value wins, and the last one of a gesture is always sent', async () => {
-    const { clock, session, transport, ofKind } = await createRig();
+    const { clock, session, channel, ofKind } = await createRig();
     session.move(POSE.slice(0, 1), 20);
     await clock.advance(2_000);
     for (let position = 1_500; position <= 1_620; position += 1) {
@@ -80,7 +80,7 @@ describe('moving', () => {
     const drag = ofKind('move').slice(1);
     expect(drag.length).toBeLessThan(30);
     expect(drag.at(-1)?.targets).toEqual([{ servo: 1, position: 1_620 }]);
-    expect(transport.board.target(1)).toBe(1_620);
+    expect(channel.board.target(1)).toBe(1_620);
   });
 
   test('servos moved at once share one packet', async () => {
@@ -116,18 +116,18 @@ describe('moving', () => {
   });
 
   test('estimate and board agree within one tick on the way and exactly at the end', async () => {
-    const { clock, session, transport } = await createRig();
+    const { clock, session, channel } = await createRig();
     session.move([{ servo: 1, position: 1_000 }], 0);
     await clock.advance(2_000);
     session.move([{ servo: 1, position: 2_000 }], 1_000);
     await clock.advance(500);
     const perTick = 20;
-    expect(Math.abs((session.motions()(1).estimated ?? 0) - transport.board.pulse(1))).toBeLessThanOrEqual(
+    expect(Math.abs((session.motions()(1).estimated ?? 0) - channel.board.pulse(1))).toBeLessThanOrEqual(
       perTick,
     );
     await clock.advance(1_000);
     expect(session.motions()(1)).toEqual({ target: 2_000, estimated: 2_000 });
-    expect(transport.board.pulse(1)).toBe(2_000);
+    expect(channel.board.pulse(1)).toBe(2_000);
   });
 });
 
@@ -198,11 +198,11 @@ describe('playing from the page', () => {
   });
 
   test('a frame that the link refuses is counted as left out, and the others are played', async () => {
-    const { clock, session, transport, ofKind } = await createRig();
-    const { send } = transport;
+    const { clock, session, channel, ofKind } = await createRig();
+    const { write } = channel;
     let sent = 0;
-    transport.send = (packet) =>
-      ++sent === 2 ? Promise.reject(new LinkError('expired', 'too late')) : send(packet);
+    channel.write = (packet) =>
+      ++sent === 2 ? Promise.reject(new LinkError('expired', 'too late')) : write(packet);
     const done = session.play(frames);
     await clock.advance(4_000);
     expect((await done).skippedFrames).toBe(1);

@@ -13,16 +13,12 @@ export interface Wishes {
   readonly swift: readonly number[];
 }
 
-/** What moves of the page go into; a shared link has its own. */
-export interface MoveSink {
+export interface MoveBuffer {
   /** `durationMs` 0: as fast as the soft limit and the link allow. */
   put(targets: readonly ServoTarget[], durationMs: number): void;
   /** Servos with a wish, in the order they were first asked. */
   servos(): readonly number[];
   clear(): void;
-}
-
-export interface MoveBuffer extends MoveSink {
   /** As many wishes of these servos as one packet takes, in the longest duration of any of them. */
   take(servos: readonly number[]): Wishes;
 }

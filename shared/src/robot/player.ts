@@ -3,6 +3,7 @@
 
 import type { Clock } from '../clock.ts';
 import type { Frame } from '../codec/commands.ts';
+import type { Played } from './robot.ts';
 import { CATCH_UP, FIRST_MOVE_MS, GIVE_UP_MS, LATE_MS, LOOK_MS } from './timings.ts';
 
 export interface PlayerOptions {
@@ -19,18 +20,6 @@ export interface PlayerOptions {
   isWaiting(frame: Frame): boolean;
   /** Frame `index` begins. */
   frameBegan(index: number): void;
-}
-
-/** What came of the deadlines. */
-export interface Played {
-  /** Frames that began so late that those behind them were put off. */
-  readonly lateFrames: number;
-  /** The latest of them by so much. */
-  readonly latestMs: number;
-  /** Frames that had not left when the next one took their place, or that the link refused. */
-  readonly skippedFrames: number;
-  /** The last frame has ended. */
-  readonly isWhole: boolean;
 }
 
 export interface Playing {

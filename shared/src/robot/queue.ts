@@ -1,10 +1,10 @@
-// The outgoing order: stop lane first, then requests, then the newest move. Never more than one packet in flight and
+// The outgoing order: stops first, then requests, then the newest move. Never more than one packet in flight and
 // never sooner than the board's service gap after the one before. Knows packets as bytes; no replies, no meaning.
 
 import type { Clock } from '../clock.ts';
-import { LinkError } from './linkError.ts';
+import { asLinkError, type LinkError } from './linkError.ts';
 
-export interface LaneOptions {
+export interface QueueOptions {
   readonly clock: Clock;
   readonly serviceGapMs: number;
   /** Resolves when the packet's last bit has left the wire. */
@@ -18,7 +18,7 @@ export interface LaneOptions {
   moveFailed(error: LinkError): void;
 }
 
-export interface Lanes {
+export interface Queue {
   /** Goes ahead of everything that has not begun to leave. One that is built then may turn out to be nothing. */
   stop(packet: Uint8Array | (() => Uint8Array | null)): Promise<void>;
   request(packet: Uint8Array): Promise<void>;
@@ -47,7 +47,7 @@ interface WaitingStop extends Settle {
   build(): Uint8Array | null;
 }
 
-export function createLanes(options: LaneOptions): Lanes {
+export function createQueue(options: QueueOptions): Queue {
   const stops: WaitingStop[] = [];
   const requests: Waiting[] = [];
   let pumping = false;
@@ -145,8 +145,4 @@ export function createLanes(options: LaneOptions): Lanes {
       requests.splice(0).forEach((waiting) => waiting.reject(error));
     },
   };
-}
-
-function asLinkError(error: unknown): LinkError {
-  return error instanceof LinkError ? error : new LinkError('internal', String(error), { cause: error });
 }

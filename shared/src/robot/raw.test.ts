@@ -33,7 +33,7 @@ describe('a packet sent by hand', () => {
     expect(await send(rig, MOVE_SLOWLY)).toBeNull();
     expect(sent).toEqual([MOVE_SLOWLY]);
     expect(rig.session.motions()(1).target).toBe(2_000);
-    expect(rig.transport.board.target(1)).toBe(2_000);
+    expect(rig.channel.board.target(1)).toBe(2_000);
   });
 
   test('does not move a servo nobody knows faster than the first move may be', async () => {

@@ -32,7 +32,7 @@ describe('reading positions', () => {
     expect(await outcome(rig, rig.session.readPositions(SIX))).toBeNull();
     const { reported } = rig.session.state;
     expect(Object.keys(reported).map(Number)).toEqual(SIX);
-    for (const servo of SIX) expect(reported[servo]?.position).toBe(rig.transport.board.pulse(servo));
+    for (const servo of SIX) expect(reported[servo]?.position).toBe(rig.channel.board.pulse(servo));
     expect(reported[1]!.atMs).toBeGreaterThan(0);
     expect(reported[1]!.atMs).toBeLessThan(rig.clock.now());
   });
@@ -46,7 +46,7 @@ describe('reading positions', () => {
   test('the first move of a servo that the board told of need not be slow', async () => {
     const rig = await rigOf('xarm');
     await outcome(rig, rig.session.readPositions([1]));
-    const at = rig.transport.board.pulse(1);
+    const at = rig.channel.board.pulse(1);
     expect(rig.session.motions()(1)).toEqual({ target: at, estimated: at, reported: 'untouched' });
     rig.session.move([{ servo: 1, position: at + 100 }], 200);
     await rig.clock.advance(1_000);
@@ -122,7 +122,7 @@ describe('reading positions', () => {
   test('what was told is forgotten when the link goes, and when the board is another one', async () => {
     const rig = await rigOf('xarm');
     await outcome(rig, rig.session.readPositions(SIX));
-    rig.transport.unplug();
+    rig.channel.unplug();
     await rig.clock.advance(10);
     expect(rig.session.state.link.status).toBe('lost');
     expect(rig.session.state.reported).toEqual({});
@@ -223,9 +223,9 @@ describe('group speed', () => {
     await rig.session.resume();
     expect(rig.ofKind('setSpeed')).toEqual([]);
     const cut = rig.session.setSpeed(1, 50);
-    rig.transport.unplug();
+    rig.channel.unplug();
     expect(await outcome(rig, cut)).toBe('lost');
-    rig.transport.plugIn();
+    rig.channel.plugIn();
     await rig.clock.advance(5_000);
     expect(rig.session.state.link.status).toBe('ready');
     expect(rig.ofKind('setSpeed')).toEqual([]);

@@ -3,7 +3,7 @@
 
 import timings from '../../protocol/timings.json' with { type: 'json' };
 import { COMMAND_NUMBER } from '../codec/commands.ts';
-import type { Lanes } from './queue.ts';
+import type { Queue } from './queue.ts';
 
 export interface Resync {
   /** The link went while this packet was on its way to a board that bears this filler, or none. */
@@ -14,11 +14,11 @@ export interface Resync {
 
 const COMMAND_AT = 3;
 
-export function createResync(lanes: Lanes): Resync {
+export function createResync(queue: Queue): Resync {
   let pending: Uint8Array | null = null;
 
   async function fill(packet: Uint8Array): Promise<void> {
-    await lanes.stop(packet);
+    await queue.stop(packet);
     pending = null;
   }
 

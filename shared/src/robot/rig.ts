@@ -1,4 +1,4 @@
-// A session on a simulated board in virtual time, for tests and measurements: what a person would do, and what the board
+// A robot on a simulated board in virtual time, for tests and measurements: what a person would do, and what the board
 // saw on its line.
 
 import type { Clock } from '../clock.ts';
@@ -8,11 +8,14 @@ import { family as familyOf } from '../codec/families.ts';
 import { wireMs } from '../codec/packet.ts';
 import { parseCommand } from '../codec/parse.ts';
 import { COMMAND_SHAPES } from '../codec/shapes.ts';
-import type { SimulatedChannelOptions } from '../simulator/channel.ts';
-import { createSimulatedTransport, type SimulatedTransport } from '../testing/simulatedTransport.ts';
+import {
+  createSimulatedChannel,
+  type SimulatedChannel,
+  type SimulatedChannelOptions,
+} from '../simulator/channel.ts';
 import { createVirtualClock, type VirtualClock } from '../testing/virtualClock.ts';
-import type { SharedSlots, Transport, TransportEvents } from './transport.ts';
-import { createSession, type Session, type SessionOptions } from './robot.ts';
+import { createLocalRobot, type LocalRobotOptions } from './localRobot.ts';
+import type { Robot } from './robot.ts';
 import { FIRST_MOVE_MS, FIRST_MOVE_STAGGER_MS } from './timings.ts';
 
 export interface HeardCommand {
@@ -23,8 +26,8 @@ export interface HeardCommand {
 
 export interface Rig {
   readonly clock: VirtualClock;
-  readonly session: Session;
-  readonly transport: SimulatedTransport;
+  readonly session: Robot;
+  readonly channel: SimulatedChannel;
   readonly heard: readonly HeardCommand[];
   /** The session's computer sleeps, and no timer of it fires in time; the board goes on. */
   asleep(ms: number): Promise<void>;
@@ -40,43 +43,26 @@ export function firstMovesMs(servoCount: number): number {
 /** Opened and ready; the board has been on for a while and knows its battery. */
 export async function createRig(
   options: SimulatedChannelOptions &
-    Partial<Pick<SessionOptions, 'family' | 'slotMemory' | 'identifies' | 'isWatched' | 'withheld'>> & {
-      /** Of a link that is shared; it says through `changed` when something of it is another. */
-      readonly sharedSlots?: (changed: () => void) => SharedSlots;
-    } = {},
+    Partial<Pick<LocalRobotOptions, 'family' | 'slotMemory' | 'identifies' | 'isWatched' | 'withheld'>> = {},
 ): Promise<Rig> {
-  const { family = familyOf('doc'), sharedSlots, ...rest } = options;
+  const { family = familyOf('doc'), ...rest } = options;
   const { slotMemory, identifies, isWatched, withheld, ...board } = rest;
   const clock = createVirtualClock();
   const heard: HeardCommand[] = [];
   const ear = createEar(clock, heard);
-  const transport = createSimulatedTransport(clock, {
+  const channel = createSimulatedChannel(clock, {
     onForMs: 60_000,
     ...board,
     onByte: ({ direction, byte }) => direction === 'in' && ear(byte),
   });
   const computer = createSleepingClock(clock);
-  const session = createSession({
-    ...{ clock: computer, family, slotMemory, identifies, isWatched, withheld },
-    transport: sharedSlots === undefined ? transport : sharing(transport, sharedSlots),
+  const session = createLocalRobot({
+    ...{ channel, clock: computer, family, slotMemory, identifies, isWatched, withheld, isNew: true },
   });
   await session.open();
   return {
-    ...{ clock, session, transport, heard, asleep: computer.asleep },
+    ...{ clock, session, channel, heard, asleep: computer.asleep },
     ofKind: (kind) => heard.flatMap(({ command }) => (command.kind === kind ? [command as never] : [])),
-  };
-}
-
-function sharing(transport: Transport, slotsOf: (changed: () => void) => SharedSlots): Transport {
-  let heard: TransportEvents | null = null;
-  const slots = slotsOf(() => heard?.slotsChanged?.());
-  return {
-    ...transport,
-    slots,
-    open(events) {
-      heard = events;
-      return transport.open(events);
-    },
   };
 }
 

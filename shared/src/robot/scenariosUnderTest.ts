@@ -7,7 +7,8 @@ import { family as familyOf, type BoardId, type FamilyId } from '../codec/famili
 import { fromHex, toHex, wireMs } from '../codec/packet.ts';
 import { createVirtualClock } from '../testing/virtualClock.ts';
 import { LinkError } from './linkError.ts';
-import { createLocalRobot, type Session } from './robot.ts';
+import { createLocalRobot } from './localRobot.ts';
+import type { Robot } from './robot.ts';
 import type { SessionState } from './state.ts';
 import type { ByteChannel } from './byteChannel.ts';
 
@@ -93,7 +94,7 @@ export async function played({ events, ...head }: Scenario): Promise<Scenario> {
     close: () => Promise.resolve(),
   };
   const session = createLocalRobot({
-    ...{ channel, kind: 'webSerial', clock, family: familyOf(head.family), identifies: head.identifies },
+    ...{ channel, clock, family: familyOf(head.family), identifies: head.identifies },
   });
   function plug(isBack: boolean): void {
     isThere = isBack;
@@ -129,7 +130,7 @@ export async function played({ events, ...head }: Scenario): Promise<Scenario> {
   return { ...head, events: inOrder.map(({ rank: _, ...event }) => event as ScenarioEvent) };
 }
 
-function begin(session: Session, intent: Intent, id: number | null, note: (output: Output) => void): void {
+function begin(session: Robot, intent: Intent, id: number | null, note: (output: Output) => void): void {
   const end = (how: string): void => {
     if (id !== null) note({ ends: id, with: how });
   };
@@ -139,7 +140,7 @@ function begin(session: Session, intent: Intent, id: number | null, note: (outpu
   );
 }
 
-async function asked(session: Session, intent: Intent): Promise<unknown> {
+async function asked(session: Robot, intent: Intent): Promise<unknown> {
   switch (intent.type) {
     case 'move':
       session.move(intent.targets, intent.durationMs);

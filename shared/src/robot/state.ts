@@ -1,22 +1,78 @@
-// What a session tells the outside: one immutable snapshot of the link and the robot, and a stream of traffic for the
-// log. Knows no transport and no user interface. Every figure says how true it is: requested, estimated or confirmed.
+// What a robot says of itself: one immutable snapshot of the link and the robot, and a stream of traffic for the log. Knows no
+// cable and no user interface. Every figure says how true it is: requested, estimated or confirmed.
 
-import type { Command } from '../codec/commands.ts';
-import type { Battery } from './battery.ts';
+import type { Command, Frame } from '../codec/commands.ts';
 import type { Unheld } from '../motion/haltPlan.ts';
 import type { Report, ServoOffset } from '../codec/reports.ts';
 import type { Family } from '../codec/families.ts';
 import type { Lease } from './lease.ts';
 import type { Identity } from './identity.ts';
 import type { LinkError } from './linkError.ts';
-import type {
-  DownloadProgress,
-  HaltReason,
-  RobotOnBoard,
-  SharedLatchReason,
-  SlotVersions,
-  Withheld,
-} from './transport.ts';
+
+/** What hardware has not confirmed yet for some cable. */
+export type Withheld = 'download' | 'erase';
+
+/** Who asks for a stop: a person, or the battery's policy on this page. */
+export type HaltReason = 'pressed' | 'battery';
+
+/** Why motion is refused without a stop from here: another screen's, no driver while the robot moved, or a link that was lost. */
+export type LatchReason = 'elsewhere' | 'battery' | 'unwatched' | 'reconnected';
+
+/** A group and the slot that shall hold it. */
+export interface SlotGroup {
+  readonly slot: number;
+  readonly frames: readonly Frame[];
+  /** Which version was seen in that slot, '' for none: where others store too, it is refused when another one is there by now. */
+  readonly replaces?: string;
+  /** What others may be told of it. */
+  readonly name?: string;
+  readonly documentId?: string | null;
+}
+
+/** What is known of a group that somebody stored. */
+export interface StoredGroup {
+  /** The fingerprint, where a page did it. */
+  readonly version: string;
+  /** Empty where it has none. */
+  readonly name: string;
+  /** Which one of the library it is of. */
+  readonly documentId: string | null;
+  readonly by: string;
+  /** Since 1970; null where nobody noted it. */
+  readonly atMs: number | null;
+}
+
+/** What was stored in each slot last; a slot of which nobody knows is not in it. */
+export type SlotVersions = Readonly<Partial<Record<number, StoredGroup>>>;
+
+/** Of several groups together. */
+export interface DownloadProgress {
+  /** Where they go, in this order. */
+  readonly slots: readonly number[];
+  readonly groupsStored: number;
+  readonly framesStored: number;
+  readonly frameCount: number;
+  readonly bytesSent: number;
+  readonly bytesTotal: number;
+  readonly remainingMs: number;
+}
+
+export interface PlayProgress {
+  readonly frameIndex: number;
+  readonly frameCount: number;
+}
+
+/** Which document of the gateway's library describes the robot on its board; null for none. */
+export interface RobotOnBoard {
+  readonly document: string | null;
+}
+
+/** What it means for a pack is said elsewhere. */
+export type Battery =
+  | { readonly kind: 'unread' }
+  | { readonly kind: 'read'; readonly batteryMv: number; readonly atMs: number }
+  /** Three questions in a row stayed unanswered. */
+  | { readonly kind: 'silent'; readonly lastMv: number | null };
 
 export type LinkState =
   | { readonly status: 'closed' }
@@ -26,7 +82,7 @@ export type LinkState =
   | { readonly status: 'ready' }
   /** The line is open, the board does not answer what such a board always answers: it may be off. It is asked again. */
   | { readonly status: 'stale'; readonly sinceMs: number }
-  /** `retryAtMs` on the session's clock; null where automatic reconnecting is switched off. */
+  /** `retryAtMs` on the robot's clock; null where automatic reconnecting is switched off. */
   | { readonly status: 'lost'; readonly error: LinkError; readonly retryAtMs: number | null }
   /** Only a person can go on: no access, or nobody knows which board this is. */
   | { readonly status: 'refused'; readonly error: LinkError };
@@ -37,7 +93,7 @@ export interface Latch {
    * `pressed` here, `elsewhere` on another screen, `battery`: its policy, here or there, `unwatched`: its driver was not heard while
    * it moved, `reconnected`: the link came back and nobody has looked yet.
    */
-  readonly reason: HaltReason | SharedLatchReason;
+  readonly reason: HaltReason | LatchReason;
   /** People's name for whoever stopped it elsewhere; null where it was here. */
   readonly by: string | null;
   /** `sending`: the stop packets are on their way. `sent`: they left the wire. `confirmed`: the board said so. */
@@ -56,12 +112,12 @@ export type Activity =
       readonly sinceMs: number;
       readonly truth: 'requested' | 'acknowledged' | 'unknown';
     }
-  | { readonly kind: 'playing'; readonly frameIndex: number; readonly frameCount: number }
+  | ({ readonly kind: 'playing' } & PlayProgress)
   /** `slot` is being filled now. */
   | ({ readonly kind: 'downloading'; readonly slot: number } & DownloadProgress)
   | { readonly kind: 'erasing' };
 
-/** What the board said of one servo, in its unit, and when, on the session's clock. */
+/** What the board said of one servo, in its unit, and when, on the robot's clock. */
 export interface Reading {
   readonly position: number;
   readonly atMs: number;
@@ -75,10 +131,10 @@ export interface SessionState {
   readonly canShare: boolean;
   /** Commands that this link is not to carry, although the board may know them. */
   readonly withheld: readonly Withheld[];
-  /** What the board answered when it was asked who it is; empty where nobody asked. */
+  /** What the board answered when it was asked who it is; empty where it was not asked. */
   readonly identity: Identity;
   readonly latch: Latch | null;
-  /** Who drives a shared robot; null on a link of one's own. */
+  /** Who drives a robot that others can drive, too; null on a link of one's own. */
   readonly lease: Lease | null;
   readonly activity: Activity;
   /** Asked to move, but nobody knows where they stand: they start one after another, in this order (safety.md). */
@@ -91,13 +147,13 @@ export interface SessionState {
   readonly offsets: readonly ServoOffset[] | null;
   /** Slots whose download was begun and not finished, here or in an earlier visit: broken on the board (S35). */
   readonly brokenSlots: readonly number[];
-  /** By the word of a shared link; null on one's own. */
+  /** Null where nobody else can store. */
   readonly slotVersions: SlotVersions | null;
   /** How far the download before this moment came, by whomever; null where nobody knows of one. */
   readonly lastDownload: Pick<DownloadProgress, 'slots' | 'groupsStored'> | null;
-  /** What this session stored, by slot. */
+  /** What was stored from here, by slot. */
   readonly storedSlots: readonly number[];
-  /** Which robot it is, by the word of a shared link; null on one's own. Another object whenever it was told. */
+  /** Which robot of the gateway's library it is; null on a link of one's own. Another object whenever the gateway says so. */
   readonly robotOnBoard: RobotOnBoard | null;
 }
 
@@ -138,6 +194,6 @@ export interface SessionEvents {
   traffic(entry: Traffic): void;
   /** Something asked for without waiting (a slider's move, a frame being played) could not be done. */
   problem(error: LinkError): void;
-  /** Somebody else on a shared link has allowed motion again. */
+  /** Somebody else has allowed motion again. */
   resumed(by: string): void;
 }

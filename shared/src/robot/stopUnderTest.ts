@@ -54,7 +54,7 @@ export const SLOW_FLASH: readonly Fault[] = [{ name: 'slowErase', sectorMs: 400 
 const STORED_WITHIN_MS = 12_000;
 
 /** A session that fails says so in its own tests; here it only matters what the robot does afterwards. */
-function take({ session, transport, clock }: Rig, step: StopStep): Promise<void> {
+function take({ session, channel, clock }: Rig, step: StopStep): Promise<void> {
   switch (step.kind) {
     case 'wait':
       return clock.advance(step.ms);
@@ -96,8 +96,8 @@ function take({ session, transport, clock }: Rig, step: StopStep): Promise<void>
       session.cancelDownload().catch(ignore);
       return Promise.resolve();
     case 'loss':
-      transport.unplug();
-      clock.after(100, transport.plugIn);
+      channel.unplug();
+      clock.after(100, channel.plugIn);
       return clock.advance(step.awayMs);
   }
 }
@@ -153,8 +153,8 @@ async function idle({ session, clock }: Rig): Promise<void> {
 export async function stopped(profile: ProfileName, history: StopHistory): Promise<StopOutcome> {
   const rig = await prepared(profile, history);
   for (const step of history.steps) await take(rig, step);
-  const { clock, session, transport } = rig;
-  const { board } = transport;
+  const { clock, session, channel } = rig;
+  const { board } = channel;
   const look = (): readonly number[] => SERVOS.map((servo) => board.pulse(servo));
 
   const pressedMs = clock.now();
@@ -205,7 +205,7 @@ const TAKEN_UP_MS = 45;
  * What a servo does is caused by a hold from when the board takes the hold up until it takes up anything else: its own next frame,
  * or what waited in its mailbox.
  */
-function watchHolds({ heard, session, transport: { board }, clock }: Rig) {
+function watchHolds({ heard, session, channel: { board }, clock }: Rig) {
   const isShared = session.state.family.motion.timing === 'shared';
   const from = heard.length;
   const servos: Watched[] = SERVOS.map((servo) => {

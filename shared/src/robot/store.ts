@@ -1,6 +1,9 @@
-// The session's snapshot and its listeners. Each change makes a new object, so that a page can compare references.
+// The snapshot of a robot and its listeners, and what a board's answers make of it. Each change makes a new object, so that a page can
+// compare references.
 
+import type { Command } from '../codec/commands.ts';
 import { UNKNOWN_BOARD } from '../codec/families.ts';
+import type { Report } from '../codec/reports.ts';
 import { NOTHING_HEARD } from './identity.ts';
 import type { SessionEvents, SessionState } from './state.ts';
 
@@ -59,4 +62,22 @@ export function createSessionStore(
       for (const listener of listeners) (listener[event] as ((value: unknown) => void) | undefined)?.(value);
     },
   };
+}
+
+/** What the board says of itself is kept whoever asked, with the time. */
+export function noteReport(store: SessionStore, report: Report, atMs: number): void {
+  if (report.kind === 'version') store.update({ version: report.version });
+  if (report.kind === 'offsets') store.update({ offsets: report.offsets });
+  if (report.kind !== 'positions' && report.kind !== 'allPositions') return;
+  const said = report.positions.map(({ servo, position }) => [servo, { position, atMs }] as const);
+  store.update({ reported: { ...store.state.reported, ...Object.fromEntries(said) } });
+}
+
+/** Without torque a servo drops: what was said of it is no longer so. */
+export function noteCommand(store: SessionStore, command: Command): void {
+  if (command.kind !== 'release') return;
+  const others = Object.entries(store.state.reported).filter(
+    ([servo]) => !command.servos.includes(Number(servo)),
+  );
+  store.update({ reported: Object.fromEntries(others) });
 }

@@ -41,7 +41,7 @@ describe('several groups', () => {
       ...{ activity: { kind: 'idle' }, brokenSlots: [], storedSlots: [2, 5, 9] },
       lastDownload: { slots: SLOTS, groupsStored: 3 },
     });
-    expect(rig.transport.board.storedFrame(9, 2)).toEqual(BOW.frames[2]);
+    expect(rig.channel.board.storedFrame(9, 2)).toEqual(BOW.frames[2]);
   });
 
   test('that STOP ends leave whole ones before it and old ones behind it', async () => {

@@ -1,6 +1,6 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
-import type { Session } from '../robot/robot.ts';
+import type { Robot } from '../robot/robot.ts';
 import { compare, tally, type Row } from './compare.ts';
 import { entryOf, type PacketEntry } from '../files/recorder.ts';
 import type { Entry } from '../files/recording.ts';
@@ -23,7 +23,7 @@ const isCertain = ({ recorded, replayed }: Row): boolean =>
 
 const nothing = (): void => undefined;
 /** What a person may do; a refusal is no matter here. */
-const DEEDS: Readonly<Record<string, (session: Session) => void>> = {
+const DEEDS: Readonly<Record<string, (session: Robot) => void>> = {
   move: (session) => session.move([{ servo: 2, position: 1_700 }], 300),
   moveTwo: (session) => {
     session.move([{ servo: 1, position: 900 }], 0);
@@ -39,7 +39,7 @@ const DEEDS: Readonly<Record<string, (session: Session) => void>> = {
   raw: (session) => void session.sendRaw(Uint8Array.of(0x55, 0x55, 2, 0x63)).catch(nothing),
 };
 
-function doDeed(session: Session, deed: string): void {
+function doDeed(session: Robot, deed: string): void {
   try {
     DEEDS[deed]?.(session);
   } catch {
@@ -90,9 +90,9 @@ describe('replayed to the session', () => {
     const { rig, entries } = await createRecordingRig();
     rig.session.move([{ servo: 1, position: 1_200 }], 500);
     await rig.clock.advance(1_800);
-    rig.transport.unplug();
+    rig.channel.unplug();
     await rig.clock.advance(3_000);
-    rig.transport.plugIn();
+    rig.channel.plugIn();
     await rig.clock.advance(1_000);
     const { rows, state } = await sentAgain(entries);
     expect(tally(rows)).toMatchObject({ missing: 0, extra: 0, different: 0 });

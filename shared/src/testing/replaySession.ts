@@ -1,12 +1,13 @@
 // What a session makes of a recording: the host's wishes and the board's bytes at their recorded times, in virtual time. A bug
 // that a log shows happens here again. Knows the session by its public face.
 
-import { type Session, createSession } from '../robot/robot.ts';
+import { createLocalRobot } from '../robot/localRobot.ts';
+import type { Robot } from '../robot/robot.ts';
 import { type Intent, intentsOf } from './intents.ts';
 import { sleep, type Clock } from '../clock.ts';
 import { wireMs } from '../codec/packet.ts';
 import { LinkError, type LinkErrorCode } from '../robot/linkError.ts';
-import type { Transport, TransportEvents } from '../robot/transport.ts';
+import type { ByteChannel } from '../robot/byteChannel.ts';
 import { family, type BoardId } from '../codec/families.ts';
 import type { SessionState, Traffic } from '../robot/state.ts';
 import { createVirtualClock } from './virtualClock.ts';
@@ -18,7 +19,7 @@ type Perform<K extends Intent['kind']> = (intent: Extract<Intent, { kind: K }>) 
 
 /** `failed` hears of each wish that was refused or came to nothing. */
 function createHost(
-  session: Session,
+  session: Robot,
   failed: (what: Intent['kind'], error: unknown) => void,
 ): (intent: Intent) => void {
   const perform: { readonly [K in Intent['kind']]: Perform<K> } = {
@@ -46,52 +47,46 @@ function createHost(
 
 // A link whose other end is a recording: it says what the board said, when it is told to.
 
-interface ReplayTransport extends Transport {
+interface ReplayChannel extends ByteChannel {
   /** `whole` where they are packets, as the recording has them. */
   say(bytes: Uint8Array, whole: boolean): void;
-  /** Another screen or a loss latched the shared link. */
-  latch(): void;
   lose(): void;
   comeBack(): void;
 }
 
-function createReplayTransport(clock: Clock): ReplayTransport {
-  let events: TransportEvents | null = null;
+function createReplayChannel(clock: Clock): ReplayChannel {
+  let isOpen = false;
   let isThere = true;
-  let notifyAvailable = (): void => undefined;
 
-  return {
-    kind: 'simulated',
-    isSimulated: true,
-    longestPacket: Infinity,
+  const channel: ReplayChannel = {
     label: 'Recording',
-    open(next) {
+    longestPacket: Infinity,
+    events: null,
+    open() {
       if (!isThere) return Promise.reject(new LinkError('portMissing', 'the recording has no link here'));
-      events = next;
+      isOpen = true;
       return Promise.resolve();
     },
-    send: (packet) => sleep(clock, wireMs(packet.length)),
-    whenAvailable(notify) {
-      notifyAvailable = notify;
-      return () => (notifyAvailable = () => undefined);
-    },
+    write: (packet) => sleep(clock, wireMs(packet.length)),
     close() {
-      events = null;
+      isOpen = false;
       return Promise.resolve();
     },
-    say: (bytes, whole) => events?.received(bytes, whole),
-    latch: () => events?.latched?.('elsewhere'),
+    say(bytes, whole) {
+      if (isOpen) channel.events?.received(bytes, whole);
+    },
     lose() {
-      const listener = events;
-      events = null;
+      const wasOpen = isOpen;
+      isOpen = false;
       isThere = false;
-      listener?.lost(new LinkError('lost', 'the link went'));
+      if (wasOpen) channel.events?.lost(new LinkError('lost', 'the link went'));
     },
     comeBack() {
       isThere = true;
-      notifyAvailable();
+      channel.events?.available();
     },
   };
+  return channel;
 }
 
 interface Failure {
@@ -114,11 +109,11 @@ const SETTLE_MS = 10_000;
 /** `entries` of one board, in the order of their times. */
 export async function replayToSession(entries: readonly Entry[], board: BoardId): Promise<SessionReplay> {
   const clock = createVirtualClock(entries[0]?.atMs ?? 0);
-  const transport = createReplayTransport(clock);
-  const session = createSession({ transport, family: family(board), clock });
+  const channel = createReplayChannel(clock);
+  const session = createLocalRobot({ channel, isNew: true, family: family(board), clock });
   const log = listen(session, clock);
   const host = createHost(session, log.failed);
-  const happen = createHappenings(transport, session);
+  const happen = createHappenings(channel, session);
   // A log that lost its beginning starts in the middle of a connection.
   if (!isOpening(entries[0])) happen('opened');
 
@@ -127,7 +122,7 @@ export async function replayToSession(entries: readonly Entry[], board: BoardId)
     await clock.advance(entry.atMs - clock.now());
     if (entry.mark === 'link') happen(entry.happening);
     else if (entry.mark !== 'board' && entry.mark !== 'sent')
-      transport.say(entry.bytes, entry.mark === 'received');
+      channel.say(entry.bytes, entry.mark === 'received');
     const intent = intents[index];
     if (intent) host(intent);
   }
@@ -140,18 +135,19 @@ function isOpening(entry: Entry | undefined): boolean {
 }
 
 /** What the link does by itself; the host's part of it is an intent. */
-function createHappenings(transport: ReplayTransport, session: Session): (happening: Happening) => void {
+function createHappenings(channel: ReplayChannel, session: Robot): (happening: Happening) => void {
   return (happening) => {
-    if (happening === 'lost') transport.lose();
-    if (happening === 'latched' && session.state.latch === null) transport.latch();
+    if (happening === 'lost') channel.lose();
+    // Another screen's stop, or a loss, which latches by itself.
+    if (happening === 'latched' && session.state.latch === null) session.halt().catch(() => undefined);
     if (happening !== 'opened') return;
-    transport.comeBack();
+    channel.comeBack();
     // A session that was open before finds the way back by itself; its failure would be in its state.
     if (session.state.link.status === 'closed') session.open().catch(() => undefined);
   };
 }
 
-function listen(session: Session, clock: Clock) {
+function listen(session: Robot, clock: Clock) {
   const traffic: Traffic[] = [];
   const failures: Failure[] = [];
 

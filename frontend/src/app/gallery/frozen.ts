@@ -1,15 +1,15 @@
-// A session that stays in one state and does nothing: it holds a panel still so that it can be looked at.
+// A robot that stays in one state and does nothing: it holds a panel still so that it can be looked at.
 
 import { LinkError } from '#shared/robot/linkError.ts';
 import type { Family } from '#shared/codec/families.ts';
-import type { Session } from '#shared/robot/robot.ts';
+import type { Robot } from '#shared/robot/robot.ts';
 import type { ServoMotion, SessionState } from '#shared/robot/state.ts';
 
 export function frozenSession(
   family: Family,
   state: SessionState,
   motions: Readonly<Record<number, ServoMotion>>,
-): Session {
+): Robot {
   const nothing = (): Promise<void> => Promise.resolve();
   return {
     state: { ...state, family },
@@ -23,7 +23,7 @@ export function frozenSession(
     identify: nothing,
     choose: nothing,
     lease: () => undefined,
-    letGoOn: () => undefined,
+    letRun: () => undefined,
     calibrate: () => undefined,
     move: () => {
       throw new LinkError('latched', 'the gallery moves nothing');

@@ -2,7 +2,7 @@
 
 import { useEffect } from 'react';
 import { readingKind, type Level, type Supply, isPlain, percentOf } from '#shared/profile/battery.ts';
-import type { Battery } from '#shared/robot/battery.ts';
+import type { Battery } from '#shared/robot/state.ts';
 import { type Truth, Mark } from '../../ui/Chip.tsx';
 import { words, useWords } from '../../i18n/words.ts';
 import { useBattery, useSnapshot, useStores } from '../stores.ts';

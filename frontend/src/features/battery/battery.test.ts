@@ -6,14 +6,12 @@ import { addPose, markRest } from '#shared/profile/pose.ts';
 import type { BatteryPolicy } from '#shared/profile/robot.ts';
 import { FAMILIES } from '#shared/codec/families.ts';
 import { createRig } from '#shared/robot/rig.ts';
-import { createSession } from '#shared/robot/robot.ts';
-import type { Transport, TransportEvents } from '#shared/robot/transport.ts';
-import { createSimulatedTransport } from '#shared/testing/simulatedTransport.ts';
 import { words } from '../../i18n/words.ts';
 import { createBattery } from './battery.ts';
 import { applyBatteryPolicy, REST_MOVE_MS, REST_WARNING_MS } from './batteryPolicy.ts';
 import { pollBattery } from './batteryPoll.ts';
 import { createDevice, type Way } from '../../robot/device.ts';
+import { createGateway, FREE } from '../../robot/gatewayUnderTest.ts';
 import { createPoses } from '../poses/poses.ts';
 import { createNotices } from '../../state/notices.ts';
 import { createRobots } from '../profiles/robots.ts';
@@ -237,31 +235,19 @@ describe('a robot that goes to rest', () => {
     const { clock, device, notices } = await createTestPage(6500, 'rest');
     const announced = new Set<string>();
     notices.store.subscribe((list) => list.forEach(({ text }) => announced.add(text)));
-    const line = createSimulatedTransport(clock, { onForMs: 60_000, batteryMv: 6500 });
-    const others = {
-      ...{ requestedBy: null, hasRequested: false, grantedInMs: null, others: 1 },
-      ...{ you: 'Ben', mayDrive: true, mayTake: false, grantedBy: null, candidates: [], unattended: null },
+    const reading = { kind: 'read', batteryMv: 6500, ageMs: 0 } as const;
+    const lease = { ...FREE, driver, drives };
+    const { robot, say } = await createGateway({ clock, welcome: { lease, battery: reading } });
+    device.attach(robot, WAY);
+    /** The gateway asks by itself. */
+    const tell = (): void => {
+      say({ type: 'battery', battery: reading });
+      clock.after(5000, tell);
     };
-    /** A shared link asks by itself. */
-    const tell = (events: TransportEvents): void => {
-      events.battery?.({ kind: 'read', batteryMv: 6500, atMs: clock.now() });
-      clock.after(5000, () => tell(events));
-    };
-    const transport: Transport = {
-      ...line,
-      async open(events) {
-        await line.open(events);
-        events.leased?.({ driver, drives, ...others });
-        tell(events);
-      },
-      readBattery: () => Promise.resolve(6500),
-    };
-    const session = createSession({ transport, clock, family: FAMILIES.doc });
-    device.attach(session, WAY);
-    await session.open();
+    tell();
     await clock.advance(SETTLED_MS + REST_WARNING_MS + 5000);
     expect(announced.has(words.battery.goingToRest({ ms: REST_WARNING_MS }))).toBe(goes);
-    expect(session.state.latch !== null).toBe(goes);
+    expect(robot.state.latch !== null).toBe(goes);
   });
 
   test('is announced, goes home slowly with the servos that are known, and is stopped', async () => {

@@ -1,10 +1,9 @@
 import { describe, expect, test } from 'vitest';
 import { FAMILIES } from '#shared/codec/families.ts';
 import { createRig } from '#shared/robot/rig.ts';
-import { createSession } from '#shared/robot/robot.ts';
-import type { Transport } from '#shared/robot/transport.ts';
 import { canReadBattery, pollBattery } from './batteryPoll.ts';
 import { createDevice } from '../../robot/device.ts';
+import { createGateway } from '../../robot/gatewayUnderTest.ts';
 import { createNotices } from '../../state/notices.ts';
 import { createRobots } from '../profiles/robots.ts';
 
@@ -70,41 +69,15 @@ describe('the battery poll', () => {
     expect(asked()).toBe(1);
   });
 
-  test('asks nothing of a shared robot: its link does', async () => {
+  test('asks nothing of a robot at the gateway, which asks by itself', async () => {
     const { clock, device } = await createTestPage();
-    const rig = await createRig();
-    const readBattery = () => Promise.reject(new Error('asked by the page'));
-    const lease = {
-      driver: null,
-      drives: false,
-      requestedBy: null,
-      hasRequested: false,
-      grantedInMs: null,
-      others: 0,
-    };
-    const person = {
-      you: 'Ben',
-      mayDrive: true,
-      mayTake: false,
-      grantedBy: null,
-      candidates: [],
-      unattended: null,
-    };
-    const transport: Transport = {
-      ...rig.transport,
-      readBattery,
-      open(events) {
-        events.leased?.({ ...lease, ...person });
-        events.battery?.({ kind: 'read', batteryMv: 7_200, atMs: 0 });
-        return rig.transport.open(events);
-      },
-    };
-    const session = createSession({ transport, clock, family: FAMILIES.doc });
-    device.attach(session, { kind: 'gateway', label: 'Gateway', isSimulated: true });
-    await session.open();
+    const battery = { kind: 'read', batteryMv: 7_200, ageMs: 0 } as const;
+    const { robot, posted } = await createGateway({ clock, welcome: { battery } });
+    const sinceMs = clock.now();
+    device.attach(robot, { kind: 'gateway', label: 'Gateway', isSimulated: true });
     await clock.advance(20_000);
-    expect(rig.ofKind('readBattery')).toEqual([]);
-    expect(session.state.battery).toEqual({ kind: 'read', batteryMv: 7_200, atMs: 0 });
+    expect(posted).toEqual([]);
+    expect(robot.state.battery).toEqual({ kind: 'read', batteryMv: 7_200, atMs: sinceMs });
   });
 
   test('only boards that answer are asked', () => {

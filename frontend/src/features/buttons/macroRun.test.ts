@@ -87,7 +87,7 @@ describe('a button', () => {
 
   test.each([
     ['STOP', (fixture: Awaited<ReturnType<typeof pageWith>>) => fixture.device.halt()],
-    ['a pulled cable', (fixture: Awaited<ReturnType<typeof pageWith>>) => fixture.transport.unplug()],
+    ['a pulled cable', (fixture: Awaited<ReturnType<typeof pageWith>>) => fixture.channel.unplug()],
     ['another robot', (fixture: Awaited<ReturnType<typeof pageWith>>) => fixture.robots.duplicate()],
     ['its second press', (fixture: Awaited<ReturnType<typeof pageWith>>) => fixture.macroRun.end()],
   ])('is ended for good by %s, also after Resume', async (_, end) => {

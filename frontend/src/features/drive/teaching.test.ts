@@ -10,7 +10,7 @@ import { canTeach, createTeaching } from './teaching.ts';
 async function createXarm() {
   const page = await createTestPage(new Map(), { profile: 'xarm', family: FAMILIES.xarm });
   const teaching = createTeaching(page);
-  const { board } = page.transport;
+  const { board } = page.channel;
   return {
     ...{ ...page, teaching, board },
     isOn: () => teaching.store.getState().isOn,
@@ -121,7 +121,7 @@ describe('teaching by hand', () => {
 
   const ENDINGS: readonly (readonly [string, (page: Awaited<ReturnType<typeof createXarm>>) => unknown])[] = [
     ['Stop', ({ device }) => device.halt()],
-    ['a lost link', ({ transport }) => transport.unplug()],
+    ['a lost link', ({ channel }) => channel.unplug()],
     ['a group of the board', ({ device }) => device.run(8, 1)],
   ];
   test.each(ENDINGS)('%s ends it without a move of ours, and the person is told', async (_, happen) => {

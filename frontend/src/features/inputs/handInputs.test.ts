@@ -73,8 +73,8 @@ test.each(BOARDS)('%s', { timeout: 60_000 * TIMES }, async (profile) => {
 
   async function tryOut(history: readonly Event[]): Promise<void> {
     const page = await createTestPage(new Map(), { profile, family: FAMILIES[profile] });
-    const { clock, device, robots, view, poses, notices, transport, blend, session } = page;
-    const { board } = transport;
+    const { clock, device, robots, view, poses, notices, channel, blend, session } = page;
+    const { board } = channel;
     const follower = createFollower(device);
     const mappings = createMappings({ getItem: () => null, setItem: () => undefined }, notices, robots);
     let pressed: number | null = null;
@@ -209,7 +209,7 @@ test.each(BOARDS)('%s', { timeout: 60_000 * TIMES }, async (profile) => {
     for (const one of history) await happen(one);
     await pass(500);
     await session.close();
-    transport.board.powerOff();
+    channel.board.powerOff();
   }
 
   await fc.assert(fc.asyncProperty(fc.array(event, { minLength: 3, maxLength: 14 }), tryOut), {

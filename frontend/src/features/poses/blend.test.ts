@@ -6,7 +6,7 @@ const at = (position: number) => [{ servo: 1, position }];
 
 describe('a blend of two poses', () => {
   test('is only looked at until the robot is to follow; then gently at first, and along with the slider', async () => {
-    const { blend, draw, moves, transport } = await createTestPage();
+    const { blend, draw, moves, channel } = await createTestPage();
     blend.show(at(1200));
     await draw(500);
     expect(moves()).toEqual([]);
@@ -15,7 +15,7 @@ describe('a blend of two poses', () => {
     expect(moves()).toMatchObject([{ durationMs: 1500, targets: at(1200) }]);
     blend.show(at(1300));
     await draw(700);
-    expect(transport.board.target(1)).toBe(1300);
+    expect(channel.board.target(1)).toBe(1300);
   });
 
   test('follows between two ticks of the clock, too, while it is still on its gentle way', async () => {

@@ -6,7 +6,7 @@ import type { FamilyId } from '#shared/codec/families.ts';
 import type { Lease } from '#shared/robot/lease.ts';
 import { INITIAL_STATE } from '#shared/robot/store.ts';
 import type { SessionState } from '#shared/robot/state.ts';
-import type { RobotOnBoard } from '#shared/robot/transport.ts';
+import type { RobotOnBoard } from '#shared/robot/state.ts';
 import { words } from '../../i18n/words.ts';
 import type { Notices } from '../../state/notices.ts';
 import type { RobotSync } from './robotSync.ts';

@@ -4,20 +4,25 @@
 import { sleep, type Clock } from '#shared/clock.ts';
 import type { ServoTarget } from '#shared/codec/commands.ts';
 import { LinkError } from '#shared/robot/linkError.ts';
-import type { SharedMoves } from '#shared/robot/transport.ts';
 import type { ClientMessage } from './messages.generated.ts';
 
 /** Below the gateway's rate (web/clients.py). What waits here is that much older when the wire is free. */
 export const HAND_OVER_MS = 8;
 
-export interface GatewayMoves extends SharedMoves {
+export interface GatewayMoves {
+  /** Newest wins per servo. `durationMs` 0: as fast as the link allows. */
+  put(targets: readonly ServoTarget[], durationMs: number): void;
+  /** With a value that was not handed over yet. */
+  servos(): readonly number[];
+  /** What was not handed over is not any more, and nothing is reported of the rest. */
+  clear(): void;
   /** That message was refused. */
   refused(id: number, error: LinkError): void;
 }
 
 export interface GatewayMovesOptions {
   readonly clock: Clock;
-  /** Gives the nonce of this page's turn to drive. */
+  /** Gives the nonce of this page's lease. */
   begin(): Promise<string>;
   nextId(): number;
   post(message: ClientMessage): void;

@@ -2,14 +2,18 @@
 // it; what may be played the gateway decides.
 
 import type { LinkError } from '#shared/robot/linkError.ts';
-import type { Played } from '#shared/robot/player.ts';
+import type { Frame } from '#shared/codec/commands.ts';
+import type { Played } from '#shared/robot/robot.ts';
 import { MESSAGE_BYTES } from '#shared/robot/timings.ts';
-import type { SharedPlayer } from '#shared/robot/transport.ts';
 import { askGateway, refusal } from './gatewayHttp.ts';
 import { frameBody } from './gatewayValues.ts';
 import type { ClientMessage, PlayedMessage, PlayMessage } from './messages.generated.ts';
 
-export interface GatewayPlayer extends SharedPlayer {
+export interface GatewayPlayer {
+  /** Resolves when it has ended, however. `times` 0: until stopped; each pass but the first begins with frame `loopFrom`. */
+  play(frames: readonly Frame[], times: number, loopFrom: number): Promise<Played>;
+  /** What was begun from here ends with its frame in progress. */
+  stop(): void;
   refused(id: number, error: LinkError): void;
   ended(message: PlayedMessage): void;
   /** Nobody will hear how it ends. */
@@ -32,7 +36,7 @@ const NOTHING_PLAYED: Played = { lateFrames: 0, latestMs: 0, skippedFrames: 0, i
 /** Whoever ended it, or the page itself, says so elsewhere. */
 const SAID_ELSEWHERE = ['cancelled', 'latched', 'notDriving'];
 
-/** `begin` gives the nonce of this page's turn to drive. */
+/** `begin` gives the nonce of this page's lease. */
 export function createGatewayPlayer(
   post: (message: ClientMessage) => void,
   begin: (withinMs: number) => Promise<string>,

@@ -45,7 +45,7 @@ function createPage() {
   };
 }
 
-test('a download begins with the nonce of this page’s turn and ends as the gateway tells', async () => {
+test('a download begins with the nonce of this page’s lease and ends as the gateway tells', async () => {
   const { slots, requests, turns, answer, changes } = createPage();
   const done = slots.store([{ slot: 5, frames: FRAMES, replaces: 'seen', name: 'Wave', documentId: 'w' }]);
   await turns();
@@ -65,9 +65,9 @@ test('a download begins with the nonce of this page’s turn and ends as the gat
     },
   ]);
   answer(202, RUNNING);
-  slots.told(RUNNING);
+  slots.jobChanged(RUNNING);
   expect(slots.download).toMatchObject({ slots: [5], frameCount: 1, isOver: false });
-  slots.told(DONE);
+  slots.jobChanged(DONE);
   await done;
   expect(slots.download).toMatchObject({ groupsStored: 1, isOver: true });
   expect(changes()).toBe(2);
@@ -77,7 +77,7 @@ test('its end may be told before its beginning is answered', async () => {
   const { slots, turns, answer } = createPage();
   const failed = slots.store([{ slot: 5, frames: FRAMES }]).catch((error: unknown) => error);
   await turns();
-  slots.told({ ...RUNNING, status: 'failed', code: 'latched', detail: 'Stopped.' });
+  slots.jobChanged({ ...RUNNING, status: 'failed', code: 'latched', detail: 'Stopped.' });
   answer(202, RUNNING);
   expect(await failed).toMatchObject({ code: 'latched', message: 'Stopped.' });
 });
@@ -85,14 +85,14 @@ test('its end may be told before its beginning is answered', async () => {
 test('an earlier one, or another’s, says nothing of it', async () => {
   const { slots, turns, answer } = createPage();
   const ends: string[] = [];
-  slots.told({ ...DONE, id: 'before' });
+  slots.jobChanged({ ...DONE, id: 'before' });
   void slots.store([{ slot: 5, frames: FRAMES }]).then(() => ends.push('done'));
   await turns();
   answer(202, RUNNING);
   await turns();
   expect(ends).toEqual([]);
   await vi.waitFor(() => {
-    slots.told(DONE);
+    slots.jobChanged(DONE);
     expect(ends).toEqual(['done']);
   });
 });
@@ -110,7 +110,7 @@ test('with the gateway gone nobody waits for it, and nothing is shown', async ()
   const failed = slots.store([{ slot: 5, frames: FRAMES }]).catch((error: unknown) => error);
   await turns();
   answer(202, RUNNING);
-  slots.told(RUNNING);
+  slots.jobChanged(RUNNING);
   await vi.waitFor(async () => {
     slots.gone(new LinkError('gatewayUnreachable', 'gone'));
     expect(await Promise.race([failed, turns().then(() => 'waits')])).toMatchObject({
@@ -122,10 +122,10 @@ test('with the gateway gone nobody waits for it, and nothing is shown', async ()
 
 test('only one under way is called off, whoever began it', async () => {
   const { slots, requests, answer } = createPage();
-  slots.told(DONE);
+  slots.jobChanged(DONE);
   await slots.cancel();
   expect(requests).toEqual([]);
-  slots.told({ ...RUNNING, id: 'b2' });
+  slots.jobChanged({ ...RUNNING, id: 'b2' });
   const cancelled = slots.cancel();
   answer(200, RUNNING);
   await cancelled;
@@ -134,14 +134,14 @@ test('only one under way is called off, whoever began it', async () => {
 
 test('the same broken slots and versions again are no news', () => {
   const { slots, changes } = createPage();
-  for (const told of [[], [5], [5], [5, 8]]) slots.toldHeld(told, {});
+  for (const told of [[], [5], [5], [5, 8]]) slots.slotsChanged(told, {});
   const stored = (version: string) => ({ version, name: 'Wave', document: 'w', by: 'Anna', atMs: 1000 });
   for (const told of [{ 5: stored('a') }, { 5: stored('a') }, { 5: stored('b') }])
-    slots.toldHeld([5, 8], told);
+    slots.slotsChanged([5, 8], told);
   expect(slots.versions).toEqual({
     5: { version: 'b', name: 'Wave', documentId: 'w', by: 'Anna', atMs: 1000 },
   });
-  slots.toldHeld([5, 8], {});
+  slots.slotsChanged([5, 8], {});
   expect([slots.broken, changes()]).toEqual([[5, 8], 5]);
 });
 
@@ -165,7 +165,7 @@ test('a full board is handed over at once as one job, in portions that the gatew
   expect(first).not.toHaveProperty('behind');
   expect(new Set(rest.map(({ behind }) => behind))).toEqual(new Set(['a1']));
   for (const body of bodies()) expect(JSON.stringify(body).length).toBeLessThan(READ_BYTES);
-  slots.told(DONE);
+  slots.jobChanged(DONE);
   await done;
 });
 
@@ -175,7 +175,7 @@ test('a download that ends while the rest of it is handed over ends with its own
   await turns();
   answer(202, RUNNING);
   await vi.waitFor(() => expect(requests).toHaveLength(2));
-  slots.told({ ...RUNNING, status: 'failed', code: 'latched', detail: 'Stopped.' });
+  slots.jobChanged({ ...RUNNING, status: 'failed', code: 'latched', detail: 'Stopped.' });
   answer(409, { code: 'cancelled', detail: 'That download has ended.' });
   expect(await failed).toMatchObject({ code: 'latched' });
   await turns();

@@ -4,7 +4,7 @@
 import { fingerprintOf } from '#shared/group/fingerprint.ts';
 import { LinkError } from '#shared/robot/linkError.ts';
 import { DOWNLOAD_PORTION_BYTES } from '#shared/robot/timings.ts';
-import type { SharedSlots, SlotGroup, SlotVersions } from '#shared/robot/transport.ts';
+import type { DownloadProgress, SlotGroup, SlotVersions } from '#shared/robot/state.ts';
 import { isRecord } from '../request.ts';
 import { askGateway, refusal } from './gatewayHttp.ts';
 import { frameBody } from './gatewayValues.ts';
@@ -13,9 +13,18 @@ import type { JobState, StateMessage } from './messages.generated.ts';
 /** As large as half a megabyte, which a slow network takes a while for. */
 const TAKEN_WITHIN_MS = 8_000;
 
-export interface GatewaySlots extends SharedSlots {
-  told(job: JobState | null): void;
-  toldHeld(broken: readonly number[], versions: StateMessage['slotVersions']): void;
+export interface GatewaySlots {
+  /** Slots that hold half a group. */
+  readonly broken: readonly number[];
+  readonly versions: SlotVersions;
+  /** The latest download, whoever began it; null where there was none. */
+  readonly download: (DownloadProgress & { readonly isOver: boolean }) | null;
+  /** In their order; resolves when the board has all of them; rejects with what ended it. */
+  store(groups: readonly SlotGroup[]): Promise<void>;
+  /** Calls off the one under way. */
+  cancel(): Promise<void>;
+  jobChanged(job: JobState | null): void;
+  slotsChanged(broken: readonly number[], versions: StateMessage['slotVersions']): void;
   /** The gateway is gone: whoever waits for a download waits in vain, though it may go on. */
   gone(error: LinkError): void;
 }
@@ -26,7 +35,7 @@ interface Waiter {
   readonly reject: (error: LinkError) => void;
 }
 
-/** `begin` gives the nonce of this page's turn to drive; `changed` hears that something of it is another now. */
+/** `begin` gives the nonce of this page's lease; `changed` hears that something of it is another now. */
 export function createGatewaySlots(begin: () => Promise<string>, changed: () => void): GatewaySlots {
   let job: JobState | null = null;
   let broken: readonly number[] = [];
@@ -63,7 +72,10 @@ export function createGatewaySlots(begin: () => Promise<string>, changed: () => 
       return versions;
     },
     get download() {
-      return job && { ...job, isOver: job.status !== 'running' };
+      if (job === null) return null;
+      const { slots, groupsStored, framesStored, frameCount, bytesSent, bytesTotal, remainingMs } = job;
+      const progress = { slots, groupsStored, framesStored, frameCount, bytesSent, bytesTotal, remainingMs };
+      return { ...progress, isOver: job.status !== 'running' };
     },
     async store(groups) {
       const [first = [], ...rest] = portions(groups);
@@ -79,13 +91,13 @@ export function createGatewaySlots(begin: () => Promise<string>, changed: () => 
       if (job?.status !== 'running') return;
       await askGateway(`api/jobs/${job.id}`, { method: 'DELETE', withinMs: TAKEN_WITHIN_MS });
     },
-    told(next) {
+    jobChanged(next) {
       job = next;
       settle();
       changed();
     },
-    toldHeld(nextBroken, told) {
-      const nextVersions = versionsOf(told);
+    slotsChanged(nextBroken, next) {
+      const nextVersions = versionsOf(next);
       const isSame = nextBroken.join() === broken.join() && isAlike(nextVersions, versions);
       if (isSame) return;
       broken = nextBroken;
@@ -121,9 +133,9 @@ function toBody({ slot, frames, replaces, name = '', documentId = null }: SlotGr
   return { ...about, ...(replaces !== undefined && { replaces }), frames: frames.map(frameBody) };
 }
 
-function versionsOf(told: StateMessage['slotVersions']): SlotVersions {
+function versionsOf(slots: StateMessage['slotVersions']): SlotVersions {
   return Object.fromEntries(
-    Object.entries(told).map(([slot, { document, ...stored }]) => [
+    Object.entries(slots).map(([slot, { document, ...stored }]) => [
       slot,
       { ...stored, documentId: document },
     ]),

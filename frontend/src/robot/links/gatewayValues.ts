@@ -1,4 +1,4 @@
-// What the gateway says in its own words, as the session has it, and the other way round. Pure: knows no socket.
+// Values of the gateway's messages as the snapshot has them, and the other way round. Pure: knows no socket.
 
 import type { MotionBefore } from '#shared/motion/before.ts';
 import { isHarmless, type Frame } from '#shared/codec/commands.ts';
@@ -6,10 +6,10 @@ import { FAMILIES, type BoardId } from '#shared/codec/families.ts';
 import { fromHex, toHex } from '#shared/codec/packet.ts';
 import { commandIn } from '#shared/codec/parse.ts';
 import type { Report } from '#shared/codec/reports.ts';
-import type { Battery } from '#shared/robot/battery.ts';
-import type { Identity, SharedBoard } from '#shared/robot/identity.ts';
+import type { Battery } from '#shared/robot/state.ts';
+import type { Identity } from '#shared/robot/identity.ts';
 import { LinkError } from '#shared/robot/linkError.ts';
-import type { SharedLatchReason } from '#shared/robot/transport.ts';
+import type { LatchReason } from '#shared/robot/state.ts';
 import { refusal } from './gatewayHttp.ts';
 import type {
   BatteryMessage,
@@ -23,15 +23,21 @@ import type {
 /** Behind two headers, LEN and CMD. */
 const PARAMS_AT = 4;
 
-export const LATCHED_BY: Readonly<Record<NonNullable<StateMessage['latchedBy']>, SharedLatchReason>> = {
+export const LATCHED_BY: Readonly<Record<NonNullable<StateMessage['latchedBy']>, LatchReason>> = {
   person: 'elsewhere',
   battery: 'battery',
   silence: 'unwatched',
   loss: 'reconnected',
 };
 
+/** What the gateway says of the board on its port; `board` is what it is driven as. */
+export type BoardAtGateway = { readonly board: BoardId; readonly identity: Identity } & (
+  | { readonly status: 'identifying' | 'ready' | 'stale'; readonly error: null }
+  | { readonly status: 'refused'; readonly error: LinkError }
+);
+
 /** null while nothing is known of one: its port is not open. */
-export function boardTold({ board, link, identity }: Omit<StateMessage, 'type'>): SharedBoard | null {
+export function boardOf({ board, link, identity }: Omit<StateMessage, 'type'>): BoardAtGateway | null {
   const { status, code, detail } = link;
   if (status === 'closed' || status === 'opening' || status === 'lost') return null;
   // A newer gateway may know boards that this page does not.
@@ -45,15 +51,15 @@ export function boardTold({ board, link, identity }: Omit<StateMessage, 'type'>)
     : { ...known, status, error: null };
 }
 
-/** Needs nobody's leave. */
+/** Needs no lease. */
 export function isHarmlessPacket(packet: Uint8Array): boolean {
   const command = commandIn(packet);
   return command !== null && isHarmless(command);
 }
 
-export function batteryTold(told: BatteryMessage['battery'], nowMs: number): Battery {
-  if (told.kind !== 'read') return told;
-  return { kind: 'read', batteryMv: told.batteryMv, atMs: nowMs - told.ageMs };
+export function batteryOf(battery: BatteryMessage['battery'], nowMs: number): Battery {
+  if (battery.kind !== 'read') return battery;
+  return { kind: 'read', batteryMv: battery.batteryMv, atMs: nowMs - battery.ageMs };
 }
 
 export function motionBefore({ servos, runSlot, released }: MotionState): MotionBefore {

@@ -1,15 +1,15 @@
-// This page's turn to drive, as the gateway tells it: asks for a lease that nobody has, answers each tick, and keeps the
-// nonce that shows that what is said is of now. Knows no packet. It needs no timer, which a browser would slow down.
+// The lease as the gateway gives it to this page: requests one that nobody has, answers each tick, and keeps the nonce that shows that
+// an intent is of now. Knows no packet. It needs no timer, which a browser would slow down.
 
 import { isWatching, notDriving, type Lease, type Unattended } from '#shared/robot/lease.ts';
 import { LinkError } from '#shared/robot/linkError.ts';
 import type { ClientMessage, LeaseState } from './messages.generated.ts';
 
-export interface Turn {
+export interface Driving {
   readonly lease: Lease | null;
   /** Of the latest tick. */
   readonly nonce: string | null;
-  told(state: LeaseState): void;
+  leaseChanged(state: LeaseState): void;
   /** How many are at the gateway, this page among them, and what goes on without anybody. */
   counted(clients: number, unattended: Unattended | null): void;
   ticked(nonce: string): void;
@@ -17,7 +17,7 @@ export interface Turn {
   begin(withinMs?: number): Promise<void>;
   /** Whoever waits for it waits in vain. */
   fail(error: LinkError): void;
-  /** The gateway is not there any more: what it told is void. */
+  /** The gateway is not there any more: what it said is void. */
   gone(): void;
 }
 
@@ -32,7 +32,7 @@ interface Waiter {
  */
 const FRESH_MS = 300;
 
-export function createTurn(post: (message: ClientMessage) => void, now: () => number): Turn {
+export function createDriving(post: (message: ClientMessage) => void, now: () => number): Driving {
   let lease: Lease | null = null;
   let seen: Pick<Lease, 'others' | 'unattended'> = { others: 0, unattended: null };
   let nonce: string | null = null;
@@ -54,13 +54,13 @@ export function createTurn(post: (message: ClientMessage) => void, now: () => nu
     get nonce() {
       return nonce;
     },
-    told(state) {
+    leaseChanged(state) {
       lease = { ...state, ...seen };
       const wasOurs = nonce !== null;
       if (!state.drives) nonce = null;
       if (isWatching(lease)) fail(notDriving(lease));
       // Whoever waited for the next tick of it: there will be none.
-      else if (wasOurs && !state.drives) fail(new LinkError('expired', 'this page’s turn to drive was over'));
+      else if (wasOurs && !state.drives) fail(new LinkError('expired', 'this page’s lease was over'));
     },
     counted(clients, unattended) {
       seen = { others: clients - 1, unattended };

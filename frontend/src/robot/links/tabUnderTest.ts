@@ -3,10 +3,10 @@
 import { afterEach, beforeEach, expect, vi } from 'vitest';
 import { FAMILIES } from '#shared/codec/families.ts';
 import type { LinkErrorCode } from '#shared/robot/linkError.ts';
-import { createLocalRobot, type Session } from '#shared/robot/robot.ts';
+import { createLocalRobot } from '#shared/robot/localRobot.ts';
+import type { Robot } from '#shared/robot/robot.ts';
 import type { LinkState } from '#shared/robot/state.ts';
 import type { ByteChannel } from '#shared/robot/byteChannel.ts';
-import type { Transport } from '#shared/robot/transport.ts';
 import { browserClock } from './browserClock.ts';
 import { createBrowser, type FakeBrowser, type FakePort } from './serialUnderTest.ts';
 import type { Alarm } from './timerWorker.ts';
@@ -19,7 +19,7 @@ export const BATTERY_REPORT = [0x55, 0x55, 0x04, 0x0f, 0x4c, 0x1d];
 export type Outcome = LinkErrorCode | LinkState['status'];
 
 export interface Tab {
-  readonly session: Session;
+  readonly session: Robot;
   readonly channel: ByteChannel;
   /** What became of the link, oldest first. */
   readonly outcomes: Outcome[];
@@ -65,11 +65,11 @@ export function pass(ms = TOLD_WITHIN_MS): Promise<unknown> {
 
 /** Opens the dashboard and chooses that port. */
 export function openTab({ port }: FakePort): Tab {
-  return openChannel(createWebSerialChannel(port), 'webSerial');
+  return openChannel(createWebSerialChannel(port));
 }
 
-export function openChannel(channel: ByteChannel, kind: Transport['kind']): Tab {
-  const session = createLocalRobot({ channel, kind, family: FAMILIES.doc, clock: browserClock });
+export function openChannel(channel: ByteChannel): Tab {
+  const session = createLocalRobot({ channel, family: FAMILIES.doc, clock: browserClock });
   const tab: Tab = { session, channel, outcomes: [], noise: [] };
   session.subscribe({
     state: () => tab.outcomes.at(-1) !== outcome(tab) && tab.outcomes.push(outcome(tab)),

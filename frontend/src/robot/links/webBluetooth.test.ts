@@ -42,7 +42,7 @@ function useModule(next: FakeModule): void {
   vi.stubGlobal('navigator', { ...it.browser.navigator, bluetooth: fake.bluetooth });
 }
 
-const openTab = (): Tab => openChannel(createWebBluetoothChannel(fake.module), 'webBluetooth');
+const openTab = (): Tab => openChannel(createWebBluetoothChannel(fake.module));
 
 async function openReady(): Promise<Tab> {
   const tab = openTab();

@@ -3,7 +3,8 @@
 import { beforeEach, expect, test, vi } from 'vitest';
 import { FAMILIES, type FamilyId } from '#shared/codec/families.ts';
 import { commandIn } from '#shared/codec/parse.ts';
-import { createLocalRobot, type Session } from '#shared/robot/robot.ts';
+import { createLocalRobot } from '#shared/robot/localRobot.ts';
+import type { Robot } from '#shared/robot/robot.ts';
 import { browserClock } from './browserClock.ts';
 import { createHid, type FakeBoard, type FakeHid } from './hidUnderTest.ts';
 import { BATTERY_REPORT, freshBrowser, pass } from './tabUnderTest.ts';
@@ -19,7 +20,7 @@ beforeEach(() => {
 });
 
 interface Link {
-  readonly robot: Session;
+  readonly robot: Robot;
   /** Noise of the log, in bytes. */
   readonly noise: number[];
   status(): string;
@@ -28,7 +29,7 @@ interface Link {
 function connect(board: FakeBoard, family: FamilyId = 'doc'): Link {
   const channel = createWebHidChannel(board.device);
   const robot = createLocalRobot({
-    ...{ channel, kind: 'webHid', withheld: HID_WITHHELD },
+    ...{ channel, withheld: HID_WITHHELD },
     ...{ family: FAMILIES[family], clock: browserClock },
   });
   const noise: number[] = [];

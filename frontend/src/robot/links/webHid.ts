@@ -4,7 +4,7 @@
 import type { ByteChannel } from '#shared/robot/byteChannel.ts';
 import { REPORT_BYTES } from '#shared/robot/hidReports.ts';
 import { LinkError, type LinkErrorCode } from '#shared/robot/linkError.ts';
-import type { Withheld } from '#shared/robot/transport.ts';
+import type { Withheld } from '#shared/robot/state.ts';
 import { createDeviceFinder } from './deviceFinder.ts';
 import { openBoard } from './hidConnection.ts';
 import { nameOf } from './serialPorts.ts';

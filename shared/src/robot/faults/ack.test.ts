@@ -6,10 +6,10 @@ import type { Clock } from '../../clock.ts';
 import type { Frame } from '../../codec/commands.ts';
 import { family } from '../../codec/families.ts';
 import { createRandom } from '../../simulator/random.ts';
-import { createSimulatedTransport } from '../../testing/simulatedTransport.ts';
+import { createSimulatedChannel } from '../../simulator/channel.ts';
 import { createVirtualClock } from '../../testing/virtualClock.ts';
-import { createSession } from '../robot.ts';
-import type { Transport } from '../transport.ts';
+import { createLocalRobot } from '../localRobot.ts';
+import type { ByteChannel } from '../byteChannel.ts';
 import { caseOf, named, seeds } from './amount.ts';
 
 const FILE = 'ack.test.ts';
@@ -44,55 +44,48 @@ function circumstancesOf(round: number): Circumstances {
   };
 }
 
-/** Does to each acknowledgement what its fate says. */
+/** Does to each acknowledgement what its fate says; takes whole packets, so that a fate strikes one at a time. */
 function withFates(
-  transport: Transport,
+  channel: ByteChannel,
   clock: Clock,
   { lateMs, doubledAfterMs }: Circumstances,
   nextFate: () => Fate,
-): Transport {
-  return {
-    ...transport,
-    open: (events) =>
-      transport.open({
-        ...events,
-        received(bytes) {
-          const fate = bytes.at(-1) === ACK_COMMAND ? nextFate() : 'kept';
-          const pass = (): void => events.received(bytes);
-          if (fate === 'foreign') events.received(FOREIGN);
-          if (fate === 'late') clock.after(lateMs, pass);
-          else if (fate !== 'lost') pass();
-          if (fate === 'doubled') clock.after(doubledAfterMs, pass);
-        },
-      }),
-  };
-}
-
-/** Whole packets, so that a fate strikes one at a time. */
-function gathered(transport: Transport): Transport {
+): ByteChannel {
   let packet: number[] = [];
-  return {
-    ...transport,
-    open: (events) =>
-      transport.open({
-        ...events,
+
+  function strike(bytes: Uint8Array): void {
+    const fate = bytes.at(-1) === ACK_COMMAND ? nextFate() : 'kept';
+    const pass = (): void => struck.events?.received(bytes);
+    if (fate === 'foreign') struck.events?.received(FOREIGN);
+    if (fate === 'late') clock.after(lateMs, pass);
+    else if (fate !== 'lost') pass();
+    if (fate === 'doubled') clock.after(doubledAfterMs, pass);
+  }
+
+  const struck: ByteChannel = {
+    ...channel,
+    open(options) {
+      channel.events = struck.events && {
+        ...struck.events,
         received(bytes) {
           packet.push(...bytes);
-          for (; packet.length >= 4; packet = packet.slice(4))
-            events.received(Uint8Array.from(packet.slice(0, 4)));
+          for (; packet.length >= 4; packet = packet.slice(4)) strike(Uint8Array.from(packet.slice(0, 4)));
         },
-      }),
+      };
+      return channel.open(options);
+    },
   };
+  return struck;
 }
 
 /** Gives how many acknowledgements the board sent. */
 async function storeUnder(fates: readonly Fate[], circumstances: Circumstances): Promise<number> {
   const { slot, frames } = circumstances;
   const clock = createVirtualClock();
-  const simulated = createSimulatedTransport(clock, { onForMs: 60_000 });
+  const simulated = createSimulatedChannel(clock, { onForMs: 60_000 });
   let acks = 0;
-  const transport = withFates(gathered(simulated), clock, circumstances, () => fates[acks++] ?? 'kept');
-  const session = createSession({ transport, family: family('doc'), clock });
+  const channel = withFates(simulated, clock, circumstances, () => fates[acks++] ?? 'kept');
+  const session = createLocalRobot({ channel, isNew: true, family: family('doc'), clock });
   await session.open();
   let outcome: unknown = 'hangs';
   /** What the board had committed when the session said so, not some time later. */

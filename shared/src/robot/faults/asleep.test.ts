@@ -96,7 +96,7 @@ describe('and what does not depend on the computer goes on', () => {
     await rig.clock.advance(10_000);
     await stored;
     expect(rig.session.state.brokenSlots).toEqual([]);
-    expect(rig.transport.board.frameCount(1)).toBe(FRAMES.length);
+    expect(rig.channel.board.frameCount(1)).toBe(FRAMES.length);
   });
 
   test('a person is told what became of it, once', async () => {

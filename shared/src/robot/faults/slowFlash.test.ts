@@ -47,7 +47,7 @@ async function erase(sectorMs: number): Promise<void> {
 }
 
 async function store(sectorMs: number): Promise<void> {
-  const { session, clock, transport } = await slow(sectorMs);
+  const { session, clock, channel } = await slow(sectorMs);
   let outcome: unknown = 'hangs';
   session.download([{ slot: SLOT, frames: FRAMES }]).then(
     () => (outcome = 'stored'),
@@ -57,7 +57,7 @@ async function store(sectorMs: number): Promise<void> {
   await clock.advance(120_000);
   if (sectorMs <= 600) expect(outcome).toBe('stored');
   if (outcome === 'stored')
-    expect(FRAMES.map((_, at) => transport.board.storedFrame(SLOT, at))).toEqual(FRAMES);
+    expect(FRAMES.map((_, at) => channel.board.storedFrame(SLOT, at))).toEqual(FRAMES);
   else expect([outcome, session.state.brokenSlots]).toEqual(['noAnswer', [SLOT]]);
 }
 
@@ -91,7 +91,7 @@ async function stopBehindRun(seed: number): Promise<number> {
   const sectorMs = random() * LONGEST_SECTOR_MS;
   const flash = await chipWithGroup();
   const rig = await createRig({ flash, faults: [{ name: 'slowErase', sectorMs }] });
-  const { session, clock, transport } = rig;
+  const { session, clock, channel } = rig;
   const stored = session.download([{ slot: SLOT, frames: FRAMES }]).catch(() => undefined);
   await clock.advance(random() * 1_000);
   await Promise.all([session.cancelDownload(), stored, clock.advance(3_000)]);
@@ -99,7 +99,7 @@ async function stopBehindRun(seed: number): Promise<number> {
   await clock.advance(random() * 60);
   session.halt().catch(() => undefined);
   await clock.advance(5 * LONGEST_SECTOR_MS);
-  expect(transport.board.runningSlot()).toBeNull();
+  expect(channel.board.runningSlot()).toBeNull();
   return rig.ofKind('stop').length;
 }
 
@@ -108,7 +108,7 @@ test('a download stores what was asked or ends with a name', () => eachPace(stor
 test('STOP is served while the chip is at work', () => eachPace(stopWhileStoring));
 
 test('a download after an interrupted one does not take its late answer for its own', async () => {
-  const { session, clock, transport } = await slow(400);
+  const { session, clock, channel } = await slow(400);
   session.download([{ slot: SLOT, frames: FRAMES }]).catch(() => undefined);
   await clock.advance(35);
   await Promise.all([session.halt(), clock.advance(200)]);
@@ -116,7 +116,7 @@ test('a download after an interrupted one does not take its late answer for its 
   const again = session.download([{ slot: SLOT, frames: FRAMES }]);
   await clock.advance(30_000);
   await again;
-  expect(FRAMES.map((_, at) => transport.board.storedFrame(SLOT, at))).toEqual(FRAMES);
+  expect(FRAMES.map((_, at) => channel.board.storedFrame(SLOT, at))).toEqual(FRAMES);
 });
 
 test('STOP ends also a run that the board kept while its chip was at work', async () => {

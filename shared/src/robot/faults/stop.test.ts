@@ -62,8 +62,8 @@ const STATES: Readonly<Record<string, (rig: Rig) => Promise<number>>> = {
     await download(rig);
     rig.session.run(SLOT, 0).catch(ignore);
     await rig.clock.advance(300);
-    rig.transport.unplug();
-    rig.clock.after(200, rig.transport.plugIn);
+    rig.channel.unplug();
+    rig.clock.after(200, rig.channel.plugIn);
     return 500;
   },
 };
@@ -84,7 +84,7 @@ function expectOnlyStopAndHold(rig: Rig, heard: readonly HeardCommand[]): void {
   const holds = heard.flatMap(({ command }) => (command.kind === 'move' ? [command] : []));
   expect(holds.length).toBeLessThanOrEqual(2);
   for (const { targets } of holds) for (const { servo } of targets) expect(SERVOS).toContain(servo);
-  expect(rig.transport.board.runningSlot()).toBeNull();
+  expect(rig.channel.board.runningSlot()).toBeNull();
 }
 
 /** Everything a person or a forgotten timer might do next. */

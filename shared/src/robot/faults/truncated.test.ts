@@ -33,7 +33,7 @@ async function runningRig(): Promise<Rig> {
   await stored;
   void session.run(5, 0);
   await clock.advance(500);
-  expect(rig.transport.board.runningSlot()).toBe(5);
+  expect(rig.channel.board.runningSlot()).toBe(5);
   return rig;
 }
 
@@ -58,7 +58,7 @@ function circumstancesOf(round: number): Circumstances {
 
 /** Byte `cut` of the move is the first that does not arrive; then the cable comes back. */
 async function cutAndReturn(
-  { session, clock, transport }: Rig,
+  { session, clock, channel }: Rig,
   servoCount: number,
   cut: number,
   { wanted, durationMs, partOfByte, pulledForMs }: Circumstances,
@@ -66,9 +66,9 @@ async function cutAndReturn(
   const targets = Array.from({ length: servoCount }, (_, at) => ({ servo: at + 1, position: wanted }));
   session.move(targets, durationMs);
   await clock.advance(wireMs(cut + partOfByte));
-  transport.unplug();
+  channel.unplug();
   await clock.advance(pulledForMs);
-  transport.plugIn();
+  channel.plugIn();
   await clock.advance(1);
   expect(session.state.link.status).toBe('ready');
 }
@@ -79,7 +79,7 @@ async function cutMove(servoCount: number, cut: number, circumstances: Circumsta
   const rig = await runningRig();
   await cutAndReturn(rig, servoCount, cut, circumstances);
   await rig.clock.advance(600);
-  const { board } = rig.transport;
+  const { board } = rig.channel;
   expect(board.runningSlot()).toBeNull();
   for (let servo = 1; servo <= SERVOS; servo += 1)
     if (servo > servoCount || !arrivedWhole(servo, cut)) expect(board.target(servo)).toBe(REST);

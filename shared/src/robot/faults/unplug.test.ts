@@ -6,10 +6,10 @@ import type { Frame } from '../../codec/commands.ts';
 import { family } from '../../codec/families.ts';
 import { wireMs } from '../../codec/packet.ts';
 import { createRandom } from '../../simulator/random.ts';
-import { createSimulatedTransport } from '../../testing/simulatedTransport.ts';
+import { createSimulatedChannel } from '../../simulator/channel.ts';
 import { createVirtualClock } from '../../testing/virtualClock.ts';
 import { LinkError } from '../linkError.ts';
-import { createSession } from '../robot.ts';
+import { createLocalRobot } from '../localRobot.ts';
 import { caseOf, named, seeds } from './amount.ts';
 
 const FILE = 'unplug.test.ts';
@@ -66,8 +66,8 @@ const beginsMs = (packetMs: number, at: number): number =>
 
 async function pullAt({ slot, frames, packetMs }: Group, frameIndex: number, afterMs: number): Promise<void> {
   const clock = createVirtualClock();
-  const transport = createSimulatedTransport(clock, { onForMs: 60_000 });
-  const session = createSession({ transport, family: family('doc'), clock });
+  const channel = createSimulatedChannel(clock, { onForMs: 60_000 });
+  const session = createLocalRobot({ channel, isNew: true, family: family('doc'), clock });
   await session.open();
   let acknowledged = 0;
   session.subscribe({
@@ -79,13 +79,13 @@ async function pullAt({ slot, frames, packetMs }: Group, frameIndex: number, aft
     (error: unknown) => (outcome = error instanceof LinkError ? error.code : error),
   );
   await clock.advance(beginsMs(packetMs, frameIndex) + afterMs);
-  transport.unplug();
+  channel.unplug();
   await clock.advance(200);
 
   expect(session.state.link.status).toBe('lost');
   expect(session.state.activity).toEqual({ kind: 'idle' });
   const kept = frames.slice(0, acknowledged);
-  expect(kept.map((_, at) => transport.board.storedFrame(slot, at))).toEqual(kept);
+  expect(kept.map((_, at) => channel.board.storedFrame(slot, at))).toEqual(kept);
   expect(Math.abs(acknowledged - frameIndex)).toBeLessThanOrEqual(1);
   if (acknowledged === FRAME_COUNT) {
     expect([outcome, session.state.brokenSlots]).toEqual(['stored', []]);
@@ -95,12 +95,12 @@ async function pullAt({ slot, frames, packetMs }: Group, frameIndex: number, aft
   expect(['lost', 'latched']).toContain(outcome);
   expect(session.state.brokenSlots).toEqual([slot]);
 
-  transport.plugIn();
+  channel.plugIn();
   await clock.advance(700);
   await session.resume();
   await expect(session.run(slot, 1)).rejects.toMatchObject({ code: 'slotBroken' });
   await clock.advance(100);
-  expect(transport.board.runningSlot()).toBeNull();
+  expect(channel.board.runningSlot()).toBeNull();
 }
 
 test.each(Object.entries(MOMENTS))(

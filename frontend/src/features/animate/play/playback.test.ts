@@ -206,7 +206,7 @@ describe('playing from the page', () => {
 
   test('sends what compile says: an eased way is as near as the bound', async () => {
     const group = groupOf(frame(400, 1000), frame(1200, 2000, { easing: 'inOut' }));
-    const { playback, draw, transport, compiled, document, clock, heard } = await pageWith(group);
+    const { playback, draw, channel, compiled, document, clock, heard } = await pageWith(group);
     document.edit(
       () => 'error',
       (now) => setMeta(now, { maxErrorUnits: 8 }),
@@ -218,7 +218,7 @@ describe('playing from the page', () => {
     for (let passed = 0; passed < 1150; passed += 20) {
       const wanted = positionAt(track!, 400 + clock.now() - begunMs) ?? NaN;
       // The bound, and what the servo does in the board's tick.
-      expect(Math.abs(transport.board.pulse(1) - wanted)).toBeLessThanOrEqual(8 + 35);
+      expect(Math.abs(channel.board.pulse(1) - wanted)).toBeLessThanOrEqual(8 + 35);
       await draw(20);
     }
     expect(compiled.now().frames.length).toBeGreaterThan(4);
@@ -347,23 +347,23 @@ describe('the playhead', () => {
 
 describe('the robot that follows', () => {
   test('goes gently to the pose at the playhead, then along with it and with each edit', async () => {
-    const { playback, playhead, document, draw, moves, transport } = await pageWith(WAVE);
+    const { playback, playhead, document, draw, moves, channel } = await pageWith(WAVE);
     playhead.go(400);
     playback.set({ isLive: true });
     await draw(1700);
     expect(moves()[0]).toMatchObject({ durationMs: 1500, targets: [{ servo: 1, position: 1000 }] });
     playhead.go(800);
     await draw(700);
-    expect(transport.board.target(1)).toBe(1600);
+    expect(channel.board.target(1)).toBe(1600);
     document.edit(
       () => 'change',
       () => groupOf(frame(400, 1000), frame(400, 1700)),
     );
     await draw(500);
-    expect(transport.board.target(1)).toBe(1700);
+    expect(channel.board.target(1)).toBe(1700);
     document.undo();
     await draw(500);
-    expect(transport.board.target(1)).toBe(1600);
+    expect(channel.board.target(1)).toBe(1600);
   });
 
   test('moves nothing once STOP was pressed, and not again after Resume', async () => {
@@ -516,10 +516,11 @@ describe('playing on the board', () => {
     });
 
     test('asks again where somebody else has stored something there meanwhile, and before', async () => {
-      const { sharedSlots, othersStore, asked: stored } = createSharedSlots();
-      const { playback, replacing, draw, asked, phase } = await pageWithAnother('Bow', { sharedSlots });
-      // Of a board that holds nothing only the clock tells when a run is over.
-      await draw(6000);
+      const { share, othersStore, asked: stored } = createSharedSlots();
+      const { device, playback, replacing, draw, asked, phase } = await pageWithAnother('Bow', { share });
+      // A board that holds nothing never says that a run is over.
+      device.stopGroup();
+      await draw(1000);
       expect(phase()).toBeNull();
       playback.runOnBoard();
       expect(asked()).toMatchObject({ slot: 21, record: { name: 'Wave' } });

@@ -79,8 +79,8 @@ test('an erase takes the group off the board, not its slot from the group', asyn
 });
 
 test('what others have stored is not free', async () => {
-  const { sharedSlots, othersStore } = createSharedSlots({ 21: storedGroup({ version: 'of Bert' }) });
-  const { slot } = await openTestPage(new Map(), { sharedSlots });
+  const { share, othersStore } = createSharedSlots({ 21: storedGroup({ version: 'of Bert' }) });
+  const { slot } = await openTestPage(new Map(), { share });
   expect(slot()).toBe(22);
   othersStore(22, { version: 'of Bert' });
   expect(slot()).toBe(23);

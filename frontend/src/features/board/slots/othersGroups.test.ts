@@ -21,7 +21,7 @@ const groupAt = (...positions: readonly number[]): ActionGroup =>
 
 async function openTestPage() {
   const gateway = createSharedSlots();
-  const page = await createTestPage(new Map(), { way: WAY, sharedSlots: gateway.sharedSlots });
+  const page = await createTestPage(new Map(), { way: WAY, share: gateway.share });
   const { device, robots, compiled, slots } = page;
   const documentStore = createMemoryStore();
   const store = createStore<LibraryState>(() => ({

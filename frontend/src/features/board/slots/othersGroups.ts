@@ -4,7 +4,7 @@
 import { groupFromText } from '#shared/group/group.ts';
 import type { DocumentStore } from '#shared/files/documentStore.ts';
 import { recordOf } from '#shared/group/slotBook.ts';
-import type { StoredGroup } from '#shared/robot/transport.ts';
+import type { StoredGroup } from '#shared/robot/state.ts';
 import type { Device } from '../../../robot/device.ts';
 import type { CompiledStore } from '../../animate/group/compiled.ts';
 import type { Library } from '../../library/library.ts';

@@ -2,35 +2,68 @@
 
 import { fingerprintOf } from '#shared/group/fingerprint.ts';
 import { LinkError } from '#shared/robot/linkError.ts';
+import type { Robot } from '#shared/robot/robot.ts';
 import type {
-  SharedDownload,
-  SharedSlots,
+  SessionEvents,
+  SessionState,
   SlotGroup,
   SlotVersions,
   StoredGroup,
-} from '#shared/robot/transport.ts';
+} from '#shared/robot/state.ts';
+
+type SlotState = Pick<SessionState, 'slotVersions' | 'storedSlots' | 'lastDownload'>;
 
 export function createSharedSlots(before: SlotVersions = {}) {
   let versions = before;
-  let download: SharedDownload | null = null;
   let changed = (): void => undefined;
   const asked: SlotGroup[] = [];
 
-  function store(groups: readonly SlotGroup[]): Promise<void> {
-    asked.push(...groups);
-    if (groups.some(({ slot, replaces }) => replaces !== (versions[slot]?.version ?? '')))
-      return Promise.reject(new LinkError('slotChanged', 'something else is there'));
-    versions = { ...versions, ...Object.fromEntries(groups.map(stored)) };
-    download = {
-      ...{ slots: groups.map(({ slot }) => slot), groupsStored: groups.length, isOver: true },
-      ...{ framesStored: 0, frameCount: 0, bytesSent: 0, bytesTotal: 0, remainingMs: 0 },
+  /** The robot, with the gateway's slots in place of its own. */
+  function share(robot: Robot): Robot {
+    let seen: SlotState = { slotVersions: versions, storedSlots: [], lastDownload: null };
+    const listeners = new Set<Partial<SessionEvents>>();
+    const withSlots = (state: SessionState): SessionState => ({ ...state, ...seen });
+
+    function show(patch: Partial<SlotState> = {}): void {
+      seen = { ...seen, slotVersions: versions, ...patch };
+      for (const listener of listeners) listener.state?.(withSlots(robot.state));
+    }
+
+    function download(groups: readonly SlotGroup[]): Promise<void> {
+      asked.push(...groups);
+      if (groups.some(({ slot, replaces }) => replaces !== (versions[slot]?.version ?? '')))
+        return Promise.reject(new LinkError('slotChanged', 'something else is there'));
+      versions = { ...versions, ...Object.fromEntries(groups.map(stored)) };
+      const slots = groups.map(({ slot }) => slot);
+      show({
+        lastDownload: { slots, groupsStored: groups.length },
+        storedSlots: [...new Set([...seen.storedSlots, ...slots])].sort((a, b) => a - b),
+      });
+      return Promise.resolve();
+    }
+
+    changed = show;
+    const shared: Partial<PropertyDescriptorMap> = { state: { get: () => withSlots(robot.state) } };
+    const sharing: Robot = {
+      ...robot,
+      download,
+      cancelDownload: () => Promise.resolve(),
+      subscribe(listener) {
+        listeners.add(listener);
+        const { state, ...others } = listener;
+        const end = robot.subscribe({ ...others, ...(state && { state: (next) => state(withSlots(next)) }) });
+        return () => {
+          listeners.delete(listener);
+          end();
+        };
+      },
     };
-    changed();
-    return Promise.resolve();
+    return Object.defineProperties(sharing, shared as PropertyDescriptorMap);
   }
 
   return {
     asked,
+    share,
     versions: () => versions,
     /** Told at once, or only to who comes later. */
     othersStore(slot: number, stored: Partial<StoredGroup>, isReported = true) {
@@ -40,20 +73,6 @@ export function createSharedSlots(before: SlotVersions = {}) {
     othersErase() {
       versions = {};
       changed();
-    },
-    sharedSlots(next: () => void): SharedSlots {
-      changed = next;
-      return {
-        broken: [],
-        get versions() {
-          return versions;
-        },
-        get download() {
-          return download;
-        },
-        store,
-        cancel: () => Promise.resolve(),
-      };
     },
   };
 }

@@ -20,7 +20,7 @@ async function openTestPage(...args: Parameters<typeof createTestPage>) {
 
 describe('the slots of a board', () => {
   test('several groups are downloaded one after the other with one progress', async () => {
-    const { slots, device, stored, draw, noticeTexts, transport } = await openTestPage();
+    const { slots, device, stored, draw, noticeTexts, channel } = await openTestPage();
     const heard: boolean[] = [];
     const activity = () => device.store.getState().snapshot.activity;
     slots.download([WAVE, BOW], (isDone) => void heard.push(isDone));
@@ -32,7 +32,7 @@ describe('the slots of a board', () => {
     expect(noticeTexts()).toEqual([downloadedSentence([5, 9])]);
     expect(heard).toEqual([true]);
     expect(stored()).toEqual(['5 Wave', '9 Bow']);
-    expect(transport.board.frameCount(9)).toBe(2);
+    expect(channel.board.frameCount(9)).toBe(2);
   });
 
   test('what is called off ends the others too, and is not in the book', async () => {
@@ -63,7 +63,7 @@ describe('the slots of a board', () => {
   });
 
   test('called off in its last frame, a group is whole, and the next one is not begun', async () => {
-    const { slots, stored, draw, noticeTexts, transport } = await openTestPage();
+    const { slots, stored, draw, noticeTexts, channel } = await openTestPage();
     const heard: boolean[] = [];
     slots.download([WAVE, BOW], (isDone) => void heard.push(isDone));
     await draw(40);
@@ -72,34 +72,34 @@ describe('the slots of a board', () => {
     expect(heard).toEqual([false]);
     expect(stored()).toEqual(['5 Wave']);
     expect(noticeTexts()).toEqual([downloadCancelled(null)]);
-    expect(transport.board.frameCount(9)).toBe(0);
+    expect(channel.board.frameCount(9)).toBe(0);
   });
 
   test('STOP ends them', async () => {
-    const { slots, device, state, draw, transport } = await openTestPage();
+    const { slots, device, state, draw, channel } = await openTestPage();
     slots.download([WAVE, BOW]);
     await draw(40);
     device.halt();
     await draw(4000);
     expect(device.store.getState().snapshot.brokenSlots).toEqual([5]);
     expect(state().book.begun).toEqual([]);
-    expect(transport.board.frameCount(9)).toBe(0);
+    expect(channel.board.frameCount(9)).toBe(0);
   });
 
   test('an erase leaves every slot empty, and what it took comes back', async () => {
-    const { slots, state, stored, draw, transport } = await openTestPage();
+    const { slots, state, stored, draw, channel } = await openTestPage();
     slots.download([WAVE, BOW]);
     await draw(4000);
     slots.erase();
     await draw(1000);
     expect(stored()).toEqual([]);
     expect(state().book.isEmptied).toBe(true);
-    expect(transport.board.frameCount(5)).toBe(0);
+    expect(channel.board.frameCount(5)).toBe(0);
     slots.restoreAll();
     await draw(4000);
     expect(stored()).toEqual(['5 Wave', '9 Bow']);
     expect(state().book.erased).toEqual([]);
-    expect(transport.board.storedFrame(9, 1)).toEqual(BOW.frames[1]);
+    expect(channel.board.storedFrame(9, 1)).toEqual(BOW.frames[1]);
   });
 
   test('after an erase that the board did not answer nobody knows what is left', async () => {
@@ -185,18 +185,18 @@ describe('the slots of a board', () => {
     const texts = new Map<string, string>();
     const gateway = createSharedSlots();
     const way: Way = { kind: 'gateway', label: '/dev/board', isSimulated: false };
-    const { sharedSlots, othersStore } = gateway;
-    const first = await openTestPage(texts, { way, sharedSlots });
+    const { share, othersStore } = gateway;
+    const first = await openTestPage(texts, { way, share });
     first.slots.download([WAVE, BOW]);
     await first.draw(100);
     expect(first.stored()).toEqual(['5 Wave', '9 Bow']);
     othersStore(5, { version: 'of Bert' }, false);
-    expect((await openTestPage(texts, { way, sharedSlots })).stored()).toEqual(['9 Bow']);
+    expect((await openTestPage(texts, { way, share })).stored()).toEqual(['9 Bow']);
   });
 
   test('what somebody else stores while it looks on does so at once, what one has seen is told with a download', async () => {
-    const { sharedSlots, othersStore, asked } = createSharedSlots({ 5: storedGroup({ version: 'of Bert' }) });
-    const { slots, stored, draw, noticeTexts } = await openTestPage(new Map(), { way: USB, sharedSlots });
+    const { share, othersStore, asked } = createSharedSlots({ 5: storedGroup({ version: 'of Bert' }) });
+    const { slots, stored, draw, noticeTexts } = await openTestPage(new Map(), { way: USB, share });
     slots.download([WAVE, BOW]);
     await draw(100);
     expect(asked.map(({ slot, replaces }) => [slot, replaces])).toEqual([

@@ -15,7 +15,7 @@ import {
   type SlotBook,
   type SlotRecord,
 } from '#shared/group/slotBook.ts';
-import type { SlotGroup } from '#shared/robot/transport.ts';
+import type { SlotGroup } from '#shared/robot/state.ts';
 import { downloadedSentence, downloadCancelled } from '../../../i18n/sentences.ts';
 import { words } from '../../../i18n/words.ts';
 import { nameOf } from '../../../robot/boards.ts';

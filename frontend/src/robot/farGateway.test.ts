@@ -2,20 +2,22 @@
 // lost, said late or left behind a stop. In the gateway's place stands a session of its own, which does with moves what it does.
 
 import fc from 'fast-check';
-import { expect, test } from 'vitest';
-import { sleep, type Clock } from '#shared/clock.ts';
+import { afterEach, expect, test, vi } from 'vitest';
 import { family as familyOf } from '#shared/codec/families.ts';
 import { wireMs } from '#shared/codec/packet.ts';
 import { TIMES } from '#shared/robot/faults/amount.ts';
 import { LinkError } from '#shared/robot/linkError.ts';
+import { createLocalRobot } from '#shared/robot/localRobot.ts';
 import { firstMovesMs } from '#shared/robot/rig.ts';
-import { createSession } from '#shared/robot/robot.ts';
 import type { Traffic } from '#shared/robot/state.ts';
-import type { Transport, TransportEvents } from '#shared/robot/transport.ts';
-import { createSimulatedTransport, type SimulatedTransport } from '#shared/testing/simulatedTransport.ts';
-import { createVirtualClock } from '#shared/testing/virtualClock.ts';
-import { createGatewayMoves, HAND_OVER_MS } from './gatewayMoves.ts';
-import type { ClientMessage } from './messages.generated.ts';
+import { createSimulatedChannel, type SimulatedChannel } from '#shared/simulator/channel.ts';
+import { createVirtualClock, type VirtualClock } from '#shared/testing/virtualClock.ts';
+import { createGateway } from './gatewayUnderTest.ts';
+import { HAND_OVER_MS } from './links/gatewayMoves.ts';
+import { compactHex } from './links/gatewayValues.ts';
+import type { ClientMessage, GatewayMessage } from './links/messages.generated.ts';
+
+afterEach(() => void vi.unstubAllGlobals());
 
 const GAP_MS = familyOf('doc').serviceGapMs;
 const POINTER_MS = 4;
@@ -27,15 +29,17 @@ interface Left {
 }
 
 /** So many milliseconds away each way. */
-function farGateway(clock: Clock, delayMs: number, line: SimulatedTransport) {
+async function farGateway(clock: VirtualClock, delayMs: number, line: SimulatedChannel) {
   const left: Left[] = [];
-  const there = createSession({ transport: line, clock, family: familyOf('doc') });
-  let events: TransportEvents | null = null;
-  const later = (run: () => void): void => void clock.after(delayMs, run);
+  const there = createLocalRobot({ channel: line, isNew: true, clock, family: familyOf('doc') });
+  await there.open();
+  const say = (message: unknown): void => gateway.say(message as GatewayMessage);
 
   function seen(entry: Traffic): void {
-    if (entry.direction === 'in')
-      return later(() => 'report' in entry && events?.heard?.(entry.report, entry.bytes));
+    if (entry.direction === 'in') {
+      if ('report' in entry) say({ type: 'received', report: entry.report, bytes: compactHex(entry.bytes) });
+      return;
+    }
     const { command } = entry;
     if (command?.kind === 'move')
       left.push({
@@ -43,58 +47,49 @@ function farGateway(clock: Clock, delayMs: number, line: SimulatedTransport) {
         targets: new Map(command.targets.map(({ servo, position }) => [servo, position])),
       });
     // Told when its last bit has left.
-    clock.after(wireMs(entry.bytes.length) + delayMs, () => command && events?.left?.(command));
+    clock.after(wireMs(entry.bytes.length), () => command && say({ type: 'left', commands: [command] }));
   }
 
-  there.subscribe({
-    traffic: seen,
-    problem: (error) => later(() => events?.moveFailed?.(error)),
-    state: ({ waitingToStart }) => later(() => events?.waiting?.(waitingToStart)),
-  });
-
   function arrived(message: ClientMessage): void {
-    if (message.type !== 'move') throw new TypeError(message.type);
-    try {
-      there.move(message.targets, message.durationMs);
-    } catch (error) {
-      if (error instanceof LinkError) later(() => moves.refused(message.id, error));
-      else throw error;
+    const refuse = (error: unknown): void => {
+      if (!(error instanceof LinkError)) throw error;
+      if ('id' in message) say({ type: 'refused', id: message.id, code: error.code, detail: error.message });
+    };
+    if (message.type === 'stop') void there.halt().then(() => say({ type: 'halted', unheld: null }));
+    else if (message.type === 'play') {
+      const frames = message.frames.map(({ durationMs, positions }) => ({
+        durationMs,
+        targets: Object.entries(positions).map(([servo, position]) => ({ servo: Number(servo), position })),
+      }));
+      void there.play(frames).catch(refuse);
+    } else if (message.type === 'move') {
+      try {
+        there.move(message.targets, message.durationMs);
+      } catch (error) {
+        refuse(error);
+      }
     }
   }
 
-  let lastId = 0;
-  const moves = createGatewayMoves({
-    clock,
-    begin: () => Promise.resolve('1-1'),
-    nextId: () => (lastId += 1),
-    post: (message) => later(() => arrived(message)),
-    failed: (error) => events?.moveFailed?.(error),
+  let waiting = '';
+  there.subscribe({
+    traffic: seen,
+    state({ waitingToStart }) {
+      if (waitingToStart.join() === waiting) return;
+      waiting = waitingToStart.join();
+      gateway.state({ waitingToStart: [...waitingToStart] });
+    },
   });
-  const transport: Transport = {
-    ...{ kind: 'gateway', label: 'far away', isSimulated: true, longestPacket: Infinity, moves },
-    async open(heard) {
-      await there.open();
-      events = heard;
-    },
-    send: () => Promise.reject(new TypeError('nothing but moves is sent here')),
-    async halt() {
-      await sleep(clock, delayMs);
-      await there.halt();
-      await sleep(clock, delayMs);
-    },
-    close: () => there.close(),
-  };
-  return { transport, left };
+  const gateway = await createGateway({ clock, delayMs, arrived });
+  return { session: gateway.robot, posted: gateway.posted, left };
 }
 
 async function farSession(delayMs: number, servoCount: number) {
   const clock = createVirtualClock();
-  const line = createSimulatedTransport(clock, { servoCount, onForMs: 60_000 });
-  const gateway = farGateway(clock, delayMs, line);
+  const line = createSimulatedChannel(clock, { servoCount, onForMs: 60_000 });
+  const { session, posted, left } = await farGateway(clock, delayMs, line);
   const problems: string[] = [];
-  const session = createSession({ transport: gateway.transport, clock, family: familyOf('doc') });
   session.subscribe({ problem: ({ code }) => problems.push(code) });
-  await session.open();
   const servos = Array.from({ length: servoCount }, (_, index) => index + 1);
   const move = (position: number, only = servos): void =>
     session.move(
@@ -102,9 +97,9 @@ async function farSession(delayMs: number, servoCount: number) {
       0,
     );
   move(500);
-  await clock.advance(firstMovesMs(servoCount));
-  gateway.left.length = 0;
-  return { ...gateway, clock, line, session, move, problems };
+  await clock.advance(firstMovesMs(servoCount) + 4 * delayMs);
+  left.length = 0;
+  return { clock, left, posted, line, session, move, problems };
 }
 
 test.each([0, 5, 20, 50].flatMap((delayMs) => [6, 32].map((servoCount) => [delayMs, servoCount] as const)))(
@@ -131,10 +126,8 @@ test.each([0, 5, 20, 50].flatMap((delayMs) => [6, 32].map((servoCount) => [delay
 
 test('a first move is slow and waits for nobody, however many moves follow it', async () => {
   const clock = createVirtualClock();
-  const line = createSimulatedTransport(clock, { servoCount: 6, onForMs: 60_000 });
-  const { transport, left } = farGateway(clock, 50, line);
-  const session = createSession({ transport, clock, family: familyOf('doc') });
-  await session.open();
+  const line = createSimulatedChannel(clock, { servoCount: 6, onForMs: 60_000 });
+  const { session, left } = await farGateway(clock, 50, line);
   for (let event = 0; event < 100; event += 1) {
     session.move([{ servo: 1, position: 1_000 + event }], 0);
     await clock.advance(POINTER_MS);
@@ -148,10 +141,8 @@ test('a first move is slow and waits for nobody, however many moves follow it', 
 
 test('servos of unknown place start one after another, and the page hears who waits', async () => {
   const clock = createVirtualClock();
-  const line = createSimulatedTransport(clock, { servoCount: 6, onForMs: 60_000 });
-  const { transport, left } = farGateway(clock, 20, line);
-  const session = createSession({ transport, clock, family: familyOf('doc') });
-  await session.open();
+  const line = createSimulatedChannel(clock, { servoCount: 6, onForMs: 60_000 });
+  const { session, left } = await farGateway(clock, 20, line);
   session.move(
     [3, 1, 2].map((servo) => ({ servo, position: 1_000 })),
     0,
@@ -183,12 +174,16 @@ test('STOP: nothing of the gesture leaves once it has arrived, and its refusals 
 
 test('STOP while frames are played: whatever was under way, the robot is taken to be where it is held', async () => {
   for (let afterMs = 0; afterMs < 200; afterMs += 5) {
-    const { clock, session, line, problems } = await farSession(20, 2);
+    const { clock, session, posted, line, problems } = await farSession(20, 2);
     const frames = Array.from({ length: 40 }, (_, index) => ({
       durationMs: 100,
       targets: [{ servo: 1, position: 600 + 30 * index }],
     }));
     session.play(frames).catch((error: unknown) => expect(error).toMatchObject({ code: 'latched' }));
+    await vi.waitFor(async () => {
+      await clock.advance(20);
+      expect(posted.map(({ type }) => type)).toContain('play');
+    });
     await clock.advance(3_000 + afterMs);
     const halted = session.halt();
     await clock.advance(1_000);

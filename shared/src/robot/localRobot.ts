@@ -1,0 +1,266 @@
+// A robot on a byte channel of this computer: what should happen, in what order, and what came back. Puts together the link, the
+// queue, the replies and a driver for the board that is there. Knows no cable by name and no user interface.
+
+import type { Clock } from '../clock.ts';
+import type { Command } from '../codec/commands.ts';
+import { UNKNOWN_BOARD, type Family } from '../codec/families.ts';
+import { commandIn } from '../codec/parse.ts';
+import type { Report } from '../codec/reports.ts';
+import type { ByteChannel } from './byteChannel.ts';
+import { createDriver, type Driver } from './driver.ts';
+import { createHalt } from './halt.ts';
+import { createIdentification } from './identification.ts';
+import { createLink, type LineState } from './link.ts';
+import { LinkError } from './linkError.ts';
+import { createQueue } from './queue.ts';
+import { createReceiver } from './receiver.ts';
+import { createReplies } from './replies.ts';
+import { createResync } from './resync.ts';
+import type { Robot } from './robot.ts';
+import { encodeOrRefuse } from './rules.ts';
+import type { LinkState, SessionState } from './state.ts';
+import { createStopAgain, STOP_PACKET } from './stops.ts';
+import { createSessionStore, noteReport, NOTHING_READ } from './store.ts';
+import type { SlotMemory } from './storing.ts';
+import { createWakefulClock } from './wakefulClock.ts';
+
+export interface LocalRobotOptions {
+  readonly channel: ByteChannel;
+  readonly clock: Clock;
+  /** What the board is taken for, by a person or from memory. Without it the board is asked, and waits for `choose`. */
+  readonly family?: Family | undefined;
+  /** Check `family` by harmless questions before anything moves, at each opening. Otherwise its word is enough. */
+  readonly identifies?: boolean | undefined;
+  /** Nobody can have moved it before: it begins with its link. */
+  readonly isNew?: boolean | undefined;
+  /** Whether somebody looks: then an idle board is asked now and again whether it is still there. Absent: never. */
+  readonly isWatched?: (() => boolean) | undefined;
+  /** Without it broken slots are forgotten with the robot. */
+  readonly slotMemory?: SlotMemory | undefined;
+  readonly withheld?: SessionState['withheld'] | undefined;
+}
+
+export function createLocalRobot(options: LocalRobotOptions): Robot {
+  const { channel, slotMemory, family = UNKNOWN_BOARD } = options;
+  const { identifies = false, isWatched = () => false, withheld = [] } = options;
+  const clock = createWakefulClock(options.clock, overslept);
+  const store = createSessionStore({ family, canShare: false, withheld });
+  const replies = createReplies(clock);
+  /** The link was opened and not only mended. */
+  let isOpened = false;
+  let openedMs = 0;
+
+  const link = createLink({
+    channel,
+    clock,
+    received: (bytes, whole = false) => receiver.push(bytes, whole),
+    unread: (bytes) => heardNoise('garbage', bytes),
+    changed: lineChanged,
+    claimed: () => halt.halt(),
+  });
+
+  const queue = createQueue({
+    clock,
+    serviceGapMs: UNKNOWN_BOARD.serviceGapMs,
+    send: link.send,
+    takeMove: () => driver.takeMove(),
+    leaving: note,
+    sent: (packet) => take(commandIn(packet)),
+    moveFailed,
+  });
+
+  let driver: Driver = driverFor(family);
+  const halt = createHalt({
+    ...{ clock, store, queue, dropAll: (error) => driver.drop(error) },
+    plan() {
+      const leaving = queue.unfinished();
+      return driver.core.estimate.haltPlan(leaving && commandIn(leaving));
+    },
+    hold: () => driver.core.estimate.hold(),
+    unheldSince: (pressedMs) => driver.core.estimate.unheldSince(pressedMs),
+    servosPerMove: () => driver.core.servosPerMove,
+    encoded: (hold) => encodeOrRefuse(hold, driver.core.family),
+  });
+  const stopAgain = createStopAgain(
+    clock,
+    () => driver.core.estimate.deafUntilMs(),
+    () => {
+      if (driver.core.estimate.moving()) halt.again();
+    },
+  );
+  const resync = createResync(queue);
+  const identification = createIdentification({
+    ...{ clock, store, queue, replies, family, identifies, isWatched },
+    isMoving: () => driver.core.estimate.moving(),
+    readBattery: () => driver.readBattery(),
+    drive,
+    entered,
+  });
+  const receiver = createReceiver({
+    clock,
+    family: identification.familyOnLine,
+    report: heard,
+    noise: heardNoise,
+  });
+
+  function driverFor(next: Family): Driver {
+    return createDriver(next, {
+      clock,
+      store,
+      queue,
+      replies,
+      slotMemory,
+      longestPacket: channel.longestPacket,
+    });
+  }
+
+  function moveFailed(error: LinkError): void {
+    driver.live.moveFailed();
+    store.emit('problem', error);
+  }
+
+  /** The board is taken for something else: whatever was believed of it was about another one. */
+  function drive(next: Family): void {
+    if (next === driver.core.family) return;
+    driver.drop(new LinkError('cancelled', 'the board is taken for another one now'));
+    driver = driverFor(next);
+    store.update({
+      ...{ family: next, brokenSlots: [], storedSlots: [], lastDownload: null },
+      ...NOTHING_READ,
+      battery: { kind: 'unread' },
+    });
+  }
+
+  /** What waited to leave does not any more; a group that the board plays goes on, and so does a download. */
+  function overslept(): void {
+    const error = new LinkError('overslept', 'this computer or page slept');
+    if (driver.live.drop()) store.emit('problem', error);
+    if (store.state.activity.kind !== 'downloading') queue.purge(error);
+  }
+
+  /** Into the log when it begins to leave, so that its answer comes after it. */
+  function note(bytes: Uint8Array): void {
+    store.emit('traffic', { atMs: clock.now(), direction: 'out', bytes, command: commandIn(bytes) });
+  }
+
+  /** Into the estimate when it has left: not before can the board act on it. */
+  function take(command: Command | null): void {
+    if (command === null) return;
+    driver.applied(command);
+    if (command.kind === 'stop') stopAgain.stopped();
+  }
+
+  function heard(report: Report, bytes: Uint8Array): void {
+    store.emit('traffic', { atMs: clock.now(), direction: 'in', bytes, report });
+    queue.answered(bytes[3] ?? 0);
+    replies.deliver(report);
+    const mightSwallow = driver.core.estimate.maySwallow();
+    driver.groups.heard(report);
+    noteReport(store, report, clock.now());
+    if (report.kind === 'runStopped') halt.confirmed();
+    stopAgain.heard();
+    const hearsAgain = mightSwallow && !driver.core.estimate.maySwallow();
+    if (hearsAgain || report.kind === 'runAccepted' || report.kind === 'runStarted') halt.again();
+    identification.heard(report, bytes);
+  }
+
+  function heardNoise(noise: 'garbage' | 'truncated', bytes: Uint8Array): void {
+    store.emit('traffic', { atMs: clock.now(), direction: 'in', bytes, noise });
+    identification.heardNoise(bytes);
+  }
+
+  function lineChanged(line: LineState): void {
+    if (line.status !== 'open') {
+      identification.ended();
+      entered(line);
+      return;
+    }
+    if (line.isReturn) queue.returned();
+    resync.send();
+    isOpened = !line.isReturn;
+    openedMs = clock.now();
+    if (line.isReturn) halt.stopAfterReturn();
+    identification.begin();
+  }
+
+  function entered(next: LinkState): void {
+    const previous = store.state.link.status;
+    if (next.status === 'ready' && next.status !== previous) becomesReady();
+    store.update({ link: next });
+    if (next.status === previous) return;
+    if (previous === 'stale' && link.isOpen) halt.stopAfterReturn();
+    if (previous === 'ready') unlinked(next);
+  }
+
+  /** Whoever hears of it finds what is known of its slots and servos. */
+  function becomesReady(): void {
+    driver.groups.linked();
+    if (isOpened && options.isNew !== true) driver.core.estimate.opened(openedMs);
+    isOpened = false;
+  }
+
+  /** The board may have moved, restarted or been changed for another before it is ready again. */
+  function unlinked(next: LinkState): void {
+    const packet = queue.unfinished();
+    stopAgain.void();
+    if (!link.isOpen) receiver.reset();
+    driver.core.estimate.forget(packet && commandIn(packet));
+    if (packet !== null && !link.isOpen) {
+      resync.cut(packet, driver.core.family.resyncFiller);
+      driver.core.estimate.cut();
+    }
+    // Nothing ends it at the return.
+    if (next.status === 'closed') driver.core.estimate.groupEnded();
+    driver.groups.unlinked();
+    store.update(NOTHING_READ);
+    if (next.status === 'lost' || next.status === 'stale') halt.latchedByLoss();
+    else driver.drop(new LinkError('closed', 'the link was closed'));
+  }
+
+  return {
+    get state() {
+      return store.state;
+    },
+    subscribe: store.subscribe,
+    open: link.open,
+    async close() {
+      await link.close();
+      store.update({ latch: null });
+    },
+    retryNow: link.retryNow,
+    takeOver: link.takeOver,
+    leave: () => link.leave(STOP_PACKET),
+    setAutoReconnect: link.setAutoReconnect,
+    identify: () => settled(identification.again),
+    choose: (chosen) => settled(() => identification.choose(chosen)),
+    // Nobody else can drive, and the limits are the page's own.
+    lease: () => undefined,
+    letRun: () => undefined,
+    calibrate: () => undefined,
+    move: (targets, durationMs) => driver.live.move(targets, durationMs),
+    run: (slot, times) => driver.groups.run(slot, times),
+    stopGroup: () => driver.groups.stop(),
+    halt: halt.halt,
+    resume: halt.resume,
+    erase: () => driver.groups.erase(),
+    readBattery: () => driver.readBattery(),
+    sendRaw: (packet) => driver.sendRaw(packet),
+    readPositions: (servos) => driver.readings.readPositions(servos),
+    readVersion: () => driver.readings.readVersion(),
+    readOffsets: () => driver.readings.readOffsets(),
+    setSpeed: (slot, percent) => driver.groups.setSpeed(slot, percent),
+    release: (servos) => driver.release(servos),
+    download: (groups) => driver.groups.store(groups),
+    cancelDownload: () => settled(() => driver.groups.cancel()),
+    play: (frames, playing) => driver.live.play(frames, playing?.times ?? 1, playing?.loopFrom ?? 0),
+    stopPlaying: () => driver.live.stopPlaying(),
+    motions: () => driver.core.estimate.motions(),
+  };
+}
+
+/** What is done at once, as a promise: with what it throws. */
+const settled = (work: () => void): Promise<void> =>
+  new Promise((resolve) => {
+    work();
+    resolve();
+  });
