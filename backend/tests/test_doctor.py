@@ -3,6 +3,7 @@
 import os
 import subprocess
 import sys
+import termios
 import threading
 from collections.abc import Iterator
 
@@ -11,6 +12,7 @@ from typer.testing import CliRunner
 
 from servodeck.cli.main import app
 from servodeck.port.diagnosis import looks_like
+from tests.samples import BATTERY_REPORT
 from tests.test_ports import Pty
 from tests.vectors import load_vectors
 
@@ -71,6 +73,35 @@ def test_without_a_gateway_it_says_how_to_start_one(pty: Pty) -> None:
     _, said = diagnosed(pty, b"")
     assert f"No gateway answers at {NOBODY}" in said
     assert "Nothing answers on" in said
+
+
+@pytest.mark.parametrize(
+    ("said", "advice"),
+    [
+        (BATTERY_REPORT, "At 115200 baud packets arrive"),
+        pytest.param(b"rst:0x1 (POWERON_RESET)", "At 115200 baud text arrives", marks=pytest.mark.exhaustive),
+    ],
+)
+def test_a_board_at_another_speed_is_heard_where_a_person_asks_for_it(
+    pty: Pty, said: bytes, advice: str
+) -> None:
+    cable = os.open(pty.device, os.O_RDWR | os.O_NOCTTY)
+    is_done = threading.Event()
+
+    def speak() -> None:
+        while not is_done.wait(0.01):
+            if termios.tcgetattr(pty.board)[5] == termios.B115200:
+                os.write(pty.board, said)
+                return
+
+    board = threading.Thread(target=speak)
+    board.start()
+    result = CliRunner().invoke(app, ["doctor", "--url", NOBODY, "--port", pty.device, "--rates"])
+    is_done.set()
+    board.join()
+    os.close(cable)
+    assert "Nothing answers on" in result.stdout
+    assert advice in result.stdout
 
 
 @pytest.mark.parametrize("case", load_vectors("noise"), ids=lambda case: str(case["name"]))

@@ -17,7 +17,7 @@ from servodeck import __version__
 from servodeck.cli.options import FAILURE, Token, TokenFile, Url, remote_at
 from servodeck.cli.remote import HERE, RefusedError, Remote, UnreachableError
 from servodeck.errors import PortError
-from servodeck.port.diagnosis import Heard, access_to, listen, looks_like
+from servodeck.port.diagnosis import OTHER_RATES, Heard, access_to, find_rate, listen, looks_like
 from servodeck.port.hid import is_hid
 from servodeck.port.ports import PortInfo, is_same_port, list_devices
 
@@ -43,16 +43,19 @@ def doctor(
     port: Annotated[
         str, typer.Option(help="Look at this port alone; `servodeck ports` lists them.", metavar="DEVICE")
     ] = "",
+    rates: Annotated[
+        bool, typer.Option(help="Where nothing can be read, listen at other speeds too. Sends nothing there.")
+    ] = False,
 ) -> None:
     """Look for what keeps a robot from being driven: gateway, ports, access, what a board answers."""
-    findings = list(findings_of(remote_at(url, token, token_file), port))
+    findings = list(findings_of(remote_at(url, token, token_file), port, rates=rates))
     for finding in findings:
         print(f"{finding.sign:<4}  {finding.text}")
     if any(finding.sign == "look" for finding in findings):
         sys.exit(FAILURE)
 
 
-def findings_of(remote: Remote, device: str) -> Iterator[Finding]:
+def findings_of(remote: Remote, device: str, *, rates: bool) -> Iterator[Finding]:
     yield Finding(
         "ok", f"servodeck {__version__}, Python {platform.python_version()}, {platform.platform(terse=True)}"
     )
@@ -73,7 +76,7 @@ def findings_of(remote: Remote, device: str) -> Iterator[Finding]:
         yield Finding("look", "brltty is installed and takes CH340 adapters away: sudo apt remove brltty")
     for port in ports:
         is_owned = owned is not None and is_same_port(port.device, owned)
-        yield from port_findings(port, is_owned=is_owned, is_asked=bool(device) or port.likely)
+        yield from port_findings(port, is_owned=is_owned, is_asked=bool(device) or port.likely, rates=rates)
 
 
 def gateway_findings(remote: Remote) -> Generator[Finding, None, dict[str, Any] | None]:
@@ -102,12 +105,13 @@ def gateway_findings(remote: Remote) -> Generator[Finding, None, dict[str, Any] 
     return status
 
 
-def port_findings(port: PortInfo, *, is_owned: bool, is_asked: bool) -> Iterator[Finding]:
+def port_findings(port: PortInfo, *, is_owned: bool, is_asked: bool, rates: bool) -> Iterator[Finding]:
     name = f"{port.device} ({port.description})"
     if is_owned:
         yield Finding("ok", f"{name} is the gateway's.")
         return
-    if not is_hid(port.device) and "://" not in port.device:
+    is_serial = not is_hid(port.device) and "://" not in port.device
+    if is_serial:
         access = access_to(port.device)
         if access.held_by:
             yield Finding("look", f"{name} is open in {', '.join(access.held_by)}: close it there.")
@@ -120,7 +124,10 @@ def port_findings(port: PortInfo, *, is_owned: bool, is_asked: bool) -> Iterator
         yield Finding("--", f"{name} is no usual cable of a board. To ask it: --port {port.device}")
         return
     try:
-        yield from heard_findings(name, listen(port.device))
+        heard = listen(port.device)
+        yield from heard_findings(name, heard)
+        if rates and is_serial and not heard.packets:
+            yield rate_finding(name, port.device)
     except PortError as error:
         yield Finding("look", error.detail)
 
@@ -134,7 +141,8 @@ def heard_findings(name: str, heard: Heard) -> Iterator[Finding]:
         yield Finding(
             "look",
             f"Nothing answers on {name}. Switch the board on and check that TX goes to RX. "
-            "OpenArm and LeArm may have no battery answer: connect, and choose the board by hand.",
+            "OpenArm and LeArm may have no battery answer: connect, and choose the board by hand. "
+            "--rates listens at other speeds.",
         )
     if heard.noise:
         shown = heard.noise[:NOISE_SHOWN].hex(" ")
@@ -142,3 +150,14 @@ def heard_findings(name: str, heard: Heard) -> Iterator[Finding]:
         yield Finding(
             "look", f"{len(heard.noise)} bytes on {name} are no packets. {means} They begin {shown}"
         )
+
+
+def rate_finding(name: str, device: str) -> Finding:
+    found = find_rate(device)
+    if found is None:
+        rates = ", ".join(str(rate) for rate in OTHER_RATES)
+        return Finding("--", f"At {rates} baud nothing that can be read arrives on {name} by itself.")
+    rate, heard = found
+    if heard.packets:
+        return Finding("look", f"At {rate} baud packets arrive on {name}: set the board's port to 9600 baud.")
+    return Finding("look", f"At {rate} baud text arrives on {name}. {NOISE_MEANS['text']}")

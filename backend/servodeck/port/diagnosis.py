@@ -17,6 +17,8 @@ from servodeck.protocol.values import ReadBattery
 
 PROCESSES = Path("/proc")
 LISTENS_S = 1.0
+# Of serial ports beside the boards' own, the usual one of ESP32 and Arduino programs first.
+OTHER_RATES = (115_200, 57_600, 38_400, 19_200, 4_800)
 BATTERY = 15
 PRINTABLE = frozenset(range(0x20, 0x7F)) | {0x0A, 0x0D}
 # At another speed bits run together: one run of ones beside one of zeros.
@@ -81,15 +83,30 @@ def listen(device: str) -> Heard:
     """Opens the port, asks for the battery and listens for a second. Raises a PortError with a sentence."""
     port = open_port(device)
     try:
+        port.write(encode(ReadBattery(), FAMILIES["doc"]))
         return heard_on(port)
     finally:
         port.close()
 
 
+def find_rate(device: str) -> tuple[int, Heard] | None:
+    """The first other speed at which what arrives can be read, and what that is. Writes nothing. Raises a
+    PortError with a sentence.
+    """
+    for baud in OTHER_RATES:
+        port = open_port(device, baud)
+        try:
+            heard = heard_on(port)
+        finally:
+            port.close()
+        if heard.packets or (heard.noise and looks_like(heard.noise) == "text"):
+            return baud, heard
+    return None
+
+
 def heard_on(port: OpenPort) -> Heard:
     heard = Heard()
     decoder = Decoder(heard.take)
-    port.write(encode(ReadBattery(), FAMILIES["doc"]))
     until_s = time.monotonic() + LISTENS_S
     while time.monotonic() < until_s and heard.battery_mv is None:
         decoder.push(port.read())

@@ -136,7 +136,7 @@ def write_all(descriptor: int, data: bytes) -> None:
         data = data[os.write(descriptor, data) :]
 
 
-def open_port(device: str) -> OpenPort:
+def open_port(device: str, baud: int = LINE.baud) -> OpenPort:
     """Opens a device path, `socket://HOST:PORT` or `hid:SERIAL`, for us alone. Raises a PortError with a
     sentence.
     """
@@ -145,7 +145,7 @@ def open_port(device: str) -> OpenPort:
     refuse_other_schemes(device)
     try:
         port = serial.serial_for_url(
-            device, LINE.baud, timeout=READ_WAIT_S, write_timeout=WRITE_WAIT_S, exclusive=True
+            device, baud, timeout=READ_WAIT_S, write_timeout=WRITE_WAIT_S, exclusive=True
         )
         send_at_once(port)
         return SerialPort(device, port)
