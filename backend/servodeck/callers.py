@@ -1,15 +1,16 @@
 """Who asks, and what they may do at most. Knows no socket, no credential and no rule of motion."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Literal
 
 from servodeck.errors import ForbiddenError
+from servodeck.value import value
 
 Role = Literal["stopper", "viewer", "driver", "owner"]
 RANKS: dict[Role, int] = {"stopper": 0, "viewer": 1, "driver": 2, "owner": 3}
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class Caller:
     """`id` stays the same for a device or script; two tabs of one browser share it. `name` is for people."""
 

@@ -8,9 +8,10 @@ no person, and makes no secret. A request is never trusted for its address.
 import io
 import ipaddress
 import socket
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 from urllib.parse import urlsplit
+
+from servodeck.value import value
 
 if TYPE_CHECKING:
     from segno import QRCode
@@ -23,7 +24,7 @@ MDNS_NAME = "servodeck.local"
 USUAL_PORTS: dict[str, int] = {"http": 80, "https": 443}
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class Access:
     mode: Mode
     scheme: Scheme

@@ -10,11 +10,12 @@ import hashlib
 import hmac
 import secrets
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from servodeck.access.gate import only
 from servodeck.callers import Role
 from servodeck.errors import BusyError, NotFoundError, PairingError, PairingLockedError
+from servodeck.value import value
 
 PAGE_HEADER = b"x-servodeck-page"
 SECRET_BYTES = 24
@@ -75,7 +76,7 @@ CODE_TRIES = 5
 MAX_OPEN = 8
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class Invite:
     """`code` is None once codes are spent. `name` may be empty: whoever comes says theirs."""
 

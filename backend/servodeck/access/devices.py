@@ -10,7 +10,7 @@ import sqlite3
 import threading
 from collections.abc import Callable
 from contextlib import closing
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Literal, Protocol
 
@@ -19,13 +19,14 @@ from servodeck.callers import LOCAL_NAMES, Caller, Role
 from servodeck.errors import ForbiddenError, NotFoundError, OutOfRangeError, StorageError
 from servodeck.files import storage_error
 from servodeck.threads import in_thread
+from servodeck.value import value
 
 Kind = Literal["device", "token", "stopLink"]
 MAX_DEVICES = 500
 MAX_NAME = 64
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class Device:
     """`last_seen_ms` is None until it came once."""
 

@@ -3,11 +3,9 @@
 Knows options by their names, as the command line declares them; not what any of them means.
 """
 
-import difflib
 import json
 import os
 import sys
-import tomllib
 from collections.abc import Collection, Iterable, Iterator
 from pathlib import Path
 from typing import Any, Literal, NamedTuple
@@ -57,6 +55,8 @@ def take_file(context: typer.Context, path: Path | None) -> Path | None:
 
 
 def read_file(path: Path) -> dict[str, Any]:
+    import tomllib  # most starts have no file
+
     try:
         values = tomllib.loads(path.read_text("utf-8"))
     except OSError as error:
@@ -115,6 +115,8 @@ def commands_of(context: typer.Context) -> dict[str, Any]:
 
 
 def refuse_unknown(given: Iterable[str], known: Collection[str], where: str) -> None:
+    import difflib  # most starts have no mistake
+
     for name in sorted(set(given) - set(known)):
         close = difflib.get_close_matches(name, known, n=1)
         hint = f"Did you mean {close[0]}?" if close else f"There are: {', '.join(sorted(known))}."

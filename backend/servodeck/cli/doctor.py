@@ -8,7 +8,6 @@ import platform
 import shutil
 import sys
 from collections.abc import Generator, Iterator
-from dataclasses import dataclass
 from typing import Annotated, Any, Literal
 
 import typer
@@ -20,6 +19,7 @@ from servodeck.errors import PortError
 from servodeck.port.diagnosis import OTHER_RATES, Heard, access_to, find_rate, listen, looks_like
 from servodeck.port.hid import is_hid
 from servodeck.port.ports import PortInfo, is_same_port, list_devices
+from servodeck.value import value
 
 NOISE_SHOWN = 32
 NOISE_MEANS = {
@@ -29,7 +29,7 @@ NOISE_MEANS = {
 }
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class Finding:
     sign: Literal["ok", "look", "--"]
     """`look`: something to do."""

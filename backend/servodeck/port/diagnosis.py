@@ -14,6 +14,7 @@ from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.packets import encode
 from servodeck.protocol.timings import DECODER
 from servodeck.protocol.values import ReadBattery
+from servodeck.value import value
 
 PROCESSES = Path("/proc")
 LISTENS_S = 1.0
@@ -25,7 +26,7 @@ PRINTABLE = frozenset(range(0x20, 0x7F)) | {0x0A, 0x0D}
 RUNS = frozenset((0xFF << zeros) & 0xFF for zeros in range(9)) | frozenset(0xFF >> ones for ones in range(9))
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class Access:
     may_open: bool
     group: str

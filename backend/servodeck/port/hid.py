@@ -8,7 +8,6 @@ import errno
 import sys
 from collections import Counter
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import TypeVar
 
 from servodeck.errors import (
@@ -25,6 +24,7 @@ from servodeck.port.hid_reports import report_of
 from servodeck.port.whereabouts import SHARED_NUMBERS, UsbDevice
 from servodeck.protocol.families import Withheld
 from servodeck.protocol.timings import HID
+from servodeck.value import value
 
 ANY = "hid"
 PREFIX = "hid:"
@@ -43,7 +43,7 @@ TAKEN_WITHIN_S = HID.send_timeout_ms / 1000
 T = TypeVar("T")
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class HidBoard:
     name: str
     device: HidDevice

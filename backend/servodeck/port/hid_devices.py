@@ -7,12 +7,12 @@ Knows reports as bytes; no packet, no board and no event loop: every call may bl
 import os
 import select
 import sys
-from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
 from typing import Any, Protocol
 
 from servodeck.protocol.timings import HID
+from servodeck.value import value
 
 SYSFS = Path("/sys/class/hidraw")
 DEV = Path("/dev")
@@ -22,7 +22,7 @@ READ_WAIT_S = 0.2
 REPORT_NUMBER = b"\0"
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class HidDevice:
     """`node` is what opens it; `serial` and `location` (the socket, `1-1.2`) may be empty."""
 

@@ -10,7 +10,6 @@ import re
 import select
 import socket
 from collections.abc import Awaitable, Callable, Iterable
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final, Protocol, TypeVar
 
@@ -24,6 +23,7 @@ from servodeck.protocol.decoder import LONGEST_PACKET
 from servodeck.protocol.families import Withheld
 from servodeck.protocol.shared_data import load_shared
 from servodeck.protocol.timings import LINE
+from servodeck.value import value
 
 POSIX = os.name == "posix"
 READ_WAIT_S = 0.2
@@ -71,7 +71,7 @@ T = TypeVar("T")
 Opener = Callable[[str], OpenPort]
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class PortInfo:
     device: str
     description: str

@@ -6,9 +6,9 @@ apart (a pty, a socket, a port of the mainboard) goes by its name alone.
 
 import os
 from collections.abc import Iterable
-from dataclasses import dataclass
 
 from servodeck.errors import OtherDeviceError, PortMissingError
+from servodeck.value import value
 
 # The name of the only board on a HID cable; the names of single ones begin with it.
 HID = "hid"
@@ -16,7 +16,7 @@ HID = "hid"
 SHARED_NUMBERS = frozenset({"", "0", "0001"})
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class UsbDevice:
     """A port on the USB bus. `serial` and `location` (the socket, `1-1.2:1.0`) may be empty."""
 

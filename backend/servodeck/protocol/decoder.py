@@ -6,10 +6,10 @@ shared/protocol/vectors/streams.json holds both.
 """
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from typing import Final, Literal
 
 from servodeck.protocol.timings import DECODER
+from servodeck.value import value
 
 RawBytes = bytes
 Buffer = bytes | bytearray
@@ -29,19 +29,19 @@ NO: Final = -1
 WAIT: Final = 0
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class Packet:
     command: int
     params: bytes
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class PacketEvent:
     packet: Packet
     bytes: RawBytes
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class NoiseEvent:
     """`garbage` belongs to no packet; `truncated` began like one that the silence cut short."""
 

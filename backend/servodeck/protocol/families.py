@@ -11,6 +11,7 @@ from functools import cache
 from typing import Any, Final, Literal
 
 from servodeck.protocol.shared_data import load_shared, snake
+from servodeck.value import value
 
 CommandKind = Literal[
     "move",
@@ -37,13 +38,13 @@ MOVE_BYTES: Final = 7  # of a move of no servo
 BYTES_PER_SERVO: Final = 3
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class Range:
     min: int
     max: int
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class MotionTraits:
     """How a board turns its servos and plays its groups: what the motion estimate has to know of it."""
 

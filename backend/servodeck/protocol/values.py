@@ -3,13 +3,13 @@
 The same values as shared/src/codec/commands.ts and reports.ts.
 """
 
-from dataclasses import dataclass
 from typing import ClassVar, Literal
 
 from servodeck.protocol.families import CommandKind
+from servodeck.value import value
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class ServoTarget:
     """`position` is in the board's unit: pulse width in µs, or steps of a bus servo."""
 
@@ -17,7 +17,7 @@ class ServoTarget:
     position: int
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class ServoOffset:
     """A servo's trim, in the board's unit."""
 
@@ -25,7 +25,7 @@ class ServoOffset:
     offset: int
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class Frame:
     """Targets reached together after `duration_ms`. A frame without targets is a pause."""
 
@@ -33,14 +33,14 @@ class Frame:
     targets: tuple[ServoTarget, ...]
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class Move:
     duration_ms: int
     targets: tuple[ServoTarget, ...]
     kind: ClassVar[CommandKind] = "move"
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class Run:
     """`times` 0 repeats until stopped."""
 
@@ -49,26 +49,26 @@ class Run:
     kind: ClassVar[CommandKind] = "run"
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class Stop:
     """Ends a running group after its frame in progress (S50): not an emergency stop."""
 
     kind: ClassVar[CommandKind] = "stop"
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class Erase:
     """Erases every slot, whatever its parameter byte says (S19)."""
 
     kind: ClassVar[CommandKind] = "erase"
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class ReadBattery:
     kind: ClassVar[CommandKind] = "readBattery"
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class Download:
     """Stores frame `frame_index` (0-based, S33) of `frame_count` in `slot`."""
 
@@ -79,7 +79,7 @@ class Download:
     kind: ClassVar[CommandKind] = "download"
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class SetSpeed:
     """Group speed in percent of how it was stored, until power-off (X3); `slot` None for every group."""
 
@@ -88,7 +88,7 @@ class SetSpeed:
     kind: ClassVar[CommandKind] = "setSpeed"
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class Release:
     """Takes the torque off: what these servos carry drops (X7)."""
 
@@ -96,23 +96,23 @@ class Release:
     kind: ClassVar[CommandKind] = "release"
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class ReadPositions:
     servos: tuple[int, ...]
     kind: ClassVar[CommandKind] = "readPositions"
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class ReadVersion:
     kind: ClassVar[CommandKind] = "readVersion"
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class ReadAllPositions:
     kind: ClassVar[CommandKind] = "readAllPositions"
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class ReadOffsets:
     """The trims it keeps in flash."""
 
@@ -151,21 +151,21 @@ ReportKind = Literal[
 ]
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class RunAccepted:
     """Proves reception only: it comes before the slot is looked up (S18)."""
 
     kind: ClassVar[ReportKind] = "runAccepted"
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class RunStarted:
     slot: int
     times: int
     kind: ClassVar[ReportKind] = "runStarted"
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class RunFinished:
     """`slot` where the board names it."""
 
@@ -173,30 +173,30 @@ class RunFinished:
     kind: ClassVar[ReportKind] = "runFinished"
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class RunStopped:
     kind: ClassVar[ReportKind] = "runStopped"
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class Erased:
     kind: ClassVar[ReportKind] = "erased"
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class Battery:
     battery_mv: int
     kind: ClassVar[ReportKind] = "battery"
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class FrameStored:
     """The download frame was handled, successfully or not (S20)."""
 
     kind: ClassVar[ReportKind] = "frameStored"
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class Positions:
     """Where bus servos stand."""
 
@@ -204,7 +204,7 @@ class Positions:
     kind: ClassVar[ReportKind] = "positions"
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class AllPositions:
     """Where the board has its servos, all of them (LeArm)."""
 
@@ -212,7 +212,7 @@ class AllPositions:
     kind: ClassVar[ReportKind] = "allPositions"
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class Offsets:
     """What the board adds to the positions of its servos (LeArm)."""
 
@@ -220,7 +220,7 @@ class Offsets:
     kind: ClassVar[ReportKind] = "offsets"
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class Version:
     """Which servos the board drives, by the unit they count in, and its firmware."""
 
@@ -229,7 +229,7 @@ class Version:
     kind: ClassVar[ReportKind] = "version"
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class UnknownReport:
     """Well-formed, but not a report this family is known to send."""
 

@@ -6,7 +6,6 @@ Knows seats, messages and the parts they are about; changes none of them.
 
 import asyncio
 from collections.abc import Callable, Collection
-from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
@@ -21,6 +20,7 @@ from servodeck.robot.hub import Hub, Session
 from servodeck.robot.latch import Latch
 from servodeck.robot.profile import RobotOfBoard
 from servodeck.schema import Message
+from servodeck.value import value
 
 
 class Broadcast:
@@ -55,7 +55,8 @@ class Broadcast:
         session.put(encode(welcome))
 
     def state(self, but: Session | None = None) -> None:
-        self.everybody(StateMessage(**self._state_fields()), but)
+        if self._hub.sessions:  # what a message is made of is built with the first one, behind the start
+            self.everybody(StateMessage(**self._state_fields()), but)
 
     def everybody(self, message: Message, but: Session | None = None) -> None:
         self._hub.send_all(encode(message), but)
@@ -84,7 +85,7 @@ FLUSH_S = 0.05
 Commands = tuple[Command, ...]
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class Leaving:
     """`known_to` was told apart."""
 

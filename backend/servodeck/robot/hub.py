@@ -6,10 +6,11 @@ Knows seats, who sits there, and text; no socket, no message's meaning, no port.
 
 import asyncio
 from collections.abc import Callable, Collection, Coroutine
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any, TypeVar
 
 from servodeck.callers import THIS_COMPUTER, Caller, Role
+from servodeck.value import value
 
 # Enough for a second of a busy board (960 bytes) and the answers to a full queue; far more means nobody
 # reads.
@@ -25,7 +26,7 @@ TRY_AGAIN_LATER, AGAINST_THE_RULES, GOING_AWAY = 1013, 1008, 1012
 T = TypeVar("T")
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class CloseReason:
     """With which code and words the connection is closed."""
 

@@ -8,12 +8,12 @@ import contextlib
 import logging
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from servodeck.errors import CancelledError, GatewayError, NotDrivingError
 from servodeck.robot.hub import is_of
 from servodeck.snapshots import LatchedBy
+from servodeck.value import value
 
 if TYPE_CHECKING:
     from servodeck.robot.control import Control
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 log = logging.getLogger("servodeck.robot")
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class Cause:
     """`name` is for people: who pressed STOP, or whose page did it for the battery."""
 

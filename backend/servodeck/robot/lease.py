@@ -4,11 +4,11 @@ Pure: time comes in, no socket, port or disk. Must not know what a packet means;
 what `LeaseEvents` tells.
 """
 
-from dataclasses import dataclass
 from typing import Generic, Literal, Protocol, TypeVar
 
 from servodeck.errors import BusyError, ExpiredError, NotDrivingError
 from servodeck.protocol.timings import LEASE, MOVE
+from servodeck.value import value
 
 BEAT_S = LEASE.beat_ms / 1000
 COMMAND_S = MOVE.expires_ms / 1000
@@ -40,7 +40,7 @@ class LeaseEvents(Protocol):
         """Whatever of it people are told is another now."""
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class Permit:
     """One command's leave to move the robot: under that epoch, from when its words were new until that
     time.

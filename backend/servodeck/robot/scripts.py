@@ -7,7 +7,6 @@ requests.py what may leave.
 
 import asyncio
 from collections.abc import Awaitable, Callable, Coroutine, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any, Literal, TypeVar
 
 from servodeck.callers import Caller, as_script
@@ -23,6 +22,7 @@ from servodeck.robot.lease import Permit
 from servodeck.robot.operations import Grant
 from servodeck.robot.requests import end_of_group
 from servodeck.snapshots import JobState, LeaseState, Outcome, PlayState
+from servodeck.value import value
 
 T = TypeVar("T")
 
@@ -52,7 +52,7 @@ ScriptAction = Literal["request", "take", "release", "heartbeat"]
 IsWanted = Callable[[], Awaitable[bool]]
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class Moved:
     packets: int
     over_in_ms: int

@@ -10,7 +10,6 @@ frontend/src/features/battery/batteryPoll.ts.
 import asyncio
 import contextlib
 from collections.abc import Awaitable, Callable
-from dataclasses import dataclass
 from typing import Protocol
 
 from servodeck.errors import GatewayError, NoAnswerError
@@ -20,11 +19,12 @@ from servodeck.protocol.timings import BATTERY
 from servodeck.protocol.values import Battery, Command, ReadBattery, Report
 from servodeck.robot.board.answers import Answers
 from servodeck.snapshots import BatteryRead, BatterySilent, BatteryState, BatteryUnread
+from servodeck.value import value
 
 BATTERY_WAIT_S = BATTERY.timeout_ms / 1000
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class BatteryReading:
     battery_mv: int
     at_s: float

@@ -9,7 +9,6 @@ import asyncio
 import secrets
 from collections.abc import Callable, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
 
 from servodeck.callers import Caller
 from servodeck.errors import CancelledError, GatewayError, NoAnswerError
@@ -19,9 +18,10 @@ from servodeck.protocol.values import FrameStored
 from servodeck.robot.board.answers import Answers
 from servodeck.robot.board.packet_rules import Part
 from servodeck.snapshots import JobState
+from servodeck.value import value
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class Progress:
     groups_stored: int
     frames_stored: int

@@ -6,7 +6,6 @@ Decides when a board is ready; the questions and their meaning are identity.py. 
 
 import asyncio
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Literal, Protocol
 
 from servodeck.errors import (
@@ -22,11 +21,12 @@ from servodeck.protocol.families import UNKNOWN, Family, Question
 from servodeck.protocol.values import Report, UnknownReport
 from servodeck.robot.board.heartbeat import Heartbeat
 from servodeck.robot.board.identity import Echoed, Evidence, candidates_of, fit_of, identify, is_echo
+from servodeck.value import value
 
 Status = Literal["closed", "identifying", "ready", "stale", "refused"]
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class BoardStatus:
     """`error` says why it is stale or refused."""
 

@@ -7,7 +7,6 @@ Answers never name one family for certain, so a person chooses among those that 
 
 import asyncio
 from collections.abc import Awaitable, Callable, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Literal
 
 from servodeck.packet_models import BatteryReport, PositionsReport, ServoPosition, VersionReport
@@ -31,25 +30,26 @@ from servodeck.snapshots import (
     NoiseEvidence,
     SilentEvidence,
 )
+from servodeck.value import value
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class Answered:
     question: Question
     report: Report
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class Silent:
     question: Question
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class Echoed:
     """The question itself came back: the line is looped, or something else listens there (S14)."""
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class Noise:
     """Bytes that are no packets: a board that starts, another speed, a broken line."""
 
@@ -129,7 +129,7 @@ def report_state(report: Report) -> BatteryReport | VersionReport | PositionsRep
             raise AssertionError(f"{report} answers no question.")
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class QuestionPacket:
     """A question as a packet, and what answers it."""
 

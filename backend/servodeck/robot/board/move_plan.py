@@ -7,7 +7,6 @@ shared/src/robot/estimate.ts (`softened`) and moveBuffer.ts.
 
 import math
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 
 from servodeck.errors import OutOfRangeError
 from servodeck.protocol.families import Family
@@ -17,12 +16,13 @@ from servodeck.protocol.timings import MOVE, wire_s
 from servodeck.protocol.values import Command, Move, ServoTarget
 from servodeck.robot.board.estimate import Estimate
 from servodeck.robot.board.packet_rules import refusal_of
+from servodeck.value import value
 
 FIRST_MOVE_MS = MOVE.first_ms
 FIRST_MOVE_STAGGER_S = MOVE.first_stagger_ms / 1000
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class Step:
     """`after_s`: since the step before."""
 
@@ -30,7 +30,7 @@ class Step:
     after_s: float
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class MovePlan:
     """`first_moves` are the servos that start one after another."""
 

@@ -20,6 +20,7 @@ from servodeck.rate import SHORTEST_WAIT_S
 from servodeck.robot.board.estimate import Estimate
 from servodeck.robot.board.move_plan import FIRST_MOVE_STAGGER_S, packet_of, softened
 from servodeck.robot.board.packet_rules import MOVE
+from servodeck.value import value
 
 
 class MovedBoard(Protocol):
@@ -49,7 +50,7 @@ class MoveRequest:
             settle(self.left)
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class Wish:
     target: ServoTarget
     duration_ms: int

@@ -8,7 +8,6 @@ and no time.
 import asyncio
 import secrets
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
 from servodeck.callers import Role
 from servodeck.errors import (
@@ -24,6 +23,7 @@ from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.limits import PacketError
 from servodeck.protocol.packets import check_command, encode
 from servodeck.protocol.values import Command, Download, Frame, ServoTarget
+from servodeck.value import value
 
 MOVE, RUN, STOP, ERASE, DOWNLOAD = 3, 6, 7, 8, 25
 BATTERY, POSITIONS, VERSION, ALL_POSITIONS, OFFSETS = 15, 21, 1, 13, 2
@@ -88,7 +88,7 @@ def judge_latch(command: int, latch: bool) -> None:
         raise LatchedError("Stopped: motion is refused until somebody resumes.")
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class Group:
     slot: int
     name: str
@@ -98,7 +98,7 @@ class Group:
     document: str | None = None
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class Part:
     """One group of a download; `packets` in the order of its frames, for boards of the family `board`.
     `extremes`: the least and the greatest position of each servo. `version`: what it is called, by whoever

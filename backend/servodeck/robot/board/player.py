@@ -8,11 +8,12 @@ Knows time and moves; no wire, no document.
 import asyncio
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Protocol
 
 from servodeck.protocol.timings import MOVE, PLAY
 from servodeck.protocol.values import Frame
+from servodeck.value import value
 
 # An event loop's timer may come so much too early.
 CLOCK_GRAIN_MS = 0.001
@@ -30,7 +31,7 @@ class FrameSender(Protocol):
     def frame_began(self, index: int) -> None: ...
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class Played:
     """What came of the deadlines. `late_frames` began so late that those behind them were put off, the latest
     by `latest_ms`. `skipped_frames` had not left when the next one took their place, or were refused.

@@ -9,7 +9,6 @@ import asyncio
 import logging
 import secrets
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 
 from servodeck.errors import CancelledError, GatewayError, MovingError, OutOfRangeError
 from servodeck.port.wire import Left
@@ -21,13 +20,14 @@ from servodeck.robot.board.packet_rules import extremes_of, refusal_of
 from servodeck.robot.board.player import Player
 from servodeck.robot.hub import Session
 from servodeck.snapshots import PlayState
+from servodeck.value import value
 
 # As often as others are told what left.
 PUBLISH_EVERY_S = 0.05
 log = logging.getLogger("servodeck.robot")
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class FrameGroup:
     """`times` 0: until stopped; each pass but the first begins with frame `loop_from`."""
 

@@ -8,7 +8,7 @@ not what runs.
 import json
 import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from pathlib import Path
 from typing import Any, overload
 
@@ -17,11 +17,12 @@ from servodeck.protocol.packets import parse_command
 from servodeck.protocol.timings import RUN
 from servodeck.protocol.values import Download, Frame
 from servodeck.snapshots import StoredGroup
+from servodeck.value import value
 
 AS_STORED = RUN.as_stored_percent
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class PlayedFrames(Sequence[Frame]):
     """Of the packets that stored them, with the times at that speed."""
 
@@ -98,7 +99,7 @@ FILE = "slots.json"
 OLD_FILE = "broken-slots.json"
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class Slots:
     """Of one board."""
 

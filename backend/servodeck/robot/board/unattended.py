@@ -6,15 +6,15 @@ Knows time and one run; how it is stopped is for whoever is told that its time i
 
 import asyncio
 from collections.abc import Callable
-from dataclasses import dataclass
 
 from servodeck.protocol.values import Run
 from servodeck.robot.board.playing import Playing
 from servodeck.robot.hub import Session
 from servodeck.snapshots import UnattendedRun
+from servodeck.value import value
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class AllowedRun:
     run: Run | Playing
     by: Session

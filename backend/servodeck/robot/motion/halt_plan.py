@@ -4,7 +4,6 @@ link. Twin of shared/src/motion/haltPlan.ts.
 """
 
 import math
-from dataclasses import dataclass
 from math import inf
 
 from servodeck.protocol.families import Family
@@ -13,11 +12,12 @@ from servodeck.protocol.values import Move, ServoTarget, Stop
 from servodeck.robot.motion.model import KnownBoard, Motion, rounded
 from servodeck.robot.motion.motion import advance, after_command, hears
 from servodeck.robot.motion.tracks import LONGEST_MOVE_MS, Track, end_ms, guess_of, leeway_of, stands
+from servodeck.value import value
 
 STOP_OFFSETS_MS = [STOP.repeat_every_ms * (index + 1) for index in range(STOP.repeats)]
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class Unheld:
     """What a STOP cannot hold. `servos` None: nobody knows which, because a group whose frames are not known
     may run. `for_ms`: the longest that they may still move, counted from the press of STOP.
@@ -27,7 +27,7 @@ class Unheld:
     for_ms: float
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class HaltPlan:
     """`unheld` None: all is held."""
 
@@ -35,7 +35,7 @@ class HaltPlan:
     unheld: Unheld | None
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class Held:
     """`way`: how far it may have to go to get there; inf for one that is held on a guess."""
 

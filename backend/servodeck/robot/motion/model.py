@@ -7,7 +7,7 @@ polled.py.
 
 import math
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from math import inf
 from typing import Literal, Protocol
 
@@ -24,9 +24,10 @@ from servodeck.robot.motion.tracks import (
     position_of,
     share,
 )
+from servodeck.value import value
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class Reading:
     # None: the board has not said it since.
     position: int | None
@@ -73,7 +74,7 @@ def held_at(readings: Readings, servo: int) -> int | None:
     return None if reading is None or reading.is_released else reading.position
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class UnknownRun:
     """A group that may move anything at any time: its frames are not ours, or its time cannot be computed.
     `ends_to_hear`: how many ends the board will report until nothing runs any more (S49). `until_ms`: it has
@@ -85,7 +86,7 @@ class UnknownRun:
     until_ms: float = inf
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class DeadlineRun:
     """`next` is the frame that begins at `next_at_ms`; `total` what the board takes for the group's length
     (S46). `times` 0: until stopped.
@@ -101,7 +102,7 @@ class DeadlineRun:
     ends_to_hear: int
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class PolledRun:
     """Known until `rest_at_ms`; behind it `rest` is where the servos of the later frames end, somewhen before
     `end_ms`. `rested_ms`: what moved before the first frame has arrived by then; no frame takes longer than
@@ -121,7 +122,7 @@ class PolledRun:
 AnyRun = UnknownRun | DeadlineRun | PolledRun
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class Motion:
     tracks: Tracks = field(default_factory=dict)
     readings: Readings = field(default_factory=dict)

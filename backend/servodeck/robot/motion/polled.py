@@ -5,7 +5,7 @@ where it ends. Knows runs; no servo's way. Twin of shared/src/motion/polled.ts.
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import inf
 
 from servodeck.protocol.timings import ESTIMATE
@@ -20,6 +20,7 @@ from servodeck.robot.motion.tracks import (
     last_end_ms,
     retarget,
 )
+from servodeck.value import value
 
 POLL_MS = ESTIMATE.poll_ms
 STEP_MS = ESTIMATE.poll_step_ms
@@ -45,7 +46,7 @@ def passes_of(times: int) -> int:
     return times & 0xFF or 1
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class Order:
     slot: int
     first: Frame

@@ -5,18 +5,19 @@ off, either way. Twin of shared/src/motion/tracks.ts.
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import inf
 from typing import Literal
 
 from servodeck.protocol.families import Family
 from servodeck.protocol.timings import MOVE
 from servodeck.protocol.values import ServoTarget
+from servodeck.value import value
 
 LONGEST_MOVE_MS = MOVE.longest_ms
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class Track:
     """One servo's way. `start` is None where nobody knows where it began. `start_leeway` and `to_leeway`: how
     far off the two ends may be; a servo whose way is changed or halted keeps what was open then. Infinite
@@ -114,7 +115,7 @@ def unrest_after(until_ms: float, requested_ms: float, at_ms: float, family: Fam
     return at_ms + board_duration_ms(requested_ms, family) + traits.tick_ms + traits.talk_ms
 
 
-@dataclass(frozen=True, slots=True)
+@value
 class Order:
     """The targets of a move or of a frame, when they take effect and arrive, and what was under way then."""
 
