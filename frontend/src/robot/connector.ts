@@ -146,6 +146,7 @@ export function createConnector(options: ConnectorOptions): Connector {
   }));
 
   let current: Opening | null = null;
+  let hasLeft = false;
 
   /** Asked who it is, and taken for what it was the last time. */
   async function onCable(
@@ -273,6 +274,12 @@ export function createConnector(options: ConnectorOptions): Connector {
     });
   }
 
+  /** A page that went while it was loading opens nothing any more. */
+  async function connectFirst(opening: Promise<Opening>): Promise<void> {
+    const opened = await opening;
+    if (!hasLeft) await connect(opened);
+  }
+
   async function start(): Promise<void> {
     const last = recallWay(storage);
     if (last !== null) store.setState({ board: last.board });
@@ -282,14 +289,14 @@ export function createConnector(options: ConnectorOptions): Connector {
     const [board] = last?.kind === 'webHid' && reconnects ? await lookForBoards() : [];
     const [module] = last?.kind === 'webBluetooth' && reconnects ? await lookForModules() : [];
     if (last?.kind === 'simulated' || (gateway === 'absent' && last === null)) {
-      await connect(await simulated());
+      await connectFirst(simulated());
       if (last === null) greet();
     } else if (!reconnects) return;
-    else if (last?.kind === 'webSerial' && port !== undefined) await connect(await openSerial(port.port));
-    else if (board !== undefined) await connect(await openBoard(board.board));
-    else if (module !== undefined) await connect(await openModule(module.module));
+    else if (last?.kind === 'webSerial' && port !== undefined) await connectFirst(openSerial(port.port));
+    else if (board !== undefined) await connectFirst(openBoard(board.board));
+    else if (module !== undefined) await connectFirst(openModule(module.module));
     else if (typeof gateway === 'object') await connect(openGateway());
-    else await connect(await simulated());
+    else await connectFirst(simulated());
     if (gateway === 'absent') void offerLateGateway();
   }
 
@@ -355,7 +362,10 @@ export function createConnector(options: ConnectorOptions): Connector {
     async moveHere() {
       await current?.robot.takeOver();
     },
-    leave: () => current?.robot.leave(),
+    leave() {
+      hasLeft = true;
+      current?.robot.leave();
+    },
   };
 }
 
