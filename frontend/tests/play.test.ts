@@ -114,6 +114,7 @@ test('several groups of the library go to their slots with one progress', async 
   const all = several.getByRole('checkbox', { name: /^All \d+$/ });
   const choices = several.getByRole('list').getByRole('checkbox');
   const cannotGo = choices.and(page.getByRole('checkbox', { checked: false }));
+  await expect(choices, 'the list is read, the group just made in it').toHaveCount(3);
   await all.click();
   await expect(several.getByRole('checkbox', { name: /^Bow for seven/ })).toBeChecked();
   await expect(all).toBeChecked();
