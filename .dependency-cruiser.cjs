@@ -8,22 +8,7 @@ const test = `[.]test[.]tsx?$|${testSupport}`;
 const page = '^frontend/src/';
 
 /** Which feature may import which, besides the files directly in features/: what is not listed goes through these or through app/. */
-const FEATURES = {
-  animate: ['board', 'drive', 'library', 'picture', 'poses', 'profiles', 'undo'],
-  battery: ['poses'],
-  board: ['animate', 'library', 'profiles'],
-  buttons: ['picture', 'poses', 'profiles', 'undo'],
-  connect: ['animate', 'people', 'profiles'],
-  drive: ['picture'],
-  inputs: ['poses', 'profiles', 'undo'],
-  library: ['animate', 'picture', 'profiles'],
-  log: [],
-  people: [],
-  picture: ['animate', 'undo'],
-  poses: ['animate', 'picture', 'profiles', 'undo'],
-  profiles: ['drive', 'people', 'picture', 'undo'],
-  undo: [],
-};
+const FEATURES = require('./frontend/src/features/imports.json');
 
 /** Code in `from` knows nothing of `to`; tests may, so far as `except` allows. */
 function forbid(name, comment, from, to) {

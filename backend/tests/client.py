@@ -67,7 +67,7 @@ class Client(Session):
     async def next(self) -> str:
         """What left the wire is kept apart, in `followed`."""
         while (message := json.loads(text := await super().next()))["type"] == "left":
-            self.followed += [packet_of(told, self.control) for told in message["commands"]]
+            self.followed += [packet_of(left, self.control) for left in message["commands"]]
             if not self.waiting:
                 return ""
         return text
@@ -87,33 +87,33 @@ class Client(Session):
             self.control.driving.beat(self, nonce)
 
 
-def packet_of(told: dict[str, Any], control: Control) -> bytes:
+def packet_of(left: dict[str, Any], control: Control) -> bytes:
     """What has left, as the board got it; while it is asked who it is, that is of no family."""
-    command, family = command_of(told), control.board.family
+    command, family = command_of(left), control.board.family
     return encode(command, family if command.kind in family.commands else UNKNOWN)
 
 
-def command_of(told: dict[str, Any]) -> Command:
-    match told:
+def command_of(left: dict[str, Any]) -> Command:
+    match left:
         case {"kind": "move"}:
-            return Move(told["durationMs"], targets_of(told))
+            return Move(left["durationMs"], targets_of(left))
         case {"kind": "run"}:
-            return Run(told["slot"], told["times"])
+            return Run(left["slot"], left["times"])
         case {"kind": "download", "frame": frame}:
             stored = Frame(frame["durationMs"], targets_of(frame))
-            return Download(told["slot"], told["frameCount"], told["frameIndex"], stored)
+            return Download(left["slot"], left["frameCount"], left["frameIndex"], stored)
         case {"kind": "release"}:
-            return Release(tuple(told["servos"]))
+            return Release(tuple(left["servos"]))
         case {"kind": "readPositions"}:
-            return ReadPositions(tuple(told["servos"]))
+            return ReadPositions(tuple(left["servos"]))
         case {"kind": "setSpeed"}:
-            return SetSpeed(told["slot"], told["percent"])
+            return SetSpeed(left["slot"], left["percent"])
     plain = {each.kind: each() for each in (Stop, Erase, ReadBattery, ReadVersion, ReadAllPositions)}
-    return plain[told["kind"]]
+    return plain[left["kind"]]
 
 
-def targets_of(told: dict[str, Any]) -> tuple[ServoTarget, ...]:
-    return tuple(ServoTarget(one["servo"], one["position"]) for one in told["targets"])
+def targets_of(left: dict[str, Any]) -> tuple[ServoTarget, ...]:
+    return tuple(ServoTarget(one["servo"], one["position"]) for one in left["targets"])
 
 
 @asynccontextmanager

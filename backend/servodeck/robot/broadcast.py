@@ -134,12 +134,12 @@ class Relay:
         self._timer = None
         if self._leaving:
             self._plan()
-        told = newest(tuple(each.command for each in left))
+        latest = newest(tuple(each.command for each in left))
         knowing = {session for each in left for session in each.known_to}
         for session in self._hub.sessions:
             known = session in knowing
             unheard = tuple(each.command for each in left if session not in each.known_to) if known else ()
-            self._publish(session, newest(unheard) if known else told)
+            self._publish(session, newest(unheard) if known else latest)
 
     def _publish(self, session: Session, commands: Commands) -> None:
         if not commands:

@@ -69,7 +69,7 @@ class Requests:
         judge_latch(MOVE, self._latch.is_closed)
         board.jobs.judge_idle()
         permit = driving.permit(session, nonce)
-        # Whoever waits to start may do so as long as the driver is heard.
+        # Servos that wait to start may do so as long as the driver is heard.
         waiting = replace(permit, until_s=math.inf)
 
         def judge(target: ServoTarget, starts: bool) -> None:
