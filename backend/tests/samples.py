@@ -1,8 +1,8 @@
 """Packets of the protocol document for the tests, and how long they spend on the wire."""
 
 from servodeck.protocol.packets import parse_command
-from servodeck.protocol.values import Frame, Move, ServoTarget
-from servodeck.robot.board.packet_rules import Group, packets_of
+from servodeck.protocol.values import Command, Frame, Move, ServoTarget
+from servodeck.robot.board.rules import Group, packets_of
 
 MOVE = bytes.fromhex("5555080301e80301d007")
 MOVE_ELSEWHERE = bytes.fromhex("5555080301e80301dc05")
@@ -25,6 +25,12 @@ DOWNLOAD = bytes.fromhex("55550b190a010001e80301dc05")
 GAP_MS = 10.0
 # Of a second's move by 500: what it goes in a tick, while the board says something, while the hold leaves.
 AHEAD, AHEAD_MS = 30, 60
+
+
+def command_in(packet: bytes) -> Command:
+    command = parse_command(packet)
+    assert command
+    return command
 
 
 def wire_ms(packet: bytes) -> float:

@@ -25,7 +25,7 @@ from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.limits import PacketError
 from servodeck.protocol.packets import encode
 from servodeck.protocol.values import Frame, ReadPositions, ServoTarget
-from servodeck.robot.board.packet_rules import Group, made_of, packets_of
+from servodeck.robot.board.rules import Group, made_of, packets_of
 from servodeck.robot.control import UNNAMED_PERSON, Control
 from servodeck.robot.latch import Cause
 from servodeck.snapshots import UnheldServos

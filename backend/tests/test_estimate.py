@@ -5,7 +5,6 @@ from hypothesis import strategies as st
 
 from servodeck.protocol import timings
 from servodeck.protocol.families import FAMILIES
-from servodeck.protocol.packets import encode
 from servodeck.protocol.values import (
     Command,
     Move,
@@ -22,7 +21,7 @@ from servodeck.protocol.values import (
     Stop,
 )
 from servodeck.robot.board.estimate import Estimate
-from tests.samples import RUN, STOP, stored
+from tests.samples import RUN, STOP, command_in, stored
 
 DOC = FAMILIES["doc"]
 
@@ -42,7 +41,7 @@ def held(motion: Estimate, now: float) -> Command | None:
 def told(*packets: tuple[float, Command], family: str = "doc") -> Estimate:
     motion = Estimate(FAMILIES[family])
     for at_s, command in packets:
-        motion.left(encode(command, FAMILIES[family]), at_s)
+        motion.left(command, at_s)
     return motion
 
 
@@ -72,7 +71,7 @@ def test_what_others_may_have_moved_before_the_port_was_opened_makes_no_hold_slo
     motion.opened(0.0)
     assert motion.halt_plan(0.0).unheld is not None
     for at_s, command in ways:
-        motion.left(encode(command, DOC), at_s)
+        motion.left(command, at_s)
     assert held_after(motion, 2.91) == held_after(told(*ways), 2.91)
 
 
@@ -89,7 +88,7 @@ def test_a_servo_let_go_is_not_held() -> None:
 
 def test_a_group_is_over_when_the_board_says_so_but_not_by_the_word_about_the_one_before() -> None:
     motion = told()
-    motion.left(RUN, 1.0)
+    motion.left(command_in(RUN), 1.0)
     motion.heard(RunFinished(None), 1.4)
     assert motion.group_may_run(1000.0)
     motion.heard(RunAccepted(), 2.0)
@@ -109,14 +108,14 @@ def test_what_was_moved_is_known_and_a_first_move_counts_down() -> None:
 
 def test_a_group_may_move_anything_until_it_is_stopped() -> None:
     motion = told((0.0, move(0, s1=1000)))
-    motion.left(RUN, 1.0)
+    motion.left(command_in(RUN), 1.0)
     assert motion.group_may_run(2.0)
     assert held(motion, 2.0) is None
-    motion.left(encode(move(1000, s1=1500), DOC), 3.0)
+    motion.left(move(1000, s1=1500), 3.0)
     assert held(motion, 5.0) is None
-    motion.left(STOP, 6.0)
+    motion.left(command_in(STOP), 6.0)
     assert not motion.group_may_run(6.0)
-    motion.left(encode(move(1000, s1=1500), DOC), 7.0)
+    motion.left(move(1000, s1=1500), 7.0)
     assert held(motion, 8.0) == move(20, s1=1500)
 
 
@@ -141,10 +140,10 @@ def test_whoever_comes_is_told_which_servos_hands_may_turn() -> None:
     motion = told((0.0, move(0, s1=500, s2=600)), (1.0, Release((1,))), family="bus-ctrl")
     motion.heard(Positions((ServoTarget(1, 400),)), 2.0)
     assert motion.snapshot(2.0).released == [1]
-    motion.left(RUN, 3.0)
+    motion.left(command_in(RUN), 3.0)
     assert motion.snapshot(3.0).released == [1]
-    motion.left(STOP, 4.0)
-    motion.left(encode(move(1500, s1=500), DOC), 5.0)
+    motion.left(command_in(STOP), 4.0)
+    motion.left(move(1500, s1=500), 5.0)
     assert motion.snapshot(60.0).released == []
 
 
@@ -167,7 +166,7 @@ def test_the_word_that_our_own_group_has_begun_starts_it_no_second_time() -> Non
     ours = motion.run
     motion.heard(RunStarted(8, 1), 1.1)
     assert motion.run is ours
-    motion.left(STOP, 1.2)
+    motion.left(command_in(STOP), 1.2)
     motion.heard(RunStarted(8, 1), 1.3)
     assert not motion.group_may_run(1.3)
     motion.heard(RunStarted(8, 1), 60.0)
@@ -184,7 +183,7 @@ def running(*runs: tuple[float, Run], stored_ms: int = 500) -> Estimate:
     motion = Estimate(DOC)
     motion.stored(8, stored(8, *[stored_ms] * 4), 0.0)
     for at_s, run in runs:
-        motion.left(encode(run, DOC), at_s)
+        motion.left(run, at_s)
     return motion
 
 
@@ -203,8 +202,8 @@ def test_a_known_group_is_over_after_its_time_unless_it_has_no_end_or_another_on
     assert running((1.0, Run(8, 0))).group_may_run(1000.0)
     assert running((1.0, Run(7, 0)), (2.0, Run(8, 1))).group_may_run(1000.0)
     assert not running((1.0, Run(8, 1)), (9.0, Run(8, 1))).group_may_run(9.0 + 2.0 + END_GRACE_S)
-    once.left(stored(8, 500)[0], 20.0)
-    once.left(encode(Run(8, 1), DOC), 23.0)
+    once.left(command_in(stored(8, 500)[0]), 20.0)
+    once.left(Run(8, 1), 23.0)
     assert once.group_may_run(1000.0)
 
 
@@ -266,7 +265,7 @@ def test_a_move_that_a_bus_board_may_not_have_heard_leaves_its_servos_unknown() 
 def test_behind_its_answer_a_bus_board_hears_again() -> None:
     motion = bus_board((10.0, ASK))
     motion.heard(ANSWER, 10.4)
-    motion.left(encode(move(500, s1=600), FAMILIES["bus-ctrl"]), 10.41)
+    motion.left(move(500, s1=600), 10.41)
     assert held(motion, 11.0) == move(20, s1=600, s2=400)
 
 
@@ -274,9 +273,9 @@ def test_behind_what_it_may_hold_the_next_one_may_be_dropped_for_a_gap() -> None
     motion = bus_board((10.0, ASK), (10.1, move(500, s1=400)))
     motion.heard(ANSWER, 10.4)
     family = FAMILIES["bus-ctrl"]
-    motion.left(encode(move(20, s2=700), family), 10.4 + family.service_gap_ms / 2000)
+    motion.left(move(20, s2=700), 10.4 + family.service_gap_ms / 2000)
     assert motion.is_unknown(2, 11.0)
-    motion.left(encode(move(20, s1=700), family), 11.0)
+    motion.left(move(20, s1=700), 11.0)
     assert held(motion, 12.0) == move(20, s1=700)
 
 

@@ -8,7 +8,7 @@ from servodeck.access import addresses
 from servodeck.access.gate import judge_handshake, judge_script
 from servodeck.errors import ForbiddenError, LatchedError, MalformedError, NotSupportedError, OutOfRangeError
 from servodeck.protocol.decoder import COMMAND_AT
-from servodeck.robot.board.packet_rules import judge_latch, judge_packet
+from servodeck.robot.board.rules import judge_latch, judge_packet
 from tests.samples import BATTERY, DOWNLOAD, ERASE, MOVE, RUN, STOP
 
 PORT = 8300
@@ -110,7 +110,7 @@ def test_another_site_may_link_to_the_page_and_nothing_else(
 
 @pytest.mark.parametrize("packet", [MOVE, RUN, STOP, ERASE, BATTERY, DOWNLOAD])
 def test_each_of_the_six_commands_passes(packet: bytes) -> None:
-    assert judge_packet(packet.hex(), "doc") == packet
+    assert judge_packet(packet.hex(), "doc").data == packet
 
 
 @pytest.mark.parametrize(

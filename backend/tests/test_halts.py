@@ -13,6 +13,7 @@ from servodeck.protocol.packets import encode, parse_command, parse_report
 from servodeck.protocol.values import Download, Frame, Move, ServoTarget
 from servodeck.robot.board.estimate import Estimate
 from servodeck.robot.motion.halt_plan import HaltPlan, Unheld
+from tests.samples import command_in
 from tests.vectors import load_vectors
 
 HISTORIES = load_vectors("halts")
@@ -22,7 +23,7 @@ def replay(estimate: Estimate, event: dict[str, Any]) -> None:
     at_s = event["atMs"] / 1000
     match event:
         case {"left": packet}:
-            estimate.left(bytes.fromhex(packet), at_s)
+            estimate.left(command_in(bytes.fromhex(packet)), at_s)
         case {"heard": packet}:
             data = bytes.fromhex(packet)
             estimate.heard(parse_report(Packet(data[3], data[4:]), estimate.family), at_s)

@@ -9,6 +9,7 @@ from servodeck.errors import CancelledError, ClosedError, PortBusyError, PortLos
 from servodeck.port.link import Link, Ports
 from servodeck.port.ports import OpenPort
 from servodeck.port.wire import Wire
+from servodeck.protocol.packets import CommandPacket
 from servodeck.snapshots import PortState
 from tests.fake_port import FakePort, FakePorts
 from tests.virtual_time import at, in_virtual_time, now
@@ -27,7 +28,7 @@ class Notes:
     def port_opened(self, wire: Wire) -> None:
         self.happened.append("opened")
 
-    def port_lost(self, unfinished: bytes | None) -> None:
+    def port_lost(self, unfinished: CommandPacket | None) -> None:
         self.happened.append("lost")
 
     def port_changed(self) -> None:

@@ -6,10 +6,10 @@ from hypothesis import strategies as st
 
 from servodeck.errors import NotSupportedError, OutOfRangeError
 from servodeck.protocol.families import FAMILIES, Family
-from servodeck.protocol.packets import encode
 from servodeck.protocol.values import Move, ServoTarget
 from servodeck.robot.board.estimate import Estimate
-from servodeck.robot.board.move_plan import FIRST_MOVE_MS, FIRST_MOVE_STAGGER_S, MovePlan, plan_move
+from servodeck.robot.board.move_buffer import FIRST_MOVE_MS, FIRST_MOVE_STAGGER_S
+from servodeck.robot.scripts import MovePlan, plan_move
 
 BUS = FAMILIES["bus-ctrl"]
 DOC = FAMILIES["doc"]
@@ -21,7 +21,7 @@ def moved(family: Family, *servos: int, duration_ms: int = 20) -> Estimate:
     motion = Estimate(family)
     for servo in servos:
         target = ServoTarget(servo, family.position_of(servo).min)
-        motion.left(encode(Move(duration_ms, (target,)), family), 0.0)
+        motion.left(Move(duration_ms, (target,)), 0.0)
     return motion
 
 
@@ -60,7 +60,7 @@ def test_a_first_move_under_way_is_made_faster_by_nobody_where_boards_share_the_
     assert len(plan({2: 1500}, 1000, beginning, DOC, 0.5).steps) == 1
     lsc = FAMILIES["lsc-6"]
     own_time = moved(lsc, 1, duration_ms=1500)
-    own_time.left(encode(Move(0, (ServoTarget(2, 500),)), lsc), 0.0)
+    own_time.left(Move(0, (ServoTarget(2, 500),)), 0.0)
     assert len(plan({2: 1500}, 20, own_time, lsc, 0.5).steps) == 1
 
 

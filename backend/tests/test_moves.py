@@ -26,9 +26,10 @@ from servodeck.errors import (
 )
 from servodeck.intents import MoveMessage, Target
 from servodeck.port.wire import QUEUE_PER_OWNER, Left, Owner
+from servodeck.protocol import packets
 from servodeck.protocol.packets import encode, parse_command
 from servodeck.protocol.values import Command, Move, ServoTarget
-from servodeck.robot.board.move_plan import FIRST_MOVE_MS, FIRST_MOVE_STAGGER_S
+from servodeck.robot.board.move_buffer import FIRST_MOVE_MS, FIRST_MOVE_STAGGER_S
 from servodeck.robot.control import Control
 from servodeck.robot.lease import COMMAND_S, QUIET_S
 from servodeck.snapshots import ServoLimits
@@ -239,6 +240,39 @@ async def test_the_driver_hears_at_once_what_of_it_has_left_and_others_soon() ->
         await asyncio.sleep(0.1)
         await bert.heard()
         assert bert.followed == anna.followed
+
+
+@in_virtual_time
+async def test_a_move_is_encoded_once_and_its_packet_never_read(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    done: list[str] = []
+
+    def count(name: str) -> None:
+        work = getattr(packets, name)
+
+        def counted(*given: object) -> object:
+            done.append(name)
+            return work(*given)
+
+        monkeypatch.setattr(packets, name, counted)
+
+    port = FakePort()
+    async with gateway_on(port) as control:
+        anna = await driver_at_the_centre(control)
+        bert = Client(control)
+        before = len(port.written)
+        count("params_of")
+        count("whole_packet")
+        targets = [Target(servo=1, position=1510), Target(servo=2, position=1490)]
+        move = MoveMessage(type="move", id=1, targets=targets, duration_ms=0, nonce=anna.nonce)
+        take(move, anna, control)
+        await asyncio.sleep(0.1)
+        assert done == ["params_of"]
+        await bert.heard()
+        [left] = moves_on(port, before)
+        assert left.positions == {1: 1510, 2: 1490}
+        assert len(bert.followed) == 1
 
 
 @in_virtual_time

@@ -190,8 +190,7 @@ def test_a_counted_run_is_waited_for_with_a_bound(data: st.DataObject, name: str
         if isinstance(event, Report):
             estimate.heard(event, at_s)
         else:
-            packet = encode(event, family)
-            estimate.left(packet, at_s)
+            estimate.left(event, at_s)
             if isinstance(event, Download):
-                estimate.stored(SLOT, [packet], at_s)
+                estimate.stored(SLOT, [encode(event, family)], at_s)
     assert not estimate.group_may_run(at_s + LONGEST_CHAIN_S)

@@ -19,6 +19,7 @@ from servodeck.errors import (
     PortLostError,
 )
 from servodeck.port.wire import QUEUE_PER_OWNER, Hold, Wire, no_hold
+from servodeck.protocol.packets import CommandPacket, parse_command
 from tests.amount import TIMES
 from tests.fake_port import FakeHidPort, FakePort
 from tests.samples import BATTERY, GAP_MS, MOVE, MOVE_ELSEWHERE, RUN, STOP, wire_ms
@@ -43,9 +44,13 @@ async def open_wire(port: FakePort, gap_ms: float = GAP_MS) -> AsyncIterator[Wir
         port.close()
 
 
+def sample(data: bytes) -> CommandPacket:
+    return CommandPacket(parse_command(data), data)
+
+
 def once(hold: bytes) -> Hold:
     """All is held by that packet."""
-    return lambda held: None if held else hold
+    return lambda held: None if held else sample(hold)
 
 
 def approx_ms(*times_ms: float) -> object:
@@ -56,7 +61,7 @@ def approx_ms(*times_ms: float) -> object:
 async def test_each_packet_leaves_when_the_one_before_has_left_and_the_board_had_its_pause() -> None:
     port = FakePort()
     async with open_wire(port) as wire:
-        await asyncio.gather(*(wire.send(packet, ANNA) for packet in (MOVE, BATTERY, RUN)))
+        await asyncio.gather(*(wire.send(sample(packet), ANNA) for packet in (MOVE, BATTERY, RUN)))
     second_ms = GAP_MS + wire_ms(MOVE) + GAP_MS
     assert port.packets() == [MOVE, BATTERY, RUN]
     assert port.times_ms() == approx_ms(GAP_MS, second_ms, second_ms + wire_ms(BATTERY) + GAP_MS)
@@ -67,10 +72,10 @@ async def test_an_answered_packet_needs_no_pause_behind_it() -> None:
     port = FakePort()
     async with open_wire(port) as wire:
         answered_ms = GAP_MS + wire_ms(BATTERY) + 4
-        await wire.send(BATTERY, ANNA)
+        await wire.send(sample(BATTERY), ANNA)
         wire.answered(BATTERY[3] + 1)
         at(answered_ms / 1000, lambda: wire.answered(BATTERY[3]))
-        await wire.send(MOVE, ANNA)
+        await wire.send(sample(MOVE), ANNA)
     assert port.times_ms() == approx_ms(GAP_MS, answered_ms)
 
 
@@ -78,7 +83,7 @@ async def test_an_answered_packet_needs_no_pause_behind_it() -> None:
 async def test_a_packet_counts_as_sent_when_its_last_bit_has_left() -> None:
     port = FakePort()
     async with open_wire(port) as wire:
-        await wire.send(MOVE, ANNA)
+        await wire.send(sample(MOVE), ANNA)
         assert now() * 1000 == pytest.approx(GAP_MS + wire_ms(MOVE), abs=0.1)
 
 
@@ -86,7 +91,7 @@ async def test_a_packet_counts_as_sent_when_its_last_bit_has_left() -> None:
 async def test_a_stop_waits_for_the_packet_on_the_wire_and_for_nothing_else() -> None:
     port = FakePort()
     async with open_wire(port) as wire:
-        waiting = [wire.send(packet, ANNA) for packet in (MOVE, RUN, MOVE_ELSEWHERE)]
+        waiting = [wire.send(sample(packet), ANNA) for packet in (MOVE, RUN, MOVE_ELSEWHERE)]
         # The first move is on the wire since 10 ms.
         at(0.015, lambda: wire.halt(once(MOVE_ELSEWHERE), STOPPED))
         await waiting[0]
@@ -121,7 +126,7 @@ async def test_a_stop_on_an_idle_wire_leaves_at_once() -> None:
 async def test_a_stop_keeps_its_distance_even_from_a_board_that_needs_less() -> None:
     port = FakePort()
     async with open_wire(port, gap_ms=2) as wire:
-        await wire.send(MOVE, ANNA)
+        await wire.send(sample(MOVE), ANNA)
         await wire.halt(no_hold, STOPPED)
     assert port.times_ms()[1] == pytest.approx(port.times_ms()[0] + wire_ms(MOVE) + GAP_MS, abs=0.1)
 
@@ -131,8 +136,8 @@ async def test_nothing_slips_in_between_the_stops_and_the_pose() -> None:
     port = FakePort()
     async with open_wire(port) as wire:
         halted = wire.halt(once(MOVE_ELSEWHERE), STOPPED)
-        wire.send(BATTERY, ANNA)
-        wire.send(STOP, ANNA, urgent=True)
+        wire.send(sample(BATTERY), ANNA)
+        wire.send(sample(STOP), ANNA, urgent=True)
         await halted
         await asyncio.sleep(1)
     assert port.packets() == [STOP, MOVE_ELSEWHERE, STOP, STOP, MOVE_ELSEWHERE, STOP, BATTERY]
@@ -166,7 +171,7 @@ async def test_after_the_sequence_the_wire_serves_again() -> None:
     port = FakePort()
     async with open_wire(port) as wire:
         await wire.halt(no_hold, STOPPED)
-        await wire.send(MOVE, ANNA)
+        await wire.send(sample(MOVE), ANNA)
         await wire.halt(no_hold, STOPPED)
     assert port.packets() == [STOP, STOP, STOP, MOVE, STOP, STOP, STOP]
 
@@ -176,10 +181,10 @@ async def test_one_client_cannot_fill_the_queue_for_the_others() -> None:
     port = FakePort()
     async with open_wire(port) as wire:
         for _ in range(QUEUE_PER_OWNER):
-            wire.send(MOVE, ANNA)
+            wire.send(sample(MOVE), ANNA)
         with pytest.raises(BusyError):
-            wire.send(MOVE, ANNA)
-        await wire.send(BATTERY, BERT)
+            wire.send(sample(MOVE), ANNA)
+        await wire.send(sample(BATTERY), BERT)
 
 
 @in_virtual_time
@@ -187,11 +192,11 @@ async def test_a_full_queue_does_not_keep_stops_out_yet_they_are_bounded_too() -
     port = FakePort()
     async with open_wire(port) as wire:
         for _ in range(QUEUE_PER_OWNER):
-            wire.send(MOVE, ANNA)
+            wire.send(sample(MOVE), ANNA)
         for _ in range(QUEUE_PER_OWNER):
-            wire.send(STOP, ANNA, urgent=True)
+            wire.send(sample(STOP), ANNA, urgent=True)
         with pytest.raises(BusyError):
-            wire.send(STOP, ANNA, urgent=True)
+            wire.send(sample(STOP), ANNA, urgent=True)
         await wire.halt(no_hold, STOPPED)
 
 
@@ -199,8 +204,8 @@ async def test_a_full_queue_does_not_keep_stops_out_yet_they_are_bounded_too() -
 async def test_what_a_client_left_behind_is_dropped_unless_it_is_on_the_wire() -> None:
     port = FakePort()
     async with open_wire(port) as wire:
-        on_wire, dropped = wire.send(MOVE, ANNA), wire.send(MOVE, ANNA)
-        kept = wire.send(BATTERY, BERT)
+        on_wire, dropped = wire.send(sample(MOVE), ANNA), wire.send(sample(MOVE), ANNA)
+        kept = wire.send(sample(BATTERY), BERT)
         at(0.012, lambda: wire.purge(lambda job: job.owner is ANNA, ClosedError("gone")))
         await on_wire
         with pytest.raises(ClosedError):
@@ -213,13 +218,13 @@ async def test_what_a_client_left_behind_is_dropped_unless_it_is_on_the_wire() -
 async def test_a_lost_port_fails_all_that_waits_and_whatever_comes_later() -> None:
     port = FakePort()
     async with open_wire(port) as wire:
-        pending = [wire.send(MOVE, ANNA), wire.send(MOVE, ANNA)]
+        pending = [wire.send(sample(MOVE), ANNA), wire.send(sample(MOVE), ANNA)]
         at(0.012, port.unplug)
         for left in pending:
             with pytest.raises(PortLostError):
                 await left
         with pytest.raises(PortLostError):
-            wire.send(MOVE, ANNA)
+            wire.send(sample(MOVE), ANNA)
         with pytest.raises(PortLostError):
             wire.halt(no_hold, STOPPED)
 
@@ -245,7 +250,7 @@ class SlowPort(FakePort):
 async def test_a_packet_that_the_system_takes_late_has_left_late_and_a_stop_waits_for_it() -> None:
     port = SlowPort()
     async with open_wire(port) as wire:
-        left = wire.send(MOVE, ANNA)
+        left = wire.send(sample(MOVE), ANNA)
         at(0.015, lambda: wire.halt(no_hold, STOPPED))
         await left
         assert now() * 1000 == pytest.approx(GAP_MS + SLOW_MS, abs=0.1)
@@ -258,7 +263,7 @@ async def test_a_packet_that_the_system_takes_late_has_left_late_and_a_stop_wait
 async def test_closing_fails_all_that_waits_as_closed() -> None:
     port = FakePort()
     async with open_wire(port) as wire:
-        left = wire.send(MOVE, ANNA)
+        left = wire.send(sample(MOVE), ANNA)
     with pytest.raises(ClosedError):
         await left
 
@@ -300,7 +305,7 @@ async def play(asked: list[tuple[int, str]], port: FakePort) -> None:
             if kind == "stop":
                 wire.halt(no_hold, STOPPED)
             else:
-                wire.send(MOVE if kind == "move" else BATTERY, ANNA)
+                wire.send(sample(MOVE if kind == "move" else BATTERY), ANNA)
         except GatewayError:
             pass
 
@@ -321,7 +326,7 @@ async def test_a_hold_of_several_packets_leaves_whole_after_the_first_stop_and_t
     port = FakePort()
     parts = [MOVE, MOVE_ELSEWHERE]
     async with open_wire(port) as wire:
-        await wire.halt(lambda held: parts[len(held)] if len(held) < len(parts) else None, STOPPED)
+        await wire.halt(lambda held: sample(parts[len(held)]) if len(held) < len(parts) else None, STOPPED)
     assert port.packets() == [STOP, *parts, STOP, STOP, *parts]
 
 
@@ -330,8 +335,8 @@ async def test_a_packet_that_the_port_cannot_carry_is_refused_and_never_split() 
     port = FakeHidPort()
     async with open_wire(port) as wire:
         with pytest.raises(OutOfRangeError, match="65 bytes, this port carries 64"):
-            wire.send(bytes(65), ANNA)
-        await wire.send(bytes(64), ANNA)
+            wire.send(sample(bytes(65)), ANNA)
+        await wire.send(sample(bytes(64)), ANNA)
     assert port.packets() == [bytes(64)]
 
 
@@ -339,7 +344,7 @@ async def test_a_packet_that_the_port_cannot_carry_is_refused_and_never_split() 
 async def test_short_packets_are_as_far_apart_as_the_port_needs() -> None:
     port = FakeHidPort()
     async with open_wire(port, gap_ms=2) as wire:
-        await asyncio.gather(*(wire.send(BATTERY, ANNA) for _ in range(3)))
+        await asyncio.gather(*(wire.send(sample(BATTERY), ANNA) for _ in range(3)))
     assert port.times_ms() == approx_ms(GAP_MS, GAP_MS + 20 + GAP_MS, 2 * (GAP_MS + 20) + GAP_MS)
 
 
@@ -348,5 +353,5 @@ async def test_a_packet_that_is_taken_late_keeps_the_next_one_back() -> None:
     port = FakeHidPort()
     port.takes_s = 0.255
     async with open_wire(port) as wire:
-        await asyncio.gather(*(wire.send(BATTERY, ANNA) for _ in range(2)))
+        await asyncio.gather(*(wire.send(sample(BATTERY), ANNA) for _ in range(2)))
     assert port.times_ms() == approx_ms(GAP_MS, GAP_MS + 255 + GAP_MS)

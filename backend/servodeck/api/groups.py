@@ -16,8 +16,8 @@ from servodeck.callers import Caller
 from servodeck.errors import MalformedError
 from servodeck.intents import ContinueMs, FrameBody, MessageId, Nonce, PlayIntent
 from servodeck.protocol.values import Frame
-from servodeck.robot.board.packet_rules import Group, parts_of
 from servodeck.robot.board.playing import FrameGroup
+from servodeck.robot.board.rules import Group, parts_of
 from servodeck.schema import Message
 from servodeck.snapshots import JobState, PlayState
 

@@ -19,6 +19,7 @@ from servodeck.port.whereabouts import UsbDevice, Whereabouts
 from servodeck.port.wire import Wire, fail, settle
 from servodeck.protocol.decoder import LONGEST_PACKET
 from servodeck.protocol.families import Withheld
+from servodeck.protocol.packets import CommandPacket
 from servodeck.protocol.timings import LINE
 from servodeck.snapshots import PortState
 from servodeck.threads import in_thread
@@ -43,7 +44,7 @@ class LinkEvents(Protocol):
     def port_opened(self, wire: Wire) -> None:
         """Before anything else is sent on that wire."""
 
-    def port_lost(self, unfinished: bytes | None) -> None:
+    def port_lost(self, unfinished: CommandPacket | None) -> None:
         """It was open and is gone, unasked; that packet was on its way."""
 
     def port_changed(self) -> None:

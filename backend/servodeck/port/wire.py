@@ -15,20 +15,21 @@ from servodeck import metrics
 from servodeck.errors import BusyError, ClosedError, GatewayError, OutOfRangeError
 from servodeck.port.ports import OpenPort
 from servodeck.port.reader import start_reading
-from servodeck.protocol.decoder import COMMAND_AT
 from servodeck.protocol.families import Withheld
+from servodeck.protocol.packets import CommandPacket
 from servodeck.protocol.timings import STOP, wire_s
+from servodeck.protocol.values import Stop
 
-STOP_PACKET = bytes.fromhex("55550207")
+STOP_PACKET = CommandPacket(Stop(), bytes.fromhex("55550207"))
 QUEUE_PER_OWNER = 8
 CLOCK_GRAIN_S = 1e-6
 
 Owner = object
 # The next packet of the hold that those packets began, None where all is held.
-Hold = Callable[[Sequence[bytes]], bytes | None]
+Hold = Callable[[Sequence[CommandPacket]], CommandPacket | None]
 
 
-def no_hold(_held: Sequence[bytes]) -> None:
+def no_hold(_held: Sequence[CommandPacket]) -> None:
     """Nothing is held."""
 
 
@@ -45,8 +46,8 @@ class Job:
     as its turn has come, None where there is nothing to say any more; it raises what keeps it from leaving.
     """
 
-    command: int
-    make: Callable[[], bytes | None]
+    number: int
+    make: Callable[[], CommandPacket | None]
     owner: Owner
     left: Left
     asked_at: float
@@ -64,7 +65,7 @@ class Halt:
     hold: Hold
     left: Left
     stops_to_go: int = 1 + STOP.repeats
-    held: list[bytes] = field(default_factory=list)
+    held: list[CommandPacket] = field(default_factory=list)
     hold_now: bool = False
     due: float = field(default=float("-inf"))
 
@@ -79,13 +80,13 @@ class Wire:
         gap_s: float,
         now: Callable[[], float],
         received: Callable[[bytes], None],
-        leaving: Callable[[Owner, bytes, float], None] = lambda _owner, _packet, _at_s: None,
-        first: bytes | None = None,
+        leaving: Callable[[Owner, CommandPacket, float], None] = lambda _owner, _packet, _at_s: None,
+        first: CommandPacket | None = None,
     ) -> None:
         """`leaving` hears whose packet begins to leave and when it will have. `first` leaves before all
         else.
         """
-        self.unfinished: bytes | None = first
+        self.unfinished: CommandPacket | None = first
         """What has not left for sure, if the port were lost now."""
         self._port = port
         self._gap_s = max(gap_s, STOP.gap_ms / 1000)
@@ -96,7 +97,7 @@ class Wire:
         self._left_at = now()
         self._free_at = self._left_at + self._gap_s
         self._freed = asyncio.Event()
-        self._last_command: int | None = None
+        self._last_number: int | None = None
         self._halt: Halt | None = None
         self._urgent: deque[Job] = deque()
         self._queue: deque[Job] = deque()
@@ -106,7 +107,7 @@ class Wire:
 
     def send(
         self,
-        packet: bytes,
+        packet: CommandPacket,
         owner: Owner,
         *,
         urgent: bool = False,
@@ -115,33 +116,33 @@ class Wire:
         """Queues a packet, an urgent one before all others. Raises BusyError when this owner has too many
         waiting. `judge` is asked when its turn has come, and raises what keeps it from leaving.
         """
-        if len(packet) > self._port.longest_packet:
+        if len(packet.data) > self._port.longest_packet:
             raise OutOfRangeError(
-                f"The packet has {len(packet)} bytes, this port carries {self._port.longest_packet}."
+                f"The packet has {len(packet.data)} bytes, this port carries {self._port.longest_packet}."
             )
-        lane = self._urgent if urgent else self._queue
-        if sum(other.owner is owner for other in lane) >= QUEUE_PER_OWNER:
+        queue = self._urgent if urgent else self._queue
+        if sum(other.owner is owner for other in queue) >= QUEUE_PER_OWNER:
             raise BusyError(
                 f"{QUEUE_PER_OWNER} packets are waiting already. Send the next one when one has left."
             )
 
-        def make() -> bytes:
+        def make() -> CommandPacket:
             judge()
             return packet
 
-        return self._queue_up(lane, packet[COMMAND_AT], make, owner)
+        return self._queue_up(queue, packet.number, make, owner)
 
-    def send_made(self, command: int, make: Callable[[], bytes | None], owner: Owner) -> Left:
+    def send_made(self, number: int, make: Callable[[], CommandPacket | None], owner: Owner) -> Left:
         """Queues a packet of that command number that is made when its turn has come."""
-        return self._queue_up(self._queue, command, make, owner)
+        return self._queue_up(self._queue, number, make, owner)
 
     def _queue_up(
-        self, lane: deque[Job], command: int, make: Callable[[], bytes | None], owner: Owner
+        self, queue: deque[Job], number: int, make: Callable[[], CommandPacket | None], owner: Owner
     ) -> Left:
         if self._ended:
             raise self._ended
-        job = Job(command, make, owner, asyncio.get_running_loop().create_future(), self._now())
-        lane.append(job)
+        job = Job(number, make, owner, asyncio.get_running_loop().create_future(), self._now())
+        queue.append(job)
         self._work.set()
         return job.left
 
@@ -177,9 +178,9 @@ class Wire:
     def is_halting(self) -> bool:
         return self._halt is not None
 
-    def answered(self, command: int) -> None:
+    def answered(self, number: int) -> None:
         """The board has answered a packet of that command number: if it left last, the gap is over."""
-        if command == self._last_command:
+        if number == self._last_number:
             self._free_at = min(self._free_at, max(self._left_at, self._now()))
             self._freed.set()
 
@@ -189,12 +190,12 @@ class Wire:
             self._queue.remove(job)
             fail(job.left, reason)
 
-    def has_waiting(self, command: int) -> bool:
-        return any(job.command == command for job in (*self._urgent, *self._queue))
+    def has_waiting(self, number: int) -> bool:
+        return any(job.number == number for job in (*self._urgent, *self._queue))
 
     def is_clear_of(self, unwanted: Callable[[int], bool]) -> bool:
         """No packet of such a command number waits, and no stop sequence is under way."""
-        return not self._halt and not any(unwanted(job.command) for job in (*self._urgent, *self._queue))
+        return not self._halt and not any(unwanted(job.number) for job in (*self._urgent, *self._queue))
 
     async def run(self) -> None:
         """Sends and reads until the port is lost (raises PortLostError) or this task is cancelled."""
@@ -263,12 +264,12 @@ class Wire:
         self._under_way = None
         settle(job.left)
 
-    async def _put(self, packet: bytes, owner: Owner) -> None:
+    async def _put(self, packet: CommandPacket, owner: Owner) -> None:
         self.unfinished = packet
-        handed_over = self._port.write(packet)
-        self._last_command = packet[COMMAND_AT]
-        metrics.sent[metrics.name_of(self._last_command)] += 1
-        self._left_at = self._now() + max(wire_s(len(packet)), self._port.shortest_s)
+        handed_over = self._port.write(packet.data)
+        self._last_number = packet.number
+        metrics.sent[metrics.name_of(self._last_number)] += 1
+        self._left_at = self._now() + max(wire_s(len(packet.data)), self._port.shortest_s)
         self._free_at = self._left_at + self._gap_s
         self._leaving(owner, packet, self._left_at)
         if handed_over:

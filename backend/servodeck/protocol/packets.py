@@ -7,7 +7,7 @@ shared/protocol/vectors holds both codecs to each other.
 
 from typing import Literal, assert_never
 
-from servodeck.protocol.decoder import HEADER, Packet
+from servodeck.protocol.decoder import COMMAND_AT, HEADER, Packet
 from servodeck.protocol.families import CommandKind, Family, Range
 from servodeck.protocol.limits import PacketError, check, check_range
 from servodeck.protocol.values import (
@@ -41,6 +41,7 @@ from servodeck.protocol.values import (
     UnknownReport,
     Version,
 )
+from servodeck.value import value
 
 COMMAND_NUMBER: dict[CommandKind, int] = {
     "move": 3,
@@ -63,6 +64,25 @@ SERVO_TYPES: dict[int, Literal["us", "steps"]] = {1: "us", 2: "steps"}
 MIN_LENGTH = 2
 # Count and time before the entries of a move or frame; slot, count and number before those of a download.
 FRAME_HEAD, ENTRY, DOWNLOAD_HEAD = 3, 3, 3
+
+
+@value
+class CommandPacket:
+    """A command with its bytes, so that nothing behind has to read these again. `command` is None for bytes
+    that are none: filler.
+    """
+
+    command: Command | None
+    data: bytes
+
+    @property
+    def number(self) -> int:
+        return self.data[COMMAND_AT]
+
+
+def encoded(command: Command, family: Family) -> CommandPacket:
+    """Raises PacketError where a board of this family cannot take the command."""
+    return CommandPacket(command, encode(command, family))
 
 
 def encode(command: Command, family: Family) -> bytes:

@@ -15,10 +15,9 @@ from servodeck.port.wire import Left
 from servodeck.protocol.families import Family
 from servodeck.protocol.timings import RUN
 from servodeck.protocol.values import Command, Erase, Erased, Release, Run, RunAccepted, RunStarted, SetSpeed
-from servodeck.robot.board.downloads import ERASE_TIMEOUT_S
-from servodeck.robot.board.move_plan import judge_command, portions_of
-from servodeck.robot.board.packet_rules import MOVE, judge_latch
-from servodeck.robot.board.recovery import repeat_stop
+from servodeck.robot.board.resync import repeat_stop
+from servodeck.robot.board.rules import MOVE, judge_command, judge_latch, portions_of
+from servodeck.robot.board.storing import ERASE_TIMEOUT_S
 from servodeck.robot.hub import Session
 from servodeck.robot.lease import Permit
 from servodeck.snapshots import Outcome
@@ -137,8 +136,8 @@ class Operations:
             if "run" not in family.answers:
                 await left
                 return "sent"
-            answers = self._control.board.answers
-            taken = await answers.to(left, RUN_WAIT_S, RunAccepted, RunStarted)
+            replies = self._control.board.replies
+            taken = await replies.to(left, RUN_WAIT_S, RunAccepted, RunStarted)
             return "silent" if taken is None else "acknowledged"
 
     async def end_group(self, session: Session) -> Outcome:
@@ -172,7 +171,7 @@ class Operations:
         self._judge_rest()
         async with self._one_request():
             left = Grant(self._control, claim).send(command, ERASE_TIMEOUT_S)
-            if await self._control.board.answers.to(left, ERASE_TIMEOUT_S, Erased) is None:
+            if await self._control.board.replies.to(left, ERASE_TIMEOUT_S, Erased) is None:
                 raise NoAnswerError("The board did not confirm that its groups are erased.")
         return "acknowledged"
 

@@ -14,13 +14,12 @@ from servodeck.errors import (
     MovingError,
 )
 from servodeck.port.wire import STOP_PACKET, Job, Left
-from servodeck.protocol.decoder import COMMAND_AT
 from servodeck.protocol.values import Command, Erase, Move, Run, ServoTarget
 from servodeck.robot.board.board import Board
 from servodeck.robot.board.estimate import Estimate
-from servodeck.robot.board.move_plan import judge_targets, packet_of
-from servodeck.robot.board.moves import MoveRequest
-from servodeck.robot.board.packet_rules import (
+from servodeck.robot.board.move_buffer import MoveRequest
+from servodeck.robot.board.playing import FrameGroup, judge_group
+from servodeck.robot.board.rules import (
     DOWNLOAD,
     HARMLESS,
     MOVE,
@@ -28,13 +27,14 @@ from servodeck.robot.board.packet_rules import (
     STOP,
     Part,
     is_harmless,
-    judge_command,
     judge_latch,
+    judge_packet,
     judge_parts,
     judge_single_packet,
+    judge_targets,
+    packet_of,
     role_for,
 )
-from servodeck.robot.board.playing import FrameGroup, judge_group
 from servodeck.robot.driving import Driving
 from servodeck.robot.hub import Session
 from servodeck.robot.latch import Latch
@@ -84,7 +84,9 @@ class Requests:
         """Resolves when the packet has left the wire. Raises, or fails with, what keeps it from leaving. What
         is not harmless needs the lease and its `nonce`.
         """
-        packet, command = judge_command(packet_hex, self._board.family_id)
+        packet = judge_packet(packet_hex, self._board.family_id)
+        command = packet.command
+        assert command
         if isinstance(command, Erase):
             self._board.judge_carried("erase")
         session.caller.require(role_for(packet))
@@ -92,9 +94,9 @@ class Requests:
         wire = self._board.link.wire()
         if not is_harmless(packet):
             self._board.judge_known()
-        judge_latch(packet[COMMAND_AT], self._latch.is_closed)
+        judge_latch(packet.number, self._latch.is_closed)
         judge_single_packet(packet)
-        if packet[COMMAND_AT] == STOP:
+        if packet.number == STOP:
             return self.stop_once(session)
         self._board.jobs.judge_run(command, self._board.link.place)
         self._board.jobs.judge_idle()
@@ -114,7 +116,7 @@ class Requests:
         self._limits.judge(command, session)
         wire = board.link.wire()
         board.judge_known()
-        judge_latch(packet[COMMAND_AT], self._latch.is_closed)
+        judge_latch(packet.number, self._latch.is_closed)
         board.jobs.judge_run(command, board.link.place)
         board.jobs.judge_idle()
         if isinstance(command, Run | Erase):
@@ -194,7 +196,7 @@ class Requests:
         judge_latch(DOWNLOAD, self._latch.is_closed)
         board.jobs.judge_idle()
         board.plays.judge_idle()
-        is_clear = board.moves.is_empty and wire.is_clear_of(lambda command: command not in HARMLESS)
+        is_clear = board.moves.is_empty and wire.is_clear_of(lambda number: number not in HARMLESS)
         if board.may_move() or not is_clear:
             raise MovingError(still_moving(board.motion, self._now()))
         claim()
@@ -220,4 +222,4 @@ def end_of_group(ends_in_s: float | None) -> str:
 
 
 def is_run(job: Job) -> bool:
-    return job.command == RUN
+    return job.number == RUN

@@ -10,12 +10,14 @@ from collections.abc import Awaitable, Callable, Coroutine, Mapping, Sequence
 from typing import Any, Literal, TypeVar
 
 from servodeck.callers import Caller, as_script
-from servodeck.errors import CancelledError, MovingError, NotPairedError
+from servodeck.errors import CancelledError, MovingError, NotPairedError, OutOfRangeError
 from servodeck.port.wire import Left
 from servodeck.protocol.families import Family
-from servodeck.robot.board.move_plan import plan_move
-from servodeck.robot.board.packet_rules import Part
+from servodeck.protocol.values import Move, ServoTarget
+from servodeck.robot.board.estimate import Estimate
+from servodeck.robot.board.move_buffer import FIRST_MOVE_STAGGER_S, first_ms
 from servodeck.robot.board.playing import FrameGroup
+from servodeck.robot.board.rules import Part, judge_command, portions_of
 from servodeck.robot.control import Control
 from servodeck.robot.hub import Session
 from servodeck.robot.lease import Permit
@@ -244,3 +246,59 @@ class Scripts:
         session = self._sessions.setdefault(caller.id, ScriptSession(caller))
         session.caller = as_script(caller)  # an owner may call it otherwise by now
         return session
+
+
+@value
+class Step:
+    """`after_s`: since the step before."""
+
+    move: Move
+    after_s: float
+
+
+@value
+class MovePlan:
+    """`first_moves` are the servos that start one after another."""
+
+    steps: tuple[Step, ...]
+    first_moves: tuple[int, ...]
+
+
+def plan_move(
+    duration_ms: int,
+    positions: Mapping[int, int],
+    family: Family,
+    motion: Estimate,
+    now: float,
+    name_of: Callable[[int], str],
+) -> MovePlan:
+    """In exactly that time, as a script asks for it. Raises what the board cannot take, and where a first
+    move would be too fast: nothing is made slower unsaid.
+    """
+    new = tuple(servo for servo in sorted(positions) if motion.is_unknown(servo, now))
+    known = tuple(servo for servo in sorted(positions) if servo not in new)
+    needs_ms = max(first_ms(known, motion, now), first_ms(new, motion, now))
+    judge_time(duration_ms, new, needs_ms, family, name_of)
+    portions = [*portions_of(known, family.servos_per_move), *((servo,) for servo in new)]
+    moves = [
+        Move(duration_ms, tuple(ServoTarget(servo, positions[servo]) for servo in portion))
+        for portion in portions
+    ]
+    for move in moves:
+        judge_command(move, family)
+    starts = len(moves) - len(new)
+    waits = [FIRST_MOVE_STAGGER_S if index > starts else 0.0 for index in range(len(moves))]
+    return MovePlan(tuple(map(Step, moves, waits)), new)
+
+
+def judge_time(
+    duration_ms: int, new: Sequence[int], needs_ms: float, family: Family, name_of: Callable[[int], str]
+) -> None:
+    if duration_ms >= needs_ms:
+        return
+    why = (
+        f"nobody knows where {', '.join(map(name_of, new))} stands before its first move"
+        if new
+        else "a servo is still in its first move"
+    )
+    raise OutOfRangeError(f"timeMs is {duration_ms}, allowed {needs_ms}..{family.duration_ms.max}: {why}")

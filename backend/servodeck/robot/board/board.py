@@ -28,26 +28,22 @@ from servodeck.port.link import Link, Ports
 from servodeck.port.ports import OpenPort
 from servodeck.port.reader import Inbox
 from servodeck.port.wire import STOP_PACKET, Job, Left, Owner, Wire
-from servodeck.protocol.decoder import COMMAND_AT, DecoderEvent, NoiseEvent, PacketEvent
+from servodeck.protocol.decoder import DecoderEvent, NoiseEvent, PacketEvent
 from servodeck.protocol.families import FAMILIES, UNKNOWN, Family, Question, Withheld, carried
-from servodeck.protocol.packets import encode, parse_command, parse_report
+from servodeck.protocol.packets import CommandPacket, encoded, parse_report
 from servodeck.protocol.timings import BATTERY, IDENTIFY, wire_s
 from servodeck.protocol.values import Battery, Command, Move, Report, Run, RunAccepted, RunStarted
-from servodeck.robot.board.answers import Answers
-from servodeck.robot.board.battery import BatteryPoll, BatteryWatch
-from servodeck.robot.board.downloads import Jobs
 from servodeck.robot.board.estimate import Estimate
-from servodeck.robot.board.heartbeat import Silence
-from servodeck.robot.board.identification import Identification, Status
+from servodeck.robot.board.identification import Identification, Silence, Status
 from servodeck.robot.board.identity import QUESTIONS, identity_state
-from servodeck.robot.board.move_plan import packet_of
-from servodeck.robot.board.moves import Moves
-from servodeck.robot.board.packet_rules import STOP, Part, is_harmless
-from servodeck.robot.board.playing import Playing, Plays
-from servodeck.robot.board.readings import Readings
-from servodeck.robot.board.recovery import StopAgain, filler_for, repeat_stop
+from servodeck.robot.board.move_buffer import MoveBuffer
+from servodeck.robot.board.playing import Playing, Plays, Unattended
+from servodeck.robot.board.readings import BatteryPoll, BatteryReader, Readings
+from servodeck.robot.board.replies import Replies
+from servodeck.robot.board.resync import StopAgain, filler_for, repeat_stop
+from servodeck.robot.board.rules import STOP, Part, is_harmless, packet_of
 from servodeck.robot.board.slots import SlotMemory
-from servodeck.robot.board.unattended import Unattended
+from servodeck.robot.board.storing import Jobs
 from servodeck.robot.motion.halt_plan import Unheld
 from servodeck.snapshots import IdentityState, JobState, LinkState, PlayState, PortState, StoredGroup
 
@@ -117,16 +113,16 @@ class Board:
         self._events = events
         self._now = now
         self.link = Link(ports, self._make_wire, self, now)
-        self.answers = Answers()
-        self.battery = BatteryWatch(self, self.answers, now)
-        self.readings = Readings(self, self.answers)
+        self.replies = Replies()
+        self.battery = BatteryReader(self, self.replies, now)
+        self.readings = Readings(self, self.replies)
         self._battery_poll = BatteryPoll(self._may_poll_battery, self.battery.read)
-        self.jobs = Jobs(self, self.answers, now, slot_memory)
-        self.moves = Moves(self, now, events.board_changed)
+        self.jobs = Jobs(self, self.replies, now, slot_memory)
+        self.moves = MoveBuffer(self, now, events.board_changed)
         self.plays = Plays(self.moves, self._play_changed, now)
         self._motion = Estimate(FAMILIES[family_id])
         self._silence = Silence()
-        self._cut: tuple[str, bytes] | None = None
+        self._cut: tuple[str, CommandPacket] | None = None
         """The packet that a loss has cut on its way to the board at that place, until filler has ended it."""
         self._was_lost = False
         self.returning: asyncio.Task[None] | None = None
@@ -317,16 +313,16 @@ class Board:
         finally:
             self.returning = None
 
-    def port_lost(self, unfinished: bytes | None) -> None:
+    def port_lost(self, unfinished: CommandPacket | None) -> None:
         metrics.totals.port_losses += 1
         self._was_lost = True
         self._events.board_lost()
         self.jobs.end(PortLostError("The serial port was lost before the download was complete."))
         self.plays.end(PortLostError("The serial port was lost."))
-        is_filler = unfinished is not None and unfinished == self._filler()
+        is_filler = unfinished is not None and unfinished.command is None
         if not is_filler:
             self._cut = (self.link.place, unfinished) if unfinished else None
-        self._lose_motion(None if is_filler else unfinished)
+        self._lose_motion(unfinished.command if unfinished else None)
 
     def port_changed(self) -> None:
         if self.link.state.status != "open":
@@ -344,13 +340,13 @@ class Board:
             except NoAnswerError:
                 return None
         packet, answer = QUESTIONS[question].packet, QUESTIONS[question].answer
-        async with self.answers.asking:
+        async with self.replies.asking:
             # No board answers what has not reached it yet.
-            earliest_s = self._now() + wire_s(len(packet))
+            earliest_s = self._now() + wire_s(len(packet.data))
             try:
                 left = self.link.wire().send(packet, self)
                 timeout_s = IDENTIFY.timeout_ms / 1000
-                return await self.answers.to(left, timeout_s, answer, not_before_s=earliest_s)
+                return await self.replies.to(left, timeout_s, answer, not_before_s=earliest_s)
             except (LatchedError, CancelledError):
                 return None  # a stop empties the queue; it does not answer the question
 
@@ -438,7 +434,7 @@ class Board:
         if self._is_moving():
             self.halt_again()
 
-    def _hold(self, held: Sequence[bytes]) -> bytes | None:
+    def _hold(self, held: Sequence[CommandPacket]) -> CommandPacket | None:
         """As the robot stands when it leaves; of a board that nobody knows nothing is held. Where the port
         carries no packet that holds all servos, the others follow those that are `held`.
         """
@@ -446,12 +442,12 @@ class Board:
         is_known = self.identification.state.status in ("ready", "stale")
         if not (hold and is_known) or (held and family is FAMILIES[self.family_id]):
             return None
-        moves = [command for packet in held if isinstance(command := parse_command(packet), Move)]
+        moves = [packet.command for packet in held if isinstance(packet.command, Move)]
         servos = {target.servo for move in moves for target in move.targets}
         others = [target for target in hold.targets if target.servo not in servos]
         if not others:
             return None
-        return encode(replace(hold, targets=tuple(others[: family.servos_per_move])), family)
+        return encoded(replace(hold, targets=tuple(others[: family.servos_per_move])), family)
 
     def _follow_run(self) -> None:
         run, before = self.run, self._run
@@ -466,19 +462,19 @@ class Board:
         self._motion.opened(self._now())
         self._lose_motion()
 
-    def _lose_motion(self, cut: bytes | None = None) -> None:
+    def _lose_motion(self, cut: Command | None = None) -> None:
         self._motion.lost(self._now(), cut)
         self._silence = Silence()
         self._stop_again.void()
         self.unattended.follow(None)
 
-    def _filler(self) -> bytes | None:
+    def _filler(self) -> CommandPacket | None:
         """What ends the packet that was cut, where this board bears it."""
         place, packet = self._cut or ("", None)
         filler = self.family.resync_filler
-        return (
-            filler_for(packet, filler) if packet and filler is not None and place == self.link.place else None
-        )
+        if packet is None or filler is None or place != self.link.place:
+            return None
+        return CommandPacket(None, filler_for(packet.data, filler))
 
     def _make_wire(self, port: OpenPort) -> Wire:
         gap_s = self.family.service_gap_ms / 1000
@@ -492,20 +488,20 @@ class Board:
             first=self._filler(),
         )
 
-    def _leaving(self, owner: Owner, packet: bytes, at_s: float) -> None:
-        command = parse_command(packet)
+    def _leaving(self, owner: Owner, packet: CommandPacket, at_s: float) -> None:
+        command = packet.command
         if command is None:  # filler
             return
-        self.motion.left(packet, at_s)
-        if is_harmless(packet) and packet[COMMAND_AT] != STOP:
-            self._silence.asked(packet[COMMAND_AT], at_s)
-        if packet[COMMAND_AT] == STOP:
+        self.motion.left(command, at_s)
+        if is_harmless(packet) and packet.number != STOP:
+            self._silence.asked(packet.number, at_s)
+        if packet.number == STOP:
             self._stop_again.stopped(at_s)
         elif not (is_harmless(packet) or self.link.wire().is_halting):
             self._stop_again.void()
         self._follow_run()
         self.jobs.left(command, at_s, self.link.place)
-        is_opening = packet[COMMAND_AT] == STOP and owner is self
+        is_opening = packet.number == STOP and owner is self
         if not is_opening:  # which ends nothing that anybody began
             self._events.leaving(owner, command, at_s)
 
@@ -527,7 +523,7 @@ class Board:
         self._follow_run()
         self.battery.heard(report)
         self.jobs.heard(report, self.link.place)
-        self.answers.heard(report, self._now())
+        self.replies.heard(report, self._now())
         hears_again = may_have_swallowed and not self.motion.may_swallow
         if hears_again or isinstance(report, RunAccepted | RunStarted):
             self._events.may_have_missed_stops()
@@ -535,4 +531,4 @@ class Board:
 
 
 def is_no_stop(job: Job) -> bool:
-    return job.command != STOP
+    return job.number != STOP

@@ -15,8 +15,8 @@ from servodeck.errors import CancelledError, GatewayError, NoAnswerError
 from servodeck.port.wire import Left, Wire
 from servodeck.protocol.timings import DOWNLOAD, wire_s
 from servodeck.protocol.values import FrameStored
-from servodeck.robot.board.answers import Answers
-from servodeck.robot.board.packet_rules import Part
+from servodeck.robot.board.replies import Replies
+from servodeck.robot.board.rules import Part
 from servodeck.snapshots import JobState
 from servodeck.value import value
 
@@ -77,7 +77,7 @@ class Download:
         self,
         packets: Sequence[bytes],
         send: Callable[[bytes], Left],
-        answers: Answers,
+        replies: Replies,
         now: Callable[[], float],
         is_cancelled: Callable[[], bool],
         stored: Callable[[int], None],
@@ -87,7 +87,7 @@ class Download:
         """
         self._packets = packets
         self._send = send
-        self._answers = answers
+        self._replies = replies
         self._now = now
         self._is_cancelled = is_cancelled
         self._stored = stored
@@ -137,7 +137,7 @@ class Download:
         packet, asked_s = self._packets[index], self._now()
         arrives_s = asked_s + wire_s(len(packet))
         left = self._send(packet)
-        if not await self._answers.to(left, self._timeout_s(index), FrameStored, not_before_s=arrives_s):
+        if not await self._replies.to(left, self._timeout_s(index), FrameStored, not_before_s=arrives_s):
             self._owed_since_s = asked_s if self._owed_since_s is None else self._owed_since_s
             raise NoAnswerError(f"The board did not acknowledge frame {index + 1}.")
 
@@ -151,7 +151,7 @@ class Download:
 
     async def _silence(self, quiet_s: float) -> None:
         for _ in range(DOWNLOAD.babble_limit + 1):
-            if not await self._answers.unasked(quiet_s, FrameStored):
+            if not await self._replies.unasked(quiet_s, FrameStored):
                 return
         raise NoAnswerError("The board keeps repeating an acknowledgement.")
 

@@ -1,14 +1,13 @@
 """What the gateway believes of the robot: the motion estimate fed with what left the wire and what the board
 said, and the groups it stored itself. Twin of shared/src/robot/estimate.ts.
 
-Pure: time comes in, in seconds. Knows packets; no wire, no client.
+Pure: time comes in, in seconds. Knows commands and reports; no wire, no client.
 """
 
 from collections.abc import Collection, Sequence
 from math import inf
 
 from servodeck.protocol.families import Family
-from servodeck.protocol.packets import parse_command
 from servodeck.protocol.timings import RUN
 from servodeck.protocol.values import (
     Command,
@@ -88,11 +87,8 @@ class Estimate:
         self._advance(now)
         self._memory.store(slot, packets)
 
-    def left(self, packet: bytes, at_s: float) -> None:
-        """The last bit of that packet leaves then."""
-        command = parse_command(packet)
-        if command is None:
-            return
+    def left(self, command: Command, at_s: float) -> None:
+        """The last bit of that command leaves then."""
         at_ms = self._advance(at_s)
         self._at_ms = at_ms
         is_heard, ran = hears(self._motion, at_ms), self._motion.run
@@ -135,14 +131,13 @@ class Estimate:
         if motion.tracks or any(held_at(motion.readings, servo) is not None for servo in motion.readings):
             self._forget(self._advance(now))
 
-    def lost(self, now: float, cut: bytes | None = None) -> None:
-        """The link is gone: what the board does and holds nobody knows. The packet that was `cut` may have
+    def lost(self, now: float, cut: Command | None = None) -> None:
+        """The link is gone: what the board does and holds nobody knows. The command that was `cut` may have
         arrived or not, and where nothing ends it the board takes what comes next for its rest.
         """
         self._memory.clear()
         at_ms = self._advance(now)
-        command = parse_command(cut) if cut else None
-        arrived = after_command(self._motion, command, at_ms, self) if command else self._motion
+        arrived = after_command(self._motion, cut, at_ms, self) if cut else self._motion
         self._forget(at_ms)
         self._motion = either_of(self._motion, forgotten(arrived, at_ms, self))
         if cut:

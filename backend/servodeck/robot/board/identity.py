@@ -11,7 +11,7 @@ from typing import Literal
 
 from servodeck.packet_models import BatteryReport, PositionsReport, ServoPosition, VersionReport
 from servodeck.protocol.families import FAMILIES, UNKNOWN, Family, Question
-from servodeck.protocol.packets import encode
+from servodeck.protocol.packets import CommandPacket, encoded
 from servodeck.protocol.timings import IDENTIFY
 from servodeck.protocol.values import (
     Battery,
@@ -133,15 +133,15 @@ def report_state(report: Report) -> BatteryReport | VersionReport | PositionsRep
 class QuestionPacket:
     """A question as a packet, and what answers it."""
 
-    packet: bytes
+    packet: CommandPacket
     answer: type[Report]
 
 
 QUESTIONS: Mapping[Question, QuestionPacket] = {
-    "readBattery": QuestionPacket(encode(ReadBattery(), UNKNOWN), Battery),
-    "readVersion": QuestionPacket(encode(ReadVersion(), UNKNOWN), Version),
+    "readBattery": QuestionPacket(encoded(ReadBattery(), UNKNOWN), Battery),
+    "readVersion": QuestionPacket(encoded(ReadVersion(), UNKNOWN), Version),
     # One servo's is enough: bus boards answer, the others do not know the question.
-    "readPositions": QuestionPacket(encode(ReadPositions((1,)), UNKNOWN), Positions),
+    "readPositions": QuestionPacket(encoded(ReadPositions((1,)), UNKNOWN), Positions),
 }
 
 SendQuestion = Callable[[Question], Awaitable[Report | None]]
@@ -182,4 +182,4 @@ async def identify(
 
 def is_echo(data: bytes) -> bool:
     """What came in holds one of our own questions."""
-    return any(asked.packet in data for asked in QUESTIONS.values())
+    return any(asked.packet.data in data for asked in QUESTIONS.values())

@@ -1,32 +1,41 @@
-"""Asks the board what it can say of itself: where its servos stand, its firmware, its trims. Twin of
-shared/src/robot/readings.ts.
+"""Asks the board what it can say of itself: its battery, where its servos stand, its firmware, its trims.
+Everybody who asks while a question is under way shares its answer. Twin of shared/src/robot/readings.ts and
+batteryReader.ts.
 
-Knows the questions and how long each may take; no client, and not how a packet leaves.
+The battery is read when a board becomes ready, soon after something has ended, and every few seconds while
+nothing moves: on some boards any packet disturbs what runs, and under load the voltage sags anyway. A board
+that stayed silent is asked again only on request. Knows the questions and how long each may take; no client,
+and not how a packet leaves.
 """
 
 import asyncio
+import contextlib
 import math
-from collections.abc import Sequence
+from collections.abc import Awaitable, Callable, Sequence
 from typing import Literal, Protocol
 
-from servodeck.errors import NoAnswerError
+from servodeck.errors import GatewayError, NoAnswerError
 from servodeck.port.wire import Left
 from servodeck.protocol.families import Family
-from servodeck.protocol.timings import READ, wire_s
+from servodeck.protocol.timings import BATTERY, READ, wire_s
 from servodeck.protocol.values import (
     AllPositions,
+    Battery,
     Command,
     Offsets,
     Positions,
     ReadAllPositions,
+    ReadBattery,
     ReadOffsets,
     ReadPositions,
     ReadVersion,
     Report,
     Version,
 )
-from servodeck.robot.board.answers import Answers
-from servodeck.robot.board.move_plan import portions_of
+from servodeck.robot.board.replies import Replies
+from servodeck.robot.board.rules import portions_of
+from servodeck.snapshots import BatteryRead, BatterySilent, BatteryState, BatteryUnread
+from servodeck.value import value
 
 Reading = Literal["positions", "version", "offsets"]
 Key = tuple[Reading, tuple[int, ...]]
@@ -41,9 +50,9 @@ class ReadableBoard(Protocol):
 
 
 class Readings:
-    def __init__(self, board: ReadableBoard, answers: Answers) -> None:
+    def __init__(self, board: ReadableBoard, replies: Replies) -> None:
         self._board = board
-        self._answers = answers
+        self._replies = replies
         self._under_way: dict[Key, asyncio.Task[None]] = {}
 
     async def read(self, what: Reading, servos: Sequence[int] = ()) -> None:
@@ -70,7 +79,7 @@ class Readings:
                 await self._ask(ReadPositions(tuple(portion)), Positions, positions_s(len(portion)))
 
     async def _ask(self, question: Command, answer: type[Report], wait_s: float) -> None:
-        if await self._answers.ask(lambda: self._board.put_question(question), wait_s, answer) is None:
+        if await self._replies.ask(lambda: self._board.put_question(question), wait_s, answer) is None:
             raise NoAnswerError("The board did not answer in time.")
 
     def _ended(self, key: Key, reading: asyncio.Task[None]) -> None:
@@ -83,3 +92,125 @@ def positions_s(servo_count: int) -> float:
     """The board asks its servos one by one, then the answer needs its time on the wire."""
     answer_ms = wire_s(5 + 3 * servo_count) * 1000
     return (math.ceil(READ.position_ms * servo_count + answer_ms) + READ.margin_ms) / 1000
+
+
+BATTERY_WAIT_S = BATTERY.timeout_ms / 1000
+
+
+@value
+class BatteryReading:
+    battery_mv: int
+    at_s: float
+
+
+class PoweredBoard(Protocol):
+    @property
+    def family(self) -> Family: ...
+
+    def put_question(self, question: Command) -> Left:
+        """Puts it on the wire. Raises what keeps it from being asked."""
+
+    def battery_changed(self) -> None: ...
+
+
+class BatteryReader:
+    def __init__(self, board: PoweredBoard, replies: Replies, now: Callable[[], float]) -> None:
+        self.newest: BatteryReading | None = None
+        self.is_silent = False
+        """So many questions in a row stayed unanswered that such a board is taken to have no answer."""
+        self._board = board
+        self._replies = replies
+        self._now = now
+        self._silences = 0
+        self._question: asyncio.Task[int] | None = None
+
+    def heard(self, report: Report) -> None:
+        if isinstance(report, Battery):
+            self.newest = BatteryReading(report.battery_mv, self._now())
+            self._silences, self.is_silent = 0, False
+            self._board.battery_changed()
+
+    def forget(self) -> None:
+        """It is another board now."""
+        was_known = self.newest or self.is_silent
+        self.newest, self._silences, self.is_silent = None, 0, False
+        if was_known:
+            self._board.battery_changed()
+
+    def snapshot(self) -> BatteryState:
+        newest = self.newest
+        if self.is_silent:
+            return BatterySilent(last_mv=newest.battery_mv if newest else None)
+        if newest is None:
+            return BatteryUnread()
+        return BatteryRead(battery_mv=newest.battery_mv, age_ms=round((self._now() - newest.at_s) * 1000))
+
+    async def read(self) -> int:
+        """In mV. Whoever asks while a question is under way shares its answer."""
+        if self._question is None:
+            self._question = asyncio.create_task(self._read())
+            self._question.add_done_callback(self._read_done)
+        return await asyncio.shield(self._question)
+
+    async def _read(self) -> int:
+        report = await self._replies.ask(
+            lambda: self._board.put_question(ReadBattery()), BATTERY_WAIT_S, Battery
+        )
+        if not isinstance(report, Battery):
+            self._count_silence()
+            raise NoAnswerError("The board did not report its battery voltage. Not every board can.")
+        return report.battery_mv
+
+    def _count_silence(self) -> None:
+        # Where every such board answers, silence says that the board is gone, not that it cannot tell.
+        if "readBattery" in self._board.family.certain_answers:
+            return
+        self._silences += 1
+        if self._silences >= BATTERY.silent_limit and not self.is_silent:
+            self.is_silent = True
+            self._board.battery_changed()
+
+    def _read_done(self, question: asyncio.Task[int]) -> None:
+        self._question = None
+        if not question.cancelled():
+            question.exception()  # whoever asked has it; nobody may be left to take it
+
+
+class BatteryPoll:
+    def __init__(self, may_ask: Callable[[], bool], ask: Callable[[], Awaitable[object]]) -> None:
+        self._may_ask = may_ask
+        self._ask = ask
+        self._timer: asyncio.TimerHandle | None = None
+        self._asking: asyncio.Task[None] | None = None
+
+    def begin(self) -> None:
+        """A board is ready."""
+        self._tick()
+
+    def end(self) -> None:
+        if self._timer:
+            self._timer.cancel()
+        self._timer = None
+
+    def looked_at(self) -> None:
+        """Somebody begins to look on."""
+        if self._timer:
+            self._tick()
+
+    def has_ended(self) -> None:
+        """Something that moved or was being stored."""
+        if self._timer:
+            self._ask_in(BATTERY.after_run_ms)
+
+    def _ask_in(self, ms: float) -> None:
+        self.end()
+        self._timer = asyncio.get_running_loop().call_later(ms / 1000, self._tick)
+
+    def _tick(self) -> None:
+        self._ask_in(BATTERY.every_ms)
+        if self._may_ask():
+            self._asking = asyncio.create_task(self._read())
+
+    async def _read(self) -> None:
+        with contextlib.suppress(GatewayError):  # what the board did not say is counted where it is asked
+            await self._ask()

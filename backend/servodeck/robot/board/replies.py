@@ -1,7 +1,7 @@
-"""Puts questions to the board one at a time, and waits for what it says. Knows kinds of reports and time; no
-packet and no port.
+"""Puts questions to the board one at a time, and waits for what it says. Twin of shared/src/robot/replies.ts.
 
-Boards number nothing: an answer is told apart by its kind alone.
+Boards number nothing: an answer is told apart by its kind alone. Knows kinds of reports and time; no packet
+and no port.
 """
 
 import asyncio
@@ -23,7 +23,7 @@ class Expected:
     answer: Answer
 
 
-class Answers:
+class Replies:
     def __init__(self) -> None:
         self._expected: list[Expected] = []
         self.asking = asyncio.Lock()

@@ -18,11 +18,10 @@ from servodeck.errors import (
     NotSupportedError,
     OutOfRangeError,
 )
-from servodeck.protocol.decoder import COMMAND_AT
-from servodeck.protocol.families import FAMILIES
-from servodeck.protocol.limits import PacketError
-from servodeck.protocol.packets import check_command, encode
-from servodeck.protocol.values import Command, Download, Frame, ServoTarget
+from servodeck.protocol.families import FAMILIES, Family
+from servodeck.protocol.limits import PacketError, check
+from servodeck.protocol.packets import CommandPacket, check_command, encoded
+from servodeck.protocol.values import Command, Download, Frame, Move, ServoTarget
 from servodeck.value import value
 
 MOVE, RUN, STOP, ERASE, DOWNLOAD = 3, 6, 7, 8, 25
@@ -30,34 +29,48 @@ BATTERY, POSITIONS, VERSION, ALL_POSITIONS, OFFSETS = 15, 21, 1, 13, 2
 HARMLESS = frozenset({STOP, BATTERY, POSITIONS, VERSION, ALL_POSITIONS, OFFSETS})
 
 
-def judge_packet(text: str, board: str) -> bytes:
+def judge_packet(text: str, board: str) -> CommandPacket:
     """The packet in `text` (hex) when it is one command that board can take. Raises what is wrong with it."""
-    return judge_command(text, board)[0]
-
-
-def judge_command(text: str, board: str) -> tuple[bytes, Command]:
-    """As `judge_packet`; with what it says, which is read once."""
     try:
         packet = bytes.fromhex(text)
     except ValueError:
         raise MalformedError("The packet is not in hex digits.") from None
     try:
-        return packet, check_command(packet, FAMILIES[board])
+        return CommandPacket(check_command(packet, FAMILIES[board]), packet)
     except PacketError as error:
         raise refusal_of(error) from error
 
 
-def judge_frame(command: Download, board: str) -> bytes:
-    """The packet that stores it. Raises what that board cannot take of it."""
+def packet_of(command: Command, family: Family) -> CommandPacket:
+    """Raises what the board cannot take of it."""
     try:
-        return encode(command, FAMILIES[board])
+        return encoded(command, family)
     except PacketError as error:
         raise refusal_of(error) from error
 
 
-def judge_single_packet(packet: bytes) -> None:
+def judge_command(command: Command, family: Family) -> None:
+    """Raises what the board cannot take of it."""
+    try:
+        check(command, family)
+    except PacketError as error:
+        raise refusal_of(error) from error
+
+
+def judge_targets(targets: Sequence[ServoTarget], duration_ms: int, family: Family) -> None:
+    """Raises what the board cannot take of any of them; how many there are does not matter."""
+    for target in targets:
+        judge_command(Move(duration_ms, (target,)), family)
+
+
+def portions_of(servos: Sequence[int], size: int) -> Iterator[Sequence[int]]:
+    for start in range(0, len(servos), size):
+        yield servos[start : start + size]
+
+
+def judge_single_packet(packet: CommandPacket) -> None:
     """A frame alone only breaks the slot it goes to (S33, S35). Raises NotSupportedError."""
-    if packet[COMMAND_AT] == DOWNLOAD:
+    if packet.number == DOWNLOAD:
         raise NotSupportedError("A single frame cannot be stored: use POST /api/download for a whole group.")
 
 
@@ -67,24 +80,23 @@ def refusal_of(error: PacketError) -> GatewayError:
     return (NotSupportedError if error.field == "command" else OutOfRangeError)(error.detail)
 
 
-def is_harmless(packet: bytes) -> bool:
+def is_harmless(packet: CommandPacket) -> bool:
     """It moves nothing and stores nothing: nobody has to drive for it."""
-    return packet[COMMAND_AT] in HARMLESS
+    return packet.number in HARMLESS
 
 
-def role_for(packet: bytes) -> Role:
+def role_for(packet: CommandPacket) -> Role:
     """Who may send it at least: questions harm nobody, an erased board is empty for all."""
-    command = packet[COMMAND_AT]
-    if command == STOP:
+    if packet.number == STOP:
         return "stopper"
     if is_harmless(packet):
         return "viewer"
-    return "owner" if command == ERASE else "driver"
+    return "owner" if packet.number == ERASE else "driver"
 
 
-def judge_latch(command: int, latch: bool) -> None:
+def judge_latch(number: int, latch: bool) -> None:
     """While stopped, only what moves nothing and stores nothing passes. Raises LatchedError."""
-    if latch and command not in HARMLESS:
+    if latch and number not in HARMLESS:
         raise LatchedError("Stopped: motion is refused until somebody resumes.")
 
 
@@ -171,4 +183,4 @@ def packets_of(group: Group, board: str) -> Iterator[bytes]:
     if count == 0:
         raise OutOfRangeError("An action group needs at least one frame.")
     for index, frame in enumerate(group.frames):
-        yield judge_frame(Download(group.slot, count, index, frame), board)
+        yield packet_of(Download(group.slot, count, index, frame), FAMILIES[board]).data

@@ -12,7 +12,7 @@ from collections.abc import Callable
 from servodeck.port.wire import CLOCK_GRAIN_S, STOP_PACKET, Left
 from servodeck.protocol.decoder import COMMAND_AT
 from servodeck.protocol.timings import LINE, STOP, wire_s
-from servodeck.robot.board.packet_rules import DOWNLOAD, RUN
+from servodeck.robot.board.rules import DOWNLOAD, RUN
 
 
 def filler_for(cut: bytes, filler: int) -> bytes:
@@ -42,7 +42,7 @@ async def repeat_stop(
         if not is_wanted():
             return
         await send()
-        due_s = now() - wire_s(len(STOP_PACKET)) + STOP.repeat_every_ms / 1000
+        due_s = now() - wire_s(len(STOP_PACKET.data)) + STOP.repeat_every_ms / 1000
 
 
 class StopAgain:

@@ -1,11 +1,12 @@
 """Moves that wait for the wire: the newest value of each servo, merged, as many in a packet as it takes, made
-when the wire is free. Servos of unknown place start one after another (safety.md section 2).
+when the wire is free. Servos of unknown place start slowly and one after another (safety.md section 2).
 
-Knows targets, time and the wire. Who may move a servo is judged when it is asked and when it leaves, by
-whoever asks. Twin of shared/src/robot/moveBuffer.ts and turns.ts.
+Knows targets, time and the wire. The caller judges who may move a servo, when it is asked and when it leaves.
+Twin of shared/src/robot/moveBuffer.ts and firstMoves.ts, and of `softened` in shared/src/robot/estimate.ts.
 """
 
 import asyncio
+import math
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, field
 from math import inf
@@ -14,13 +15,18 @@ from typing import Protocol
 from servodeck.errors import GatewayError
 from servodeck.port.link import Link
 from servodeck.port.wire import CLOCK_GRAIN_S, Left, Owner, fail, settle
+from servodeck.protocol import timings
 from servodeck.protocol.families import Family
-from servodeck.protocol.values import ServoTarget
+from servodeck.protocol.packets import CommandPacket
+from servodeck.protocol.timings import wire_s
+from servodeck.protocol.values import Move, ServoTarget
 from servodeck.rate import SHORTEST_WAIT_S
 from servodeck.robot.board.estimate import Estimate
-from servodeck.robot.board.move_plan import FIRST_MOVE_STAGGER_S, packet_of, softened
-from servodeck.robot.board.packet_rules import MOVE
+from servodeck.robot.board.rules import MOVE, packet_of
 from servodeck.value import value
+
+FIRST_MOVE_MS = timings.MOVE.first_ms
+FIRST_MOVE_STAGGER_S = timings.MOVE.first_stagger_ms / 1000
 
 
 class MovedBoard(Protocol):
@@ -59,7 +65,7 @@ class Wish:
     """It leaves behind what waited when that round began."""
 
 
-class Moves:
+class MoveBuffer:
     def __init__(self, board: MovedBoard, now: Callable[[], float], changed: Callable[[], None]) -> None:
         """`changed` hears that others wait to start."""
         self._board = board
@@ -120,7 +126,7 @@ class Moves:
         left.add_done_callback(lambda left: settle_all(taken, left))
         self._queued = left
 
-    def _make(self, taken: list[Wish], this_round: int) -> bytes | None:
+    def _make(self, taken: list[Wish], this_round: int) -> CommandPacket | None:
         """The next move, as its turn has come."""
         if this_round == self._round:
             self._queued = None
@@ -197,3 +203,54 @@ def settle_all(taken: Sequence[Wish], left: Left) -> None:
             fail(wish.request.left, error)
         else:
             wish.request.done(wish.target.servo)
+
+
+def softened(
+    targets: Sequence[ServoTarget],
+    duration_ms: int,
+    swift: Collection[int],
+    family: Family,
+    motion: Estimate,
+    now: float,
+) -> Move:
+    """The move with the time that it needs at least: a first move 1.5 s, `swift` servos the soft limit's for
+    their way from where they are when it arrives; and where the board re-times every servo (S26) the time
+    that the others were given.
+    """
+    servos = [target.servo for target in targets]
+    arrives_s = now + wire_s(move_bytes(len(targets)))
+    ways = [motion.farthest_from(target, now, arrives_s) for target in targets if target.servo in swift]
+    needs_ms = max(
+        float(duration_ms),
+        interval_ms(len(targets), family),
+        first_ms(servos, motion, now),
+        soft_ms(max(ways, default=0), family),
+        motion.others_ms(servos, now) if family.motion.timing == "shared" else 0,
+    )
+    return Move(min(math.ceil(needs_ms), family.duration_ms.max), tuple(targets))
+
+
+def first_ms(servos: Collection[int], motion: Estimate, now: float) -> float:
+    """How long a move of these takes at least because one of unknown place starts with it or is on its first
+    way still; else 0.
+    """
+    if any(motion.is_unknown(servo, now) for servo in servos):
+        return FIRST_MOVE_MS
+    return min(FIRST_MOVE_MS, motion.first_moves_ms(servos, now))
+
+
+def soft_ms(way: float, family: Family) -> float:
+    share = way / (family.position.max - family.position.min)
+    # Boards cut what is no whole tick.
+    return math.ceil(share * timings.MOVE.range_ms / family.motion.tick_ms) * family.motion.tick_ms
+
+
+def interval_ms(servo_count: int, family: Family) -> int:
+    """Until the next packet of this size can take effect: shorter moves would make the servo stop and go."""
+    return max(
+        family.shortest_move_ms, math.ceil(wire_s(move_bytes(servo_count)) * 1000 + family.service_gap_ms)
+    )
+
+
+def move_bytes(servo_count: int) -> int:
+    return 7 + 3 * servo_count

@@ -21,11 +21,12 @@ from servodeck.errors import (
     SlotChangedError,
 )
 from servodeck.port.wire import Wire
+from servodeck.protocol.packets import CommandPacket, parse_command
 from servodeck.protocol.timings import ERASE
 from servodeck.protocol.values import Command, Erase, Erased, Report, Run
-from servodeck.robot.board.answers import Answers
 from servodeck.robot.board.download import EDGE_FRAME_TIMEOUT_S, Download, Job
-from servodeck.robot.board.packet_rules import Part
+from servodeck.robot.board.replies import Replies
+from servodeck.robot.board.rules import Part
 from servodeck.robot.board.slots import SlotMemory
 from servodeck.snapshots import JobState, StoredGroup
 
@@ -48,12 +49,12 @@ class JobEvents(Protocol):
 
 class Jobs:
     def __init__(
-        self, events: JobEvents, answers: Answers, now: Callable[[], float], memory: SlotMemory
+        self, events: JobEvents, replies: Replies, now: Callable[[], float], memory: SlotMemory
     ) -> None:
         self._events = events
         self._now = now
         self._memory = memory
-        self._answers = answers
+        self._replies = replies
         self._known: dict[str, Job] = {}
         self._current: Job | None = None
         self._published_s = float("-inf")
@@ -182,8 +183,8 @@ class Jobs:
         slot = part.slot
         download = Download(
             part.packets,
-            lambda packet: job.wire.send(packet, job),
-            self._answers,
+            lambda packet: job.wire.send(CommandPacket(parse_command(packet), packet), job),
+            self._replies,
             self._now,
             lambda: job.is_cancelled,
             lambda frames: self._progressed(job, frames),
