@@ -299,9 +299,12 @@ async def test_one_lost_answer_means_nothing_and_two_that_the_board_is_gone(simu
         assert here.control.latch
         assert here.control.board.motion.is_unknown(1, now())
         before = len(here.kinds())
+        await anna.heard()
         await asyncio.sleep(10)
         assert here.link() == ("ready", None)
         assert here.control.latch
+        [halted] = [message for message in await anna.heard() if message["type"] == "halted"]
+        assert halted["unheld"]["servos"] is None, "it may have been told to move by others meanwhile"
         assert here.kinds()[before:].count("positions") == 2, "asked anew who it is"
         assert here.kinds()[before:].count("stop") == 3
         assert here.kinds().count("move") == 1

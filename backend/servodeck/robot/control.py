@@ -242,8 +242,8 @@ class Control:
     def board_lost(self) -> None:
         self._latch.cause = Cause("loss")  # the change of the link's state follows and tells both
 
-    def stopped_at_return(self, opened_s: float) -> None:
-        self._tell_unheld(opened_s)
+    def stopped_at_return(self, since_s: float) -> None:
+        self._tell_unheld(since_s)
 
     def is_watched(self) -> bool:
         return len(self.hub) > 0

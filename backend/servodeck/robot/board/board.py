@@ -57,8 +57,10 @@ class BoardEvents(Protocol):
     def board_lost(self) -> None:
         """Its port was open and is gone, unasked, or it has fallen silent; `board_changed` follows."""
 
-    def stopped_at_return(self, opened_s: float) -> None:
-        """The stops have left that a port gets which has come back; it opened then."""
+    def stopped_at_return(self, since_s: float) -> None:
+        """The stops have left that a port gets which has come back, or a board which answers again; that was
+        then.
+        """
 
     def board_changed(self) -> None:
         """The link, the board, a slot, what goes on alone or what waits to start is another now."""
@@ -252,11 +254,13 @@ class Board:
         """What may go on in spite of a stop pressed then, whose last packet left just now."""
         return self.motion.unheld_since(pressed_s, self._now())
 
-    def halt_again(self) -> None:
+    def halt_again(self) -> Left | None:
+        """As `halt`; None where there is no port to stop."""
         with contextlib.suppress(GatewayError):
-            self.halt(
+            return self.halt(
                 CancelledError("The board was stopped again, because it may have missed the first stop.")
             )
+        return None
 
     def end_motion(self) -> Left | None:
         """Without the latch: what moves ends, because its driver begins something else. As `halt`; None where
@@ -297,6 +301,17 @@ class Board:
             wire.send(STOP_PACKET, self, urgent=True)
         self._was_lost = False
         self.identification.begin()
+
+    def _stop_as_it_answers(self) -> None:
+        """It may have moved or restarted behind our back."""
+        answers_s, stops = self._now(), self.halt_again()
+
+        def left(stops: Left) -> None:
+            if not stops.cancelled() and stops.exception() is None:
+                self._events.stopped_at_return(answers_s)
+
+        if stops:
+            stops.add_done_callback(left)
 
     async def _stop_at_return(self, wire: Wire) -> None:
         """What moved when it was lost may move on. Where somebody presses STOP meanwhile, its stops leave in
@@ -370,7 +385,7 @@ class Board:
         if before == "ready" and status not in ("ready", "closed"):
             self._no_longer_ready(status)
         if before == "stale" and status not in ("stale", "closed"):
-            self.halt_again()  # it may have moved or restarted behind our back
+            self._stop_as_it_answers()
         if self._polls_battery and status == "ready" and before != "ready":
             self._battery_poll.begin()
         elif status != "ready":
