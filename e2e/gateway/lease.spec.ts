@@ -1,7 +1,7 @@
 // One robot, several people: one drives, the others look on, ask, take over and stop. The bus tells what the robot was told.
 
-import type { BrowserContext } from '@playwright/test';
-import { lastTarget, ofKind } from '../fixtures/bus.ts';
+import type { BrowserContext, WebSocketRoute } from '@playwright/test';
+import { kindsAfter, lastTarget, ofKind } from '../fixtures/bus.ts';
 import { ready, type Dashboard } from '../fixtures/dashboard.ts';
 import { fingersOf } from '../fixtures/fingers.ts';
 import type { Robot } from '../fixtures/robot.ts';
@@ -162,4 +162,29 @@ test('when the driver’s window closes in a move the robot is stopped, and the 
   await dashboard.resume.click();
   await dashboard.type(dashboard.target(2), 1700);
   await poll(() => lastTarget(robot.bus, 2)).toBe(1700);
+});
+
+test('a window that looks on ends nothing when its own connection breaks and is back @exhaustive', async ({
+  dashboard,
+  robot,
+  context,
+}) => {
+  const page = await context.newPage();
+  const sockets: WebSocketRoute[] = [];
+  await page.routeWebSocket(/\/ws/, (socket) => {
+    sockets.push(socket);
+    socket.connectToServer();
+  });
+  await robot.open(page);
+  const other = await ready(page);
+  await movesSlowly(dashboard, 1, 1800);
+  await poll(() => lastTarget(robot.bus, 1)).toBe(1800);
+  const before = (await robot.bus()).length;
+  await sockets[0]!.close();
+  await poll(() => Promise.resolve(sockets.length)).toBe(2);
+  await expect(other.turn).toContainText('Another window drives');
+  await expect(other.status).not.toContainText('Stop');
+  await dashboard.type(dashboard.target(2), 1700);
+  await poll(() => lastTarget(robot.bus, 2)).toBe(1700);
+  expect(await kindsAfter(robot.bus, before)).toEqual(['move']);
 });

@@ -78,7 +78,6 @@ test.describe('when the gateway is killed', () => {
     await newGateway({ serial: ptyBoard.device, port: Number(new URL(first.url).port) });
     await expect(dashboard.link).toHaveText(READY, ONCE_BACK);
     await expect(dashboard.frames).toHaveCount(2);
-    await dashboard.resume.click();
     await dashboard.type(dashboard.target(1), 1300);
     await poll(() => lastTarget(ptyBoard.bus, 1)).toBe(1300);
   });

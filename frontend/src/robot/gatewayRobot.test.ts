@@ -146,17 +146,77 @@ describe('STOP', () => {
     expect(robot.state.latch).toBeNull();
   });
 
-  test('with the gateway back, the board is told to stop and nothing moves before a person resumes', async () => {
-    const gateway = await createGateway({ arrived: ({ type }) => type === 'packet' && gateway.done() });
-    const { robot, clock, cut } = gateway;
-    cut();
-    expect(robot.state.link.status).toBe('lost');
+  describe('once the gateway is back', () => {
+    test.each([
+      ['looked on', THEIRS],
+      ['drove', OURS],
+    ])('a page that %s sends nothing and is free as the gateway is', async (_, state) => {
+      const gateway = await createGateway({ welcome: { lease: state } });
+      const { robot, clock, cut } = gateway;
+      cut();
+      expect(robot.state.link.status).toBe('lost');
+      expect(robot.state.latch).toMatchObject({ reason: 'reconnected', stop: 'failed' });
+      await clock.advance(5_000);
+      expect(robot.state.link.status).toBe('ready');
+      expect(robot.state.latch).toBeNull();
+      expect(types(gateway)).toEqual([]);
+    });
+
+    test('a driver that the gateway has stopped at the loss moves nothing before a person resumes', async () => {
+      const gateway = await createGateway({ welcome: { lease: OURS } });
+      const { robot, clock, cut, state } = gateway;
+      cut();
+      state({ latchedBy: 'silence' });
+      await clock.advance(5_000);
+      expect(robot.state.link.status).toBe('ready');
+      expect(robot.state.latch).toMatchObject({ reason: 'unwatched', stop: 'sent' });
+      expect(() => robot.move(TARGET, 100)).toThrow(expect.objectContaining({ code: 'latched' }));
+      expect(types(gateway)).toEqual([]);
+    });
+
+    test('STOP that was pressed meanwhile is sent', async () => {
+      const gateway = await createGateway({ welcome: { lease: THEIRS } });
+      const { robot, clock, cut, say } = gateway;
+      cut();
+      await expect(robot.halt()).rejects.toMatchObject({ code: 'gatewayUnreachable' });
+      expect(robot.state.latch).toMatchObject({ reason: 'pressed', stop: 'failed' });
+      await clock.advance(5_000);
+      expect(gateway.posted).toEqual([{ type: 'stop', reason: 'person' }]);
+      expect(robot.state.latch).toMatchObject({ reason: 'pressed', stop: 'sending' });
+      say({ type: 'halted', unheld: null });
+      await settled(gateway);
+      expect(robot.state.latch).toMatchObject({ reason: 'pressed', stop: 'sent' });
+    });
+
+    test('STOP whose way to the gateway broke is sent again, and once', async () => {
+      const gateway = await createGateway();
+      const { robot, clock, cut, say } = gateway;
+      const halted = robot.halt().catch((error: unknown) => error);
+      cut();
+      await expect(halted).resolves.toMatchObject({ code: 'gatewayUnreachable' });
+      await clock.advance(5_000);
+      expect(types(gateway)).toEqual(['stop', 'stop']);
+      say({ type: 'halted', unheld: null });
+      await settled(gateway);
+      cut();
+      await clock.advance(5_000);
+      expect(types(gateway)).toEqual(['stop', 'stop']);
+    });
+  });
+
+  test('a board that answers again the gateway stops, and says what goes on', async () => {
+    const gateway = await createGateway();
+    const { robot, say, state } = gateway;
+    const stale = { ...READY.link, status: 'stale' } as const;
+    state({ link: stale, latchedBy: 'loss' });
     expect(robot.state.latch).toMatchObject({ reason: 'reconnected', stop: 'failed' });
-    await clock.advance(5_000);
-    expect(robot.state.link.status).toBe('ready');
-    expect(types(gateway)).toEqual(['packet', 'packet', 'packet']);
-    expect(robot.state.latch).toMatchObject({ reason: 'reconnected', stop: 'sent' });
-    expect(() => robot.move(TARGET, 100)).toThrow(expect.objectContaining({ code: 'latched' }));
+    state({ link: READY.link });
+    say({ type: 'halted', unheld: { servos: null, forMs: 900 } });
+    await settled(gateway);
+    expect(types(gateway)).toEqual([]);
+    expect(robot.state.latch).toMatchObject({
+      ...{ reason: 'reconnected', stop: 'sent', unheld: { servos: null, forMs: 900 } },
+    });
   });
 });
 

@@ -29,8 +29,15 @@ import {
   requireRunnable,
 } from '#shared/robot/rules.ts';
 import { createRunning } from '#shared/robot/running.ts';
-import type { Activity, Battery, Latch, LatchReason, LinkState, SlotGroup } from '#shared/robot/state.ts';
-import { repeatStop } from '#shared/robot/stops.ts';
+import type {
+  Activity,
+  Battery,
+  HaltReason,
+  Latch,
+  LatchReason,
+  LinkState,
+  SlotGroup,
+} from '#shared/robot/state.ts';
 import { createSessionStore, noteCommand, noteReport, NOTHING_READ } from '#shared/robot/store.ts';
 import { createGatewayLink } from './links/gatewayLink.ts';
 import { createGatewayMoves } from './links/gatewayMoves.ts';
@@ -86,6 +93,8 @@ export function createGatewayRobot({ url, clock, mayDrive = true }: GatewayRobot
   let pressedMs = 0;
   /** Of the stop under way. */
   let stopping: Promise<unknown> = Promise.resolve();
+  /** Why STOP was pressed here, where the gateway was not there to hear it. */
+  let unheard: HaltReason | null = null;
   let batteryAsked: Promise<number> | null = null;
   /** Comes when it is first asked for. */
   let player: Promise<GatewayPlayer> | null = null;
@@ -173,6 +182,7 @@ export function createGatewayRobot({ url, clock, mayDrive = true }: GatewayRobot
       case 'halted':
         if (link.isOpen)
           changeLatch({
+            stop: 'sent',
             unheld: message.unheld && { ...message.unheld, forMs: message.unheld.forMs ?? Infinity },
           });
         socket.settle('halted');
@@ -205,8 +215,7 @@ export function createGatewayRobot({ url, clock, mayDrive = true }: GatewayRobot
     store.update({ battery, waitingToStart, robotOnBoard: { document }, identity: NOTHING_HEARD });
     store.update({ withheld: socket.port?.withheld ?? [] });
     showLease();
-    if (latchedBy !== null && store.state.latch === null) latchElsewhere(latchedBy);
-    if (line.isReturn) stopAfterReturn();
+    latchAsGateway();
     if (board !== null) showBoard(board);
     else entered({ status: 'identifying' });
     showPlay();
@@ -238,7 +247,6 @@ export function createGatewayRobot({ url, clock, mayDrive = true }: GatewayRobot
     if (next.status !== 'opening') before = null;
     store.update({ link: next });
     if (next.status === previous) return;
-    if (previous === 'stale' && link.isOpen) stopAfterReturn();
     if (previous === 'ready') unlinked(next);
   }
 
@@ -301,17 +309,33 @@ export function createGatewayRobot({ url, clock, mayDrive = true }: GatewayRobot
     if (next === null) socket.settle('released');
   }
 
-  /** Its failure is the latch's `failed`. */
-  function stopAfterReturn(): void {
-    pressedMs = clock.now();
-    stopping = sent(() => repeatStop(clock, sendPacket)).catch(() => undefined);
+  /**
+   * Of a link that has opened. What this page moved when it was lost the gateway has stopped, and others may drive since: from here only
+   * a STOP is sent that it has not heard. Its failure is the latch's `failed`.
+   */
+  function latchAsGateway(): void {
+    if (unheard !== null) halt(unheard).catch(() => undefined);
+    else if (latchedBy !== null) latchElsewhere(latchedBy);
+    else if (store.state.latch !== null) store.update({ latch: null });
   }
 
-  async function sent(stop: () => Promise<void>): Promise<void> {
+  async function halt(why: HaltReason): Promise<void> {
+    latch({ reason: why, by: null, stop: 'sending', unheld: estimate.haltPlan(null).unheld });
+    pressedMs = clock.now();
+    unheard = why;
+    stopPlaying();
+    const halted = sendHalt(why === 'battery' ? 'battery' : 'person');
+    stopping = halted.catch(() => undefined);
+    await halted;
+  }
+
+  async function sendHalt(reason: 'battery' | 'person'): Promise<void> {
     try {
-      await stop();
+      await socket.answered({ type: 'stop', reason }, 'halted');
+      unheard = null;
       changeLatch({ stop: 'sent' });
     } catch (error) {
+      if (!(error instanceof LinkError && error.code === 'gatewayUnreachable')) unheard = null;
       changeLatch({ stop: 'failed', unheld: estimate.unheldSince(pressedMs) });
       throw error;
     }
@@ -492,6 +516,7 @@ export function createGatewayRobot({ url, clock, mayDrive = true }: GatewayRobot
     async close() {
       driving.gone();
       link.close();
+      unheard = null;
       store.update({ latch: null });
       await Promise.resolve();
     },
@@ -522,16 +547,7 @@ export function createGatewayRobot({ url, clock, mayDrive = true }: GatewayRobot
     },
     run,
     stopGroup,
-    async halt(why = 'pressed') {
-      latch({ reason: why, by: null, stop: 'sending', unheld: estimate.haltPlan(null).unheld });
-      pressedMs = clock.now();
-      stopPlaying();
-      const halted = sent(() =>
-        socket.answered({ type: 'stop', reason: why === 'battery' ? 'battery' : 'person' }, 'halted'),
-      );
-      stopping = halted.catch(() => undefined);
-      await halted;
-    },
+    halt: (why = 'pressed') => halt(why),
     async resume() {
       requireReady(store.state);
       const resumed = latches;
