@@ -13,11 +13,11 @@ if TYPE_CHECKING:
 def main() -> None:
     if sys.argv[1:] == ["stop"] and is_stopped():
         return
-    from servodeck.loading import begin_loading
+    from servodeck.cli import begin_loading
 
     begin_loading()
     if sys.argv[1:2] == ["serve"]:
-        from servodeck.cli.program import serve_alone
+        from servodeck.cli.serve import serve_alone
 
         serve_alone(all_commands)
     else:

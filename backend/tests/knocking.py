@@ -11,8 +11,7 @@ from starlette.types import ASGIApp, Message, Scope
 from servodeck.access.entrance import Entrance
 from servodeck.access.guard import Guard
 from servodeck.access.roles import named_roles
-from servodeck.api.app import create_app
-from servodeck.api.later import LaterApp
+from servodeck.api.app import LaterApp, create_app
 from servodeck.callers import Role
 from servodeck.errors import PortMissingError
 from servodeck.robot.control import Control

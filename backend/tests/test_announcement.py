@@ -11,7 +11,7 @@ from contextlib import contextmanager
 import pytest
 from zeroconf import ServiceInfo, Zeroconf
 
-from servodeck.access.announcement import SERVICE, Announcement
+from servodeck.access.addresses import SERVICE, Announcement
 
 # A gateway that runs beside the tests has the real one, and several processes run tests.
 NAME = f"servodeck-under-test-{os.getpid()}.local"
@@ -48,7 +48,7 @@ def _multicast() -> None:
 
 @pytest.fixture(autouse=True)
 def _name(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("servodeck.access.announcement.MDNS_NAME", NAME)
+    monkeypatch.setattr("servodeck.access.addresses.MDNS_NAME", NAME)
 
 
 @contextmanager

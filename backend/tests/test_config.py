@@ -9,9 +9,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from typer.testing import CliRunner, Result
 
-from servodeck.cli import config
-from servodeck.cli.config import Setting, toml_line
+from servodeck.cli import options
 from servodeck.cli.main import app
+from servodeck.cli.options import Setting, toml_line
 
 NOWHERE = Path("/nowhere")
 
@@ -19,8 +19,8 @@ NOWHERE = Path("/nowhere")
 @pytest.fixture(autouse=True)
 def no_files(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     """Whoever runs the tests may have settings of their own."""
-    monkeypatch.setattr(config, "SYSTEM_FILE", tmp_path / "etc" / config.FILE)
-    monkeypatch.setattr(config, "config_folder", lambda: tmp_path / "home")
+    monkeypatch.setattr(options, "SYSTEM_FILE", tmp_path / "etc" / options.FILE)
+    monkeypatch.setattr(options, "config_folder", lambda: tmp_path / "home")
 
 
 def show(*arguments: str, **variables: str) -> Result:
@@ -65,9 +65,9 @@ def test_switches_come_from_everywhere_too(
 
 
 def test_the_file_of_the_user_goes_before_that_of_the_system(tmp_path: Path) -> None:
-    of_system = write(tmp_path / "etc" / config.FILE, 'board = "lsc-6"')
+    of_system = write(tmp_path / "etc" / options.FILE, 'board = "lsc-6"')
     assert line_of(show(), "board") == f'board = "lsc-6"  # {of_system}'
-    of_user = write(tmp_path / "home" / config.FILE, 'board = "xarm"')
+    of_user = write(tmp_path / "home" / options.FILE, 'board = "xarm"')
     assert line_of(show(), "board") == f'board = "xarm"  # {of_user}'
 
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from servodeck.cli.config import data_folder
+from servodeck.cli.options import data_folder
 
 
 @pytest.mark.parametrize(

@@ -15,7 +15,7 @@ from starlette.types import Message
 from servodeck.access import addresses
 from servodeck.access.connections import EXTENSION
 from servodeck.api.app import create_app
-from servodeck.api.events import SILENCE_S
+from servodeck.api.robot import SILENCE_S
 from servodeck.robot.control import Control
 from servodeck.robot.hub import OUTBOX_MESSAGES
 from tests.fake_port import FakePort, FakePorts

@@ -5,7 +5,7 @@ from contextlib import AbstractContextManager, nullcontext
 import pytest
 
 from servodeck.access import addresses
-from servodeck.access.gate import judge_handshake, judge_script
+from servodeck.access.guard import judge_handshake, judge_script
 from servodeck.errors import ForbiddenError, LatchedError, MalformedError, NotSupportedError, OutOfRangeError
 from servodeck.protocol.decoder import COMMAND_AT
 from servodeck.robot.board.rules import judge_latch, judge_packet

@@ -6,8 +6,8 @@ import pytest
 from fastapi import APIRouter
 
 from servodeck.access.roles import JudgingRoute
-from servodeck.api import later
-from servodeck.api.later import PARTS, LaterApp, Part
+from servodeck.api import app as app_module
+from servodeck.api.app import PARTS, LaterApp, Part
 from tests.fake_port import FakePort, FakePorts
 from tests.knocking import app_at, knock, scope_of
 from tests.running import PORT, http_to
@@ -42,7 +42,7 @@ async def test_a_method_that_an_address_does_not_have_is_known_before_it_is_load
 async def test_a_part_that_names_no_role_is_not_served(monkeypatch: pytest.MonkeyPatch) -> None:
     open_to_all = APIRouter(route_class=JudgingRoute)
     open_to_all.add_api_route("/api/open", lambda: None)
-    monkeypatch.setattr(later, "PARTS", (Part(lambda: (open_to_all,), frozenset({"open"})),))
+    monkeypatch.setattr(app_module, "PARTS", (Part(lambda: (open_to_all,), frozenset({"open"})),))
     guard = app_at()
     for _ in range(2):
         with pytest.raises(TypeError, match="has to name one role"):

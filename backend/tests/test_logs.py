@@ -14,7 +14,7 @@ from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 from websockets.typing import Origin
 
-from servodeck.cli.logs import LINES_WAITING, SparseFilter, facts_of, set_up_logs
+from servodeck.cli.terminal import LINES_WAITING, SparseFilter, facts_of, set_up_logs
 from tests.client import lease_of
 from tests.samples import MOVE
 from tests.test_cli import Served

@@ -9,8 +9,7 @@ from fastapi import FastAPI
 
 from servodeck.access import addresses, roles
 from servodeck.access.addresses import Access, Mode
-from servodeck.access.entrance import Entrance
-from servodeck.access.rates import PAGE_BURST
+from servodeck.access.entrance import PAGE_BURST, Entrance
 from servodeck.callers import RANKS, Role
 from tests.knocking import all_routes, app_at, knock, roles_of_routes, scope_of
 from tests.running import PORT, entrance_to

@@ -8,8 +8,8 @@ from fastapi.routing import APIRoute
 from jsonschema_rs import validator_for
 from pydantic import TypeAdapter
 
+from servodeck.api.app import LaterApp
 from servodeck.api.examples import EXAMPLES, PROBLEMS
-from servodeck.api.later import LaterApp
 from servodeck.api.openapi import SCHEMES, STATUS_OF, described, docs_page, operations
 from servodeck.callers import Role
 from servodeck.errors import ErrorCode

@@ -8,11 +8,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from servodeck.protocol import snake
 from servodeck.protocol.decoder import Decoder, DecoderEvent, Packet, PacketEvent
 from servodeck.protocol.families import FAMILIES, Family, MotionTraits, Range
 from servodeck.protocol.limits import PacketError
 from servodeck.protocol.packets import check_command, encode, parse_command, parse_report
-from servodeck.protocol.shared_data import snake
 from servodeck.protocol.values import (
     AllPositions,
     Battery,

@@ -6,8 +6,7 @@ import pytest
 from httpx2 import AsyncClient, Response
 
 from servodeck.access import addresses
-from servodeck.access.entrance import Entrance
-from servodeck.access.rates import OF_DRIVERS, OF_VIEWERS, PAGE_BURST
+from servodeck.access.entrance import OF_DRIVERS, OF_VIEWERS, PAGE_BURST, Entrance
 from servodeck.callers import Role
 from tests.knocking import NOWHERE
 from tests.running import PORT, entrance_to, http_to

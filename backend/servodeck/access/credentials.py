@@ -12,9 +12,8 @@ import secrets
 from collections.abc import Callable
 from dataclasses import replace
 
-from servodeck.access.gate import only
 from servodeck.callers import Role
-from servodeck.errors import BusyError, NotFoundError, PairingError, PairingLockedError
+from servodeck.errors import BusyError, ForbiddenError, NotFoundError, PairingError, PairingLockedError
 from servodeck.value import value
 
 PAGE_HEADER = b"x-servodeck-page"
@@ -47,6 +46,14 @@ def cookie_of(cookies: bytes, name: bytes) -> str | None:
 
 def text_of(value: bytes) -> str | None:
     return value.decode() if value.isascii() and 0 < len(value) <= MAX_LENGTH else None
+
+
+def only(headers: list[tuple[bytes, bytes]], name: bytes) -> bytes | None:
+    """The header's one value. Raises ForbiddenError for several: who knows which one counts."""
+    values = [value for key, value in headers if key == name]
+    if len(values) > 1:
+        raise ForbiddenError(f"The header {name.decode('ascii')} came more than once.")
+    return values[0] if values else None
 
 
 def make_secret() -> str:

@@ -1,23 +1,32 @@
-"""Stands before everything the gateway serves: asks `gate` about each request and upgrade, makes unknown
-callers wait where many ask at once, adds the security headers, and logs refusals.
+"""Stands before everything the gateway serves: judges the head of each request and upgrade (Host, Origin,
+forwarding, kind and size of the body), makes unknown callers wait where many ask at once, adds the security
+headers, and logs refusals.
 
-Pure ASGI, because ordinary middleware does not see WebSockets. Knows no route.
+Denies by default: only the names of `access` pass, the page served under them, and programs, which have no
+Origin. Pure ASGI, because ordinary middleware does not see WebSockets. Knows no route.
 """
 
 import logging
 import re
 import time
+from collections.abc import Iterable
 
 from starlette.datastructures import MutableHeaders
 from starlette.exceptions import HTTPException
 from starlette.responses import JSONResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
+from servodeck.access.addresses import Access
 from servodeck.access.connections import connection_of
-from servodeck.access.entrance import Entrance
-from servodeck.access.gate import is_upgrade, judge_body_size, judge_body_type, judge_handshake
-from servodeck.access.rates import RequestQueue
-from servodeck.errors import GatewayError, NotPairedError
+from servodeck.access.credentials import only
+from servodeck.access.entrance import Entrance, RequestQueue
+from servodeck.errors import (
+    ForbiddenError,
+    GatewayError,
+    NotPairedError,
+    TooLargeError,
+    WrongTypeError,
+)
 from servodeck.rate import Rate
 
 LOGGER = "servodeck.access"
@@ -144,3 +153,82 @@ def limit_body(receive: Receive, limit: int) -> Receive:
         return message
 
     return receive_limited
+
+
+FORWARDING = frozenset(
+    {b"forwarded", b"via", b"x-real-ip", b"x-client-ip", b"true-client-ip", b"cf-connecting-ip"}
+)
+FORWARDING_PREFIX = b"x-forwarded-"
+BODY_METHODS = frozenset({"POST", "PUT", "PATCH", "DELETE"})
+
+Headers = Iterable[tuple[bytes, bytes]]
+
+
+def judge_handshake(headers: Headers, access: Access, own_address: str | None) -> str:
+    """The Host of an acceptable request or upgrade that came in at `own_address`. Raises ForbiddenError with
+    the reason.
+    """
+    found = list(headers)
+    if access.mode != "proxy":
+        judge_forwarding(found)
+    host = only(found, b"host")
+    if host is None or host not in access.hosts_at(own_address):
+        raise ForbiddenError(
+            "This gateway answers only to its own address on this computer; the Host header names another."
+            if access.mode == "local"
+            else "This gateway answers only to its own names and addresses; the Host header names another."
+        )
+    origin = only(found, b"origin")
+    if origin is not None and origin != access.scheme.encode() + b"://" + host:
+        raise ForbiddenError(
+            "Requests from other sites are refused: the Origin header names another address."
+        )
+    judge_site(found)
+    return host.decode("ascii")
+
+
+def judge_forwarding(headers: list[tuple[bytes, bytes]]) -> None:
+    for name, _ in headers:
+        if name in FORWARDING or name.startswith(FORWARDING_PREFIX):
+            raise ForbiddenError(
+                "This gateway was not told of a proxy (--public-url); "
+                f"the header {name.decode('latin-1')} says that one passed the request on."
+            )
+
+
+def judge_body_type(method: str, headers: Headers) -> None:
+    """Raises WrongTypeError for a body that is not called JSON: a form of another site cannot call it so."""
+    found = list(headers)
+    has_body = only(found, b"transfer-encoding") or only(found, b"content-length") not in (None, b"0")
+    kind = (only(found, b"content-type") or b"").partition(b";")[0].strip().lower()
+    if method in BODY_METHODS and has_body and kind != b"application/json":
+        raise WrongTypeError("The body must be application/json.")
+
+
+def judge_body_size(headers: Headers, limit: int) -> None:
+    """What is announced; what comes without being announced is counted as it comes. Raises TooLargeError."""
+    announced = only(list(headers), b"content-length")
+    if announced is not None and int(announced) > limit:  # a number: the server has read it
+        raise TooLargeError(f"The request is larger than {limit} bytes.")
+
+
+def is_upgrade(headers: Headers) -> bool:
+    return any(name == b"upgrade" and value.lower() == b"websocket" for name, value in headers)
+
+
+def judge_site(headers: list[tuple[bytes, bytes]]) -> None:
+    """A browser may leave Origin out of a plain GET, but says whether another site asks. Following a link is
+    fine.
+    """
+    site = only(headers, b"sec-fetch-site")
+    if site in (None, b"same-origin", b"none") or only(headers, b"sec-fetch-mode") == b"navigate":
+        return
+    raise ForbiddenError(
+        "Requests from other sites are refused: the header Sec-Fetch-Site names another site."
+    )
+
+
+def judge_script(headers: Headers) -> None:
+    """For routes that act: not even a link of another site may lead here."""
+    if only(list(headers), b"sec-fetch-site") not in (None, b"same-origin", b"none"):
+        raise ForbiddenError("Requests from other sites are refused: a link on another site led here.")

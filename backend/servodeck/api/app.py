@@ -1,25 +1,30 @@
-"""Puts the gateway together: guard, routes, page, and one shape for every error. Holds no rule of its own."""
+"""Puts the gateway together: guard, routes, page, and one shape for every error. Holds no rule of its own.
+
+A start does not wait for most routes: each part is loaded with the first request for an address of its own,
+all of them soon after the gateway serves.
+"""
 
 import asyncio
 import contextlib
 from collections.abc import AsyncIterator, Awaitable, Callable
 from http import HTTPStatus
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
-from fastapi import Request
+from fastapi import APIRouter, FastAPI, Request
 from fastapi.exceptions import RequestValidationError
 from fastapi.routing import APIRoute
 from starlette.exceptions import HTTPException
 from starlette.requests import HTTPConnection
 from starlette.responses import HTMLResponse, JSONResponse, Response
+from starlette.routing import Mount
+from starlette.types import Receive, Scope, Send
 
 from servodeck import __version__, metrics
 from servodeck.access.entrance import Entrance
 from servodeck.access.guard import Guard, log_refusal
 from servodeck.access.roles import ANYBODY, JudgingRoute, named_roles, require_roles
 from servodeck.api.health import Pulse, health_api, sign_of_life
-from servodeck.api.later import LaterApp, add_routes
 from servodeck.api.page import STATIC, page
 from servodeck.errors import ErrorCode, GatewayError, MalformedError
 from servodeck.files import Disk
@@ -42,6 +47,90 @@ DETAILS = {
     404: "There is nothing at this address; /docs lists what there is.",
     405: "This address takes another method; /docs lists what there is.",
 }
+
+
+# Between two parts a STOP gets its turn; loading one takes some 10 ms.
+PAUSE_S = 0.05
+
+
+def robot() -> tuple[APIRouter, ...]:
+    from servodeck.api.robot import api, events_api, socket
+    from servodeck.intents import client_message
+
+    client_message.rebuild()  # reads what pages say, a STOP too
+    return api, socket, events_api
+
+
+def library() -> tuple[APIRouter, ...]:
+    from servodeck.api.library import library_api, robots_api
+
+    return library_api, robots_api
+
+
+def motion() -> tuple[APIRouter, ...]:
+    from servodeck.api.motion import jobs_api, motion_api, play_api, poses_api
+
+    return motion_api, poses_api, jobs_api, play_api
+
+
+def people() -> tuple[APIRouter, ...]:
+    from servodeck.api.people import people_api
+
+    return (people_api,)
+
+
+class Part(NamedTuple):
+    """`names`: the first word of each of its addresses, behind `/api/`."""
+
+    load: Callable[[], tuple[APIRouter, ...]]
+    names: frozenset[str]
+
+
+PARTS = (
+    Part(robot, frozenset({"status", "ports", "port", "board", "stop", "resume", "battery", "events", "ws"})),
+    Part(people, frozenset({"me", "pair", "people", "invites", "tokens", "stop-links"})),
+    Part(library, frozenset({"library", "robot"})),
+    Part(
+        motion, frozenset({"move", "slots", "erase", "lease", "driver", "poses", "download", "jobs", "play"})
+    ),
+)
+
+
+class LaterApp(FastAPI):
+    def __init__(self, **options: Any) -> None:
+        super().__init__(**options)
+        self._waiting = list(PARTS)
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        if self._waiting and scope["type"] != "lifespan":
+            name = scope["path"].removeprefix("/api").removeprefix("/").partition("/")[0]
+            for part in [each for each in self._waiting if name in each.names]:
+                self._load(part)
+        await super().__call__(scope, receive, send)
+
+    def load_all(self) -> None:
+        while self._waiting:
+            self._load(self._waiting[0])
+
+    async def load_soon(self) -> None:
+        while self._waiting:
+            await asyncio.sleep(PAUSE_S)
+            if self._waiting:
+                self._load(self._waiting[0])
+
+    def _load(self, part: Part) -> None:
+        routers = part.load()
+        for router in routers:
+            require_roles(router.routes)
+        add_routes(self, *routers)
+        self._waiting.remove(part)
+
+
+def add_routes(app: FastAPI, *routers: APIRouter) -> None:
+    """Before those that are mounted. As they are: where a router is included the framework makes all anew."""
+    count = len(app.router.routes)
+    at = next((index for index in range(count) if isinstance(app.router.routes[index], Mount)), count)
+    app.router.routes[at:at] = [route for router in routers for route in router.routes]
 
 
 def create_app(control: Control, library: Library, entrance: Entrance, static: Path = STATIC) -> Guard:

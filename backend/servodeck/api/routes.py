@@ -7,7 +7,7 @@ from fastapi.routing import APIRoute
 from pydantic.alias_generators import to_camel
 from starlette.requests import HTTPConnection
 
-from servodeck.access.gate import judge_script
+from servodeck.access.guard import judge_script
 from servodeck.access.roles import JudgingRoute
 from servodeck.robot.control import Control
 

@@ -3,18 +3,31 @@ codes; the work is done elsewhere.
 """
 
 import json
+import subprocess
 from dataclasses import asdict, fields
+from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from servodeck.cli.commands import COMMANDS, library, pose, poses
-from servodeck.cli.config import PREFIX, commands_of, settings_of, toml_line
 from servodeck.cli.doctor import doctor
 from servodeck.cli.groups import download, play
-from servodeck.cli.options import USAGE, Token, TokenFile, asked, fail, remote_at
-from servodeck.cli.program import new_program
-from servodeck.cli.udev import udev_rule
+from servodeck.cli.options import (
+    FAILURE,
+    PREFIX,
+    USAGE,
+    Token,
+    TokenFile,
+    asked,
+    commands_of,
+    fail,
+    remote_at,
+    settings_of,
+    toml_line,
+)
+from servodeck.cli.serve import new_program
+from servodeck.port.hid import UDEV_RULE
 from servodeck.port.ports import PortInfo, list_devices
 from servodeck.protocol.describe import describe
 from servodeck.protocol.limits import PacketError
@@ -23,10 +36,36 @@ from servodeck.protocol.limits import PacketError
 SCAN_WAIT_S = 15.0
 
 app = new_program()
-for command in (*COMMANDS, pose, poses, download, play, library, udev_rule):
+for command in (*COMMANDS, pose, poses, download, play, library):
     app.command()(command)
 
 app.command()(doctor)
+
+
+# Before 73-seat-late.rules, which gives what `uaccess` promises.
+RULE_FILE = Path("/etc/udev/rules.d/70-servodeck.rules")
+TELL_UDEV = (("udevadm", "control", "--reload"), ("udevadm", "trigger", "--subsystem-match=hidraw"))
+
+
+@app.command()
+def udev_rule(
+    install: Annotated[
+        bool, typer.Option("--install", help="Write it to /etc/udev/rules.d, as root, and apply it.")
+    ] = False,
+) -> None:
+    """Show the udev rule (Linux) that lets you use a board on its own USB cable, or install it."""
+    if not install:
+        print(UDEV_RULE)
+        return
+    try:
+        RULE_FILE.write_text(f"{UDEV_RULE}\n", "utf-8")
+        for command in TELL_UDEV:
+            subprocess.run(command, check=True, capture_output=True)
+    except PermissionError:
+        fail(f"{RULE_FILE} cannot be written. Run this as root, with sudo.", FAILURE)
+    except (OSError, subprocess.CalledProcessError) as error:
+        fail(f"udev does not take the rule: {error}.", FAILURE)
+    print(f"{RULE_FILE} is installed. Plug the board's cable in again.")
 
 
 @app.command("config", context_settings={"allow_extra_args": True, "ignore_unknown_options": True})

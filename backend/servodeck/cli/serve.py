@@ -1,4 +1,5 @@
-"""The command `servodeck serve`: reads HOST:PORT and binds it, puts the gateway together and ends it.
+"""The program, with its command `servodeck serve`: reads HOST:PORT and binds it, puts the gateway together
+and ends it. The other commands are loaded only where one of them is asked for (main.py).
 
 Imports the gateway only where it is served, so that the small commands answer at once.
 """
@@ -8,15 +9,17 @@ import os
 import socket
 import sys
 import time
+from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
+from typer.main import get_command
 
-from servodeck.cli.config import PREFIX, Form, Level, take_file
-from servodeck.cli.options import USAGE, fail
-from servodeck.loading import end_loading
+from servodeck import __version__
+from servodeck.cli import end_loading
+from servodeck.cli.options import PREFIX, USAGE, Form, Level, fail, take_file
 from servodeck.protocol.families import FAMILIES, UNKNOWN
 
 if TYPE_CHECKING:
@@ -129,13 +132,12 @@ def serve(
 ) -> None:
     """Serve the page and the serial port. Each option can also be set as SERVODECK_NAME or in a file."""
     from servodeck.access import addresses
-    from servodeck.access.announcement import Announcement
+    from servodeck.access.addresses import Announcement
     from servodeck.api.app import create_app
     from servodeck.api.health import allow_descriptors
     from servodeck.api.server import Server, leave_with_stdin
-    from servodeck.cli.config import data_folder
-    from servodeck.cli.greeting import greeting, urls_for_others
-    from servodeck.cli.logs import set_up_logs
+    from servodeck.cli.options import data_folder
+    from servodeck.cli.terminal import greeting, set_up_logs, urls_for_others
     from servodeck.errors import StorageError
     from servodeck.files import Remembered
     from servodeck.library.library import Library
@@ -248,3 +250,35 @@ def parse_public_url(url: str) -> "Access":
         return behind_proxy(url)
     except ValueError as error:
         fail(f"--public-url {url} is not valid: {error}.", USAGE)
+
+
+def show_version(is_wanted: bool) -> None:
+    if is_wanted:
+        print(f"servodeck {__version__}")
+        raise typer.Exit
+
+
+def main_options(
+    _version: Annotated[
+        bool, typer.Option("--version", callback=show_version, is_eager=True, help="Show the version.")
+    ] = False,
+) -> None:
+    """Drives LewanSoul, Lobot and Hiwonder servo controllers."""
+
+
+def new_program() -> typer.Typer:
+    program = typer.Typer(
+        help="Servodeck: drives LewanSoul, Lobot and Hiwonder servo controllers.",
+        no_args_is_help=True,
+        add_completion=False,
+        pretty_exceptions_enable=False,
+        rich_markup_mode=None,
+    )
+    program.callback()(main_options)
+    program.command(context_settings={"auto_envvar_prefix": PREFIX})(serve)
+    return program
+
+
+def serve_alone(whole: Callable[[], typer.Typer]) -> None:
+    """`whole` loads the program with all its commands, for whoever has to name one."""
+    new_program()(obj=lambda: get_command(whole()))

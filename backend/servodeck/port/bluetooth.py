@@ -23,9 +23,9 @@ from servodeck.errors import (
     PortMissingError,
 )
 from servodeck.port.ports import READ_WAIT_S, PortInfo
+from servodeck.protocol import load_shared
 from servodeck.protocol.decoder import LONGEST_PACKET
 from servodeck.protocol.families import Withheld
-from servodeck.protocol.shared_data import load_shared
 from servodeck.protocol.timings import wire_s
 
 if TYPE_CHECKING:

@@ -19,9 +19,9 @@ from serial.tools import list_ports
 from servodeck.errors import PortBusyError, PortDeniedError, PortError, PortLostError, PortMissingError
 from servodeck.port import hid
 from servodeck.port.whereabouts import SHARED_NUMBERS, UsbDevice
+from servodeck.protocol import load_shared
 from servodeck.protocol.decoder import LONGEST_PACKET
 from servodeck.protocol.families import Withheld
-from servodeck.protocol.shared_data import load_shared
 from servodeck.protocol.timings import LINE
 from servodeck.value import value
 

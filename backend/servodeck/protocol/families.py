@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any, Final, Literal
 
-from servodeck.protocol.shared_data import load_shared, snake
+from servodeck.protocol import load_shared, snake
 from servodeck.value import value
 
 CommandKind = Literal[

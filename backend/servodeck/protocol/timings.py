@@ -5,7 +5,7 @@ says where each comes from. Knows nothing of what they are for.
 from collections.abc import Callable
 from typing import Any, Final, NamedTuple, TypeVar
 
-from servodeck.protocol.shared_data import load_shared, snake
+from servodeck.protocol import load_shared, snake
 
 _TIMINGS: Final = load_shared("timings")
 BITS_PER_BYTE: Final = 10  # 8N1: start bit, eight data bits, stop bit
