@@ -49,6 +49,12 @@ module.exports = {
       { path: '^shared/src/', pathNot: '^shared/src/codec/' },
     ),
     forbid(
+      'kinematics-knows-nothing',
+      'Kinematics is geometry: joints and angles, no servos and no units of a board.',
+      { path: '^shared/src/kinematics/', pathNot: test },
+      { path: '^shared/src/', pathNot: '^shared/src/kinematics/' },
+    ),
+    forbid(
       'motion-knows-the-codec',
       'Motion is a model of what was sent.',
       { path: '^shared/src/motion/', pathNot: test },

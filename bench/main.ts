@@ -16,6 +16,7 @@ import { toRecord, type Figure } from './figure.ts';
 import { measureFiles } from './files.ts';
 import { measureFrames } from './frames.ts';
 import { measureTracks } from './tracks.ts';
+import { measureIk } from './ik.ts';
 import { measureLibrary } from './library.ts';
 import { missed } from './limits.ts';
 import { measureNetwork } from './network.ts';
@@ -52,6 +53,7 @@ const GROUPS: Readonly<Record<string, () => Figure[] | Promise<Figure[]>>> = {
   load: measurePageLoad,
   page: measurePageSize,
   codec: measureCodec,
+  ik: measureIk,
   timeline: measureTimeline,
   download: measureDownload,
 };

@@ -13,6 +13,7 @@ const mayKnow: Record<string, readonly string[]> = {
   'shared/clock': [],
   'shared/codec': [],
   'shared/document': [],
+  'shared/kinematics': [],
   'shared/motion': ['shared/codec', 'shared/clock'],
   'shared/robot': ['shared/motion', 'shared/codec', 'shared/clock'],
   'shared/profile': ['shared/document', 'shared/codec'],
