@@ -19,8 +19,8 @@ export type Theme = 'system' | 'light' | 'dark';
 export type LanguageChoice = 'system' | Language;
 /** `board`: the units of the board, microseconds or steps. */
 export type PositionsIn = 'board' | 'degrees';
-/** Servos one below the other, or where they sit on the body. */
-export type ServoLayout = 'list' | 'body';
+/** Servos one below the other, where they sit on the body, or the robot in three dimensions. */
+export type ServoLayout = 'list' | 'body' | 'model';
 export type LogKind = 'move' | 'group' | 'battery' | 'link' | 'noise';
 
 export interface ViewState {
@@ -69,7 +69,7 @@ const REMEMBERED = {
   language: { by: 'browser', key: 'servodeck.language', values: ['system', ...LANGUAGE_CODES] },
   positionsIn: { by: 'browser', key: 'servodeck.positionsIn', values: ['board', 'degrees'] },
   kiosk: { by: 'browser', key: 'servodeck.kiosk', values: ['on', 'off'] },
-  servoLayout: { by: 'browser', key: 'servodeck.servoLayout', values: ['list', 'body'] },
+  servoLayout: { by: 'browser', key: 'servodeck.servoLayout', values: ['list', 'body', 'model'] },
   tab: { by: 'tab', key: 'servodeck.tab', values: ['live', 'actions', 'board', 'log', 'buttons'] },
   authoring: { by: 'tab', key: 'servodeck.authoring', values: ['group', 'poses', 'pad'] },
 } as const satisfies { readonly [K in keyof ViewState]?: Memory<ViewState[K]> };

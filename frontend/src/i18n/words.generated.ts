@@ -241,6 +241,7 @@ export interface Messages {
     readonly layouts: {
       readonly list: string;
       readonly body: string;
+      readonly model: string;
     };
     readonly places: string;
     readonly arrange: string;
@@ -279,6 +280,26 @@ export interface Messages {
     readonly someUnknown: (values: { readonly servos: string }) => string;
     readonly placeOf: (values: { readonly name: string; readonly x: number; readonly y: number }) => string;
     readonly staying: (values: { readonly count: number; readonly names: string }) => string;
+  };
+  readonly robot3d: {
+    readonly figure: (values: { readonly robot: string }) => string;
+    readonly handle: (values: { readonly limb: string }) => string;
+    readonly handleHint: string;
+    readonly level: string;
+    readonly zoomIn: string;
+    readonly zoomOut: string;
+    readonly home: string;
+    readonly place: string;
+    readonly axes: {
+      readonly x: string;
+      readonly y: string;
+      readonly z: string;
+    };
+    readonly mm: string;
+    readonly outOfReach: (values: { readonly missMm: number }) => string;
+    readonly look: string;
+    readonly missing: string;
+    readonly missingHint: string;
   };
   readonly authoring: {
     readonly label: string;

@@ -22,8 +22,8 @@ export interface Later<Part> {
 
 const all: Later<unknown>[] = [];
 
-/** What guards a robot comes before the rest. */
-type Rank = 'guards' | 'rest';
+/** What guards a robot comes before the rest; what is large and seldom wanted comes when it is asked for alone. */
+type Rank = 'guards' | 'rest' | 'asked';
 
 export function later<Part>(load: () => Promise<Part>, rank: Rank = 'rest'): Later<Part> {
   const store = createStore<Fetched<Part>>(() => ({ part: null, isMissing: false }));
@@ -38,7 +38,7 @@ export function later<Part>(load: () => Promise<Part>, rank: Rank = 'rest'): Lat
   }
   const made = { store, fetch: () => (under ??= fetchNow()) };
   if (rank === 'guards') all.unshift(made);
-  else all.push(made);
+  else if (rank === 'rest') all.push(made);
   return made;
 }
 

@@ -2,7 +2,7 @@
 // control in its place.
 
 import { useState } from 'react';
-import { servoOf } from '#shared/profile/robot.ts';
+import { type BodyKind, servoOf } from '#shared/profile/robot.ts';
 import {
   useStores,
   useRobot,
@@ -28,6 +28,8 @@ import { Button } from '../../ui/Button.tsx';
 import { laterComponent } from '../../ui/later.tsx';
 import { NumberField } from '../../ui/NumberField.tsx';
 import { Body } from '../picture/Body.tsx';
+import { RobotView } from '../picture/pictures.ts';
+import type { ServoLayout } from '../view.ts';
 import { GENTLE_MOVE_MS } from '../../robot/moveTime.ts';
 import { cx } from '../../ui/cx.ts';
 import { Panel } from '../../ui/Panel.tsx';
@@ -218,7 +220,7 @@ const BodyMap = laterComponent(async () => (await import('../picture/BodyMap.tsx
 
 export function ServosPanel() {
   const hindrance = useSnapshot(motionHindrance);
-  const layout = useView((state) => state.servoLayout);
+  const layout = useServoLayout();
   const isPhone = useLayout() === 'phone';
   const isTeaching = useIsTeaching();
   const why = hindrance === null ? '' : words.servos.blocked[hindrance];
@@ -237,9 +239,7 @@ export function ServosPanel() {
       {layout === 'list' ? (
         <Body />
       ) : (
-        <div className={styles.map}>
-          <BodyMap />
-        </div>
+        <div className={styles.map}>{layout === 'body' ? <BodyMap /> : <RobotView />}</div>
       )}
       <Legend />
       <SelectionBar
@@ -252,17 +252,26 @@ export function ServosPanel() {
   );
 }
 
+const LAYOUTS = ['list', 'body', 'model'] as const;
+
+/** A body that nobody described has no model. */
+const layoutsOf = (body: BodyKind): readonly ServoLayout[] =>
+  LAYOUTS.filter((layout) => layout !== 'model' || body !== 'plain');
+
+function useServoLayout(): ServoLayout {
+  const { body } = useRobot();
+  const layout = useView((state) => state.servoLayout);
+  return layoutsOf(body).includes(layout) ? layout : 'list';
+}
+
 function LayoutChoice() {
   const { view } = useStores();
-  const layout = useView((state) => state.servoLayout);
+  const { body } = useRobot();
   return (
     <Choice
       label={words.servoPanel.layout}
-      value={layout}
-      options={[
-        { value: 'list', label: words.servoPanel.layouts.list },
-        { value: 'body', label: words.servoPanel.layouts.body },
-      ]}
+      value={useServoLayout()}
+      options={layoutsOf(body).map((value) => ({ value, label: words.servoPanel.layouts[value] }))}
       onChange={(servoLayout) => view.setState({ servoLayout })}
     />
   );

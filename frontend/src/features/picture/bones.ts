@@ -109,7 +109,7 @@ function humanoid(limbs: readonly Limb[], pose: Pose): BonePicture {
 }
 
 /** It goes far down and hardly aside. */
-function isLeg(chain: Chain): boolean {
+export function isLeg(chain: Chain): boolean {
   const [root, tip] = [chain[0], chain.at(-1)];
   if (root === undefined || tip === undefined) return false;
   const { x, y } = vector(root.place, tip.place);

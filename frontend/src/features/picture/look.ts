@@ -13,6 +13,7 @@ const NAMES = [
     'well',
     'commanded',
     'estimated',
+    'confirmed',
     'unknown',
   ] as const),
   ...COLOURS,

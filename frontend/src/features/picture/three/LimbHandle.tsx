@@ -1,0 +1,223 @@
+// What leads a limb by its end: a handle over the picture, and the fields of an arm in millimetres. What comes of it goes the way of a
+// slider's value: soft limit, locks, driver and STOP are as there.
+
+import { type KeyboardEvent, type PointerEvent, useRef, useState } from 'react';
+import { Plane, Vector3 } from 'three';
+import type { Vec3 } from '#shared/kinematics/chain.ts';
+import { type Robot, servoOf } from '#shared/profile/robot.ts';
+import { words } from '../../../i18n/words.ts';
+import { NumberField } from '../../../ui/NumberField.tsx';
+import { freeOf, isLocked } from '../../locks.ts';
+import { guessNow, useStores, type Stores } from '../../stores.ts';
+import { useMotions } from '../useMotions.ts';
+import { inMm, type Leading, type Led, leadTo, poseOfLimb, takeLimb } from './leading.ts';
+import type { LedLimb } from './limbs.ts';
+import type { Model } from './model.ts';
+import styles from './RobotView.module.css';
+
+const STEP_M = { fine: 0.001, coarse: 0.01 };
+/** A place that is missed by more is out of reach. */
+const SHORT_M = 0.003;
+const FIELD_MM = { min: -1000, max: 1000 };
+
+interface LimbProps {
+  readonly limb: LedLimb;
+  readonly isLevel: boolean;
+  readonly isBlocked: boolean;
+}
+
+interface LimbHandleProps extends LimbProps {
+  model(): Model | null;
+  onElement(element: HTMLButtonElement | null): void;
+}
+
+/** A pointer that holds a handle goes along the plane through the tip that faces the eye. */
+interface Hold {
+  readonly pointer: number;
+  readonly plane: Plane;
+  readonly besideTip: Vector3;
+  leading: Leading;
+}
+
+/** Sits over the end of a limb; moved past React. */
+export function LimbHandle({ limb, isLevel, isBlocked, model, onElement }: LimbHandleProps) {
+  const stores = useStores();
+  const hold = useRef<Hold | null>(null);
+  const [isHeld, setHeld] = useState(false);
+  const [isShort, setShort] = useState(false);
+
+  function press(event: PointerEvent<HTMLButtonElement>): void {
+    const room = model();
+    const leading = limbNow(stores, limb);
+    if (event.button !== 0 || room === null || leading === null) return;
+    const tip = tipInRoom(leading, room);
+    const facing = room.stage.camera.getWorldDirection(new Vector3());
+    const plane = new Plane().setFromNormalAndCoplanarPoint(facing, tip);
+    const at = pointOn(plane, room, event) ?? tip;
+    hold.current = { pointer: event.pointerId, plane, besideTip: tip.clone().sub(at), leading };
+    event.currentTarget.setPointerCapture(event.pointerId);
+    setHeld(true);
+  }
+
+  function move(event: PointerEvent<HTMLButtonElement>): void {
+    const room = model();
+    const held = hold.current;
+    if (held === null || room === null || held.pointer !== event.pointerId) return;
+    const at = pointOn(held.plane, room, event)?.add(held.besideTip);
+    if (at === undefined) return;
+    const led = lead(stores, held.leading, [at.x, at.y, at.z - room.liftM()], isLevel, 'follow');
+    held.leading = led.leading;
+    setShort(led.missM > SHORT_M);
+  }
+
+  function release(): void {
+    hold.current = null;
+    setHeld(false);
+    setShort(false);
+  }
+
+  function step(event: KeyboardEvent): void {
+    const way = WAYS[event.key];
+    const leading = limbNow(stores, limb);
+    if (way === undefined || leading === null) return;
+    event.preventDefault();
+    const by = event.shiftKey ? STEP_M.coarse : STEP_M.fine;
+    const { tip } = poseOfLimb(leading);
+    const wished: Vec3 = [tip[0] + way[0] * by, tip[1] + way[1] * by, tip[2] + way[2] * by];
+    lead(stores, leading, wished, isLevel, 'follow');
+  }
+
+  return (
+    <button
+      ref={onElement}
+      type="button"
+      className={styles.handle}
+      aria-label={words.robot3d.handle({ limb: nameOf(limb, stores.robots.current().robot) })}
+      title={words.robot3d.handleHint}
+      disabled={isBlocked}
+      data-held={isHeld}
+      data-short={isShort}
+      onPointerDown={press}
+      onPointerMove={move}
+      onPointerUp={release}
+      onPointerCancel={release}
+      onLostPointerCapture={release}
+      onKeyDown={step}
+    />
+  );
+}
+
+const pointOn = (plane: Plane, { stage }: Model, { clientX, clientY }: PointerEvent): Vector3 | null =>
+  stage.rayAt(clientX, clientY).ray.intersectPlane(plane, new Vector3());
+
+/** Forward, left and up, as in URDF. */
+const WAYS: Readonly<Record<string, Vec3>> = {
+  ArrowRight: [1, 0, 0],
+  ArrowLeft: [-1, 0, 0],
+  ArrowUp: [0, 0, 1],
+  ArrowDown: [0, 0, -1],
+  PageUp: [0, 1, 0],
+  PageDown: [0, -1, 0],
+};
+
+/** Puts the handles over the ends of their limbs; those whose place is not known are hidden. */
+export function placeHandles(
+  stores: Stores,
+  model: Model,
+  limbs: readonly LedLimb[],
+  handles: ReadonlyMap<string, HTMLElement>,
+  canvas: HTMLElement,
+): void {
+  const { left, top } = canvas.getBoundingClientRect();
+  for (const limb of limbs) {
+    const handle = handles.get(limb.tip);
+    const leading = limbNow(stores, limb);
+    if (handle === undefined) continue;
+    handle.style.visibility = leading === null ? 'hidden' : '';
+    if (leading === null) continue;
+    const { x, y } = model.stage.onPage(tipInRoom(leading, model));
+    handle.style.translate = `${x - left}px ${y - top}px`;
+  }
+}
+
+const AXES = ['x', 'y', 'z'] as const;
+
+/** Where the tip was sent, in millimetres from the middle of the base. */
+export function PlaceFields({ limb, isLevel, isBlocked }: LimbProps) {
+  const stores = useStores();
+  const [place, setPlace] = useState<Vec3 | null>(() => placeNow(stores, limb));
+  useMotions(limb.servos, () => {
+    const now = placeNow(stores, limb);
+    setPlace((before) => (before?.join() === now?.join() ? before : now));
+  });
+
+  function go(index: number, mm: number): void {
+    const leading = limbNow(stores, limb);
+    if (leading === null || place === null) return;
+    const { tip } = poseOfLimb(leading);
+    const along = (axis: number): number => (axis === index ? mm / 1000 : (tip[axis] ?? 0));
+    const { missM } = lead(stores, leading, [along(0), along(1), along(2)], isLevel, 'reach');
+    if (missM > SHORT_M)
+      stores.notices.refuse(words.robot3d.outOfReach({ missMm: Math.round(missM * 1000) }));
+  }
+
+  return (
+    <div className={styles.place} role="group" aria-label={words.robot3d.place}>
+      {AXES.map((axis, index) => (
+        <span key={axis} className={styles.axis}>
+          <span aria-hidden="true">{axis.toUpperCase()}</span>
+          <NumberField
+            label={words.robot3d.axes[axis]}
+            value={place?.[index] ?? null}
+            {...FIELD_MM}
+            unit={words.robot3d.mm}
+            size="small"
+            isDisabled={isBlocked || place === null}
+            onChange={(mm) => go(index, mm)}
+            onRefused={(value) =>
+              stores.notices.refuse(words.refused({ name: words.robot3d.axes[axis], value, ...FIELD_MM }))
+            }
+          />
+        </span>
+      ))}
+    </div>
+  );
+}
+
+function placeNow(stores: Stores, limb: LedLimb): Vec3 | null {
+  const leading = limbNow(stores, limb);
+  return leading === null ? null : inMm(poseOfLimb(leading).tip);
+}
+
+/** From where its servos were sent, else where they may stand. */
+function limbNow(stores: Stores, limb: LedLimb): Leading | null {
+  const motion = stores.device.motions();
+  return takeLimb(limb, stores.robots.current().robot, (servo) => {
+    const { target, estimated } = motion(servo.servo);
+    return target ?? estimated ?? guessNow(stores, servo);
+  });
+}
+
+function tipInRoom(leading: Leading, model: Model): Vector3 {
+  const [x, y, z] = poseOfLimb(leading).tip;
+  return new Vector3(x, y, z + model.liftM());
+}
+
+/** A drag streams as a slider does; a typed place is one slow move, or none where it is out of reach. */
+function lead(stores: Stores, leading: Leading, tip: Vec3, isLevel: boolean, how: 'follow' | 'reach'): Led {
+  const led = leadTo(leading, stores.robots.current().robot, {
+    ...{ tip, how, rise: isLevel ? 0 : null },
+    isLocked: (servo) => isLocked(stores, servo),
+  });
+  const free = freeOf(stores, led.targets);
+  if (how === 'follow') stores.device.drag(free, 'hand');
+  else if (led.missM <= SHORT_M) stores.device.move(free, 'leap');
+  return led;
+}
+
+/** By the servo before its end, or by the limb that people have named. */
+function nameOf({ servos }: LedLimb, robot: Robot): string {
+  const last = servoOf(robot, servos.at(-1) ?? 0);
+  if (last === undefined) return '';
+  return last.group === '' ? last.name : last.group;
+}

@@ -1,0 +1,192 @@
+// The robot in three dimensions, to look around it, to press the part whose servo is meant, and to lead its limbs. Loaded when asked
+// for: nothing else of the page knows three.js.
+
+import {
+  type KeyboardEvent,
+  type PointerEvent,
+  useEffect,
+  useEffectEvent,
+  useMemo,
+  useRef,
+  useState,
+} from 'react';
+import { servoOf } from '#shared/profile/robot.ts';
+import { words } from '../../../i18n/words.ts';
+import { motionHindrance } from '../../../robot/readiness.ts';
+import { IconButton } from '../../../ui/Button.tsx';
+import { EmptyState } from '../../../ui/EmptyState.tsx';
+import { Toggle } from '../../../ui/Toggle.tsx';
+import { useFollow } from '../../../ui/useEachFrame.ts';
+import { select } from '../../servoView.ts';
+import { editServoView, useRobot, useServoView, useSnapshot, useStores } from '../../stores.ts';
+import { lookOf } from '../look.ts';
+import { motionsInFrame } from '../motionInFrame.ts';
+import type { Pose } from '../pose.ts';
+import { UnknownNote } from '../UnknownNote.tsx';
+import { useMotions } from '../useMotions.ts';
+import { usePreview } from '../usePreview.ts';
+import { parseUrdf } from './figure.ts';
+import { JointKnob, placeKnob } from './JointKnob.tsx';
+import { LimbHandle, placeHandles, PlaceFields } from './LimbHandle.tsx';
+import { limbsOfModel } from './limbs.ts';
+import { createModel, type Model } from './model.ts';
+import { createStage, type Stage } from './stage.ts';
+import { urdfOf } from './urdf.ts';
+import styles from './RobotView.module.css';
+
+const TURN_RADIANS = 0.15;
+const ZOOM = 0.85;
+/** A pointer that moved farther turned the view. */
+const PRESS_PX = 5;
+
+export function RobotView() {
+  const stores = useStores();
+  const robot = useRobot();
+  const urdf = useMemo(() => urdfOf(robot), [robot]);
+  const servos = useMemo(() => robot.servos.map(({ servo }) => servo), [robot]);
+  const limbs = useMemo(() => (urdf === null ? [] : limbsOfModel(parseUrdf(urdf), servos)), [urdf, servos]);
+  const canvas = useRef<HTMLCanvasElement>(null);
+  const shown = useRef<Model | null>(null);
+  const preview = useRef<Pose | null>(null);
+  const handles = useRef(new Map<string, HTMLButtonElement>());
+  const knob = useRef<HTMLElement>(null);
+  const pressed = useRef<{ readonly x: number; readonly y: number } | null>(null);
+  const [isLevel, setLevel] = useState(false);
+  const [isMissing, setMissing] = useState(false);
+  const isBlocked = useSnapshot((snapshot) => motionHindrance(snapshot) !== null);
+  const selected = useServoView((view) => view.selected.at(-1) ?? null);
+  const servo = selected === null ? undefined : servoOf(robot, selected);
+
+  const beforeDraw = useEffectEvent(() => {
+    const [model, element] = [shown.current, canvas.current];
+    if (model === null || element === null) return;
+    model.draw(motionsInFrame(stores.device), preview.current, lookOf(element));
+    placeHandles(stores, model, limbs, handles.current, element);
+    if (servo !== undefined && knob.current !== null)
+      placeKnob(model, servo, stores.device.motion(servo.servo).target, knob.current, element);
+  });
+
+  useEffect(() => {
+    if (canvas.current === null || urdf === null) return undefined;
+    const stage = stageIn(canvas.current, () => beforeDraw());
+    if (stage === null) {
+      setMissing(true);
+      return undefined;
+    }
+    const model = createModel(stage, urdf, robot);
+    shown.current = model;
+    return () => {
+      shown.current = null;
+      model.dispose();
+      stage.dispose();
+    };
+  }, [urdf, robot]);
+
+  useEffect(() => shown.current?.select(selected), [selected, urdf, robot]);
+  useMotions(servos, () => shown.current?.stage.draw());
+  useFollow({
+    read: () => (canvas.current === null ? null : lookOf(canvas.current)),
+    draw: () => shown.current?.stage.draw(),
+  });
+  usePreview((pose) => {
+    preview.current = pose;
+    shown.current?.stage.draw();
+  });
+
+  function turnKey(event: KeyboardEvent): void {
+    const turn = TURNS[event.key];
+    if (shown.current === null || turn === undefined) return;
+    event.preventDefault();
+    turn(shown.current.stage);
+  }
+
+  function release({ clientX, clientY, shiftKey }: PointerEvent): void {
+    const from = pressed.current;
+    pressed.current = null;
+    if (from === null || Math.hypot(clientX - from.x, clientY - from.y) > PRESS_PX) return;
+    const under = shown.current?.servoAt(clientX, clientY) ?? null;
+    if (under === null && shiftKey) return;
+    editServoView(stores, (view) => {
+      const others = shiftKey ? view.selected.filter((one) => one !== under) : [];
+      return select(view, under === null ? [] : [...others, under]);
+    });
+  }
+
+  if (isMissing)
+    return (
+      <EmptyState title={words.robot3d.missing} hint={words.robot3d.missingHint} className={styles.view} />
+    );
+  return (
+    <div className={styles.view}>
+      <div className={styles.room}>
+        <canvas
+          ref={canvas}
+          className={styles.canvas}
+          role="img"
+          tabIndex={0}
+          aria-label={words.robot3d.figure({ robot: robot.name })}
+          onKeyDown={turnKey}
+          onPointerDown={({ clientX: x, clientY: y }) => (pressed.current = { x, y })}
+          onPointerUp={release}
+        />
+        {servo !== undefined && !isBlocked && (
+          <JointKnob
+            servo={servo}
+            model={() => shown.current}
+            onElement={(element) => (knob.current = element)}
+          />
+        )}
+        {limbs.map((limb) => (
+          <LimbHandle
+            key={limb.tip}
+            {...{ limb, isLevel, isBlocked }}
+            model={() => shown.current}
+            onElement={(element) => {
+              if (element === null) handles.current.delete(limb.tip);
+              else handles.current.set(limb.tip, element);
+            }}
+          />
+        ))}
+        <div className={styles.looks} role="group" aria-label={words.robot3d.look}>
+          <IconButton
+            icon="plus"
+            label={words.robot3d.zoomIn}
+            onPress={() => shown.current?.stage.zoom(ZOOM)}
+          />
+          <IconButton
+            icon="minus"
+            label={words.robot3d.zoomOut}
+            onPress={() => shown.current?.stage.zoom(1 / ZOOM)}
+          />
+          <IconButton icon="home" label={words.robot3d.home} onPress={() => shown.current?.stage.home()} />
+        </div>
+      </div>
+      <UnknownNote />
+      {limbs.length === 1 && limbs[0] !== undefined && (
+        <div className={styles.foot}>
+          <PlaceFields limb={limbs[0]} {...{ isLevel, isBlocked }} />
+          <Toggle label={words.robot3d.level} isOn={isLevel} onChange={setLevel} />
+        </div>
+      )}
+    </div>
+  );
+}
+
+/** null: the browser has no WebGL, or no more of it. */
+function stageIn(canvas: HTMLCanvasElement, beforeDraw: () => void): Stage | null {
+  try {
+    return createStage(canvas, beforeDraw);
+  } catch {
+    return null;
+  }
+}
+
+const TURNS: Readonly<Record<string, (stage: Stage) => void>> = {
+  ArrowLeft: (stage) => stage.turn(-TURN_RADIANS, 0),
+  ArrowRight: (stage) => stage.turn(TURN_RADIANS, 0),
+  ArrowUp: (stage) => stage.turn(0, TURN_RADIANS),
+  ArrowDown: (stage) => stage.turn(0, -TURN_RADIANS),
+  '+': (stage) => stage.zoom(ZOOM),
+  '-': (stage) => stage.zoom(1 / ZOOM),
+  Home: (stage) => stage.home(),
+};

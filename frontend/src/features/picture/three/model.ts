@@ -1,0 +1,131 @@
+// The robot on its stage: body where it is by the estimate, outline where it was sent or where a preview has it, and the arc of the
+// servo that is selected. Drawn past React, from the motion of the frame. Moves nothing.
+
+import { Vector3 } from 'three';
+import { type Robot, servoOf } from '#shared/profile/robot.ts';
+import type { Motions } from '#shared/robot/state.ts';
+import type { Look } from '../look.ts';
+import type { Pose } from '../pose.ts';
+import { createFigure, type Angles, type Figure } from './figure.ts';
+import { radiansOf } from './leading.ts';
+import { createRing, type Ring } from './ring.ts';
+import { sizeOf, type Stage } from './stage.ts';
+import { jointName, TIP } from './urdf.ts';
+
+/** In board units: what no eye can tell apart in the picture. */
+const SAME = 6;
+const ROOM = 1.05;
+
+export interface Model {
+  readonly stage: Stage;
+  /** How far the middle of the base is above the floor. */
+  liftM(): number;
+  /** The servo that turns what is under a pointer; null: none. */
+  servoAt(clientX: number, clientY: number): number | null;
+  /** Of the servo that is selected; null: none, or nobody knows where it was sent. */
+  ring(): Ring | null;
+  draw(motion: Motions, preview: Pose | null, look: Look): void;
+  select(servo: number | null): void;
+  dispose(): void;
+}
+
+export function createModel(stage: Stage, urdf: string, robot: Robot): Model {
+  const servos = robot.servos.map(({ servo }) => servo);
+  const [body, outline] = [createFigure(urdf, servos, 'body'), createFigure(urdf, servos, 'ghost')];
+  const stands = robot.body === 'humanoid' || robot.body === 'hexapod';
+  stage.scene.add(body.robot, outline.robot);
+  if (stands) stand(body, outline);
+  const { reachM, heightM } = sizeOf(body.robot);
+  stage.frame(reachM * ROOM, heightM);
+  let selected: number | null = null;
+  let ring: Ring | null = null;
+
+  function select(servo: number | null): void {
+    if (servo === selected) return;
+    ring?.dispose();
+    selected = servo;
+    const joint = servo === null ? undefined : body.robot.joints[jointName(servo)];
+    ring = joint?.jointType === 'revolute' ? createRing(joint) : null;
+    stage.draw();
+  }
+
+  return {
+    stage,
+    select,
+    liftM: () => body.robot.position.z,
+    servoAt: (x, y) => body.servoAt(stage.rayAt(x, y)),
+    ring: () => ring,
+    draw(motion, preview, look) {
+      const target: Pose = (servo) => motion(servo).target;
+      const wanted: Pose = preview === null ? target : (servo) => preview(servo) ?? target(servo);
+      body.pose(
+        anglesOf(robot, (servo) => motion(servo).estimated),
+        {
+          isReported: (servo) => motion(servo).reported !== undefined,
+          isSelected: (servo) => servo === selected,
+        },
+      );
+      outline.pose(anglesOf(robot, wanted));
+      outline.robot.visible = preview !== null || !isThere(robot, motion);
+      if (stands) stand(body, outline);
+      paint(look);
+    },
+    dispose() {
+      ring?.dispose();
+      body.dispose();
+      outline.dispose();
+    },
+  };
+
+  function paint(look: Look): void {
+    const [edge, ink, unknown] = [look.edge, look.ink, look.unknown].map(plainColour) as [
+      string,
+      string,
+      string,
+    ];
+    const [estimated, commanded] = [plainColour(look.estimated), plainColour(look.commanded)];
+    const reported = plainColour(look.confirmed);
+    const common = { servo: edge, selected: ink, unknown };
+    stage.paint({ line: edge });
+    body.paint({ body: plainColour(look.raised), edge: estimated, reported, ...common });
+    outline.paint({ body: commanded, edge: commanded, reported: commanded, ...common });
+    ring?.paint(commanded);
+  }
+}
+
+const anglesOf =
+  (robot: Robot, position: Pose): Angles =>
+  (number) => {
+    const servo = servoOf(robot, number);
+    const at = position(number);
+    return servo === undefined || at === null ? null : radiansOf(servo, at);
+  };
+
+const isThere = ({ servos }: Robot, motion: Motions): boolean =>
+  servos.every(({ servo }) => {
+    const { target, estimated } = motion(servo);
+    return target === null || (estimated !== null && Math.abs(target - estimated) < SAME);
+  });
+
+/** A body on legs stands on its lowest foot. */
+function stand(body: Figure, outline: Figure): void {
+  body.robot.position.z = 0;
+  body.robot.updateMatrixWorld(true);
+  const feet = Object.entries(body.robot.links).filter(([name]) => name.startsWith(`${TIP}leg`));
+  const lowest = Math.min(0, ...feet.map(([, foot]) => foot.getWorldPosition(new Vector3()).z));
+  for (const { robot } of [body, outline]) robot.position.z = -lowest;
+}
+
+let pen: CanvasRenderingContext2D | null = null;
+const plainColours = new Map<string, string>();
+
+/** Three.js reads neither the system's colours nor mixed ones; a canvas says each as a hexadecimal number. */
+function plainColour(colour: string): string {
+  const known = plainColours.get(colour);
+  if (known !== undefined) return known;
+  pen ??= document.createElement('canvas').getContext('2d');
+  if (pen === null) return '#808080';
+  pen.fillStyle = colour.trim();
+  plainColours.set(colour, pen.fillStyle);
+  return pen.fillStyle;
+}

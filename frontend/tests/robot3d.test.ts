@@ -1,0 +1,96 @@
+// The robot in three dimensions: its limbs are led by their ends, and what leaves is what a slider would send.
+
+import { lastTarget, ofKind } from '../../e2e/fixtures/bus.ts';
+import type { Page } from './harness/page.ts';
+import { expect, poll, test, type Dashboard } from './harness/test.ts';
+import { advance } from './harness/time.ts';
+
+const ARM_SERVOS = [3, 4, 5, 6];
+
+function modelOf(page: Page) {
+  return {
+    handle: page.getByRole('button', { name: 'Move the end of Wrist' }),
+    picture: page.getByRole('img', { name: /in three dimensions/ }),
+    along: (axis: 'Forward' | 'Left' | 'Up') => page.getByRole('textbox', { name: axis, exact: true }),
+  };
+}
+
+async function openStraight({ dashboard, page }: { dashboard: Dashboard; page: Page }) {
+  await page.getByRole('radio', { name: '3D' }).check();
+  const model = modelOf(page);
+  await expect(model.along('Up')).toBeDisabled();
+  await dashboard.button('Centre all').click();
+  await advance(5000);
+  await expect(model.along('Up')).toHaveValue('413');
+  return model;
+}
+
+test('an arm whose servos stand somewhere unknown is not led', async ({ page, dashboard }) => {
+  await page.getByRole('radio', { name: '3D' }).check();
+  await expect(modelOf(page).picture).toBeVisible();
+  await expect(modelOf(page).handle).toBeHidden();
+  await expect(dashboard.stop).toBeEnabled();
+});
+
+test('arrow keys move the end of an arm by millimetres', async ({ dashboard, page, robot }) => {
+  const model = await openStraight({ dashboard, page });
+  await model.handle.press('Shift+ArrowRight');
+  await expect(model.along('Forward')).toHaveValue('10');
+  await expect(model.along('Up')).toHaveValue('413');
+  await model.handle.press('PageUp');
+  await expect(model.along('Left')).toHaveValue('1');
+  const moved = ofKind(await robot.bus(), 'move').at(-1);
+  expect(ARM_SERVOS).toContain(moved?.targets[0]?.servo);
+});
+
+test('a typed place is one slow move; out of reach nothing moves', async ({ dashboard, page, robot }) => {
+  const model = await openStraight({ dashboard, page });
+  await dashboard.type(model.along('Up'), 250);
+  await expect(model.along('Up')).toHaveValue('250');
+  await dashboard.type(model.along('Forward'), 150);
+  await expect(model.along('Forward')).toHaveValue('150');
+  const slow = ofKind(await robot.bus(), 'move').at(-1);
+  expect(slow?.durationMs).toBeGreaterThanOrEqual(300);
+
+  const moves = ofKind(await robot.bus(), 'move').length;
+  await dashboard.type(model.along('Forward'), 900);
+  await expect(dashboard.notices).toContainText('The arm cannot reach there');
+  await expect(model.along('Forward')).toHaveValue('150');
+  expect(ofKind(await robot.bus(), 'move')).toHaveLength(moves);
+});
+
+test('a locked servo stays where it is while the end is led', async ({ dashboard, page, robot }) => {
+  const model = await openStraight({ dashboard, page });
+  await page.getByRole('radio', { name: 'List' }).check();
+  await dashboard.servoName(4).click();
+  await dashboard.button('Lock').click();
+  await page.getByRole('radio', { name: '3D' }).check();
+  await model.handle.press('Shift+ArrowRight');
+  await expect(model.along('Forward')).toHaveValue('10');
+  expect(await lastTarget(robot.bus, 4)).toBe(1500);
+});
+
+test('the end follows the pointer, and STOP ends it', async ({ dashboard, page, robot }) => {
+  const model = await openStraight({ dashboard, page });
+  await model.handle.hover();
+  await page.mouse.down();
+  const box = await model.handle.boundingBox();
+  await page.mouse.move(box.x + 60, box.y + 60, { steps: 6 });
+  await poll(async () => (await lastTarget(robot.bus, 5)) !== 1500).toBe(true);
+  await dashboard.stop.press('Escape');
+  await advance(1000);
+  const moves = ofKind(await robot.bus(), 'move').length;
+  await page.mouse.move(box.x - 60, box.y + 60, { steps: 6 });
+  await page.mouse.up();
+  await advance(1000);
+  expect(ofKind(await robot.bus(), 'move').length).toBe(moves);
+});
+
+test('a press on a part selects its servo', async ({ dashboard, page }) => {
+  const model = await openStraight({ dashboard, page });
+  const box = await model.picture.boundingBox();
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height * 0.55);
+  await page.mouse.down();
+  await page.mouse.up();
+  await expect(page.getByRole('group', { name: 'Selected servos' })).toContainText(/Servo [3-6]/);
+});
