@@ -14,8 +14,17 @@ interface Joint {
   readonly limit: readonly [lower: number, upper: number] | null;
 }
 
-interface Element {
-  readonly [name: string]: string | Element | readonly Element[];
+interface Parsed {
+  readonly robot: {
+    readonly link: readonly { readonly '@_name': string }[];
+    readonly joint: readonly {
+      readonly '@_name': string;
+      readonly '@_type': string;
+      readonly parent: { readonly '@_link': string };
+      readonly child: { readonly '@_link': string };
+      readonly limit?: { readonly '@_lower': string; readonly '@_upper': string };
+    }[];
+  };
 }
 
 const parser = new XMLParser({
@@ -23,25 +32,19 @@ const parser = new XMLParser({
   isArray: (name) => name === 'link' || name === 'joint',
 });
 
-function parsed(robot: Robot): { readonly links: readonly string[]; readonly joints: readonly Joint[] } {
-  const { robot: model } = parser.parse(urdfOf(robot) ?? '') as { robot: Record<string, readonly Element[]> };
+function parsed(of: Robot): { readonly links: readonly string[]; readonly joints: readonly Joint[] } {
+  const { robot } = parser.parse(urdfOf(of) ?? '') as Parsed;
   return {
-    links: (model['link'] ?? []).map((link) => attribute(link, 'name')),
-    joints: (model['joint'] ?? []).map((joint) => ({
-      name: attribute(joint, 'name'),
-      type: attribute(joint, 'type'),
-      parent: attribute(joint['parent'] as Element, 'link'),
-      child: attribute(joint['child'] as Element, 'link'),
-      limit: 'limit' in joint ? limitOf(joint['limit'] as Element) : null,
+    links: robot.link.map((link) => link['@_name']),
+    joints: robot.joint.map(({ parent, child, limit, ...joint }) => ({
+      name: joint['@_name'],
+      type: joint['@_type'],
+      parent: parent['@_link'],
+      child: child['@_link'],
+      limit: limit === undefined ? null : [Number(limit['@_lower']), Number(limit['@_upper'])],
     })),
   };
 }
-
-const attribute = (element: Element, name: string): string => String(element[`@_${name}`]);
-const limitOf = (element: Element): readonly [number, number] => [
-  Number(attribute(element, 'lower')),
-  Number(attribute(element, 'upper')),
-];
 
 const robotNamed = (id: ReadyRobotId): Robot =>
   readyRobot(id, 'doc', { robot: id, role: (role, servo) => `${role} ${servo}`, limb: (limb) => limb });
