@@ -29,11 +29,9 @@ import type { IconName } from '../ui/Icon.tsx';
 import { fetchRest, laterComponent } from '../ui/later.tsx';
 import { TabList, tabPanel } from '../ui/TabList.tsx';
 import { useEachFrame } from '../ui/useEachFrame.ts';
-import { useFocusRestored, useNoPasteByMouse } from '../ui/useFocusRestored.ts';
+import { useFocusRestored, useNoPasteByMouse, useParts } from '../ui/focus.ts';
 import { useLayout } from '../ui/useLayout.ts';
-import { useParts } from '../ui/useParts.ts';
-import { useSpokenLocale } from '../ui/useSpokenLocale.ts';
-import { words } from '../i18n/words.ts';
+import { useSpokenLocale, words } from '../i18n/words.ts';
 import styles from './App.module.css';
 
 const ButtonsPage = laterComponent(

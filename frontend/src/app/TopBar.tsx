@@ -14,7 +14,7 @@ import { PageSwitch } from '../features/buttons/PageSwitch.tsx';
 import { boardName } from '../i18n/sentences.ts';
 import { LinkChip } from '../features/connect/LinkChip.tsx';
 import { StatusLine, type StatusLineProps } from '../features/connect/StatusLine.tsx';
-import { PART } from '../ui/useParts.ts';
+import { PART } from '../ui/focus.ts';
 import languageControlStyles from './LanguageControl.module.css';
 import styles from './TopBar.module.css';
 

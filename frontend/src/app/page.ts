@@ -11,7 +11,7 @@ import { createBoards } from '../robot/boards.ts';
 import { createCompiled } from '../features/animate/group/compiled.ts';
 import { createDevice } from '../robot/device.ts';
 import { createDocument } from '../features/animate/group/document.ts';
-import type { TextStorage } from '../state/soon.ts';
+import type { TextStorage } from '../state/storage.ts';
 import type { DocumentStore } from '#shared/files/documentStore.ts';
 import { watchInputs } from '../features/inputs/watchInputs.ts';
 import { followLanguage } from './language.ts';

@@ -1,27 +1,30 @@
-// How the servos of one robot are shown and handled on this screen: selected, locked, alone, armed, hidden, folded away, and how the
-// selected ones move together. Pure values and edits; knows no motion.
+// How this screen shows and handles the servos of one robot: selected, locked, solo, armed, hidden, folded, and how selected servos
+// move together. Pure values and edits; knows no motion.
+
+import { stayingSentence, servoName } from '../i18n/sentences.ts';
+import type { RobotStore } from './profiles/robots.ts';
 
 export const TOGETHER = ['straight', 'mirrored', 'weighted'] as const;
 /** `straight`: all turn the same way; `mirrored`: the others turn the other way; `weighted`: each by its own share. */
 export type Together = (typeof TOGETHER)[number];
 
 export interface ServoView {
-  /** Numbers say nothing about another robot. */
+  /** The servo numbers below belong to this robot only. */
   readonly robotId: number;
-  /** In the order of selecting: the last one is the one at hand. */
+  /** In the order in which they were selected; the last one is the current servo. */
   readonly selected: readonly number[];
   readonly locked: readonly number[];
-  /** Not empty: all others are as if locked, and as if muted. */
+  /** If not empty, all other servos count as locked and muted. */
   readonly solo: readonly number[];
   readonly hidden: readonly number[];
-  /** Their keys stay in the group and move nothing from the page. */
+  /** Their keyframes stay in the group; the page does not play them. */
   readonly muted: readonly number[];
-  /** What a recording keeps; see `recorded`. */
+  /** Servos that a recording stores; see `recorded`. */
   readonly armed: readonly number[];
   /** Groups of which only the header is shown. */
   readonly folded: readonly string[];
   readonly together: Together;
-  /** In percent, 100 where left out. */
+  /** In percent; 100 if absent. */
   readonly weights: Readonly<Record<number, number>>;
 }
 
@@ -40,22 +43,22 @@ const FRESH: ServoView = {
 
 export const INITIAL_SERVO_VIEW = FRESH;
 
-/** What holds for this robot; fresh where the view is of another one. */
+/** `view` if it belongs to this robot, otherwise the initial view. */
 export function servoViewFor(view: ServoView, robotId: number): ServoView {
   return view.robotId === robotId ? view : FRESH;
 }
 
-/** Nothing of the servo panel moves it. */
+/** True if the controls of the servo panel must not move it. */
 export function isHeld({ locked, solo }: Pick<ServoView, 'locked' | 'solo'>, servo: number): boolean {
   return locked.includes(servo) || (solo.length > 0 && !solo.includes(servo));
 }
 
-/** Nothing of the group is sent to it from the page. */
+/** True if playing from the page sends nothing to it. */
 export function isSilent({ muted, solo }: Pick<ServoView, 'muted' | 'solo'>, servo: number): boolean {
   return muted.includes(servo) || (solo.length > 0 && !solo.includes(servo));
 }
 
-/** Whose motion a recording keeps: of the armed servos, else of the selected ones, else of all. */
+/** The servos that a recording stores: the armed ones, else the selected ones, else all. */
 export function recorded(
   { armed, selected }: Pick<ServoView, 'armed' | 'selected'>,
   all: readonly number[],
@@ -68,7 +71,7 @@ export function select(view: ServoView, selected: readonly number[]): ServoView 
   return { ...view, selected };
 }
 
-/** `adds` keeps the others, `spans` takes all from the last one on. Clicked again, a servo is let go. `order` is the screen's. */
+/** `adds` keeps the other servos, `spans` selects the range from the last one. A second click deselects. `order`: as on the screen. */
 export function selectByClick(
   view: ServoView,
   servo: number,
@@ -83,7 +86,7 @@ export function selectByClick(
   return select(view, [...(adds ? others : []), ...(isLetGo ? [] : [servo])]);
 }
 
-/** Puts the servos into the list, or, where all are in it, takes them out. */
+/** Adds the items to the list, or removes them if the list has all of them. */
 export function toggled<T>(list: readonly T[], wanted: readonly T[]): readonly T[] {
   const others = list.filter((one) => !wanted.includes(one));
   return wanted.every((one) => list.includes(one)) ? others : [...others, ...wanted];
@@ -96,4 +99,29 @@ function between(order: readonly number[], one: number, other: number): readonly
 
 function union(selected: readonly number[], span: readonly number[], last: number): readonly number[] {
   return [...new Set([...selected, ...span])].filter((one) => one !== last).concat(last);
+}
+
+export interface Locking {
+  readonly view: { getState(): { readonly servos: ServoView } };
+  readonly robots: Pick<RobotStore, 'current'>;
+}
+
+export function isLocked({ view, robots }: Locking, servo: number): boolean {
+  return isHeld(servoViewFor(view.getState().servos, robots.current().id), servo);
+}
+
+export function freeOf<Target extends { readonly servo: number }>(
+  locking: Locking,
+  targets: readonly Target[],
+): readonly Target[] {
+  return targets.filter(({ servo }) => !isLocked(locking, servo));
+}
+
+/** A sentence that names the locked servos among the targets; null if there are none. */
+export function stayingOf(locking: Locking, targets: readonly { readonly servo: number }[]): string | null {
+  const { robot } = locking.robots.current();
+  const names = targets
+    .filter(({ servo }) => isLocked(locking, servo))
+    .map(({ servo }) => servoName(robot, servo));
+  return names.length === 0 ? null : stayingSentence(names);
 }

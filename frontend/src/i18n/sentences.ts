@@ -1,4 +1,4 @@
-// Sentences that several features say: about failures, boards, robots, servos, slots and people. Knows values, no state.
+// Sentences that several features use: about failures, boards, robots, servos, slots and people. Knows values, no state.
 
 import type { Family, SlotTrigger } from '#shared/codec/families.ts';
 import type { ReadyRobotId, RobotNames } from '#shared/profile/readyRobots.ts';
@@ -8,9 +8,9 @@ import type { TextFlaw } from '#shared/document/schema.ts';
 import type { RangeRefusal } from '#shared/codec/limits.ts';
 import type { LinkErrorCode } from '#shared/robot/linkError.ts';
 import { words } from './words.ts';
+import { NAME_LENGTH, servoOf, type Robot } from '#shared/profile/robot.ts';
 
-// One of a group of messages, of which some take values and some are plain.
-
+/** Formats one of several messages, of which some take values and some are plain text. */
 export function say<Values>(message: string | ((values: Values) => string), values: Values): string {
   return typeof message === 'string' ? message : message(values);
 }
@@ -174,4 +174,21 @@ export function flawSentence({ code, at }: TextFlaw): string {
 
 export function libraryProblem(code: LibraryErrorCode, detail: string): string {
   return say(words.library.problems[code], { detail });
+}
+
+/** A name with an addition, such as “Wave, other version”. Cuts the name, not the addition, to the longest name allowed. */
+export function longerName(name: string, added: (values: { readonly name: string }) => string): string {
+  return added({ name: name.slice(0, NAME_LENGTH - added({ name: '' }).length).trim() });
+}
+
+/** For sentences about several of them. */
+export const namesIn =
+  (robot: Robot) =>
+  (servo: number): string =>
+    servoName(robot, servo);
+
+/** By its number where the robot has no such servo. */
+export function servoName(robot: Robot, servo: number): string {
+  const own = servoOf(robot, servo);
+  return own === undefined ? words.servos.name({ servo }) : servoLabel(own);
 }

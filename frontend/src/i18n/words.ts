@@ -1,10 +1,11 @@
-// The words in use that the first load needs; for the others see whole.ts. English from the start, another language once it is spoken,
-// which is loaded then. They are read while something is drawn, never when its module is loaded: they change under a running page.
+// The messages that the first load needs, in the language in use; all others are in whole.ts. English is built in, other languages are
+// loaded on demand. Read messages while rendering, never when a module is loaded: the language can change at any time.
 
 import { words as english } from 'virtual:words/en/first';
 import { createStore, useStore } from 'zustand';
 import type { Numbers } from './numbers.ts';
 import type { Messages } from './words.generated.ts';
+import { useEffect } from 'react';
 
 /** The messages of a language, and how it writes numbers. */
 export interface Words extends Messages {
@@ -51,3 +52,12 @@ export async function speak(language: Language): Promise<void> {
 
 /** Draws its component again in each new language; its children follow. For the page, and whatever is drawn only as it changes. */
 export const useWords = (): Words => useStore(spoken);
+
+/** The locale in use. Sets the document's language, and renders its component again when the language changes. */
+export function useSpokenLocale(): string {
+  const { locale } = useWords();
+  useEffect(() => {
+    document.documentElement.lang = locale;
+  }, [locale]);
+  return locale;
+}

@@ -4,7 +4,7 @@
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import { FAMILIES, type FamilyId } from '#shared/codec/families.ts';
 import type { Way } from './device.ts';
-import type { TextStorage } from '../state/soon.ts';
+import type { TextStorage } from '../state/storage.ts';
 
 export interface KnownBoard {
   readonly family: FamilyId;

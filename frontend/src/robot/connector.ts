@@ -9,7 +9,7 @@ import type { Robot } from '#shared/robot/robot.ts';
 import { isProfileName } from '#shared/simulator/profileNames.ts';
 import type { Boards } from './boards.ts';
 import type { Device, Way, WayKind } from './device.ts';
-import type { TextStorage } from '../state/soon.ts';
+import type { TextStorage } from '../state/storage.ts';
 import type { Notices } from '../state/notices.ts';
 import type { You } from './people.generated.ts';
 import { createGatewayRobot } from './gatewayRobot.ts';

@@ -7,7 +7,7 @@ import type { ServoTarget } from '#shared/codec/commands.ts';
 import { FAMILIES, type FamilyId } from '#shared/codec/families.ts';
 import { nameOf } from './boards.ts';
 import type { Device, DeviceState } from './device.ts';
-import { type TextStorage, createSoon } from '../state/soon.ts';
+import { type TextStorage, createThrottle } from '../state/storage.ts';
 
 /** By servo. */
 export type Positions = Readonly<Record<number, number>>;
@@ -29,12 +29,12 @@ const KEEP_AFTER_MS = 500;
 export function createLastPoses(storage: TextStorage, device: Device): LastPoses {
   const store: LastPoses = createStore(() => load(storage));
   let latest: DeviceState | null = null;
-  const robotSync = createSoon(device.clock, KEEP_AFTER_MS, keep);
+  const robotSync = createThrottle(device.clock, KEEP_AFTER_MS, keep);
 
   function keep(): void {
     if (latest === null) return;
     // A group on the board goes on without a packet.
-    if (latest.isMoving || latest.snapshot.waitingToStart.length > 0) robotSync.ask();
+    if (latest.isMoving || latest.snapshot.waitingToStart.length > 0) robotSync.request();
     const before = store.getState();
     const after = withPose(before, latest, device.pose());
     if (after === before) return;
@@ -53,9 +53,9 @@ export function createLastPoses(storage: TextStorage, device: Device): LastPoses
       keep();
       latest = null;
     }
-    if (state.known !== before.known || state.isMoving !== before.isMoving) robotSync.ask();
+    if (state.known !== before.known || state.isMoving !== before.isMoving) robotSync.request();
   });
-  device.traffic.store.subscribe(robotSync.ask);
+  device.traffic.store.subscribe(robotSync.request);
   return store;
 }
 

@@ -2,7 +2,7 @@
 
 import { FAMILIES, type FamilyId } from '#shared/codec/families.ts';
 import type { WayKind } from './device.ts';
-import type { TextStorage } from '../state/soon.ts';
+import type { TextStorage } from '../state/storage.ts';
 
 export interface LastWay {
   readonly kind: WayKind;

@@ -3,7 +3,7 @@
 
 import type { SlotMemory } from '#shared/robot/storing.ts';
 import { nameOf, type BoardWay } from './boards.ts';
-import type { TextStorage } from '../state/soon.ts';
+import type { TextStorage } from '../state/storage.ts';
 
 const KEY = 'servodeck.brokenSlots';
 

@@ -1,5 +1,5 @@
-// Short messages to the person: what failed and what to do, or that something ended well. Good news leaves by itself, bad
-// news stays until it is dismissed or the same thing happens again. Knows no link and no panel.
+// Short messages on the page. Information disappears after some seconds; warnings and errors stay until they are dismissed
+// or replaced by the same message. Knows no link and no panel.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { Clock } from '#shared/clock.ts';
@@ -9,7 +9,7 @@ import { errorSentence, rangeText } from '../i18n/sentences.ts';
 
 export type NoticeTone = 'info' | 'warning' | 'danger';
 
-/** What the person may do about it, once. */
+/** An offer beside the message; it can be used once. */
 export interface NoticeAction {
   readonly label: string;
   act(): void;
@@ -24,15 +24,15 @@ export interface Notice {
 
 export interface Notices {
   readonly store: StoreApi<readonly Notice[]>;
-  /** The latest change that only the eye could see, for screen readers. */
+  /** The latest visual change in words, for screen readers. */
   readonly said: StoreApi<string>;
   say(text: string): void;
   tell(tone: NoticeTone, text: string, action?: NoticeAction): void;
-  /** Why a field does not take what was typed. Gives back what takes that back. */
+  /** Says why a field rejects an input. Returns a function that removes the message. */
   refuse(text: string): () => void;
-  /** It holds no longer. */
+  /** Removes a message that no longer applies. */
   takeBack(text: string): void;
-  /** The sentence of a failure. What the person called off is no failure. */
+  /** Shows an error as a sentence. A cancelled operation is no error. */
   tellError(error: unknown): void;
   dismiss(id: number): void;
 }

@@ -1,4 +1,4 @@
-// Tells the subscribers of a store only what is another: each of them looks through what it shows. Knows no store.
+// Sets a store's state only if a value changed, so that subscribers do not run for nothing.
 
 import type { StoreApi } from 'zustand/vanilla';
 

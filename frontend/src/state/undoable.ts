@@ -1,5 +1,4 @@
-// An immutable value with its history, and who wants to know when an edit is whole. Knows no storage and nothing of what it
-// holds.
+// A store of one immutable value with undo history and gestures. Knows neither storage nor the kind of value.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import {
@@ -28,7 +27,7 @@ export interface Undoable<T> {
   redo(): void;
 }
 
-/** `settled` is told each value that no gesture may take back any more. */
+/** Calls `settled` with each value that no gesture can cancel any more. */
 export function createUndoable<T>(initial: T, settled: (present: T) => void): Undoable<T> {
   const store = createStore<History<T>>(() => startHistory(initial));
 

@@ -5,7 +5,7 @@ import type { ComponentProps, MouseEvent, ReactNode, Ref } from 'react';
 import { cx } from './cx.ts';
 import { hinted } from './hinting.ts';
 import { Icon, type IconName } from './Icon.tsx';
-import { pressOnce } from './pressOnce.ts';
+import { pressOnce } from './inputEvents.ts';
 import styles from './Button.module.css';
 
 export interface ButtonProps extends Pick<

@@ -3,7 +3,7 @@
 
 import { useLayoutEffect, useRef } from 'react';
 import { cx } from './cx.ts';
-import { isTouch } from './touch.ts';
+import { isTouch } from './inputEvents.ts';
 import styles from './NameField.module.css';
 
 /** As long as the names of robots and groups. */

@@ -1,11 +1,11 @@
-// A titled area of the instrument: a named section with a header line for its few own controls.
+// A titled area of the page with a header line for its controls, and the content of an area that is still empty.
 
 import { useId, type ComponentType, type ReactNode } from 'react';
 import { cx } from './cx.ts';
-import { PART } from './useParts.ts';
+import { PART } from './focus.ts';
 import styles from './Panel.module.css';
 
-export interface PanelProps {
+interface PanelProps {
   readonly title: string;
   /** In the title's place for the eye: a choice of which the title is one. F6 goes to it by itself. */
   readonly tabs?: ReactNode;
@@ -43,5 +43,26 @@ export function Panel({ title, tabs, note, tools, className, children }: PanelPr
       </header>
       {children}
     </section>
+  );
+}
+
+export interface EmptyStateProps {
+  readonly title: string;
+  readonly hint: string;
+  /** Over the words. */
+  readonly sketch?: ReactNode;
+  /** The way to begin, where it does not stand beside. */
+  readonly action?: ReactNode;
+  readonly className?: string | undefined;
+}
+
+export function EmptyState({ title, hint, sketch, action, className }: EmptyStateProps) {
+  return (
+    <div className={cx(styles.empty, className)}>
+      {sketch}
+      <p className={styles.emptyStateTitle}>{title}</p>
+      <p>{hint}</p>
+      {action}
+    </div>
   );
 }

@@ -1,9 +1,11 @@
-// A switch for something that is on or off, and a row of buttons of which one is chosen. Native inputs, drawn as the rest.
+// A switch, a row of buttons of which one is chosen, and a button that stays pressed. Native inputs with the page's look.
 
-import { useId } from 'react';
+import { useId, type ReactNode } from 'react';
 import styles from './Toggle.module.css';
+import { hinted } from './hinting.ts';
+import { pressOnce } from './inputEvents.ts';
 
-export interface ToggleProps {
+interface ToggleProps {
   readonly label: string;
   readonly isOn: boolean;
   readonly isDisabled?: boolean;
@@ -27,7 +29,7 @@ export function Toggle({ label, isOn, isDisabled = false, onChange }: ToggleProp
   );
 }
 
-export interface ChoiceProps<Value extends string> {
+interface ChoiceProps<Value extends string> {
   readonly label: string;
   readonly value: Value;
   readonly options: readonly { readonly value: Value; readonly label: string }[];
@@ -51,5 +53,28 @@ export function Choice<Value extends string>({ label, value, options, onChange }
         </label>
       ))}
     </fieldset>
+  );
+}
+
+interface ToggleButtonProps {
+  readonly isOn: boolean;
+  /** What the word alone does not say. */
+  readonly hint?: string;
+  readonly children: ReactNode;
+  onChange(isOn: boolean): void;
+}
+
+export function ToggleButton({ isOn, hint, children, onChange }: ToggleButtonProps) {
+  return (
+    <button
+      {...(hint === undefined ? {} : hinted(hint))}
+      type="button"
+      className={styles.button}
+      aria-pressed={isOn}
+      onClick={() => onChange(!isOn)}
+      onKeyDown={pressOnce}
+    >
+      {children}
+    </button>
   );
 }

@@ -6,7 +6,7 @@ import { useEffect, type ComponentType } from 'react';
 import { createStore, useStore, type StoreApi } from 'zustand';
 import { words } from '../i18n/words.ts';
 import { Button } from './Button.tsx';
-import { EmptyState } from './EmptyState.tsx';
+import { EmptyState } from './Panel.tsx';
 import styles from './later.module.css';
 
 interface Fetched<Part> {

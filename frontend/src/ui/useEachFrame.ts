@@ -1,24 +1,31 @@
-// Calls a function on each animation frame while a component is on screen, or in one frame of each beat: for needles that move by
-// themselves, outside React's own rounds. The browser is asked once a frame, however many there are.
+// Drawing in animation frames, outside React's rendering: for values that change by themselves. One request of the browser per frame
+// serves all components; those with the same interval draw in the same frame.
 
-import { use, useLayoutEffect, useRef, useState, useEffect, useEffectEvent } from 'react';
+import {
+  use,
+  useLayoutEffect,
+  useRef,
+  useState,
+  useEffect,
+  useEffectEvent,
+  startTransition,
+  useReducer,
+} from 'react';
 import { flushSync } from 'react-dom';
 import { Sight, type InSight } from './sight.ts';
-
-// Draws what changes by itself, past React: in sight as it changes, out of sight once it has come to rest. Dozens of
-// servos move at once, and what nobody sees would cost as much as the rest.
+import type { StoreApi } from 'zustand/vanilla';
 
 interface Follow<T> {
-  /** Asked on each beat for what is to be shown. */
+  /** Called in each interval for the value to show. */
   read(): T;
   isSame?(one: T, other: T): boolean;
-  /** `nowMs`: of the frame. */
+  /** `nowMs`: time of the frame. */
   draw(value: T, nowMs: number): void;
-  /** For what looks otherwise once it has come to rest; left out: as it was drawn. */
+  /** Draws a value that no longer changes; if absent, `draw` does. */
   rest?(value: T): void;
-  /** Left out: in each frame. */
+  /** If absent, each frame. */
   readonly eachMs?: number;
-  /** Left out: that of the part of the page around it. */
+  /** If absent, the one of the surrounding part of the page. */
   readonly sight?: InSight;
 }
 
@@ -27,22 +34,26 @@ interface Looked<T> {
   readonly sinceMs: number;
 }
 
-/** No more often can a number be read. */
+/** People cannot read numbers that change more often. */
 export const READABLE_MS = 100;
-/** Text that goes on changing is written no more often: a frame in which text is laid out takes twice as long as others. */
+/** For text that keeps changing: a frame with text layout takes twice as long as others. */
 export const CHANGING_EACH_MS = 2000;
-/** Soon enough for whoever hears it or takes it up with the keys. */
+/** Often enough for screen readers and the keyboard. */
 export const HEARD_EACH_MS = 250;
-/** Longer than a slow drag takes from one value to the next; no more often is looked at what is out of sight. */
+/** Longer than the time between two values of a slow drag. Also the interval for elements out of sight. */
 const REST_MS = 250;
 
+/**
+ * Draws a value as it changes while the element is in sight, and once it has come to rest while it is not: dozens of servos move at
+ * once, and drawing out of sight costs as much as drawing in sight.
+ */
 export function useFollow<T>(follow: Follow<T>): void {
   const { read, isSame = Object.is, draw, rest, eachMs = 0, sight } = follow;
   const isInSight = sight ?? use(Sight);
   const latest = useRef<Looked<T> | null>(null);
   const drawn = useRef<'nothing' | 'moving' | 'resting'>('nothing');
-  const [turnMs] = useState(nextTurn);
-  // Whatever React wrote meanwhile is another thing than what was drawn.
+  const [offsetMs] = useState(nextOffset);
+  // React may have overwritten the drawing.
   useLayoutEffect(() => void (drawn.current = 'nothing'));
 
   function look(nowMs: number): boolean {
@@ -75,27 +86,27 @@ export function useFollow<T>(follow: Follow<T>): void {
       if (isInSight.current || look(nowMs) || latest.current === null) return;
       if (drawn.current !== 'resting') drawResting(latest.current.value, nowMs);
     },
-    { eachMs: REST_MS, turnMs },
+    { eachMs: REST_MS, offsetMs },
   );
 }
 
-const FRAMES_OF_ALL = 15;
-let lastTurn = 0;
+const OFFSETS = 15;
+let lastOffset = 0;
 
-/** What is looked at out of sight is looked at in turns: hundreds of looks in one frame would make that one late. */
-function nextTurn(): number {
-  lastTurn = (lastTurn + 1) % FRAMES_OF_ALL;
-  return (lastTurn * REST_MS) / FRAMES_OF_ALL;
+/** Spreads the elements out of sight over 15 offsets: checking hundreds of them in one frame would delay that frame. */
+function nextOffset(): number {
+  lastOffset = (lastOffset + 1) % OFFSETS;
+  return (lastOffset * REST_MS) / OFFSETS;
 }
 
-/** `nowMs` is the same for all of a frame. */
+/** `nowMs` is the same for all callbacks of a frame. */
 type Draw = (nowMs: number) => void;
 
-/** All that has the same beat is drawn in the same frame: the frames in between are spared the layout, and the asking. */
+/** Callbacks with the same beat run in the same frame, so that the frames in between need no layout. */
 interface Beat {
   readonly eachMs: number;
-  /** For what is not to fall together with all else of this length. */
-  readonly turnMs?: number;
+  /** Shifts the beat against others of the same length. */
+  readonly offsetMs?: number;
 }
 
 interface OnBeat {
@@ -103,7 +114,7 @@ interface OnBeat {
   readonly isDue: Due;
 }
 
-/** Whether a beat has begun since this was asked last. */
+/** True if a new beat has begun since the last call. */
 type Due = (nowMs: number) => boolean;
 
 const eachFrame = new Set<Draw>();
@@ -111,26 +122,26 @@ const onBeats = new Map<string, OnBeat>();
 let request: number | null = null;
 let frame = 0;
 
-/** A number for all that is drawn before the next frame. */
+/** The number of the current frame. */
 export const currentFrame = (): number => frame;
 
 function drawAll(nowMs: number): void {
   frame += 1;
   request = requestAnimationFrame(drawAll);
-  // What they tell React is laid out with what they draw, not in a frame of its own.
+  // Synchronous, so that React's changes share a layout with what the callbacks draw.
   flushSync(() => {
     for (const { drawers, isDue } of onBeats.values()) {
       if (isDue(nowMs)) for (const draw of drawers) draw(nowMs);
     }
-    // Last: a number of this beat may be part of what is drawn in each frame.
+    // Last, because they may draw numbers that the callbacks above have just set.
     for (const draw of eachFrame) draw(nowMs);
   });
 }
 
-export function dueOn({ eachMs, turnMs = 0 }: Beat): Due {
+export function dueOn({ eachMs, offsetMs = 0 }: Beat): Due {
   let last = -1;
   return (nowMs) => {
-    const beat = Math.floor((nowMs + turnMs) / eachMs);
+    const beat = Math.floor((nowMs + offsetMs) / eachMs);
     const isDue = beat !== last;
     last = beat;
     return isDue;
@@ -139,7 +150,7 @@ export function dueOn({ eachMs, turnMs = 0 }: Beat): Due {
 
 function drawersOf(beat: Beat): Set<Draw> {
   if (beat.eachMs === 0) return eachFrame;
-  const key = `${beat.eachMs} ${beat.turnMs}`;
+  const key = `${beat.eachMs} ${beat.offsetMs}`;
   const known = onBeats.get(key) ?? { drawers: new Set(), isDue: dueOn(beat) };
   onBeats.set(key, known);
   return known.drawers;
@@ -158,7 +169,55 @@ function add(draw: Draw, beat: Beat): () => void {
   };
 }
 
-export function useEachFrame(draw: Draw, { eachMs, turnMs = 0 }: Beat = { eachMs: 0 }): void {
+export function useEachFrame(draw: Draw, { eachMs, offsetMs = 0 }: Beat = { eachMs: 0 }): void {
   const drawNow = useEffectEvent(draw);
-  useEffect(() => add((nowMs) => drawNow(nowMs), { eachMs, turnMs }), [eachMs, turnMs]);
+  useEffect(() => add((nowMs) => drawNow(nowMs), { eachMs, offsetMs }), [eachMs, offsetMs]);
+}
+
+/** The time on a clock, updated at an interval: for ages and countdowns. */
+export function useNow(now: () => number, intervalMs: number): number {
+  const [time, setTime] = useState(now);
+  useEachFrame(() => setTime(now()), { eachMs: intervalMs });
+  return time;
+}
+
+/** After this time the rest is rendered with normal priority; as a transition it could wait for seconds. */
+const TRANSITION_LIMIT_MS = 250;
+
+/** False in a component's first frame, so that its most important part can be painted first. */
+export function useIsPainted(): boolean {
+  const [isPainted, setPainted] = useState(false);
+  useEffect(() => {
+    let timer: ReturnType<typeof setTimeout> | undefined;
+    // The browser paints right after this callback, before any timer.
+    const request = requestAnimationFrame(() => {
+      timer = setTimeout(() => {
+        startTransition(() => setPainted(true));
+        timer = setTimeout(() => setPainted(true), TRANSITION_LIMIT_MS);
+      });
+    });
+    return () => {
+      cancelAnimationFrame(request);
+      clearTimeout(timer);
+    };
+  }, []);
+  return isPainted;
+}
+
+/**
+ * As zustand's `useStore`, but renders with the next frame instead of within the change. For views that follow from an edit: the edit
+ * does not wait for them, and several edits in one frame render once.
+ */
+export function useInFrame<State, Seen>(
+  store: Pick<StoreApi<State>, 'getState'>,
+  select: (state: State) => Seen,
+): Seen {
+  const [, drawAgain] = useReducer((times: number) => times + 1, 0);
+  const seen = select(store.getState());
+  const drawn = useRef(seen);
+  useLayoutEffect(() => void (drawn.current = seen));
+  useEachFrame(() => {
+    if (!Object.is(select(store.getState()), drawn.current)) drawAgain();
+  });
+  return seen;
 }

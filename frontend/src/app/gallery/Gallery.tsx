@@ -6,7 +6,7 @@ import { I18nProvider } from 'react-aria-components/I18nProvider';
 import { FAMILIES } from '#shared/codec/families.ts';
 import { FilesProvider } from '../../features/library/files/FilesArea.tsx';
 import { StoresContext } from '../../features/stores.ts';
-import { useSpokenLocale } from '../../ui/useSpokenLocale.ts';
+import { useSpokenLocale } from '../../i18n/words.ts';
 import { CONNECT } from './ConnectSpecimens.tsx';
 import { DASHBOARDS } from './DashboardSpecimens.tsx';
 import type { Exhibit } from './exhibit.ts';

@@ -10,7 +10,7 @@ import { createBoards } from '../../robot/boards.ts';
 import { createCompiled } from '../../features/animate/group/compiled.ts';
 import { createDevice } from '../../robot/device.ts';
 import { createDocument } from '../../features/animate/group/document.ts';
-import type { TextStorage } from '../../state/soon.ts';
+import type { TextStorage } from '../../state/storage.ts';
 import { createLibrary } from '../../features/library/library.ts';
 import { createLastPoses } from '../../robot/lastPoses.ts';
 import { createMacroRun, createMacros } from '../../features/buttons/macroRun.ts';

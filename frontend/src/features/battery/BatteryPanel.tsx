@@ -11,7 +11,7 @@ import { canReadBattery } from './batteryPoll.ts';
 import { IconButton } from '../../ui/Button.tsx';
 import { Chip } from '../../ui/Chip.tsx';
 import { Panel } from '../../ui/Panel.tsx';
-import { useNow } from '../../ui/useNow.ts';
+import { useNow } from '../../ui/useEachFrame.ts';
 import voltMeterStyles from './VoltMeter.module.css';
 import styles from './BatteryPanel.module.css';
 

@@ -6,7 +6,7 @@ import type { Battery } from '#shared/robot/state.ts';
 import { type Truth, Mark } from '../../ui/Chip.tsx';
 import { words, useWords } from '../../i18n/words.ts';
 import { useBattery, useSnapshot, useStores } from '../stores.ts';
-import { useNow } from '../../ui/useNow.ts';
+import { useNow } from '../../ui/useEachFrame.ts';
 import styles from './BatteryReadout.module.css';
 
 // How a battery is shown: the truth mark of its level, the last known voltage, the words for both.

@@ -16,7 +16,7 @@ import { NumberField } from '../../ui/NumberField.tsx';
 import { triggerInBar, heldText } from '../../i18n/sentences.ts';
 import { DownloadControl, DownloadProgress } from './DownloadControl.tsx';
 import { laterComponent } from '../../ui/later.tsx';
-import { PART } from '../../ui/useParts.ts';
+import { PART } from '../../ui/focus.ts';
 import boardStripStyles from './BoardStrip.module.css';
 import panel from '../../ui/Panel.module.css';
 import styles from './BoardPanel.module.css';

@@ -4,15 +4,13 @@ import { addMacro, moveMacro, removeMacro } from '#shared/profile/macroEdits.ts'
 import type { Macro } from '#shared/profile/macro.ts';
 import { useStores, useMacros, useView } from '../stores.ts';
 import { words } from '../../i18n/whole.ts';
-import { useCards } from '../../ui/useCards.ts';
+import { useCards, useDragOrder, type DragOrder } from '../../ui/cards.ts';
 import { Button } from '../../ui/Button.tsx';
 import { cx } from '../../ui/cx.ts';
 import { Icon } from '../../ui/Icon.tsx';
-import { useDragOrder, type DragOrder } from '../../ui/useDragOrder.ts';
 import { nameAndKey } from './macroText.ts';
 import { MacroFace, MacroGrid } from './MacroGrid.tsx';
-import { EmptyState, type EmptyStateProps } from '../../ui/EmptyState.tsx';
-import { Panel } from '../../ui/Panel.tsx';
+import { EmptyState, type EmptyStateProps, Panel } from '../../ui/Panel.tsx';
 import { Toggle } from '../../ui/Toggle.tsx';
 import { UndoTools } from '../undo/UndoTools.tsx';
 import { MacroEditor } from './MacroEditor.tsx';

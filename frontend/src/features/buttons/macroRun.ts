@@ -16,7 +16,7 @@ import { startsKnown } from '#shared/robot/state.ts';
 import { FIRST_MOVE_STAGGER_MS } from '#shared/robot/timings.ts';
 import { flawSentence } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/words.ts';
-import type { TextStorage } from '../../state/soon.ts';
+import type { TextStorage } from '../../state/storage.ts';
 import type { Notices } from '../../state/notices.ts';
 import { createRobotDocument, type RobotDocument } from '../profiles/robotDocument.ts';
 import type { RobotStore } from '../profiles/robots.ts';

@@ -3,7 +3,7 @@
 import { useDevice, useSnapshot, useStores } from '../stores.ts';
 import { Mark, type Truth } from '../../ui/Chip.tsx';
 import { Button } from '../../ui/Button.tsx';
-import { pressOnce } from '../../ui/pressOnce.ts';
+import { pressOnce } from '../../ui/inputEvents.ts';
 import type { LinkState } from '#shared/robot/state.ts';
 import { words } from '../../i18n/words.ts';
 import styles from './LinkChip.module.css';

@@ -10,7 +10,7 @@ import type { Activity, Latch, LinkState } from '#shared/robot/state.ts';
 import { Button } from '../../ui/Button.tsx';
 import { Mark, type Truth } from '../../ui/Chip.tsx';
 import { cx } from '../../ui/cx.ts';
-import { useNow } from '../../ui/useNow.ts';
+import { useNow } from '../../ui/useEachFrame.ts';
 import { servosText, stoppedBy, mayResumeText, errorSentence } from '../../i18n/sentences.ts';
 import { secondsLeft } from '../../i18n/numbers.ts';
 import { words } from '../../i18n/words.ts';

@@ -6,7 +6,7 @@ import { Dial } from '../picture/Dial.tsx';
 import { isHeld, selectByClick } from '../servoView.ts';
 import { editServoView, useDevice, useServoView, useStores } from '../stores.ts';
 import { Icon } from '../../ui/Icon.tsx';
-import { selectHow } from '../../ui/pressOnce.ts';
+import { selectHow } from '../../ui/inputEvents.ts';
 import { numberAndName } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/words.ts';
 import styles from './ServoName.module.css';

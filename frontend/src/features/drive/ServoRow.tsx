@@ -4,7 +4,7 @@ import { memo, useRef } from 'react';
 import { fromBoard, servoOf, type RobotServo } from '#shared/profile/robot.ts';
 import { useRobot, useSnapshot, useStores, useDevice, useGuess, useServoView, useView } from '../stores.ts';
 import { Chip } from '../../ui/Chip.tsx';
-import { useNow } from '../../ui/useNow.ts';
+import { useNow } from '../../ui/useEachFrame.ts';
 import { words, useWords } from '../../i18n/words.ts';
 import { type Scale, scaleOf, stepped } from './scale.ts';
 import { MovingText } from '../picture/MovingText.tsx';

@@ -3,10 +3,9 @@
 import { degreesOf, positionOf, type RobotServo, servoOf } from '#shared/profile/robot.ts';
 import type { ServoTarget } from '#shared/codec/commands.ts';
 import type { Positions } from '../../robot/lastPoses.ts';
-import { type Together, isHeld, type ServoView } from '../servoView.ts';
+import { type Together, isHeld, type ServoView, freeOf } from '../servoView.ts';
 import type { Pace } from '../../robot/moveTime.ts';
 import { guessNow, servoViewOf, useStores, type Stores } from '../stores.ts';
-import { freeOf } from '../locks.ts';
 
 // Servos that move together: where each goes when one of them is moved. Turns are compared in degrees, in each
 // servo's own direction. When one reaches a limit all of them stop there, so that they keep their stand to each

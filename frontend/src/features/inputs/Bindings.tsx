@@ -7,7 +7,7 @@ import { type Binding, type Input, shaped, valueOf, readyMapping } from '#shared
 import { useMapping, usePoses, useRobot, useStores } from '../stores.ts';
 import { Button } from '../../ui/Button.tsx';
 import { useEachFrame } from '../../ui/useEachFrame.ts';
-import { pressOnce } from '../../ui/pressOnce.ts';
+import { pressOnce } from '../../ui/inputEvents.ts';
 import { inputName, chipText, rowsOf } from './rows.ts';
 import { words } from '../../i18n/whole.ts';
 import { BindingForm, draftFor, draftOf, type Draft } from './BindingForm.tsx';

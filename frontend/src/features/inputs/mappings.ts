@@ -4,7 +4,7 @@
 import { type Mapping, readyMapping, mappingFromText, mappingToText } from '#shared/profile/mapping.ts';
 import { flawSentence } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/words.ts';
-import type { TextStorage } from '../../state/soon.ts';
+import type { TextStorage } from '../../state/storage.ts';
 import type { Notices } from '../../state/notices.ts';
 import { createRobotDocument, type RobotDocument } from '../profiles/robotDocument.ts';
 import type { RobotStore } from '../profiles/robots.ts';

@@ -16,7 +16,7 @@ import type { Begun, DriveState, step } from '#shared/profile/mappingStep.ts';
 import type { RobotServo } from '#shared/profile/robot.ts';
 import { servoLabel, stayingSentence } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/words.ts';
-import { isLocked } from '../locks.ts';
+import { isLocked } from '../servoView.ts';
 import type { View } from '../view.ts';
 import type { Device } from '../../robot/device.ts';
 import type { Notices } from '../../state/notices.ts';

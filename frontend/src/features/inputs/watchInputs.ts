@@ -2,7 +2,7 @@
 // browser's events and no robot; a text field keeps its letters.
 
 import type { Pad } from './pad.ts';
-import { isTextField } from '../../ui/pressOnce.ts';
+import { isTextField } from '../../ui/inputEvents.ts';
 
 type Listener = Pick<Pad, 'keyDown' | 'keyUp' | 'leave' | 'comeBack'>;
 

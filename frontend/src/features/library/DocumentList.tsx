@@ -14,7 +14,7 @@ import {
 } from 'react';
 import { defaultRangeExtractor, useVirtualizer } from '@tanstack/react-virtual';
 import type { Listed } from '#shared/files/documentStore.ts';
-import { neighbour } from '../../ui/useCards.ts';
+import { neighbour } from '../../ui/cards.ts';
 import { words } from '../../i18n/whole.ts';
 import { cardRows } from './arrange.ts';
 import { DocumentCard } from './DocumentCard.tsx';

@@ -18,14 +18,13 @@ import {
   type Stored,
   type LibraryErrorCode,
 } from '#shared/files/documentStore.ts';
-import { libraryProblem } from '../../i18n/sentences.ts';
+import { libraryProblem, longerName } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/words.ts';
 import type { Document } from '../animate/group/document.ts';
-import type { TextStorage } from '../../state/soon.ts';
+import type { TextStorage } from '../../state/storage.ts';
 import type { Notices } from '../../state/notices.ts';
 import type { RobotStore } from '../profiles/robots.ts';
 import type { View } from '../view.ts';
-import { longerName } from '../../state/longerName.ts';
 import { groupOf, createOpenDocument, unchanged } from './openDocument.ts';
 import type { LibraryFilesOptions } from './libraryFiles.ts';
 import { createLibraryVersions, type LibraryVersions } from './libraryVersions.ts';

@@ -6,7 +6,7 @@ import { type ActionGroup, groupFromText, sameGroup } from '#shared/group/group.
 import { LibraryError, type Listed } from '#shared/files/documentStore.ts';
 import { record, startHistory, type History, type Label } from '#shared/document/history.ts';
 import type { Document } from '../animate/group/document.ts';
-import type { TextStorage } from '../../state/soon.ts';
+import type { TextStorage } from '../../state/storage.ts';
 
 // A group out of the text the library keeps of it.
 

@@ -4,7 +4,7 @@
 import * as v from 'valibot';
 import type { Clock } from '#shared/clock.ts';
 import { LibraryError, type Facts, type DocumentStore, type Stored } from '#shared/files/documentStore.ts';
-import type { TextStorage } from '../../state/soon.ts';
+import type { TextStorage } from '../../state/storage.ts';
 
 // Brings what waits in the outbox to the library: soon after a change, one at a time, again and again where it fails.
 

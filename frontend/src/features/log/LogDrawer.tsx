@@ -6,8 +6,8 @@ import { useStores, useView } from '../stores.ts';
 import { Toasts } from '../../ui/Toasts.tsx';
 import { words } from '../../i18n/words.ts';
 import { Icon } from '../../ui/Icon.tsx';
-import { pressOnce } from '../../ui/pressOnce.ts';
-import { PART } from '../../ui/useParts.ts';
+import { pressOnce } from '../../ui/inputEvents.ts';
+import { PART } from '../../ui/focus.ts';
 import styles from './LogDrawer.module.css';
 
 // The whole log, which comes when it is wanted.

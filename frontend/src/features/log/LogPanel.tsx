@@ -15,8 +15,8 @@ import type { LogKind } from '../view.ts';
 import { useWords } from '../../i18n/words.ts';
 import { LogList } from './LogList.tsx';
 import { createLogView, logFile } from './logView.ts';
-import { saveFile } from '../../ui/saveFile.ts';
-import { PART } from '../../ui/useParts.ts';
+import { saveFile } from '../../ui/localFiles.tsx';
+import { PART } from '../../ui/focus.ts';
 import rawSenderStyles from './RawSender.module.css';
 import styles from './LogPanel.module.css';
 

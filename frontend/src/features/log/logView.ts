@@ -5,7 +5,7 @@ import { family, type BoardId } from '#shared/codec/families.ts';
 import { writeRecording } from '#shared/files/recordingText.ts';
 import type { Entry } from '#shared/files/recording.ts';
 import type { TrafficLog, LogEntry } from '../../robot/traffic.ts';
-import type { TextFile } from '../../ui/saveFile.ts';
+import type { TextFile } from '../../ui/localFiles.tsx';
 import { version } from '../../../../package.json';
 import { meaning } from './describe.ts';
 

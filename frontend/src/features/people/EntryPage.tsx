@@ -14,7 +14,7 @@ import { Button } from '../../ui/Button.tsx';
 import { cx } from '../../ui/cx.ts';
 import { words } from '../../i18n/whole.ts';
 import type { PairWish } from '../../robot/people.generated.ts';
-import { useSpokenLocale } from '../../ui/useSpokenLocale.ts';
+import { useSpokenLocale } from '../../i18n/words.ts';
 import styles from './EntryPage.module.css';
 
 // The form of whoever stands outside: what it is about, its fields, what went wrong, and one press that goes on.

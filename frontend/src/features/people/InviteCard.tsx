@@ -4,7 +4,7 @@ import { useState } from 'react';
 import { PERSON_ROLES, type OpenInvitation, type PeopleWishes, type PersonRole } from './people.ts';
 import { Button } from '../../ui/Button.tsx';
 import { Select } from '../../ui/Select.tsx';
-import { useNow } from '../../ui/useNow.ts';
+import { useNow } from '../../ui/useEachFrame.ts';
 import { words } from '../../i18n/whole.ts';
 import { cx } from '../../ui/cx.ts';
 import field from '../../ui/Field.module.css';

@@ -7,7 +7,7 @@ import { useSnapshot, useStores } from '../stores.ts';
 import { Button } from '../../ui/Button.tsx';
 import { Mark } from '../../ui/Chip.tsx';
 import { cx } from '../../ui/cx.ts';
-import { useNow } from '../../ui/useNow.ts';
+import { useNow } from '../../ui/useEachFrame.ts';
 import { personWithin } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/words.ts';
 import { Icon } from '../../ui/Icon.tsx';

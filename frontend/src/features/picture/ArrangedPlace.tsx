@@ -12,7 +12,7 @@ import type { RobotServo, Robot } from '#shared/profile/robot.ts';
 import { isHeld, selectByClick } from '../servoView.ts';
 import { editServoView, useDevice, useServoView, useStores } from '../stores.ts';
 import { Icon } from '../../ui/Icon.tsx';
-import { selectHow } from '../../ui/pressOnce.ts';
+import { selectHow } from '../../ui/inputEvents.ts';
 import { numberAndName } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/words.ts';
 import { Dial } from './Dial.tsx';

@@ -39,7 +39,7 @@ export function SharedSheet({ className = styles.sheet, children }: SharedSheetP
     return watchSize(list.current, sheet.measureAnew);
   }, [sheet]);
   // Not in the frame in which texts are written: it would have that one laid out twice.
-  useEachFrame(sheet.measureAnew, { eachMs: MEASURED_EACH_MS, turnMs: MEASURED_EACH_MS / 2 });
+  useEachFrame(sheet.measureAnew, { eachMs: MEASURED_EACH_MS, offsetMs: MEASURED_EACH_MS / 2 });
 
   function place(): void {
     const cover = coverOf(parts.current, covered.current);

@@ -6,7 +6,7 @@ import type { ServoTarget } from '#shared/codec/commands.ts';
 import type { DeviceState } from '../../robot/device.ts';
 import { GENTLE_MOVE_MS } from '../../robot/moveTime.ts';
 import { motionHindrance } from '../../robot/readiness.ts';
-import { freeOf } from '../locks.ts';
+import { freeOf } from '../servoView.ts';
 import {
   guessesNow,
   useDevice,

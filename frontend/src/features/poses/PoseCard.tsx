@@ -9,7 +9,7 @@ import { IconButton } from '../../ui/Button.tsx';
 import { cx } from '../../ui/cx.ts';
 import { Icon } from '../../ui/Icon.tsx';
 import { NameField } from '../../ui/NameField.tsx';
-import { useDragOrder, type DragOrder } from '../../ui/useDragOrder.ts';
+import { useDragOrder, type DragOrder } from '../../ui/cards.ts';
 import { words } from '../../i18n/whole.ts';
 import card from '../../ui/Card.module.css';
 import styles from './PoseCard.module.css';

@@ -2,7 +2,7 @@
 
 import { useRef, type MouseEvent } from 'react';
 import { poseBookToText, POSE_VERBS } from '#shared/profile/pose.ts';
-import { saveFile } from '../../ui/saveFile.ts';
+import { saveFile } from '../../ui/localFiles.tsx';
 import { usePoses, useRobot, useStores, useDevice, useSnapshot, useView } from '../stores.ts';
 import { IconButton, Button, isByKey } from '../../ui/Button.tsx';
 import { words } from '../../i18n/whole.ts';

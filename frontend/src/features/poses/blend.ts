@@ -5,7 +5,7 @@ import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { ServoTarget } from '#shared/codec/commands.ts';
 import type { Device } from '../../robot/device.ts';
 import { endsMotion } from '../../robot/readiness.ts';
-import { freeOf, type Locking } from '../locks.ts';
+import { freeOf, type Locking } from '../servoView.ts';
 import { createFollower } from '../../robot/follower.ts';
 
 export interface BlendState {

@@ -18,11 +18,11 @@ import { flawSentence } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/words.ts';
 import type { Device } from '../../robot/device.ts';
 import { limitRefusal } from '../../robot/limitGate.ts';
-import { freeOf, stayingOf } from '../locks.ts';
+import { freeOf, stayingOf } from '../servoView.ts';
 import type { Notices } from '../../state/notices.ts';
 import { createRobotDocument, type RobotDocument } from '../profiles/robotDocument.ts';
 import type { RobotStore } from '../profiles/robots.ts';
-import type { TextStorage } from '../../state/soon.ts';
+import type { TextStorage } from '../../state/storage.ts';
 import type { View } from '../view.ts';
 
 export interface Poses {

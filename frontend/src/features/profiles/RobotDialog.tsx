@@ -4,7 +4,7 @@
 import type { ComponentType } from 'react';
 import { useRobot, useStores, useView } from '../stores.ts';
 import { Icon } from '../../ui/Icon.tsx';
-import { pressOnce } from '../../ui/pressOnce.ts';
+import { pressOnce } from '../../ui/inputEvents.ts';
 import { words } from '../../i18n/words.ts';
 import { undoActionOf } from '../undo/useUndoKeys.ts';
 import type { ViewState } from '../view.ts';

@@ -6,7 +6,7 @@ import { kitFromText, kitToText, type Kit } from '#shared/profile/robotText.ts';
 import { startHistory, type History } from '#shared/document/history.ts';
 import type { Robot } from '#shared/profile/robot.ts';
 import type { Read, TextFlaw } from '#shared/document/schema.ts';
-import type { TextStorage } from '../../state/soon.ts';
+import type { TextStorage } from '../../state/storage.ts';
 import type { Notices } from '../../state/notices.ts';
 import type { OwnRobot, RobotStore } from './robots.ts';
 import { createUndoable, type Undoable } from '../../state/undoable.ts';

@@ -25,10 +25,9 @@ import {
   robotFromText,
   robotToText,
 } from '#shared/profile/robotText.ts';
-import { libraryProblem } from '../../i18n/sentences.ts';
+import { libraryProblem, longerName } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/words.ts';
-import { type TextStorage, createSoon } from '../../state/soon.ts';
-import { longerName } from '../../state/longerName.ts';
+import { type TextStorage, createThrottle } from '../../state/storage.ts';
 import { loadKnown, saveKnown, type Known, type RobotDocument } from './robotDocument.ts';
 import type { Notices } from '../../state/notices.ts';
 import { isUsual, type OwnRobot, type RobotStore } from './robots.ts';
@@ -271,10 +270,10 @@ export function createRobotSync(options: RobotSyncOptions): RobotSync {
   }
 
   const lookNow = (): Promise<boolean> => (turn = turn.then(attempt));
-  const soon = createSoon(clock, SOON_MS, () => void lookNow());
-  const refresh = (): void => soon.ask();
+  const soon = createThrottle(clock, SOON_MS, () => void lookNow());
+  const refresh = (): void => soon.request();
   const changed = (): void => {
-    if (!isTaking) soon.ask();
+    if (!isTaking) soon.request();
   };
 
   robots.store.subscribe(({ present }, before) => {

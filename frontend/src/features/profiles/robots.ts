@@ -16,10 +16,9 @@ import { readyRobot, usualRobot, type ReadyRobotId } from '#shared/profile/ready
 import { flawOf, NAME_LENGTH, type Robot, type RobotFlaw } from '#shared/profile/robot.ts';
 import { robotFromText, robotToText } from '#shared/profile/robotText.ts';
 import type { FamilyId } from '#shared/codec/families.ts';
-import { robotNames } from '../../i18n/sentences.ts';
+import { robotNames, longerName } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/words.ts';
-import { longerName } from '../../state/longerName.ts';
-import type { TextStorage } from '../../state/soon.ts';
+import type { TextStorage } from '../../state/storage.ts';
 import type { Notices } from '../../state/notices.ts';
 
 export interface OwnRobot {

@@ -3,7 +3,7 @@
 import type { StoreApi } from 'zustand';
 import { redoLabel, undoLabel, type History } from '#shared/document/history.ts';
 import { words } from '../../i18n/words.ts';
-import { useInFrame } from '../../ui/useInFrame.ts';
+import { useInFrame } from '../../ui/useEachFrame.ts';
 import { IconButton } from '../../ui/Button.tsx';
 
 export interface UndoToolsProps {

@@ -1,5 +1,5 @@
 import { describe, expect, test } from 'vitest';
-import { neighbour } from '../../ui/useCards.ts';
+import { neighbour } from '../../ui/cards.ts';
 import { undoActionOf } from './useUndoKeys.ts';
 
 describe('keys of the action group', () => {

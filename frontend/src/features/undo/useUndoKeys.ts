@@ -3,7 +3,7 @@
 
 import { useEffect } from 'react';
 import type { Undoable } from '../../state/undoable.ts';
-import { isTextField } from '../../ui/pressOnce.ts';
+import { isTextField } from '../../ui/inputEvents.ts';
 
 /** null: they do nothing now. */
 export function useUndoKeys(document: Pick<Undoable<unknown>, 'undo' | 'redo'> | null): void {

@@ -5,7 +5,7 @@ import { indexOfFrame, moveFrames } from '#shared/group/groupEdits.ts';
 import type { GroupFrame } from '#shared/group/group.ts';
 import { setDuration } from '#shared/group/timeEdits.ts';
 import { useStores, useDevice, useGroupBoard } from '../../stores.ts';
-import { useDragOrder, type DragOrder } from '../../../ui/useDragOrder.ts';
+import { useDragOrder, type DragOrder } from '../../../ui/cards.ts';
 import { useWords } from '../../../i18n/words.ts';
 import { counted, numbersOf, togetherNow } from './frameVerbs.ts';
 import { GroupThumb } from '../../picture/PoseThumb.tsx';

@@ -1,7 +1,7 @@
 // What can be done with the selected frames, in words. Always in its place, so that nothing jumps when a frame is selected.
 
 import { indexOfFrame, setTargets } from '#shared/group/groupEdits.ts';
-import { freeOf, stayingOf } from '../../locks.ts';
+import { freeOf, stayingOf } from '../../servoView.ts';
 import { motionHindrance } from '../../../robot/readiness.ts';
 import { GENTLE_MOVE_MS } from '../../../robot/moveTime.ts';
 import { useDevice, useDocument, useSnapshot, useStores, useTimeline, useView } from '../../stores.ts';

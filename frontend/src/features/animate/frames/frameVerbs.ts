@@ -7,10 +7,10 @@ import type { ActionGroup } from '#shared/group/group.ts';
 import { type TimelineStores, contextOf, rangeOf, rowOf } from '../timeline/context.ts';
 import { spanFrames, showFrame, showFrames } from '../timeline/inStep.ts';
 import { chordOf } from '../timeline/keymap.ts';
-import { neighbour } from '../../../ui/useCards.ts';
+import { neighbour } from '../../../ui/cards.ts';
 import { ALL_ROW } from '../timeline/timeline.ts';
 import { wholeFrames } from '../timeline/wholeFrames.ts';
-import { namesIn } from '../../profiles/servoName.ts';
+import { namesIn } from '../../../i18n/sentences.ts';
 import { notPasted } from '../timeline/clipText.ts';
 import { words } from '../../../i18n/whole.ts';
 

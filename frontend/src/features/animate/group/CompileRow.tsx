@@ -19,10 +19,10 @@ import { showKey } from '../timeline/inStep.ts';
 import { obstacles } from './compiled.ts';
 import { problemText } from './problemText.ts';
 import { words } from '../../../i18n/whole.ts';
-import { servoName } from '../../profiles/servoName.ts';
+import { servoName } from '../../../i18n/sentences.ts';
 import { Chip } from '../../../ui/Chip.tsx';
 import { NumberField } from '../../../ui/NumberField.tsx';
-import { useInFrame } from '../../../ui/useInFrame.ts';
+import { useInFrame } from '../../../ui/useEachFrame.ts';
 import styles from './CompileRow.module.css';
 import field from '../../../ui/Field.module.css';
 

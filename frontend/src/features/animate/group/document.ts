@@ -6,7 +6,7 @@ import type { History } from '#shared/document/history.ts';
 import type { Clock } from '#shared/clock.ts';
 import { words } from '../../../i18n/words.ts';
 import type { Notices } from '../../../state/notices.ts';
-import { createSoon, type TextStorage } from '../../../state/soon.ts';
+import { createThrottle, type TextStorage } from '../../../state/storage.ts';
 import { createUndoable, type Undoable } from '../../../state/undoable.ts';
 
 export type DocumentState = History<ActionGroup>;
@@ -47,10 +47,10 @@ export function createDocument(storage: TextStorage, notices: Notices, clock: Cl
     }
   }
 
-  const saving = createSoon(clock, SAVED_AFTER_MS, save);
+  const saving = createThrottle(clock, SAVED_AFTER_MS, save);
   function saveSoon(group: ActionGroup): void {
     settled = group;
-    saving.ask();
+    saving.request();
   }
 
   const document = createUndoable(settled, saveSoon);

@@ -2,7 +2,7 @@
 
 import type { CompileProblem } from '#shared/group/compileReport.ts';
 import { words } from '../../../i18n/words.ts';
-import { namesIn } from '../../profiles/servoName.ts';
+import { namesIn } from '../../../i18n/sentences.ts';
 import type { Source } from './compileSource.ts';
 
 export function problemText(problem: CompileProblem, { group, robot }: Source): string {

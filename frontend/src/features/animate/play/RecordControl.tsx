@@ -4,7 +4,7 @@ import { useStore } from 'zustand';
 import { recorded } from '../../servoView.ts';
 import { servoViewOf, useRobot, useServoView, useStores, type Stores } from '../../stores.ts';
 import { Button } from '../../../ui/Button.tsx';
-import { useNow } from '../../../ui/useNow.ts';
+import { useNow } from '../../../ui/useEachFrame.ts';
 import { say } from '../../../i18n/sentences.ts';
 import { words } from '../../../i18n/whole.ts';
 import { useOffer } from './TakeThat.tsx';

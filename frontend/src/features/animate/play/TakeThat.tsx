@@ -9,7 +9,7 @@ import { words } from '../../../i18n/words.ts';
 import { Dialog } from '../../../ui/Dialog.tsx';
 import { laterComponent } from '../../../ui/later.tsx';
 import type { TakeProps } from './Take.tsx';
-import { isTextField } from '../../../ui/pressOnce.ts';
+import { isTextField } from '../../../ui/inputEvents.ts';
 
 // What was recorded is offered to become keys; where nothing moved, that is said.
 

@@ -7,7 +7,7 @@ import { useEffect, useRef, type KeyboardEvent } from 'react';
 import { useStores, useTimeline } from '../../stores.ts';
 import type { Ask } from './timeline.ts';
 import { cx } from '../../../ui/cx.ts';
-import { isTouch } from '../../../ui/touch.ts';
+import { isTouch } from '../../../ui/inputEvents.ts';
 import { words } from '../../../i18n/whole.ts';
 import { answer, ASKED } from './questions.ts';
 import { contextOf } from './context.ts';

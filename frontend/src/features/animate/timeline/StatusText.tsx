@@ -12,7 +12,7 @@ import { nudge, currentServo } from './moving.ts';
 import { turnText, instantText, cellName } from './valueText.ts';
 import { type ShownContext, useTimelineContext } from './useTimelineContext.ts';
 import { LiveText } from '../../../ui/LiveText.tsx';
-import { isTouch } from '../../../ui/touch.ts';
+import { isTouch } from '../../../ui/inputEvents.ts';
 import { READABLE_MS } from '../../../ui/useEachFrame.ts';
 import type { StatusName } from './gesture.ts';
 import { servoRowId } from './rows.ts';

@@ -34,7 +34,7 @@ import { StatusText, type Said } from './StatusText.tsx';
 import { TimelineMenu, type OpenMenu } from './TimelineMenu.tsx';
 import { TimelineTools } from './TimelineTools.tsx';
 import { useRows } from './useTimelineContext.ts';
-import { PART } from '../../../ui/useParts.ts';
+import { PART } from '../../../ui/focus.ts';
 import styles from './Timeline.module.css';
 
 // Which cell of the grid the keys are at, for ears. Only one that is there may be named: where the key itself is out

@@ -4,7 +4,7 @@ import { memo } from 'react';
 import { Toolbar } from 'react-aria-components/Toolbar';
 import { EASINGS, type Easing } from '#shared/group/group.ts';
 import { useStores, useView, useDocument, useTimeline } from '../../stores.ts';
-import { ToggleButton } from '../../../ui/ToggleButton.tsx';
+import { ToggleButton } from '../../../ui/Toggle.tsx';
 import { words } from '../../../i18n/whole.ts';
 import { IconButton } from '../../../ui/Button.tsx';
 import { Select } from '../../../ui/Select.tsx';

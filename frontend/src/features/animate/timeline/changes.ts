@@ -13,7 +13,7 @@ import { servoOf } from '#shared/profile/robot.ts';
 import { keysAt, positionAt, type Key, type KeyRef } from '#shared/group/tracks.ts';
 import { keySet, NO_KEYS } from './timeline.ts';
 import { isHeld } from '../../servoView.ts';
-import { namesIn, servoName } from '../../profiles/servoName.ts';
+import { namesIn, servoName } from '../../../i18n/sentences.ts';
 import { notPasted } from './clipText.ts';
 import { words } from '../../../i18n/whole.ts';
 import {

@@ -8,7 +8,7 @@ import { insertTime } from '#shared/group/timeEdits.ts';
 import { numberIn } from '../../../ui/NumberField.tsx';
 import type { Ask } from './timeline.ts';
 import type { Scale } from '../../drive/scale.ts';
-import { servoName } from '../../profiles/servoName.ts';
+import { servoName } from '../../../i18n/sentences.ts';
 import { words } from '../../../i18n/whole.ts';
 import {
   apply,

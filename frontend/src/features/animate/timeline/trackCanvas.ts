@@ -15,7 +15,7 @@ import { selectFrame, setTime, shownKeys } from './looking.ts';
 import { paint } from './paint.ts';
 import { followPointer } from './pointer.ts';
 import { panned, pinched, zoomedAt } from './timeScale.ts';
-import { isTouch } from '../../../ui/touch.ts';
+import { isTouch } from '../../../ui/inputEvents.ts';
 
 // The wheel over the lanes: it zooms where the pointer is, with Shift it goes through time, and a touch pad's two
 // fingers pan.

@@ -5,7 +5,7 @@ import { useShallow } from 'zustand/react/shallow';
 import { useDocument, useGroupBoard, useServoView, useStores, useTimeline, useView } from '../../stores.ts';
 import { timesOf } from './groupTimes.ts';
 import { rowsNow, type Row } from './rows.ts';
-import { useInFrame } from '../../../ui/useInFrame.ts';
+import { useInFrame } from '../../../ui/useEachFrame.ts';
 import { contextOf, type TimelineContext } from './context.ts';
 
 // The timeline's rows as React sees them: another list only where a row came, went or changed its look.

@@ -1,7 +1,7 @@
 // What is dragged, in words: where it is by now. Read while the hand is still on it; changes nothing.
 
 import { servoOf } from '#shared/profile/robot.ts';
-import { secondsText } from '../../../i18n/instants.ts';
+import { secondsText } from '../../../i18n/numbers.ts';
 import { words } from '../../../i18n/whole.ts';
 import { inUnits, scaleOf, type Scale } from '../../drive/scale.ts';
 import { rangeOf, type TimelineContext, contextOf, type TimelineStores } from './context.ts';

@@ -6,7 +6,7 @@ import { sameList } from '#shared/group/groupEdits.ts';
 import type { Key } from '#shared/group/tracks.ts';
 import { framesByServo, type KeySet } from './timeline.ts';
 import { useStores } from '../../stores.ts';
-import { useInFrame } from '../../../ui/useInFrame.ts';
+import { useInFrame } from '../../../ui/useEachFrame.ts';
 import { selectedKeys, timesOf, type GroupTimes } from './groupTimes.ts';
 import { useRows } from './useTimelineContext.ts';
 

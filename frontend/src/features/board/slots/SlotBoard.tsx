@@ -5,7 +5,7 @@ import { compareFrames } from '#shared/group/compareFrames.ts';
 import { type SlotRecord, type SlotContent, recordOf } from '#shared/group/slotBook.ts';
 import { slotTrigger, type SlotTrigger } from '#shared/codec/families.ts';
 import { totalDurationMs } from '#shared/group/group.ts';
-import { servoName } from '../../profiles/servoName.ts';
+import { servoName, triggerText } from '../../../i18n/sentences.ts';
 import { useCompiled, useDevice, useStores, useSlot, useSlots, useSnapshot } from '../../stores.ts';
 import { words } from '../../../i18n/whole.ts';
 import { Mark, Chip } from '../../../ui/Chip.tsx';
@@ -15,7 +15,6 @@ import { CONTENT_TRUTH, useSlotContents, useHeldName } from './useSlotContents.t
 import { DownloadControl } from '../DownloadControl.tsx';
 import { motionHindrance, startHindrance } from '../../../robot/readiness.ts';
 import { Button } from '../../../ui/Button.tsx';
-import { triggerText } from '../../../i18n/sentences.ts';
 import { SeveralGroups } from './SeveralGroups.tsx';
 import styles from './Slots.module.css';
 

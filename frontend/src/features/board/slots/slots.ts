@@ -22,7 +22,7 @@ import { nameOf } from '../../../robot/boards.ts';
 import { boardFingerprint } from '../../animate/group/compileSource.ts';
 import type { Settled } from '../../../robot/boardVerbs.ts';
 import type { Device, DeviceState } from '../../../robot/device.ts';
-import type { TextStorage } from '../../../state/soon.ts';
+import type { TextStorage } from '../../../state/storage.ts';
 import type { Notices } from '../../../state/notices.ts';
 import type { RobotStore } from '../../profiles/robots.ts';
 

@@ -19,7 +19,7 @@ import { problemText, remarkText } from './fileText.ts';
 import { type Answer, readyGroups, type ReadyGroup, countsOf, type FileCounts } from './answers.ts';
 import { FoundGroup } from './FoundGroup.tsx';
 import { useKnownFamily, useStores } from '../../stores.ts';
-import { FileButton } from '../../../ui/FileButton.tsx';
+import { FileButton } from '../../../ui/localFiles.tsx';
 import { SaveAs } from './SaveAs.tsx';
 import { Dialog } from '../../../ui/Dialog.tsx';
 import { createFileReader } from './fileReader.ts';

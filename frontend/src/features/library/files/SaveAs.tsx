@@ -12,7 +12,7 @@ import {
 } from '#shared/files/writeGroupFile.ts';
 import { useGroup, useKnownFamily, useRobot, useStores } from '../../stores.ts';
 import { Button } from '../../../ui/Button.tsx';
-import { saveBlob } from '../../../ui/saveFile.ts';
+import { saveBlob } from '../../../ui/localFiles.tsx';
 import { Choice } from '../../../ui/Toggle.tsx';
 import { lossText, misfitText } from './fileText.ts';
 import { boardName } from '../../../i18n/sentences.ts';

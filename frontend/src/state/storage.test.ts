@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest';
 import { createVirtualClock } from '#shared/testing/virtualClock.ts';
-import { createSoon } from './soon.ts';
+import { createThrottle } from './storage.ts';
 
 /** Work that keeps the page for so long, asked for in each millisecond of a second: when it was done. */
 async function heldDown(workMs: number): Promise<readonly number[]> {
@@ -8,12 +8,12 @@ async function heldDown(workMs: number): Promise<readonly number[]> {
   let workedMs = 0;
   const now = (): number => clock.now() + workedMs;
   const done: number[] = [];
-  const soon = createSoon({ ...clock, now }, 16, () => {
+  const soon = createThrottle({ ...clock, now }, 16, () => {
     done.push(clock.now());
     workedMs += workMs;
   });
   for (let ms = 0; ms < 1000; ms += 1) {
-    soon.ask();
+    soon.request();
     await clock.advance(1);
   }
   return done;

@@ -1,10 +1,10 @@
-// A button that lets a person choose files on this computer.
+// Files on this computer: a button to choose them, and saving a text or bytes as a download of the browser.
 
 import { useRef } from 'react';
 import { Button, type ButtonProps } from './Button.tsx';
 
 interface FileButtonProps extends Pick<ButtonProps, 'children'> {
-  /** As of an input for files; without it, of any kind. */
+  /** As `accept` of a file input; any file if absent. */
   readonly accept?: string;
   readonly multiple?: boolean;
   onChoose(files: readonly File[]): void;
@@ -30,4 +30,22 @@ export function FileButton({ children, onChoose, ...kind }: FileButtonProps) {
       />
     </>
   );
+}
+
+export interface TextFile {
+  readonly name: string;
+  readonly text: string;
+}
+
+export function saveFile({ name, text }: TextFile): void {
+  saveBlob(name, new Blob([text], { type: 'text/plain' }));
+}
+
+export function saveBlob(name: string, content: Blob): void {
+  const url = URL.createObjectURL(content);
+  const link = document.createElement('a');
+  link.href = url;
+  link.download = name;
+  link.click();
+  URL.revokeObjectURL(url);
 }

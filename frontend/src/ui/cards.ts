@@ -1,0 +1,141 @@
+// Lists of cards with one tab stop. Arrows select, Alt with an arrow moves a card, Delete deletes it, dragging reorders. Knows no
+// document.
+
+import {
+  useEffect,
+  useEffectEvent,
+  useRef,
+  useState,
+  type KeyboardEvent,
+  type RefObject,
+  type PointerEvent as ReactPointerEvent,
+} from 'react';
+
+/** The index that a key leads to from `index`; null for other keys. */
+export function neighbour(key: string, index: number, count: number): number | null {
+  const last = count - 1;
+  const to = {
+    ArrowLeft: index - 1,
+    ArrowUp: index - 1,
+    ArrowRight: index + 1,
+    ArrowDown: index + 1,
+    Home: 0,
+    End: last,
+  }[key];
+  return to === undefined ? null : Math.max(0, Math.min(last, to));
+}
+
+interface CardsOptions {
+  /** In the order on the screen. */
+  readonly ids: readonly number[];
+  readonly selected: number | null;
+  /** The attribute in which a card carries its id; the part that takes the focus has `data-card-face`. */
+  readonly attribute: string;
+  select(id: number | null): void;
+  /** Moves a card and selects it. */
+  move(id: number, to: number): void;
+  /** Deletes a card and selects `next`. */
+  remove(id: number, next: number | null): void;
+}
+
+interface Cards<List extends HTMLElement> {
+  readonly list: RefObject<List | null>;
+  /** The card that Tab leads to. */
+  readonly tabStop: number | null;
+  /** Moves the focus to the selected card, after other keys selected it. */
+  focusSelected(): void;
+  /** For the list's `onKeyDown`, so that cards need no handler of their own. */
+  key(event: KeyboardEvent): void;
+}
+
+export function useCards<List extends HTMLElement>(options: CardsOptions): Cards<List> {
+  const { ids, selected, attribute } = options;
+  const list = useRef<List>(null);
+  /** Counts requests for the focus: the selected card may exist only after the next render. */
+  const [focusWish, setFocusWish] = useState(0);
+  const focus = useEffectEvent(() => {
+    list.current?.querySelector<HTMLElement>(`[${attribute}='${selected}'] [data-card-face]`)?.focus();
+  });
+
+  useEffect(() => {
+    if (focusWish > 0) focus();
+  }, [focusWish]);
+
+  const focusSelected = (): void => setFocusWish((wish) => wish + 1);
+
+  return {
+    list,
+    focusSelected,
+    tabStop: selected !== null && ids.includes(selected) ? selected : (ids[0] ?? null),
+    key(event) {
+      const id = cardOf(event.target, attribute);
+      if (id === null) return;
+      const index = ids.indexOf(id);
+      const to = neighbour(event.key, index, ids.length);
+      if (event.key === 'Delete' || event.key === 'Backspace')
+        options.remove(id, ids[index + 1] ?? ids[index - 1] ?? null);
+      else if (to === null) return;
+      else if (event.altKey && to !== index) options.move(id, to);
+      else options.select(ids[to] ?? id);
+      focusSelected();
+      event.preventDefault();
+    },
+  };
+}
+
+/** The id of the card whose face is `target`; null for other elements. */
+export function cardOf(target: EventTarget | null, attribute: string): number | null {
+  if (!(target instanceof HTMLElement) || !('cardFace' in target.dataset)) return null;
+  return Number(target.closest(`[${attribute}]`)?.getAttribute(attribute));
+}
+
+export interface DragOrder {
+  readonly isDragged: boolean;
+  startDrag(event: ReactPointerEvent): void;
+}
+
+interface DragGesture {
+  /** The attribute in which a card carries its id. */
+  readonly attribute: string;
+  begin(): void;
+  /** The dragged card is over card `id`. */
+  over(id: number): void;
+  commit(): void;
+  cancel(): void;
+}
+
+/** One drag is one gesture. Listens on the window, because the card moves in the list meanwhile. */
+export function useDragOrder(gesture: DragGesture): DragOrder {
+  const [isDragged, setDragged] = useState(false);
+
+  function follow({ clientX, clientY }: PointerEvent): void {
+    const card = window.document.elementFromPoint(clientX, clientY)?.closest(`[${gesture.attribute}]`);
+    if (card !== undefined && card !== null) gesture.over(Number(card.getAttribute(gesture.attribute)));
+  }
+
+  function startDrag(event: ReactPointerEvent): void {
+    if (event.button !== 0) return;
+    event.preventDefault();
+    const ended = new AbortController();
+    const end = (finish: () => void) => (): void => {
+      ended.abort();
+      finish();
+      setDragged(false);
+    };
+    const cancel = end(() => gesture.cancel());
+    const { signal } = ended;
+    window.addEventListener('pointermove', follow, { signal });
+    window.addEventListener(
+      'pointerup',
+      end(() => gesture.commit()),
+      { signal },
+    );
+    window.addEventListener('pointercancel', cancel, { signal });
+    window.addEventListener('blur', cancel, { signal });
+    window.addEventListener('keydown', (key) => key.key === 'Escape' && cancel(), { signal, capture: true });
+    gesture.begin();
+    setDragged(true);
+  }
+
+  return { isDragged, startDrag };
+}
