@@ -6,7 +6,7 @@ import { useStore } from 'zustand';
 import { CaptureStrip } from '../features/animate/frames/CaptureStrip.tsx';
 import { useUndoKeys } from '../features/undo/useUndoKeys.ts';
 import { useBatteryTab } from '../features/battery/BatteryReadout.tsx';
-import { motionsInFrame } from '../features/picture/motionInFrame.ts';
+import { motionsInFrame } from '../features/picture/motion.ts';
 import { BoardPanel } from '../features/board/BoardPanel.tsx';
 import { ConnectDialog } from '../features/connect/ConnectDialog.tsx';
 import type { Page } from './page.ts';

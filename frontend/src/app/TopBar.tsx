@@ -10,13 +10,12 @@ import { RobotButton } from '../features/profiles/RobotDialog.tsx';
 import { BatteryReadout } from '../features/battery/BatteryReadout.tsx';
 import { IconButton } from '../ui/Button.tsx';
 import { PeopleButton } from '../features/people/PeopleDialog.tsx';
-import { PageSwitch } from '../features/buttons/PageSwitch.tsx';
 import { boardName } from '../i18n/sentences.ts';
 import { LinkChip } from '../features/connect/LinkChip.tsx';
 import { StatusLine, type StatusLineProps } from '../features/connect/StatusLine.tsx';
 import { PART } from '../ui/focus.ts';
-import languageControlStyles from './LanguageControl.module.css';
 import styles from './TopBar.module.css';
+import { Choice } from '../ui/Toggle.tsx';
 
 // Which language the page speaks. Each is called by its own name, for whoever cannot read the others.
 
@@ -24,10 +23,10 @@ function LanguageControl() {
   const { view } = useStores();
   const language = useView((state) => state.language);
   return (
-    <div className={languageControlStyles.control} title={words.language.label}>
+    <div className={styles.control} title={words.language.label}>
       <Icon name="globe" />
       <select
-        className={languageControlStyles.select}
+        className={styles.select}
         aria-label={words.language.label}
         value={language}
         onChange={(event) => view.setState({ language: event.target.value as LanguageChoice })}
@@ -113,6 +112,20 @@ function ThemeButton() {
       icon={THEME_ICONS[theme]}
       label={words.theme.now({ theme: words.theme[theme] })}
       onPress={() => view.setState({ theme: nextTheme(theme) })}
+    />
+  );
+}
+
+/** Switches between the controls and the page of buttons, on screens without tabs for it. */
+function PageSwitch() {
+  const { view } = useStores();
+  const isButtons = useView((state) => state.tab === 'buttons');
+  return (
+    <Choice
+      label={words.macros.page.label}
+      value={isButtons ? 'buttons' : 'work'}
+      options={(['work', 'buttons'] as const).map((value) => ({ value, label: words.macros.page[value] }))}
+      onChange={(page) => view.setState({ tab: page === 'buttons' ? 'buttons' : 'live' })}
     />
   );
 }

@@ -18,13 +18,10 @@ import type { RobotStore } from '../../features/profiles/robots.ts';
 import { editServoView, type Stores } from '../../features/stores.ts';
 import { TopBar } from '../TopBar.tsx';
 import { words } from '../../i18n/whole.ts';
-import type { Exhibit } from './exhibit.ts';
-import { frozenSession } from './frozen.ts';
+import { type Exhibit, frozenSession, specimenStores } from './exhibit.ts';
 import styles from './Gallery.module.css';
-import { specimenStores } from './specimenStores.ts';
 import { SPECIMENS, type Part, type Specimen } from './specimens.ts';
-import { motionsOf, READY, USB, type BatteryFeed } from './states.ts';
-import { SAMPLE_TRAFFIC } from './traffic.ts';
+import { motionsOf, READY, USB, type BatteryFeed, SAMPLE_TRAFFIC } from './states.ts';
 
 const EVERYTHING: readonly Part[] = ['bar', 'live', 'group', 'board', 'log'];
 

@@ -12,8 +12,7 @@ import { pressFrame } from '../../features/animate/timeline/inStep.ts';
 import { keySet } from '../../features/animate/timeline/timeline.ts';
 import { freshRobot } from '../../features/profiles/robots.ts';
 import { editServoView, type Stores } from '../../features/stores.ts';
-import type { Exhibit } from './exhibit.ts';
-import { specimenStores } from './specimenStores.ts';
+import { type Exhibit, specimenStores } from './exhibit.ts';
 
 function wave(frames: number, servos: number): ActionGroup['frames'][number]['targets'][] {
   return Array.from({ length: frames }, (_, frame) =>

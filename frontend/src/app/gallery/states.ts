@@ -5,9 +5,13 @@ import type { BatteryKind } from '#shared/profile/robot.ts';
 import type { Evidence } from '#shared/robot/identity.ts';
 import type { Lease, Unattended } from '#shared/robot/lease.ts';
 import { LinkError } from '#shared/robot/linkError.ts';
-import type { ServoMotion, SessionState } from '#shared/robot/state.ts';
+import type { ServoMotion, SessionState, Traffic } from '#shared/robot/state.ts';
 import { INITIAL_STATE } from '#shared/robot/store.ts';
 import type { Way } from '../../robot/device.ts';
+import { encodeCommand } from '#shared/codec/encode.ts';
+import type { Command } from '#shared/codec/commands.ts';
+import { fromHex } from '#shared/codec/packet.ts';
+import type { Report } from '#shared/codec/reports.ts';
 
 /** What feeds the robot, and what was read until now, one reading every five seconds. */
 export interface BatteryFeed {
@@ -182,3 +186,41 @@ export function motionsOf(board: FamilyId, pose: Pose): Readonly<Record<number, 
 
 const POSED = [0.3, 0.5, 0.72, 0.8, 0.3, 0.6];
 const STARTED = [0.45, 0.4, 0.6, 0.65, 0.42, 0.5];
+
+// One packet of each kind, for the log of the gallery.
+
+const POSE = [1200, 1500, 1950, 2050, 1150, 1500].map((position, index) => ({ servo: index + 1, position }));
+
+const COMMANDS: readonly Command[] = [
+  { kind: 'readBattery' },
+  { kind: 'move', durationMs: 1000, targets: POSE },
+  { kind: 'download', slot: 5, frameCount: 3, frameIndex: 0, frame: { durationMs: 800, targets: POSE } },
+  { kind: 'run', slot: 5, times: 2 },
+  { kind: 'stop' },
+  { kind: 'erase' },
+];
+
+const REPORTS: readonly { readonly hex: string; readonly report: Report }[] = [
+  { hex: '55 55 04 0F 4C 1D', report: { kind: 'battery', batteryMv: 7500 } },
+  { hex: '55 55 02 19', report: { kind: 'frameStored' } },
+  { hex: '55 55 02 06', report: { kind: 'runAccepted' } },
+  { hex: '55 55 02 07', report: { kind: 'runFinished', slot: null } },
+  { hex: '55 55 02 08', report: { kind: 'erased' } },
+];
+
+export const SAMPLE_TRAFFIC: readonly Traffic[] = [
+  ...COMMANDS.map((command, index): Traffic => ({
+    atMs: 1000 + index * 400,
+    direction: 'out',
+    bytes: encodeCommand(command, FAMILIES.doc),
+    command,
+  })),
+  ...REPORTS.map(({ hex, report }, index): Traffic => ({
+    atMs: 4000 + index * 90,
+    direction: 'in',
+    bytes: fromHex(hex),
+    report,
+  })),
+  { atMs: 5200, direction: 'in', bytes: fromHex('41 54 0D 0A'), noise: 'garbage' },
+  { atMs: 5300, direction: 'in', bytes: fromHex('55 55 04 0F 4C'), noise: 'truncated' },
+];

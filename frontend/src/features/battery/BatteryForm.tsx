@@ -1,4 +1,4 @@
-// What feeds the robot at hand, when that is low, and what is to happen then. Each change is one step of the robot's undo.
+// The battery settings of the current robot: its kind, its thresholds and what a low battery does. Each change is one undo step.
 
 import { fedBy, type Supply } from '#shared/profile/battery.ts';
 import { BATTERY_KINDS, BATTERY_MV, BATTERY_POLICIES, type Robot } from '#shared/profile/robot.ts';

@@ -1,4 +1,4 @@
-// The battery in full: volts on a gauge, what is left, what that means, how old the reading is, how it went in this visit.
+// The battery panel: voltage on a gauge, percentage, level, age of the reading, and the plot of this visit.
 
 import { useState } from 'react';
 import { readingKind, gaugeFraction, type Supply, isPlain, percentOf } from '#shared/profile/battery.ts';
@@ -7,15 +7,12 @@ import { Dialog } from '../../ui/Dialog.tsx';
 import { laterComponent } from '../../ui/later.tsx';
 import { words } from '../../i18n/whole.ts';
 import { voltsText, lastMv, levelWord, LEVEL_TRUTH } from './BatteryReadout.tsx';
-import { canReadBattery } from './batteryPoll.ts';
+import { canReadBattery } from './battery.ts';
 import { IconButton } from '../../ui/Button.tsx';
 import { Chip } from '../../ui/Chip.tsx';
 import { Panel } from '../../ui/Panel.tsx';
 import { useNow } from '../../ui/useEachFrame.ts';
-import voltMeterStyles from './VoltMeter.module.css';
 import styles from './BatteryPanel.module.css';
-
-// The dialog about what feeds the robot; what stands in it comes when it is wanted.
 
 const BatteryForm = laterComponent(async () => (await import('./BatteryForm.tsx')).BatteryForm, '40vh');
 
@@ -37,8 +34,6 @@ function BatterySettings({ isOpen, onClose }: BatterySettingsProps) {
   );
 }
 
-// The voltage along the range of what feeds the robot, with the two thresholds as marks.
-
 const WIDTH = 200;
 
 interface VoltMeterProps {
@@ -46,12 +41,13 @@ interface VoltMeterProps {
   readonly supply: Supply;
 }
 
+/** The voltage on the range of the supply, with marks at both thresholds. */
 function VoltMeter({ batteryMv, supply }: VoltMeterProps) {
   const mark = (mv: number): number => gaugeFraction(mv, supply) * WIDTH;
   const isPlain = batteryMv !== null && readingKind(batteryMv, supply) === 'plain';
   return (
     <svg
-      className={voltMeterStyles.meter}
+      className={styles.meter}
       viewBox={`0 0 ${WIDTH} 20`}
       preserveAspectRatio="none"
       role="meter"
@@ -61,10 +57,10 @@ function VoltMeter({ batteryMv, supply }: VoltMeterProps) {
       aria-valuenow={(batteryMv ?? supply.lowMv) / 1000}
       aria-valuetext={batteryMv === null ? words.battery.unread : voltsText(batteryMv, supply)}
     >
-      <rect className={voltMeterStyles.scale} y="6" width={WIDTH} height="8" />
-      {isPlain && <rect className={voltMeterStyles.charge} y="6" width={mark(batteryMv)} height="8" />}
-      <rect className={voltMeterStyles.alarm} x={mark(supply.alarmMv)} width="2" height="20" />
-      <rect className={voltMeterStyles.warn} x={mark(supply.warnMv)} width="2" height="20" />
+      <rect className={styles.scale} y="6" width={WIDTH} height="8" />
+      {isPlain && <rect className={styles.charge} y="6" width={mark(batteryMv)} height="8" />}
+      <rect className={styles.alarm} x={mark(supply.alarmMv)} width="2" height="20" />
+      <rect className={styles.warn} x={mark(supply.warnMv)} width="2" height="20" />
     </svg>
   );
 }
@@ -126,7 +122,7 @@ function Tools() {
 
 const isBusy = (activity: string): boolean => activity === 'downloading' || activity === 'erasing';
 
-/** What is left of a pack, once enough readings agree. */
+/** The charge of a pack in percent, once enough readings agree. */
 function Share() {
   const { gauge, supply } = useBattery((state) => state);
   const share = gauge.isSettled && gauge.restMv !== null ? percentOf(gauge.restMv, supply) : null;

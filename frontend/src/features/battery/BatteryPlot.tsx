@@ -1,4 +1,4 @@
-// The volts of this visit as a line, with what it shows in words for those who do not see it.
+// The voltage of this visit as a plot, with a description for screen readers.
 
 import UPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
@@ -9,10 +9,7 @@ import { words } from '../../i18n/whole.ts';
 import { useBattery, useStores } from '../stores.ts';
 import styles from './BatteryPlot.module.css';
 
-// Draws readings over the time of day: the line, bands where something ran, the two thresholds. Follows the store,
-// its own place's width and the page's colours.
-
-/** Readings further apart are not joined: what was between, nobody measured. */
+/** The line has a gap between readings further apart than this. */
 const GAP_MS = 20_000;
 const SHORTEST_MS = 120_000;
 const MINUTE_MS = 60_000;
@@ -21,7 +18,10 @@ const STEPS = [1, 2, 5, 10, 15, 30, 60, 120, 240];
 /** Volts above and below what is shown. */
 const MARGIN_V = 0.2;
 
-/** Returns a function that takes it away. `epochMs` is the time of day at 0 of the readings' clock. */
+/**
+ * Draws readings over the time of day, bands where something ran, and both thresholds; follows the store, the width of `place` and the
+ * page's colours. `epochMs`: time of day at 0 of the readings' clock. Returns a function that removes the plot.
+ */
 function drawPlot(place: HTMLElement, battery: BatteryStore, epochMs: number): () => void {
   const plot = new UPlot(optionsFor(place, battery, epochMs), dataOf(battery.getState(), epochMs), place);
   const unsubscribe = battery.subscribe((state) => plot.setData(dataOf(state, epochMs)));
@@ -90,7 +90,7 @@ function timeRange(times: ArrayLike<number>): [number, number] {
   return [from, Math.max(times[times.length - 1] ?? 0, from + SHORTEST_MS)];
 }
 
-/** Both thresholds are in sight. uPlot has no lowest and highest where there is no reading. */
+/** Includes both thresholds. uPlot passes null for both bounds where there is no reading. */
 function voltRange(
   { supply }: BatteryState,
   lowest: number | null,

@@ -1,4 +1,4 @@
-// The battery in the top bar: volts and how old they are, with a small picture of what feeds the robot, or a word where there are none.
+// The battery in the top bar: voltage and age of the reading with a picture of the supply, and a warning in the browser's tab.
 
 import { useEffect } from 'react';
 import { readingKind, type Level, type Supply, isPlain, percentOf } from '#shared/profile/battery.ts';
@@ -8,8 +8,6 @@ import { words, useWords } from '../../i18n/words.ts';
 import { useBattery, useSnapshot, useStores } from '../stores.ts';
 import { useNow } from '../../ui/useEachFrame.ts';
 import styles from './BatteryReadout.module.css';
-
-// How a battery is shown: the truth mark of its level, the last known voltage, the words for both.
 
 export const LEVEL_TRUTH: Readonly<Record<Level, Truth>> = {
   good: 'confirmed',
@@ -21,7 +19,7 @@ export function lastMv(battery: Battery): number | null {
   return battery.kind === 'read' ? battery.batteryMv : battery.kind === 'silent' ? battery.lastMv : null;
 }
 
-/** `7.50 V`, `> 9.80 V` where the board can measure no more, a dash where nothing is known. */
+/** `7.50 V`, `> 9.80 V` at the end of the board's range, a dash for an unknown voltage. */
 export function voltsText(batteryMv: number | null, supply: Supply): string {
   if (batteryMv === null) return words.battery.noVolts;
   const { ceilingMv } = supply;
@@ -34,12 +32,10 @@ export function levelWord(level: Level, { cells }: Supply): string {
   return words.battery.level[cells === 0 ? 'adapter' : 'pack'][level];
 }
 
-// A low battery in the browser's tab: in the title and as the icon, for whoever looks at another page. Gone when it
-// is fine.
-
-/** Fixed colours that are told apart on a light and on a dark tab. */
+/** Colours that differ clearly on light and dark tabs. */
 const FILL: Readonly<Record<Exclude<Level, 'good'>, string>> = { warning: '#b87400', danger: '#d5302a' };
 
+/** Shows a low battery in the title and the icon of the browser's tab. */
 export function useBatteryTab(): void {
   useWords();
   const isLinked = useSnapshot(({ link }) => link.status === 'ready');
@@ -97,7 +93,7 @@ export function BatteryReadout() {
   );
 }
 
-/** No volts without it. */
+/** The age of the voltage; empty if there is none. */
 function Age() {
   const { device } = useStores();
   const battery = useSnapshot((snapshot) => snapshot.battery);
@@ -106,7 +102,7 @@ function Age() {
   return lastMv(battery) === null ? '' : words.battery.noNewer;
 }
 
-/** Nothing that could run out. */
+/** For a mains adapter. */
 function Plug() {
   return (
     <svg className={styles.cell} viewBox="0 0 30 16" aria-hidden="true" focusable="false">

@@ -1,5 +1,5 @@
-// What the battery said in this visit and what it means for the robot at hand: readings with their times, the gauge made of
-// them, and when something ran. Listens to the device and the robot; asks and moves nothing.
+// The battery of the current robot: when the page reads it, the readings of this visit with their gauge, and the times at which
+// something ran. Moves nothing.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import {
@@ -13,9 +13,10 @@ import {
 } from '#shared/profile/battery.ts';
 import { nameOf } from '../../robot/boards.ts';
 import type { Device, DeviceState, RobotProfiles } from '../../robot/device.ts';
+import { BATTERY_AFTER_RUN_MS, BATTERY_EVERY_MS } from '#shared/robot/timings.ts';
 
-/** A group of the board, or one played from the page. `toMs` is null while it goes on. */
-export interface RunSpan {
+/** A group run by the board or played from the page. `toMs` is null while it runs. */
+interface RunSpan {
   readonly fromMs: number;
   readonly toMs: number | null;
 }
@@ -29,7 +30,7 @@ export interface BatteryState {
 
 export type BatteryStore = StoreApi<BatteryState>;
 
-/** Six hours of readings; then the oldest go. */
+/** Six hours of readings; older ones are dropped. */
 const READINGS_STORED = 4320;
 const RUNS_STORED = 500;
 
@@ -54,7 +55,7 @@ export function createBattery(device: Device, robots: RobotProfiles): BatterySto
     store.setState({ runs: next.slice(-RUNS_STORED) });
   }
 
-  /** Another way leads to another robot's battery; the same one, left and taken again, does not. */
+  /** A connection to another board means another battery; a reconnection to the same one does not. */
   function noteWay({ way }: DeviceState): void {
     if (way === null || nameOf(way) === wayName) return;
     wayName = nameOf(way);
@@ -84,4 +85,43 @@ function isRunning({ snapshot: { activity } }: DeviceState): boolean {
 
 function sameSupply(one: Supply, other: Supply): boolean {
   return (Object.keys(one) as (keyof Supply)[]).every((key) => one[key] === other[key]);
+}
+
+/**
+ * Reads the battery when a link becomes ready, soon after a run, and every five seconds while nothing moves: on some boards any packet
+ * disturbs a running group, and under load the voltage sags anyway. A board that did not answer is read again only on request; a
+ * shared robot is read by the gateway. Reads nothing while `visible` returns false. Returns a function that ends it.
+ */
+export function pollBattery(device: Device, visible: () => boolean): () => void {
+  let cancelTimer = (): void => undefined;
+  const readIn = (ms: number): void => {
+    cancelTimer();
+    cancelTimer = device.clock.after(ms, tick);
+  };
+  const tick = (): void => {
+    readIn(BATTERY_EVERY_MS);
+    if (visible() && mayRead(device.store.getState()) && device.isAtRest()) device.watchBattery();
+  };
+  tick();
+  const unsubscribe = device.store.subscribe((state, before) => {
+    const isNew = state.snapshot.link.status === 'ready' && before.snapshot.link.status !== 'ready';
+    const hasEnded = isIdle(state) && !isIdle(before);
+    if (isNew) tick();
+    else if (hasEnded) readIn(BATTERY_AFTER_RUN_MS);
+  });
+  return () => {
+    unsubscribe();
+    cancelTimer();
+  };
+}
+
+export function canReadBattery({ family }: Pick<DeviceState, 'family'>): boolean {
+  return family.answers.includes('readBattery');
+}
+
+const isIdle = ({ snapshot }: DeviceState): boolean => snapshot.activity.kind === 'idle';
+
+function mayRead(state: DeviceState): boolean {
+  const { link, battery, lease } = state.snapshot;
+  return lease === null && canReadBattery(state) && link.status === 'ready' && battery.kind !== 'silent';
 }

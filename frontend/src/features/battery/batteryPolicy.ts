@@ -1,6 +1,5 @@
-// What a low battery brings about, as the person chose for the robot: they are told, new runs are refused, the robot goes to
-// rest and is stopped. The one place where the battery acts, only on readings that agree and are fresh, and on
-// a shared robot only where it is driven from.
+// What a low battery does, as chosen for the robot: a warning, no new runs, or a move to the rest pose and a stop. Acts only on recent
+// readings that agree, and on a shared robot only in the driver's page. Nothing else acts on the battery.
 
 import { isActionable, type Level } from '#shared/profile/battery.ts';
 import { homeTargets } from '#shared/profile/poseShapes.ts';
@@ -23,11 +22,11 @@ export interface BatteryPolicyOptions {
   readonly notices: Notices;
 }
 
-/** Time to step back, or to press Stop. */
+/** Leaves time to step back or to press STOP. */
 export const REST_WARNING_MS = 5000;
 export const REST_MOVE_MS = 3000;
 const LOOK_EVERY_MS = 200;
-/** Whatever keeps it from its rest, it is stopped by then. */
+/** After this time the robot is stopped even if it has not reached its rest pose. */
 const REST_LIMIT_MS = 4 * REST_MOVE_MS;
 
 export function applyBatteryPolicy(options: BatteryPolicyOptions): void {
@@ -77,7 +76,7 @@ export function applyBatteryPolicy(options: BatteryPolicyOptions): void {
     });
   }
 
-  /** Servos that nobody moved in this visit stay: where they would come from, nobody knows. */
+  /** Moves only servos that were moved in this visit: the positions of the others are unknown. */
   function goToRest(): void {
     restIsDue = false;
     const there = restTargets().filter(({ servo }) => wasCommanded(device.motion(servo)));
@@ -95,14 +94,14 @@ export function applyBatteryPolicy(options: BatteryPolicyOptions): void {
     });
   }
 
-  /** A rest pose from before the limits is none. */
+  /** The home positions where the rest pose violates the robot's limits. */
   function restTargets(): readonly ServoTarget[] {
     const { robot } = robots.current();
     const rest = poses.targetsOf('rest');
     return rest === null || limitRefusal(robot, rest) !== null ? homeTargets(robot) : rest;
   }
 
-  /** A stop or a lost link ends it: a person looks first. */
+  /** After a stop or a lost link the robot does not go to rest by itself. */
   function giveUpWhereStopped(): void {
     const why = hindrance();
     if (why === null || why === 'busy') return;

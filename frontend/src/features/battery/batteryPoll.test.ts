@@ -1,7 +1,7 @@
 import { describe, expect, test } from 'vitest';
 import { FAMILIES } from '#shared/codec/families.ts';
 import { createRig } from '#shared/robot/rig.ts';
-import { canReadBattery, pollBattery } from './batteryPoll.ts';
+import { canReadBattery, pollBattery } from './battery.ts';
 import { createDevice } from '../../robot/device.ts';
 import { createGateway } from '../../robot/gatewayUnderTest.ts';
 import { createNotices } from '../../state/notices.ts';

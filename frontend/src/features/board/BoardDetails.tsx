@@ -1,5 +1,5 @@
-// What is done with the board now and then: what the slot holds and the group becomes there, how often it runs, how fast, the map of
-// the slots, erasing all. Boards cannot be read, so a slot is known only as far as this page filled it.
+// The less frequent controls of the board: content of the slot, settings of runs, speed, the map of slots, erasing. Slots cannot be
+// read back from a board, so their contents are known only from downloads.
 
 import { useState } from 'react';
 import { setMeta } from '#shared/group/groupEdits.ts';
@@ -14,15 +14,13 @@ import { startHindrance, motionHindrance } from '../../robot/readiness.ts';
 import { Confirm } from '../../ui/Confirm.tsx';
 import { NumberField } from '../../ui/NumberField.tsx';
 import { Toggle } from '../../ui/Toggle.tsx';
-import { CONTENT_TRUTH, useSlotContents, useHeldName } from './slots/useSlotContents.ts';
+import { CONTENT_TRUTH, useSlotContents, useHeldName } from './slots/slotHooks.ts';
 import { Chip } from '../../ui/Chip.tsx';
 import { CompileRow } from '../animate/group/CompileRow.tsx';
 import { boardName } from '../../i18n/sentences.ts';
 import { RunSettings } from './RunSettings.tsx';
 import styles from './BoardPanel.module.css';
 import field from '../../ui/Field.module.css';
-
-// Opens the map of the board's slots.
 
 const SlotBoard = laterComponent(async () => (await import('./slots/SlotBoard.tsx')).SlotBoard, '60vh');
 
@@ -46,13 +44,12 @@ function SlotsControl() {
   );
 }
 
-// In place of a control whose command this board lacks: what is absent, and what to do without it.
-
 interface AbsentProps {
   readonly what: string;
   readonly why: string;
 }
 
+/** In place of a control whose command this board lacks: what is missing, and what to do instead. */
 function Absent({ what, why }: AbsentProps) {
   return (
     <div className={styles.row}>
@@ -62,8 +59,7 @@ function Absent({ what, why }: AbsentProps) {
   );
 }
 
-// Where the group at hand belongs and how often it is run, as it says itself; what is chosen above can be kept in it.
-
+/** The slot and the number of repetitions that are stored in the open group; the choices above can be stored in it. */
 function PlaceControl() {
   const { document, view } = useStores();
   const slot = useDocument(({ present }) => present.slot);
@@ -94,8 +90,7 @@ function PlaceControl() {
   );
 }
 
-// Erases every slot, after a dialog that names what is lost, and what of it can come back.
-
+/** Erases every slot, after a dialog that names what is lost and what can be restored. */
 function EraseControl() {
   const { slots } = useStores();
   const book = useSlots((state) => state.book);
@@ -130,11 +125,12 @@ function namesOf(groups: readonly { readonly slot: number; readonly name: string
   return formatNames(groups.map(({ slot, name }) => `${formatWhole(slot)} ${name}`.trim()));
 }
 
-// How fast the board plays its groups, in percent, for the chosen slot or every one. Nobody can ask a board for its
-// speed, so the field shows what will be set.
-
 const AS_STORED = 100;
 
+/**
+ * The board's playing speed in percent, for the chosen slot or for all. A board's speed cannot be read, so the field shows the value to
+ * set.
+ */
 function SpeedControl() {
   const { device, notices } = useStores();
   const slot = useSlot();
@@ -194,7 +190,7 @@ export function BoardDetails() {
   );
 }
 
-/** Which board this is taken for, and the way to another one. */
+/** The assumed board family, with a button to change it. */
 function TakenFor() {
   const { view } = useStores();
   const family = useDevice((state) => state.family);

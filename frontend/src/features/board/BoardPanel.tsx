@@ -1,4 +1,4 @@
-// What lives on the board: the strip of what is done with it again and again, and below it the details.
+// The board panel: a strip with the frequent controls (slot, download, run, end) and below it the details.
 
 import { useId, useRef, type RefObject } from 'react';
 import { slotTrigger } from '#shared/codec/families.ts';
@@ -8,8 +8,7 @@ import { motionHindrance } from '../../robot/readiness.ts';
 import { useSnapshot, useStores, useCompiled, useDevice, useDocument, useSlot } from '../stores.ts';
 import { Button } from '../../ui/Button.tsx';
 import { words } from '../../i18n/words.ts';
-import { useSlotContents, CONTENT_TRUTH, useHeldName } from './slots/useSlotContents.ts';
-import { useRunSettings } from './useRunSettings.ts';
+import { useSlotContents, CONTENT_TRUTH, useHeldName, useRunSettings } from './slots/slotHooks.ts';
 import { obstacles } from '../animate/group/compiled.ts';
 import { Chip } from '../../ui/Chip.tsx';
 import { NumberField } from '../../ui/NumberField.tsx';
@@ -17,12 +16,10 @@ import { triggerInBar, heldText } from '../../i18n/sentences.ts';
 import { DownloadControl, DownloadProgress } from './DownloadControl.tsx';
 import { laterComponent } from '../../ui/later.tsx';
 import { PART } from '../../ui/focus.ts';
-import boardStripStyles from './BoardStrip.module.css';
 import panel from '../../ui/Panel.module.css';
 import styles from './BoardPanel.module.css';
 
-// Runs the chosen slot, and ends the group that runs.
-
+/** Runs the chosen slot, and ends a running group. */
 function RunControl() {
   const { device, view, notices } = useStores();
   const { slot, times } = useRunSettings();
@@ -58,18 +55,16 @@ function RunControl() {
   );
 }
 
-// What is done with the board in every round of trying a motion: choose the slot, download to it, run it, end it.
-// Between the two, what is known of the slot, or how far a download or a run has come.
-
+/** What each trial of a motion needs. Between download and run: the state of the slot, or the progress of a download or run. */
 function BoardStrip() {
   const { commands } = useDevice((state) => state.family);
   return (
     <>
       <SlotField />
-      <div className={boardStripStyles.now}>
+      <div className={styles.now}>
         <Now />
       </div>
-      <div className={boardStripStyles.verbs}>
+      <div className={styles.verbs}>
         {commands.includes('download') && <DownloadControl />}
         {commands.includes('run') && <RunControl />}
       </div>
@@ -82,8 +77,8 @@ function SlotField() {
   const slot = useSlot();
   const { min, max } = useDevice((state) => state.family.slot);
   return (
-    <div className={boardStripStyles.slot}>
-      <span className={boardStripStyles.label} aria-hidden="true">
+    <div className={styles.slot}>
+      <span className={styles.boardStripLabel} aria-hidden="true">
         {words.board.slot}
       </span>
       <NumberField
@@ -106,7 +101,7 @@ function Now() {
   return <AtAGlance />;
 }
 
-/** What the details below say in full. */
+/** A summary of the details below. */
 function AtAGlance() {
   const slot = useSlot();
   const unit = useDocument(({ present }) => present.unit);
@@ -117,9 +112,9 @@ function AtAGlance() {
   const { frames, report } = useCompiled((state) => state.latest);
   const isOfOther = boardUnit !== unit;
   const fits = !isOfOther && obstacles(report, 'board').length === 0;
-  if (frames.length === 0) return <p className={boardStripStyles.hint}>{words.board.nothingToDownload}</p>;
+  if (frames.length === 0) return <p className={styles.boardStripHint}>{words.board.nothingToDownload}</p>;
   return (
-    <span className={boardStripStyles.glance} aria-hidden="true">
+    <span className={styles.glance} aria-hidden="true">
       <Chip truth={CONTENT_TRUTH[content]}>{heldText(content, held)}</Chip>
       <Chip truth={fits ? 'confirmed' : 'danger'}>
         {isOfOther ? words.compile.ofOther : fits ? words.compile.fits : words.compile.fitsNot}
@@ -133,7 +128,7 @@ const TRUTH = { requested: 'commanded', acknowledged: 'confirmed', unknown: 'unk
 
 function Running({ activity }: { readonly activity: Extract<Activity, { kind: 'running' }> }) {
   return (
-    <div className={boardStripStyles.run}>
+    <div className={styles.run}>
       <Chip truth={TRUTH[activity.truth]}>
         {words.activity.running({ slot: activity.slot, times: activity.times })}
       </Chip>
@@ -145,7 +140,7 @@ function Running({ activity }: { readonly activity: Extract<Activity, { kind: 'r
 const BoardDetails = laterComponent(async () => (await import('./BoardDetails.tsx')).BoardDetails, '240px');
 
 interface BoardPanelProps {
-  /** Its two parts stand in the column around it, as wide as that: the strip stays in sight, the details scroll. */
+  /** The strip and the details fill the column around them: the strip stays in sight, the details scroll. */
   readonly isSpread?: boolean;
 }
 
@@ -168,7 +163,7 @@ export function BoardPanel({ isSpread = false }: BoardPanelProps) {
   );
 }
 
-/** There and back again. */
+/** Scrolls to the details and back. */
 function DetailsButton({ details }: { readonly details: RefObject<HTMLElement | null> }) {
   const turn = (): void => {
     const column = details.current?.closest('[data-column]');

@@ -1,4 +1,4 @@
-// Stores the group of this page, as it was compiled, in its slot, or in a free one where the person prefers that.
+// Downloads the compiled group to the chosen slot and shows the progress.
 
 import { isWatching } from '#shared/robot/lease.ts';
 import { useSnapshot, useStores, useCompiled, useDevice, useDocument, useSlot } from '../stores.ts';
@@ -10,9 +10,7 @@ import { problemText } from '../animate/group/problemText.ts';
 import { startHindrance } from '../../robot/readiness.ts';
 import styles from './DownloadProgress.module.css';
 
-// How far a download has come, in frames, bytes and seconds over all that is being downloaded, and a way to call it
-// off.
-
+/** Frames, bytes and seconds over all groups of the download, and a button to cancel it. */
 export function DownloadProgress() {
   const { slots } = useStores();
   const activity = useSnapshot((snapshot) => snapshot.activity);
@@ -58,7 +56,7 @@ export function DownloadControl() {
     const { openId: documentId } = library.store.getState();
     if (problem !== undefined) return notices.tell('warning', problemText(problem, group.source));
     replacing.download([{ slot, name, documentId, frames: group.frames }], {
-      // The slot stays in sight, also when the download breaks it.
+      // The page keeps showing this slot, also if the download breaks it.
       began: ([stored]) => view.setState({ slot: stored?.slot ?? slot }),
     });
   };

@@ -1,18 +1,16 @@
-// How often the chosen slot is run: a number of times or, as a deliberate choice, until stopped; and whether it may go on alone.
+// How often Run repeats the chosen slot: a number of times or until stopped, and whether the run may continue without this page.
 
 import { useSnapshot, useStores, useView, useDevice } from '../stores.ts';
 import { NumberField } from '../../ui/NumberField.tsx';
 import { Toggle } from '../../ui/Toggle.tsx';
 import { words } from '../../i18n/whole.ts';
-import { useRunSettings } from './useRunSettings.ts';
+import { useRunSettings } from './slots/slotHooks.ts';
 import field from '../../ui/Field.module.css';
 import styles from './BoardPanel.module.css';
 
-// Whether the next run may go on without this page, and how long at most. Only where others can see and stop it: at
-// the gateway.
-
 const LONGEST_MINUTES = 60;
 
+/** Whether the next run may continue without this page, and for how long. Only at a gateway, where others can see and stop it. */
 function KeepRunningControl() {
   const { view } = useStores();
   const isShared = useSnapshot((snapshot) => snapshot.lease !== null);

@@ -1,4 +1,4 @@
-// The page of buttons: in use by anybody, or being changed. The kiosk is the same page with nothing around it.
+// The page of buttons, in use or in edit mode. The kiosk shows the same page with nothing around it.
 
 import { addMacro, moveMacro, removeMacro } from '#shared/profile/macroEdits.ts';
 import type { Macro } from '#shared/profile/macro.ts';
@@ -8,16 +8,14 @@ import { useCards, useDragOrder, type DragOrder } from '../../ui/cards.ts';
 import { Button } from '../../ui/Button.tsx';
 import { cx } from '../../ui/cx.ts';
 import { Icon } from '../../ui/Icon.tsx';
-import { nameAndKey } from './macroText.ts';
-import { MacroFace, MacroGrid } from './MacroGrid.tsx';
+import { nameAndKey, MacroFace, MacroGrid } from './MacroGrid.tsx';
 import { EmptyState, type EmptyStateProps, Panel } from '../../ui/Panel.tsx';
 import { Toggle } from '../../ui/Toggle.tsx';
 import { UndoTools } from '../undo/UndoTools.tsx';
 import { MacroEditor } from './MacroEditor.tsx';
 import styles from './Macros.module.css';
 
-// A new button at the end of the page, open to be filled.
-
+/** Adds a button at the end of the page and selects it. */
 function useAddMacro(): () => void {
   const { macros, view } = useStores();
   return () => {
@@ -31,8 +29,7 @@ function useAddMacro(): () => void {
   };
 }
 
-// The buttons while they are changed: a press selects, a drag or Alt with an arrow moves. Nothing starts.
-
+/** The buttons in edit mode: a press selects, a drag or Alt with an arrow moves. Nothing starts. */
 function EditGrid() {
   const { macros, view, notices } = useStores();
   const add = useAddMacro();

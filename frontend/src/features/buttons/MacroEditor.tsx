@@ -1,4 +1,4 @@
-// What the selected button is called, looks like and does.
+// The editor of the selected button: its name, colour, key and steps.
 
 import { useId, useState, type KeyboardEvent } from 'react';
 import { type Macro, type MacroStep, type MacroPage, macroOf } from '#shared/profile/macro.ts';
@@ -19,10 +19,8 @@ import { words } from '../../i18n/whole.ts';
 import { StepFields } from './StepFields.tsx';
 import { NameField } from '../../ui/NameField.tsx';
 import { Panel } from '../../ui/Panel.tsx';
-import { macroKey } from './macroText.ts';
+import { macroKey } from './MacroGrid.tsx';
 import styles from './MacroEditor.module.css';
-
-// The steps of a button, one row each, and three ways to add one.
 
 const NEW_STEPS = {
   addPose: { kind: 'pose', pose: 'home', durationMs: GENTLE_MOVE_MS },
@@ -187,7 +185,7 @@ function Colours({ macro: { id, name, colour } }: MacroProps) {
   );
 }
 
-/** Keys that say nothing before another one is pressed. */
+/** Modifier keys: the field waits for the next key. */
 const HELD_WITH_OTHERS = new Set(['Shift', 'Control', 'Alt', 'AltGraph', 'Meta']);
 
 function KeyField({ macro: { id, name, key } }: MacroProps) {
@@ -204,7 +202,7 @@ function KeyField({ macro: { id, name, key } }: MacroProps) {
     if (loser !== undefined && wanted !== null)
       notices.tell('info', words.macros.keyTaken({ key: wanted.toUpperCase(), from: loser.name }));
   };
-  /** Before the button takes it for a press. Esc has been STOP already, and ends the listening. */
+  /** Runs before the key presses the button. Esc, which is STOP as well, ends the waiting. */
   const listen = (event: KeyboardEvent): void => {
     if (!isListening || event.key === 'Tab') return;
     event.preventDefault();

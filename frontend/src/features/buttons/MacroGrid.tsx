@@ -1,24 +1,22 @@
-// The buttons in use: large, for fingers, keys and children. One is at work at a time.
+// The person's buttons: large, for fingers, keys and children. One runs at a time.
 
 import { useEffect, useEffectEvent } from 'react';
 import { useStore } from 'zustand';
-import type { Macro } from '#shared/profile/macro.ts';
+import { type Macro, keyOf, type MacroStep } from '#shared/profile/macro.ts';
 import { PoseThumb } from '../picture/PoseThumb.tsx';
 import type { MacroProgress } from './macroRun.ts';
 import { poseName } from '../poses/poses.ts';
 import { useDevice, usePoses, useStores, useMacros, useSnapshot } from '../stores.ts';
-import { stepText, macroKey, nameAndKey } from './macroText.ts';
 import { words } from '../../i18n/whole.ts';
 import { startHindrance } from '../../robot/readiness.ts';
 import styles from './Macros.module.css';
-
-// What a button shows: its name, its key, the pose it leads to first, and how far it is.
 
 interface MacroFaceProps {
   readonly macro: Macro;
   readonly progress: MacroProgress | null;
 }
 
+/** The face of a button: its picture, name, key and first pose, or its progress. */
 export function MacroFace({ macro, progress }: MacroFaceProps) {
   return (
     <>
@@ -49,14 +47,14 @@ function About({ name, steps }: Macro) {
   if (first === undefined) return words.macros.empty;
   if (steps.length > 1) return words.macros.stepCount({ count: steps.length });
   const pose = first.kind === 'pose' ? poseName(book, first.pose) : '';
-  // Usually the button is called like the pose, and once is enough.
+  // Most buttons have the name of their pose; then the pose is not named again.
   return stepText(first, pose === name ? '' : pose);
 }
 
 function Picture({ macro }: { readonly macro: Macro }) {
   const { poses } = useStores();
   const family = useDevice((state) => state.family);
-  // The picture changes with the poses it is taken from.
+  // Renders again when a pose changes.
   usePoses(({ present }) => present);
   const step = macro.steps.find(({ kind }) => kind === 'pose');
   const targets = step?.kind === 'pose' ? poses.targetsOf(step.pose) : null;
@@ -82,8 +80,7 @@ function Steps({ stepIndex, stepCount }: MacroProgress) {
   );
 }
 
-// What pressing a button does: it starts, or ends where it is at work already.
-
+/** Starts a button, or ends the one that is running. */
 function useMacroPress(): (macro: Macro) => void {
   const { macroRun } = useStores();
   return (macro) => {
@@ -92,12 +89,13 @@ function useMacroPress(): (macro: Macro) => void {
   };
 }
 
-// Keys that start buttons, from anywhere on the page but a field or a dialog. A key counts once until it is let go;
-// when the window loses the focus all are, because their release is never heard of.
-
 const TYPING =
   'input:not([type=radio], [type=checkbox], [type=range]), select, textarea, [role=dialog], [role=alertdialog]';
 
+/**
+ * Keys start buttons everywhere except in text fields and dialogs. A key counts once until it is released; when the window loses the
+ * focus all keys count as released, because no keyup follows.
+ */
 function useMacroKeys(pressed: (key: string) => void): void {
   const press = useEffectEvent(pressed);
   useEffect(() => {
@@ -158,4 +156,23 @@ function MacroButton({ macro, onPress }: { readonly macro: Macro; readonly onPre
       <MacroFace macro={macro} progress={isAtWork ? progress : null} />
     </button>
   );
+}
+
+type Pressed = Pick<KeyboardEvent, 'key' | 'ctrlKey' | 'metaKey' | 'altKey' | 'repeat'>;
+
+/** The key that may start a button; null with a modifier and for repeats. */
+export function macroKey({ key, ctrlKey, metaKey, altKey, repeat }: Pressed): string | null {
+  return ctrlKey || metaKey || altKey || repeat ? null : keyOf(key);
+}
+
+export function nameAndKey({ name, key }: Pick<Macro, 'name' | 'key'>): string {
+  return key === null ? name : words.macros.keyed({ name, key: key.toUpperCase() });
+}
+
+/** What a step does in a few words. `pose`: the name of its pose, empty if the button has the same name. */
+function stepText(step: MacroStep, pose: string): string {
+  if (step.kind === 'slot') return words.macros.aboutSlot(step);
+  if (step.kind === 'wait') return words.macros.aboutWait(step);
+  const { durationMs } = step;
+  return pose === '' ? words.numbers.formatMs(durationMs) : words.macros.aboutPose({ pose, durationMs });
 }

@@ -1,4 +1,4 @@
-// The values of one step: a pose and its time, a slot and its times, or a wait.
+// The fields of one step: a pose and its duration, a slot and its repetitions, or a wait.
 
 import { SLOT, SLOT_TIMES, WAIT_MS, type MacroStep } from '#shared/profile/macro.ts';
 import { POSE_MS } from '#shared/profile/pose.ts';

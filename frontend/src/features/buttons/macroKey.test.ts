@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { macroKey } from './macroText.ts';
+import { macroKey } from './MacroGrid.tsx';
 
 const press = (key: string, more = {}) =>
   macroKey({ key, ctrlKey: false, metaKey: false, altKey: false, repeat: false, ...more });

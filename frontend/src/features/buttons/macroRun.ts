@@ -1,5 +1,5 @@
-// Does what a button says, step by step, by the ordinary roads: poses through the device and its limits, slots by the
-// board's own run. One button at a time; what stops the robot or loses it ends the button for good. Knows no panel.
+// The buttons of the current robot, and running one step by step: poses move within the robot's limits, slots run on the board. One
+// button runs at a time; a stop or a lost link ends it. Knows no panel.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import {
@@ -26,8 +26,7 @@ import { GENTLE_MOVE_MS } from '../../robot/moveTime.ts';
 import type { Poses } from '../poses/poses.ts';
 import { endsMotion, startHindrance } from '../../robot/readiness.ts';
 
-// The page of buttons of the robot at hand. Never moves anything; macroRun.ts does what a button says.
-
+/** The document with the buttons of the current robot. */
 export function createMacros(
   storage: TextStorage,
   notices: Notices,
@@ -50,11 +49,11 @@ export interface MacroProgress {
 }
 
 export interface MacroRun {
-  /** null: no button is at work. */
+  /** null: no button is running. */
   readonly store: StoreApi<MacroProgress | null>;
-  /** Begins nothing while another button is at work, and nothing that a limit would end halfway. */
+  /** Does nothing while another button runs, or if a limit would end this one halfway. */
   start(macro: Macro): void;
-  /** Goes no further. A move in progress ends by itself, as with every move but STOP. */
+  /** Starts no further step. A move in progress completes; only STOP ends it. */
   end(): void;
 }
 
@@ -69,7 +68,7 @@ interface MacroRunOptions {
 export function createMacroRun({ device, poses, robots, notices, clock }: MacroRunOptions): MacroRun {
   const store = createStore<MacroProgress | null>(() => null);
   let stopWaiting = (): void => undefined;
-  /** Tells a late word about an earlier button from one about this. */
+  /** Distinguishes late answers for an earlier button from those for this one. */
   let round = 0;
 
   function finish(): void {
@@ -99,7 +98,7 @@ export function createMacroRun({ device, poses, robots, notices, clock }: MacroR
     }
   }
 
-  /** First moves are slow, whatever was asked for, and begin one after another (safety.md section 2). */
+  /** First moves are slow, whatever duration was requested, and start one after another (safety.md section 2). */
   function reachedAfterMs(targets: readonly ServoTarget[], durationMs: number): number {
     const unknown = targets.map(({ servo }) => servo).filter((servo) => !startsKnown(device.motion(servo)));
     const starting = new Set([...device.store.getState().snapshot.waitingToStart, ...unknown]);
@@ -127,7 +126,7 @@ export function createMacroRun({ device, poses, robots, notices, clock }: MacroR
     });
   }
 
-  /** What would keep the button from its end, as a sentence; null where nothing is known. */
+  /** Why the button could not run to its end, as a sentence; null if it can. */
   function obstacle({ steps }: Macro): string | null {
     const hindrance = startHindrance(device.store.getState().snapshot);
     if (hindrance !== null) return words.servos.blocked[hindrance];

@@ -7,17 +7,15 @@ import type { Range, Family } from '#shared/codec/families.ts';
 import { cx } from '../../ui/cx.ts';
 import { between, figuresAt, type Scale, stepped } from './scale.ts';
 import type { Size } from '../picture/Canvas.tsx';
-import { Drawing } from '../picture/Drawing.tsx';
-import { motionInFrame } from '../picture/motionInFrame.ts';
+import { Drawing } from '../picture/SharedSheet.tsx';
+import { motionInFrame, targetOf, useSaidTarget } from '../picture/motion.ts';
 import { fraction } from '../picture/pose.ts';
 import { useStores } from '../stores.ts';
 import { paintMarks, thumbOf, type Thumb } from './paintMarks.ts';
 import { words } from '../../i18n/words.ts';
 import { useDrag } from './useDrag.ts';
-import { targetOf, useSaidTarget } from './useTarget.ts';
-import limitsStyles from './Limits.module.css';
-import sliderMarksStyles from './SliderMarks.module.css';
 import styles from './PositionSlider.module.css';
+import { MovingLabel } from '../picture/MovingText.tsx';
 
 // A servo's limits in figures, at the ends of the way between them, or as near as they have room beside each other
 // and the estimate.
@@ -32,7 +30,7 @@ function Limits({ servo, range, scale }: LimitsProps) {
   const ends = [scale.digits(servo.min), scale.digits(servo.max)] as const;
   return (
     <div
-      className={cx(limitsStyles.limits, limitsStyles[figuresAt(servo, range, ends)])}
+      className={cx(styles.limits, styles[figuresAt(servo, range, ends)])}
       style={between(servo, range)}
       aria-hidden="true"
     >
@@ -69,9 +67,9 @@ function SliderMarks({ servo, range, isKnown, isBlocked, thumbAt, isHeld }: Slid
   }
 
   return (
-    <div ref={place} className={sliderMarksStyles.marks}>
+    <div ref={place} className={styles.marks}>
       <Drawing
-        className={sliderMarksStyles.canvas}
+        className={styles.canvas}
         shown={() => {
           const { estimated } = motionInFrame(device, servo);
           const estimate = estimated === null ? null : fraction(estimated, range);
@@ -229,4 +227,17 @@ function keyStep({ key, shiftKey }: KeyboardEvent, { step, page, direction }: Sc
       PageDown: -page,
     }[key] ?? 0;
   return towards * direction;
+}
+
+// The estimated position as a number; the slider's own value text says what was asked.
+
+export function Estimate({ servo, scale }: { readonly servo: number; readonly scale: Scale }) {
+  const { device } = useStores();
+  const text = (): string => {
+    const { estimated } = motionInFrame(device, servo);
+    return estimated === null ? '' : words.servoPanel.estimated({ position: scale.digits(estimated) });
+  };
+  return (
+    <MovingLabel text={text} colour="estimated" className={styles.estimate} title={words.truth.estimated} />
+  );
 }

@@ -14,13 +14,11 @@ import { cx } from '../../ui/cx.ts';
 import { Sight, useSight } from '../../ui/sight.ts';
 import { NumberField } from '../../ui/NumberField.tsx';
 import { servoLabel } from '../../i18n/sentences.ts';
-import { Estimate } from './Estimate.tsx';
-import { PositionSlider } from './PositionSlider.tsx';
+import { Estimate, PositionSlider } from './PositionSlider.tsx';
 import { ServoName } from './ServoName.tsx';
 import { useServoMoves } from './useServoMoves.ts';
-import { targetOf } from './useTarget.ts';
+import { targetOf } from '../picture/motion.ts';
 import { useWheelSteps } from './useDrag.ts';
-import reportedStyles from './Reported.module.css';
 import styles from './ServoRow.module.css';
 
 // Where the board says that a servo stands, and how long ago it said so: the one figure here that nobody computed.
@@ -34,9 +32,9 @@ function Reported({ servo, scale }: { readonly servo: number; readonly scale: Sc
   const nowMs = useNow(device.clock.now, AGE_REFRESH_MS);
   if (reading === undefined) return null;
   return (
-    <span className={reportedStyles.reported} role="group" title={words.truth.confirmed}>
+    <span className={styles.reported} role="group" title={words.truth.confirmed}>
       <Chip truth="confirmed">{scale.digits(fromBoard(robot, servo, reading.position))}</Chip>
-      <span className={reportedStyles.age}>{words.numbers.formatAge(nowMs - reading.atMs)}</span>
+      <span className={styles.age}>{words.numbers.formatAge(nowMs - reading.atMs)}</span>
     </span>
   );
 }

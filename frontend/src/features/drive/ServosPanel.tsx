@@ -17,7 +17,6 @@ import {
 } from '../stores.ts';
 import { LiveText } from '../../ui/LiveText.tsx';
 import { words } from '../../i18n/words.ts';
-import { sentSince } from './sentSince.ts';
 import { SharedSheet } from '../picture/SharedSheet.tsx';
 import { ServoRow } from './ServoRow.tsx';
 import { tellsPositions, motionHindrance } from '../../robot/readiness.ts';
@@ -27,8 +26,7 @@ import { select, type ServoView } from '../servoView.ts';
 import { Button } from '../../ui/Button.tsx';
 import { laterComponent } from '../../ui/later.tsx';
 import { NumberField } from '../../ui/NumberField.tsx';
-import { Body } from '../picture/Body.tsx';
-import { RobotView } from '../picture/pictures.ts';
+import { Body, RobotView } from '../picture/Body.tsx';
 import type { ServoLayout } from '../view.ts';
 import { GENTLE_MOVE_MS } from '../../robot/moveTime.ts';
 import { cx } from '../../ui/cx.ts';
@@ -37,11 +35,9 @@ import { useLayout } from '../../ui/useLayout.ts';
 import { ServoList } from './ServoList.tsx';
 import { ServoTalk } from './ServoTalk.tsx';
 import { useServoMoves } from './useServoMoves.ts';
-import moveTimeControlStyles from './MoveTimeControl.module.css';
-import currentServoStyles from './CurrentServo.module.css';
-import legendStyles from './Legend.module.css';
 import selectionBarStyles from './SelectionBar.module.css';
 import styles from './ServosPanel.module.css';
+import type { TrafficLog } from '../../robot/traffic.ts';
 
 // How busy the wire is: packets sent in the last second, and servos whose newest target still waits for it. For the
 // eye only.
@@ -60,7 +56,7 @@ function SendRate() {
         })
       }
       eachMs={WINDOW_MS}
-      className={moveTimeControlStyles.rate}
+      className={styles.rate}
       title={words.servoPanel.sendingHint}
     />
   );
@@ -75,9 +71,9 @@ function CurrentServo() {
   const last = useServoView(({ selected }) => selected.at(-1));
   const servo = last === undefined ? undefined : servoOf(robot, last);
   return (
-    <div className={currentServoStyles.place}>
+    <div className={styles.place}>
       {servo === undefined ? (
-        <p className={currentServoStyles.hint}>{words.servoPanel.pressHint}</p>
+        <p className={styles.hint}>{words.servoPanel.pressHint}</p>
       ) : (
         <SharedSheet>
           <ol>
@@ -97,8 +93,8 @@ function Legend() {
   const isGuessing = useIsGuessing();
   const positionsIn = useView((state) => state.positionsIn);
   return (
-    <div className={legendStyles.line}>
-      <ul className={legendStyles.legend} aria-label={words.truth.legend}>
+    <div className={styles.line}>
+      <ul className={styles.legend} aria-label={words.truth.legend}>
         {(tellsPositions(family) ? ALL : COMPUTED).map((truth) => (
           <li key={truth}>
             <Chip truth={truth}>{words.truth[truth]}</Chip>
@@ -186,8 +182,8 @@ function MoveTimeControl() {
     view.setState({ moveTime: durationMs });
   };
   return (
-    <div className={moveTimeControlStyles.control}>
-      <span className={moveTimeControlStyles.label} aria-hidden="true">
+    <div className={styles.control}>
+      <span className={styles.label} aria-hidden="true">
         {words.servos.moveTime}
         <SendRate />
       </span>
@@ -211,7 +207,7 @@ function MoveTimeControl() {
         onChange={setMs}
         onRefused={(value) => notices.refuse(words.refused({ name: words.servos.moveTime, value, min, max }))}
       />
-      <p className={moveTimeControlStyles.about}>{words.servos.moveTimeAbout[isTimed ? 'timed' : 'hand']}</p>
+      <p className={styles.about}>{words.servos.moveTimeAbout[isTimed ? 'timed' : 'hand']}</p>
     </div>
   );
 }
@@ -292,4 +288,17 @@ function CentreAll() {
       {words.servos.centre}
     </Button>
   );
+}
+
+// Counts packets in the log, newest first, so that a long visit costs nothing. Knows no screen.
+
+export function sentSince({ store, at }: Pick<TrafficLog, 'store' | 'at'>, sinceMs: number): number {
+  const { oldestId, nextId } = store.getState();
+  let sent = 0;
+  for (let id = nextId - 1; id >= oldestId; id -= 1) {
+    const { entry } = at(id);
+    if (entry.atMs < sinceMs) break;
+    if (entry.mark === 'sent') sent += 1;
+  }
+  return sent;
 }

@@ -1,7 +1,6 @@
 // How a slider's marks are drawn: pure figures in, strokes on a canvas out.
 
-import type { Pen } from '../picture/Canvas.tsx';
-import type { Look } from '../picture/look.ts';
+import type { Pen, Look } from '../picture/Canvas.tsx';
 
 export interface Thumb {
   readonly width: number;

@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest';
 import { createTrafficLog } from '../../robot/traffic.ts';
-import { sentSince } from './sentSince.ts';
+import { sentSince } from './ServosPanel.tsx';
 
 test('counts what was sent since then, and nothing that was received', () => {
   const log = createTrafficLog();

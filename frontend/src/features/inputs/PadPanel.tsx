@@ -29,8 +29,6 @@ import { UndoTools } from '../undo/UndoTools.tsx';
 import { servoLabel } from '../../i18n/sentences.ts';
 import { Bindings } from './Bindings.tsx';
 import { FeelControls } from './FeelControls.tsx';
-import conflictsStyles from './Conflicts.module.css';
-import padPictureStyles from './PadPicture.module.css';
 import styles from './PadPanel.module.css';
 
 // What two bindings have against each other, in words. Nothing is shown where all is well.
@@ -42,11 +40,11 @@ function Conflicts() {
   const found = conflicts(mapping);
   if (found.length === 0) return null;
   return (
-    <ul className={conflictsStyles.list} aria-label={words.pad.conflicts}>
+    <ul className={styles.list} aria-label={words.pad.conflicts}>
       {found.map((conflict) => {
         const sentence = sentenceOf(conflict, mapping, robot, book);
         return (
-          <li key={sentence} className={conflictsStyles.conflict}>
+          <li key={sentence} className={styles.conflict}>
             <Mark truth="warning" />
             {sentence}
           </li>
@@ -121,43 +119,37 @@ function PadPicture() {
   });
 
   return (
-    <figure className={padPictureStyles.figure} data-absent={seen === null}>
+    <figure className={styles.figure} data-absent={seen === null}>
       <svg
         ref={drawing}
-        className={padPictureStyles.drawing}
+        className={styles.drawing}
         viewBox="0 0 240 160"
         role="img"
         aria-label={words.pad.picture}
       >
-        <path className={padPictureStyles.body} d={BODY} />
+        <path className={styles.body} d={BODY} />
         {TRIGGERS.map(([index, x]) => (
           <g key={index} data-button={index}>
-            <rect x={x} y={6} width={36} height={16} rx={5} className={padPictureStyles.part} />
-            <rect x={x} y={6} width={36} height={16} rx={5} className={padPictureStyles.fill} />
+            <rect x={x} y={6} width={36} height={16} rx={5} className={styles.part} />
+            <rect x={x} y={6} width={36} height={16} rx={5} className={styles.fill} />
           </g>
         ))}
         {SQUARE.map(([index, x, y, width, height]) => (
-          <rect
-            key={index}
-            data-button={index}
-            {...{ x, y, width, height }}
-            rx={3}
-            className={padPictureStyles.part}
-          />
+          <rect key={index} data-button={index} {...{ x, y, width, height }} rx={3} className={styles.part} />
         ))}
         {ROUND.map(([index, cx, cy, r]) => (
-          <circle key={index} data-button={index} {...{ cx, cy, r }} className={padPictureStyles.part} />
+          <circle key={index} data-button={index} {...{ cx, cy, r }} className={styles.part} />
         ))}
         {STICKS.map(([axis, button, cx]) => (
           <g key={axis}>
-            <circle cx={cx} cy={STICK_Y} r={20} className={padPictureStyles.well} />
+            <circle cx={cx} cy={STICK_Y} r={20} className={styles.well} />
             <g data-axis={axis}>
-              <circle cx={cx} cy={STICK_Y} r={12} data-button={button} className={padPictureStyles.part} />
+              <circle cx={cx} cy={STICK_Y} r={12} data-button={button} className={styles.part} />
             </g>
           </g>
         ))}
       </svg>
-      <figcaption className={padPictureStyles.caption}>{captionOf(seen)}</figcaption>
+      <figcaption className={styles.caption}>{captionOf(seen)}</figcaption>
     </figure>
   );
 }

@@ -11,9 +11,8 @@ import { TIMES } from '#shared/robot/faults/amount.ts';
 import { RANGE_MS } from '#shared/robot/timings.ts';
 import { createTestPage } from '../pageUnderTest.ts';
 import { GENTLE_MOVE_MS } from '../../robot/moveTime.ts';
-import { createMappings } from './mappings.ts';
+import { createMappings, createPad } from './pad.ts';
 import { createFollower } from '../../robot/follower.ts';
-import { createPad } from './pad.ts';
 
 const BOARDS = ['xarm', 'bus-ctrl', 'learm-esp32-bus', 'doc', 'openarm-new'] as const;
 const SERVOS = [1, 2, 3];

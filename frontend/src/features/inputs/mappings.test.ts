@@ -1,7 +1,7 @@
 import { describe, expect, test } from 'vitest';
 import { type Mapping, readyMapping } from '#shared/profile/mapping.ts';
 import { createVirtualClock } from '#shared/testing/virtualClock.ts';
-import { createMappings } from './mappings.ts';
+import { createMappings } from './pad.ts';
 import { createNotices } from '../../state/notices.ts';
 import { createRobots, freshRobot } from '../profiles/robots.ts';
 

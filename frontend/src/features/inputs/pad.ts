@@ -11,10 +11,13 @@ import {
   movedInput,
   NO_INPUTS,
   type Inputs,
+  readyMapping,
+  mappingFromText,
+  mappingToText,
 } from '#shared/profile/mapping.ts';
 import type { Begun, DriveState, step } from '#shared/profile/mappingStep.ts';
 import type { RobotServo } from '#shared/profile/robot.ts';
-import { servoLabel, stayingSentence } from '../../i18n/sentences.ts';
+import { servoLabel, stayingSentence, flawSentence } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/words.ts';
 import { isLocked } from '../servoView.ts';
 import type { View } from '../view.ts';
@@ -24,6 +27,8 @@ import { motionHindrance } from '../../robot/readiness.ts';
 import type { Poses } from '../poses/poses.ts';
 import type { RobotStore } from '../profiles/robots.ts';
 import type { Undoable } from '../../state/undoable.ts';
+import type { TextStorage } from '../../state/storage.ts';
+import { createRobotDocument, type RobotDocument } from '../profiles/robotDocument.ts';
 
 /** What is needed of a pad of the browser. */
 export interface Gamepadlike {
@@ -59,7 +64,7 @@ export interface Pad {
   listen(heard: (input: Input) => void): () => void;
 }
 
-export interface PadOptions {
+interface PadOptions {
   readonly device: Device;
   readonly robots: RobotStore;
   readonly view: View;
@@ -247,4 +252,22 @@ export function createPad(options: PadOptions): Pad {
       return () => (listener = null);
     },
   };
+}
+
+// What pad and keys do to the robot at hand; a robot without an entry has its ready mapping. Moves nothing; pad.ts does what a
+// mapping says.
+
+export function createMappings(
+  storage: TextStorage,
+  notices: Notices,
+  robots: RobotStore,
+): RobotDocument<Mapping> {
+  return createRobotDocument({
+    ...{ storage, notices, robots, key: 'servodeck.mapping' },
+    ...{
+      notSaved: () => words.pad.notSaved,
+      unreadable: (flaw) => words.pad.unreadable({ flaw: flawSentence(flaw) }),
+    },
+    ...{ fresh: readyMapping, toText: mappingToText, fromText: mappingFromText },
+  });
 }

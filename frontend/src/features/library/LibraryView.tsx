@@ -9,11 +9,10 @@ import { FileButton, saveFile } from '../../ui/localFiles.tsx';
 import { words } from '../../i18n/whole.ts';
 import { Select } from '../../ui/Select.tsx';
 import { Toggle } from '../../ui/Toggle.tsx';
-import { SORTS, type Wish, arranged, tagsIn } from './arrange.ts';
+import { SORTS, type Wish, arranged, tagsIn, DocumentList } from './DocumentList.tsx';
 import { cx } from '../../ui/cx.ts';
 import { useNow } from '../../ui/useEachFrame.ts';
 import { EmptyState } from '../../ui/Panel.tsx';
-import { DocumentList } from './DocumentList.tsx';
 import styles from './Library.module.css';
 import field from '../../ui/Field.module.css';
 

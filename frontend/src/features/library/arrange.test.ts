@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest';
 import type { Listed } from '#shared/files/documentStore.ts';
-import { arranged, tagsIn, type Wish } from './arrange.ts';
+import { arranged, tagsIn, type Wish } from './DocumentList.tsx';
 
 const document = (name: string, facts: Partial<Listed['facts']> = {}, isRemoved = false): Listed => ({
   ...{ id: name, revision: 1, isRemoved },

@@ -1,6 +1,6 @@
 import fc from 'fast-check';
 import { expect, test } from 'vitest';
-import { cardRows } from './arrange.ts';
+import { cardRows } from './DocumentList.tsx';
 
 const cardsOf = (count: number) => Array.from({ length: count }, (_, index) => ({ id: `${index}` }));
 const idsOf = (rows: ReturnType<typeof cardRows>) => rows.map((row) => row.map(({ id }) => id).join(''));

@@ -7,7 +7,7 @@ import { Icon } from '../../ui/Icon.tsx';
 import { cx } from '../../ui/cx.ts';
 import { words } from '../../i18n/whole.ts';
 import { useWords } from '../../i18n/words.ts';
-import { arrowOf, bytesText, meaning } from './describe.ts';
+import { arrowOf, bytesText, meaning } from './packetText.ts';
 import styles from './LogList.module.css';
 
 /** Closer to the end than this counts as "at the end". */

@@ -4,20 +4,18 @@
 import { useId, useState, type SyntheticEvent, useDeferredValue, useMemo, useSyncExternalStore } from 'react';
 import { useStore } from 'zustand';
 import type { LogEntry } from '../../robot/traffic.ts';
-import { bytesText, meaning, kindOf, lineText } from './describe.ts';
+import { bytesText, meaning, kindOf, lineText, judgeText, obstacleFor, type Judged } from './packetText.ts';
 import { useDevice, useSnapshot, useStores, useView } from '../stores.ts';
 import { Button, IconButton } from '../../ui/Button.tsx';
 import { Toggle } from '../../ui/Toggle.tsx';
 import { cx } from '../../ui/cx.ts';
 import { words } from '../../i18n/whole.ts';
-import { judgeText, obstacleFor, type Judged } from './packetText.ts';
 import type { LogKind } from '../view.ts';
 import { useWords } from '../../i18n/words.ts';
 import { LogList } from './LogList.tsx';
 import { createLogView, logFile } from './logView.ts';
 import { saveFile } from '../../ui/localFiles.tsx';
 import { PART } from '../../ui/focus.ts';
-import rawSenderStyles from './RawSender.module.css';
 import styles from './LogPanel.module.css';
 
 // Finds a line of the log by words or by bytes.
@@ -82,9 +80,9 @@ export function RawForm({ text, judged, obstacle, isConsented, maySend, ...on }:
     on.onSend();
   }
   return (
-    <form className={rawSenderStyles.form} aria-label={words.raw.title} onSubmit={submit}>
+    <form className={styles.form} aria-label={words.raw.title} onSubmit={submit}>
       <input
-        className={rawSenderStyles.field}
+        className={styles.field}
         aria-label={words.raw.field}
         aria-describedby={explanationId}
         placeholder={words.raw.example}
@@ -96,11 +94,11 @@ export function RawForm({ text, judged, obstacle, isConsented, maySend, ...on }:
       />
       <p
         id={explanationId}
-        className={cx(rawSenderStyles.explanation, judged.isRefused && rawSenderStyles.refused)}
+        className={cx(styles.explanation, judged.isRefused && styles.refused)}
         aria-live="polite"
       >
         {judged.explanation}
-        {obstacle !== null && <span className={rawSenderStyles.obstacle}> {obstacle}</span>}
+        {obstacle !== null && <span className={styles.obstacle}> {obstacle}</span>}
       </p>
       <Toggle label={words.raw.consent} isOn={isConsented} onChange={on.onConsent} />
       <Button type="submit" isDisabled={!maySend}>

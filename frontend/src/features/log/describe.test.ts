@@ -4,7 +4,7 @@ import type { Command } from '#shared/codec/commands.ts';
 import { FAMILIES, type FamilyId } from '#shared/codec/families.ts';
 import { fromHex } from '#shared/codec/packet.ts';
 import type { ByteMark } from '#shared/files/recording.ts';
-import { arrowOf, bytesText, kindOf, lineText, meaning } from './describe.ts';
+import { arrowOf, bytesText, kindOf, lineText, meaning } from './packetText.ts';
 import { searchTest } from './LogPanel.tsx';
 
 const line = (mark: ByteMark, hex: string, board: FamilyId = 'doc') =>

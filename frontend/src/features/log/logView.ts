@@ -7,7 +7,7 @@ import type { Entry } from '#shared/files/recording.ts';
 import type { TrafficLog, LogEntry } from '../../robot/traffic.ts';
 import type { TextFile } from '../../ui/localFiles.tsx';
 import { version } from '../../../../package.json';
-import { meaning } from './describe.ts';
+import { meaning } from './packetText.ts';
 
 // The log as a file: its text and its name.
 

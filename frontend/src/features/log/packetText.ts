@@ -1,13 +1,17 @@
 // Packets in plain words, for the log and for packets written by hand. Knows the meaning of commands and reports.
 
-import type { Family } from '#shared/codec/families.ts';
-import { fromHex } from '#shared/codec/packet.ts';
+import { type Family, family } from '#shared/codec/families.ts';
+import { fromHex, toHex } from '#shared/codec/packet.ts';
 import { judgeRaw, type RawRefusal, type RawVerdict } from '#shared/codec/rawPacket.ts';
-import { isHarmless, type Command, type ServoTarget } from '#shared/codec/commands.ts';
-import type { SessionState } from '#shared/robot/state.ts';
-import type { Report } from '#shared/codec/reports.ts';
+import { isHarmless, type Command, type ServoTarget, type CommandKind } from '#shared/codec/commands.ts';
+import type { SessionState, Traffic } from '#shared/robot/state.ts';
+import type { Report, ReportKind } from '#shared/codec/reports.ts';
 import { boardName, rangeText } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/whole.ts';
+import { writeLine, type Entry } from '#shared/files/recording.ts';
+import { trafficOf } from '#shared/files/recorder.ts';
+import type { LogEntry } from '../../robot/traffic.ts';
+import type { LogKind } from '../view.ts';
 
 // What a text that is being typed as a packet means: the packet, if it may go, and the words for it.
 
@@ -52,7 +56,7 @@ function bytesOf(text: string): Uint8Array | null {
 const TARGETS_SHOWN = 6;
 
 /** `command` null: what the family knows nothing of, by its bytes. */
-export function commandText(command: Command | null, bytes: Uint8Array): string {
+function commandText(command: Command | null, bytes: Uint8Array): string {
   const { commands } = words.packets;
   if (command === null) {
     const [first, , , number = 0] = bytes;
@@ -84,7 +88,7 @@ export function commandText(command: Command | null, bytes: Uint8Array): string 
   }
 }
 
-export function reportText(report: Report): string {
+function reportText(report: Report): string {
   const { reports } = words.packets;
   switch (report.kind) {
     case 'runStarted':
@@ -164,4 +168,56 @@ function shortList(items: readonly string[]): string {
   const list = items.slice(0, TARGETS_SHOWN).join(words.comma);
   const count = items.length - TARGETS_SHOWN;
   return count <= 0 ? list : words.packets.more({ list, count });
+}
+
+// What a line of the log says and which kind it is counted under. Pure.
+
+type Described = Pick<LogEntry, 'board' | 'entry'>;
+
+export function kindOf(described: Described): LogKind {
+  const traffic = trafficIn(described);
+  if (traffic === null) return 'link';
+  if ('noise' in traffic) return 'noise';
+  const kind = traffic.direction === 'in' ? traffic.report.kind : traffic.command?.kind;
+  return (kind && KINDS[kind]) ?? 'group';
+}
+
+/** What is no affair of groups. */
+const KINDS: Readonly<Partial<Record<CommandKind | ReportKind, LogKind>>> = {
+  move: 'move',
+  release: 'move',
+  readPositions: 'move',
+  positions: 'move',
+  readBattery: 'battery',
+  battery: 'battery',
+};
+
+export function meaning(described: Described): string {
+  const { entry } = described;
+  if (entry.mark === 'link') return words.packets.happenings[entry.happening];
+  if (entry.mark === 'board') return words.packets.board({ board: boardName(family(entry.board)) });
+  const traffic = trafficOf(entry, family(described.board));
+  if ('noise' in traffic) return words.packets.noise[traffic.noise]({ count: traffic.bytes.length });
+  return traffic.direction === 'out'
+    ? commandText(traffic.command, traffic.bytes)
+    : reportText(traffic.report);
+}
+
+export function bytesText({ entry }: Pick<Described, 'entry'>): string {
+  return 'bytes' in entry ? toHex(entry.bytes) : '';
+}
+
+/** As it stands in a saved log. */
+export function lineText(described: Described): string {
+  return `${writeLine(described.entry)}  # ${meaning(described)}`;
+}
+
+/** To the board, from it, or neither. */
+export function arrowOf({ mark }: Entry): '→' | '←' | '·' {
+  if (mark === 'link' || mark === 'board') return '·';
+  return mark === 'sent' ? '→' : '←';
+}
+
+function trafficIn({ board, entry }: Described): Traffic | null {
+  return 'bytes' in entry ? trafficOf(entry, family(board)) : null;
 }

@@ -4,8 +4,8 @@ import { LinkError } from '#shared/robot/linkError.ts';
 import type { SessionState } from '#shared/robot/state.ts';
 import { INITIAL_STATE } from '#shared/robot/store.ts';
 import { createTrafficLog } from '../../robot/traffic.ts';
-import { meaning } from './describe.ts';
-import { createStrip } from './strip.ts';
+import { meaning } from './packetText.ts';
+import { createStrip } from './LatestEntry.tsx';
 
 const READY: SessionState = { ...INITIAL_STATE, link: { status: 'ready' } };
 const STOPPED: SessionState = {

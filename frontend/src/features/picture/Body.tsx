@@ -7,16 +7,14 @@ import { editServoView, useDevice, useRobot, useServoView, useStores } from '../
 import { cx } from '../../ui/cx.ts';
 import { Canvas, type Size } from './Canvas.tsx';
 import { words } from '../../i18n/words.ts';
-import { DialFace } from './Dial.tsx';
-import { paintNeedles, type Spot } from './needles.ts';
-import { motionInFrame } from './motionInFrame.ts';
+import { DialFace, paintNeedles, type Spot } from './Dial.tsx';
+import { motionInFrame } from './motion.ts';
 import { dialDegrees, halfDegree, type Pose } from './pose.ts';
 import { usePreview } from './usePreview.ts';
-import { LiveArm, LiveBones } from './pictures.ts';
 import { UnknownNote } from './UnknownNote.tsx';
 import overlay from './overlay.module.css';
-import dialsStyles from './Dials.module.css';
 import styles from './Body.module.css';
+import { laterComponent } from '../../ui/later.tsx';
 
 // The picture of a robot whose body nobody described: a dial for each servo. All hands are one drawing over the
 // faces: dozens of them turn in each frame.
@@ -31,13 +29,13 @@ function Dials() {
   const { servos } = useRobot();
   const list = useRef<HTMLOListElement>(null);
   return (
-    <div className={dialsStyles.room}>
-      <div className={dialsStyles.board}>
-        <ol ref={list} className={cx(dialsStyles.dials, servos.length > FEW && dialsStyles.many)}>
+    <div className={styles.room}>
+      <div className={styles.board}>
+        <ol ref={list} className={cx(styles.dials, servos.length > FEW && styles.many)}>
           {servos.map(({ servo }) => (
             <li
               key={servo}
-              className={cx(dialsStyles.dial, selected.includes(servo) && dialsStyles.selected)}
+              className={cx(styles.dial, selected.includes(servo) && styles.selected)}
               onPointerDown={() => editServoView(stores, (view) => select(view, [servo]))}
             >
               <DialFace servo={servo} />
@@ -132,3 +130,14 @@ export function BodyPicture() {
     </div>
   );
 }
+
+// The two large pictures of a robot: they come when the page is there, into a place that has their size already.
+
+export const LiveArm = laterComponent(async () => (await import('./LiveArm.tsx')).LiveArm, '0');
+export const LiveBones = laterComponent(async () => (await import('./LiveArm.tsx')).LiveBones, '0');
+/** In three dimensions; its library is large, so it is loaded only on demand. */
+export const RobotView = laterComponent(
+  async () => (await import('./three/RobotView.tsx')).RobotView,
+  '0',
+  'asked',
+);

@@ -2,18 +2,19 @@
 // where it is by the estimate, the outline is where it was asked to go, the dotted one where the group at hand would have it.
 
 import { useRef } from 'react';
-import type { ServoMotion } from '#shared/robot/state.ts';
+import type { ServoMotion, Motions } from '#shared/robot/state.ts';
 import { cx } from '../../ui/cx.ts';
 import { words } from '../../i18n/whole.ts';
 import { type ArmPicture, armPicture, JOINT, samePicture, type Pose } from './pose.ts';
-import { useDevice, usePlayback, useStores } from '../stores.ts';
-import { ArmFigure, drawArm } from './ArmFigure.tsx';
+import { useDevice, usePlayback, useStores, useRobot } from '../stores.ts';
+import { ArmFigure, drawArm, BoneFigure, drawBones } from './ArmFigure.tsx';
 import { usePreview } from './usePreview.ts';
-import { motionsInFrame } from './motionInFrame.ts';
-import { useMotions } from './useMotions.ts';
+import { motionsInFrame, useMotions } from './motion.ts';
 import figure from './figure.module.css';
-import insetsStyles from './insets.module.css';
 import styles from './LiveArm.module.css';
+import type { Robot } from '#shared/profile/robot.ts';
+import { bonesOf, type BonePicture } from './bones.ts';
+import { reachOf, viewBoxOf } from './reach.ts';
 
 // The two small views beside the arm: the base from above and the hand from the front. Draw what they are given.
 
@@ -27,10 +28,10 @@ interface InsetProps {
 
 function BaseView({ estimated, commanded, preview }: InsetProps) {
   return (
-    <figure className={insetsStyles.inset}>
+    <figure className={styles.inset}>
       <svg viewBox="-50 -50 100 100" role="img" aria-label={words.body.base}>
-        <circle className={insetsStyles.ring} r={44} />
-        <path className={insetsStyles.scale} d="M0 -44V-38M-44 0h6M44 0h-6M-31 -31l4 4M31 -31l-4 4" />
+        <circle className={styles.ring} r={44} />
+        <path className={styles.scale} d="M0 -44V-38M-44 0h6M44 0h-6M-31 -31l4 4M31 -31l-4 4" />
         <g data-base="commanded" transform={turn(commanded.base.degrees)}>
           <path className={cx(figure.ghost, !commanded.base.known && figure.unknown)} d={POINTER} />
         </g>
@@ -42,22 +43,22 @@ function BaseView({ estimated, commanded, preview }: InsetProps) {
         </g>
         <circle className={figure.pin} r={4} />
       </svg>
-      <figcaption className={insetsStyles.caption}>{words.body.base}</figcaption>
+      <figcaption className={styles.caption}>{words.body.base}</figcaption>
     </figure>
   );
 }
 
 function HandView({ estimated, commanded, preview }: InsetProps) {
   return (
-    <figure className={insetsStyles.inset}>
+    <figure className={styles.inset}>
       <svg viewBox="-50 -50 100 100" role="img" aria-label={words.body.hand}>
-        <circle className={insetsStyles.ring} r={44} />
-        <path className={insetsStyles.scale} d="M0 -44V-38M-44 0h6M44 0h-6M-31 -31l4 4M31 -31l-4 4" />
+        <circle className={styles.ring} r={44} />
+        <path className={styles.scale} d="M0 -44V-38M-44 0h6M44 0h-6M-31 -31l4 4M31 -31l-4 4" />
         <Hand name="commanded" picture={commanded} look={figure.ghost} />
         <Hand name="estimated" picture={estimated} look={figure.solid} />
         <Hand name="preview" picture={preview} look={figure.preview} />
       </svg>
-      <figcaption className={insetsStyles.caption}>{words.body.hand}</figcaption>
+      <figcaption className={styles.caption}>{words.body.hand}</figcaption>
     </figure>
   );
 }
@@ -180,4 +181,71 @@ function Floor() {
       <path className={styles.foot} d="M-20 28v-28a20 20 0 0 1 40 0v28z" />
     </g>
   );
+}
+
+// A body by bones as the session's motion goes: solid is where it is by the estimate, the outline where it was asked to go, the
+// dotted one where the group at hand would have it.
+
+const SHOWN = ['estimated', 'target'] as const;
+/** In board units: what no eye can tell apart in the picture. */
+const SAME = 6;
+
+export function LiveBones({ className }: { readonly className?: string | undefined }) {
+  const { device } = useStores();
+  const robot = useRobot();
+  const picture = useRef<SVGSVGElement>(null);
+  const now = (which: (typeof SHOWN)[number]): BonePicture | null => {
+    const motion = motionsInFrame(device);
+    return bonesOf(robot, (servo) => motion(servo)[which]);
+  };
+  useMotions(
+    robot.servos.map(({ servo }) => servo),
+    () => {
+      for (const which of SHOWN) {
+        const figure = picture.current?.querySelector<SVGGElement>(`[data-figure='${which}']`);
+        const bones = now(which);
+        if (figure instanceof SVGGElement && bones !== null) drawBones(figure, bones);
+        if (which === 'target')
+          figure?.setAttribute('visibility', ghostVisibility(robot, motionsInFrame(device)));
+      }
+    },
+  );
+  const isPreviewing = usePlayback(({ phase }) => phase === 'previewing');
+  usePreview((pose) => {
+    const figure = picture.current?.querySelector<SVGGElement>("[data-figure='preview']");
+    const bones = pose === null ? null : bonesOf(robot, pose);
+    figure?.setAttribute('visibility', bones === null ? 'hidden' : 'visible');
+    if (bones !== null && figure instanceof SVGGElement) drawBones(figure, bones);
+  });
+  const [estimated, target, reach] = [now('estimated'), now('target'), reachOf(robot)];
+  if (estimated === null || target === null || reach === null) return null;
+  return (
+    <svg
+      ref={picture}
+      className={cx(styles.picture, className)}
+      viewBox={viewBoxOf(reach)}
+      role="img"
+      aria-label={words.servoPanel.figure({ robot: robot.name })}
+      data-previewing={isPreviewing}
+    >
+      <g data-figure="estimated">
+        <BoneFigure picture={estimated} look="solid" />
+      </g>
+      <g data-figure="target" visibility={ghostVisibility(robot, motionsInFrame(device))}>
+        <BoneFigure picture={target} look="ghost" />
+      </g>
+      <g data-figure="preview" visibility="hidden">
+        <BoneFigure picture={target} look="preview" />
+      </g>
+    </svg>
+  );
+}
+
+/** Where all of it is where it was asked to be the outline says nothing. */
+function ghostVisibility({ servos }: Robot, motion: Motions): 'visible' | 'hidden' {
+  const isThere = servos.every(({ servo }) => {
+    const { target, estimated } = motion(servo);
+    return target === null || (estimated !== null && Math.abs(target - estimated) < SAME);
+  });
+  return isThere ? 'hidden' : 'visible';
 }

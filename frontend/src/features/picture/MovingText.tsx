@@ -3,13 +3,12 @@
 // text like any other.
 
 import { useRef, useEffect, useLayoutEffect, useState } from 'react';
-import type { LookName } from './look.ts';
+import type { LookName, Pen, Size } from './Canvas.tsx';
 import { cx } from '../../ui/cx.ts';
 import { setText } from '../../ui/LiveText.tsx';
 import type { FollowedTextProps } from '../../ui/NumberField.tsx';
 import { dueOn, CHANGING_EACH_MS, HEARD_EACH_MS, READABLE_MS, useFollow } from '../../ui/useEachFrame.ts';
-import type { Pen, Size } from './Canvas.tsx';
-import { Drawing } from './Drawing.tsx';
+import { Drawing } from './SharedSheet.tsx';
 import styles from './MovingLabel.module.css';
 import overlay from './overlay.module.css';
 

@@ -1,9 +1,9 @@
 // A list whose pictures are drawn on one canvas, over what is in sight of it. The canvas scrolls with the list.
 
-import { useLayoutEffect, useRef, useState, type ReactNode } from 'react';
+import { useLayoutEffect, useRef, useState, type ReactNode, use, useEffectEvent } from 'react';
 import { watchSize, Sight, useSight } from '../../ui/sight.ts';
 import { useEachFrame } from '../../ui/useEachFrame.ts';
-import { Canvas } from './Canvas.tsx';
+import { Canvas, type Picture } from './Canvas.tsx';
 import {
   coverOf,
   createPainting,
@@ -12,13 +12,14 @@ import {
   SheetAround,
   type Area,
   type Placed,
+  type Sheet,
 } from './sheet.ts';
 import styles from './SharedSheet.module.css';
 
 /** Whatever else moves a row, its pictures are behind it no longer than this. */
 const MEASURED_EACH_MS = 500;
 
-export interface SharedSheetProps {
+interface SharedSheetProps {
   /** Where the list is, left out: in the flow of the page. */
   readonly className?: string | undefined;
   readonly children: ReactNode;
@@ -80,4 +81,36 @@ export function SharedSheet({ className = styles.sheet, children }: SharedSheetP
       </div>
     </SheetAround>
   );
+}
+
+// A picture that changes in each frame, on the sheet of the list it is in, else on a canvas of its own. Knows no needle.
+
+interface DrawingProps<Shown extends readonly unknown[]> extends Picture<Shown> {
+  readonly className?: string | undefined;
+}
+
+export function Drawing<Shown extends readonly unknown[]>(props: DrawingProps<Shown>) {
+  const sheet = use(SheetAround);
+  return sheet === null ? <Canvas {...props} /> : <Part sheet={sheet} {...props} />;
+}
+
+interface PartProps<Shown extends readonly unknown[]> extends DrawingProps<Shown> {
+  readonly sheet: Sheet;
+}
+
+function Part<Shown extends readonly unknown[]>({ sheet, className, shown, paint }: PartProps<Shown>) {
+  const place = useRef<HTMLSpanElement>(null);
+  const sight = use(Sight);
+  const shownNow = useEffectEvent(shown);
+  const paintNow = useEffectEvent(paint);
+  useLayoutEffect(() => {
+    if (place.current === null) return undefined;
+    return sheet.add<Shown>({
+      place: place.current,
+      sight,
+      shown: () => shownNow(),
+      paint: (pen, now) => paintNow(pen, now),
+    });
+  }, [sheet, sight]);
+  return <span ref={place} className={className} aria-hidden="true" />;
 }

@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { paintNeedles, type NeedlesAt } from './needles.ts';
+import { paintNeedles, type NeedlesAt } from './Dial.tsx';
 import { recordingPen } from './penUnderTest.ts';
 
 /** A unit of a face is a pixel of it. */

@@ -1,7 +1,6 @@
 // A pen whose canvas keeps what was drawn on it, for tests: each stroke with its colours and the corners of what it went round.
 
-import type { Look } from './look.ts';
-import type { Size } from './Canvas.tsx';
+import type { Look, Size } from './Canvas.tsx';
 
 export interface Stroke {
   readonly kind: 'fill' | 'stroke';

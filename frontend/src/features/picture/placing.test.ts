@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { nearest, placeBy, placeUnder } from './placing.ts';
+import { nearest, placeBy, placeUnder } from './ArrangedPlace.tsx';
 
 const box = { left: 100, top: 50, width: 400, height: 200 };
 

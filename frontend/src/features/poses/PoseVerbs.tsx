@@ -10,8 +10,7 @@ import { CaptureButton } from '../animate/frames/CaptureStrip.tsx';
 import { poseName } from './poses.ts';
 import { motionHindrance } from '../../robot/readiness.ts';
 import { NumberField } from '../../ui/NumberField.tsx';
-import { capturePose } from './capturePose.ts';
-import type { Captured } from './useNaming.ts';
+import { capturePose, type Captured } from './capture.ts';
 import styles from './PosesPanel.module.css';
 
 // Poses to a file and from one. An import adds to what is there.

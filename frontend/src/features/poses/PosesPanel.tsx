@@ -17,8 +17,7 @@ import { UndoTools } from '../undo/UndoTools.tsx';
 import { BlendBar } from './BlendBar.tsx';
 import { PoseTools, type Drawer } from './PoseTools.tsx';
 import { PoseVerbs } from './PoseVerbs.tsx';
-import { useNaming, useSelectedPose } from './useNaming.ts';
-import emptyPosesStyles from './EmptyPoses.module.css';
+import { useNaming, useSelectedPose } from './capture.ts';
 import styles from './PosesPanel.module.css';
 
 // Where there is no pose yet: how some would look, on the robot at hand.
@@ -34,9 +33,9 @@ function Sketch() {
   const { servos } = useRobot();
   const family = useDevice((state) => state.family);
   return (
-    <div className={emptyPosesStyles.sketch} aria-hidden="true">
+    <div className={styles.sketch} aria-hidden="true">
       {SHARES.map((share) => (
-        <span key={share} className={emptyPosesStyles.card}>
+        <span key={share} className={styles.card}>
           <PoseThumb
             pose={new Map(servos.map((one) => [one.servo, turned(one, share)]))}
             changed={[]}

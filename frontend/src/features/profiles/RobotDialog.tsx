@@ -10,7 +10,6 @@ import { undoActionOf } from '../undo/useUndoKeys.ts';
 import type { ViewState } from '../view.ts';
 import { Dialog } from '../../ui/Dialog.tsx';
 import { laterComponent } from '../../ui/later.tsx';
-import robotButtonStyles from './RobotButton.module.css';
 import styles from './RobotDialog.module.css';
 
 // The robot at hand by its name, in the bar; opens the list of robots.
@@ -21,16 +20,16 @@ export function RobotButton() {
   return (
     <button
       type="button"
-      className={robotButtonStyles.button}
+      className={styles.button}
       aria-label={words.robots.button({ name })}
       aria-haspopup="dialog"
       onClick={() => view.setState({ robotView: 'list' })}
       onKeyDown={pressOnce}
     >
-      <span className={robotButtonStyles.icon}>
+      <span className={styles.icon}>
         <Icon name="pose" />
       </span>
-      <span className={robotButtonStyles.name}>{name}</span>
+      <span className={styles.name}>{name}</span>
       <Icon name="down" />
     </button>
   );

@@ -12,9 +12,7 @@ import { RobotPicture, RobotHead } from './RobotPicture.tsx';
 import { Button } from '../../ui/Button.tsx';
 import { Select } from '../../ui/Select.tsx';
 import { boardName } from '../../i18n/sentences.ts';
-import { CellField } from './CellField.tsx';
-import { ServoTable } from './ServoTable.tsx';
-import placeEditorStyles from './PlaceEditor.module.css';
+import { CellField, ServoTable } from './ServoTable.tsx';
 import styles from './RobotEditor.module.css';
 
 // Where each servo sits on the robot, on the drawing of its build: dragged, or pushed by arrow keys. Moves nothing.
@@ -24,12 +22,12 @@ function PlaceEditor() {
   const stage = useRef<HTMLDivElement>(null);
   const headingId = useId();
   return (
-    <section className={placeEditorStyles.editor} aria-labelledby={headingId}>
-      <div className={placeEditorStyles.words}>
+    <section className={styles.editor} aria-labelledby={headingId}>
+      <div className={styles.words}>
         <h3 id={headingId}>{words.robotEditor.places}</h3>
         <p>{words.robotEditor.placesHint}</p>
       </div>
-      <div ref={stage} className={placeEditorStyles.stage}>
+      <div ref={stage} className={styles.stage}>
         <RobotPicture robot={robot} />
         <ul aria-label={words.robotEditor.places}>
           {robot.servos.map((servo) => (

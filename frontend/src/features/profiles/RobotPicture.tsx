@@ -9,6 +9,7 @@ import { UndoTools } from '../undo/UndoTools.tsx';
 import dialog from './RobotDialog.module.css';
 import robotEditorStyles from './RobotEditor.module.css';
 import styles from './RobotPicture.module.css';
+import type { Range, Family } from '#shared/codec/families.ts';
 
 // The way back to all robots, and undo: above the description and above the calibration.
 
@@ -81,3 +82,32 @@ function limbsOf({ body, servos }: Robot): readonly string[] {
 
 const chain = (places: readonly RobotServo['place'][]): string =>
   `M${places.map(({ x, y }) => `${x} ${y}`).join('L')}`;
+
+// A servo's limits within what its board can do, and its home between them.
+
+interface ReachBarProps {
+  readonly servo: Pick<RobotServo, 'min' | 'max' | 'home'>;
+  readonly reach: Range;
+  readonly unit: Family['unit'];
+}
+
+/** Of the bar, in percent: less is seen by nobody. */
+const LEAST_WIDTH = 1;
+
+export function ReachBar({ servo: { min, max, home }, reach, unit }: ReachBarProps) {
+  const share = (at: number): number => ((at - reach.min) / (reach.max - reach.min)) * 100;
+  const width = Math.max(LEAST_WIDTH, share(max) - share(min));
+  return (
+    <svg
+      className={styles.bar}
+      viewBox="0 0 100 8"
+      preserveAspectRatio="none"
+      role="img"
+      aria-label={words.robotEditor.reach({ min: reach.min, max: reach.max, unit: words.units[unit] })}
+    >
+      <rect className={styles.reach} x={0} y={3} width={100} height={2} />
+      <rect className={styles.allowed} x={Math.min(share(min), 100 - width)} y={2} width={width} height={4} />
+      <path className={styles.home} d={`M${share(home)} 0V8`} />
+    </svg>
+  );
+}

@@ -7,7 +7,7 @@ import { FAMILIES } from '#shared/codec/families.ts';
 import type { VirtualClock } from '#shared/testing/virtualClock.ts';
 import { createDevice } from '../../robot/device.ts';
 import { createMacros } from '../buttons/macroRun.ts';
-import { createMappings } from '../inputs/mappings.ts';
+import { createMappings } from '../inputs/pad.ts';
 import { createNotices } from '../../state/notices.ts';
 import { createPoses } from '../poses/poses.ts';
 import { createView } from '../view.ts';

@@ -5,7 +5,7 @@ import { tellsPositions } from '../../../robot/readiness.ts';
 import { useDevice, useIsUnidentified, useKnownFamily, useStores, type Stores } from '../../stores.ts';
 import { Button, type ButtonProps } from '../../../ui/Button.tsx';
 import { words } from '../../../i18n/words.ts';
-import { capturePose } from '../../poses/capturePose.ts';
+import { capturePose } from '../../poses/capture.ts';
 import type { Undoable } from '../../../state/undoable.ts';
 import { captureFrame } from './capture.ts';
 import captureButtonStyles from './CaptureButton.module.css';

@@ -17,7 +17,7 @@ import {
   useView,
 } from '../../stores.ts';
 import { chosenTimes } from '../../board/slots/groupPlace.ts';
-import { useSlotContents } from '../../board/slots/useSlotContents.ts';
+import { useSlotContents } from '../../board/slots/slotHooks.ts';
 import { motionHindrance, startHindrance } from '../../../robot/readiness.ts';
 import { isSilent } from '../../servoView.ts';
 import { timesOf } from '../timeline/groupTimes.ts';

@@ -4,7 +4,7 @@ import { type Key, CURVES } from '#shared/group/tracks.ts';
 import { keyName } from './timeline.ts';
 import { handleX, HANDLES, stretchOf } from './hit.ts';
 import { type Brush, paintHeads, paintMarkers } from './paintHeads.ts';
-import type { Look } from '../../picture/look.ts';
+import type { Look } from '../../picture/Canvas.tsx';
 import { changedStretch, isWithin, wholeOf, type Stretch } from './repaint.ts';
 import type { PlacedRow } from './rows.ts';
 import { keysInRow, within } from './rowKeys.ts';

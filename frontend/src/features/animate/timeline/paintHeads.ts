@@ -1,6 +1,6 @@
 // Draws what is fixed on top of the lanes: the ruler with its marks, markers and loop range, and the heads of the frames.
 
-import { type Look, colourOf } from '../../picture/look.ts';
+import { type Look, colourOf } from '../../picture/Canvas.tsx';
 import type { Scene } from './scene.ts';
 import { markText } from '../../../i18n/numbers.ts';
 import { words } from '../../../i18n/whole.ts';

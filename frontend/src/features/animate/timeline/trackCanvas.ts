@@ -10,7 +10,7 @@ import { keySet, ALL_ROW } from './timeline.ts';
 import { selectedKeys } from './groupTimes.ts';
 import { placedRows, scrolledTo } from './rows.ts';
 import { setKeysAt } from './changes.ts';
-import { lookOf, SCHEMES, type Look } from '../../picture/look.ts';
+import { lookOf, SCHEMES, type Look } from '../../picture/Canvas.tsx';
 import { selectFrame, setTime, shownKeys } from './looking.ts';
 import { paint } from './paint.ts';
 import { followPointer } from './pointer.ts';

@@ -1,4 +1,4 @@
-// Asked before a download takes the place of another group on the board: what is there, whether it is lost, and which slot is free.
+// The dialog before a download replaces another group on the board: what the slot holds, whether it is lost, and which slot is free.
 
 import { useStore } from 'zustand';
 import { slotTrigger } from '#shared/codec/families.ts';
@@ -30,11 +30,11 @@ export function ReplaceQuestion() {
 
 export interface ReplaceContentProps {
   readonly question: Question;
-  /** The way out is at hand. */
+  /** Focuses the button that leaves everything as it is. */
   readonly autoFocus?: boolean;
 }
 
-/** What stands in the dialog. */
+/** The content of the dialog. */
 export function ReplaceContent({ question: { conflicts, free }, autoFocus = false }: ReplaceContentProps) {
   const { replacing } = useStores();
   const isDisabled = useSnapshot((snapshot) => startHindrance(snapshot) !== null);

@@ -1,11 +1,10 @@
-// Several groups of the library for the board: which ones, to which slots, whether each fits; then one download with one progress.
+// Downloads several groups of the library at once: which ones, to which slots, and why some cannot be downloaded.
 
 import { useMemo, useState, useEffect } from 'react';
 import type { ActionGroup } from '#shared/group/group.ts';
 import { ownSlot, slotFor } from '#shared/group/slotPlaces.ts';
 import type { Listed } from '#shared/files/documentStore.ts';
 import { useDevice, useRobot, useStores, useLibrary, useSnapshot } from '../../stores.ts';
-import { hindranceOf, thoseThatCan, type Wanted, downloadOf } from './several.ts';
 import { DownloadProgress } from '../DownloadControl.tsx';
 import { startHindrance } from '../../../robot/readiness.ts';
 import { Button } from '../../../ui/Button.tsx';
@@ -13,9 +12,9 @@ import { cx } from '../../../ui/cx.ts';
 import { NumberField } from '../../../ui/NumberField.tsx';
 import { words } from '../../../i18n/whole.ts';
 import styles from './Slots.module.css';
-
-// Which groups of the library are wanted on the board, and which could not go when all of them were asked for.
-// Compiled anew where the board, the robot or what is wanted is another one.
+import { obstacles, type CompiledGroup } from '../../animate/group/compiled.ts';
+import { problemText } from '../../animate/group/problemText.ts';
+import type { SlotDownload } from './slots.ts';
 
 interface Pick {
   readonly documentId: string;
@@ -23,6 +22,7 @@ interface Pick {
   readonly group: ActionGroup;
 }
 
+/** The chosen groups, compiled for the board, and those that “All” could not include. */
 function useWanted() {
   const { library, compiled, place } = useStores();
   const family = useDevice((state) => state.family);
@@ -55,7 +55,7 @@ function useWanted() {
     setLeft((before) => without(before, documentId));
   }
 
-  /** Those that can go; of the others is told what keeps them. */
+  /** Chooses all groups that can be downloaded; for the others the reason is shown. */
   async function takeAll(documentIds: readonly string[]): Promise<void> {
     const groups = await Promise.all(
       documentIds.map(async (documentId) => ({ documentId, group: await library.group(documentId) })),
@@ -82,7 +82,7 @@ function useWanted() {
 
   return {
     wanted,
-    /** Asked for with all the others. */
+    /** Requested by “All”. */
     cannot,
     takeAll,
     none(): void {
@@ -170,13 +170,13 @@ function totalOf(wanted: readonly Wanted[]): string {
 
 interface AllProps {
   readonly chosen: number;
-  /** Asked for, and cannot go. */
+  /** Requested by “All” and impossible. */
   readonly left: number;
   readonly count: number;
   onChange(wantsAll: boolean): void;
 }
 
-/** Neither on nor off where some of them are chosen; the next press chooses the others that can go. */
+/** Mixed if only some are chosen; the next press then chooses all others that can be downloaded. */
 function All({ chosen, left, count, onChange }: AllProps) {
   const isAll = chosen > 0 && chosen + left === count;
   return (
@@ -196,9 +196,9 @@ function All({ chosen, left, count, onChange }: AllProps) {
 
 interface GroupProps {
   readonly document: Listed;
-  /** Where it is wanted. */
+  /** Its choice of a slot. */
   readonly one: Wanted | undefined;
-  /** What keeps it from the board, where somebody asked for it. */
+  /** Why it cannot be downloaded; null if it can, or if it is not requested. */
   readonly hindrance: string | null;
   toggle(documentId: string): void;
   setSlot(documentId: string, slot: number): void;
@@ -231,4 +231,46 @@ function Group({ document: { id, facts }, one, hindrance, toggle, setSlot }: Gro
       {hindrance !== null && <p className={styles.warning}>{hindrance}</p>}
     </li>
   );
+}
+
+export interface Wanted {
+  readonly documentId: string;
+  readonly slot: number;
+  readonly compiled: CompiledGroup;
+}
+
+/** `own`: the slot that is stored in the group. */
+type Asked = Omit<Wanted, 'slot'> & { readonly own: number | null };
+
+/** Why a group cannot be downloaded; null if it can. */
+export function hindranceOf(one: Wanted, all: readonly Wanted[]): string | null {
+  const { group } = one.compiled.source;
+  const [problem] = obstacles(one.compiled.report, 'board');
+  if (problem !== undefined) return problemText(problem, one.compiled.source);
+  if (group.frames.length === 0) return words.slots.several.noFrame;
+  const isTaken = all.some((other) => other !== one && other.slot === one.slot);
+  return isTaken ? words.slots.several.sameSlot({ slot: one.slot }) : null;
+}
+
+/**
+ * Splits requested groups into those that can be downloaded beside the ones already chosen, and the others. Groups that name a slot get
+ * theirs before groups that take any. `placeOf`: as `slotFor`, without the slots that are taken.
+ */
+export function thoseThatCan(
+  asked: readonly Asked[],
+  wanted: readonly Wanted[],
+  placeOf: (own: number | null, taken: readonly number[]) => number,
+): { readonly can: readonly Wanted[]; readonly cannot: readonly Wanted[] } {
+  const [can, cannot]: [Wanted[], Wanted[]] = [[], []];
+  for (const { own, ...one } of asked.toSorted((a, b) => Number(a.own === null) - Number(b.own === null))) {
+    const before = [...wanted, ...can];
+    const taken = before.map(({ slot }) => slot);
+    const placed = { ...one, slot: placeOf(own, taken) };
+    (hindranceOf(placed, before) === null ? can : cannot).push(placed);
+  }
+  return { can, cannot };
+}
+
+export function downloadOf({ documentId, slot, compiled }: Wanted): SlotDownload {
+  return { documentId, slot, name: compiled.source.group.name, frames: compiled.frames };
 }

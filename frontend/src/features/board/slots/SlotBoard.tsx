@@ -1,4 +1,4 @@
-// The map of the board's slots, and beside it what is in the one that is chosen.
+// The dialog with the map of the board's slots, and beside it the details of the chosen one.
 
 import { useEffect, useRef, type KeyboardEvent, useState } from 'react';
 import { compareFrames } from '#shared/group/compareFrames.ts';
@@ -10,18 +10,16 @@ import { useCompiled, useDevice, useStores, useSlot, useSlots, useSnapshot } fro
 import { words } from '../../../i18n/whole.ts';
 import { Mark, Chip } from '../../../ui/Chip.tsx';
 import { cx } from '../../../ui/cx.ts';
-import { slotAfterKey } from './slotKeys.ts';
-import { CONTENT_TRUTH, useSlotContents, useHeldName } from './useSlotContents.ts';
+import { CONTENT_TRUTH, useSlotContents, useHeldName } from './slotHooks.ts';
 import { DownloadControl } from '../DownloadControl.tsx';
 import { motionHindrance, startHindrance } from '../../../robot/readiness.ts';
 import { Button } from '../../../ui/Button.tsx';
 import { SeveralGroups } from './SeveralGroups.tsx';
 import styles from './Slots.module.css';
 
-// How the copy on the board differs from the group at hand, as the board would get it now.
-
 const SHOWN = 8;
 
+/** How the copy on the board differs from the open group as it would be downloaded now. */
 function Comparison({ record }: { readonly record: SlotRecord }) {
   const { frames, source } = useCompiled((state) => state.latest);
   const { isSame, frameCounts, durationsMs, firstDifferent, servos } = compareFrames(record.frames, frames);
@@ -52,9 +50,7 @@ function Comparison({ record }: { readonly record: SlotRecord }) {
   );
 }
 
-// All slots of the board as a grid with one tab stop: what each holds as a mark, what plays it as a word. The chosen
-// one is the slot that Download and Run mean.
-
+/** All slots as a grid with one tab stop: a mark for the content, a word for what plays it. Download and Run use the chosen slot. */
 function SlotMap() {
   const { view } = useStores();
   const { slot: range, id } = useDevice((state) => state.family);
@@ -105,7 +101,7 @@ function SlotMap() {
   );
 }
 
-/** A narrow window has fewer. */
+/** As laid out by the style sheet. */
 const columnsOf = (grid: HTMLElement | null): number =>
   grid === null ? 1 : getComputedStyle(grid).gridTemplateColumns.split(' ').length;
 
@@ -122,12 +118,9 @@ function triggerShort(trigger: SlotTrigger): string {
     : words.slots.triggersShort[trigger.kind];
 }
 
-// The chosen slot: what it holds and since when, what plays it, how it differs from the group at hand, and what can
-// be done with it.
-
 const VERSION_LENGTH = 6;
 
-/** `onSeveral`: several groups shall be downloaded; null where the board takes none. */
+/** `onSeveral` opens the download of several groups; null where the board takes none. */
 function SlotDetails({ onSeveral }: { readonly onSeveral: (() => void) | null }) {
   const slot = useSlot();
   const { id, commands } = useDevice((state) => state.family);
@@ -152,12 +145,12 @@ function SlotDetails({ onSeveral }: { readonly onSeveral: (() => void) | null })
   );
 }
 
-/** As it was noted here; what others stored, as the link tells of it. */
+/** From this page's downloads, or from the gateway for groups that others downloaded. */
 function Held({ slot }: { readonly slot: number }) {
   const record = useSlots((state) => recordOf(state.book, slot));
   const others = useSnapshot((snapshot) => snapshot.slotVersions?.[slot]);
   const isBroken = useSnapshot(({ brokenSlots }) => brokenSlots.includes(slot));
-  // What was there is gone.
+  // The former content is gone.
   if (isBroken) return null;
   if (record !== undefined && record.by === undefined) {
     const { name, storedAtMs, frames, fingerprint } = record;
@@ -255,4 +248,24 @@ export function SlotBoard({ isSeveralFirst = false }: { readonly isSeveralFirst?
       </div>
     </>
   );
+}
+
+interface SlotGrid {
+  readonly min: number;
+  readonly max: number;
+  readonly columns: number;
+}
+
+/** The slot that a key leads to; null for other keys. */
+export function slotAfterKey(key: string, slot: number, { min, max, columns }: SlotGrid): number | null {
+  const next = {
+    ArrowLeft: slot - 1,
+    ArrowRight: slot + 1,
+    ArrowUp: slot - columns,
+    ArrowDown: slot + columns,
+    Home: min,
+    End: max,
+  }[key];
+  if (next === undefined) return null;
+  return next < min || next > max ? slot : next;
 }

@@ -1,5 +1,5 @@
-// Where the group at hand goes on the board, and how often it is run there. What a person chooses holds until another group is opened or
-// this one names its own; else it is the group's own slot, or a free one of the board. Moves and stores nothing.
+// The slot and the repetitions of the open group. A person's choice holds until another group is opened or this one names a slot of its
+// own; otherwise it is the group's slot, or a free slot of the board. Moves and stores nothing.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { ActionGroup } from '#shared/group/group.ts';
@@ -10,7 +10,7 @@ import type { View, ViewState } from '../../view.ts';
 import type { Slots } from './slots.ts';
 
 export interface PlaceState {
-  /** The one that Download and Run are about. */
+  /** The slot for Download and Run. */
   readonly slot: number;
 }
 
@@ -21,7 +21,7 @@ export interface GroupPlace {
 
 export interface GroupPlaceOptions {
   readonly document: Document;
-  /** Which document of the library is open. */
+  /** The id of the open document in the library. */
   readonly opened: Pick<StoreApi<{ readonly openId: string }>, 'getState' | 'subscribe'>;
   readonly view: View;
   readonly slots: Slots;
@@ -48,7 +48,7 @@ export function createGroupPlace({ document, opened, view, slots, device }: Grou
     if (chosen !== null) return chosen;
     const own = ownSlot(opened.getState().openId, present(), known());
     const { commands, slot } = device.store.getState().family;
-    // A board that takes no groups from here runs those it was filled with.
+    // A board without downloads runs the groups that it came with.
     return commands.includes('download') ? slotFor(own, known()) : (own ?? slot.min);
   }
 

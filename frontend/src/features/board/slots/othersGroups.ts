@@ -1,5 +1,5 @@
-// What others stored in the slots of the board at hand, looked up in the library: a version that it holds is known as one's own is.
-// Writes nothing to the library and tells nobody; what is not found stays what the link says of it.
+// Looks up in the library the groups that other people downloaded to the board: with the right version found, their slots are known as
+// well as this page's own. Reads only; slots that are not found stay as the link describes them.
 
 import { groupFromText } from '#shared/group/group.ts';
 import type { DocumentStore } from '#shared/files/documentStore.ts';
@@ -24,7 +24,7 @@ export function findOthersGroups(options: OthersGroupsOptions): void {
   const { device, robots, slots, compiled, library } = options;
   let isLooking = false;
   let isAskedAgain = false;
-  /** Documents that were not in the list when it was read for them. */
+  /** Documents that were missing when the library was listed for them. */
   const listedFor = new Set<string>();
 
   function unfound(): readonly (readonly [slot: number, stored: StoredGroup])[] {
@@ -60,7 +60,7 @@ export function findOthersGroups(options: OthersGroupsOptions): void {
     }
   }
 
-  /** One that is new is on its way to the library: the list is read once more for it. */
+  /** A new document may still be on its way to the library: lists it once more. */
   function isListed(documentId: string): boolean {
     if (library.store.getState().documents.some(({ id }) => id === documentId)) return true;
     if (!listedFor.has(documentId)) void library.refresh();
@@ -68,7 +68,7 @@ export function findOthersGroups(options: OthersGroupsOptions): void {
     return false;
   }
 
-  /** As it is now, then its named versions from the newest on. */
+  /** Tries the current text, then the named versions, newest first. */
   async function* textsOf(id: string): AsyncGenerator<string> {
     const documentStore = await options.documentStore;
     yield (await documentStore.read(id)).text;
@@ -79,7 +79,7 @@ export function findOthersGroups(options: OthersGroupsOptions): void {
   device.store.subscribe(({ snapshot: { link, slotVersions } }, { snapshot: before }) => {
     if (slotVersions !== before.slotVersions || link.status !== before.link.status) void look();
   });
-  // Whoever stored it may hand it to the library later.
+  // The person who downloaded it may save it to the library later.
   library.store.subscribe(({ documents }, before) => {
     if (documents !== before.documents) void look();
   });

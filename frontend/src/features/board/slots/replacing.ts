@@ -1,5 +1,5 @@
-// Downloads that ask first: where a slot holds another group, nothing leaves before the person has said whether that may go, or whether
-// a free slot is taken instead. Judges anew at each answer, by the frames that would be written. Knows no panel.
+// Downloads that ask before they replace another group. Nothing is sent until the person has decided to replace it or to use a free
+// slot. Each answer is checked again against the frames to write. Knows no panel.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import { contentOf, recordOf, type SlotRecord } from '#shared/group/slotBook.ts';
@@ -10,31 +10,31 @@ import type { RobotStore } from '../../profiles/robots.ts';
 import type { GroupPlace } from './groupPlace.ts';
 import type { SlotDownload, Slots } from './slots.ts';
 
-/** What a slot holds, and what would take its place. */
+/** The group that a slot holds and the one that would replace it. */
 export interface Conflict {
   readonly slot: number;
-  /** null where somebody else has stored it. */
+  /** null if another person downloaded it. */
   readonly record: SlotRecord | null;
-  /** As a shared link has it. */
+  /** From the shared link. */
   readonly version: string | undefined;
-  /** Of the group that is there; empty where nobody noted it. */
+  /** Of the group in the slot; empty if unknown. */
   readonly held: string;
-  /** Which document of the library that is of. */
+  /** Its document in the library. */
   readonly heldId: string | null;
-  /** Of the group that would be written. */
+  /** Of the group to write. */
   readonly name: string;
 }
 
 export interface ReplaceQuestion {
   readonly conflicts: readonly Conflict[];
-  /** A slot for each of them, where nothing is lost; null where there are not as many. */
+  /** A free slot for each of them; null if there are not enough. */
   readonly free: readonly number[] | null;
 }
 
 export type ReplaceAnswer = 'replace' | 'free' | 'leave';
 
 export interface DownloadSteps {
-  /** The download begins, to these slots. */
+  /** Called when the download to these slots begins. */
   began?(groups: readonly SlotDownload[]): void;
   settled?(isDone: boolean): void;
 }
@@ -81,7 +81,7 @@ export function createReplacing({ device, robots, slots, place }: ReplacingOptio
     return free;
   }
 
-  /** `allowed`: what the person lets go. */
+  /** `allowed`: the conflicts that the person agreed to replace. */
   function download(
     groups: readonly SlotDownload[],
     steps: DownloadSteps = {},

@@ -4,7 +4,7 @@ import { insertFrame } from '#shared/group/groupEdits.ts';
 import { slotFor } from '#shared/group/slotPlaces.ts';
 import { EMPTY_SLOT_BOOK } from '#shared/group/slotBook.ts';
 import { createTestPage } from '../../pageUnderTest.ts';
-import { downloadOf, hindranceOf, thoseThatCan, type Wanted } from './several.ts';
+import { downloadOf, hindranceOf, thoseThatCan, type Wanted } from './SeveralGroups.tsx';
 
 test('what does not fit, is empty or wants the slot of another is told; the rest can be downloaded', async () => {
   const { compiled, device, robots } = await createTestPage();

@@ -1,4 +1,4 @@
-// A board's slots as a gateway shares them, for tests: stores at once what is seen as it is, and others may store there too.
+// The slots of a board shared by a gateway, for tests: this page and others can store groups in them.
 
 import { fingerprintOf } from '#shared/group/fingerprint.ts';
 import { LinkError } from '#shared/robot/linkError.ts';
@@ -65,7 +65,7 @@ export function createSharedSlots(before: SlotVersions = {}) {
     asked,
     share,
     versions: () => versions,
-    /** Told at once, or only to who comes later. */
+    /** Reported at once, or only to pages that connect later. */
     othersStore(slot: number, stored: Partial<StoredGroup>, isReported = true) {
       versions = { ...versions, [slot]: storedGroup(stored) };
       if (isReported) changed();

@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { slotAfterKey } from './slotKeys.ts';
+import { slotAfterKey } from './SlotBoard.tsx';
 
 const GRID = { min: 0, max: 229, columns: 16 };
 

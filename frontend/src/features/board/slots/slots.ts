@@ -1,5 +1,5 @@
-// The slots of the board at hand: what is remembered of them, and what downloads make of it, whoever began them. A board in the
-// page is new at each link, any other is remembered in the browser's storage. Knows no panel.
+// The slots of the connected board: their known contents and how downloads, also those of other people, change them. Contents of real
+// boards are remembered in the browser's storage; a simulated board starts empty at each link. Knows no panel.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import { concerns, withBegun, withDownload, type LatestDownload } from '#shared/group/slotPlaces.ts';
@@ -26,7 +26,7 @@ import type { TextStorage } from '../../../state/storage.ts';
 import type { Notices } from '../../../state/notices.ts';
 import type { RobotStore } from '../../profiles/robots.ts';
 
-/** `replaces`: what was seen in the slot, as `versionIn` had it then; left out: as it is now. */
+/** `replaces`: the slot's content when the person decided, from `versionIn`; if absent, the current content. */
 export type SlotDownload = Pick<SlotRecord, 'slot' | 'name' | 'documentId' | 'frames'> &
   Pick<SlotGroup, 'replaces'>;
 
@@ -36,15 +36,15 @@ export interface SlotsState {
 
 export interface Slots {
   readonly store: StoreApi<SlotsState>;
-  /** One after the other, until one fails or is called off. `settled` hears whether all of them are stored. */
+  /** Downloads one after the other until one fails or is cancelled. Calls `settled` with whether all are stored. */
   download(groups: readonly SlotDownload[], settled?: Settled): void;
   cancel(): void;
-  /** What a shared link says was stored there last, '' for nothing; undefined on one's own. */
+  /** The version stored last as a shared link reports it, '' for none; undefined on a link that is not shared. */
   versionIn(slot: number): string | undefined;
-  /** What somebody else stored, once it was found whole; as long as it still stands there. */
+  /** Records a group that another person downloaded, if the slot still holds it. */
   noteOthers(record: SlotRecord): void;
   erase(): void;
-  /** Downloads again what the last erase took. */
+  /** Downloads the groups again that the last erase removed. */
   restoreAll(): void;
 }
 
@@ -62,7 +62,7 @@ export interface SlotsOptions {
 export function createSlots({ device, robots, notices, storage, today }: SlotsOptions): Slots {
   const store = createStore<SlotsState>(() => ({ book: EMPTY_SLOT_BOOK }));
   let key: string | null = null;
-  /** Asked for here, and whether its end is still to come. */
+  /** The download that this page requested, until its end. */
   let wanted: readonly SlotRecord[] = [];
   let isAsking = false;
 
@@ -81,7 +81,7 @@ export function createSlots({ device, robots, notices, storage, today }: SlotsOp
     try {
       const text = from === null ? null : storage.getItem(from);
       const read = text === null ? null : slotBookFromText(text);
-      // What cannot be read says nothing of the board.
+      // Text that cannot be read is ignored.
       return read !== null && 'value' in read ? read.value : EMPTY_SLOT_BOOK;
     } catch {
       return EMPTY_SLOT_BOOK;
@@ -97,21 +97,21 @@ export function createSlots({ device, robots, notices, storage, today }: SlotsOp
       key = state.way?.kind === 'simulated' || next === null ? null : `${KEY} ${next}`;
       store.setState({ book: load(key) });
     }
-    // From here on nobody knows what is left, whatever the board will say.
+    // From now on the contents are unknown, whatever the board answers.
     if (isErasing(state) && !isErasing(before)) keep(withErasing(store.getState().book));
     noteDownload(state);
     takeBackMended(before.snapshot.brokenSlots, state.snapshot.brokenSlots);
-    // Until it has ended, versions may still be told that it has taken.
+    // Until it has ended, the link may still report versions that it has erased.
     if (!isErasing(state)) noteVersions(state);
   });
 
-  /** That a slot is broken is said until it is empty or whole. */
+  /** A slot counts as broken until it is empty or complete. */
   function takeBackMended(before: readonly number[], now: readonly number[]): void {
     if (now === before) return;
     for (const slot of before) if (!now.includes(slot)) notices.takeBack(downloadCancelled(slot));
   }
 
-  /** Others may have stored something there while this page was away. */
+  /** Other people may have downloaded groups while this page was away. */
   function noteVersions({ snapshot: { link, slotVersions } }: DeviceState): void {
     if (link.status === 'ready' && slotVersions !== null)
       keep(withVersions(store.getState().book, slotVersions));
@@ -136,7 +136,7 @@ export function createSlots({ device, robots, notices, storage, today }: SlotsOp
   function noteDownload({ snapshot: { link, activity, brokenSlots, lastDownload } }: DeviceState): void {
     if (activity.kind === 'downloading') {
       const latest = { ...activity, isOver: false };
-      // From its first byte on the slot is broken, until all of it has arrived.
+      // The slot is broken from the first byte until the last one has arrived.
       if (brokenSlots.includes(activity.slot)) noteBegun(activity.slot, latest);
       noteNews(latest, brokenSlots);
     } else if (link.status === 'ready') {
@@ -150,12 +150,12 @@ export function createSlots({ device, robots, notices, storage, today }: SlotsOp
       keep(withBegun(book, wanted));
       wanted = [];
     } else if (!concerns(latest, book)) {
-      // Another's.
+      // A download of another page.
       keep(withUnknown(book, slot));
     }
   }
 
-  /** It may have gone on without this page. */
+  /** The download may have continued without this page. */
   function noteNews(latest: LatestDownload | null, broken: readonly number[]): void {
     const { book } = store.getState();
     const next = withDownload(book, latest, broken);
@@ -175,7 +175,7 @@ export function createSlots({ device, robots, notices, storage, today }: SlotsOp
     wanted = groups.map(recordOf);
     device.download(groups.map(groupOf), (isDone) => {
       isAsking = false;
-      // Told so late that nobody saw it under way.
+      // Reported only after its end.
       if (isDone) keep(wanted.reduce(withStored, store.getState().book));
       wanted = [];
       settled(isDone);
@@ -200,7 +200,7 @@ export function createSlots({ device, robots, notices, storage, today }: SlotsOp
   };
 }
 
-/** A board is known by its way and by what it is taken for; null before there is one. */
+/** Identifies a board by its connection and assumed family; null without a board. */
 function boardOf({ way, family }: DeviceState): string | null {
   return way === null || family.id === 'unknown' ? null : `${family.id} ${nameOf(way)}`;
 }

@@ -14,6 +14,7 @@ import {
   createOpenedFiles,
   takeGroup,
   takeGroups,
+  createFileReader,
 } from './openedFiles.ts';
 import { problemText, remarkText } from './fileText.ts';
 import { type Answer, readyGroups, type ReadyGroup, countsOf, type FileCounts } from './answers.ts';
@@ -22,10 +23,7 @@ import { useKnownFamily, useStores } from '../../stores.ts';
 import { FileButton } from '../../../ui/localFiles.tsx';
 import { SaveAs } from './SaveAs.tsx';
 import { Dialog } from '../../../ui/Dialog.tsx';
-import { createFileReader } from './fileReader.ts';
 import styles from './FileProgress.module.css';
-import openedFileItemStyles from './OpenedFileItem.module.css';
-import filesContentStyles from './FilesContent.module.css';
 
 // How far the reading of files or the taking over of their groups has come, and a way to cancel it.
 
@@ -61,15 +59,15 @@ interface OpenedFileItemProps {
 const OpenedFileItem = memo(function OpenedFileItem({ file, files, onTake }: OpenedFileItemProps) {
   const { id, name, reading, answers } = file;
   return (
-    <li className={openedFileItemStyles.file} aria-label={name}>
-      <div className={openedFileItemStyles.head}>
+    <li className={styles.file} aria-label={name}>
+      <div className={styles.head}>
         {'problem' in reading ? (
           <div>
-            <p className={openedFileItemStyles.refused}>{words.files.refused({ file: name })}</p>
+            <p className={styles.refused}>{words.files.refused({ file: name })}</p>
             <p>{problemText(reading.problem)}</p>
           </div>
         ) : (
-          <p className={openedFileItemStyles.dim}>{words.files.from({ file: name })}</p>
+          <p className={styles.dim}>{words.files.from({ file: name })}</p>
         )}
         <IconButton icon="close" label={words.files.drop({ file: name })} onPress={() => files.drop(id)} />
       </div>
@@ -100,7 +98,7 @@ const SHOWN_REMARKS = 6;
 function Remarks({ remarks }: { readonly remarks: readonly Remark[] }) {
   if (remarks.length === 0) return null;
   return (
-    <ul className={openedFileItemStyles.remarks}>
+    <ul className={styles.remarks}>
       {remarks.slice(0, SHOWN_REMARKS).map((remark, index) => (
         <li key={index}>{remarkText(remark)}</li>
       ))}
@@ -131,24 +129,24 @@ export function FilesContent({ files, onTake, onTakeAll }: FilesContentProps) {
   );
   return (
     <>
-      <section className={filesContentStyles.part}>
-        <h3 className={filesContentStyles.heading}>{words.files.open}</h3>
-        <div className={filesContentStyles.choose}>
+      <section className={styles.part}>
+        <h3 className={styles.heading}>{words.files.open}</h3>
+        <div className={styles.choose}>
           <FileButton multiple onChoose={files.open}>
             {words.files.choose}
           </FileButton>
-          <span className={filesContentStyles.dim}>{words.files.hint}</span>
+          <span className={styles.filesContentDim}>{words.files.hint}</span>
         </div>
         <Reading files={files} />
         <TakeAll files={files} onTakeAll={onTakeAll} />
-        <ul className={filesContentStyles.list} aria-label={words.files.list} aria-live="polite">
+        <ul className={styles.list} aria-label={words.files.list} aria-live="polite">
           {list.map((file) => (
             <OpenedFileItem key={file.id} file={file} files={files} onTake={take} />
           ))}
         </ul>
       </section>
-      <section className={filesContentStyles.part}>
-        <h3 className={filesContentStyles.heading}>{words.files.save}</h3>
+      <section className={styles.part}>
+        <h3 className={styles.heading}>{words.files.save}</h3>
         <SaveAs />
       </section>
     </>
@@ -169,7 +167,7 @@ function Reading({ files }: Pick<FilesContentProps, 'files'>) {
         />
       )}
       <div aria-live="polite">
-        {unread > 0 && <p className={filesContentStyles.dim}>{words.files.unread({ count: unread })}</p>}
+        {unread > 0 && <p className={styles.filesContentDim}>{words.files.unread({ count: unread })}</p>}
       </div>
     </>
   );
@@ -193,11 +191,11 @@ function TakeAll({ files, onTakeAll }: Pick<FilesContentProps, 'files' | 'onTake
   const [first] = ready;
   if (first === undefined || ready.length < 2) return null;
   return (
-    <div className={filesContentStyles.all}>
+    <div className={styles.all}>
       <Button icon="library" onPress={() => onTakeAll(ready)}>
         {words.files.takeAll({ count: ready.length })}
       </Button>
-      <span className={filesContentStyles.dim}>{words.files.takeAllHint({ name: first.group.name })}</span>
+      <span className={styles.filesContentDim}>{words.files.takeAllHint({ name: first.group.name })}</span>
     </div>
   );
 }

@@ -13,8 +13,6 @@ import { useKnownFamily, useRobot } from '../../stores.ts';
 import { Button } from '../../../ui/Button.tsx';
 import { Toggle } from '../../../ui/Toggle.tsx';
 import { convertedOf, takenAs, type Answer } from './answers.ts';
-import unitQuestionStyles from './UnitQuestion.module.css';
-import groupPlotStyles from './GroupPlot.module.css';
 import styles from './FoundGroup.module.css';
 
 // Which unit a file's positions are in, where it does not say: two buttons, each with what it would mean here.
@@ -30,18 +28,18 @@ interface UnitQuestionProps {
 function UnitQuestion({ group, unit, onUnit }: UnitQuestionProps) {
   return (
     <div role="group" aria-label={words.files.askUnit}>
-      <p className={unitQuestionStyles.question}>{words.files.askUnit}</p>
-      <div className={unitQuestionStyles.answers}>
+      <p className={styles.question}>{words.files.askUnit}</p>
+      <div className={styles.answers}>
         {UNITS.map((one) => (
           <button
             key={one}
             type="button"
-            className={unitQuestionStyles.answer}
+            className={styles.answer}
             aria-pressed={unit === one}
             onClick={() => onUnit(one)}
           >
             <span>{words.files.units[one]}</span>
-            <span className={unitQuestionStyles.meaning}>{meaningText(one, meaningIn(one, group))}</span>
+            <span className={styles.meaning}>{meaningText(one, meaningIn(one, group))}</span>
           </button>
         ))}
       </div>
@@ -61,13 +59,13 @@ const SHOWN_SERVOS = 32;
 function GroupPlot({ group }: { readonly group: ActionGroup }) {
   return (
     <svg
-      className={groupPlotStyles.plot}
+      className={styles.plot}
       viewBox={`0 0 ${WIDTH} ${HEIGHT}`}
       preserveAspectRatio="none"
       aria-hidden="true"
     >
       {linesOf(group).map((points) => (
-        <polyline key={points} points={points} className={groupPlotStyles.line} />
+        <polyline key={points} points={points} className={styles.line} />
       ))}
     </svg>
   );

@@ -17,8 +17,7 @@ import { Choice } from '../../../ui/Toggle.tsx';
 import { lossText, misfitText } from './fileText.ts';
 import { boardName } from '../../../i18n/sentences.ts';
 import { words } from '../../../i18n/whole.ts';
-import { fileMeans } from './means.ts';
-import { loadSqlite } from './sqlite.ts';
+import { fileMeans, loadSqlite } from './means.ts';
 import styles from './SaveAs.module.css';
 
 export function SaveAs() {

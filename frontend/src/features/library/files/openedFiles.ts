@@ -6,7 +6,7 @@ import type { ActionGroup } from '#shared/group/group.ts';
 import type { Stores } from '../../stores.ts';
 import { words } from '../../../i18n/whole.ts';
 import { firstAnswers, type Answer, type AnsweredFile, type ReadyGroup } from './answers.ts';
-import type { FileReader } from './fileReader.ts';
+import type { Reading } from '#shared/files/reading.ts';
 
 // What becomes of groups that a person takes from files: each is a document of the library, and the first is shown,
 // as one step that can be undone. A group that was being written stays as it is.
@@ -65,7 +65,7 @@ interface OpenedFilesState {
 }
 
 /** How a group after the other is taken over. */
-export interface Course {
+interface Course {
   readonly signal: AbortSignal;
   onTaken(index: number): void;
 }
@@ -168,3 +168,52 @@ function added(list: readonly OpenedFile[], file: OpenedFile): readonly OpenedFi
 
 const answered = (before: readonly Answer[], index: number, said: Partial<Answer>): readonly Answer[] =>
   before.map((one, place) => (place === index ? { ...one, ...said } : one));
+
+// Has files read in a worker, so that the page goes on meanwhile; in the page where no worker can be had. Knows no format.
+
+interface FileReader {
+  read(file: File): Promise<Reading>;
+  /** Gives up what is being read: its promise stays open. */
+  stop(): void;
+}
+
+export function createFileReader(): FileReader {
+  let started: Started | null = null;
+
+  async function read(file: File): Promise<Reading> {
+    started ??= start();
+    const { worker, failed } = started;
+    const { port1, port2 } = new MessageChannel();
+    const answered = new Promise<Reading>((resolve) =>
+      port1.addEventListener('message', ({ data }: MessageEvent<Reading>) => resolve(data), { once: true }),
+    );
+    port1.start();
+    worker.postMessage(file, [port2]);
+    return Promise.race([answered, failed]).finally(() => port1.close());
+  }
+
+  return {
+    read: (file) => read(file).catch(async () => (await import('./readFile.ts')).readFile(file)),
+    stop() {
+      started?.worker.terminate();
+      started = null;
+    },
+  };
+}
+
+interface Started {
+  readonly worker: Worker;
+  /** Rejects where the worker cannot be loaded. */
+  readonly failed: Promise<never>;
+}
+
+function start(): Started {
+  const worker = new Worker(new URL('./readingWorker.ts', import.meta.url), { type: 'module' });
+  const failed = new Promise<never>((_, reject) =>
+    worker.addEventListener('error', () => reject(new Error('the worker that reads files failed')), {
+      once: true,
+    }),
+  );
+  failed.catch(() => undefined);
+  return { worker, failed };
+}

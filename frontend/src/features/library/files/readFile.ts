@@ -2,8 +2,7 @@
 
 import { MAX_FILE_BYTES, readGroupFile } from '#shared/files/readGroupFile.ts';
 import type { Problem, Reading } from '#shared/files/reading.ts';
-import { fileMeans } from './means.ts';
-import { loadSqlite } from './sqlite.ts';
+import { fileMeans, loadSqlite } from './means.ts';
 
 const means = fileMeans(loadSqlite);
 

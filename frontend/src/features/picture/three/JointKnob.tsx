@@ -3,7 +3,7 @@
 
 import { type PointerEvent, useRef } from 'react';
 import { positionOf, type RobotServo } from '#shared/profile/robot.ts';
-import { freeOf } from '../../locks.ts';
+import { freeOf } from '../../servoView.ts';
 import { useStores } from '../../stores.ts';
 import { radiansOf } from './leading.ts';
 import type { Model } from './model.ts';

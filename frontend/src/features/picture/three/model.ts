@@ -4,7 +4,7 @@
 import { Vector3 } from 'three';
 import { type Robot, servoOf } from '#shared/profile/robot.ts';
 import type { Motions } from '#shared/robot/state.ts';
-import type { Look } from '../look.ts';
+import type { Look } from '../Canvas.tsx';
 import type { Pose } from '../pose.ts';
 import { createFigure, type Angles, type Figure } from './figure.ts';
 import { radiansOf } from './leading.ts';

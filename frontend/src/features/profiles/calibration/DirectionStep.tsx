@@ -5,15 +5,16 @@ import { useEffect, useRef, useState } from 'react';
 import { changeServo } from '#shared/profile/robotEdits.ts';
 import type { RobotServo } from '#shared/profile/robot.ts';
 import { FAMILIES } from '#shared/codec/families.ts';
-import { useTarget } from '../../drive/useTarget.ts';
+import { useTarget } from '../../picture/motion.ts';
 import { GENTLE_MOVE_MS } from '../../../robot/moveTime.ts';
 import { motionHindrance } from '../../../robot/readiness.ts';
 import { useDevice, useStores } from '../../stores.ts';
 import { words } from '../../../i18n/whole.ts';
 import { Answer, Ask } from './Answer.tsx';
 import { sightOf, type CurrentCalibration } from './useCalibration.ts';
-import { awayFrom, homeward, sideOf, startTurning, type TurnPhase } from './turning.ts';
 import styles from './CalibrationWizard.module.css';
+import type { Clock } from '#shared/clock.ts';
+import type { ServoMotion } from '#shared/robot/state.ts';
 
 interface At {
   readonly at: CurrentCalibration;
@@ -142,4 +143,75 @@ function TurnArrow({ isClockwise }: { readonly isClockwise: boolean }) {
       </g>
     </svg>
   );
+}
+
+// What shows a servo's direction: the way home that it is on, or a little turn away from home and, once it stands there, back, which
+// ends early where nothing may move any longer. Knows no session.
+
+interface Turning {
+  readonly clock: Clock;
+  motion(): ServoMotion;
+  mayMove(): boolean;
+  move(position: number, durationMs: number): void;
+}
+
+/** `away` is what is looked at; `ended`: something else took the servo or stopped it. */
+export type TurnPhase = 'away' | 'back' | 'done' | 'ended';
+
+const SHARE_OF_SIDE = 0.3;
+/** Of a horn, by whoever looks for it. */
+const SEEN_DEGREES = 3;
+
+/** The side of home that has more room. */
+const sideOf = ({ min, home, max }: RobotServo): 1 | -1 => (max - home >= home - min ? 1 : -1);
+
+/** A share of that side, and of a short one as much as is seen; null where its limits leave less than that. */
+export function awayFrom(servo: RobotServo): number | null {
+  const room = Math.max(servo.max - servo.home, servo.home - servo.min);
+  const seen = Math.ceil(SEEN_DEGREES / servo.degreesPerUnit);
+  if (room < seen) return null;
+  return Math.round(servo.home + sideOf(servo) * Math.max(room * SHARE_OF_SIDE, seen));
+}
+
+/** The side it goes to on a way home that is long enough to be seen; 0 where it goes on none. */
+export function homeward(
+  { home, degreesPerUnit }: RobotServo,
+  { target, estimated }: Pick<ServoMotion, 'target' | 'estimated'>,
+): 1 | 0 | -1 {
+  const way = target === home && estimated !== null ? home - estimated : 0;
+  if (Math.abs(way) * degreesPerUnit < SEEN_DEGREES) return 0;
+  return way > 0 ? 1 : -1;
+}
+
+const TURN_MS = 900;
+/** To see where it stands before it comes back. */
+const STAND_MS = 400;
+const LOOK_EACH_MS = 50;
+
+/** Returns what ends it; ending twice is harmless. */
+export function startTurning(
+  { clock, motion, mayMove, move }: Turning,
+  { home, away }: { readonly home: number; readonly away: number },
+  hear: (phase: TurnPhase) => void,
+): () => void {
+  let cancel = (): void => undefined;
+
+  function go(to: number, phase: TurnPhase, then: () => void): void {
+    if (!mayMove()) return hear('ended');
+    hear(phase);
+    move(to, TURN_MS);
+    cancel = clock.after(TURN_MS, () => untilThere(to, then));
+  }
+
+  function untilThere(to: number, then: () => void): void {
+    const { target, estimated } = motion();
+    if (!mayMove() || (target !== null && Math.abs(target - to) > 1)) return hear('ended');
+    cancel =
+      target === estimated
+        ? clock.after(STAND_MS, then)
+        : clock.after(LOOK_EACH_MS, () => untilThere(to, then));
+  }
+
+  go(away, 'away', () => go(home, 'back', () => hear('done')));
+  return () => cancel();
 }

@@ -6,21 +6,21 @@ import type { RobotServo } from '#shared/profile/robot.ts';
 import { type Range, type Family, FAMILIES } from '#shared/codec/families.ts';
 import type { Calibration } from '#shared/profile/calibration.ts';
 import { endFound, noteFound, changeServo, reachOf } from '#shared/profile/robotEdits.ts';
-import { Estimate } from '../../drive/Estimate.tsx';
+import { Estimate } from '../../drive/PositionSlider.tsx';
 import { scaleOf } from '../../drive/scale.ts';
 import { motionHindrance } from '../../../robot/readiness.ts';
 import { useStores } from '../../stores.ts';
 import { Mark } from '../../../ui/Chip.tsx';
 import { Icon } from '../../../ui/Icon.tsx';
 import { words } from '../../../i18n/whole.ts';
-import { startCreeping } from './creeping.ts';
-import { ReachBar } from '../ReachBar.tsx';
+import { ReachBar } from '../RobotPicture.tsx';
 import { GENTLE_MOVE_MS } from '../../../robot/moveTime.ts';
-import { useTarget } from '../../drive/useTarget.ts';
+import { useTarget } from '../../picture/motion.ts';
 import { Answer, Ask } from './Answer.tsx';
 import { sightOf, type CurrentCalibration } from './useCalibration.ts';
-import creepControlStyles from './CreepControl.module.css';
 import styles from './CalibrationWizard.module.css';
+import type { Clock } from '#shared/clock.ts';
+import type { ServoMotion } from '#shared/robot/state.ts';
 
 // Two large buttons that a servo creeps by as long as one is held, and where it was sent to.
 
@@ -51,7 +51,7 @@ function CreepControl({ servo, reach, target, unit }: CreepControlProps) {
   const [lower, higher] = WAYS.map(({ direction, icon, name }) => (
     <Button
       key={name}
-      className={creepControlStyles.creep ?? ''}
+      className={styles.creep ?? ''}
       aria-label={words.calibration[name]}
       onPressStart={() => start(direction)}
       onPressEnd={letGo}
@@ -60,11 +60,11 @@ function CreepControl({ servo, reach, target, unit }: CreepControlProps) {
     </Button>
   ));
   return (
-    <div className={creepControlStyles.control}>
+    <div className={styles.control}>
       {lower}
-      <div className={creepControlStyles.now}>
+      <div className={styles.now}>
         <output
-          className={creepControlStyles.value}
+          className={styles.value}
           aria-label={words.calibration.now}
           aria-live="off"
           title={words.truth.commanded}
@@ -74,7 +74,7 @@ function CreepControl({ servo, reach, target, unit }: CreepControlProps) {
         <Estimate servo={servo.servo} scale={scale} />
       </div>
       {higher}
-      <p className={creepControlStyles.said} role="status">
+      <p className={styles.said} role="status">
         {said}
       </p>
     </div>
@@ -176,4 +176,59 @@ function movedHome({ found }: Calibration, { servo, home }: RobotServo): string 
   return found?.servo === servo && found.home !== home
     ? words.calibration.homeMoved({ from: found.home, to: home })
     : '';
+}
+
+// A servo creeps as long as a button is held: a nudge at once, then, a little later, a tenth of its range a second in small
+// steps, and twice that where it is held on. The next step waits for the estimate, so that the servo stands soon after the button is
+// let go. Knows no session.
+
+interface Creeping {
+  readonly clock: Clock;
+  /** What its board can do. */
+  readonly reach: Range;
+  motion(): ServoMotion;
+  mayMove(): boolean;
+  move(position: number, durationMs: number): void;
+}
+
+const STEP_MS = 100;
+/** Longer than a tap. */
+const HOLD_AFTER_MS = 350;
+/** Whoever holds on so long has far to go. Half as fast as by a pad, which is slow enough to let go in time. */
+const FASTER_AFTER_STEPS = 12;
+const FASTER = 2;
+const STEPS_A_RANGE = 100;
+const NUDGES_A_STEP = 4;
+
+/** Returns what ends it; ending twice is harmless. */
+export function startCreeping(
+  { clock, reach, motion, mayMove, move }: Creeping,
+  direction: 1 | -1,
+): () => void {
+  const step = (reach.max - reach.min) / STEPS_A_RANGE;
+  let taken = 0;
+  let cancel = (): void => undefined;
+
+  function go(way: number): void {
+    const { target, estimated } = motion();
+    if (target === null || estimated === null || Math.abs(target - estimated) > 2 * Math.max(way, step))
+      return;
+    const next = Math.round(target) + direction * Math.max(1, Math.round(way));
+    const within = Math.min(reach.max, Math.max(reach.min, next));
+    if (within === target) return;
+    taken += 1;
+    move(within, STEP_MS);
+  }
+
+  function creep(): void {
+    if (!mayMove()) return;
+    go(taken > FASTER_AFTER_STEPS ? FASTER * step : step);
+    cancel = clock.after(STEP_MS, creep);
+  }
+
+  if (mayMove()) {
+    go(step / NUDGES_A_STEP);
+    cancel = clock.after(HOLD_AFTER_MS, creep);
+  }
+  return () => cancel();
 }

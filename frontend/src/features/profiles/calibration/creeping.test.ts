@@ -1,7 +1,7 @@
 import { describe, expect, test } from 'vitest';
 import type { ServoMotion } from '#shared/robot/state.ts';
 import { createVirtualClock } from '#shared/testing/virtualClock.ts';
-import { startCreeping } from './creeping.ts';
+import { startCreeping } from './EndStep.tsx';
 
 const REACH = { min: 500, max: 2500 };
 

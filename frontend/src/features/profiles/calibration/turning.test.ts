@@ -1,7 +1,7 @@
 import { describe, expect, test } from 'vitest';
 import { createVirtualClock } from '#shared/testing/virtualClock.ts';
 import { freshRobot } from '../robots.ts';
-import { awayFrom, homeward, startTurning, type TurnPhase } from './turning.ts';
+import { awayFrom, homeward, startTurning, type TurnPhase } from './DirectionStep.tsx';
 
 function bench() {
   const clock = createVirtualClock();

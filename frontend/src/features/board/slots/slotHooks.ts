@@ -1,13 +1,20 @@
-// What each slot of the board at hand holds, against the group at hand, and whether one is being filled.
+// Hooks for the board's slots: the content of each compared with the open group, its name, and what Run would do.
 
 import { recordOf, contentOf, type SlotContent } from '#shared/group/slotBook.ts';
 import { holds } from '#shared/document/history.ts';
-import { useSlots, useSnapshot, useCompiled, useDocument, useLibrary } from '../../stores.ts';
+import {
+  useSlots,
+  useSnapshot,
+  useCompiled,
+  useDocument,
+  useLibrary,
+  useDevice,
+  useSlot,
+  useView,
+} from '../../stores.ts';
 import type { Truth } from '../../../ui/Chip.tsx';
 
-// What the group in a slot is called: as it was noted here, else as the gateway has it, which sees all downloads.
-
-/** undefined: nobody knows of any, or half of another one is there. */
+/** Names from this page's downloads or from the gateway; undefined if the content is unknown or broken. */
 export function useHeldName(): (slot: number) => string | undefined {
   const book = useSlots((state) => state.book);
   const versions = useSnapshot((snapshot) => snapshot.slotVersions);
@@ -34,7 +41,7 @@ export function useSlotContents(): (slot: number) => SlotContent {
   const latest = useCompiled((state) => state.latest);
   const documentId = useLibrary((state) => state.openId);
   const isEmpty = useDocument(({ present }) => present.frames.length === 0);
-  // What a group comes to is worked out a little later than it is there: that of another one says nothing about it.
+  // Compiling follows an edit a little later: a result for an earlier group does not count.
   const isOfThis = useDocument((history) => holds(history, latest.source.group));
   const fingerprint = isOfThis ? latest.fingerprint : '';
   const onPage = isEmpty ? null : { documentId, fingerprint };
@@ -42,3 +49,21 @@ export function useSlotContents(): (slot: number) => SlotContent {
 }
 
 const NO_VERSIONS = {};
+
+interface RunSettings {
+  readonly slot: number;
+  /** 0: until stopped. */
+  readonly times: number;
+  readonly untilStopped: boolean;
+  /** False on boards that cannot run a group until stopped. */
+  readonly canRepeat: boolean;
+}
+
+/** The choices for Run on this screen. */
+export function useRunSettings(): RunSettings {
+  const slot = useSlot();
+  const canRepeat = useDevice((state) => state.family.zeroTimes === 'endless');
+  const untilStopped = useView((state) => state.untilStopped) && canRepeat;
+  const times = useView((state) => state.times);
+  return { slot, canRepeat, untilStopped, times: untilStopped ? 0 : times };
+}

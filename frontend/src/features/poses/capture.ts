@@ -1,8 +1,9 @@
 // A pose that was captured by a key has its name typed next; Enter leads back to where it was captured.
 
 import { useEffect, useState, type RefObject } from 'react';
-import { poseOf, type Pose } from '#shared/profile/pose.ts';
-import { usePoses, useView } from '../stores.ts';
+import { poseOf, type Pose, addPose } from '#shared/profile/pose.ts';
+import { usePoses, useView, type Stores } from '../stores.ts';
+import { words } from '../../i18n/words.ts';
 
 // The pose that is selected, if there is one.
 
@@ -43,4 +44,19 @@ export function useNaming(list: RefObject<HTMLElement | null>): (captured: Captu
   }, [captured, list]);
 
   return setCaptured;
+}
+
+// Keeps the pose that the robot was asked for in the book of poses, under a name of its own. Moves nothing.
+
+/** Returns its name. */
+export function capturePose({ device, poses, view }: Pick<Stores, 'device' | 'poses' | 'view'>): string {
+  const { family } = device.store.getState();
+  const { nextId } = poses.book.store.getState().present;
+  const pose = { name: words.poses.newName({ number: nextId }), unit: family.unit, targets: device.pose() };
+  poses.book.edit(
+    () => words.poses.steps.capture({ name: pose.name }),
+    (book) => addPose(book, pose),
+  );
+  view.setState({ selectedPose: nextId });
+  return pose.name;
 }

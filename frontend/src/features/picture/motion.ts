@@ -1,0 +1,80 @@
+// The motion as of the frame that is being drawn: asked of the session once, however many needles show it.
+
+import type { Motions, ServoMotion } from '#shared/robot/state.ts';
+import type { Device } from '../../robot/device.ts';
+import { currentFrame, useFollow, HEARD_EACH_MS } from '../../ui/useEachFrame.ts';
+import { useStores } from '../stores.ts';
+import { useLayoutEffect, useState } from 'react';
+
+interface Seen {
+  readonly frame: number;
+  readonly motion: Motions;
+}
+
+const seen = new WeakMap<Device, Seen>();
+
+export const motionInFrame = (device: Device, servo: number): ServoMotion => motionsInFrame(device)(servo);
+
+export function motionsInFrame(device: Device): Motions {
+  const frame = currentFrame();
+  const before = seen.get(device);
+  if (before?.frame === frame) return before.motion;
+  const motion = eachOnce(device.motions());
+  seen.set(device, { frame, motion });
+  return motion;
+}
+
+function eachOnce(motion: Motions): Motions {
+  const asked = new Map<number, ServoMotion>();
+  return (servo) => {
+    const known = asked.get(servo) ?? motion(servo);
+    asked.set(servo, known);
+    return known;
+  };
+}
+
+// Calls a function on each animation frame in which one of several servos moved that are drawn as one: past React, and a robot at rest
+// costs nothing.
+
+export function useMotions(servos: readonly number[], draw: () => void): void {
+  const { device } = useStores();
+  useFollow({
+    read: () => servos.map((servo) => motionInFrame(device, servo)),
+    isSame: sameMotions,
+    draw,
+  });
+}
+
+function sameMotions(some: readonly ServoMotion[], others: readonly ServoMotion[]): boolean {
+  return (
+    some.length === others.length &&
+    some.every((one, index) => {
+      const other = others[index];
+      return other !== undefined && sameMotion(one, other);
+    })
+  );
+}
+
+function sameMotion(one: ServoMotion, other: ServoMotion): boolean {
+  return one.target === other.target && one.estimated === other.estimated;
+}
+
+// A servo's target as it changes by itself.
+
+/** As of now; `motionInFrame` has it as of the frame that is drawn. */
+export const targetOf = (device: Device, servo: number): number | null => device.motion(servo).target;
+
+/** Past React's rounds: `say` is called no more often than it can be heard, and each time the component is drawn. */
+export function useSaidTarget(servo: number, say: (target: number | null) => void): void {
+  const { device } = useStores();
+  useLayoutEffect(() => say(targetOf(device, servo)));
+  useFollow({ read: () => motionInFrame(device, servo).target, draw: say, eachMs: HEARD_EACH_MS });
+}
+
+/** At most once a frame. */
+export function useTarget(servo: number): number | null {
+  const { device } = useStores();
+  const [target, setTarget] = useState(() => targetOf(device, servo));
+  useFollow({ read: () => motionInFrame(device, servo).target, draw: setTarget });
+  return target;
+}
