@@ -27,6 +27,16 @@ export interface Undoable<T> {
   redo(): void;
 }
 
+/** A document that is saved by itself soon after each edit. */
+export interface SavedDocument<T> extends Undoable<T> {
+  /** Replaces the value together with its history. */
+  take(history: History<T>): void;
+  /** Saves pending edits now: the page may be about to close. */
+  flush(): void;
+  /** Calls `listener` together with each save, so that a crash cannot come between two copies. */
+  onSave(listener: (text: string) => void): void;
+}
+
 /** Calls `settled` with each value that no gesture can cancel any more. */
 export function createUndoable<T>(initial: T, settled: (present: T) => void): Undoable<T> {
   const store = createStore<History<T>>(() => startHistory(initial));

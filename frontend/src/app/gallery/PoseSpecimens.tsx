@@ -9,7 +9,7 @@ import { Kiosk } from '../Kiosk.tsx';
 import { BlendBar } from '../../features/poses/BlendBar.tsx';
 import { posesParts } from '../../features/poses/PosesPanel.tsx';
 import { AuthoringPanel } from '../Authoring.tsx';
-import { useSelectedPose } from '../../features/poses/capture.ts';
+import { useSelectedPose } from '../../features/poses/naming.ts';
 import type { Stores } from '../../features/stores.ts';
 import { words } from '../../i18n/words.ts';
 import { standing, type Exhibit } from './exhibit.ts';

@@ -1,5 +1,5 @@
-// A native range input between the servo's limits, on a track as wide as the board allows. It is the control and has no picture
-// of its own: its marks are drawn, and its value is written past React.
+// The slider of a servo: a native range input between the servo's limits, on a track over the whole range of the board. The input
+// itself is invisible: its marks are drawn on a canvas, and its value is written without React.
 
 import { useRef, type KeyboardEvent } from 'react';
 import type { RobotServo } from '#shared/profile/robot.ts';
@@ -17,15 +17,13 @@ import { useDrag } from './useDrag.ts';
 import styles from './PositionSlider.module.css';
 import { MovingLabel } from '../picture/MovingText.tsx';
 
-// A servo's limits in figures, at the ends of the way between them, or as near as they have room beside each other
-// and the estimate.
-
 interface LimitsProps {
   readonly servo: RobotServo;
   readonly range: Range;
   readonly scale: Scale;
 }
 
+/** The servo's limits as numbers near their places on the track, clear of each other and of the estimate. */
 function Limits({ servo, range, scale }: LimitsProps) {
   const ends = [scale.digits(servo.min), scale.digits(servo.max)] as const;
   return (
@@ -41,12 +39,9 @@ function Limits({ servo, range, scale }: LimitsProps) {
   );
 }
 
-// The marks that move on a slider: the thumb is the target, the bar below it the estimate. On a canvas, because
-// dozens of them change in each frame.
-
 interface SliderMarksProps {
   readonly servo: number;
-  /** From the track's one end to its other. */
+  /** The range of the whole track. */
   readonly range: Range;
   readonly isKnown: boolean;
   readonly isBlocked: boolean;
@@ -54,12 +49,13 @@ interface SliderMarksProps {
   isHeld(): boolean;
 }
 
+/** The thumb is the target, the bar below it the estimate. On a canvas, because dozens of them change in each frame. */
 function SliderMarks({ servo, range, isKnown, isBlocked, thumbAt, isHeld }: SliderMarksProps) {
   const { device } = useStores();
   const place = useRef<HTMLDivElement>(null);
   const measured = useRef<{ readonly size: Size; readonly thumb: Thumb } | null>(null);
 
-  /** Its measures are the style sheet's, and another only where the size of all of it is. */
+  /** Measured from the style sheet again only when the slider's size changes. */
   function thumbIn(size: Size): Thumb | null {
     if (place.current === null) return null;
     if (measured.current?.size !== size) measured.current = { size, thumb: thumbOf(place.current) };
@@ -89,17 +85,17 @@ interface PositionSliderProps {
   readonly servo: RobotServo;
   readonly family: Family;
   readonly scale: Scale;
-  /** It has been asked for something, or the board has said where it stands. */
+  /** The servo has a target, or the board has reported its position. */
   readonly isKnown: boolean;
-  /** Its place is the board's own word. */
+  /** The position was reported by the board. */
   readonly isRead: boolean;
-  /** Where it may stand while nobody knows. */
+  /** A guess while the position is unknown. */
   readonly guess: number | null;
   readonly blocked: boolean;
   onMove(position: number): void;
-  /** At one stroke, with no hand that leads it there. */
+  /** A jump to a position, by Home, End or a screen reader. */
   onLeap(position: number): void;
-  /** While a pointer holds it, also between two frames: what is shown waits for the next one. */
+  /** A drag, reported also between two frames; the page shows it in the next frame. */
   onDrag(position: number): void;
   onHome(): void;
 }
@@ -136,7 +132,7 @@ export function PositionSlider({
     if (input.current !== null) input.current.ariaValueText = valueText(scale, target, isRead, guess);
   });
 
-  /** Blocked, it keeps the focus and its place, and takes nothing. Without a pointer on it, it was Home or End. */
+  /** A blocked slider keeps the focus and its value. An input event without a pointer comes from Home or End. */
   function moved(element: HTMLInputElement): void {
     if (blocked || hold.current === 'brushed') element.value = String(asked());
     else if (hold.current === 'held') onDrag(element.valueAsNumber);
@@ -188,7 +184,7 @@ function valueText(scale: Scale, target: number | null, isRead: boolean, guess: 
     : words.firstMoves.guessedValue({ position: scale.text(guess) });
 }
 
-/** The way between the limits; beyond them hatched. */
+/** The track, hatched outside the limits. */
 function Track({ servo, range }: { readonly servo: RobotServo; readonly range: Range }) {
   return (
     <div
@@ -214,7 +210,7 @@ function GuessMark({ share }: { readonly share: number }) {
 
 const percent = (share: number): string => `${(share * 100).toFixed(2)}%`;
 
-/** Right and up are the right end of the slider. */
+/** Right and Up go to the right end of the slider. */
 function keyStep({ key, shiftKey }: KeyboardEvent, { step, page, direction }: Scale): number {
   const arrow = step * (shiftKey ? 10 : 1);
   const towards =

@@ -1,4 +1,4 @@
-// Servos that are selected: how they move together, and what can be done with them.
+// The tools for selected servos: how they move together, locking, and more.
 
 import { motionHindrance } from '../../robot/readiness.ts';
 import { isHeld, select, toggled, TOGETHER, type ServoView } from '../servoView.ts';
@@ -13,7 +13,7 @@ import { words } from '../../i18n/words.ts';
 import { useServoMoves } from './useServoMoves.ts';
 import styles from './SelectionBar.module.css';
 
-/** A servo may turn up to twice as far as the others, to either side. */
+/** A servo may turn up to twice as far as the others, in either direction. */
 const MOST_PERCENT = 200;
 
 interface SelectedProps {
@@ -40,7 +40,7 @@ function Tools({ selected }: SelectedProps) {
   const isLinked = selected.length > 1;
   const layout = useLayout();
   const isPhone = layout === 'phone';
-  // All in one line, so that no row below moves.
+  // In one line, so that the rows below do not move.
   const Ways = layout === 'desktop' ? Choice : Select;
   const clear = (): void => edit((view) => select(view, []));
   return (

@@ -1,4 +1,4 @@
-// The servos one below the other, by limb where the robot has limbs. A limb can be folded away and selected as a whole.
+// The list of servos, grouped by limb where the robot has limbs. A limb can be folded and selected as a whole.
 
 import { useMemo } from 'react';
 import type { RobotServo } from '#shared/profile/robot.ts';

@@ -1,4 +1,4 @@
-// A servo's dial and name as one button that selects it: alone, with Ctrl or by touch beside the others, with Shift up to it.
+// A servo's dial and name as one button that selects it: alone, added with Ctrl or by touch, as a range with Shift.
 
 import type { Ref } from 'react';
 import type { RobotServo } from '#shared/profile/robot.ts';

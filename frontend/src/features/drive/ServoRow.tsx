@@ -1,4 +1,4 @@
-// One servo: dial, name, slider, value. Its target and its estimate are drawn past React, so that dozens may move in each frame.
+// The row of one servo: dial, name, slider, value. Target and estimate are drawn without React, so that dozens can move in each frame.
 
 import { memo, useRef } from 'react';
 import { fromBoard, servoOf, type RobotServo } from '#shared/profile/robot.ts';
@@ -21,10 +21,9 @@ import { targetOf } from '../picture/motion.ts';
 import { useWheelSteps } from './useDrag.ts';
 import styles from './ServoRow.module.css';
 
-// Where the board says that a servo stands, and how long ago it said so: the one figure here that nobody computed.
-
 const AGE_REFRESH_MS = 1000;
 
+/** The position that the board reported, with its age. */
 function Reported({ servo, scale }: { readonly servo: number; readonly scale: Scale }) {
   const { device } = useStores();
   const robot = useRobot();
@@ -41,7 +40,7 @@ function Reported({ servo, scale }: { readonly servo: number; readonly scale: Sc
 
 interface ServoRowProps {
   readonly servo: RobotServo;
-  /** All servos of the list from top to bottom, for selecting a stretch of it. */
+  /** All servos of the list from top to bottom, for selecting a range. */
   readonly order: readonly number[];
 }
 
@@ -58,7 +57,7 @@ export const ServoRow = memo(function ServoRow({ servo: own, order }: ServoRowPr
         <ServoName ref={name} servo={own} order={order} />
         <ServoControls
           servo={own}
-          // What a finger holds may be behind the picture that stays in sight.
+          // The row under the finger may be behind the picture, which stays in sight.
           onHeld={() => name.current?.scrollIntoView({ block: 'nearest' })}
         />
       </Sight>
@@ -68,7 +67,7 @@ export const ServoRow = memo(function ServoRow({ servo: own, order }: ServoRowPr
 
 interface ServoControlsProps {
   readonly servo: RobotServo;
-  /** A finger has taken hold of the slider. */
+  /** Called when a finger takes the slider. */
   onHeld(): void;
 }
 
@@ -90,13 +89,13 @@ function ServoControls({ servo: own, onHeld }: ServoControlsProps) {
   const isTelling = tellsPositions(family);
   const blocked = hindrance !== null || isLocked;
   const area = useRef<HTMLDivElement>(null);
-  /** Whoever reads why turns the wheel to scroll. */
+  /** While a refusal is shown, the wheel scrolls. */
   const isRefused = useRef(false);
   const refusal = useRef<(() => void) | null>(null);
   const touch = (): void => {
     isRefused.current = false;
   };
-  /** What was refused before is of no interest any more. */
+  /** Removes the message about an earlier refusal. */
   const take = (): void => {
     touch();
     refusal.current?.();
@@ -110,7 +109,7 @@ function ServoControls({ servo: own, onHeld }: ServoControlsProps) {
     take();
     servoMoves.leap(servo, position);
   };
-  /** By a finger. */
+  /** Held by a finger. */
   const isNewlyHeld = useRef(false);
   const drag = (position: number): void => {
     if (isNewlyHeld.current) onHeld();
@@ -136,7 +135,7 @@ function ServoControls({ servo: own, onHeld }: ServoControlsProps) {
         touch();
         isNewlyHeld.current = pointerType === 'touch';
       }}
-      // Not before the press is whole: a finger that scrolls past asks nobody for the robot.
+      // On the complete press, so that a finger that scrolls past does not request the robot.
       onPointerUp={() => hindrance === 'watching' && device.lease('request')}
     >
       <PositionSlider
@@ -174,7 +173,7 @@ interface TargetFieldProps {
   readonly guess: number | null;
   readonly blocked: boolean;
   onStep(position: number): void;
-  /** Gives back who of those that move along stopped them at its limit, if any did. */
+  /** Returns the linked servo that stopped the move at its limit, if any. */
   onTyped(position: number): number | null;
   onRefused(takeBack: () => void): void;
 }

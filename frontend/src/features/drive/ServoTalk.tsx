@@ -1,4 +1,4 @@
-// Asking servos where they stand, letting go of them, and posing them by hand, where the board can: most cannot, and their owners see nothing of it.
+// Reading positions, releasing servos and posing them by hand. Shown only on boards that can do it; most cannot.
 
 import { mayAsk, startHindrance, tellsPositions } from '../../robot/readiness.ts';
 import { canTeach } from './teaching.ts';
@@ -31,7 +31,7 @@ export function ServoTalk() {
   );
 }
 
-/** One place for both: whoever poses the robot finds the end where it began. */
+/** Start and end of posing are the same button. */
 function Teach() {
   const { teaching } = useStores();
   const isOn = useIsTeaching();

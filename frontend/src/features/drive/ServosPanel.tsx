@@ -1,5 +1,5 @@
-// Live control: the picture of the robot and a row per servo, or the servos on the body and a row for the one at hand. Where moving is not possible now it says why, and keeps every
-// control in its place.
+// Live control: the picture of the robot and a row per servo, or the servos on the body and a row for the current one. Where moving
+// is not possible now the panel says why and keeps every control in its place.
 
 import { useState } from 'react';
 import { type BodyKind, servoOf } from '#shared/profile/robot.ts';
@@ -39,11 +39,9 @@ import selectionBarStyles from './SelectionBar.module.css';
 import styles from './ServosPanel.module.css';
 import type { TrafficLog } from '../../robot/traffic.ts';
 
-// How busy the wire is: packets sent in the last second, and servos whose newest target still waits for it. For the
-// eye only.
-
 const WINDOW_MS = 1000;
 
+/** Packets sent in the last second, and servos whose newest target is still queued. Hidden from screen readers. */
 function SendRate() {
   const { device } = useStores();
   return (
@@ -62,10 +60,9 @@ function SendRate() {
   );
 }
 
-// Beside the body: the controls of the servo that was selected last. Others that are selected move with it.
-
 const ALONE: readonly number[] = [];
 
+/** Beside the body: the controls of the servo selected last. The other selected servos move with it. */
 function CurrentServo() {
   const robot = useRobot();
   const last = useServoView(({ selected }) => selected.at(-1));
@@ -85,8 +82,7 @@ function CurrentServo() {
   );
 }
 
-// The marks of a position in words, once, where they are used most, and the unit positions are shown in.
-
+/** The meaning of the marks of a position, and the unit of positions. */
 function Legend() {
   const { view } = useStores();
   const family = useKnownFamily();
@@ -122,14 +118,12 @@ function Legend() {
 const COMPUTED = ['commanded', 'estimated', 'unknown'] as const;
 const ALL = ['commanded', 'estimated', 'confirmed', 'unknown'] as const;
 
-// What is selected, or what may be. As high in both cases.
-
 const Selected = laterComponent(
   async () => (await import('./Selected.tsx')).Selected,
   'calc(var(--control) + 2px)',
 );
 
-/** `hint` is what is said while nothing is selected. */
+/** The selected servos, or `hint` while none is selected. The same height in both cases. */
 function SelectionBar({ hint }: { readonly hint: string }) {
   const selected = useServoView((view) => view.selected);
   return (
@@ -167,10 +161,9 @@ function NothingSelected({ hint }: { readonly hint: string }) {
   );
 }
 
-// How long a move from the sliders takes: following the hand, or a set time.
-
 const USUAL_MS = 1000;
 
+/** The duration of moves by the sliders: following the pointer, or a set time. */
 function MoveTimeControl() {
   const { view, notices } = useStores();
   const moveTime = useView((state) => state.moveTime);
@@ -290,8 +283,7 @@ function CentreAll() {
   );
 }
 
-// Counts packets in the log, newest first, so that a long visit costs nothing. Knows no screen.
-
+/** Counts packets sent, newest first, so that the length of the log does not matter. */
 export function sentSince({ store, at }: Pick<TrafficLog, 'store' | 'at'>, sinceMs: number): number {
   const { oldestId, nextId } = store.getState();
   let sent = 0;

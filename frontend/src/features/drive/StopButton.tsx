@@ -1,5 +1,6 @@
-// STOP: acts on press, never asks, is there while a link exists. It lies in the library's top layer, above every dialog, so
-// nothing modal can take it away. A click without a pointer (detail 0) comes from a screen reader. Esc does the same from anywhere, a text field or a dialog included.
+// STOP: acts on press, never asks, present while a link exists. It lies in react-aria's top layer, above every dialog, so that no modal
+// dialog hides it. A click without a pointer (detail 0) comes from a screen reader. Esc does the same anywhere, also in text fields and
+// dialogs.
 
 import { useEffect, type KeyboardEvent as ReactKeyboardEvent } from 'react';
 import type { Device } from '../../robot/device.ts';
@@ -22,7 +23,7 @@ export function StopButton() {
         onPointerDown={() => device.halt()}
         onKeyDown={(event) => {
           if (!isActivation(event)) return;
-          // The press has done it: the click that the key's release would bring is not wanted.
+          // The press has stopped the robot: prevents the click that would follow the key's release.
           event.preventDefault();
           if (!event.repeat) device.halt();
         }}
@@ -44,7 +45,7 @@ export function StopButton() {
 
 const isActivation = ({ key }: ReactKeyboardEvent): boolean => key === 'Enter' || key === ' ';
 
-/** Listens while the event goes down, before any dialog or field can keep it. */
+/** Listens in the capture phase, before a dialog or field can stop the event. */
 function useEscape(device: Device): void {
   useEffect(() => {
     const halt = (event: KeyboardEvent): void => {

@@ -1,4 +1,4 @@
-// How a slider's marks are drawn: pure figures in, strokes on a canvas out.
+// Draws a slider's marks on a canvas from plain numbers.
 
 import type { Pen, Look } from '../picture/Canvas.tsx';
 
@@ -7,7 +7,7 @@ export interface Thumb {
   readonly height: number;
 }
 
-/** As shares of the track. */
+/** In fractions of the track. */
 export interface Marks {
   readonly target: number;
   readonly estimate: number | null;
@@ -19,7 +19,7 @@ export interface Marks {
 const BORDER = 2;
 const CORNER = 4;
 const BAR = { width: 3, height: 9, corner: 1 };
-/** The bar begins within the thumb, so that nothing is between them. */
+/** The bar begins within the thumb, so that there is no gap. */
 const OVERLAP = 2;
 const DASH = [4, 3];
 
@@ -38,7 +38,7 @@ export function paintMarks({ ctx, look, size }: Pen, thumb: Thumb, marks: Marks)
     ctx.roundRect(left, middle + thumb.height / 2 - OVERLAP, BAR.width, BAR.height, BAR.corner);
     ctx.fill();
   }
-  // On whole pixels its edges are sharp.
+  // Whole pixels have sharp edges.
   const left = Math.round(marks.target * way * devicePixelRatio) / devicePixelRatio;
   ctx.lineWidth = BORDER;
   ctx.strokeStyle = marks.isKnown ? look.commanded : look.unknown;

@@ -1,4 +1,4 @@
-// A servo's positions as the person reads them, in the board's units or in degrees from its home, and back. Pure.
+// Converts a servo's positions to the displayed unit (board units or degrees from home) and back. Pure.
 
 import type { CSSProperties } from 'react';
 import type { Range, Family } from '#shared/codec/families.ts';
@@ -7,18 +7,16 @@ import { fraction } from '../picture/pose.ts';
 import type { PositionsIn } from '../view.ts';
 import { words } from '../../i18n/words.ts';
 
-// Where a servo's limits lie on the track of its slider, and on which side of them their figures stand, so that the
-// estimate crosses none where it has come to an end.
-
-/** Between the two ends, outside of both, or both beyond one of them where the track ends at the other. */
+/** Where the numbers of the limits stand: between the limits, outside both, or both on one side at an end of the track. */
 type FiguresAt = 'within' | 'around' | 'after' | 'before';
 
-/** Of the narrowest page, so that a way that is wide enough here is so everywhere. */
+/** On the narrowest page: a range that is wide enough here is wide enough everywhere. */
 const NARROWEST_TRACK_PX = 250;
 const CHARACTER_PX = 7;
-/** Between a figure and an end of the way. */
+/** Between a number and its limit. */
 const BESIDE_PX = 5;
 
+/** Places the numbers so that the estimate does not cross one when it reaches a limit. */
 export function figuresAt(
   limits: Range,
   range: Range,
@@ -31,7 +29,7 @@ export function figuresAt(
   return widthPx(highest) + BESIDE_PX > (1 - to) * NARROWEST_TRACK_PX ? 'before' : 'around';
 }
 
-/** From where to where the limits lie on the track, as shares of it. */
+/** The limits on the track as CSS, in fractions of the track. */
 export const between = (limits: Range, range: Range): CSSProperties => {
   const { from, to } = shares(limits, range);
   return { ['--from' as string]: from.toFixed(4), ['--to' as string]: to.toFixed(4) };
@@ -47,15 +45,15 @@ const widthPx = (figures: string): number => figures.length * CHARACTER_PX;
 export interface Scale {
   readonly unit: string;
   readonly isDegrees: boolean;
-  /** The servo's limits as they are shown. */
+  /** The servo's limits in the displayed unit. */
   readonly min: number;
   readonly max: number;
   readonly decimals: 0 | 1;
-  /** How far arrows and the wheel go; with Shift ten times as far. */
+  /** Step of arrow keys and wheel; ten times as much with Shift. */
   readonly step: number;
-  /** How far the Page keys go. */
+  /** Step of the Page keys. */
   readonly page: number;
-  /** -1 where a shown value grows towards the slider's left end. */
+  /** -1 if displayed values grow towards the left end of the slider. */
   readonly direction: 1 | -1;
   shown(position: number): number;
   /** The nearest position within the limits. */
@@ -65,21 +63,21 @@ export interface Scale {
   digits(position: number): string;
 }
 
-/** A unit finer than this is shown with a tenth of a degree, so that what is shown leads back to the same position. */
+/** Units finer than this are displayed in tenths of a degree, so that the displayed value leads back to the same position. */
 const FINE_DEGREES = 0.1;
-/** So is a way shorter than this, and gone in small steps: in whole degrees there is next to nothing on it to choose from. */
+/** Ranges shorter than this are displayed in tenths as well, with small steps: whole degrees would leave hardly any choice. */
 const SHORT_WAY_DEGREES = 10;
 
 export function scaleOf(servo: RobotServo, { unit }: Pick<Family, 'unit'>, positionsIn: PositionsIn): Scale {
   return positionsIn === 'degrees' ? inDegrees(servo) : inUnits(servo, unit);
 }
 
-/** The position after a step of the shown value, within the servo's limits. */
+/** The position after a step of the displayed value, within the servo's limits. */
 export function stepped(scale: Scale, from: number, change: number): number {
   return scale.position(Math.min(scale.max, Math.max(scale.min, scale.shown(from) + change)));
 }
 
-/** Of a servo that the robot at hand does not have, or not in this unit. */
+/** For a servo that the current robot lacks or has in another unit. */
 export function inUnits({ min, max }: Range, unit: Family['unit']): Scale {
   return {
     ...{ unit: words.units[unit], min, max, decimals: 0, direction: 1, step: 1 },
@@ -95,11 +93,11 @@ export function inUnits({ min, max }: Range, unit: Family['unit']): Scale {
 function inDegrees(servo: RobotServo): Scale {
   const isShort = (servo.max - servo.min) * servo.degreesPerUnit < SHORT_WAY_DEGREES;
   const decimals = isShort || servo.degreesPerUnit <= FINE_DEGREES ? 1 : 0;
-  // Adding 0 turns -0, which would be written with its sign, into 0.
+  // Adding 0 turns -0 into 0, which is displayed without a sign.
   const shown = (position: number): number => Number(degreesOf(servo, position).toFixed(decimals)) + 0;
   const [low, high] = servo.isReversed ? [servo.max, servo.min] : [servo.min, servo.max];
   const [min, max] = [shown(low), shown(high)];
-  // What stands for an end leads to it, though the figure was rounded.
+  // The displayed value of a limit leads to the limit, although it is rounded.
   const position = (degrees: number): number => {
     if (degrees <= min) return low;
     return degrees >= max ? high : positionOf(servo, degrees);
@@ -107,7 +105,7 @@ function inDegrees(servo: RobotServo): Scale {
   return {
     ...{ unit: '°', min, max, decimals, page: 10 },
     isDegrees: true,
-    // Never less than a unit: such a step would stay where it is.
+    // At least one unit: a smaller step would not move.
     step: isShort ? Math.ceil(servo.degreesPerUnit * 10) / 10 : 1,
     direction: servo.isReversed ? -1 : 1,
     shown,

@@ -1,5 +1,5 @@
-// Posing the robot by hand: lets go of every servo, asks the board again and again where they stand, and ends with a hold where
-// they were last read. STOP, a lost link, another driver and whatever else moves the robot end it without one. Knows no panel.
+// Posing the robot by hand: releases every servo, reads their positions repeatedly, and ends with a hold at the last positions read.
+// STOP, a lost link, another driver or any other move end it without a hold. Knows no panel.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { ServoTarget } from '#shared/codec/commands.ts';
@@ -19,9 +19,9 @@ export interface TeachingState {
 
 export interface Teaching {
   readonly store: StoreApi<TeachingState>;
-  /** Only after a person was warned: what the servos carry drops. */
+  /** Call only after a warning: parts carried by the servos drop. */
   begin(): void;
-  /** Holds the servos where they were last read. */
+  /** Holds the servos at the last positions read. */
   end(): void;
 }
 
@@ -33,21 +33,21 @@ export interface TeachingOptions {
   readonly notices: Notices;
 }
 
-/** Between an answer and the next question: others have something to ask, too. */
+/** Between an answer and the next read, so that other requests get through. */
 const PAUSE_MS = 20;
-/** One question may be lost on the way. */
+/** A single read may get lost. */
 const SILENT_LIMIT = 3;
 
-/** Its servos can be let go of and asked where they stand. */
+/** True if the board can release servos and read their positions. */
 export function canTeach(family: Family): boolean {
   return family.commands.includes('release') && tellsPositions(family);
 }
 
 export function createTeaching({ device, robots, notices }: TeachingOptions): Teaching {
   const store = createStore<TeachingState>(() => ({ isOn: false }));
-  /** Answers of a teaching before this one change nothing. */
+  /** Number of the current session: late answers for an earlier one are ignored. */
   let round = 0;
-  /** An answer is awaited: until then the board may be too busy to take up a move. */
+  /** A read is pending: until its answer the board may be too busy for a move. */
   let isAsking = false;
   let isEnding = false;
 
@@ -80,7 +80,7 @@ export function createTeaching({ device, robots, notices }: TeachingOptions): Te
 
   function read(mine: number, silent: number): void {
     if (mine !== round) return;
-    // One that is moved would freeze for the answer and then jump (S29).
+    // A moving servo would freeze during the read and then jump (S29).
     if (!device.isAtRest()) return endReleased();
     isAsking = true;
     device.readPositions(servos(), (isDone) => {

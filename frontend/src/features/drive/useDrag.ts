@@ -1,15 +1,11 @@
-// A slider's value under a pointer, at each report of it: browsers keep `input` back until the next frame, which makes it up to
-// 17 ms old when the wire is free for it, and a native thumb that moves has the whole page laid out and painted anew. So the
-// slider has none, and this is what a pointer does to it. A finger has to take the thumb, and sideways: scrolling past a slider
-// never moves a servo.
+// Dragging a slider with a pointer. Browsers delay `input` events until the next frame, up to 17 ms, and a moving native thumb causes
+// layout and paint of the whole page; so the slider hides its thumb and this module reads the pointer. A finger must take the thumb
+// and move sideways: scrolling past a slider never moves a servo.
 
 import { useEffect, useEffectEvent, type RefObject, useRef } from 'react';
 import type { Range } from '#shared/codec/families.ts';
 
-// The wheel as a way to step: only over something that has the focus and may be stepped now, so that scrolling past a
-// servo never moves it. Everywhere else it scrolls.
-
-/** Less than one notch of any common wheel; a touch pad sends many small parts. */
+/** Less than one notch of any common wheel; touch pads send many small deltas. */
 const NOTCH_PX = 50;
 
 interface WheelSteps {
@@ -17,6 +13,7 @@ interface WheelSteps {
   step(change: 1 | -1, isFar: boolean): void;
 }
 
+/** The wheel steps only over a focused element that may be stepped now, so that scrolling past a servo never moves it. */
 export function useWheelSteps(area: RefObject<HTMLElement | null>, { mayStep, step }: WheelSteps): void {
   const mayStepNow = useEffectEvent(mayStep);
   const stepNow = useEffectEvent(step);
@@ -47,9 +44,7 @@ export function useWheelSteps(area: RefObject<HTMLElement | null>, { mayStep, st
   }, [area]);
 }
 
-// Where on its way a slider's thumb stands, where a pointer takes hold of it, and which value it gives it then.
-
-/** What the middle of the thumb goes along, and the values at its ends. */
+/** The path of the thumb's middle, and the values at its ends. */
 export interface Way extends Range {
   readonly fromPx: number;
   readonly lengthPx: number;
@@ -66,13 +61,13 @@ export function placeOf({ fromPx, lengthPx, min, max }: Way, value: number): num
 
 export interface Press {
   readonly atPx: number;
-  /** The thumb takes it so far beside its middle. */
+  /** Half the width within which the thumb reacts. */
   readonly reachPx: number;
-  /** It may be there to scroll. */
+  /** A finger may be there to scroll. */
   readonly isFinger: boolean;
 }
 
-/** How far beside the thumb's middle it holds the thumb, which stands at `value`. null: a finger that only brushes the slider. */
+/** The distance from the thumb's middle at which a press takes it; null for a finger beside the thumb. */
 export function gripOf(way: Way, value: number, { atPx, reachPx, isFinger }: Press): number | null {
   const besidePx = atPx - placeOf(way, value);
   if (Math.abs(besidePx) <= reachPx) return besidePx;
@@ -84,30 +79,30 @@ export interface Point {
   readonly y: number;
 }
 
-/** Beyond what a finger trembles. */
+/** More than a resting finger moves. */
 const TREMBLE_PX = 6;
 
-/** A finger that goes there drags; up or down it scrolls. */
+/** True if a finger drags; up or down it scrolls. */
 export function isSideways(from: Point, to: Point): boolean {
   const [x, y] = [Math.abs(to.x - from.x), Math.abs(to.y - from.y)];
   return x > TREMBLE_PX && x > y;
 }
 
-/** Below the shortest packet with its gap: reports in between would be overtaken before they leave. */
+/** Less than the shortest packet with its gap takes: reports in between would be replaced in the queue. */
 const REPORT_EACH_MS = 4;
 
-/** Half of what is large enough for a finger. */
+/** Half of a touch target. */
 const FINGER_REACH_PX = 22;
 
-/** `brushed`: a finger is on it that has not moved the thumb. */
+/** `brushed`: a finger touches the slider and has not moved the thumb. */
 export type Hold = 'free' | 'held' | 'brushed';
 
 interface Drag {
-  /** Where the thumb stands. */
+  /** The value at the thumb. */
   shown(): number;
   drag(value: number): void;
   release(): void;
-  /** By a finger on the thumb alone. */
+  /** A finger took the thumb. */
   pressTwice(): void;
 }
 
@@ -133,9 +128,9 @@ export function useDrag(input: RefObject<HTMLInputElement | null>, drag: Drag): 
 interface Grip {
   readonly pointer: number;
   readonly way: Way;
-  /** How far beside the thumb's middle. */
+  /** Distance from the thumb's middle. */
   readonly besidePx: number;
-  /** Where it was pressed. */
+  /** Position of the press. */
   readonly from: Point;
 }
 
@@ -156,7 +151,7 @@ function followPointer(slider: HTMLInputElement, hold: { current: Hold }, on: Dr
     isOnThumb = besidePx !== null;
     if (besidePx === null) return;
     grip = { pointer: event.pointerId, way, besidePx, from: pointOf(event) };
-    // The browser would move the value by itself.
+    // Otherwise the browser would set the value.
     event.preventDefault();
     if (!isFinger) take(grip, event);
   }
@@ -197,7 +192,7 @@ function followPointer(slider: HTMLInputElement, hold: { current: Hold }, on: Dr
     if (wasHeld) on.release();
   }
 
-  /** A finger is captured by what it pressed, inside of the slider, and that loses it to the slider. */
+  /** Touch events are captured by the pressed element within the slider; this moves the capture to the slider. */
   function lost(event: PointerEvent): void {
     if (!slider.hasPointerCapture(event.pointerId)) end(event);
   }
@@ -222,7 +217,7 @@ function followPointer(slider: HTMLInputElement, hold: { current: Hold }, on: Dr
 
 const pointOf = ({ clientX, clientY }: PointerEvent): Point => ({ x: clientX, y: clientY });
 
-/** The thumb stays whole at both ends. */
+/** The path ends half a thumb before both ends of the slider. */
 function layoutOf(slider: HTMLInputElement): { readonly way: Way; readonly thumbPx: number } {
   const { left, width } = slider.getBoundingClientRect();
   const thumbPx = parseFloat(getComputedStyle(slider).getPropertyValue('--thumb'));

@@ -1,4 +1,4 @@
-// What the controls of the servo panel do to servos: one alone, or with the ones it moves together with. Locked ones stay.
+// Moves by the controls of the servo panel: one servo alone, or together with the other selected ones. Locked servos stay.
 
 import { degreesOf, positionOf, type RobotServo, servoOf } from '#shared/profile/robot.ts';
 import type { ServoTarget } from '#shared/codec/commands.ts';
@@ -7,11 +7,7 @@ import { type Together, isHeld, type ServoView, freeOf } from '../servoView.ts';
 import type { Pace } from '../../robot/moveTime.ts';
 import { guessNow, servoViewOf, useStores, type Stores } from '../stores.ts';
 
-// Servos that move together: where each goes when one of them is moved. Turns are compared in degrees, in each
-// servo's own direction. When one reaches a limit all of them stop there, so that they keep their stand to each
-// other.
-
-/** Where the selected servos stood when they began to move together, and what they were told last. */
+/** Where the selected servos stood when they began to move together, and the last targets sent. */
 interface LinkedMove {
   readonly from: Positions;
   readonly sent: Positions;
@@ -19,24 +15,27 @@ interface LinkedMove {
 
 export interface Member {
   readonly servo: RobotServo;
-  /** How far it turns beside the others; negative: the other way. */
+  /** Its turn in relation to the others; negative for the opposite direction. */
   readonly weight: number;
 }
 
 interface LinkedResult {
   readonly targets: readonly ServoTarget[];
   readonly linked: LinkedMove;
-  /** Who meets its limit first and so stops them all; null: they get there. */
+  /** The servo that reaches its limit first and stops all; null if none does. */
   readonly first: number | null;
 }
 
-/** In which share each member turns, seen from the one that is moved. */
+/** The weight of each member in relation to the moved one. */
 export function weightOf(together: Together, weights: Positions, servo: number, moved: number): number {
   if (together === 'weighted') return (weights[servo] ?? 100) / 100;
   return together === 'mirrored' && servo !== moved ? -1 : 1;
 }
 
-/** `now`: where they stand. Anything else that moved one of them since makes that the new beginning. */
+/**
+ * The targets of all members when one is moved. Turns are in degrees, in each servo's own direction; when one reaches a limit all stop,
+ * so that their relation stays. `now`: where they stand; if something else has moved one of them, the move starts from there.
+ */
 export function moveLinked(
   members: readonly Member[],
   moved: number,
@@ -78,7 +77,7 @@ const isBeyond = ({ min, max }: RobotServo, position: number): boolean => positi
 
 const within = ({ min, max }: RobotServo, position: number): number => Math.min(max, Math.max(min, position));
 
-/** How much of a turn the servo can take before its limit, 0 to 1. */
+/** The fraction of a turn that the servo can make before its limit, 0 to 1. */
 function shareWithin(servo: RobotServo, start: number, degrees: number): number {
   const change = (degrees / servo.degreesPerUnit) * (servo.isReversed ? -1 : 1);
   const room = change > 0 ? servo.max - start : start - servo.min;
@@ -87,13 +86,13 @@ function shareWithin(servo: RobotServo, start: number, degrees: number): number 
 
 interface ServoMoves {
   move(servo: number, position: number): void;
-  /** To a place that no hand leads it to: its own time, unless one is set. */
+  /** To a position that is not dragged to: takes the usual duration, unless one is set. */
   leap(servo: number, position: number): void;
-  /** The same to a figure that was typed; who of those that move along keeps it from getting there, if any does. */
+  /** To a typed position. Returns the linked servo that prevents it, if any. */
   place(servo: number, position: number): number | null;
-  /** The same between two frames, while a pointer holds the slider. */
+  /** A drag, also between two frames. */
   drag(servo: number, position: number): void;
-  /** Each to its own home; `durationMs` is left out for a leap. */
+  /** Each to its home; without `durationMs` as fast as allowed. */
   home(servos: readonly number[], durationMs?: number): void;
 }
 
@@ -112,10 +111,10 @@ export function useServoMoves(): ServoMoves {
   };
 }
 
-/** How far the servos have come together while they are handled in one way: not in a store, because a drag changes it in each frame. */
+/** The current linked move of a selection. Not in a store, because a drag changes it in each frame. */
 const linkedMoves = new WeakMap<ServoView, LinkedMove>();
 
-/** The members of the gang that may move, `moved` among them; null where it moves alone. */
+/** The linked servos that may move, including `moved`; null if it moves alone. */
 function membersOf({ robots }: Stores, view: ServoView, moved: number): readonly Member[] | null {
   if (view.selected.length < 2 || !view.selected.includes(moved)) return null;
   const { robot } = robots.current();
@@ -135,7 +134,7 @@ function together(stores: Stores, servo: number, position: number): Pick<LinkedR
   return move;
 }
 
-/** Where each was asked to be, else where it may stand. */
+/** The target of each, else its estimate or a guess. */
 function standOf(stores: Stores, members: readonly Member[]): Positions {
   const stand: Record<number, number> = {};
   const motion = stores.device.motions();

@@ -20,7 +20,7 @@ import {
 } from '#shared/files/documentStore.ts';
 import { libraryProblem, longerName } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/words.ts';
-import type { Document } from '../animate/group/document.ts';
+import type { SavedDocument } from '../../state/undoable.ts';
 import type { TextStorage } from '../../state/storage.ts';
 import type { Notices } from '../../state/notices.ts';
 import type { RobotStore } from '../profiles/robots.ts';
@@ -73,7 +73,7 @@ const WAITING: readonly LibraryErrorCode[] = ['full', 'busy', 'unreachable'];
 
 export interface LibraryOptions {
   readonly documentStore: Promise<DocumentStore>;
-  readonly document: Document;
+  readonly document: SavedDocument<ActionGroup>;
   readonly storage: TextStorage;
   readonly notices: Notices;
   readonly robots: RobotStore;

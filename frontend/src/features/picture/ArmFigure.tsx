@@ -1,13 +1,10 @@
-// The arm from the side as nested joints, each a group that turns. One drawing for the live body, its ghost and the small
-// picture of a frame. Joints without a known position are dashed. Draws what it is given; knows no session.
+// Drawings of a body as an arm or by bones: for the live picture, its ghost and thumbnails. Joints with an unknown position are dashed.
+// Plain values in; knows no session.
 
 import { cx } from '../../ui/cx.ts';
 import type { BonePicture, Point } from './bones.ts';
 import type { ArmPicture } from './pose.ts';
 import styles from './figure.module.css';
-
-// A body by bones, one drawing for the live picture, its ghost and the small picture of a frame, and the same set on
-// a drawn one past React. Draws what it is given.
 
 const RADIUS = 2.4;
 const PARTS = ['shadow', 'trunk'] as const;
@@ -63,7 +60,7 @@ function boneFigureCapsule(from: Point, to: Point): string {
 const UPPER = 92;
 const FORE = 84;
 
-/** `ghost`: where it was asked to be; `preview`: where a group would have it. Both are outlines. */
+/** `ghost`: the target; `preview`: a pose of the group. Both are outlines. */
 type FigureLook = 'solid' | 'ghost' | 'preview' | 'small';
 
 const isOutline = (look: FigureLook): boolean => look === 'ghost' || look === 'preview';
@@ -94,7 +91,7 @@ export function ArmFigure({ picture, look }: { readonly picture: ArmPicture; rea
   );
 }
 
-/** Sets the same picture on a drawn figure, without React: for each animation frame. */
+/** Updates a drawn figure without React, in each animation frame. */
 export function drawArm(figure: SVGGElement, picture: ArmPicture): void {
   for (const name of ['shoulder', 'elbow', 'wrist'] as const) {
     const { degrees, known } = picture[name];

@@ -1,4 +1,4 @@
-// A servo on the body while its place is being chosen: dragged, or pushed by arrow keys. Letting go is one step of the history.
+// Servos on the body: as buttons that select them, or movable by drag and arrow keys while places are arranged. A drag is one undo step.
 
 import {
   type CSSProperties,
@@ -19,9 +19,7 @@ import { Dial } from './Dial.tsx';
 import { cx } from '../../ui/cx.ts';
 import styles from './Place.module.css';
 
-// A servo on the body: its dial and number, pressed to select it.
-
-/** With more servos than this their names lie over each other. */
+/** Names of more servos than this would overlap. */
 const MOST_CALLED = 8;
 
 interface PlaceProps {
@@ -74,14 +72,14 @@ const at = ({ x, y }: RobotServo['place']): CSSProperties => ({ left: `${x}%`, t
 
 interface ArrangedPlaceProps {
   readonly servo: RobotServo;
-  /** What the places are shares of. */
+  /** The element that places are percentages of. */
   readonly stage: RefObject<HTMLElement | null>;
 }
 
 export function ArrangedPlace({ servo: { servo, name, place }, stage }: ArrangedPlaceProps) {
   const { robots } = useStores();
   const [dragged, setDragged] = useState<PlaceAt | null>(null);
-  /** How far from its middle it is held; null: it is not. */
+  /** The pointer's distance from its middle; null if it is not dragged. */
   const grip = useRef<{ readonly x: number; readonly y: number } | null>(null);
 
   function letGo(): void {
@@ -142,8 +140,7 @@ function withPlace(robot: Robot, servo: number, place: PlaceAt): Robot {
   return { ...robot, servos: robot.servos.map((one) => (one.servo === servo ? { ...one, place } : one)) };
 }
 
-// Places on the body, in whole percent of the picture's width and height. Pure.
-
+/** A place on the body, in whole percent of the picture's width and height. */
 interface PlaceAt {
   readonly x: number;
   readonly y: number;
@@ -174,7 +171,7 @@ export function placeUnder(
   };
 }
 
-/** Where an arrow key pushes it, with Shift further; null for other keys. */
+/** The place after an arrow key, further with Shift; null for other keys. */
 export function placeBy(
   key: { readonly key: string; readonly shiftKey: boolean },
   { x, y }: PlaceAt,
@@ -185,7 +182,7 @@ export function placeBy(
   return { x: percent((x + direction[0] * step) / 100), y: percent((y + direction[1] * step) / 100) };
 }
 
-/** How far apart the two nearest places are, in percent. */
+/** The distance of the two nearest places, in percent. */
 export function nearest(places: readonly PlaceAt[]): number {
   const gaps = places.flatMap((one, index) =>
     places.slice(index + 1).map((other) => Math.hypot(one.x - other.x, one.y - other.y)),

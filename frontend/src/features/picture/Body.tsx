@@ -1,4 +1,4 @@
-// The picture of the robot above its servos: as an arm, by bones, or, where nobody described the body, its dials.
+// The picture of the robot above its servos: an arm, a body by bones, or dials for a body without a description.
 
 import { useRef } from 'react';
 import type { Family } from '#shared/codec/families.ts';
@@ -10,16 +10,13 @@ import { words } from '../../i18n/words.ts';
 import { DialFace, paintNeedles, type Spot } from './Dial.tsx';
 import { motionInFrame } from './motion.ts';
 import { dialDegrees, halfDegree, type Pose } from './pose.ts';
-import { usePreview } from './usePreview.ts';
+import { usePreview } from '../preview.ts';
 import { UnknownNote } from './UnknownNote.tsx';
 import overlay from './overlay.module.css';
 import styles from './Body.module.css';
 import { laterComponent } from '../../ui/later.tsx';
 
-// The picture of a robot whose body nobody described: a dial for each servo. All hands are one drawing over the
-// faces: dozens of them turn in each frame.
-
-/** So many find room at a size that is read across the room. */
+/** Up to this number the dials are large enough to be read from a distance. */
 const FEW = 12;
 
 function Dials() {
@@ -49,7 +46,7 @@ function Dials() {
   );
 }
 
-/** Where the faces are: they move with the size of the board alone. */
+/** Where the faces are; they move only when the list is resized. */
 interface Faces {
   readonly size: Size | null;
   readonly diameter: number;
@@ -130,8 +127,6 @@ export function BodyPicture() {
     </div>
   );
 }
-
-// The two large pictures of a robot: they come when the page is there, into a place that has their size already.
 
 export const LiveArm = laterComponent(async () => (await import('./LiveArm.tsx')).LiveArm, '0');
 export const LiveBones = laterComponent(async () => (await import('./LiveArm.tsx')).LiveBones, '0');

@@ -1,4 +1,4 @@
-// The servos where they sit on the body: pressing one selects it. While arranging, they are dragged to other places instead.
+// The servos at their places on the body: a press selects one. While arranging, they are dragged to other places.
 
 import { useRef, useState, type CSSProperties, type KeyboardEvent } from 'react';
 import type { BodyKind, RobotServo } from '#shared/profile/robot.ts';
@@ -23,7 +23,7 @@ export function BodyMap({ isArrangingFirst = false }: { readonly isArrangingFirs
   const shown = servos.filter(({ servo }) => !hidden.includes(servo));
   const order = shown.map(({ servo }) => servo);
 
-  /** While places are written on, the undo keys are about them. */
+  /** While arranging, the undo keys apply to the places. */
   function undoKey(event: KeyboardEvent): void {
     const action = isArranging ? undoActionOf(event) : null;
     if (action === null) return;
@@ -66,7 +66,7 @@ function Picture({ body }: { readonly body: BodyKind }) {
   return <div className={styles.picture}>{body === 'arm' ? <LiveArm /> : <LiveBones />}</div>;
 }
 
-/** A body by bones has room for each of its poses, and its dials have none for each other: neighbours touch at most. */
+/** The picture of a body by bones has room for each of its poses; dials are so small that neighbours at most touch. */
 function sizesFor(reach: Reach | null, servos: readonly RobotServo[]): CSSProperties {
   if (reach === null) return {};
   const width = reach.right - reach.left;
@@ -74,7 +74,7 @@ function sizesFor(reach: Reach | null, servos: readonly RobotServo[]): CSSProper
   return { '--ratio': width / (reach.bottom - reach.top), '--apart': apart } as CSSProperties;
 }
 
-/** The square that places are percent of, in that room. */
+/** The square that places are percentages of, within that room. */
 function placesIn(reach: Reach | null): CSSProperties {
   if (reach === null) return { inset: 0 };
   const { left, top, right, bottom } = reach;

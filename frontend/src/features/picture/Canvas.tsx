@@ -1,5 +1,5 @@
-// A canvas for what changes in each frame: it costs neither style nor layout, only what is drawn, and only where it shows something
-// else than before. Knows no needle.
+// A canvas for pictures that change in each frame: needs neither style nor layout, and is painted only when its values change. Also the
+// page's colours for a canvas. Knows no picture.
 
 import { useEffectEvent, useLayoutEffect, useRef } from 'react';
 import { watchSize, useSight } from '../../ui/sight.ts';
@@ -14,25 +14,25 @@ export interface Size {
 export interface Pen {
   readonly ctx: CanvasRenderingContext2D;
   readonly look: Look;
-  /** In pixels of the page, as everything that is drawn. */
+  /** In CSS pixels, as all coordinates. */
   readonly size: Size;
 }
 
 export interface Picture<Shown extends readonly unknown[]> {
-  /** What is shown now: it is drawn again where one of these is another. */
+  /** The values shown: the picture is painted again when one of them changes. */
   shown(): Shown;
-  /** On a clean canvas. */
+  /** Paints on a clean canvas. */
   paint(pen: Pen, shown: Shown): void;
 }
 
 interface CanvasProps<Shown extends readonly unknown[]> extends Pick<Picture<Shown>, 'shown'> {
   readonly className?: string | undefined;
-  /** What was painted stays on it, for whoever paints only what is another. */
+  /** The last painting stays, for pictures that repaint only their changes. */
   readonly isStill?: boolean;
   paint(pen: Pen, shown: Shown, isClean: boolean): void;
 }
 
-/** Where it is another, nothing of what was painted is left. */
+/** A change of these clears the canvas. */
 interface Ground {
   readonly size: Size;
   readonly look: Look;
@@ -99,8 +99,6 @@ function cleanContext(canvas: HTMLCanvasElement, { size, ratio }: Ground): Canva
   return ctx;
 }
 
-// The page's colours for a canvas, which cannot read them from a style sheet by itself.
-
 const NAMES = [
   ...([
     'ink',
@@ -119,11 +117,11 @@ const NAMES = [
 ] as const;
 export type LookName = (typeof NAMES)[number];
 export type Look = Readonly<Record<LookName, string>> & {
-  /** Small letters. */
+  /** The font of small text. */
   readonly font: string;
 };
 
-/** What the page's colours depend on, beside its theme. */
+/** The page's colours depend on these and on its theme. */
 export const SCHEMES = [
   '(prefers-color-scheme: dark)',
   '(prefers-contrast: more)',
@@ -132,7 +130,7 @@ export const SCHEMES = [
 let schemes: readonly MediaQueryList[] | undefined;
 let latest: { readonly theme: string | null; readonly look: Look } | undefined;
 
-/** Asked for in each frame, and worked out only when it may be another: reading styles makes the browser compute them all. */
+/** Cached, because it is called in each frame and reading styles makes the browser compute all of them. */
 export function lookOf(element: Element): Look {
   schemes ??= SCHEMES.map(watched);
   const theme = document.documentElement.getAttribute('data-theme');
@@ -140,7 +138,7 @@ export function lookOf(element: Element): Look {
   return latest.look;
 }
 
-/** The browser says so before the next frame is drawn. */
+/** The browser reports a change before it draws the next frame. */
 function watched(scheme: string): MediaQueryList {
   const query = matchMedia(scheme);
   query.addEventListener('change', () => (latest = undefined));

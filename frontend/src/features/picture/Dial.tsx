@@ -1,5 +1,5 @@
-// A servo's horn on a scale: the needle is the estimate, the hollow triangle on the rim the target. Unknown is a hatched face with a
-// question mark. The hands are drawn on the face.
+// A dial that shows a servo's horn: the needle is the estimate, the hollow triangle on the rim the target. An unknown position is a
+// hatched face with a question mark. The needles of all dials on a canvas are one path per kind: few strokes for many dials.
 
 import { useState } from 'react';
 import type { Family } from '#shared/codec/families.ts';
@@ -35,7 +35,7 @@ export function Dial({ servo, family }: { readonly servo: number; readonly famil
   );
 }
 
-/** The dial without hands, for those that are drawn together. */
+/** The dial without needles, where the needles of several dials are drawn together. */
 export function DialFace({ servo }: { readonly servo: number }) {
   const isKnown = useIsKnown(servo);
   return (
@@ -73,14 +73,11 @@ function Unknown() {
 /** 240 degrees of a circle of radius 19, open below. */
 const RIM = 'M-16.45 9.5A19 19 0 1 1 16.45 9.5';
 
-// The hands of dials: their corners as they point straight up, turned, and drawn on a canvas. All hands of a kind are one path: a
-// canvas is drawn in as many strokes as there are kinds of hands, however many dials are on it. Draws what it is given.
-
 /** Units across a dial's drawing. */
 const FACE = 48;
 
 type Corners = readonly (readonly [x: number, y: number])[];
-/** Hollow: what is within it is filled again, which costs a third of a line drawn around it. */
+/** Hollow: filling the inside again costs a third of stroking the outline. */
 const TARGET: Corners = [
   [-5.2, -23.25],
   [5.2, -23.25],
@@ -91,7 +88,7 @@ const WITHIN_TARGET: Corners = [
   [2.8, -21.75],
   [0, -16.9],
 ];
-/** From within the ring of the hub, which is part of the face. */
+/** Begins within the ring of the hub, which is part of the face. */
 const NEEDLE: Corners = [
   [-1.8, -4],
   [-1, -14],
@@ -103,7 +100,7 @@ const PREVIEW: Corners = [
   [0, -19],
 ];
 
-/** In degrees from straight up; null: not there. */
+/** In degrees from straight up; null for a needle that is not drawn. */
 interface Needles {
   readonly target: number | null;
   readonly needle: number | null;
@@ -121,7 +118,7 @@ export interface NeedlesAt {
   readonly needles: Needles;
 }
 
-/** On dials of one size. */
+/** Paints needles on dials of one size. */
 export function paintNeedles(
   ctx: CanvasRenderingContext2D,
   look: Look,
@@ -139,7 +136,7 @@ export function paintNeedles(
   }
 }
 
-/** Of one hand on all dials; false where none has it. */
+/** Adds one kind of needle on all dials to the path; false if no dial has it. */
 function outline(
   ctx: CanvasRenderingContext2D,
   scale: number,

@@ -1,5 +1,5 @@
-// The six-servo arm from the side, its base from above and its hand from the front, as the session's motion goes. Solid is
-// where it is by the estimate, the outline is where it was asked to go, the dotted one where the group at hand would have it.
+// The live pictures of a robot: the six-servo arm with its base from above and its hand from the front, and bodies by bones. Solid is
+// the estimate, the outline the target, the dotted outline a preview of the open group.
 
 import { useRef } from 'react';
 import type { ServoMotion, Motions } from '#shared/robot/state.ts';
@@ -8,15 +8,13 @@ import { words } from '../../i18n/whole.ts';
 import { type ArmPicture, armPicture, JOINT, samePicture, type Pose } from './pose.ts';
 import { useDevice, usePlayback, useStores, useRobot } from '../stores.ts';
 import { ArmFigure, drawArm, BoneFigure, drawBones } from './ArmFigure.tsx';
-import { usePreview } from './usePreview.ts';
+import { usePreview } from '../preview.ts';
 import { motionsInFrame, useMotions } from './motion.ts';
 import figure from './figure.module.css';
 import styles from './LiveArm.module.css';
 import type { Robot } from '#shared/profile/robot.ts';
 import { bonesOf, type BonePicture } from './bones.ts';
 import { reachOf, viewBoxOf } from './reach.ts';
-
-// The two small views beside the arm: the base from above and the hand from the front. Draw what they are given.
 
 type InsetLook = 'commanded' | 'estimated' | 'preview';
 
@@ -100,7 +98,7 @@ const FINGER = 'M0 -8h9v16h-9z';
 
 const turn = (degrees: number): string => `rotate(${degrees.toFixed(2)})`;
 
-/** From the front the jaws slide apart. */
+/** Seen from the front, the jaws slide apart. */
 const spread = (side: 1 | -1, { jawFront }: ArmPicture): string =>
   `scale(${side} 1) translate(${(8 + jawFront.degrees * 0.5).toFixed(2)} 0)`;
 
@@ -164,7 +162,7 @@ function drawViews(frame: HTMLElement, name: InsetLook, picture: ArmPicture): vo
   drawHand(frame, name, picture);
 }
 
-/** The ground, the reach of the arm and the foot it stands on. */
+/** The ground, the reach of the arm and its foot. */
 function Floor() {
   return (
     <g aria-hidden="true">
@@ -183,11 +181,8 @@ function Floor() {
   );
 }
 
-// A body by bones as the session's motion goes: solid is where it is by the estimate, the outline where it was asked to go, the
-// dotted one where the group at hand would have it.
-
 const SHOWN = ['estimated', 'target'] as const;
-/** In board units: what no eye can tell apart in the picture. */
+/** In board units: smaller differences are invisible in the picture. */
 const SAME = 6;
 
 export function LiveBones({ className }: { readonly className?: string | undefined }) {
@@ -241,7 +236,7 @@ export function LiveBones({ className }: { readonly className?: string | undefin
   );
 }
 
-/** Where all of it is where it was asked to be the outline says nothing. */
+/** Hides the outline while the estimate equals the target. */
 function ghostVisibility({ servos }: Robot, motion: Motions): 'visible' | 'hidden' {
   const isThere = servos.every(({ servo }) => {
     const { target, estimated } = motion(servo);

@@ -1,6 +1,6 @@
-// A number that changes by itself, drawn while it does: text that changes has the page laid out and painted anew. Beneath it the
-// text follows for whoever does not see, four times a second where few change, every other second where many do; at rest it is
-// text like any other.
+// A number that changes by itself. While it changes it is drawn on a canvas, because changing text causes layout and paint of the page.
+// The text below follows for screen readers: four times a second if few numbers change, every other second if many do. At rest it is
+// plain text.
 
 import { useRef, useEffect, useLayoutEffect, useState } from 'react';
 import type { LookName, Pen, Size } from './Canvas.tsx';
@@ -12,17 +12,15 @@ import { Drawing } from './SharedSheet.tsx';
 import styles from './MovingLabel.module.css';
 import overlay from './overlay.module.css';
 
-// A number that changes by itself, in a place of fixed size.
-
 interface MovingLabelProps {
-  /** Asked for what is to stand there now. */
+  /** Returns the text to show now. */
   text(): string;
   readonly colour: LookName;
-  /** Gives it a width and a height. */
+  /** Sets its width and height. */
   readonly className: string | undefined;
-  /** What kind of number it is: for whoever points at it, and for ears. */
+  /** The kind of number, as tooltip and for screen readers. */
   readonly title?: string;
-  /** It changes all the time, and something else says it to screen readers. */
+  /** Hidden from screen readers, because it changes constantly and is said elsewhere. */
   readonly isSilent?: boolean;
 }
 
@@ -43,20 +41,20 @@ export function MovingLabel({ text, colour, className, title, isSilent }: Moving
   );
 }
 
-/** On an element whose text is drawn instead. */
+/** Marks an element whose text is drawn on the canvas. */
 const DRAWN = 'data-drawn';
-/** Target and estimate of as many servos as two sticks move. Nobody listens to more at once. */
+/** Target and estimate of the four servos that two sticks move. */
 const FEW = 8;
-/** Those that are drawn now. */
+/** The numbers that are drawn now. */
 const changing = new Set<object>();
 
 interface MovingTextProps extends Omit<FollowedTextProps, 'colour'> {
   readonly colour: LookName;
 }
 
-/** Over `element`, in its font, in its middle where its text is, else from its end. */
+/** Draws over `element` in its font, centred if its text is centred, else right-aligned. */
 export function MovingText({ element, colour, text, write }: MovingTextProps) {
-  /** What is drawn; null while it is text. */
+  /** The drawn text; null while the element shows it. */
   const drawn = useRef<string | null>(null);
   const written = useRef('');
   const [isDue] = useState(() => ({
@@ -103,7 +101,7 @@ export function MovingText({ element, colour, text, write }: MovingTextProps) {
   );
 }
 
-/** Measured once: to ask for it in each frame would cost more than to draw. */
+/** Measured once: reading it in each frame would cost more than drawing. */
 interface Type {
   readonly size: Size;
   readonly isFontThere: boolean;
@@ -112,7 +110,7 @@ interface Type {
   readonly baseLine: number;
 }
 
-/** The base line is where that of a line of text as high as the element is. */
+/** The baseline of a line of text as high as the element. */
 function typeOf({ ctx, size }: Pen, element: HTMLElement | null): Omit<Type, 'size' | 'isFontThere'> {
   if (element === null) return { font: '', align: 'right', baseLine: 0 };
   const { fontWeight, fontSize, fontFamily, textAlign } = getComputedStyle(element);

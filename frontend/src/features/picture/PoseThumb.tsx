@@ -1,4 +1,4 @@
-// A pose as a small picture: the body where it is described, and a bar per servo. Servos that move are marked below it.
+// A pose as a thumbnail: the body if it is described, and a bar per servo. Servos that move are marked below.
 
 import { memo } from 'react';
 import type { Robot } from '#shared/profile/robot.ts';
@@ -16,12 +16,12 @@ export interface PoseThumbProps {
   readonly family: Family;
 }
 
-/** Drawn again only where the pose is another: there may be dozens on the page. */
+/** Memoised, because there can be dozens on the page. */
 export const PoseThumb = memo(function PoseThumb(props: PoseThumbProps) {
   return <RobotThumb robot={useRobot()} {...props} />;
 }, isSame);
 
-/** The same of a robot that counts as the group does. */
+/** The same for a robot in the group's unit. */
 export const GroupThumb = memo(RobotThumb, (one, other) => one.robot === other.robot && isSame(one, other));
 
 function isSame(one: PoseThumbProps, other: PoseThumbProps): boolean {
@@ -32,7 +32,7 @@ export interface RobotThumbProps extends PoseThumbProps {
   readonly robot: Robot;
 }
 
-/** Of any robot, not only the one at hand. */
+/** For any robot, not only the current one. */
 export function RobotThumb({ robot, pose, changed, family }: RobotThumbProps) {
   const servos = robot.servos.map(({ servo }) => servo);
   const bones = bonesOf(robot, (servo) => pose.get(servo) ?? null);
@@ -54,7 +54,7 @@ export function RobotThumb({ robot, pose, changed, family }: RobotThumbProps) {
   );
 }
 
-/** Of servos that no robot is known to. */
+/** For servos without a known robot. */
 export function BarThumb(props: PoseThumbProps) {
   return (
     <span className={styles.thumb} data-body={false} aria-hidden="true">
@@ -65,7 +65,7 @@ export function BarThumb(props: PoseThumbProps) {
 
 const LOOKS = ['unknown', 'changed', 'same'] as const;
 
-/** One path for all that look alike: a strip of cards shows hundreds of bars. */
+/** One path for all bars with the same look: a strip of cards shows hundreds of bars. */
 function Bars({ servos, pose, changed, family }: PoseThumbProps & { readonly servos: readonly number[] }) {
   const width = 100 / servos.length;
   const paths = { unknown: '', changed: '', same: '' };
@@ -85,6 +85,6 @@ function Bars({ servos, pose, changed, family }: PoseThumbProps & { readonly ser
   );
 }
 
-/** A file may bring positions that no board takes: they stand at the edge. */
+/** Clamps positions of files that are outside the range of any board. */
 const topOf = (position: number, family: Family): number =>
   20 - Math.min(1, Math.max(0, fraction(position, family.position))) * 18;

@@ -1,4 +1,4 @@
-// A list whose pictures are drawn on one canvas, over what is in sight of it. The canvas scrolls with the list.
+// A list whose pictures are drawn on one canvas over its visible part. The canvas scrolls with the list.
 
 import { useLayoutEffect, useRef, useState, type ReactNode, use, useEffectEvent } from 'react';
 import { watchSize, Sight, useSight } from '../../ui/sight.ts';
@@ -16,11 +16,11 @@ import {
 } from './sheet.ts';
 import styles from './SharedSheet.module.css';
 
-/** Whatever else moves a row, its pictures are behind it no longer than this. */
+/** If a row moves for any other reason, its pictures follow within this time. */
 const MEASURED_EACH_MS = 500;
 
 interface SharedSheetProps {
-  /** Where the list is, left out: in the flow of the page. */
+  /** If absent, the list is in the flow of the page. */
   readonly className?: string | undefined;
   readonly children: ReactNode;
 }
@@ -39,7 +39,7 @@ export function SharedSheet({ className = styles.sheet, children }: SharedSheetP
     if (list.current === null) return undefined;
     return watchSize(list.current, sheet.measureAnew);
   }, [sheet]);
-  // Not in the frame in which texts are written: it would have that one laid out twice.
+  // Offset from the frame in which texts are written, which would otherwise have two layouts.
   useEachFrame(sheet.measureAnew, { eachMs: MEASURED_EACH_MS, offsetMs: MEASURED_EACH_MS / 2 });
 
   function place(): void {
@@ -82,8 +82,6 @@ export function SharedSheet({ className = styles.sheet, children }: SharedSheetP
     </SheetAround>
   );
 }
-
-// A picture that changes in each frame, on the sheet of the list it is in, else on a canvas of its own. Knows no needle.
 
 interface DrawingProps<Shown extends readonly unknown[]> extends Picture<Shown> {
   readonly className?: string | undefined;

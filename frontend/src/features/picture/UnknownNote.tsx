@@ -1,5 +1,5 @@
-// Says which servos nobody knows the position of, before their first move is made and while they wait for it, and offers to
-// take them to where this board was last seen. Keeps its line when all are known.
+// Lists the servos with an unknown position before and during their first move, and offers to move them to their last known positions.
+// Reserves its line when all positions are known.
 
 import type { Robot } from '#shared/profile/robot.ts';
 import type { ServoTarget } from '#shared/codec/commands.ts';
@@ -23,7 +23,7 @@ import styles from './UnknownNote.module.css';
 
 export function UnknownNote() {
   const robot = useRobot();
-  // Moved by nobody, and nothing told by the board.
+  // Neither moved nor reported.
   const text = useDevice(({ known, snapshot }) =>
     snapshot.waitingToStart.length > 0
       ? waitingSentence(snapshot.waitingToStart)

@@ -1,4 +1,4 @@
-// The motion as of the frame that is being drawn: asked of the session once, however many needles show it.
+// Targets and estimates of servos as they change: read once per frame, drawn or reported without React.
 
 import type { Motions, ServoMotion } from '#shared/robot/state.ts';
 import type { Device } from '../../robot/device.ts';
@@ -33,9 +33,7 @@ function eachOnce(motion: Motions): Motions {
   };
 }
 
-// Calls a function on each animation frame in which one of several servos moved that are drawn as one: past React, and a robot at rest
-// costs nothing.
-
+/** Calls `draw` in each frame in which one of the servos moved. A robot at rest costs nothing. */
 export function useMotions(servos: readonly number[], draw: () => void): void {
   const { device } = useStores();
   useFollow({
@@ -59,19 +57,17 @@ function sameMotion(one: ServoMotion, other: ServoMotion): boolean {
   return one.target === other.target && one.estimated === other.estimated;
 }
 
-// A servo's target as it changes by itself.
-
-/** As of now; `motionInFrame` has it as of the frame that is drawn. */
+/** The target now; `motionInFrame` has it at the time of the frame. */
 export const targetOf = (device: Device, servo: number): number | null => device.motion(servo).target;
 
-/** Past React's rounds: `say` is called no more often than it can be heard, and each time the component is drawn. */
+/** Calls `say` with the target, no more often than a screen reader can follow, and after each render. */
 export function useSaidTarget(servo: number, say: (target: number | null) => void): void {
   const { device } = useStores();
   useLayoutEffect(() => say(targetOf(device, servo)));
   useFollow({ read: () => motionInFrame(device, servo).target, draw: say, eachMs: HEARD_EACH_MS });
 }
 
-/** At most once a frame. */
+/** Renders with each new target, at most once a frame. */
 export function useTarget(servo: number): number | null {
   const { device } = useStores();
   const [target, setTarget] = useState(() => targetOf(device, servo));

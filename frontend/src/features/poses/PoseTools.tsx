@@ -18,7 +18,7 @@ import { useDevice, useDocument, usePoses, useRobot, useStores } from '../stores
 import { Button, IconButton } from '../../ui/Button.tsx';
 import { Toggle } from '../../ui/Toggle.tsx';
 import { words } from '../../i18n/whole.ts';
-import { useSelectedPose } from './capture.ts';
+import { useSelectedPose } from './naming.ts';
 import styles from './PosesPanel.module.css';
 
 /** A step of the book, in the words of the moment. */

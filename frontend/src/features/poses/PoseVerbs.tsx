@@ -10,7 +10,7 @@ import { CaptureButton } from '../animate/frames/CaptureStrip.tsx';
 import { poseName } from './poses.ts';
 import { motionHindrance } from '../../robot/readiness.ts';
 import { NumberField } from '../../ui/NumberField.tsx';
-import { capturePose, type Captured } from './capture.ts';
+import type { Captured } from './naming.ts';
 import styles from './PosesPanel.module.css';
 
 // Poses to a file and from one. An import adds to what is there.
@@ -87,7 +87,7 @@ export function PoseVerbs({ onNew }: PoseVerbsProps) {
 function Capture({ onNew }: PoseVerbsProps) {
   const stores = useStores();
   const capture = (press: MouseEvent): void => {
-    capturePose(stores);
+    stores.poses.capture();
     const { selectedPose } = stores.view.getState();
     const isNamed = isByKey(press) && !stores.pad.store.getState().isDriving;
     if (isNamed && selectedPose !== null) onNew({ pose: selectedPose, from: press.currentTarget });

@@ -17,7 +17,7 @@ import { UndoTools } from '../undo/UndoTools.tsx';
 import { BlendBar } from './BlendBar.tsx';
 import { PoseTools, type Drawer } from './PoseTools.tsx';
 import { PoseVerbs } from './PoseVerbs.tsx';
-import { useNaming, useSelectedPose } from './capture.ts';
+import { useNaming, useSelectedPose } from './naming.ts';
 import styles from './PosesPanel.module.css';
 
 // Where there is no pose yet: how some would look, on the robot at hand.

@@ -1,9 +1,10 @@
-// The poses of the robot at hand, and the way to them: by the device, in its limits, slowly unless asked otherwise. To go to
-// a pose is noted as a step of the book; undoing it changes the note and moves nothing.
+// The poses of the current robot: capturing one, and moving to one within the limits, slowly by default. A move to a pose is an undo
+// step of the book of poses; undoing it changes the book and moves nothing.
 
 import type { Label } from '#shared/document/history.ts';
 import {
   EMPTY_BOOK,
+  addPose,
   poseOf,
   type PoseBook,
   type PoseRef,
@@ -27,11 +28,13 @@ import type { View } from '../view.ts';
 
 export interface Poses {
   readonly book: RobotDocument<PoseBook>;
-  /** null where there is no such pose, or none in the unit of the board at hand. */
+  /** null if the pose does not exist or has another unit than the board. */
   targetsOf(ref: PoseRef): readonly ServoTarget[] | null;
-  /** False where it was refused; then the person was told why. */
+  /** Adds and selects a pose with the current targets; moves nothing. Returns its name. */
+  capture(): string;
+  /** False if it was refused; then a notice says why. */
   apply(ref: PoseRef, durationMs: number): boolean;
-  /** Somewhere between poses. */
+  /** Moves to a blend of two poses. */
   applyBlend(label: Label, targets: readonly ServoTarget[], durationMs: number): void;
   /** Adds the poses of a file, all or none. */
   importText(text: string): void;
@@ -67,7 +70,7 @@ export function createPoses({ storage, notices, robots, device, view }: PosesOpt
     return pose?.unit === device.store.getState().family.unit ? pose.targets : null;
   }
 
-  /** Locked servos stay, and the person is told. */
+  /** Locked servos stay; a notice names them. */
   function go(targets: readonly ServoTarget[], durationMs: number): boolean {
     const staying = stayingOf({ view, robots }, targets);
     const free = freeOf({ view, robots }, targets);
@@ -76,7 +79,7 @@ export function createPoses({ storage, notices, robots, device, view }: PosesOpt
     return isGone;
   }
 
-  /** Of the poses together, because none is taken without the others. */
+  /** Checks all poses together, because a file is imported completely or not at all. */
   function flawOfImport({ poses }: PoseBook): string | null {
     return limitRefusal(
       robots.current().robot,
@@ -98,6 +101,17 @@ export function createPoses({ storage, notices, robots, device, view }: PosesOpt
   return {
     book,
     targetsOf,
+    capture() {
+      const { nextId } = present();
+      const { unit } = device.store.getState().family;
+      const pose = { name: words.poses.newName({ number: nextId }), unit, targets: device.pose() };
+      book.edit(
+        () => words.poses.steps.capture({ name: pose.name }),
+        (before) => addPose(before, pose),
+      );
+      view.setState({ selectedPose: nextId });
+      return pose.name;
+    },
     apply(ref, durationMs) {
       const targets = targetsOf(ref);
       if (targets === null) notices.tell('warning', words.poses.gone);
@@ -124,7 +138,7 @@ export function createPoses({ storage, notices, robots, device, view }: PosesOpt
   };
 }
 
-/** Where the robot went last is told by the robot, not by the book. */
+/** Without the last applied pose, which belongs to the robot and not to the book. */
 const withoutPlace = (book: PoseBook): PoseBook => ({ ...book, applied: null });
 
 function onPlaceOf({ applied }: PoseBook, book: PoseBook): PoseBook {

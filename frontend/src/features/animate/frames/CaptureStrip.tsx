@@ -5,7 +5,6 @@ import { tellsPositions } from '../../../robot/readiness.ts';
 import { useDevice, useIsUnidentified, useKnownFamily, useStores, type Stores } from '../../stores.ts';
 import { Button, type ButtonProps } from '../../../ui/Button.tsx';
 import { words } from '../../../i18n/words.ts';
-import { capturePose } from '../../poses/capture.ts';
 import type { Undoable } from '../../../state/undoable.ts';
 import { captureFrame } from './capture.ts';
 import captureButtonStyles from './CaptureButton.module.css';
@@ -56,7 +55,7 @@ function Captures({ stores }: { readonly stores: Stores }) {
     const { frames } = document.store.getState().present;
     tell(words.actions.captured({ number: frames.length }), document);
   };
-  const pose = (): void => tell(words.poses.captured({ name: capturePose(stores) }), poses.book);
+  const pose = (): void => tell(words.poses.captured({ name: poses.capture() }), poses.book);
 
   /** What was written on top meanwhile is not taken back. */
   function tell(text: string, where: Pick<Undoable<unknown>, 'store' | 'undo'>): void {

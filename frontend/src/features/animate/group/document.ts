@@ -7,18 +7,11 @@ import type { Clock } from '#shared/clock.ts';
 import { words } from '../../../i18n/words.ts';
 import type { Notices } from '../../../state/notices.ts';
 import { createThrottle, type TextStorage } from '../../../state/storage.ts';
-import { createUndoable, type Undoable } from '../../../state/undoable.ts';
+import { createUndoable, type SavedDocument } from '../../../state/undoable.ts';
 
 export type DocumentState = History<ActionGroup>;
 
-export interface Document extends Undoable<ActionGroup> {
-  /** Shows another group, with the steps that it was left with. */
-  take(history: History<ActionGroup>): void;
-  /** Saves at once what waits for it: the page goes. */
-  flush(): void;
-  /** Whoever keeps it elsewhere, too, does so in the same moment: no crash comes between. */
-  onSave(listener: (text: string) => void): void;
-}
+export type Document = SavedDocument<ActionGroup>;
 
 const KEY = 'servodeck.group';
 const REPLACED_KEY = 'servodeck.group.unreadable';

@@ -1,11 +1,8 @@
-// A pose that was captured by a key has its name typed next; Enter leads back to where it was captured.
+// Hooks for the selected pose, and for naming a pose that has just been captured.
 
 import { useEffect, useState, type RefObject } from 'react';
-import { poseOf, type Pose, addPose } from '#shared/profile/pose.ts';
-import { usePoses, useView, type Stores } from '../stores.ts';
-import { words } from '../../i18n/words.ts';
-
-// The pose that is selected, if there is one.
+import { poseOf, type Pose } from '#shared/profile/pose.ts';
+import { usePoses, useView } from '../stores.ts';
 
 export function useSelectedPose(): Pose | undefined {
   const id = useView((state) => state.selectedPose);
@@ -17,7 +14,10 @@ export interface Captured {
   readonly from: Element;
 }
 
-/** To be called with what was captured; `list` is around its card. */
+/**
+ * Returns a function to call with a pose captured by a key: the focus goes to its name in `list`, and Enter leads back to where the pose
+ * was captured.
+ */
 export function useNaming(list: RefObject<HTMLElement | null>): (captured: Captured) => void {
   const [captured, setCaptured] = useState<Captured | null>(null);
 
@@ -28,7 +28,7 @@ export function useNaming(list: RefObject<HTMLElement | null>): (captured: Captu
     if (!name) return;
     const key = (event: KeyboardEvent): void => {
       if (event.key !== 'Enter' || !(from instanceof HTMLElement)) return;
-      // Else what gets the focus is pressed by the same key.
+      // Otherwise the same key would press the element that gets the focus.
       event.preventDefault();
       from.focus();
     };
@@ -44,19 +44,4 @@ export function useNaming(list: RefObject<HTMLElement | null>): (captured: Captu
   }, [captured, list]);
 
   return setCaptured;
-}
-
-// Keeps the pose that the robot was asked for in the book of poses, under a name of its own. Moves nothing.
-
-/** Returns its name. */
-export function capturePose({ device, poses, view }: Pick<Stores, 'device' | 'poses' | 'view'>): string {
-  const { family } = device.store.getState();
-  const { nextId } = poses.book.store.getState().present;
-  const pose = { name: words.poses.newName({ number: nextId }), unit: family.unit, targets: device.pose() };
-  poses.book.edit(
-    () => words.poses.steps.capture({ name: pose.name }),
-    (book) => addPose(book, pose),
-  );
-  view.setState({ selectedPose: nextId });
-  return pose.name;
 }

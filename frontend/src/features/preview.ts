@@ -4,12 +4,12 @@
 import { useRef } from 'react';
 import { rescaled } from '#shared/profile/units.ts';
 import { poseAtMs } from '#shared/group/tracks.ts';
-import { knownFamily } from '../groupBoard.ts';
-import { isSilent } from '../servoView.ts';
-import { servoViewOf, useStores, type Stores } from '../stores.ts';
-import { timesOf } from '../animate/timeline/groupTimes.ts';
-import { useEachFrame } from '../../ui/useEachFrame.ts';
-import type { Pose } from './pose.ts';
+import { knownFamily } from './groupBoard.ts';
+import { isSilent } from './servoView.ts';
+import { servoViewOf, useStores, type Stores } from './stores.ts';
+import { timesOf } from './animate/timeline/groupTimes.ts';
+import { useEachFrame } from '../ui/useEachFrame.ts';
+import type { Pose } from './picture/pose.ts';
 
 /** `draw` gets null where there is nothing to preview. */
 export function usePreview(draw: (pose: Pose | null) => void): void {
