@@ -23,7 +23,7 @@ import { lookOf } from '../Canvas.tsx';
 import { motionsInFrame, useMotions } from '../motion.ts';
 import type { Pose } from '../pose.ts';
 import { UnknownNote } from '../UnknownNote.tsx';
-import { usePreview } from '../usePreview.ts';
+import { usePreview } from '../../preview.ts';
 import { parseUrdf } from './figure.ts';
 import { JointKnob, placeKnob } from './JointKnob.tsx';
 import { LimbHandle, placeHandles, PlaceFields } from './LimbHandle.tsx';
