@@ -1,4 +1,4 @@
-// One group of the library: its picture opens it, and more about it unfolds in place.
+// One group of the library as a card: the picture opens it; details with name, tags, copy, versions and trash unfold in place.
 
 import { useStore } from 'zustand';
 import { memo, type Ref, useEffect, useState, type SubmitEvent } from 'react';
@@ -17,8 +17,7 @@ import { tagsFromText, tagsToText } from '#shared/files/libraryText.ts';
 import { NameField } from '../../ui/NameField.tsx';
 import field from '../../ui/Field.module.css';
 
-// The picture of a group: its robot in the pose of the middle frame, or bars where that robot is not known here.
-
+/** The robot in the pose of the middle frame, or bars if the robot is unknown here. */
 function DocumentThumb({ facts }: { readonly facts: GroupFacts }) {
   const { robots } = useStores();
   const robot = useStore(
@@ -36,10 +35,10 @@ function DocumentThumb({ facts }: { readonly facts: GroupFacts }) {
 }
 
 interface DocumentCardProps {
-  /** Where its height stands for that of its row. */
+  /** Set on the card whose height is measured for its row. */
   readonly ref?: Ref<HTMLLIElement>;
   readonly row: number;
-  /** In the whole list of `count`, from 1: not all of them are drawn. */
+  /** Position in the whole list of `count` cards, from 1: not all of them are rendered. */
   readonly place: number;
   readonly count: number;
   readonly document: Listed;
@@ -49,7 +48,7 @@ interface DocumentCardProps {
   onDone(): void;
 }
 
-/** Drawn again only where it is another: the list is looked at every few seconds. */
+/** Memoised, because the list is refreshed every few seconds. */
 export const DocumentCard = memo(function DocumentCard({
   ref,
   row,
@@ -111,10 +110,6 @@ export const DocumentCard = memo(function DocumentCard({
   );
 });
 
-// What can be done with one group of the library: name, tags, a copy, its versions, the trash.
-
-// Named versions of a group: keeping one as it is now, renaming one, going back to one, deleting one.
-
 const MAX_NAME_LENGTH = 64;
 
 function Versions({ id, onDone }: { readonly id: string; onDone(): void }) {
@@ -131,7 +126,7 @@ function Versions({ id, onDone }: { readonly id: string; onDone(): void }) {
     return () => {
       isGone = true;
     };
-    // Whoever changed one has had the library listed again.
+    // Each change of a version lists the library again.
   }, [library, id, listings]);
 
   async function keep(event: SubmitEvent): Promise<void> {

@@ -1,4 +1,5 @@
-// The cards of the library. Arrow keys lead from picture to picture; one card at a time lies open.
+// The cards of the library: filtered, sorted, in rows of which only the visible ones are rendered. Arrow keys go from picture to picture;
+// one card at a time is unfolded.
 
 import {
   useLayoutEffect,
@@ -19,29 +20,29 @@ import { words } from '../../i18n/whole.ts';
 import { DocumentCard } from './DocumentCard.tsx';
 import styles from './Library.module.css';
 
-// Which rows of a long grid of cards are drawn: those in sight, some beside them and the one with the focus, so that
-// hundreds of cards cost what is seen of them wherever the list is scrolled to. The room of all others is kept.
-
-/** A row of the library with a line of tags, until it has been measured. */
+/** Assumed height of a row with a line of tags, until it is measured. */
 const ROW_PX = 244;
-/** As in the style sheet. */
+/** The same as in the style sheet. */
 const GAP_PX = 12;
 const BESIDE = 2;
 
 interface VisibleRow {
   readonly index: number;
-  /** Between the row drawn before it and this one; 0 where they follow each other. */
+  /** Height of the rows that are skipped before this one. */
   readonly roomBeforePx: number;
 }
 
 interface VisibleRows {
   readonly rows: readonly VisibleRow[];
   readonly roomBehindPx: number;
-  /** For one card of each row. All carry `data-index`: in a list of other width another one is first. */
+  /** For one card of each row. All cards have `data-index`, because the first of a row depends on the list's width. */
   measure(card: Element | null): void;
 }
 
-/** `keys`: a name for each row, by which its height is remembered. `focused`: the row that stays, wherever it is; -1: none. */
+/**
+ * The rows in sight, some beside them and the one with the focus, so that hundreds of cards cost only what is visible. `keys`: a name per
+ * row, to remember its height. `focused`: the row with the focus, -1 for none.
+ */
 function useVisibleRows(
   list: RefObject<HTMLElement | null>,
   keys: readonly string[],
@@ -137,12 +138,12 @@ function Cards({ documents, nowMs, onDone }: DocumentListProps) {
   );
 }
 
-/** Where cards that are not drawn would be. */
+/** The space of cards that are not rendered. */
 function Room({ heightPx }: { readonly heightPx: number }) {
   return heightPx > 0 && <li aria-hidden="true" className={styles.room} style={{ height: heightPx }} />;
 }
 
-/** As many as the style sheet finds room for. */
+/** The number of columns that the style sheet lays out. */
 function useColumns(list: RefObject<HTMLElement | null>): number {
   const [columns, setColumns] = useState(1);
   useLayoutEffect(() => {
@@ -158,13 +159,13 @@ function useColumns(list: RefObject<HTMLElement | null>): number {
 }
 
 interface Walk {
-  /** The card in which the focus is, or was last. */
+  /** The card that has the focus or had it last. */
   readonly focused: string | null;
   hold(event: FocusEvent): void;
   walk(event: KeyboardEvent): void;
 }
 
-/** Arrow keys, Home and End lead to each card, drawn or not. */
+/** Arrow keys, Home and End reach each card, rendered or not. */
 function useWalk(list: RefObject<HTMLElement | null>, documents: readonly Listed[]): Walk {
   const [focused, setFocused] = useState<string | null>(null);
   const [wish, setWish] = useState(0);
@@ -195,14 +196,11 @@ const documentOf = (target: EventTarget): string | null =>
     ? (target.closest('[data-document]')?.getAttribute('data-document') ?? null)
     : null;
 
-// Which documents of the library are shown and in which order. Knows no page.
-
-// How cards of a list fill the rows of a grid, where one of them may lie open and have a row to itself.
-
 interface Card {
   readonly id: string;
 }
 
+/** Splits cards into rows of a grid. An unfolded card has a row of its own. */
 export function cardRows<One extends Card>(
   cards: readonly One[],
   columns: number,
@@ -226,15 +224,15 @@ type Sort = (typeof SORTS)[number];
 export interface Wish {
   readonly search: string;
   readonly sort: Sort;
-  /** Empty: every tag. */
+  /** Empty for every tag. */
   readonly tag: string;
-  /** Those in the trash instead of the others. */
+  /** Documents in the trash instead of the others. */
   readonly isRemoved: boolean;
 }
 
 type Order = (one: Listed, other: Listed) => number;
 
-/** Made once: for each comparison it would cost more than the sorting. */
+/** Created once: creating it for each comparison would cost more than sorting. */
 const { compare } = new Intl.Collator(undefined, { numeric: true });
 
 const byName: Order = (one, other) => compare(one.facts.name, other.facts.name);
@@ -254,7 +252,7 @@ export function arranged(documents: readonly Listed[], wish: Wish): readonly Lis
     .sort((one, other) => ORDERS[wish.sort](one, other) || byName(one, other));
 }
 
-/** In alphabetical order, each once. */
+/** All tags in alphabetical order. */
 export function tagsIn(documents: readonly Listed[]): readonly string[] {
   const tags = documents.filter(({ isRemoved }) => !isRemoved).flatMap(({ facts }) => facts.tags);
   return [...new Set(tags)].sort((one, other) => one.localeCompare(other));

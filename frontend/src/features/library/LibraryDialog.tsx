@@ -1,4 +1,4 @@
-// The library over the page, for as long as a group is looked for.
+// The dialog of the library.
 
 import { useStores, useView } from '../stores.ts';
 import { Dialog } from '../../ui/Dialog.tsx';

@@ -1,5 +1,4 @@
-// The groups of the library: found by name, robot or tag, opened by their picture. While it is open it shows what others
-// change, too.
+// The groups of the library, searchable by name, robot or tag. Refreshes while it is open, to show changes of other people.
 
 import { useState, useEffect, useMemo } from 'react';
 import { createLibraryFiles } from './libraryFiles.ts';
@@ -16,8 +15,7 @@ import { EmptyState } from '../../ui/Panel.tsx';
 import styles from './Library.module.css';
 import field from '../../ui/Field.module.css';
 
-// A new group, and the whole library to a file and from one. An import adds to what is there.
-
+/** A new group, and export and import of the whole library. An import adds to the existing documents. */
 function LibraryFiles({ onDone }: { onDone(): void }) {
   const { library, notices } = useStores();
   const [files] = useState(() => createLibraryFiles(library.forFiles));
@@ -54,8 +52,6 @@ function LibraryFiles({ onDone }: { onDone(): void }) {
   );
 }
 
-// What is looked for in the library: words, a tag, an order, the trash.
-
 interface LibraryFinderProps {
   readonly wish: Wish;
   readonly tags: readonly string[];
@@ -63,7 +59,7 @@ interface LibraryFinderProps {
 }
 
 function LibraryFinder({ wish, tags, onWish }: LibraryFinderProps) {
-  // A tag whose last group has gone leads nowhere.
+  // The chosen tag may belong to no group any more.
   const offered = tags.includes(wish.tag) || wish.tag === '' ? tags : [wish.tag, ...tags];
   return (
     <div className={styles.finder} role="search">
@@ -102,7 +98,7 @@ function LibraryFinder({ wish, tags, onWish }: LibraryFinderProps) {
   );
 }
 
-/** As cheap as a list is, and as soon as two people beside each other want to see it. */
+/** Listing is cheap, and two people side by side expect to see a change soon. */
 const LOOK_EVERY_MS = 3000;
 const AGE_EVERY_MS = 20_000;
 
@@ -140,7 +136,7 @@ function useLooking(): void {
   }, [library]);
 }
 
-/** Where it lies, and whether everything is there. */
+/** Where the library is stored, and whether all changes are saved. */
 function Place() {
   const place = useLibrary((state) => state.place);
   const isSaved = useLibrary((state) => state.isSaved);

@@ -1,5 +1,5 @@
-// The library in this browser's own database (IndexedDB), where no gateway is. Texts lie beside what is listed of them, so
-// that a list reads none. Every failure is a LibraryError.
+// The document store in the browser (IndexedDB), for pages without a gateway. Texts are stored apart from the listed facts, so that a
+// list reads no text. Every failure is a LibraryError.
 
 import {
   LibraryError,
@@ -12,7 +12,7 @@ import {
   type Version,
 } from '#shared/files/documentStore.ts';
 
-/** Rows of before robots were kept say no kind. */
+/** The kind of rows from before robots were stored, which have none. */
 const OLDEST = { kind: 'group' } as const;
 const STORES = ['documents', 'texts', 'versions'] as const;
 
@@ -35,7 +35,7 @@ export function createBrowserStore(name: string, nowMs: () => number): DocumentS
 
   function open(): Promise<IDBDatabase> {
     opened ??= openDatabase(name).then(async (database) => {
-      // Another tab may want to change the shape, or the browser may clear everything: then it is opened anew.
+      // Another tab may upgrade the database, or the browser may clear it: then it is opened again.
       database.onversionchange = () => {
         database.close();
         opened = null;
@@ -123,7 +123,7 @@ function openDatabase(name: string): Promise<IDBDatabase> {
   return done(request);
 }
 
-/** Whole or not at all; resolves when it is on the disk. `work` may wait for nothing but requests of its own. */
+/** Runs a transaction; resolves when it is on the disk. `work` must await nothing but requests of the transaction. */
 async function transact<T>(
   database: IDBDatabase,
   mode: IDBTransactionMode,
@@ -139,7 +139,7 @@ async function transact<T>(
     await completed;
     return result;
   } catch (error) {
-    completed.catch(() => undefined); // the error above says more
+    completed.catch(() => undefined); // `error` has more details
     if (transaction.error === null) tryToAbort(transaction);
     throw error;
   }
@@ -149,19 +149,19 @@ function tryToAbort(transaction: IDBTransaction): void {
   try {
     transaction.abort();
   } catch {
-    // It has ended already.
+    // The transaction has already ended.
   }
 }
 
-/** As much of an IDBRequest as is needed here: its own type lets anything through as `any`. */
-interface Asked {
+/** The part of an IDBRequest in use, with `unknown` in place of the library's `any`. */
+interface PendingRequest {
   readonly result: unknown;
   readonly error: DOMException | null;
   addEventListener(event: 'success' | 'error', listener: () => void): void;
 }
 
-/** What this module put in is what comes out. */
-function done<T>(asked: Asked): Promise<T> {
+/** Trusts that a result has the type that this module stored. */
+function done<T>(asked: PendingRequest): Promise<T> {
   return new Promise((resolve, reject) => {
     asked.addEventListener('success', () => resolve(asked.result as T));
     asked.addEventListener('error', () => reject(asked.error ?? new Error('the browser’s database refused')));

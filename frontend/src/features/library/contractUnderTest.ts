@@ -1,5 +1,5 @@
-// What every keeper does, as cases that run wherever it lives: under Node, or in a browser against IndexedDB and a gateway. Uses
-// documents of its own names, so that a keeper may hold others.
+// The contract of document stores as cases that run under Node, and in a browser against IndexedDB and a gateway. Uses document ids of
+// its own, so that a store may hold other documents.
 
 import {
   LibraryError,
@@ -118,7 +118,7 @@ function same(found: unknown, expected: unknown): void {
   if (one !== other) throw new Error(`expected ${other}, found ${one}`);
 }
 
-/** With the keys of each object in one order. */
+/** Sorts the keys of each object. */
 function ordered(value: unknown): unknown {
   if (Array.isArray(value)) return value.map(ordered);
   if (typeof value !== 'object' || value === null) return value;

@@ -1,4 +1,4 @@
-// The library in the gateway's data folder, over HTTP. Trusts no answer's shape; every failure is a LibraryError.
+// The document store in the gateway's data folder, over HTTP. Validates every answer; every failure is a LibraryError.
 
 import * as v from 'valibot';
 import { factsSchema } from '#shared/files/factsSchema.ts';
@@ -16,7 +16,7 @@ import type {
 } from './library.generated.ts';
 
 const ANSWER_WITHIN_MS = 10_000;
-/** As much as the gateway takes. */
+/** The gateway's limit. */
 const MAX_TEXT_LENGTH = 2 * 1024 * 1024;
 
 const CODES: Readonly<Record<string, LibraryErrorCode>> = {

@@ -1,4 +1,4 @@
-// Lets a browser test put the gateway's keeper through the contract: `window.checkStore`.
+// Runs the contract against the gateway's document store in a browser test: `window.checkStore`.
 
 import { STORE_CASES } from './contractUnderTest.ts';
 import { gatewayStore } from './gatewayStore.ts';
@@ -9,7 +9,7 @@ declare global {
   }
 }
 
-/** Each case with what was wrong, empty for nothing. */
+/** Each case with its failure, '' for none. */
 async function checkStore(): Promise<Record<string, string>> {
   const outcomes: Record<string, string> = {};
   for (const [index, [title, run]] of Object.entries(STORE_CASES).entries()) {

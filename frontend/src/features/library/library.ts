@@ -1,6 +1,6 @@
-// The library of action groups: the group that is shown is always one of it, and each settled change goes there by itself.
-// Nothing is lost: until the keeper has a text it waits in the browser's storage, and of two that were changed at the same
-// time both are kept. Never moves the robot.
+// The library of action groups. The open group is always a document of the library, and each complete change is saved to it. Nothing is
+// lost: a change waits in the browser's storage until the document store has it, and a conflict keeps both versions. Never moves the
+// robot.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import { sleep, type Clock } from '#shared/clock.ts';
@@ -14,11 +14,9 @@ import {
   listedOf,
   type DocumentStore,
   type Listed,
-  type Listing,
   type Stored,
-  type LibraryErrorCode,
 } from '#shared/files/documentStore.ts';
-import { libraryProblem, longerName } from '../../i18n/sentences.ts';
+import { longerName } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/words.ts';
 import type { SavedDocument } from '../../state/undoable.ts';
 import type { TextStorage } from '../../state/storage.ts';
@@ -27,49 +25,44 @@ import type { RobotStore } from '../profiles/robots.ts';
 import type { View } from '../view.ts';
 import { groupOf, createOpenDocument, unchanged } from './openDocument.ts';
 import type { LibraryFilesOptions } from './libraryFiles.ts';
+import { createLibraryNotices } from './libraryNotices.ts';
 import { createLibraryVersions, type LibraryVersions } from './libraryVersions.ts';
 import { createOutbox, createDocumentChanges } from './outbox.ts';
 
 export interface LibraryState {
-  /** Where it lies; null until that is known. */
+  /** Where the documents are stored; null until that is known. */
   readonly place: DocumentStore['place'] | null;
-  /** Those in the trash too, in no order. */
+  /** Includes documents in the trash; unordered. */
   readonly documents: readonly Listed[];
-  /** How often it has been listed: what the list does not say, as versions, may have changed as well. */
+  /** Counts listings, because data that is not in the list, such as versions, may have changed as well. */
   readonly listings: number;
   readonly openId: string;
-  /** The keeper has every change. */
+  /** The document store has every change. */
   readonly isSaved: boolean;
 }
 
-/** What cannot be done is told to the person; nothing rejects. */
+/** Failures become notices; no promise rejects. */
 export interface Library extends LibraryVersions {
   readonly store: StoreApi<LibraryState>;
-  /** What `createLibraryFiles` needs of it: files come with the panel that opens and saves them. */
+  /** Arguments for `createLibraryFiles`, which is loaded with the panel for files. */
   readonly forFiles: LibraryFilesOptions;
-  /** Looks what others have changed; the group that is shown follows, if nothing of it waits here. */
+  /** Lists the library again. The open group follows changes of other people unless it has unsaved changes. */
   refresh(): Promise<void>;
   create(): void;
-  /**
-   * Keeps a group as a new document, without showing it. Resolves once the library has it, or does not take it soon: then it
-   * waits here.
-   */
+  /** Adds a group as a new document without opening it. Resolves once it is saved, or after a while: then it waits in the outbox. */
   add(group: ActionGroup): Promise<void>;
   open(id: string): Promise<void>;
-  /** Null where it cannot be read. */
+  /** null if it cannot be read. */
   group(id: string): Promise<ActionGroup | null>;
   duplicate(id: string): Promise<void>;
-  /** Changes any document; the one that is shown undoably. */
+  /** Changes any document; for the open one this is an undo step. */
   change(id: string, label: Label, edit: (group: ActionGroup) => ActionGroup): Promise<void>;
   remove(id: string): Promise<void>;
   restore(id: string): Promise<void>;
 }
 
-/** How long somebody who adds many groups waits for each. */
+/** The longest wait for each group while many are added. */
 const ADDED_WITHIN_MS = 700;
-
-/** Over as soon as nothing waits here any more. */
-const WAITING: readonly LibraryErrorCode[] = ['full', 'busy', 'unreachable'];
 
 export interface LibraryOptions {
   readonly documentStore: Promise<DocumentStore>;
@@ -86,27 +79,21 @@ export interface LibraryOptions {
 
 export function createLibrary(options: LibraryOptions): Library {
   const { document, storage, notices, robots, view, epochMs, newId } = options;
-  const outbox = createOutbox(storage, (isWritten) => {
-    isHeldHere = isWritten;
-    tellHeld();
-  });
+  const own = createLibraryNotices(notices);
+  const { tell } = own;
+  const outbox = createOutbox(storage, own.setOutboxStored);
   const opened = createOpenDocument(document, storage, newId);
   const store = createStore<LibraryState>(() => ({
     ...{ place: null, documents: [], listings: 0, openId: opened.id(), isSaved: true },
   }));
   const shown = (): ActionGroup => document.store.getState().present;
-  /** What waits or is kept already; anything else that is shown is a change. */
-  let noted = shown();
-  /** In the outbox, or not to be there. */
+  /** The value of the open group that is saved or in the outbox; any other value is a change. */
+  let savedGroup = shown();
+  /** The open group has no change that is missing in the outbox. */
   let isWritten = true;
   let isShowing = false;
-  const notifiedDamage = new Set<string>();
-  let isFound = true;
-  /** The library did not take the last group in time: nobody waits for it until it has everything. */
+  /** The library did not take the last group in time: `add` does not wait until everything is saved. */
   let isBehind = false;
-  /** This browser's storage took the last change of what waits. */
-  let isHeldHere = true;
-  let isStoreAway = false;
 
   const documentChanges = createDocumentChanges({
     ...{ documentStore: options.documentStore, outbox, clock: options.clock },
@@ -115,33 +102,17 @@ export function createLibrary(options: LibraryOptions): Library {
       opened.setRevision(id, revision);
       notifySaved();
       if (outbox.entries().length > 0) return;
-      isBehind = isStoreAway = false;
-      tellHeld();
-      for (const code of WAITING) notices.takeBack(libraryProblem(code, ''));
+      isBehind = false;
+      own.setSaved();
     },
     onConflict: keepBoth,
-    onFailure(error) {
-      tell(error);
-      isStoreAway = true;
-      tellHeld();
-    },
+    onFailure: own.setAway,
   });
 
   function factsOfText(text: string): GroupFacts | null {
     const read = groupFromText(text);
     if ('problem' in read) return null;
     return factsOf(read.value, { updatedAtMs: epochMs(), robot: robots.current().robot.name });
-  }
-
-  /** A change that is nowhere but in this page: for a moment always, but not for as long as the library is away. */
-  function tellHeld(): void {
-    if (isHeldHere || !isStoreAway) notices.takeBack(words.library.notHeldHere);
-    else notices.tell('warning', words.library.notHeldHere);
-  }
-
-  function tell(error: unknown): void {
-    const { code, message } = asLibraryError(error);
-    notices.tell('warning', libraryProblem(code, message));
   }
 
   const attempt = (work: Promise<void>): Promise<void> => work.catch(tell);
@@ -163,8 +134,8 @@ export function createLibrary(options: LibraryOptions): Library {
   }
 
   document.store.subscribe(({ present, gesture }) => {
-    if (isShowing || gesture !== null || present === noted) return;
-    noted = present;
+    if (isShowing || gesture !== null || present === savedGroup) return;
+    savedGroup = present;
     isWritten = false;
     notifySaved();
   });
@@ -184,7 +155,7 @@ export function createLibrary(options: LibraryOptions): Library {
     return documentChanges.settle();
   }
 
-  /** The newer text stays under its name; ours goes on as a document of its own. */
+  /** The newer text keeps the document; ours becomes a new document. */
   function keepBoth(id: string, { text }: Stored): void {
     const ours = groupOf(text);
     const copy = longerName(ours.name, words.library.otherVersion);
@@ -200,7 +171,7 @@ export function createLibrary(options: LibraryOptions): Library {
     notices.tell('warning', words.library.conflict({ name: ours.name, copy }));
   }
 
-  /** As it is here, if something of it waits here; else as the keeper has it. */
+  /** The group with its unsaved changes, if any; otherwise from the document store. */
   async function read(id: string): Promise<ActionGroup> {
     if (id === opened.id()) return shown();
     const unsaved = unsavedOf(id);
@@ -215,7 +186,7 @@ export function createLibrary(options: LibraryOptions): Library {
     isShowing = true;
     opened.show(id, group, () => words.library.steps.elsewhere);
     isShowing = false;
-    noted = shown();
+    savedGroup = shown();
     view.setState({ selectedFrame: null });
     notifySaved();
   }
@@ -232,7 +203,7 @@ export function createLibrary(options: LibraryOptions): Library {
     isBehind = !(await (isBehind ? late : Promise.race([flush(), late])));
   }
 
-  /** Where the disk has damaged what is kept, `instead` takes its place. */
+  /** `instead` replaces the text if the stored one is damaged. */
   async function open(id: string, instead?: ActionGroup): Promise<void> {
     if (id === opened.id()) return;
     const group = await read(id).catch((error: unknown) => {
@@ -245,28 +216,18 @@ export function createLibrary(options: LibraryOptions): Library {
     show(id, group);
   }
 
-  /** Each once. */
-  function tellDamage({ damagedFile, changesLost }: Listing): void {
-    const damage = damagedFile === null ? [] : [words.library.damagedFile({ file: damagedFile })];
-    if (changesLost) damage.push(words.library.changesLost);
-    for (const text of damage.filter((text) => !notifiedDamage.has(text))) {
-      notifiedDamage.add(text);
-      notices.tell('warning', text);
-    }
-  }
-
   async function refresh(): Promise<void> {
     const documentStore = await options.documentStore;
     const listing = await documentStore.list();
     const documents = listedOf(listing, 'group');
-    tellDamage(listing);
+    own.tellDamage(listing);
     const { documents: before, listings } = store.getState();
     const shared = unchanged(before, documents);
     store.setState({ place: documentStore.place, documents: shared, listings: listings + 1 });
     await follow(shared);
   }
 
-  /** What is shown follows the keeper, unless a change of it waits here. */
+  /** Updates the open group from the document store, unless it has unsaved changes. */
   async function follow(documents: readonly Listed[]): Promise<void> {
     const id = opened.id();
     const listed = documents.find((one) => one.id === id);
@@ -290,14 +251,12 @@ export function createLibrary(options: LibraryOptions): Library {
     if (await flush()) await refresh();
   }
 
-  /** Asked for again and again: a keeper that stays away is told of once. */
   async function look(): Promise<void> {
     try {
       await flushAndRefresh();
-      isFound = true;
+      own.tellListing(null);
     } catch (error) {
-      if (isFound) tell(error);
-      isFound = false;
+      own.tellListing(error);
     }
   }
 
@@ -319,9 +278,10 @@ export function createLibrary(options: LibraryOptions): Library {
 
   async function start(): Promise<void> {
     const waiting = outbox.entries().map(([id, { text }]) => ({ id, text }));
-    const own = waiting.find(({ id }) => id === opened.id());
-    if (own !== undefined && own.text !== groupToText(shown())) show(own.id, groupOf(own.text));
-    else if (own === undefined && !opened.wasRemembered && shown().frames.length > 0)
+    const current = waiting.find(({ id }) => id === opened.id());
+    if (current !== undefined && current.text !== groupToText(shown()))
+      show(current.id, groupOf(current.text));
+    else if (current === undefined && !opened.wasRemembered && shown().frames.length > 0)
       put(opened.id(), groupToText(shown()));
     notifySaved();
     if (!(await flush())) return;

@@ -1,4 +1,4 @@
-// The whole library as one file, and a file into the library: all of it or nothing, beside what is there. Knows no place.
+// Exports the whole library to a file, and imports one: completely or not at all, beside the existing documents. Knows no document store.
 
 import type { Clock } from '#shared/clock.ts';
 import { type ActionGroup, groupToText, sameGroup } from '#shared/group/group.ts';
@@ -23,7 +23,7 @@ import type { Notices } from '../../state/notices.ts';
 import { groupOf } from './openDocument.ts';
 
 export interface LibraryFiles {
-  /** null where it failed; then the person was told why. */
+  /** null if it failed; then a notice says why. */
   exportText(): Promise<string | null>;
   importText(text: string): Promise<void>;
 }
@@ -36,11 +36,11 @@ export interface LibraryFilesOptions {
   readonly clock: Clock;
   tell(error: unknown): void;
   refresh(): Promise<void>;
-  /** Until the keeper has every change; rejects where it does not take them. */
+  /** Resolves when the document store has every change; rejects if it refuses one. */
   settle(): Promise<void>;
 }
 
-/** As long as nobody wonders. */
+/** After this time a notice says that the work goes on. */
 const PATIENCE_MS = 700;
 
 type Outcome = 'added' | 'changed' | 'same';
@@ -79,7 +79,7 @@ export function createLibraryFiles(options: LibraryFilesOptions): LibraryFiles {
       staged.push(id);
       if (outcome !== 'same') await stage(documentStore, id, document);
     }
-    // Until here all of it lies in the trash: now it appears together, or never.
+    // So far all imported documents are in the trash: now they appear together, or not at all.
     await documentStore.restore(staged);
     const count = (outcome: Outcome): number => outcomes.filter((one) => one === outcome).length;
     notices.tell(
@@ -123,7 +123,7 @@ export function createLibraryFiles(options: LibraryFilesOptions): LibraryFiles {
     },
   };
 
-  /** A keeper may let one wait long. */
+  /** The document store may take long. */
   async function whileReported(taking: Promise<void>): Promise<void> {
     const waiting = words.library.importWaits;
     const leave = options.clock.after(PATIENCE_MS, () => notices.tell('warning', waiting));
@@ -139,7 +139,7 @@ export function createLibraryFiles(options: LibraryFilesOptions): LibraryFiles {
   }
 }
 
-/** What is not whole is left out and named. In the place of a group there stands the newest of its versions that is. */
+/** Leaves out damaged texts and names them. The newest intact version replaces a damaged group. */
 async function bundle(documentStore: DocumentStore, { id, facts }: Listed): Promise<Bundling> {
   const { name, updatedAtMs } = facts;
   const read = await wholeOrNot(async () => groupOf((await documentStore.read(id)).text));
@@ -169,7 +169,7 @@ interface Bundling {
   readonly lost: readonly Lost[];
 }
 
-/** Of one text alone: damaged, of another version of this program, or deleted meanwhile. All else is the library's, and thrown. */
+/** Errors of a single text: damaged, from a newer program, or deleted meanwhile. All others concern the library and are thrown. */
 const OF_ONE_TEXT: ReadonlySet<LibraryErrorCode> = new Set(['damaged', 'unreadable', 'notFound']);
 
 async function wholeOrNot<T>(

@@ -1,4 +1,4 @@
-// Pages at one keeper, in virtual time, for tests: each has its own stores; `texts` is what its browser kept.
+// Pages at one document store in virtual time, for tests. Each has its own state; `texts` is its browser's storage.
 
 import type { DocumentStore } from '#shared/files/documentStore.ts';
 import { insertFrame } from '#shared/group/groupEdits.ts';
@@ -12,13 +12,13 @@ import { createLibraryFiles } from './libraryFiles.ts';
 
 export const EPOCH_MS = 1_790_000_000_000;
 
-/** `keeper`: known at once, or some time later. */
+/** The document store is known at once, or some time later. */
 export function createVisit(
   documentStore: DocumentStore | Promise<DocumentStore>,
   clock: VirtualClock,
   texts = new Map<string, string>(),
 ) {
-  /** The browser's storage has no room for these. */
+  /** Keys that the browser's storage refuses. */
   const full = new Set<string>();
   const storage = {
     getItem: (key: string) => texts.get(key) ?? null,
@@ -55,9 +55,9 @@ export function createVisit(
         (group) =>
           insertFrame(group, group.frames.length, { durationMs: 500, targets: [{ servo: 1, position }] }),
       ),
-    /** Long enough for what was written to be kept, or tried again. */
+    /** Long enough for a change to be saved, or tried again. */
     later: () => clock.advance(5800),
-    /** The page goes, as the browser tells it. */
+    /** The browser reports that the page closes. */
     leave: document.flush,
   };
 }

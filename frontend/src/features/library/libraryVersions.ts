@@ -1,4 +1,4 @@
-// Versions of a group that were kept under a name, and the way back to them. What cannot be done is told; nothing rejects.
+// Named versions of a group: saving, renaming, deleting and restoring one. Failures become notices; no promise rejects.
 
 import { type ActionGroup, groupToText } from '#shared/group/group.ts';
 import type { DocumentStore, Version } from '#shared/files/documentStore.ts';
@@ -10,11 +10,11 @@ import { groupOf } from './openDocument.ts';
 export interface LibraryVersions {
   versions(id: string): Promise<readonly Version[]>;
   keepVersion(id: string, name: string): Promise<void>;
-  /** The person may take it back. */
+  /** Its notice offers Undo. */
   renameVersion(id: string, version: Version, name: string): Promise<void>;
-  /** The person may take it back. */
+  /** Its notice offers Undo. */
   removeVersion(id: string, version: Version): Promise<void>;
-  /** Opens the document and goes back to that version, undoably. */
+  /** Opens the document and replaces it with that version, as an undo step. */
   restoreVersion(id: string, version: Version): Promise<void>;
 }
 
@@ -25,12 +25,12 @@ interface LibraryVersionsOptions {
   /** Milliseconds since 1970. */
   epochMs(): number;
   newId(): string;
-  /** Tells what failed. */
+  /** Reports a failure as a notice. */
   attempt(work: Promise<void>): Promise<void>;
   read(id: string): Promise<ActionGroup>;
-  /** Where the disk has damaged what is kept, `instead` takes its place. */
+  /** `instead` replaces the text if the stored one is damaged. */
   open(id: string, instead: ActionGroup): Promise<void>;
-  /** Until the keeper has every change; rejects where it does not take them. */
+  /** Resolves when the document store has every change; rejects if it refuses one. */
   settle(): Promise<void>;
   refresh(): Promise<void>;
 }

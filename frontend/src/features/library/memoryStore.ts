@@ -1,4 +1,4 @@
-// A library that lives as long as the page: for specimens and tests. Follows the same contract as those that last.
+// A document store in memory, for the gallery and for tests. Follows the same contract as the others.
 
 import {
   nextRevision,
@@ -67,5 +67,5 @@ export function createMemoryStore(place: DocumentStore['place'] = 'browser'): Do
   };
 }
 
-/** What goes wrong rejects, as it would elsewhere. */
+/** Errors become rejections, as in the other stores. */
 const asked = <T>(work: () => T): Promise<T> => new Promise((resolve) => resolve(work()));

@@ -1,5 +1,5 @@
-// Which document of the library the page shows, remembered for the next visit, and the histories of those it showed before.
-// Knows no keeper.
+// The open document of the library: remembered for the next visit, with the undo histories of documents that were open before. Knows no
+// document store.
 
 import * as v from 'valibot';
 import { type ActionGroup, groupFromText, sameGroup } from '#shared/group/group.ts';
@@ -8,18 +8,14 @@ import { record, startHistory, type History, type Label } from '#shared/document
 import type { SavedDocument } from '../../state/undoable.ts';
 import type { TextStorage } from '../../state/storage.ts';
 
-// A group out of the text the library keeps of it.
-
-/** Throws a LibraryError where this version cannot read it. */
+/** Parses the text of a group. Throws a LibraryError if this version cannot read it. */
 export function groupOf(text: string): ActionGroup {
   const read = groupFromText(text);
   if ('problem' in read) throw new LibraryError('unreadable', read.problem.code);
   return read.value;
 }
 
-// A list of the library asked for anew, with the very objects of before where they say the same: whoever shows it has
-// nothing to do for those.
-
+/** `now` with the objects of `before` where they are equal, so that their cards do not render again. */
 export function unchanged(before: readonly Listed[], now: readonly Listed[]): readonly Listed[] {
   const known = new Map(before.map((one) => [one.id, one]));
   const shared = now.map((one) => {
@@ -33,14 +29,14 @@ export function unchanged(before: readonly Listed[], now: readonly Listed[]): re
 
 interface OpenDocument {
   id(): string;
-  /** Of the library's text that each document here is based on; 0 for one it has never had. */
+  /** The revision that the document here is based on; 0 if the library has never had it. */
   revisionOf(id: string): number;
   setRevision(id: string, revision: number): void;
-  /** True where an earlier visit had it open. */
+  /** True if an earlier visit had a document open. */
   readonly wasRemembered: boolean;
-  /** Shows that one. Its steps come back; what others have changed meanwhile is one more step, called `label`. */
+  /** Opens a document with its earlier history. Changes that other people made meanwhile are one more step, `label`. */
   show(id: string, group: ActionGroup, label: Label): void;
-  /** Goes on with the same group as another document of the library. */
+  /** The open group becomes another document of the library. */
   become(id: string): void;
 }
 
@@ -66,11 +62,11 @@ export function createOpenDocument(
     try {
       storage.setItem(KEY, JSON.stringify({ id, revision: revisionOf(id) }));
     } catch {
-      // The document has told the person that this browser stores nothing.
+      // The document has already reported that this browser stores nothing.
     }
   }
 
-  // At once: what is written before the first answer must be found under this name again.
+  // Now, so that changes made before the first answer are found under this id again.
   remember();
 
   function become(other: string): void {

@@ -1,43 +1,41 @@
-// Texts that the library does not have yet, by document: in the browser's storage as soon as they are written, so that a
-// crash or an absent gateway loses nothing. Several tabs may share the storage. Knows no keeper.
+// Changes that the library does not have yet: stored in the browser at once, so that a crash or an absent gateway loses nothing, and
+// sent to the document store with retries. Several tabs may share the storage.
 
 import * as v from 'valibot';
 import type { Clock } from '#shared/clock.ts';
 import { LibraryError, type Facts, type DocumentStore, type Stored } from '#shared/files/documentStore.ts';
 import type { TextStorage } from '../../state/storage.ts';
 
-// Brings what waits in the outbox to the library: soon after a change, one at a time, again and again where it fails.
-
 interface DocumentChangesOptions {
   readonly documentStore: Promise<DocumentStore>;
   readonly outbox: Outbox;
   readonly clock: Clock;
-  /** null for a text that this version cannot read: it goes on waiting. */
+  /** null for a text that this version cannot read; it stays in the outbox. */
   factsOf(text: string): Facts | null;
   onSaved(id: string, revision: number): void;
-  /** Must put `unkept` elsewhere; it is forgotten here. */
+  /** Must save `unsaved` elsewhere; the outbox drops it. */
   onConflict(id: string, unsaved: Stored): void;
-  /** Once, until it has succeeded again. */
+  /** Called for the first failure after a success. */
   onFailure(error: unknown): void;
 }
 
 interface DocumentChanges {
-  /** After the next pause in the changes. */
+  /** Sends after the next pause in the changes. */
   soon(): void;
-  /** Now. True when nothing that can be kept waits any more. */
+  /** Sends now. True if every readable text is saved. */
   flush(): Promise<boolean>;
-  /** The same; rejects with what keeps it waiting. */
+  /** Sends now; rejects with the failure. */
   settle(): Promise<void>;
 }
 
-/** A pause in the writing; long enough that a drag or a held key is one write. */
+/** Long enough that a drag or a held key is one write. */
 const PAUSE_MS = 500;
 const RETRY_MS = 5000;
 
 export function createDocumentChanges(options: DocumentChangesOptions): DocumentChanges {
   const { documentStore, outbox, clock, factsOf } = options;
   let cancelTimer = (): void => undefined;
-  let turn = Promise.resolve(true);
+  let lastFlush = Promise.resolve(true);
   let failure: unknown = null;
   const unreadable = new Set<string>();
 
@@ -48,16 +46,16 @@ export function createDocumentChanges(options: DocumentChangesOptions): Document
 
   function flush(): Promise<boolean> {
     cancelTimer();
-    turn = turn.then(keepAll);
-    return turn;
+    lastFlush = lastFlush.then(saveAll);
+    return lastFlush;
   }
 
-  async function keepAll(): Promise<boolean> {
+  async function saveAll(): Promise<boolean> {
     const failures: unknown[] = [];
     for (let round = readable(); round.length > 0 && failures.length === 0; round = readable()) {
-      // One that is refused must not keep the others waiting.
+      // A refused text must not block the others.
       for (const [id, unsaved] of round)
-        await keep(id, unsaved).catch((error: unknown) => failures.push(error));
+        await save(id, unsaved).catch((error: unknown) => failures.push(error));
     }
     const isFirst = failure === null;
     failure = failures[0] ?? null;
@@ -72,7 +70,7 @@ export function createDocumentChanges(options: DocumentChangesOptions): Document
 
   const readable = () => outbox.entries().filter(([, { text }]) => !unreadable.has(text));
 
-  async function keep(id: string, { text, revision: expected }: Stored): Promise<void> {
+  async function save(id: string, { text, revision: expected }: Stored): Promise<void> {
     const facts = factsOf(text);
     if (facts === null) return void unreadable.add(text);
     try {
@@ -92,30 +90,30 @@ export function createDocumentChanges(options: DocumentChangesOptions): Document
 interface Outbox {
   entries(): readonly (readonly [id: string, unsaved: Stored])[];
   get(id: string): Stored | undefined;
-  /** Replaces an older text of that document, which was based on the same revision. */
+  /** Replaces an older text of the document, which was based on the same revision. */
   put(id: string, unsaved: Stored): void;
-  /** The library has that text at that revision now; a newer one goes on waiting. */
+  /** The library has this text at this revision; a newer text stays. */
   settle(id: string, stored: Stored): void;
   drop(id: string): void;
 }
 
 const KEY = 'servodeck.unkept';
-/** Stands in no JSON text. Texts within JSON would be read and written sign by sign, and the largest are written in each frame. */
+/** Occurs in no JSON text. Escaping texts within JSON would be slow, and the largest are written in each frame. */
 const MARK = '\u001e';
 const revision = v.pipe(v.number(), v.safeInteger(), v.minValue(0));
 const headSchema = v.array(v.object({ id: v.string(), revision }));
-/** Of earlier versions. */
+/** The format of earlier versions. */
 const earlierSchema = v.record(v.string(), v.object({ text: v.string(), revision }));
 type Unsaved = ReadonlyMap<string, Stored>;
 
-/** `onWritten`: whether the storage took the last change. */
+/** Calls `onWritten` with whether the storage took the last change. */
 export function createOutbox(
   storage: TextStorage,
   onWritten: (isWritten: boolean) => void = () => undefined,
 ): Outbox {
   const own = new Map(load(storage));
 
-  /** Other tabs' texts stay as they are there. */
+  /** Texts of other tabs stay unchanged. */
   function save(id: string): void {
     try {
       const unsaved = new Map(load(storage));
@@ -125,7 +123,7 @@ export function createOutbox(
       storage.setItem(KEY, written(unsaved));
       onWritten(true);
     } catch {
-      // What is gone from here may stay there: it is sent once more in the next visit, and nothing is lost.
+      // Texts dropped here may stay in storage: the next visit sends them once more, and nothing is lost.
       onWritten(own.size === 0);
     }
   }
@@ -154,7 +152,7 @@ export function createOutbox(
   };
 }
 
-/** What is said of each, as JSON, then the texts as they are. */
+/** The ids and revisions as JSON, then the plain texts. */
 function written(unsaved: Unsaved): string {
   const head = [...unsaved].map(([id, { revision: at }]) => ({ id, revision: at }));
   return [JSON.stringify(head), ...[...unsaved].map(([, { text }]) => text)].join(MARK);

@@ -1,6 +1,5 @@
-// Around a panel that takes files: files are dropped anywhere on it, and its button opens the dialog. A drop beside it does
-// nothing, instead of leaving the page while a robot is connected. What was opened waits beyond the panel, which may go. The dialog
-// and what reads files come later.
+// Around a panel that accepts files: files can be dropped anywhere on it, and its button opens the dialog. A drop outside does nothing;
+// the browser would leave the page while a robot is connected. The dialog and the file readers are loaded on demand.
 
 import { createContext, use, useCallback, useEffect, useState, type DragEvent, type ReactNode } from 'react';
 import { Dialog } from '../../../ui/Dialog.tsx';
@@ -23,7 +22,7 @@ const FilesContext = createContext<Files>({ counts: NO_COUNTS, show: nothing, op
 
 const dialog = later(async () => (await import('./FilesDialog.tsx')).FilesDialog);
 
-/** Around everything that shows files: keeps them, and the dialog, while panels come and go. */
+/** Around all panels with files: stores the opened files and shows the dialog while panels mount and unmount. */
 export function FilesProvider({ children }: { readonly children: ReactNode }) {
   const [counts, setCounts] = useState(NO_COUNTS);
   const [dropped, setDropped] = useState(NO_FILES);

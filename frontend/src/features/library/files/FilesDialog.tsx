@@ -1,4 +1,4 @@
-// The dialog about files, with those that were opened and not yet taken over: it is there while it is closed.
+// The dialog for files: the opened files with their groups, and saving the open group. Stays mounted while it is closed.
 
 import { memo, useCallback, useEffect, useRef, useState } from 'react';
 import { useStore } from 'zustand';
@@ -25,8 +25,7 @@ import { SaveAs } from './SaveAs.tsx';
 import { Dialog } from '../../../ui/Dialog.tsx';
 import styles from './FileProgress.module.css';
 
-// How far the reading of files or the taking over of their groups has come, and a way to cancel it.
-
+/** Progress of reading files or importing their groups, with a button to cancel. */
 interface FileProgressProps {
   readonly label: string;
   readonly progress: Progress;
@@ -46,16 +45,16 @@ function FileProgress({ label, progress, text, onCancel }: FileProgressProps) {
   );
 }
 
-// One opened file: each group in it with its picture, what has to be asked and told, and the way to take it over. A
-// file that cannot be read says where and why.
-
 interface OpenedFileItemProps {
   readonly file: OpenedFile;
   readonly files: Pick<OpenedFiles, 'answer' | 'drop'>;
   onTake(id: number, group: ActionGroup): void;
 }
 
-/** Drawn again only where its file has changed: there may be hundreds, and each draws its groups. */
+/**
+ * One opened file: each group with its picture, questions and remarks, and a button to import it, or why the file cannot be read.
+ * Memoised, because there may be hundreds of files.
+ */
 const OpenedFileItem = memo(function OpenedFileItem({ file, files, onTake }: OpenedFileItemProps) {
   const { id, name, reading, answers } = file;
   return (
@@ -92,7 +91,7 @@ const OpenedFileItem = memo(function OpenedFileItem({ file, files, onTake }: Ope
 
 const NOT_ANSWERED: Answer = { unit: null, converts: false };
 
-/** A file may give the same reason for each of its frames. */
+/** A file may have the same remark for each of its frames. */
 const SHOWN_REMARKS = 6;
 
 function Remarks({ remarks }: { readonly remarks: readonly Remark[] }) {
@@ -108,9 +107,6 @@ function Remarks({ remarks }: { readonly remarks: readonly Remark[] }) {
     </ul>
   );
 }
-
-// What stands in the dialog about files: what was opened, each with what it holds or what is wrong with it, and
-// saving the group at hand.
 
 interface FilesContentProps {
   readonly files: OpenedFiles;
@@ -173,7 +169,7 @@ function Reading({ files }: Pick<FilesContentProps, 'files'>) {
   );
 }
 
-/** Whoever has a folder of groups takes them in one go. Files that still ask something stay in the list. */
+/** Imports all groups at once. Files with an open question stay in the list. */
 function TakeAll({ files, onTakeAll }: Pick<FilesContentProps, 'files' | 'onTakeAll'>) {
   const unit = useKnownFamily().unit;
   const list = useStore(files.store, (state) => state.list);
@@ -201,7 +197,7 @@ function TakeAll({ files, onTakeAll }: Pick<FilesContentProps, 'files' | 'onTake
 }
 
 interface FilesDialogProps {
-  /** Each list of them is opened once. */
+  /** Files that were dropped on the page; each list is opened once. */
   readonly dropped: readonly File[];
   readonly isOpen: boolean;
   onClose(): void;

@@ -1,5 +1,5 @@
-// A group as it stands in a file: its picture and measures, the unit asked where nobody said, what does not fit. It is taken
-// over as it is, or converted where the person says so.
+// A group in an opened file: its plot and size, the question for its unit if the file has none, and what does not fit. Imported as it
+// is, or converted on request.
 
 import { useMemo } from 'react';
 import { type Unit, meaningIn, UNIT_RANGE } from '#shared/files/reading.ts';
@@ -14,8 +14,6 @@ import { Button } from '../../../ui/Button.tsx';
 import { Toggle } from '../../../ui/Toggle.tsx';
 import { convertedOf, takenAs, type Answer } from './answers.ts';
 import styles from './FoundGroup.module.css';
-
-// Which unit a file's positions are in, where it does not say: two buttons, each with what it would mean here.
 
 const UNITS: readonly Unit[] = ['us', 'steps'];
 
@@ -47,12 +45,9 @@ function UnitQuestion({ group, unit, onUnit }: UnitQuestionProps) {
   );
 }
 
-// A group as lines over time, one for each servo: a wave looks like a wave. A picture to recognise it by, without a
-// scale.
-
 const WIDTH = 100;
 const HEIGHT = 40;
-/** Beyond that a small picture shows no more. */
+/** A small picture shows no more than this. */
 const SHOWN_FRAMES = 300;
 const SHOWN_SERVOS = 32;
 

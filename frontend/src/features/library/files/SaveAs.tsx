@@ -1,4 +1,4 @@
-// Saves the group at hand in a format of the person's choice, and says before what that format does not keep.
+// Saves the open group in a chosen format, and says before what the format cannot store.
 
 import { useMemo, useState } from 'react';
 import { fileNameOf } from '#shared/files/fileName.ts';

@@ -1,17 +1,17 @@
-// What a person says of a group that stands in a file: the unit of its positions, and whether they become those of the board; and the group
-// as it is taken over then. Pure.
+// The answers about a group in a file (the unit of its positions, and whether to convert them to the board's), and the group that is
+// imported with them. Pure.
 
 import { type Reading, type Unit, inUnit, meaningIn, onlyFittingUnit } from '#shared/files/reading.ts';
 import { convertGroup } from '#shared/group/frameEdits.ts';
 import type { ActionGroup } from '#shared/group/group.ts';
 
 export interface Answer {
-  /** null: nobody has said yet. */
+  /** null until it is answered. */
   readonly unit: Unit | null;
   readonly converts: boolean;
 }
 
-/** Before a person says anything: what the file says, or its numbers leave as the only choice. */
+/** The unit in the file, or the only one that its numbers allow. */
 export function firstAnswers(reading: Reading): readonly Answer[] {
   if (!('groups' in reading)) return [];
   return reading.groups.map((group) => ({
@@ -20,7 +20,7 @@ export function firstAnswers(reading: Reading): readonly Answer[] {
   }));
 }
 
-/** null where the board counts so already, or a position of it is none of its own unit. */
+/** null if the board has this unit already, or if a position is outside the range of the unit. */
 export function convertedOf(found: ActionGroup, { unit }: Answer, boardUnit: Unit): ActionGroup | null {
   const said = inUnit(found, unit ?? found.unit);
   const isSound = said.unit !== boardUnit && meaningIn(said.unit, said).outside === 0;
@@ -39,12 +39,12 @@ export interface AnsweredFile {
 }
 
 export interface ReadyGroup {
-  /** The id of its file. */
+  /** The id of the file. */
   readonly file: number;
   readonly group: ActionGroup;
 }
 
-/** Files with groups, and those that could not be opened. */
+/** Numbers of files with groups, and of files that could not be read. */
 export interface FileCounts {
   readonly opened: number;
   readonly refused: number;
@@ -55,7 +55,7 @@ export function countsOf(files: readonly Pick<AnsweredFile, 'reading'>[]): FileC
   return { opened, refused: files.length - opened };
 }
 
-/** The groups of the files that nothing more has to be asked about. */
+/** The groups of files without an open question. */
 export function readyGroups(files: readonly AnsweredFile[], boardUnit: Unit): readonly ReadyGroup[] {
   return files.flatMap(({ id, reading, answers }) => {
     if (!('groups' in reading)) return [];

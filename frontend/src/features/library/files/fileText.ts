@@ -1,4 +1,4 @@
-// What is said of a file of action groups: what is wrong with it, what does not fit, what a format does not keep.
+// Sentences about files of action groups: what is wrong with one, what does not fit, what a format cannot store.
 
 import type { Misfit } from '#shared/files/fit.ts';
 import type { Loss } from '#shared/files/writeGroupFile.ts';
@@ -15,10 +15,10 @@ import type { Range } from '#shared/codec/families.ts';
 import { flawSentence, say } from '../../../i18n/sentences.ts';
 import { words } from '../../../i18n/whole.ts';
 
-/** So many frames are named; the others are counted. */
+/** Up to this number frames are listed; more are counted. */
 const NAMED_FRAMES = 5;
 
-/** Of the button that leads to the files. */
+/** The label of the button that opens the dialog. */
 export function filesText({
   opened,
   refused,
@@ -72,7 +72,7 @@ function inFrames(sentence: string, frames: readonly number[]): string {
   return words.files.inManyFrames({ sentence, frames: named, more: count - NAMED_FRAMES });
 }
 
-/** What the positions of a file would be in this unit, and whether they can be that. */
+/** The positions of a file in this unit, and whether they are possible. */
 export function meaningText(unit: Unit, { positions, outside }: Meaning): string {
   const range = words.files.range({ span: spanText(UNIT_RANGE[unit]), unit: words.units[unit] });
   return positions === null ? range : words.files.meaning({ range, positions: spanText(positions), outside });

@@ -1,5 +1,5 @@
-// What the pure readers of files have to be given: the browser's text decoder, and SQLite for .d6a files, which is fetched when
-// the first such file is opened or saved. Knows tables, no action group.
+// What the browser provides to the pure file readers: the text decoder, and SQLite for .d6a files, a WebAssembly file of this page that
+// is fetched when the first such file is opened or saved. Knows tables, no action group.
 
 import type { Means } from '#shared/files/readGroupFile.ts';
 import { Unreadable, type Decode } from '#shared/files/reading.ts';
@@ -7,7 +7,7 @@ import { INDEX_COLUMN, type Sheet } from '#shared/files/csv.ts';
 import type { MakeDatabase } from '#shared/files/writeGroupFile.ts';
 import { MAX_FRAMES } from '#shared/group/group.ts';
 
-/** What of SQLite is used, however it is loaded. */
+/** The part of SQLite in use. */
 export interface Sqlite {
   readonly Database: new (bytes?: Uint8Array) => Database;
 }
@@ -55,10 +55,10 @@ function withDatabase<T>({ Database }: Sqlite, work: (database: Database) => T, 
 }
 
 const TABLE = 'ActionGroup';
-/** One more than a group may have tells that there are too many, and a file that says it has no end has one. */
+/** One more than a group may have shows that there are too many, and it ends a table without an end. */
 const ROW_LIMIT = MAX_FRAMES + 1;
 
-/** A table alone: a view could compute for ever. */
+/** Reads only a table: a view could compute for ever. */
 function sheetIn(database: Database): Sheet {
   database.run('PRAGMA trusted_schema = OFF');
   const named = database.exec(
@@ -88,7 +88,7 @@ const textOf = (cell: Cell | undefined): string =>
       ? '(bytes)'
       : '';
 
-/** As the vendors' programs make it. Columns are `Index`, `Time` and `ServoN`: nothing of a person's stands in the SQL. */
+/** As in the vendors' programs. Columns are `Index`, `Time` and `ServoN`, so the SQL contains no text from a file. */
 function fill(database: Database, { columns, rows }: Sheet): void {
   const declared = columns.map((column) =>
     column === INDEX_COLUMN ? `"${column}" INTEGER PRIMARY KEY AUTOINCREMENT` : `"${column}" INT`,
@@ -103,8 +103,6 @@ function fill(database: Database, { columns, rows }: Sheet): void {
     );
   database.run('COMMIT');
 }
-
-// SQLite as this page serves it: a WebAssembly file of our own, fetched once and only when it is wanted.
 
 let loading: Promise<Sqlite> | null = null;
 

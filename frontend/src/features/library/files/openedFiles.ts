@@ -1,5 +1,5 @@
-// Files that were opened and not yet taken over, with what was answered about them: read one after the other, and taken over
-// one after the other, each with its progress, until a person cancels. Knows no document and no dialog.
+// Opened files with the answers about them. Files are read and their groups imported one after the other, with progress, until a person
+// cancels. A worker reads them, so that the page stays responsive. Knows no dialog.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { ActionGroup } from '#shared/group/group.ts';
@@ -7,9 +7,6 @@ import type { Stores } from '../../stores.ts';
 import { words } from '../../../i18n/whole.ts';
 import { firstAnswers, type Answer, type AnsweredFile, type ReadyGroup } from './answers.ts';
 import type { Reading } from '#shared/files/reading.ts';
-
-// What becomes of groups that a person takes from files: each is a document of the library, and the first is shown,
-// as one step that can be undone. A group that was being written stays as it is.
 
 type Needed = Pick<Stores, 'document' | 'library' | 'view' | 'notices'>;
 
@@ -23,7 +20,7 @@ export function takeGroup({ document, library, view, notices }: Needed, group: A
   notices.say(words.files.taken({ name: group.name, frames: group.frames.length }));
 }
 
-/** One after the other, so that the page goes on meanwhile: each is in the library, or waits for it, before the next. */
+/** Adds each group to the library, one after the other, so that the page stays responsive, and opens the first. */
 export async function takeGroups(
   stores: Needed,
   [group, ...others]: readonly ActionGroup[],
@@ -44,7 +41,7 @@ export async function takeGroups(
 
 export interface OpenedFile extends AnsweredFile {
   readonly name: string;
-  /** Files that were chosen together stand together. */
+  /** Files that were chosen together have the same number. */
   readonly batch: number;
 }
 
@@ -58,13 +55,13 @@ interface OpenedFilesState {
   readonly list: readonly OpenedFile[];
   /** null while nothing is being read. */
   readonly reading: Progress | null;
-  /** How many files stayed unread when reading was last cancelled. */
+  /** The number of files that were not read when reading was cancelled last. */
   readonly unread: number;
-  /** null while nothing is being taken over. */
+  /** null while nothing is being imported. */
   readonly taking: Progress | null;
 }
 
-/** How a group after the other is taken over. */
+/** How the caller follows the import of several groups. */
 interface Course {
   readonly signal: AbortSignal;
   onTaken(index: number): void;
@@ -73,17 +70,17 @@ interface Course {
 export interface OpenedFiles {
   readonly store: StoreApi<OpenedFilesState>;
   open(files: readonly File[]): void;
-  /** What has been read stays. */
+  /** Files already read stay. */
   cancelReading(): void;
-  /** About the group at `index` of the file. */
+  /** Answers about the group at `index` of the file. */
   answer(id: number, index: number, change: Partial<Answer>): void;
   drop(id: number): void;
-  /** A file leaves the list when all its groups are taken. True at the end of all of them. */
+  /** A file leaves the list when all its groups are imported. True if all of them were. */
   take(
     ready: readonly ReadyGroup[],
     takeOver: (groups: readonly ActionGroup[], course: Course) => Promise<void>,
   ): Promise<boolean>;
-  /** What is not taken yet stays in the list. */
+  /** Groups that are not imported yet stay in the list. */
   cancelTaking(): void;
 }
 
@@ -169,11 +166,9 @@ function added(list: readonly OpenedFile[], file: OpenedFile): readonly OpenedFi
 const answered = (before: readonly Answer[], index: number, said: Partial<Answer>): readonly Answer[] =>
   before.map((one, place) => (place === index ? { ...one, ...said } : one));
 
-// Has files read in a worker, so that the page goes on meanwhile; in the page where no worker can be had. Knows no format.
-
 interface FileReader {
   read(file: File): Promise<Reading>;
-  /** Gives up what is being read: its promise stays open. */
+  /** Ends the current reading; its promise stays pending. */
   stop(): void;
 }
 
@@ -203,7 +198,7 @@ export function createFileReader(): FileReader {
 
 interface Started {
   readonly worker: Worker;
-  /** Rejects where the worker cannot be loaded. */
+  /** Rejects if the worker cannot be loaded. */
   readonly failed: Promise<never>;
 }
 

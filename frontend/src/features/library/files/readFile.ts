@@ -1,4 +1,4 @@
-// A file as the browser gives it, read whatever its format: in the worker, or in the page where there is none. Never rejects.
+// Reads a file of any known format, in the worker, or in the page if there is none. Never rejects.
 
 import { MAX_FILE_BYTES, readGroupFile } from '#shared/files/readGroupFile.ts';
 import type { Problem, Reading } from '#shared/files/reading.ts';

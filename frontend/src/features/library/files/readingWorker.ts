@@ -1,4 +1,4 @@
-// The worker that reads files: each message is a file and is answered with what it holds.
+// The worker that reads files: each message is a file, each answer its content.
 
 import { readFile } from './readFile.ts';
 
