@@ -44,7 +44,7 @@ test('a servo is calibrated from nothing, and what was set holds everywhere', as
 
   await robots.button('Turn a little').click();
   await robots.button('No, the other way').click();
-  // How far it crept depends on the computer: there is a trim for it, or there is none.
+  // How far the servo went depends on the computer: there is a trim for it, or there is none.
   await robots.button(/^(Leave it as it is|Continue)$/).click();
   await expect(robots.button('Gripper, 5 of 5 steps done')).toBeVisible();
   await robots.button('Close').click();

@@ -283,16 +283,16 @@ describe('a device with a session', () => {
       expect(device.motion(4)).toEqual({ target: 1000, estimated: 1000 });
     });
 
-    test('only the servo that is calibrated creeps past its limits, as far as the board goes', async () => {
+    test('only the servo that is calibrated jogs past its limits, as far as the board goes', async () => {
       const { device, noticeTexts, draw, ofKind, targets } = await createElbowPage();
-      device.creep(2400, 100);
+      device.jog(2400, 100);
       device.calibrate(4);
-      device.creep(2400, 100);
+      device.jog(2400, 100);
       await draw(2000);
       device.move([{ servo: 4, position: 2400 }], 0);
-      device.creep(2480, 100);
+      device.jog(2480, 100);
       device.calibrate(null);
-      device.creep(2410, 100);
+      device.jog(2410, 100);
       await draw(2000);
       expect(ofKind('move').map(({ targets }) => targets)).toEqual([[{ servo: 4, position: 2440 }]]);
       expect(targets()).toEqual({ 4: 2400 });

@@ -68,10 +68,10 @@ export interface Device extends BoardVerbs {
   move(targets: readonly ServoTarget[], pace: Pace): boolean;
   /** As `move`, between two frames: the store has what comes of it with the next one. */
   drag(targets: readonly ServoTarget[], pace: Pace): boolean;
-  /** This servo's limits are looked for: `creep` moves it, past the present ones too. null: no longer. */
+  /** This servo's limits are looked for: `jog` moves it, also beyond the present ones. null: no longer. */
   calibrate(servo: number | null): void;
   /** Moves the servo that is calibrated, as far as its board can. */
-  creep(position: number, durationMs: number): void;
+  jog(position: number, durationMs: number): void;
   /** About who drives a robot that is shared. */
   lease(action: LeaseAction): void;
   /** The run under way may go on without this page, for so long at most; null: it may not. */
@@ -285,7 +285,7 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
       calibrated = servo;
       session?.calibrate(servo);
     },
-    creep(position, durationMs) {
+    jog(position, durationMs) {
       if (calibrated === null) return;
       const targets = [{ servo: calibrated, position }];
       if (send(targets, onBoard(robot(), targets), durationMs)) refresh();

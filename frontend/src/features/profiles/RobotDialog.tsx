@@ -1,5 +1,5 @@
-// Everything about robots in one dialog: the list of them, the description of the one at hand, its calibration. Ctrl+Z here
-// is the robots' own, not that of the frames behind the dialog.
+// The dialog of robots: their list, the editor of the current one, and its calibration. Ctrl+Z applies to robots here, not to the frames
+// behind the dialog. Also the button that opens it.
 
 import type { ComponentType } from 'react';
 import { useRobot, useStores, useView } from '../stores.ts';
@@ -12,8 +12,7 @@ import { Dialog } from '../../ui/Dialog.tsx';
 import { laterComponent } from '../../ui/later.tsx';
 import styles from './RobotDialog.module.css';
 
-// The robot at hand by its name, in the bar; opens the list of robots.
-
+/** Shows the current robot's name in the top bar and opens the list of robots. */
 export function RobotButton() {
   const { view } = useStores();
   const { name } = useRobot();

@@ -1,4 +1,4 @@
-// The description of the robot at hand: its name, what it looks like, what feeds it, its servos.
+// The editor of the current robot: its name, body, battery, servos and their places.
 
 import { useId, useRef } from 'react';
 import { fedBy } from '#shared/profile/battery.ts';
@@ -15,8 +15,7 @@ import { boardName } from '../../i18n/sentences.ts';
 import { CellField, ServoTable } from './ServoTable.tsx';
 import styles from './RobotEditor.module.css';
 
-// Where each servo sits on the robot, on the drawing of its build: dragged, or pushed by arrow keys. Moves nothing.
-
+/** The places of the servos on the drawing of the body, by drag or arrow keys. Moves nothing. */
 function PlaceEditor() {
   const robot = useRobot();
   const stage = useRef<HTMLDivElement>(null);

@@ -1,5 +1,4 @@
-// The robots a person has, those of the connected board first, the ready ones to begin with, and files. What is done here is
-// taken back by Undo above.
+// The list of robots, those of the connected board first, with templates for new ones and import from files. Every change is an undo step.
 
 import { useEffect, useRef, type RefObject, useState, useId } from 'react';
 import { useStore } from 'zustand';
@@ -20,9 +19,7 @@ import { UndoTools } from '../undo/UndoTools.tsx';
 import styles from './RobotList.module.css';
 import dialog from './RobotDialog.module.css';
 
-// What is sold under its own name and built like a ready robot (boards.md section 9). Names of products are the same
-// in every language.
-
+/** Products with their own name that are built like a template (boards.md section 9). Product names are the same in every language. */
 const PRODUCTS: Partial<Readonly<Record<ReadyRobotId, string>>> = {
   arm: 'LeArm, OpenArm, xArm',
   hand: 'uHand',
@@ -31,11 +28,12 @@ const PRODUCTS: Partial<Readonly<Record<ReadyRobotId, string>>> = {
   hexapod18: 'SpiderPi',
 };
 
-// A robot that came is seen, wherever in the dialog the hand was. The one at hand gets the focus too, at what is done
-// with it next; also where another was deleted under the hand. Whoever undoes stays at Undo.
-
 type Place = RefObject<HTMLElement | null>;
 
+/**
+ * Scrolls to a robot that was added. The focus goes to the tools of the current robot when it was added, or when another one was deleted;
+ * after Undo it stays there.
+ */
 function useNewcomerSeen(
   list: Place,
   undo: Place,
@@ -53,8 +51,6 @@ function useNewcomerSeen(
       card?.querySelector('button')?.focus({ preventScroll: true });
   }, [list, undo, own, currentId]);
 }
-
-// What can be done with the robot at hand.
 
 function RobotTools({ id, robot, isLast }: OwnRobot & { readonly isLast: boolean }) {
   const { robots, view } = useStores();
@@ -83,14 +79,13 @@ function RobotTools({ id, robot, isLast }: OwnRobot & { readonly isLast: boolean
   );
 }
 
-/** Whatever file systems do not bear is left out. */
+/** Without characters that file systems forbid. */
 function fileName(robot: string): string {
   const plain = robot.replaceAll(/[^\p{L}\p{N} ._-]/gu, '').trim();
   return `${plain === '' ? 'robot' : plain}.json`;
 }
 
-// Robot files come in by choosing or dropping them. One that cannot be read changes nothing and says why.
-
+/** Imports robot files by choosing or dropping them. A file that cannot be read changes nothing and says why. */
 function ImportRobot({ connected }: { readonly connected: FamilyId | null }) {
   const { robots } = useStores();
   const [outcomes, setOutcomes] = useState<readonly string[]>([]);
@@ -100,7 +95,7 @@ function ImportRobot({ connected }: { readonly connected: FamilyId | null }) {
     setOutcomes(read.flatMap(({ file, text }) => imported(file, text) ?? []));
   }
 
-  /** null where the store says itself why not. */
+  /** null if the store has already reported why not. */
   function imported(file: string, text: string): string | null {
     const found = robotFromText(text);
     if ('problem' in found) return words.robots.notImported({ file, flaw: robotFlawText(found.problem) });
@@ -133,8 +128,7 @@ function ImportRobot({ connected }: { readonly connected: FamilyId | null }) {
   );
 }
 
-// The ready robots that can be built on a board, each with its picture. Adding one takes it up.
-
+/** The templates for a board, each with its picture. Adding one makes it the current robot. */
 function NewRobot({ board }: { readonly board: FamilyId }) {
   const { robots } = useStores();
   const headingId = useId();

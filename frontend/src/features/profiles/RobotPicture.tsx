@@ -1,5 +1,5 @@
-// A robot's build as a small drawing: a dot per servo at its place, a line along each limb; an arm as one knows it from the side.
-// Knows no positions.
+// Small drawings of a robot: its body with a dot per servo and a line along each limb, and a servo's limits as a bar. Also the header with
+// the way back to the list. Knows no positions.
 
 import type { BodyKind, Robot, RobotServo } from '#shared/profile/robot.ts';
 import { useStores } from '../stores.ts';
@@ -11,8 +11,7 @@ import robotEditorStyles from './RobotEditor.module.css';
 import styles from './RobotPicture.module.css';
 import type { Range, Family } from '#shared/codec/families.ts';
 
-// The way back to all robots, and undo: above the description and above the calibration.
-
+/** Back to the list, and Undo: above the editor and the calibration. */
 export function RobotHead() {
   const { view, robots } = useStores();
   return (
@@ -47,7 +46,7 @@ export function RobotPicture({ robot }: { readonly robot: Robot }) {
   );
 }
 
-/** What the limbs are on; seen as the places of the ready robots are. */
+/** The trunk of each body, from the same view as the places of the templates. */
 const TRUNKS: Readonly<Record<BodyKind, string>> = {
   arm: 'M34 102H66',
   hand: '',
@@ -56,7 +55,7 @@ const TRUNKS: Readonly<Record<BodyKind, string>> = {
   plain: '',
 };
 
-/** An arm's servos have their places beside it, where they can be pressed while it moves; here it stands by itself. */
+/** An arm's servos have their places beside it, where they can be pressed while it moves; this is the arm itself. */
 const ARM = [
   { x: 50, y: 92 },
   { x: 50, y: 72 },
@@ -69,7 +68,7 @@ const CLAW = 'M84 34L96 30M84 34L90 46';
 const jointsOf = ({ body, servos }: Robot): readonly { readonly x: number; readonly y: number }[] =>
   body === 'arm' ? ARM : servos.map(({ place }) => place);
 
-/** A chain along each group; a hand's fingers meet at its last servo; a plain robot has none. */
+/** A line along each group; the fingers of a hand meet at its last servo; a plain robot has none. */
 function limbsOf({ body, servos }: Robot): readonly string[] {
   if (body === 'plain') return [];
   if (body === 'arm') return [chain(ARM), CLAW];
@@ -83,17 +82,16 @@ function limbsOf({ body, servos }: Robot): readonly string[] {
 const chain = (places: readonly RobotServo['place'][]): string =>
   `M${places.map(({ x, y }) => `${x} ${y}`).join('L')}`;
 
-// A servo's limits within what its board can do, and its home between them.
-
 interface ReachBarProps {
   readonly servo: Pick<RobotServo, 'min' | 'max' | 'home'>;
   readonly reach: Range;
   readonly unit: Family['unit'];
 }
 
-/** Of the bar, in percent: less is seen by nobody. */
+/** In percent of the bar: less is invisible. */
 const LEAST_WIDTH = 1;
 
+/** A servo's limits within the range of its board, and its home. */
 export function ReachBar({ servo: { min, max, home }, reach, unit }: ReachBarProps) {
   const share = (at: number): number => ((at - reach.min) / (reach.max - reach.min)) * 100;
   const width = Math.max(LEAST_WIDTH, share(max) - share(min));

@@ -1,4 +1,4 @@
-// The servos of the robot at hand, a row each. A change that cannot be is told below its row and taken nowhere.
+// The table of the current robot's servos. An invalid change is explained below its row and not applied.
 
 import type { Label } from '#shared/document/history.ts';
 import { useId, useState, type KeyboardEvent } from 'react';
@@ -171,21 +171,22 @@ function Mirror({ servo: { servo, name, group, mirror }, others, onChange }: Mir
   );
 }
 
-// One figure of a table as a text one types. Taken on Enter or on leaving; what is not taken stays in the field, so that it
-// can be mended, and the field is marked. Enter goes on in the same column of the next row.
-
 interface CellFieldProps {
   readonly label: string;
   readonly value: string;
   readonly isNumber?: boolean;
   readonly column?: string;
-  /** Of the sentence that says what is wrong. */
+  /** The id of the element that explains an error. */
   readonly problemId?: string | undefined;
   readonly maxLength?: number;
-  /** false: it cannot be taken. */
+  /** Returns false if the text is invalid. */
   onTake(text: string): boolean;
 }
 
+/**
+ * A value of the table as a text field. Applied on Enter or when the field loses the focus; an invalid text stays in the field, which is
+ * marked. Enter continues in the same column of the next row.
+ */
 export function CellField(props: CellFieldProps) {
   const { label, value, isNumber = false, column, problemId, maxLength = 64 } = props;
   const [draft, setDraft] = useState<string | null>(null);
@@ -197,12 +198,12 @@ export function CellField(props: CellFieldProps) {
 
   function key(event: KeyboardEvent<HTMLInputElement>): void {
     if (event.key === 'Enter') {
-      // Leaving the field takes it; at the end of the column there is nowhere to go.
+      // Losing the focus applies the text; the last row has no next field.
       const neighbour = neighbourOf(event.currentTarget, event.shiftKey ? -1 : 1);
       if (neighbour === undefined) leave();
       else neighbour.focus();
     }
-    // What is being typed has the browser's own undo.
+    // While typing, the browser's undo applies.
     if (draft !== null && undoActionOf(event) !== null) event.stopPropagation();
   }
 

@@ -1,5 +1,5 @@
-// The figures of a servo as columns of text: how each is shown, and what a typed text makes of the robot. Pure; what the
-// whole robot makes of it is for `flawOf` to say.
+// The columns of the table of servos: how each value is displayed, and the robot that results from a typed text. Pure; `flawOf` checks
+// the whole robot.
 
 import type { Robot, RobotServo } from '#shared/profile/robot.ts';
 import { changeServo, renumber } from '#shared/profile/robotEdits.ts';

@@ -1,5 +1,6 @@
-// A document that each robot has one of: the store shows the one of the robot at hand, saves it under the robot's number,
-// and changes it with the robot. Text that cannot be read is set aside, never thrown away. Never moves anything.
+// A document that exists once per robot, such as its poses: the store holds the one of the current robot, saves it under the robot's id
+// and switches with the robot. Unreadable text is stored under another key, never deleted. Moves nothing. Also the last known state of the
+// library, to compare robots with.
 
 import * as v from 'valibot';
 import { kitFromText, kitToText, type Kit } from '#shared/profile/robotText.ts';
@@ -12,10 +13,7 @@ import type { OwnRobot, RobotStore } from './robots.ts';
 import { createUndoable, type Undoable } from '../../state/undoable.ts';
 import { words } from '../../i18n/words.ts';
 
-// What the library had of each robot of this page when it was last read or written, as the browser keeps it from one
-// visit to the next: what both sides can be compared with.
-
-/** What the library had of a robot when it was last read or written. */
+/** A robot's state in the library when it was last read or written. */
 export interface Known {
   readonly document: string;
   readonly revision: number;
@@ -41,7 +39,7 @@ export function saveKnown(storage: TextStorage, known: ReadonlyMap<number, Known
   try {
     storage.setItem(KEY, JSON.stringify(Object.fromEntries(rows)));
   } catch {
-    // The robots have told the person that this browser stores nothing.
+    // The robots have already reported that this browser stores nothing.
   }
 }
 
@@ -54,7 +52,7 @@ export function loadKnown(storage: TextStorage): Map<number, Known> {
       if (kit !== null) known.set(Number(id), { document, revision, kit });
     }
   } catch {
-    // What stands there was not written here.
+    // The text was not written by this page.
   }
   return known;
 }
@@ -63,15 +61,15 @@ interface RobotDocumentOptions<T> {
   readonly storage: TextStorage;
   readonly notices: Notices;
   readonly robots: RobotStore;
-  /** Before the robot's number in the storage's key. */
+  /** The storage key without the robot's id. */
   readonly key: string;
-  /** What a robot has that nothing was saved for. */
+  /** The document of a robot without a saved one. */
   fresh(robot: Robot): T;
   toText(value: T): string;
   fromText(text: string): Read<T>;
-  /** Without what is of nobody's interest elsewhere, and with it again. */
+  /** Removes what only concerns this page, and adds it again. */
   readonly shared?: { of(value: T): T; onto(mine: T, theirs: T): T };
-  /** What the person is told then. */
+  /** The text of the notice. */
   notSaved(): string;
   unreadable(flaw: TextFlaw): string;
 }
@@ -80,18 +78,18 @@ const elsewhere = (): string => words.robots.steps.elsewhere;
 
 export interface RobotDocument<T> extends Undoable<T> {
   of(robot: OwnRobot): T;
-  /** What others are to have of that robot's, null where it is as it comes with the robot. */
+  /** The text for the library; null if the document is unchanged since the robot was made. */
   textOf(robot: OwnRobot): string | null;
-  /** From elsewhere; a text that this version cannot read is left alone. */
+  /** Takes a text from the library; ignores one that this version cannot read. */
   takeIn(robot: OwnRobot, text: string | null): void;
-  /** After each change of any robot's. */
+  /** Called after each change of any robot's document. */
   onChange(changed: () => void): void;
 }
 
 export function createRobotDocument<T>(options: RobotDocumentOptions<T>): RobotDocument<T> {
   const { storage, notices, robots, key, toText } = options;
   const { shared = { of: (value: T) => value, onto: (_mine: T, theirs: T) => theirs } } = options;
-  /** Histories of robots that are not at hand. */
+  /** Histories of the other robots. */
   const histories = new Map<number, History<T>>();
   const listeners = new Set<() => void>();
   let owner = robots.current().id;
@@ -147,7 +145,7 @@ export function createRobotDocument<T>(options: RobotDocumentOptions<T>): RobotD
     return past.length + future.length > 0 || gesture !== null;
   }
 
-  /** Where only the change is forbidden, not what is noted for this screen alone. */
+  /** Refuses changes of the shared document; what only concerns this page stays allowed. */
   function isRefused(edit: (present: T) => T): boolean {
     const why = robots.refusal();
     if (why === null) return false;

@@ -1,5 +1,5 @@
-// On a shared link the robot at hand is the one that the link says to stand on the board, and what a person takes up here is put
-// there for everybody. Knows who may change what it is judged by. Moves nothing.
+// On a shared link the current robot is the one that the gateway reports for the board, and choosing another one here sets it for
+// everybody. Also decides who may change limits. Moves nothing.
 
 import { limitsOnBoard, type Robot } from '#shared/profile/robot.ts';
 import type { FamilyId } from '#shared/codec/families.ts';
@@ -16,24 +16,24 @@ export interface RobotOfLinkOptions {
   readonly robots: RobotStore;
   readonly robotSync: RobotSync;
   readonly notices: Notices;
-  /** False in a viewer's browser, which only looks at what the library has. */
+  /** False in a viewer's browser, which only reads the library. */
   readonly mayWrite: boolean;
-  /** In the library both; rejects where another one stands there than `insteadOf`, or somebody else drives. */
+  /** Sets the robot on the board; both are in the library. Rejects if it is not `insteadOf` any more, or if another person drives. */
   putOnBoard(document: string, insteadOf: string | null): Promise<void>;
 }
 
-/** Returns what is to be called with each state of the session. */
+/** Returns a function to call with each snapshot. */
 export function followRobot(options: RobotOfLinkOptions): (snapshot: SessionState) => void {
   const { robots, robotSync, notices, mayWrite } = options;
   let { family, link, lease, robotOnBoard: reported } = INITIAL_STATE;
   let lastWord = reported;
-  /** The word that was followed; another robot at hand since then is the person's wish. */
+  /** The last reported robot that was followed; another current robot since then is the person's choice. */
   let followed: string | null = null;
   let isOffering = false;
-  /** Nothing is asked twice by itself: the answer may be on its way, or have been no. */
+  /** The last request, which is not repeated: its answer may be on its way, or negative. */
   let asked = '';
   let waitsForLibrary = false;
-  /** Counts the words about what was put there from here last. */
+  /** Number of the last request from here. */
   let echoes = 0;
 
   function settle(): void {
@@ -43,10 +43,10 @@ export function followRobot(options: RobotOfLinkOptions): (snapshot: SessionStat
 
   function agree(document: string | null, board: FamilyId): void {
     const there = document === null ? null : robotSync.robotOf(document);
-    if (document !== null && there === null) return; // it is on its way
+    if (document !== null && there === null) return; // not yet loaded from the library
     const isNews = document !== followed;
     followed = document;
-    // Either may have `settle` called anew.
+    // Both calls may call `settle` again.
     if (there === null) robots.takeUpFor(board);
     else if (isNews) robots.takeUp(there);
     const { id, robot } = robots.current();
@@ -64,7 +64,7 @@ export function followRobot(options: RobotOfLinkOptions): (snapshot: SessionStat
   const whyNot = (): string =>
     mayWrite ? words.robots.onlyTheDriver({ driver: lease?.driver ?? '' }) : words.robots.onlyLooking;
 
-  /** A link that has just opened tells it too, and may be asked anew. */
+  /** A new link reports the robot as well, and may get a new request. */
   function hear(word: RobotOnBoard | null): void {
     if (link.status !== 'ready' || word?.document !== reported?.document) asked = '';
     lastWord = reported = word;
@@ -81,17 +81,17 @@ export function followRobot(options: RobotOfLinkOptions): (snapshot: SessionStat
       const isWanted = link.status === 'ready' && reported?.document === insteadOf;
       if (!isWanted) asked = '';
       else if (document !== null && document !== insteadOf) {
-        // Our own word is no news: what was taken up meanwhile is wished for.
+        // Our own report is no news: a robot chosen meanwhile is the person's choice.
         followed = document;
         const before = echoes;
         await options.putOnBoard(document, insteadOf);
-        // The word about it may be on its way still; where it has come, whatever came behind it is newer.
+        // The report of this request may still be on its way; reports after it are newer.
         if (echoes === before) reported = { document };
       }
     } catch (error) {
       followed = insteadOf;
       if (insteadOf !== null) notices.tellError(error);
-      // Somebody was faster: nothing is asked in place of none before the word about it comes.
+      // Another page was faster: waits for its report before a new request.
       else if (reported?.document === null) reported = null;
     } finally {
       isOffering = false;
@@ -117,7 +117,7 @@ export function followRobot(options: RobotOfLinkOptions): (snapshot: SessionStat
   };
 }
 
-/** Whether what moves are judged by may be changed from here. */
+/** True if this page may change the limits. */
 function mayResume(lease: Lease | null): boolean {
   return lease !== null && lease.mayDrive && (lease.driver === null || lease.drives || lease.mayTake);
 }

@@ -1,6 +1,5 @@
-// Keeps the robots of this page and those of the library at one: what was changed here goes there, what others have changed
-// comes here, and of two that were changed in the same part both are kept. Until the library has a change it waits in the
-// browser's storage. A robot that nobody has described is nobody's business. Never moves the robot.
+// Synchronises this page's robots with the library: local changes are saved there, changes of other people are loaded, and a conflict
+// keeps both versions. Unsaved changes wait in the browser's storage. Robots without a description are not stored. Moves nothing.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { Clock } from '#shared/clock.ts';
@@ -33,19 +32,19 @@ import type { Notices } from '../../state/notices.ts';
 import { isUsual, type OwnRobot, type RobotStore } from './robots.ts';
 
 export interface RobotSync {
-  /** Where they are kept; null until that is known. A new object whenever it was looked. */
+  /** Where the robots are stored; null until that is known. A new object after each listing. */
   readonly store: StoreApi<{ readonly place: DocumentStore['place'] | null }>;
-  /** Others may have changed some. */
+  /** Loads changes of other people. */
   refresh(): void;
-  /** The number here of a document there; null for one that is not here yet. */
+  /** The local id of a document in the library; null if it is not loaded yet. */
   robotOf(document: string): number | null;
-  /** The document there, once all of it is kept; null where it is not. */
+  /** The document in the library once the robot is completely saved; null if that fails. */
   keep(id: number): Promise<string | null>;
 }
 
 export interface RobotSyncOptions {
   readonly documentStore: Promise<DocumentStore>;
-  /** A viewer's browser only reads. */
+  /** False in a viewer's browser, which only reads. */
   readonly mayWrite: boolean;
   readonly robots: RobotStore;
   readonly poses: RobotDocument<PoseBook>;
@@ -72,7 +71,7 @@ export function createRobotSync(options: RobotSyncOptions): RobotSync {
   const parts = { poses, buttons, pad };
   const known = loadKnown(options.storage);
   const store = createStore<{ readonly place: DocumentStore['place'] | null }>(() => ({ place: null }));
-  /** To be kept although nobody has described them: one of them stands on the board. */
+  /** Robots without a description that must be saved, because one of them is on the board. */
   const wanted = new Set<number>();
   let turn = Promise.resolve(true);
   let hasFailed = false;
@@ -106,7 +105,7 @@ export function createRobotSync(options: RobotSyncOptions): RobotSync {
     saveKnown(options.storage, known);
   }
 
-  /** Null for one that this version cannot read. */
+  /** null if this version cannot read it. */
   function take(id: number | null, kit: Kit): number | null {
     const read = robotFromText(kit.robot);
     if ('problem' in read) return null;
@@ -120,7 +119,7 @@ export function createRobotSync(options: RobotSyncOptions): RobotSync {
     return taken;
   }
 
-  /** Where it goes when it comes: in place of one that nobody has described. */
+  /** The local robot that a new one replaces: one without a description. */
   function placeFor(listed: Listed<RobotFacts>): number | null {
     const free = own().find((one) => isUntouched(one) && one.robot.board === listed.facts.board);
     return free?.id ?? null;
@@ -143,7 +142,7 @@ export function createRobotSync(options: RobotSyncOptions): RobotSync {
     if (taken !== null) remember(taken, { document, revision: stored.revision, kit: theirs });
   }
 
-  /** What was changed here meanwhile stays, and comes back with it or goes on as a robot of its own. */
+  /** Local changes made meanwhile stay: they are merged, or become another robot. */
   function removedThere(id: number, revision: number): void {
     const one = robotAt(id);
     const before = known.get(id);
@@ -163,14 +162,14 @@ export function createRobotSync(options: RobotSyncOptions): RobotSync {
     return take(id, merged ?? theirs);
   }
 
-  /** The newer one stays under its name; ours goes on as a robot of its own. */
+  /** The newer robot keeps its document; ours becomes another robot. */
   function keepBoth({ robot }: OwnRobot, ours: Kit): void {
     const name = longerName(robot.name, words.robots.otherVersion);
     take(null, { ...ours, robot: robotToText({ ...robot, name }) });
     notices.tell('warning', words.robots.conflict({ name: robot.name, copy: name }));
   }
 
-  /** False where somebody else was faster: it has to be met first. */
+  /** False after a conflict, which must be resolved first. */
   async function bring(documentStore: DocumentStore, one: OwnRobot, there: There): Promise<boolean> {
     const before = known.get(one.id);
     const kit = kitOf(one);
@@ -188,7 +187,7 @@ export function createRobotSync(options: RobotSyncOptions): RobotSync {
     }
   }
 
-  /** The usual robot of a board is the same one wherever it is made, also out of the trash. */
+  /** The usual robot of a board has the same document wherever it was made, also in the trash. */
   function placeOf(one: OwnRobot, there: There): Pick<Known, 'document' | 'revision'> {
     const usual = `usual-${one.robot.board}`;
     const trashed = there.get(usual);
@@ -196,7 +195,7 @@ export function createRobotSync(options: RobotSyncOptions): RobotSync {
     return { document: usual, revision: trashed?.revision ?? 0 };
   }
 
-  /** One that is refused does not keep the others waiting. */
+  /** A refused robot does not block the others. */
   async function bringAll(documentStore: DocumentStore, there: There): Promise<boolean> {
     const failures: unknown[] = [];
     const added: string[] = [];
@@ -220,13 +219,13 @@ export function createRobotSync(options: RobotSyncOptions): RobotSync {
   async function removeGone(documentStore: DocumentStore): Promise<void> {
     for (const [id, { document }] of known) {
       if (robotAt(id) !== undefined) continue;
-      // Where that is refused it comes back.
+      // If this is refused, the robot comes back.
       remember(id, null);
       await documentStore.remove([document]);
     }
   }
 
-  /** At the beginning of a visit: nobody has described them, and there are others. */
+  /** At the start of a visit: robots without a description, if there are others. */
   function tidy(): void {
     if (store.getState().place !== null) return;
     const { currentId } = robots.store.getState().present;
@@ -246,7 +245,7 @@ export function createRobotSync(options: RobotSyncOptions): RobotSync {
     store.setState({ place: documentStore.place }, true);
   }
 
-  /** Asked for again and again: a keeper that stays away is told of once. */
+  /** Called repeatedly: a document store that stays away is reported once. */
   async function attempt(): Promise<boolean> {
     try {
       await look();

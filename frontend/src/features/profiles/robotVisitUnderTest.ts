@@ -1,4 +1,4 @@
-// A page's robots at one keeper, in virtual time, for tests; `texts` is what its browser kept.
+// A page's robots at one document store in virtual time, for tests; `texts` is its browser's storage.
 
 import type { DocumentStore } from '#shared/files/documentStore.ts';
 import { addPose } from '#shared/profile/pose.ts';

@@ -1,5 +1,5 @@
-// The robots that are described, and the one at hand: undoable, saved in the browser's storage after each edit. Text that cannot
-// be read is set aside, never thrown away. Knows no link and no keeper: what others have changed is told to it.
+// The robots and the current one: undoable, saved in the browser's storage after each edit. Unreadable text is stored under another key,
+// never deleted. Knows no link and no library: robotSync.ts passes changes of other people.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import {
@@ -22,14 +22,14 @@ import type { TextStorage } from '../../state/storage.ts';
 import type { Notices } from '../../state/notices.ts';
 
 export interface OwnRobot {
-  /** Means nothing outside this store; never used twice. */
+  /** Has no meaning outside this store; never reused. */
   readonly id: number;
   readonly robot: Robot;
 }
 
 export interface Robots {
   readonly own: readonly OwnRobot[];
-  /** The one at hand. */
+  /** The current robot. */
   readonly currentId: number;
   readonly nextId: number;
 }
@@ -37,24 +37,24 @@ export interface Robots {
 export interface RobotStore {
   readonly store: StoreApi<History<Robots>>;
   current(): OwnRobot;
-  /** The robot on such a board: the one at hand, else the last one described for it, else the usual one, made now. */
+  /** The robot for a board: the current one, else the last one described for it, else a new usual one. */
   takeUpFor(board: FamilyId): void;
   takeUp(id: number): void;
-  /** By a name that tells it from the others. False where that may not be now; the person is told why. */
+  /** Adds a robot under a unique name. False if it is refused; then a notice says why. */
   add(label: Label, robot: Robot): boolean;
-  /** False where the edit would leave a robot that cannot be; the person is told why. */
+  /** False if the result would be invalid; then a notice says why. */
   edit(label: Label, change: (robot: Robot) => Robot): boolean;
   duplicate(): void;
   remove(id: number): void;
   undo(): void;
   redo(): void;
-  /** Why the robot at hand may not be changed now, for people, or null; `next` where the change is one of its figures. */
+  /** Why the current robot may not be changed now, as a sentence, or null. `next`: the changed robot, if values of it change. */
   refusal(next?: Robot): string | null;
-  /** Asked for `refusal` from now on. */
+  /** Sets the function behind `refusal`. */
   refuseBy(refusal: (before: Robot, next: Robot | null) => string | null): void;
-  /** From elsewhere, null for one that is new here: its number. A step only where it would undo what was done here. */
+  /** Takes a robot from the library, null for a new one; returns its id. An undo step only if it replaces local changes. */
   takeIn(id: number | null, robot: Robot): number;
-  /** It is gone elsewhere. */
+  /** Removes a robot that was deleted in the library. */
   drop(id: number): void;
 }
 
@@ -76,14 +76,14 @@ export function createRobots(storage: TextStorage, notices: Notices): RobotStore
 
   const step = (label: Label, next: Robots): void => change(record(store.getState(), label, next));
 
-  /** No step of the history: nothing was described, only chosen. */
+  /** Choosing a robot is no undo step. */
   const silently = (next: Robots): void => change({ ...commit(store.getState()), present: next });
 
   const current = (): OwnRobot => currentOf(present());
   let refuse: (before: Robot, next: Robot | null) => string | null = () => null;
   const refusal = (next?: Robot): string | null => refuse(current().robot, next ?? null);
 
-  /** Its sentences come later than the first load: hardly an edit is refused. */
+  /** Loads the sentences on demand: edits are rarely refused. */
   function tellFlaw(flaw: RobotFlaw): void {
     void import('../../i18n/robotFlaws.ts').then(
       ({ robotFlawSentence }) => notices.tell('warning', robotFlawSentence(flaw)),
@@ -91,7 +91,7 @@ export function createRobots(storage: TextStorage, notices: Notices): RobotStore
     );
   }
 
-  /** Tells the person. */
+  /** Shows a notice. */
   function isRefused(next?: Robot): boolean {
     const why = refusal(next);
     if (why !== null) notices.tell('warning', why);
@@ -128,7 +128,7 @@ export function createRobots(storage: TextStorage, notices: Notices): RobotStore
     takeUp(id) {
       const chosen = (robots: Robots): Robots =>
         robotIn(robots, id) === undefined ? robots : { ...robots, currentId: id };
-      // No step that is taken back later chooses another one.
+      // Undoing an earlier step does not choose another robot.
       if (id !== present().currentId) change(rebase(commit(store.getState()), chosen));
     },
     add(label, robot) {
@@ -184,11 +184,11 @@ const valuesOf = ({ past, present, future }: History<Robots>): readonly Robots[]
   ...[...past, ...future].map(({ value }) => value),
 ];
 
-/** In no step, so that one that is taken back gives nobody another's number. */
+/** An id that occurs in no step of the history, so that undo cannot reuse one. */
 const unusedId = (history: History<Robots>): number =>
   Math.max(...valuesOf(history).map(({ nextId }) => nextId));
 
-/** With the first number that tells it from the others; no longer than a name may be. */
+/** The name with the first number that makes it unique, within the allowed length. */
 function unusedName({ own }: Robots, name: string): string {
   const names = new Set(own.map(({ robot }) => robot.name));
   let found = name.slice(0, NAME_LENGTH).trim();
@@ -199,7 +199,7 @@ function unusedName({ own }: Robots, name: string): string {
 
 const robotIn = ({ own }: Robots, id: number): Robot | undefined => own.find((one) => one.id === id)?.robot;
 
-/** There is always one: the last of a board is described anew. */
+/** There is always a robot: the last one is replaced by a new usual one. */
 function without(robots: Robots, id: number, unused: number): Robots {
   const gone = robotIn(robots, id);
   if (gone === undefined) return robots;
@@ -224,7 +224,7 @@ function withRobot({ own, nextId }: Robots, robot: Robot, id = nextId): Robots {
   return { own: [...own, { id, robot }], currentId: id, nextId: id + 1 };
 }
 
-/** As it comes with its board, so nobody has described it. */
+/** True if the robot is unchanged since it was made for its board. */
 export function isUsual(robot: Robot): boolean {
   return robotToText(robot) === robotToText(freshRobot(usualRobot(robot.board), robot.board));
 }
@@ -253,7 +253,7 @@ function load(storage: TextStorage, notices: Notices): Robots {
   return fresh;
 }
 
-/** null where any of it is not what this store wrote. */
+/** null if the text was not written by this store. */
 function fromText(text: string): Robots | null {
   try {
     const { files, currentId, nextId } = JSON.parse(text) as {

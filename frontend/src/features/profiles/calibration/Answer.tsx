@@ -1,16 +1,13 @@
-// A button that answers the question of a step. The next step's buttons stand where the last one's were, so that a hand need not
-// look for them: the second half of a double press would answer a question that nobody has read, and set home at an end. A mouse
-// says itself that it is pressed twice; a finger is not taken at its word before it could have read; a key has nothing to press,
-// because the question has the focus (Ask).
+// A button that answers the question of a step. The next step's buttons appear at the same place, so the second half of a double press
+// would answer a question that was not read yet. Double clicks of a mouse are ignored, touches within half a second too; keys press
+// nothing, because the question has the focus (Ask).
 
 import { useLayoutEffect, useRef, type ReactNode, useState, type MouseEvent } from 'react';
 import { useStores } from '../../stores.ts';
 import { Button, type ButtonProps } from '../../../ui/Button.tsx';
 import styles from './CalibrationWizard.module.css';
 
-// What is asked of the person now. A step that ends takes its buttons away: the focus goes to the next question
-// instead of nowhere, and never straight to what moves the servo.
-
+/** The current question. It takes the focus when a step ends and its buttons disappear, so that the focus is not on a button that moves. */
 export function Ask({ children }: { readonly children: ReactNode }) {
   const asked = useRef<HTMLParagraphElement>(null);
   useLayoutEffect(() => {
@@ -23,7 +20,7 @@ export function Ask({ children }: { readonly children: ReactNode }) {
   );
 }
 
-/** Systems take two presses for a double one up to then. */
+/** The usual limit of systems for a double press. */
 const READ_MS = 500;
 
 interface AnswerProps extends Omit<ButtonProps, 'onPress'> {

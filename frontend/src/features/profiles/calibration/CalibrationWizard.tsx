@@ -1,5 +1,5 @@
-// Calibration, a servo at a time: its ends and its home are crept to, its direction is looked at, its mirror filled in, its trim
-// worked out. It can be left anywhere: what was set is in the robot, and the place is kept.
+// Calibration of one servo after the other: its limits and home by jogging, its direction, its mirror and its trim. It can be left and
+// continued at any step: results are in the robot.
 
 import { useEffect, useId, useRef } from 'react';
 import { flawOf, servoOf, TRIM, type Robot, type RobotServo } from '#shared/profile/robot.ts';
@@ -27,8 +27,7 @@ import { EndStep } from './EndStep.tsx';
 import { MotionGate } from './MotionGate.tsx';
 import styles from './CalibrationWizard.module.css';
 
-// Offers the servo on the other side the mirror image of what was set.
-
+/** Offers to copy the results, mirrored, to the servo on the other side. */
 function PartnerStep({ at: { robot, servo, accept, keep } }: { readonly at: CurrentCalibration }) {
   const partner = servo.mirror === null ? undefined : servoOf(robot, servo.mirror);
   if (partner === undefined) return null;
@@ -57,8 +56,7 @@ function PartnerStep({ at: { robot, servo, accept, keep } }: { readonly at: Curr
   );
 }
 
-// Gives home the figure that it has on every robot of this build, and the trim what it is off by.
-
+/** Sets home to the value of every robot of this build, and the trim to the difference. */
 function TrimStep({ at: { robot, servo, isFinished, accept, keep } }: { readonly at: CurrentCalibration }) {
   const { centre } = FAMILIES[robot.board];
   const change = servo.home === centre ? null : homeAtCentre(robot, servo);
@@ -116,7 +114,7 @@ export function CalibrationWizard() {
           <p className={styles.problem} role="alert">
             {at.problem}
           </p>
-          <div className={styles.foot}>{at.isFinished ? <Finished /> : <KeepServo at={at} />}</div>
+          <div className={styles.foot}>{at.isFinished ? <Finished /> : <SkipServo at={at} />}</div>
         </section>
       </div>
     </>
@@ -153,7 +151,7 @@ interface At {
 
 function Servos({ at: { robot, servo, progress, go } }: At) {
   const list = useRef<HTMLOListElement>(null);
-  // On a phone they stand in a row that is longer than the window.
+  // On a phone the row of servos is wider than the window.
   useEffect(() => {
     list.current?.querySelector('[aria-current]')?.scrollIntoView({ block: 'nearest', inline: 'nearest' });
   }, [servo.servo]);
@@ -213,10 +211,10 @@ function Steps({ at: { servo, progress, go } }: At) {
   );
 }
 
-function KeepServo({ at: { servo, progress, keepServo } }: At) {
+function SkipServo({ at: { servo, progress, skipServo } }: At) {
   if (isServoDone(progress, servo)) return null;
   return (
-    <Answer key={servo.servo} tone="quiet" onPress={keepServo}>
+    <Answer key={servo.servo} tone="quiet" onPress={skipServo}>
       {words.calibration.keepServo({ name: servoLabel(servo) })}
     </Answer>
   );

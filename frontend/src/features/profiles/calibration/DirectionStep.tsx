@@ -1,5 +1,5 @@
-// Asks whether the servo turned the way of the arrow: at once where it is on its way home, which was an act of its own and shows it,
-// else after it was turned a little and back. Whichever side of home has more room is tried, and the arrow says that side.
+// Asks whether the servo turned in the direction of the arrow: after a move home that is long enough, or after a small turn away from home
+// and back, towards the side with more room.
 
 import { useEffect, useRef, useState } from 'react';
 import { changeServo } from '#shared/profile/robotEdits.ts';
@@ -55,13 +55,13 @@ function TurnAndAsk({ at: { robot, servo, accept }, away }: At & { readonly away
   const target = useTarget(servo.servo);
   const [side] = useState(() => homeward(servo, { target, estimated: device.motion(servo.servo).estimated }));
   const isMoving = useDevice((state) => state.isMoving);
-  // That something moves is known a moment after it was asked to.
+  // The start of a move is reported a moment later.
   const { estimated } = device.motion(servo.servo);
   const isOnItsWay = isMoving || Math.abs((estimated ?? servo.home) - servo.home) > 1;
   const isTurning = phase === 'away' || phase === 'back';
   const isAway = target !== servo.home && !isTurning;
   const shows = isAway ? 'nothing' : phase === null && side !== 0 ? 'wayHome' : 'turn';
-  // It has shown what there is to see, and comes home whatever is answered.
+  // The direction has been visible; the servo returns home whatever the answer is.
   const isAsked = shows === 'wayHome' || (shows === 'turn' && (phase === 'back' || phase === 'done'));
   const way = (shows === 'wayHome' ? side : sideOf(servo)) > 0 ? 'right' : 'left';
   const { unit } = FAMILIES[robot.board];
@@ -88,7 +88,7 @@ function TurnAndAsk({ at: { robot, servo, accept }, away }: At & { readonly away
       )}
       <div className={styles.actions}>
         {isAway ? (
-          <Answer tone="primary" onPress={() => device.creep(servo.home, GENTLE_MOVE_MS)}>
+          <Answer tone="primary" onPress={() => device.jog(servo.home, GENTLE_MOVE_MS)}>
             {words.calibration.goTo({ at: words.position[unit]({ position: servo.home }) })}
           </Answer>
         ) : (
@@ -124,7 +124,7 @@ function useTurning(servo: RobotServo, away: number): { readonly phase: TurnPhas
           clock: device.clock,
           motion: () => device.motion(servo.servo),
           mayMove: () => motionHindrance(device.store.getState().snapshot) === null,
-          move: device.creep,
+          move: device.jog,
         },
         { home: servo.home, away },
         setPhase,
@@ -133,7 +133,7 @@ function useTurning(servo: RobotServo, away: number): { readonly phase: TurnPhas
   };
 }
 
-/** A horn and the way it turns; drawn the other way round it turns the other way. */
+/** A horn with an arrow in the direction of its turn. */
 function TurnArrow({ isClockwise }: { readonly isClockwise: boolean }) {
   return (
     <svg viewBox="-60 -60 120 76" role="img" aria-label={words.calibration.arrow}>
@@ -145,9 +145,6 @@ function TurnArrow({ isClockwise }: { readonly isClockwise: boolean }) {
   );
 }
 
-// What shows a servo's direction: the way home that it is on, or a little turn away from home and, once it stands there, back, which
-// ends early where nothing may move any longer. Knows no session.
-
 interface Turning {
   readonly clock: Clock;
   motion(): ServoMotion;
@@ -155,17 +152,17 @@ interface Turning {
   move(position: number, durationMs: number): void;
 }
 
-/** `away` is what is looked at; `ended`: something else took the servo or stopped it. */
+/** `ended`: something else moved or stopped the servo. */
 export type TurnPhase = 'away' | 'back' | 'done' | 'ended';
 
 const SHARE_OF_SIDE = 0.3;
-/** Of a horn, by whoever looks for it. */
+/** The smallest turn of a horn that is visible. */
 const SEEN_DEGREES = 3;
 
 /** The side of home that has more room. */
 const sideOf = ({ min, home, max }: RobotServo): 1 | -1 => (max - home >= home - min ? 1 : -1);
 
-/** A share of that side, and of a short one as much as is seen; null where its limits leave less than that. */
+/** A position on that side that is far enough to be visible; null if the limits leave no room. */
 export function awayFrom(servo: RobotServo): number | null {
   const room = Math.max(servo.max - servo.home, servo.home - servo.min);
   const seen = Math.ceil(SEEN_DEGREES / servo.degreesPerUnit);
@@ -173,7 +170,7 @@ export function awayFrom(servo: RobotServo): number | null {
   return Math.round(servo.home + sideOf(servo) * Math.max(room * SHARE_OF_SIDE, seen));
 }
 
-/** The side it goes to on a way home that is long enough to be seen; 0 where it goes on none. */
+/** The direction of a move home that is long enough to be visible, otherwise 0. */
 export function homeward(
   { home, degreesPerUnit }: RobotServo,
   { target, estimated }: Pick<ServoMotion, 'target' | 'estimated'>,
@@ -184,11 +181,11 @@ export function homeward(
 }
 
 const TURN_MS = 900;
-/** To see where it stands before it comes back. */
+/** A pause before it returns. */
 const STAND_MS = 400;
 const LOOK_EACH_MS = 50;
 
-/** Returns what ends it; ending twice is harmless. */
+/** Turns the servo away from home and back. Returns a function that ends it and may be called twice. */
 export function startTurning(
   { clock, motion, mayMove, move }: Turning,
   { home, away }: { readonly home: number; readonly away: number },

@@ -1,4 +1,4 @@
-// Lowest, highest and home: the servo is crept there and the commanded position becomes the figure.
+// The steps for lowest, highest and home: the servo is jogged there, and its target becomes the value.
 
 import { useEffect, useRef, useState } from 'react';
 import { Button } from 'react-aria-components/Button';
@@ -22,9 +22,7 @@ import styles from './CalibrationWizard.module.css';
 import type { Clock } from '#shared/clock.ts';
 import type { ServoMotion } from '#shared/robot/state.ts';
 
-// Two large buttons that a servo creeps by as long as one is held, and where it was sent to.
-
-interface CreepControlProps {
+interface JogControlProps {
   readonly servo: RobotServo;
   readonly reach: Range;
   readonly target: number;
@@ -36,10 +34,11 @@ const WAYS = [
   { direction: 1, icon: 'plus', name: 'higher' },
 ] as const;
 
-function CreepControl({ servo, reach, target, unit }: CreepControlProps) {
-  const { start, end } = useCreeping(servo.servo, reach);
+/** Two large buttons that move the servo while they are held, and its target. */
+function JogControl({ servo, reach, target, unit }: JogControlProps) {
+  const { start, end } = useJogging(servo.servo, reach);
   const scale = scaleOf(servo, { unit }, 'board');
-  // Told when a button is let go, not at each of the many steps.
+  // Reported to screen readers when a button is released, not at each step.
   const [said, setSaid] = useState('');
   const value = scale.text(target);
 
@@ -51,7 +50,7 @@ function CreepControl({ servo, reach, target, unit }: CreepControlProps) {
   const [lower, higher] = WAYS.map(({ direction, icon, name }) => (
     <Button
       key={name}
-      className={styles.creep ?? ''}
+      className={styles.jog ?? ''}
       aria-label={words.calibration[name]}
       onPressStart={() => start(direction)}
       onPressEnd={letGo}
@@ -81,13 +80,13 @@ function CreepControl({ servo, reach, target, unit }: CreepControlProps) {
   );
 }
 
-interface Creep {
+interface Jog {
   start(direction: 1 | -1): void;
   end(): void;
 }
 
-/** A page that goes out of sight has let go. */
-function useCreeping(servo: number, reach: Range): Creep {
+/** Hiding the page counts as releasing the button. */
+function useJogging(servo: number, reach: Range): Jog {
   const { device } = useStores();
   const ending = useRef<() => void>(() => undefined);
   const end = (): void => ending.current();
@@ -106,8 +105,8 @@ function useCreeping(servo: number, reach: Range): Creep {
       end();
       const motion = () => device.motion(servo);
       const mayMove = (): boolean => motionHindrance(device.store.getState().snapshot) === null;
-      ending.current = startCreeping(
-        { clock: device.clock, reach, motion, mayMove, move: device.creep },
+      ending.current = startJogging(
+        { clock: device.clock, reach, motion, mayMove, move: device.jog },
         direction,
       );
     },
@@ -126,12 +125,12 @@ export function EndStep({ at, end }: EndStepProps) {
   const { unit } = FAMILIES[robot.board];
   const reach = reachOf(robot, servo);
   if (target === null) return null;
-  // A servo that has just been crept to an end seldom rests there.
+  // A servo that was just jogged to a limit is rarely at home there.
   const isHomeUnchanged = end === 'home' && (target <= servo.min || target >= servo.max);
   const isAwayFromHome = end === 'home' && target !== servo.home;
   const endsFor = sightOf(robot, servo) === 'gripper' ? 'gripperEnds' : 'ends';
   const keepAndGo = (): void => {
-    device.creep(servo.home, GENTLE_MOVE_MS);
+    device.jog(servo.home, GENTLE_MOVE_MS);
     keep();
   };
   const [setTone, keepTone] = isFinished
@@ -142,7 +141,7 @@ export function EndStep({ at, end }: EndStepProps) {
   return (
     <>
       <Ask>{words.calibration[endsFor][end]}</Ask>
-      <CreepControl servo={servo} reach={reach} target={target} unit={unit} />
+      <JogControl servo={servo} reach={reach} target={target} unit={unit} />
       <ReachBar servo={servo} reach={reach} unit={unit} />
       <p className={styles.dim}>
         {words.calibration.limitsNow({ ...servo, unit: words.units[unit] })}{' '}
@@ -171,20 +170,16 @@ function take({ servo, progress, accept }: CurrentCalibration, end: EndStepProps
     });
 }
 
-/** An end pushed it; empty where none did. */
+/** Says that a new limit has moved home; empty if not. */
 function movedHome({ found }: Calibration, { servo, home }: RobotServo): string {
   return found?.servo === servo && found.home !== home
     ? words.calibration.homeMoved({ from: found.home, to: home })
     : '';
 }
 
-// A servo creeps as long as a button is held: a nudge at once, then, a little later, a tenth of its range a second in small
-// steps, and twice that where it is held on. The next step waits for the estimate, so that the servo stands soon after the button is
-// let go. Knows no session.
-
-interface Creeping {
+interface Jogging {
   readonly clock: Clock;
-  /** What its board can do. */
+  /** The range of the board. */
   readonly reach: Range;
   motion(): ServoMotion;
   mayMove(): boolean;
@@ -194,15 +189,18 @@ interface Creeping {
 const STEP_MS = 100;
 /** Longer than a tap. */
 const HOLD_AFTER_MS = 350;
-/** Whoever holds on so long has far to go. Half as fast as by a pad, which is slow enough to let go in time. */
+/** After this number of steps it moves faster. Half the speed of a pad, which is slow enough to release in time. */
 const FASTER_AFTER_STEPS = 12;
 const FASTER = 2;
 const STEPS_A_RANGE = 100;
 const NUDGES_A_STEP = 4;
 
-/** Returns what ends it; ending twice is harmless. */
-export function startCreeping(
-  { clock, reach, motion, mayMove, move }: Creeping,
+/**
+ * Jogs a servo while a button is held: a small step at once, then a tenth of the range per second, later twice that. Each step waits for
+ * the estimate, so that the servo stops soon after the release. Returns a function that ends it and may be called twice.
+ */
+export function startJogging(
+  { clock, reach, motion, mayMove, move }: Jogging,
   direction: 1 | -1,
 ): () => void {
   const step = (reach.max - reach.min) / STEPS_A_RANGE;
@@ -220,15 +218,15 @@ export function startCreeping(
     move(within, STEP_MS);
   }
 
-  function creep(): void {
+  function jog(): void {
     if (!mayMove()) return;
     go(taken > FASTER_AFTER_STEPS ? FASTER * step : step);
-    cancel = clock.after(STEP_MS, creep);
+    cancel = clock.after(STEP_MS, jog);
   }
 
   if (mayMove()) {
     go(step / NUDGES_A_STEP);
-    cancel = clock.after(HOLD_AFTER_MS, creep);
+    cancel = clock.after(HOLD_AFTER_MS, jog);
   }
   return () => cancel();
 }

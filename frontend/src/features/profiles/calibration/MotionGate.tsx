@@ -1,5 +1,5 @@
-// Stands before every step that moves a servo: says why it may not move now and offers what helps, and brings a servo that nobody knows the place of
-// to its middle, or all such servos home, slowly and only when told to.
+// Shown before every step that moves a servo: says why it may not move now and offers a remedy, and moves servos with an unknown position
+// to their middle or home, slowly and only on request.
 
 import type { ReactNode } from 'react';
 import type { Robot, RobotServo } from '#shared/profile/robot.ts';
@@ -9,7 +9,7 @@ import { FAMILIES } from '#shared/codec/families.ts';
 import { GENTLE_MOVE_MS } from '../../../robot/moveTime.ts';
 import { motionHindrance } from '../../../robot/readiness.ts';
 import { useDevice, useSnapshot, useStores } from '../../stores.ts';
-import { turnOf } from '../../people/leaseText.ts';
+import { leaseTextOf } from '../../people/leaseText.ts';
 import { mayResumeText } from '../../../i18n/sentences.ts';
 import { words } from '../../../i18n/whole.ts';
 import { Answer, Ask } from './Answer.tsx';
@@ -47,7 +47,7 @@ export function MotionGate({ robot, servo, children }: MotionGateProps) {
     return (
       <>
         <Ask>{words.servos.blocked[hindrance]}</Ask>
-        {lease !== null && isWatching(lease) && <TurnAnswers lease={lease} />}
+        {lease !== null && isWatching(lease) && <LeaseActions lease={lease} />}
       </>
     );
   }
@@ -55,7 +55,7 @@ export function MotionGate({ robot, servo, children }: MotionGateProps) {
   return (
     <>
       <Ask>{words.calibration.unknown}</Ask>
-      <Answer tone="primary" onPress={() => device.creep(middleOf(robot, servo), GENTLE_MOVE_MS)}>
+      <Answer tone="primary" onPress={() => device.jog(middleOf(robot, servo), GENTLE_MOVE_MS)}>
         {words.calibration.goHome}
       </Answer>
       {homes.length > 1 && (
@@ -67,10 +67,10 @@ export function MotionGate({ robot, servo, children }: MotionGateProps) {
   );
 }
 
-/** What may be done about whose turn it is, as the bar offers it behind this dialog. */
-function TurnAnswers({ lease }: { readonly lease: Lease }) {
+/** The actions about the lease, as in the status line behind this dialog. */
+function LeaseActions({ lease }: { readonly lease: Lease }) {
   const { device } = useStores();
-  return turnOf(lease).acts.map(({ label, wish, ...how }) => (
+  return leaseTextOf(lease).acts.map(({ label, wish, ...how }) => (
     <Answer key={label} {...how} onPress={() => device.lease(wish)}>
       {label}
     </Answer>

@@ -1,7 +1,7 @@
 import { describe, expect, test } from 'vitest';
 import type { ServoMotion } from '#shared/robot/state.ts';
 import { createVirtualClock } from '#shared/testing/virtualClock.ts';
-import { startCreeping } from './EndStep.tsx';
+import { startJogging } from './EndStep.tsx';
 
 const REACH = { min: 500, max: 2500 };
 
@@ -11,7 +11,7 @@ function bench(at: number | null = 1500) {
   let motion: ServoMotion = { target: at, estimated: at };
   let may = true;
   const hold = (direction: 1 | -1): (() => void) =>
-    startCreeping(
+    startJogging(
       {
         clock,
         reach: REACH,
@@ -27,7 +27,7 @@ function bench(at: number | null = 1500) {
   return { clock, moves, hold, stop: () => (may = false), be: (next: ServoMotion) => (motion = next) };
 }
 
-describe('creeping', () => {
+describe('jogging', () => {
   test('a tap is one nudge, whichever way', async () => {
     const { clock, moves, hold } = bench();
     hold(1)();

@@ -1,4 +1,4 @@
-// The calibration at hand: which servo, which step, and what a finished step does to the robot. Each is one step to undo.
+// The state of the calibration: servo, step, and how a finished step changes the robot. Each is one undo step.
 
 import { useEffect, useState } from 'react';
 import { type Robot, type RobotServo, flawOf, servoOf } from '#shared/profile/robot.ts';
@@ -17,9 +17,7 @@ import { robotFlawSentence } from '../../../i18n/robotFlaws.ts';
 import { servoLabel } from '../../../i18n/sentences.ts';
 import { words } from '../../../i18n/whole.ts';
 
-// What a servo turns, as far as the picture of its robot tells, and from where one sees it turn.
-
-/** Where one looks from, as the picture of the arm does; other bodies have no picture of a turn. */
+/** The view from which the turn of a servo is visible on the arm. Other bodies have only the horn. */
 export type Sight = 'gripper' | 'side' | 'above' | 'front' | 'horn';
 
 const ARM_SIGHTS: Readonly<Record<number, Sight>> = {
@@ -38,27 +36,27 @@ export interface CurrentCalibration {
   readonly robot: Robot;
   readonly servo: RobotServo;
   readonly progress: Calibration;
-  /** Why the last edit was not taken. */
+  /** Why the last edit was refused. */
   readonly problem: string;
-  /** There is nothing left to do on this robot. */
+  /** All servos are done. */
   readonly isFinished: boolean;
   go(servo: number, step: CalibrationStep): void;
-  /** Takes the edit and goes on; where the edit cannot be, says why and stays. */
+  /** Applies the edit and continues; if the edit is invalid, stays and says why. */
   accept(edit: (robot: Robot) => Robot, more?: More): void;
-  /** Goes on with the robot as it is. */
+  /** Continues without an edit. */
   keep(): void;
-  /** Goes on with the next servo. */
-  keepServo(): void;
+  /** Continues with the next servo. */
+  skipServo(): void;
 }
 
 export interface More {
-  /** Took everything over. */
+  /** The servo on the other side that got all results. */
   readonly partner?: number;
-  /** What the steps that follow shall know. */
+  /** Adds information for later steps. */
   note?(progress: Calibration): Calibration;
 }
 
-/** How far it had come with each state of a robot: what is undone is not done any longer. */
+/** The progress for each state of a robot, so that undo also undoes progress. */
 const reached = new WeakMap<Robot, Calibration>();
 
 export function useCalibration(): CurrentCalibration {
@@ -98,17 +96,17 @@ export function useCalibration(): CurrentCalibration {
       put(partner === undefined ? stepDone(next, noted) : partnerDone(next, noted, partner));
     },
     keep: () => put(stepDone(robot, begun)),
-    keepServo: () => put(servoDone(robot, begun)),
+    skipServo: () => put(servoDone(robot, begun)),
   };
 }
 
-/** Of one state of the robot: it goes when that is undone or mended. */
+/** Belongs to one state of the robot and disappears with it. */
 interface Problem {
   readonly robot: Robot;
   readonly text: string;
 }
 
-/** For this servo alone, and only as long as it is calibrated. */
+/** Lifts the limits of this servo only, while it is calibrated. */
 function useLimitsLifted(servo: number): void {
   const { device } = useStores();
   useEffect(() => {
