@@ -1,4 +1,4 @@
-// The page of whoever does not see the dashboard: a stranger's card, the one button of a stop-only link, or a guest's name.
+// The page of devices that do not see the dashboard: pairing of an unknown device, the button of a stop-only link, or a guest's name.
 
 import {
   useId,
@@ -17,11 +17,9 @@ import type { PairWish } from '../../robot/people.generated.ts';
 import { useSpokenLocale } from '../../i18n/words.ts';
 import styles from './EntryPage.module.css';
 
-// The form of whoever stands outside: what it is about, its fields, what went wrong, and one press that goes on.
-
 interface EntryCardProps {
   readonly text: { readonly title: string; readonly about: string; readonly submit: string };
-  /** Below the press. */
+  /** Shown below the button. */
   readonly notes?: readonly string[];
   readonly problem: PeopleError | null;
   readonly isReady?: boolean;
@@ -78,12 +76,10 @@ function EntryField({ label, isLarge = false, onChange, ...input }: EntryFieldPr
   );
 }
 
-/** `name` is what was typed; an empty one stands for what is suggested. */
+/** The typed name, or the suggestion if it is empty. */
 const nameOr = (suggested: string, name: string): string => (name.trim() === '' ? suggested : name.trim());
 
 const NAME_INPUT = { maxLength: 64, autoComplete: 'nickname' } as const;
-
-// What a link's guest sees first: what the others shall call them, filled in, so that one press goes on.
 
 interface NameCardProps {
   readonly suggested: string;
@@ -91,6 +87,7 @@ interface NameCardProps {
   onName(name: string): void;
 }
 
+/** Asks the guest of a link for a name. A suggestion is filled in, so that one press continues. */
 export function NameCard({ suggested, problem, onName }: NameCardProps) {
   const [name, setName] = useState(suggested);
   return (
@@ -107,17 +104,15 @@ export function NameCard({ suggested, problem, onName }: NameCardProps) {
   );
 }
 
-// What a device that is not paired sees: one card to type the eight digits into. A reload afterwards opens the page
-// as ever.
-
 interface PairCardProps {
   readonly problem: PeopleError | null;
   readonly overheard: boolean;
-  /** The name of whoever says none. */
+  /** The name of a device that gives none. */
   readonly suggested: string;
   onPair(wish: PairWish): void;
 }
 
+/** Asks an unpaired device for the eight digits of its invitation. A reload afterwards opens the dashboard. */
 export function PairCard({ problem, overheard, suggested, onPair }: PairCardProps) {
   const [name, setName] = useState('');
   const [code, setCode] = useState('');
@@ -150,10 +145,9 @@ export function PairCard({ problem, overheard, suggested, onPair }: PairCardProp
   );
 }
 
-// The page of whoever may only stop: one button. It acts on press, as everywhere, and Esc does the same.
-
 export type StopOutcome = 'idle' | 'sending' | 'sent' | PeopleError;
 
+/** The page for the role “stopper”: one button that acts on press. Esc does the same. */
 function StopPage({ stop }: { stop(): Promise<StopOutcome> }) {
   const [outcome, setOutcome] = useState<StopOutcome>('idle');
   const press = (): void => {
@@ -181,7 +175,7 @@ export function StopFace({ outcome, onPress }: { readonly outcome: StopOutcome; 
         aria-keyshortcuts="Escape"
         onPointerDown={onPress}
         onClick={(event) => {
-          // Keys and screen readers; a pointer has done it already.
+          // For keys and screen readers; a pointer has already triggered it.
           if (event.detail === 0) onPress();
         }}
       >
@@ -207,7 +201,7 @@ interface EntryPageProps {
   readonly overheard: boolean;
   readonly suggested: string;
   readonly problem: PeopleError | null;
-  /** Comes in: the page begins anew. Rejects with a PeopleError. */
+  /** Pairs the device and reloads the page. Rejects with a PeopleError. */
   pair(wish: PairWish): Promise<void>;
   stop(): Promise<void>;
 }
@@ -232,11 +226,11 @@ export function EntryPage({ mayStop, overheard, suggested, problem, pair, stop }
 
 interface GuestProps {
   readonly suggested: string;
-  /** Takes the name over and opens the dashboard. Rejects with a PeopleError. */
+  /** Sets the name and opens the dashboard. Rejects with a PeopleError. */
   enter(name: string): Promise<void>;
 }
 
-/** Somebody whom a link has let in. */
+/** A guest who was admitted by a link. */
 export function Guest({ suggested, enter }: GuestProps) {
   const [problem, setProblem] = useState<PeopleError | null>(null);
   return (

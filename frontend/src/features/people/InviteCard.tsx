@@ -1,4 +1,4 @@
-// The invitation that is open, as QR code, link and eight digits, with the time that is left.
+// The open invitation as QR code, link and eight digits, with the remaining time.
 
 import { useState } from 'react';
 import { PERSON_ROLES, type OpenInvitation, type PeopleWishes, type PersonRole } from './people.ts';
@@ -19,7 +19,7 @@ interface InviteCardProps {
 export function InviteCard({ invitation, wishes, now }: InviteCardProps) {
   const [role, setRole] = useState<PersonRole>('viewer');
   const [name, setName] = useState('');
-  /** A code that is shown is never one of another role than the one that stands above it. */
+  /** Withdraws the invitation when another role is chosen, so that the code always matches the role above it. */
   const choose = (wanted: PersonRole): void => {
     setRole(wanted);
     if (invitation !== null) wishes.invite(wanted, name.trim());

@@ -1,5 +1,5 @@
-// Whose turn it is to drive, and the way to the next one's. Whoever is alone on the robot never sees it. A phone has no room for
-// several buttons beside what goes on: there the words themselves open what may be done.
+// Who drives the robot, with the actions to request, grant or release it. Hidden while nobody else uses the robot. On a phone the text
+// itself opens a menu, because there is no room for several buttons.
 
 import { useState } from 'react';
 import { type Unattended, isWatching, type Lease } from '#shared/robot/lease.ts';
@@ -14,11 +14,10 @@ import { Icon } from '../../ui/Icon.tsx';
 import { MenuButton } from '../../ui/MenuButton.tsx';
 import { useLayout } from '../../ui/useLayout.ts';
 import { secondsLeft } from '../../i18n/numbers.ts';
-import { turnOf, type Turn, type TurnAct } from './leaseText.ts';
+import { leaseTextOf, type LeaseText, type LeaseOffer } from './leaseText.ts';
 import styles from './LeaseChip.module.css';
 
-// The run that goes on, or may, without whoever began it: said to everybody, also where nobody else is there.
-
+/** A run that continues, or may continue, without the person who started it. Shown to everybody. */
 export function UnattendedChip() {
   const { device } = useStores();
   const run = useSnapshot((snapshot) => snapshot.lease?.unattended ?? null);
@@ -61,7 +60,7 @@ function goesOn({ slot, by }: Unattended, you: string): string {
   return slot === null ? words.lease.playingGoesOn({ name }) : words.lease.goesOn({ slot, name });
 }
 
-/** Counts from when it was told. */
+/** Counts down from the time of the message. */
 function Left({ run: { endsInMs } }: { readonly run: Unattended }) {
   const { device } = useStores();
   const [heardMs] = useState(device.clock.now);
@@ -73,41 +72,45 @@ export function LeaseChip() {
   const lease = useSnapshot((snapshot) => snapshot.lease);
   const isPhone = useLayout() === 'phone';
   if (lease === null || isAlone(lease)) return null;
-  const turn = turnOf(lease);
+  const leaseText = leaseTextOf(lease);
   const isAsked = lease.drives && lease.requestedBy !== null;
-  const isFolded = isPhone && !isAsked && !isOneButton(lease, turn);
+  const isFolded = isPhone && !isAsked && !isOneButton(lease, leaseText);
   return (
     <div
       className={cx(styles.lease, isAsked && styles.asked)}
-      data-turn={isAsked ? 'asked' : 'said'}
+      data-lease={isAsked ? 'asked' : 'said'}
       role="group"
       aria-label={words.lease.label}
     >
-      {isFolded ? <Folded lease={lease} turn={turn} /> : <Laid lease={lease} turn={turn} />}
+      {isFolded ? (
+        <LeaseMenu lease={lease} leaseText={leaseText} />
+      ) : (
+        <LeaseButtons lease={lease} leaseText={leaseText} />
+      )}
     </div>
   );
 }
 
-/** No other page is here, and no script drives or asks to. */
+/** No other page is connected, and no script drives or requests to. */
 function isAlone(lease: Lease): boolean {
   return lease.others === 0 && lease.mayDrive && !isWatching(lease) && lease.requestedBy === null;
 }
 
-/** Nothing to do, or the one thing that is worth a button beside the words. */
-const isOneButton = ({ candidates }: Lease, { acts }: Turn): boolean =>
+/** At most one action, shown as a button beside the text. */
+const isOneButton = ({ candidates }: Lease, { acts }: LeaseText): boolean =>
   candidates.length === 0 && acts.length <= 1 && acts[0]?.tone !== 'quiet';
 
-interface TurnProps {
+interface LeaseProps {
   readonly lease: Lease;
-  readonly turn: Turn;
+  readonly leaseText: LeaseText;
 }
 
-function Laid({ lease, turn }: TurnProps) {
+function LeaseButtons({ lease, leaseText }: LeaseProps) {
   const { device } = useStores();
   return (
     <>
-      <Said lease={lease} turn={turn} />
-      {turn.acts.map(({ label, wish, ...how }) => (
+      <LeaseStatus lease={lease} leaseText={leaseText} />
+      {leaseText.acts.map(({ label, wish, ...how }) => (
         <Button key={label} {...how} onPress={() => device.lease(wish)}>
           {label}
         </Button>
@@ -124,16 +127,16 @@ function Laid({ lease, turn }: TurnProps) {
   );
 }
 
-function Folded({ lease, turn }: TurnProps) {
+function LeaseMenu({ lease, leaseText }: LeaseProps) {
   const { device } = useStores();
   const acts = [
-    ...turn.acts,
+    ...leaseText.acts,
     ...lease.candidates.map(({ id, name }) => ({
       label: words.lease.handOverTo({ name }),
       wish: { grantTo: id },
     })),
   ];
-  const choose = (act?: Pick<TurnAct, 'wish'>): void => {
+  const choose = (act?: Pick<LeaseOffer, 'wish'>): void => {
     if (act !== undefined) device.lease(act.wish);
   };
   return (
@@ -144,14 +147,14 @@ function Folded({ lease, turn }: TurnProps) {
       onChoose={(index) => choose(acts[Number(index)])}
     >
       <span className={styles.face}>
-        <Said lease={lease} turn={turn} />
+        <LeaseStatus lease={lease} leaseText={leaseText} />
         <Icon name="down" />
       </span>
     </MenuButton>
   );
 }
 
-function Said({ lease, turn: { truth, text, more } }: TurnProps) {
+function LeaseStatus({ lease, leaseText: { truth, text, more } }: LeaseProps) {
   return (
     <span className={styles.said}>
       <Mark truth={truth} />
@@ -165,7 +168,7 @@ function Said({ lease, turn: { truth, text, more } }: TurnProps) {
   );
 }
 
-/** Counts from when it was told. */
+/** Counts down from the time of the message. */
 function PassesIn({ lease: { grantedInMs, hasRequested } }: { readonly lease: Lease }) {
   const { device } = useStores();
   const [heardMs] = useState(device.clock.now);

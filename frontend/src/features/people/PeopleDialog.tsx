@@ -1,9 +1,8 @@
-// People and devices over the page, for an owner of a gateway that others may reach; for everybody else there, who they are.
-// Looks again while it is open, because people come in meanwhile.
+// The dialog of people and devices: an owner manages them, other people see and change their own name. Refreshes while it is open.
 
 import { useEffect } from 'react';
 import { useStore } from 'zustand';
-import { letsIn } from './people.ts';
+import { managesPeople } from './people.ts';
 import type { Me } from '../../robot/people.generated.ts';
 import { useSnapshot, useStores, useView } from '../stores.ts';
 import { IconButton } from '../../ui/Button.tsx';
@@ -30,7 +29,7 @@ export function PeopleButton() {
   );
 }
 
-const titleFor = (me: Me | null): string => (letsIn(me) ? words.people.title : words.people.own.title);
+const titleFor = (me: Me | null): string => (managesPeople(me) ? words.people.title : words.people.own.title);
 
 export function PeopleDialog() {
   const { people, view, device } = useStores();
@@ -50,7 +49,7 @@ export function PeopleDialog() {
   };
   return (
     <Dialog wide title={titleFor(state.me)} closeLabel={words.close} isOpen={isOpen} onClose={close}>
-      {letsIn(state.me) ? (
+      {managesPeople(state.me) ? (
         <PeopleView
           state={state}
           wishes={people}

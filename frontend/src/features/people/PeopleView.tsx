@@ -1,4 +1,4 @@
-// Whom an owner lets in and who may come in already. Plain values in, wishes out; so every case can be shown.
+// The people and devices of a gateway with their roles, invitations, tokens and stop-only links. Plain values and callbacks.
 
 import { useState } from 'react';
 import type { Candidate } from '#shared/robot/lease.ts';
@@ -15,8 +15,7 @@ import { InviteCard } from './InviteCard.tsx';
 import styles from './People.module.css';
 import field from '../../ui/Field.module.css';
 
-// What the address that this page was opened at means: who can listen in, and what a browser keeps back there.
-
+/** What the page's address means: who can read the traffic, and which features the browser withholds there. */
 export function AddressNotes({ overheard }: { readonly overheard: boolean }) {
   return (
     <>
@@ -26,13 +25,12 @@ export function AddressNotes({ overheard }: { readonly overheard: boolean }) {
   );
 }
 
-// Who somebody is here who lets nobody in: their name, which is theirs to change, and what they may do.
-
 interface OwnViewProps {
   readonly me: Me | null;
   onRename(name: string): void;
 }
 
+/** For people who are not owners: their name, which they can change, and their role. */
 export function OwnView({ me, onRename }: OwnViewProps) {
   if (!me?.you) return null;
   const { name, role } = me.you;
@@ -46,8 +44,7 @@ export function OwnView({ me, onRename }: OwnViewProps) {
   );
 }
 
-// Tokens for scripts and stop-only QR codes: made here, shown once.
-
+/** Tokens for scripts and stop-only QR codes. Each is shown only once. */
 interface ScriptsCardProps {
   readonly wishes: PeopleWishes;
   readonly shown: Shown | null;
@@ -102,7 +99,7 @@ function Once({ shown, onClose }: { readonly shown: Shown; onClose(): void }) {
 interface PeopleViewProps {
   readonly state: PeopleState;
   readonly wishes: PeopleWishes;
-  /** Whom the robot may be handed to now. */
+  /** The people who can get the robot now. */
   readonly candidates: readonly Candidate[];
   onHandOver(person: string): void;
   now(): number;
@@ -139,7 +136,7 @@ interface PersonProps {
 
 interface PersonRowProps extends PersonProps {
   readonly isYou: boolean;
-  /** null: the robot cannot be handed to them now. */
+  /** null if they cannot get the robot now. */
   readonly onHandOver: ((person: string) => void) | null;
 }
 
@@ -183,7 +180,7 @@ function PersonRow({ person, isYou, wishes, onHandOver }: PersonRowProps) {
   );
 }
 
-/** A group that they let go on is stopped with them, unless the owner says otherwise here. */
+/** Revoking a device stops its unattended run, unless the owner chooses otherwise here. */
 function RevokeControl({ person: { id, name, unattendedSlot }, wishes }: PersonProps) {
   const runs = unattendedSlot !== null;
   return (

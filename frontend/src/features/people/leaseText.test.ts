@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest';
 import type { Lease } from '#shared/robot/lease.ts';
-import { turnOf } from './leaseText.ts';
+import { leaseTextOf } from './leaseText.ts';
 
 const LOOKS_ON: Lease = {
   ...{ driver: 'Anna', drives: false, requestedBy: null, hasRequested: false, grantedInMs: null },
@@ -28,12 +28,12 @@ test.each<[string, Lease, readonly unknown[]]>([
   ['a viewer does nothing', LOOKS_ON, []],
   ['what nobody has is not asked for', { ...PUPIL, driver: null }, []],
 ])('%s', (_, lease, wishes) => {
-  expect(turnOf(lease).acts.map(({ wish }) => wish)).toEqual(wishes);
+  expect(leaseTextOf(lease).acts.map(({ wish }) => wish)).toEqual(wishes);
 });
 
 test.each([
   ['Anna', 'Anna drives'],
   ['Ben', 'Another window drives'],
 ])('%s is said to Ben as: %s', (driver, said) => {
-  expect(turnOf({ ...PUPIL, driver }).text).toBe(said);
+  expect(leaseTextOf({ ...PUPIL, driver }).text).toBe(said);
 });

@@ -1,4 +1,4 @@
-// What is said of the turn to drive, and what may be done about it, as each of the people there sees it. Pure.
+// The texts and actions about the lease, from the view of this page's person.
 
 import type { Lease, LeaseAction } from '#shared/robot/lease.ts';
 import { personName } from '../../i18n/sentences.ts';
@@ -7,8 +7,7 @@ import type { Device } from '../../robot/device.ts';
 import type { Notices } from '../../state/notices.ts';
 import type { Truth } from '../../ui/Chip.tsx';
 
-// Tells from whom the robot was handed to this page: whoever has not asked for it may be looking elsewhere.
-
+/** Shows a notice when another person hands the robot to this page without a request. */
 export function tellHandedOver(
   store: Pick<Device['store'], 'subscribe'>,
   notices: Pick<Notices, 'tell'>,
@@ -20,27 +19,28 @@ export function tellHandedOver(
   });
 }
 
-export interface TurnAct {
+export interface LeaseOffer {
   readonly label: string;
   readonly hint?: string;
   readonly tone: 'plain' | 'quiet';
   readonly wish: LeaseAction;
 }
 
-export interface Turn {
+export interface LeaseText {
   readonly truth: Truth;
   readonly text: string;
   /** `countdown`: how long the driver may still refuse. */
   readonly more: { readonly said: string } | 'countdown';
-  readonly acts: readonly TurnAct[];
+  readonly acts: readonly LeaseOffer[];
 }
 
-export function turnOf(lease: Lease): Turn {
-  if (lease.drives) return lease.requestedBy === null ? driving(lease) : beingAsked(lease, lease.requestedBy);
+export function leaseTextOf(lease: Lease): LeaseText {
+  if (lease.drives)
+    return lease.requestedBy === null ? driving(lease) : beingRequested(lease, lease.requestedBy);
   return lease.driver === null ? unclaimed(lease) : watching(lease, lease.driver);
 }
 
-const driving = ({ you, grantedBy, others }: Lease): Turn => ({
+const driving = ({ you, grantedBy, others }: Lease): LeaseText => ({
   truth: 'confirmed',
   text: words.lease.drives,
   more: {
@@ -52,7 +52,7 @@ const driving = ({ you, grantedBy, others }: Lease): Turn => ({
   acts: [{ label: words.lease.release, hint: words.lease.releaseHint, tone: 'quiet', wish: 'release' }],
 });
 
-const beingAsked = ({ you }: Lease, requestedBy: string): Turn => ({
+const beingRequested = ({ you }: Lease, requestedBy: string): LeaseText => ({
   truth: 'warning',
   text: words.lease.asker({ name: personName(requestedBy, you) }),
   more: 'countdown',
@@ -62,15 +62,15 @@ const beingAsked = ({ you }: Lease, requestedBy: string): Turn => ({
   ],
 });
 
-const unclaimed = ({ mayDrive }: Lease): Turn => ({
+const unclaimed = ({ mayDrive }: Lease): LeaseText => ({
   truth: 'neutral',
   text: words.lease.nobody,
   more: { said: mayDrive ? words.lease.nobodyMore : words.lease.watching },
   acts: [],
 });
 
-function watching({ you, hasRequested, mayDrive, mayTake }: Lease, driver: string): Turn {
-  const ask: TurnAct = hasRequested
+function watching({ you, hasRequested, mayDrive, mayTake }: Lease, driver: string): LeaseText {
+  const request: LeaseOffer = hasRequested
     ? { label: words.lease.takeBack, tone: 'quiet', wish: 'release' }
     : { label: words.lease.request, hint: words.lease.requestHint, tone: 'plain', wish: 'request' };
   const take = { label: words.lease.take, hint: words.lease.takeHint, tone: 'quiet', wish: 'take' } as const;
@@ -78,6 +78,6 @@ function watching({ you, hasRequested, mayDrive, mayTake }: Lease, driver: strin
     truth: hasRequested ? 'commanded' : 'neutral',
     text: (hasRequested ? words.lease.asked : words.lease.driver)({ name: personName(driver, you) }),
     more: hasRequested ? 'countdown' : { said: words.lease.watching },
-    acts: [...(hasRequested || mayDrive ? [ask] : []), ...(mayTake ? [take] : [])],
+    acts: [...(hasRequested || mayDrive ? [request] : []), ...(mayTake ? [take] : [])],
   };
 }

@@ -1,5 +1,5 @@
-// Who this page is at the gateway, and who may come in, as an owner sees it: devices, tokens, stop-only links, and the invitation that is open. An
-// invitation that was used is followed by a new one, so that a class comes in one after the other. Knows no request.
+// This page's identity at the gateway, and for owners the devices, tokens, stop-only links and the open invitation. A used invitation is
+// replaced by a new one, so that a class can join one after the other. Knows no HTTP.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import { words } from '../../i18n/words.ts';
@@ -16,8 +16,7 @@ import type {
   You,
 } from '../../robot/people.generated.ts';
 
-// Why the gateway did not let somebody in, or did not do what was asked about people.
-
+/** Why pairing or a change of people failed. */
 export type PeopleErrorCode = 'unreachable' | 'notPaired' | 'failed' | 'locked' | 'refused';
 
 export function peopleProblem(code: PeopleErrorCode, detail: string): string {
@@ -38,7 +37,7 @@ export interface PeopleApi {
   invite(wish: InviteWish): Promise<Invitation>;
   withdraw(invitation: string): Promise<void>;
   change(person: string, wanted: PersonChange): Promise<void>;
-  /** `continues`: the group that they let go on is not stopped with them. */
+  /** `continues`: the device's unattended run is not stopped. */
   revoke(person: string, continues: boolean): Promise<void>;
   makeToken(wish: TokenWish): Promise<Token>;
   makeStopLink(name: string): Promise<StopLink>;
@@ -56,17 +55,17 @@ export class PeopleError extends Error {
 
 export interface OpenInvitation extends Invitation {
   readonly role: PersonRole;
-  /** On the clock of the page. */
+  /** On the page's clock. */
   readonly untilMs: number;
 }
 
-/** Something to be read once: a token, or a stop-only link to print. */
+/** Shown once: a token, or a stop-only link to print. */
 export type Shown =
   | { readonly kind: 'token'; readonly name: string; readonly token: string }
   | { readonly kind: 'stopLink'; readonly name: string; readonly link: string; readonly picture: string };
 
 export interface PeopleState {
-  /** null: no gateway serves this page. */
+  /** null without a gateway. */
   readonly me: Me | null;
   readonly people: People['people'];
   readonly invitation: OpenInvitation | null;
@@ -86,7 +85,7 @@ export interface PeopleStore {
   closeShown(): void;
 }
 
-/** What a person may ask for. */
+/** The actions of the views. */
 export type PeopleWishes = Omit<PeopleStore, 'store' | 'refresh'>;
 
 interface PeopleOptions {
@@ -96,7 +95,7 @@ interface PeopleOptions {
   now(): number;
 }
 
-export const letsIn = (me: Me | null): boolean => me?.mode !== 'local' && me?.you?.role === 'owner';
+export const managesPeople = (me: Me | null): boolean => me?.mode !== 'local' && me?.you?.role === 'owner';
 
 export function createPeople({ api, me, notices, now }: PeopleOptions): PeopleStore {
   const store = createStore<PeopleState>(() => ({ me, people: [], invitation: null, shown: null }));
@@ -111,9 +110,9 @@ export function createPeople({ api, me, notices, now }: PeopleOptions): PeopleSt
     if (before !== null) store.setState({ me: { ...before, you } });
   }
 
-  /** Only owners see more than themselves. */
+  /** Only owners can list other people. */
   async function refresh(): Promise<void> {
-    if (!letsIn(store.getState().me)) {
+    if (!managesPeople(store.getState().me)) {
       const now = await api.me();
       if (now?.you) known(now.you);
       return;
@@ -139,7 +138,7 @@ export function createPeople({ api, me, notices, now }: PeopleOptions): PeopleSt
   async function withdraw(): Promise<void> {
     const { invitation } = store.getState();
     store.setState({ invitation: null });
-    // One that is used or over cannot be withdrawn and need not be.
+    // A used or expired invitation cannot be withdrawn.
     if (invitation !== null) await api.withdraw(invitation.id).catch(() => undefined);
   }
 

@@ -1,5 +1,4 @@
-// The gateway's HTTP interface as far as coming in and letting in need it. Trusts no answer's shape; every failure is a
-// PeopleError.
+// HTTP requests about people: identity, pairing, invitations, tokens. Validates every answer; every failure is a PeopleError.
 
 import * as v from 'valibot';
 import { GatewayProblem, request, type Method } from '../../robot/request.ts';
@@ -7,7 +6,7 @@ import { PeopleError, type PeopleApi, type PeopleErrorCode } from './people.ts';
 import type { Invitation, Me, PairWish, People, StopLink, Token, You } from '../../robot/people.generated.ts';
 
 const ANSWER_WITHIN_MS = 4000;
-/** Who does not say so is taken for absent, and the page simulates a robot of its own: a busy gateway takes its time. */
+/** Without an answer the page simulates a robot, so a busy gateway gets more time. */
 const HERE_WITHIN_MS = 10_000;
 
 const CODES: Readonly<Record<string, PeopleErrorCode>> = {
@@ -51,14 +50,14 @@ const stopLinkSchema: v.GenericSchema<unknown, StopLink> = v.object(link);
 const tokenSchema: v.GenericSchema<unknown, Token> = v.object({ id: v.string(), token: v.string() });
 const nothing = v.unknown();
 
-/** null where no gateway answers: the page came from elsewhere. */
+/** null if no gateway answers: the page was served from elsewhere. */
 export async function readMe(): Promise<Me | null> {
   return ask('me', 'GET', meSchema, undefined, HERE_WITHIN_MS).catch(() => null);
 }
 
 export const pair = (wish: PairWish): Promise<You> => ask('pair', 'POST', youSchema, wish);
 
-/** What others call this device from now on. */
+/** Sets the name of this device. */
 export const sayName = (name: string): Promise<You> => ask('me', 'PATCH', youSchema, { name });
 
 /** Resolves when the stops have left the wire, or when there was no port to send them to. */
