@@ -1,4 +1,4 @@
-// What one input is to do: a kind, and what that kind needs.
+// The form for one binding: the kind of action and its values.
 
 import { useState } from 'react';
 import {
@@ -21,15 +21,14 @@ import { servoLabel } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/whole.ts';
 import styles from './BindingForm.module.css';
 
-// A binding while it is being written: every field has a value, whatever the binding will do.
-
+/** A binding while it is edited: every field has a value, whatever the kind of action. */
 export interface Draft {
-  /** Its place in the list; null for a new one. */
+  /** Its index in the list; null for a new binding. */
   readonly at: number | null;
   readonly input: Input;
   readonly kind: Action['kind'];
   readonly servo: number;
-  /** Always positive; `isReversed` tells the direction. */
+  /** Always positive; `isReversed` is the direction. */
   readonly unitsPerS: number;
   readonly isReversed: boolean;
   readonly slot: number;
@@ -37,7 +36,7 @@ export interface Draft {
   readonly durationMs: number;
 }
 
-/** A stick pushed to its minus side is meant to make it more there. */
+/** A stick that was pushed to its minus side increases the value there. */
 export function draftFor(input: Input, { servos }: Robot): Draft {
   const [first] = servos;
   const unitsPerS = first === undefined ? FASTEST_UNITS_PER_S : usualUnitsPerS(first);
@@ -45,7 +44,7 @@ export function draftFor(input: Input, { servos }: Robot): Draft {
   return { at: null, input, kind: 'rate', servo: first?.servo ?? 1, unitsPerS, isReversed, ...NOT_SHOWN };
 }
 
-/** Of what the action does not say. */
+/** Values for fields that the action does not have. */
 const NOT_SHOWN = { slot: 0, pose: 'home', durationMs: GENTLE_MOVE_MS } as const;
 
 export function draftOf(at: number, { input, action }: Binding, robot: Robot): Draft {
@@ -58,7 +57,7 @@ export function draftOf(at: number, { input, action }: Binding, robot: Robot): D
   return { ...draft, servo, unitsPerS: Math.abs(unitsPerS), isReversed: unitsPerS < 0 };
 }
 
-/** Servos take all of an axis, the rest the side that was pushed. */
+/** Servos use a whole axis, other actions only the side that was pushed. */
 function bindingFrom({ input, kind, ...draft }: Draft): Binding {
   const { servo, isReversed, slot, pose, durationMs } = draft;
   if (kind === 'run') return { input, action: { kind, slot } };
@@ -83,7 +82,7 @@ export function BindingForm({ initial, onSave, onRemove, onCancel }: BindingForm
   const [draft, setDraft] = useState(initial);
   const { at, input, kind, isReversed } = draft;
   const change = (part: Partial<Draft>): void => setDraft({ ...draft, ...part });
-  // Letting go of a key must never be what moves a servo.
+  // Releasing a key must never move a servo.
   const kinds = KINDS.filter((one) => input.kind !== 'key' || one !== 'position');
   const movesServo = kind === 'rate' || kind === 'position';
   const name = inputName(input);

@@ -1,5 +1,5 @@
-// Which input does what: a row per servo with its keys and sticks, lit while they are held, and the way to a new binding: press
-// the input, then say what it is to do.
+// The list of bindings: a row per servo with its keys and sticks, highlighted while they are held. For a new binding, press the input,
+// then fill in the form.
 
 import type { Label } from '#shared/document/history.ts';
 import { useEffect, useRef, useState } from 'react';
@@ -60,7 +60,7 @@ export function Bindings() {
   );
 }
 
-/** Waits for the input that a person moves next. */
+/** Waits for the next input that is moved. */
 function Listen({ onHeard }: { onHeard(input: Input): void }) {
   const { pad } = useStores();
   const [giveUp, setGiveUp] = useState<(() => void) | null>(null);

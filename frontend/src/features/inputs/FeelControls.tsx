@@ -1,5 +1,4 @@
-// How the inputs feel: speed, dead zone, curve and smoothing, and what becomes of a stick's way as a small plot. A drag is one step
-// of the history.
+// Speed, dead zone, curve and smoothing of the inputs, with a small plot of the resulting curve. A drag is one undo step.
 
 import { useRef, useState } from 'react';
 import { type Feel, shaped } from '#shared/profile/mapping.ts';
@@ -13,7 +12,7 @@ interface Control {
   readonly min: number;
   readonly max: number;
   readonly step: number;
-  /** How its value is told. */
+  /** The unit of the value. */
   readonly unit: 'percent' | 'ms';
 }
 
@@ -87,7 +86,7 @@ function FeelSlider({ control: { field, min, max, step, unit }, value, onChange,
 /** Half the plot's side. */
 const HALF = 40;
 
-/** With a dot where the stick is that is pushed farthest. */
+/** With a dot for the stick that is pushed farthest. */
 function CurvePlot({ feel }: { readonly feel: Feel }) {
   const { pad } = useStores();
   const isPadSeen = usePad((state) => state.pad !== null);

@@ -1,4 +1,4 @@
-// Driving by keys and pad: the switch, the picture of what is held, how it feels, and which input does what.
+// The panel for driving by keys and pad: the switch, the picture of the pad, the feel and the bindings.
 
 import { useRef } from 'react';
 import { step } from '#shared/profile/mappingStep.ts';
@@ -31,8 +31,7 @@ import { Bindings } from './Bindings.tsx';
 import { FeelControls } from './FeelControls.tsx';
 import styles from './PadPanel.module.css';
 
-// What two bindings have against each other, in words. Nothing is shown where all is well.
-
+/** Conflicts between bindings, in words. */
 function Conflicts() {
   const mapping = useMapping();
   const robot = useRobot();
@@ -66,10 +65,7 @@ function sentenceOf(conflict: Conflict, { bindings }: Mapping, robot: Robot, boo
     : words.pad.sameInput({ input, one: first ?? '', other: second ?? '' });
 }
 
-// A standard pad, alive: sticks move, buttons light up, triggers fill. Painted once a frame past React; for the eye
-// only, the list of bindings says the same in words.
-
-/** Places by the number of the browser's standard pad. */
+/** Positions of the buttons of the browser's standard pad, by index. */
 const ROUND: readonly (readonly [index: number, x: number, y: number, radius: number])[] = [
   [0, 178, 84, 9],
   [1, 196, 68, 9],
@@ -96,9 +92,10 @@ const STICKS: readonly (readonly [axis: number, button: number, x: number])[] = 
   [2, 11, 150],
 ];
 const STICK_Y = 108;
-/** How far a knob goes from the middle. */
+/** How far the drawing of a stick moves from the middle. */
 const THROW = 11;
 
+/** A live drawing of a pad, painted once a frame without React. Decorative: the list of bindings says the same in words. */
 function PadPicture() {
   const { pad } = useStores();
   const seen = usePad((state) => state.pad);
@@ -212,7 +209,7 @@ function Tools() {
   );
 }
 
-/** Speeds begin at a known place: whoever has none is asked for a slow move, never guessed. */
+/** Driving by speed starts from a known position: servos without one need a slow first move. */
 function FirstMoves() {
   const { device } = useStores();
   const { servos } = useRobot();

@@ -1,6 +1,6 @@
-// Driving by pad and keys: reads them once a frame and sends what the robot's mapping makes of them. Off until a person switches
-// it on, and off again with STOP, the link, the pad or the robot gone. What turns inputs into moves comes with the panel that has the
-// switch: the first load needs none of it. Knows no panel and no browser event.
+// Driving by pad and keys: reads the inputs once a frame and sends moves by the robot's mapping. Off until a person switches it on, and
+// off again after STOP or when link, pad or robot change. The code that maps inputs to moves is loaded with the panel. Knows no panel and
+// no browser event.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { Clock } from '#shared/clock.ts';
@@ -30,7 +30,7 @@ import type { Undoable } from '../../state/undoable.ts';
 import type { TextStorage } from '../../state/storage.ts';
 import { createRobotDocument, type RobotDocument } from '../profiles/robotDocument.ts';
 
-/** What is needed of a pad of the browser. */
+/** The part of the browser's `Gamepad` in use. */
 export interface Gamepadlike {
   readonly id: string;
   readonly index: number;
@@ -41,26 +41,26 @@ export interface Gamepadlike {
 
 export interface PadState {
   readonly isDriving: boolean;
-  /** null: none is there, or none was touched yet; browsers hide it until then. */
+  /** null without a pad. Browsers hide a pad until it is used. */
   readonly pad: { readonly name: string; readonly isStandard: boolean } | null;
 }
 
 export interface Pad {
   readonly store: StoreApi<PadState>;
-  /** As they were at the last frame, for pictures. */
+  /** The inputs in the last frame, for pictures. */
   inputs(): Inputs;
-  /** To be called once a frame, while the page is drawn. */
+  /** Call once a frame. */
   frame(): void;
-  /** By what turns inputs into moves; null: not any more. */
+  /** Starts driving with the code that maps inputs to moves; null ends it. */
   drive(by: typeof step | null): void;
-  /** True where the key is meant for this, and nobody else should hear of it. */
+  /** True if a binding uses the key, so that the event must not go further. */
   keyDown(code: string, isRepeat: boolean): boolean;
-  /** Letting go of any key lets go of all: a key-up that never came cannot leave one stuck. */
+  /** Releasing any key releases all, so that a missing keyup cannot leave one stuck. */
   keyUp(): void;
-  /** Nobody looks, or the keys go elsewhere: everything rests until the page is looked at again. */
+  /** The page is hidden or lost the focus: inputs are ignored until `comeBack`. */
   leave(): void;
   comeBack(): void;
-  /** The next input that is moved is told instead of being obeyed. Returns how to give up waiting. */
+  /** Reports the next input that is moved instead of acting on it. Returns a function that ends the waiting. */
   listen(heard: (input: Input) => void): () => void;
 }
 
@@ -72,13 +72,13 @@ interface PadOptions {
   readonly mappings: Pick<Undoable<Mapping>, 'store'>;
   readonly notices: Notices;
   readonly clock: Clock;
-  /** The browser's pads; may throw where a page must not see them. */
+  /** The browser's pads; may throw if the page has no permission. */
   readPads(): readonly (Gamepadlike | null)[];
 }
 
-/** A frame that came late must not make up for it in one leap. */
+/** A late frame must not cause a jump. */
 const LONGEST_STEP_MS = 100;
-/** Stopping, walking through the page and changing what other keys mean. */
+/** Keys for STOP, focus navigation and modifiers. */
 const RESERVED_KEY = /^(Escape|Tab|CapsLock|(Shift|Control|Alt|Meta)(Left|Right))$/;
 
 export function createPad(options: PadOptions): Pad {
@@ -90,9 +90,9 @@ export function createPad(options: PadOptions): Pad {
   let driven: DriveState | undefined;
   let lastMs = clock.now();
   let isAway = false;
-  /** Servos that were meant and stayed, of which the person was told. */
+  /** Locked servos that were driven and already reported. */
   let staying: readonly number[] = [];
-  /** Servos whose range was told since driving began: a gripper is at its limits all the time. */
+  /** Servos whose limit was reported since driving began: a gripper is at its limits all the time. */
   let limited: readonly number[] = [];
   let stopWasPressed = false;
   let seenPad: string | null = null;
@@ -152,13 +152,13 @@ export function createPad(options: PadOptions): Pad {
   function tellListener(input: Input): void {
     const heard = listener?.heard;
     listener = null;
-    // The finger is still there; only its next press means what was bound.
+    // The finger is still on the input; the binding applies from its next press.
     stopWasPressed = true;
     rest();
     heard?.(input);
   }
 
-  /** Stop needs no switch: whoever has a pad in hand may stop. */
+  /** Stop by pad works without the switch. */
   function obeyStop(): void {
     const stops = mapping().bindings.filter(({ action }) => action.kind === 'stop');
     const isStopPressed = stops.some(({ input }) => isPressed(input, inputs));
@@ -208,7 +208,7 @@ export function createPad(options: PadOptions): Pad {
     if (id !== robotId) drive(null);
     robotId = id;
   });
-  // Places in the list mean other bindings now.
+  // The indices now belong to other bindings.
   mappings.store.subscribe(rest);
 
   return {

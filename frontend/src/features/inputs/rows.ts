@@ -1,4 +1,4 @@
-// The bindings as a table: a row per servo of the robot, then what else is bound. Knows no drawing.
+// The rows of the table of bindings, and the names of inputs: a row per servo of the robot, then the other bindings. Pure.
 
 import { type Binding, type Input, servoBoundBy, type Mapping } from '#shared/profile/mapping.ts';
 import type { PoseBook } from '#shared/profile/pose.ts';
@@ -7,8 +7,7 @@ import { words } from '../../i18n/whole.ts';
 import { poseName } from '../poses/poses.ts';
 import { servoLabel } from '../../i18n/sentences.ts';
 
-// What inputs are called: keys, buttons and sticks, as most pads print them; the order is the browser's standard one.
-
+/** As most pads print them, in the order of the browser's standard pad. */
 const BUTTONS = [
   ...([
     'a',
@@ -27,7 +26,7 @@ const BUTTONS = [
 
 const AXES = ['leftX', 'leftY', 'rightX', 'rightY'] as const;
 
-/** `KeyQ` is Q, `Digit1` is 1; others as browsers call them. */
+/** `KeyQ` is Q, `Digit1` is 1; other keys have the browser's name. */
 const keyName = (code: string): string => code.replace(/^(Key|Digit)/u, '');
 
 export function inputName(input: Input): string {
@@ -43,13 +42,13 @@ export function inputName(input: Input): string {
   return otherAxis({ index }) + { whole: '', minus: ' −', plus: ' +' }[input.side];
 }
 
-/** A whole stick's way as a sign; null for anything else. */
+/** A symbol for a whole axis of a stick; null for other inputs. */
 function shortName(input: Input): string | null {
   const axis = input.kind === 'axis' && input.side === 'whole' ? AXES[input.index] : undefined;
   return axis === undefined ? null : words.pad.axes[axis].sign;
 }
 
-/** In its row an input needs its name and direction only. */
+/** Within its row an input needs only its name and direction. */
 export function chipText({ input, action }: Binding): string {
   const name = input.kind === 'key' ? keyName(input.code) : (shortName(input) ?? inputName(input));
   if (action.kind !== 'rate') return name;
@@ -60,11 +59,11 @@ export function chipText({ input, action }: Binding): string {
 export interface Row {
   readonly id: string;
   readonly title: string;
-  /** Places in the mapping's list. */
+  /** Indices in the mapping's list. */
   readonly bindings: readonly number[];
 }
 
-/** What a binding does, for its row. */
+/** The title of a binding's row. */
 export function rowTitle(binding: Binding, robot: Robot, book: PoseBook): string {
   const servo = servoBoundBy(binding);
   if (servo !== null) return servoTitle(robot, servo);
@@ -78,7 +77,7 @@ export function servoTitle(robot: Robot, servo: number): string {
   return own === undefined ? words.robots.absent({ servo }) : servoLabel(own);
 }
 
-/** Servos are there without a binding too. */
+/** Includes servos without a binding. */
 export function rowsOf({ bindings }: Mapping, robot: Robot, book: PoseBook): readonly Row[] {
   const ids = bindings.map((binding) => rowId(binding, rowTitle(binding, robot, book)));
   const titles = new Map([
@@ -95,7 +94,7 @@ export function rowsOf({ bindings }: Mapping, robot: Robot, book: PoseBook): rea
 
 const servoRowId = (servo: number): string => `servo ${servo}`;
 
-/** Whatever else is called alike does the same. */
+/** Other bindings with the same title share a row. */
 function rowId(binding: Binding, title: string): string {
   const servo = servoBoundBy(binding);
   return servo === null ? title : servoRowId(servo);

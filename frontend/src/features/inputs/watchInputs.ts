@@ -1,5 +1,5 @@
-// Hands keys to whoever drives by them, before any panel hears of them, and tells it when the page is not looked at. Knows the
-// browser's events and no robot; a text field keeps its letters.
+// Passes key events to the pad before any panel gets them, except in text fields, and reports when the page is hidden or loses the
+// focus. Knows the browser's events and no robot.
 
 import type { Pad } from './pad.ts';
 import { isTextField } from '../../ui/inputEvents.ts';

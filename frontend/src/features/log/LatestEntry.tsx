@@ -1,4 +1,4 @@
-// The latest packet, or the stop that holds, in one line: its words and its bytes.
+// The folded log: one line with the latest packet in words and bytes, or with the stop that is in effect.
 
 import { useMemo } from 'react';
 import { useStores } from '../stores.ts';
@@ -34,16 +34,14 @@ export function LatestEntry() {
   );
 }
 
-// Which line of the log the folded strip shows: the newest one, and a stop for as long as nothing may move: what follows a stop
-// are its repeats, its holds and the battery. Reads each entry once; knows no page.
-
 interface Strip {
-  /** null: the log is empty. */
+  /** null if the log is empty. */
   latest(): LogEntry | null;
-  /** It shows a stop, which must be read at once. */
+  /** True while it shows a stop, which must be readable at once. */
   isStopped(): boolean;
 }
 
+/** Chooses the newest entry, or the last stop while nothing may move: only its repeats, holds and the battery follow a stop. */
 export function createStrip(log: TrafficLog): Strip {
   let readId = 0;
   let shown: LogEntry | null = null;

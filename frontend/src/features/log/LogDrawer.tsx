@@ -1,4 +1,4 @@
-// The log at the foot of the page: folded it is one line with the latest packet or the stop that holds, unfolded the whole log.
+// The log at the foot of the page: folded to the latest entry, or unfolded. Also the page's messages.
 
 import { useStore } from 'zustand';
 import { laterComponent, later, usePart } from '../../ui/later.tsx';
@@ -10,11 +10,7 @@ import { pressOnce } from '../../ui/inputEvents.ts';
 import { PART } from '../../ui/focus.ts';
 import styles from './LogDrawer.module.css';
 
-// The whole log, which comes when it is wanted.
-
 export const LogPanel = laterComponent(async () => (await import('./LogPanel.tsx')).LogPanel, '100%');
-
-// What the page has to tell the person, wherever a part of the page has room for it.
 
 export function Messages() {
   const { notices } = useStores();
@@ -30,7 +26,7 @@ export function Messages() {
   );
 }
 
-/** What a packet means is many words: they come when the page is there, into a line that has its height already. */
+/** The words for packets are loaded after the page; the line already has its height. */
 const latest = later(async () => (await import('./LatestEntry.tsx')).LatestEntry);
 
 export function LogDrawer() {

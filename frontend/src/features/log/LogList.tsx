@@ -1,5 +1,4 @@
-// The lines of the log as they are given. The list follows the newest one unless it was scrolled away; Arrow keys walk through
-// the lines, Enter copies one.
+// The lines of the log. The list follows the newest line unless it is scrolled away; arrow keys go from line to line, Enter copies one.
 
 import { memo, useLayoutEffect, useRef, type KeyboardEvent } from 'react';
 import type { LogEntry } from '../../robot/traffic.ts';
@@ -10,7 +9,7 @@ import { useWords } from '../../i18n/words.ts';
 import { arrowOf, bytesText, meaning } from './packetText.ts';
 import styles from './LogList.module.css';
 
-/** Closer to the end than this counts as "at the end". */
+/** Within this distance the list counts as scrolled to the end. */
 const NEAR_PX = 24;
 
 interface LogListProps {
@@ -48,7 +47,7 @@ export function LogList({ entries, hiddenCount, onCopy }: LogListProps) {
   );
 }
 
-/** From line to line; from the list itself to its newest one. */
+/** Goes from line to line; from the list itself to the newest line. */
 function walk(event: KeyboardEvent<HTMLDivElement>): void {
   const step = { ArrowUp: -1, ArrowDown: 1 }[event.key];
   if (step === undefined) return;

@@ -1,5 +1,5 @@
-// The packet log: what went over the link, in words and in bytes, newest last. It can be held, searched, thinned out by kind,
-// saved and cleared; held, packets go on being collected. Below it packets are sent by hand.
+// The packet log in words and bytes, newest last: can be paused, searched, filtered by kind, saved and cleared. Packets are still recorded
+// while it is paused. Below it packets can be written by hand.
 
 import { useId, useState, type SyntheticEvent, useDeferredValue, useMemo, useSyncExternalStore } from 'react';
 import { useStore } from 'zustand';
@@ -18,9 +18,7 @@ import { saveFile } from '../../ui/localFiles.tsx';
 import { PART } from '../../ui/focus.ts';
 import styles from './LogPanel.module.css';
 
-// Finds a line of the log by words or by bytes.
-
-/** Whole bytes in hex, with or without spaces, are looked for in the bytes; everything in the words. Case is no matter. */
+/** Searches the words, and the bytes if the query is whole bytes in hex, with or without spaces. Ignores case. */
 export function searchTest(query: string, locale: string): (entry: LogEntry) => boolean {
   const wanted = query.trim().toLocaleLowerCase(locale);
   if (wanted === '') return () => true;
@@ -36,9 +34,10 @@ function bytesIn(query: string): string | null {
   return digits.toUpperCase().replace(/(..)(?!$)/gu, '$1 ');
 }
 
-// A packet written by hand: says while it is typed what the board would make of it, and sends it only behind a switch
-// that is off whenever the log is opened anew. The session has the last word.
-
+/**
+ * A packet written by hand: says while typing how the board would interpret it. The switch that allows sending is off each time the log
+ * opens. The robot may still refuse the packet.
+ */
 function RawSender() {
   const { device } = useStores();
   const family = useDevice((state) => state.family);
@@ -64,7 +63,7 @@ function RawSender() {
 interface RawFormProps {
   readonly text: string;
   readonly judged: Judged;
-  /** Why it cannot go now, whatever it says. */
+  /** Why no packet can be sent now. */
   readonly obstacle: string | null;
   readonly isConsented: boolean;
   readonly maySend: boolean;
@@ -180,7 +179,7 @@ function useLogView(query: string, heldId: number | null) {
   return useSyncExternalStore(view.subscribe, view.getSnapshot);
 }
 
-/** Rejects where the browser forbids it; on an insecure address it has no clipboard at all. */
+/** Rejects if the browser forbids it; on an insecure address there is no clipboard. */
 async function copyText(text: string): Promise<void> {
   await navigator.clipboard.writeText(text);
 }

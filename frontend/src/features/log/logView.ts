@@ -1,5 +1,5 @@
-// What of the log is looked at: the newest entries that pass a test, and how many do and do not. Reads each entry once, so that
-// a long log costs nothing more with each packet. Knows no page; React reads it as an external store.
+// The visible part of the log: the newest entries that pass a filter, and the counts of passed and hidden ones. Reads each entry once, so
+// that the length of the log does not matter. React reads it as an external store.
 
 import { family, type BoardId } from '#shared/codec/families.ts';
 import { writeRecording } from '#shared/files/recordingText.ts';
@@ -9,9 +9,7 @@ import type { TextFile } from '../../ui/localFiles.tsx';
 import { version } from '../../../../package.json';
 import { meaning } from './packetText.ts';
 
-// The log as a file: its text and its name.
-
-/** `board` and `port` of the link at hand. */
+/** The log as a file. `board` and `port`: of the current link. */
 export function logFile(log: TrafficLog, board: BoardId, port: string, date: Date): TextFile {
   const content = log.content(board);
   let current = content.board;
@@ -28,7 +26,7 @@ export function logFile(log: TrafficLog, board: BoardId, port: string, date: Dat
 }
 
 interface LogView {
-  /** The newest of those that pass, oldest first. */
+  /** The newest entries that pass, oldest first. */
   readonly shown: readonly LogEntry[];
   readonly passedCount: number;
   readonly hiddenCount: number;
@@ -39,10 +37,10 @@ interface LogViewStore {
   subscribe(listener: () => void): () => void;
 }
 
-/** More lines than anybody reads at once; each is drawn. */
+/** The number of rendered lines. */
 const DRAWN = 200;
 
-/** Entries from `heldId` on are left out: the log is held while it is read. */
+/** Leaves out entries from `heldId` on: the log is paused there. */
 export function createLogView(
   log: TrafficLog,
   passes: (entry: LogEntry) => boolean,
@@ -78,7 +76,7 @@ export function createLogView(
         read();
         listener();
       };
-      // What came between the first reading and now.
+      // Entries that came after the first reading.
       read();
       return log.store.subscribe(update);
     },

@@ -1,4 +1,4 @@
-// Packets in plain words, for the log and for packets written by hand. Knows the meaning of commands and reports.
+// Packets in words, for the lines of the log and for packets written by hand. Knows the meaning of commands and reports.
 
 import { type Family, family } from '#shared/codec/families.ts';
 import { fromHex, toHex } from '#shared/codec/packet.ts';
@@ -13,14 +13,12 @@ import { trafficOf } from '#shared/files/recorder.ts';
 import type { LogEntry } from '../../robot/traffic.ts';
 import type { LogKind } from '../view.ts';
 
-// What a text that is being typed as a packet means: the packet, if it may go, and the words for it.
-
 export interface Judged {
-  /** Null where it may not go. */
+  /** null if it must not be sent. */
   readonly packet: Uint8Array | null;
   readonly explanation: string;
   readonly isRefused: boolean;
-  /** It goes also while motion waits for Resume. */
+  /** It may be sent while the robot is stopped. */
   readonly isHarmless: boolean;
 }
 
@@ -37,7 +35,7 @@ export function judgeText(text: string, family: Family): Judged {
   return { packet: bytes, explanation, isRefused: false, isHarmless: harmless };
 }
 
-/** What keeps it from going now, as a sentence; null where nothing does. */
+/** Why it cannot be sent now, as a sentence; null if it can. */
 export function obstacleFor(judged: Judged, { link, latch, activity }: SessionState): string | null {
   if (judged.packet === null) return null;
   if (link.status !== 'ready') return words.servos.blocked.closed;
@@ -45,17 +43,17 @@ export function obstacleFor(judged: Judged, { link, latch, activity }: SessionSt
   return latch !== null && !judged.isHarmless ? words.raw.waits : null;
 }
 
-/** A digit whose other half is still to be typed is no mistake yet. Null where it is no hex. */
+/** null if the text is not hex. A single last digit is no mistake yet. */
 function bytesOf(text: string): Uint8Array | null {
   if (!/^[0-9a-f\s]*$/iu.test(text)) return null;
   const digits = text.replace(/\s+/gu, '');
   return fromHex(digits.slice(0, digits.length - (digits.length % 2)));
 }
 
-/** Targets named in one line of the log; the bytes beside it have the rest. */
+/** The number of targets in one line of the log; the bytes beside it show all. */
 const TARGETS_SHOWN = 6;
 
-/** `command` null: what the family knows nothing of, by its bytes. */
+/** `command` is null for a packet that the family does not know. */
 function commandText(command: Command | null, bytes: Uint8Array): string {
   const { commands } = words.packets;
   if (command === null) {
@@ -113,7 +111,7 @@ function reportText(report: Report): string {
   }
 }
 
-/** What the board would make of a packet written by hand, or why it does not get it. */
+/** How the board would interpret a packet written by hand, or why it is not sent. */
 function rawText(verdict: RawVerdict, bytes: Uint8Array, board: string): string {
   const { raw } = words.packets;
   switch (verdict.kind) {
@@ -170,8 +168,6 @@ function shortList(items: readonly string[]): string {
   return count <= 0 ? list : words.packets.more({ list, count });
 }
 
-// What a line of the log says and which kind it is counted under. Pure.
-
 type Described = Pick<LogEntry, 'board' | 'entry'>;
 
 export function kindOf(described: Described): LogKind {
@@ -182,7 +178,7 @@ export function kindOf(described: Described): LogKind {
   return (kind && KINDS[kind]) ?? 'group';
 }
 
-/** What is no affair of groups. */
+/** The kinds of packets that are not about groups. */
 const KINDS: Readonly<Partial<Record<CommandKind | ReportKind, LogKind>>> = {
   move: 'move',
   release: 'move',
@@ -207,12 +203,12 @@ export function bytesText({ entry }: Pick<Described, 'entry'>): string {
   return 'bytes' in entry ? toHex(entry.bytes) : '';
 }
 
-/** As it stands in a saved log. */
+/** The line in a saved log. */
 export function lineText(described: Described): string {
   return `${writeLine(described.entry)}  # ${meaning(described)}`;
 }
 
-/** To the board, from it, or neither. */
+/** To the board, from the board, or neither. */
 export function arrowOf({ mark }: Entry): '→' | '←' | '·' {
   if (mark === 'link' || mark === 'board') return '·';
   return mark === 'sent' ? '→' : '←';
