@@ -1,5 +1,5 @@
-// Which board a group is judged and drawn by: the one that is connected; while none is known, the one that the robot at hand is described
-// for; and where the group counts in another unit, a board and a robot that count like it. Sends nothing.
+// The board and robot that a group is checked and drawn with: the connected board; if none is known, the one of the current robot; for a
+// group in another unit, a board and a robot in that unit. Sends nothing.
 
 import { familyOfUnit, robotInUnit } from '#shared/profile/units.ts';
 import type { ActionGroup } from '#shared/group/group.ts';
@@ -9,7 +9,7 @@ import { FAMILIES, type Family } from '#shared/codec/families.ts';
 export interface GroupBoard {
   readonly family: Family;
   readonly robot: Robot;
-  /** The group was made for a board that counts otherwise than the known one. */
+  /** The group has another unit than the known board. */
   readonly isOther: boolean;
 }
 

@@ -1,4 +1,4 @@
-// The page's stores around a simulated board in virtual time, as app/page.ts puts them together, for tests.
+// The page's stores with a simulated board in virtual time, for tests; assembled as in app/page.ts.
 
 import { createStore } from 'zustand/vanilla';
 import { FAMILIES } from '#shared/codec/families.ts';
@@ -23,7 +23,7 @@ import { createView } from './view.ts';
 
 const SIMULATED: Way = { kind: 'simulated', label: 'Simulated board', isSimulated: true };
 
-/** `texts` is what the browser kept; two desks with the same texts are two visits. */
+/** `texts` is the browser's storage; two pages with the same texts are two visits. */
 export async function createTestPage(
   texts = new Map<string, string>(),
   {
@@ -47,7 +47,7 @@ export async function createTestPage(
   const slots = createSlots({ device, robots, notices, storage, today: () => clock.now() });
   const timeline = createTimeline();
   const playhead = createPlayhead(timeline);
-  /** Of the group at hand, in the library. */
+  /** The id of the open group in the library. */
   const opened = createStore(() => ({ openId: 'at hand' }));
   const place = createGroupPlace({ document, opened, view, slots, device });
   const replacing = createReplacing({ device, robots, slots, place });
@@ -61,7 +61,7 @@ export async function createTestPage(
   const poses = createPoses({ storage, notices, robots, device, view });
   const macros = createMacros(storage, notices, robots);
   const macroRun = createMacroRun({ device, poses, robots, notices, clock });
-  /** Time passes with the page being drawn, as it is in a browser. */
+  /** Advances the clock and draws frames, as a browser does. */
   async function draw(ms: number): Promise<void> {
     for (let passed = 0; passed < ms; passed += 20) {
       await clock.advance(20);

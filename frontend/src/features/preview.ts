@@ -1,5 +1,5 @@
-// The pose at the playhead of the timeline, or of a blend of poses, for the picture of the body: neither commanded nor estimated, a
-// preview. Drawn past React, because the playhead may be scrubbed. Moves nothing.
+// The preview for the picture of the body: the pose at the playhead of the timeline, or of a blend of poses. Drawn without React, because
+// the playhead may be dragged. Moves nothing.
 
 import { useRef } from 'react';
 import { rescaled } from '#shared/profile/units.ts';
@@ -11,7 +11,7 @@ import { timesOf } from './animate/timeline/groupTimes.ts';
 import { useEachFrame } from '../ui/useEachFrame.ts';
 import type { Pose } from './picture/pose.ts';
 
-/** `draw` gets null where there is nothing to preview. */
+/** Calls `draw` with each new preview, null for none. */
 export function usePreview(draw: (pose: Pose | null) => void): void {
   const stores = useStores();
   const drawn = useRef<readonly unknown[]>([]);
@@ -23,7 +23,7 @@ export function usePreview(draw: (pose: Pose | null) => void): void {
   });
 }
 
-/** What the preview depends on: the same again draws the same. */
+/** The values that the preview depends on. */
 function reasonsOf(stores: Stores): readonly unknown[] {
   const { playheadMs } = stores.timeline.getState();
   const { family } = stores.device.store.getState();
@@ -44,7 +44,7 @@ function previewOf(stores: Stores): Pose | null {
   const group = stores.document.store.getState().present;
   if (!isShown(stores)) return null;
   const { tracks, ends } = timesOf(group);
-  // The first frame leads to the first pose from wherever the robot is.
+  // Before the end of the first frame the pose depends on where the robot is.
   const atMs = Math.max(stores.timeline.getState().playheadMs, ends[0] ?? 0);
   const pose = poseAtMs(tracks, atMs);
   const view = servoViewOf(stores);

@@ -1,5 +1,5 @@
-// The page's stores as one bundle, handed down by React context, and the hooks that read them. A panel subscribes to
-// exactly what it shows.
+// All stores of the page as one bundle in a React context, and the hooks that read them. A panel subscribes to exactly the values it
+// shows.
 
 import { createContext, use } from 'react';
 import { useStore } from 'zustand';
@@ -103,7 +103,7 @@ export function useBlend<T>(select: (state: BlendState) => T): T {
   return useStore(useStores().blend.store, select);
 }
 
-/** The servos are posed by hand. */
+/** True while the servos are posed by hand. */
 export function useIsTeaching(): boolean {
   return useStore(useStores().teaching.store, ({ isOn }) => isOn);
 }
@@ -112,13 +112,13 @@ export function useMacros<T>(select: (state: History<MacroPage>) => T): T {
   return useStore(useStores().macros.store, select);
 }
 
-/** The one that is connected; while none is known, the one that the robot at hand is described for. */
+/** The family of the connected board; while unknown, the one of the current robot. */
 export function useKnownFamily(): Family {
   const robot = useRobot();
   return useDevice(({ family }) => knownFamily(family, robot));
 }
 
-/** The link is open to a board of which neither it nor a person has said what it is. Before that a gateway may know it. */
+/** True if the link is open and the family of the board is neither identified nor chosen. A gateway may still report it. */
 export function useIsUnidentified(): boolean {
   return useDevice(
     ({ family, way, snapshot: { link } }) =>
@@ -126,7 +126,7 @@ export function useIsUnidentified(): boolean {
   );
 }
 
-/** What the group at hand is drawn by. */
+/** The robot and board that the open group is drawn with. */
 export function useGroupBoard(): GroupBoard {
   const [robot, family] = [useRobot(), useKnownFamily()];
   const unit = useDocument(({ present }) => present.unit);
@@ -149,12 +149,12 @@ export function groupBoardOf({
   );
 }
 
-/** The slot that Download and Run are about. */
+/** The slot for Download and Run. */
 export function useSlot(): number {
   return useStore(useStores().place.store, ({ slot }) => slot);
 }
 
-/** The robot at hand. */
+/** The current robot. */
 export function useRobot(): Robot {
   return useStore(useStores().robots.store, ({ present }) => currentOf(present).robot);
 }
@@ -163,14 +163,14 @@ export function useBattery<T>(select: (state: BatteryState) => T): T {
   return useStore(useStores().battery, select);
 }
 
-/** Where the servo may stand, while nobody knows. */
+/** A guess of the servo's position while it is unknown. */
 export function useGuess(servo: RobotServo): number | null {
   const { lastPoses } = useStores();
-  // Of a servo whose pose is being remembered anew the target is known.
+  // A servo with a target needs no guess.
   return useDevice((state) => guessOf(lastPoses.getState(), state, servo));
 }
 
-/** There is a guess of some servo. */
+/** True if a guess is shown for any servo. */
 export function useIsGuessing(): boolean {
   const { lastPoses } = useStores();
   const robot = useRobot();
@@ -189,7 +189,7 @@ export function guessesNow({
   return guessesOf(lastPoses.getState(), device.store.getState(), robots.current().robot);
 }
 
-/** What pad and keys do to it. */
+/** The mapping of pad and keys. */
 export function useMapping(): Mapping {
   return useStore(useStores().mappings.store, ({ present }) => present);
 }
@@ -218,7 +218,7 @@ export function useTimeline<T>(select: (state: TimelineState) => T): T {
   return useStore(useStores().timeline, select);
 }
 
-/** How the servos of the robot at hand are shown. */
+/** The view of the current robot's servos. */
 export function useServoView<T>(select: (view: ServoView) => T): T {
   const robotId = useStore(useStores().robots.store, ({ present }) => currentOf(present).id);
   return useView(({ servos }) => select(servoViewFor(servos, robotId)));

@@ -1,6 +1,5 @@
-// What is selected, open and set on this screen: neither the robot's state nor the document's. How things look, and the kiosk, is
-// remembered by the browser; what is worked on and how far a calibration is, by the browser's tab alone; nothing else. Knows no
-// link.
+// The selection and the settings of this screen; neither the robot's state nor a document. The browser remembers the look and the kiosk;
+// the browser's tab remembers the current task and calibration. Knows no link.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import {
@@ -13,13 +12,13 @@ import type { TextStorage } from '../state/storage.ts';
 import { GENTLE_MOVE_MS, type MoveTime } from '../robot/moveTime.ts';
 import { INITIAL_SERVO_VIEW, type ServoView } from './servoView.ts';
 
-/** On a wide screen all but the buttons are side by side. */
+/** On a wide screen all tabs except the buttons are side by side. */
 export type Tab = 'live' | 'actions' | 'board' | 'log' | 'buttons';
 export type Theme = 'system' | 'light' | 'dark';
 export type LanguageChoice = 'system' | Language;
 /** `board`: the units of the board, microseconds or steps. */
 export type PositionsIn = 'board' | 'degrees';
-/** Servos one below the other, where they sit on the body, or the robot in three dimensions. */
+/** A list, the places on the body, or the robot in three dimensions. */
 export type ServoLayout = 'list' | 'body' | 'model';
 export type LogKind = 'move' | 'group' | 'battery' | 'link' | 'noise';
 
@@ -27,43 +26,43 @@ export interface ViewState {
   readonly tab: Tab;
   readonly theme: Theme;
   readonly language: LanguageChoice;
-  /** Nothing but buttons and STOP; remembered, so that a reload is no way out. */
+  /** Shows only buttons and STOP; remembered, so that a reload does not leave the kiosk. */
   readonly kiosk: 'on' | 'off';
   readonly authoring: 'group' | 'poses' | 'pad';
   readonly connectOpen: boolean;
   readonly libraryOpen: boolean;
   readonly peopleOpen: boolean;
-  /** What of the robots is open; null: nothing. */
+  /** The open view of the dialog of robots; null if it is closed. */
   readonly robotView: 'list' | 'edit' | 'calibrate' | null;
-  /** How far that of one robot has come: nothing of it is lost by a reload. */
+  /** The progress of one robot's calibration, kept over a reload. */
   readonly calibration: StoredCalibration | null;
   readonly logOpen: boolean;
   readonly logKinds: readonly LogKind[];
   readonly selectedFrame: number | null;
-  /** Each press on a frame or key takes it beside the others, or away: a finger holds no Ctrl key. */
+  /** Each press adds a frame or key to the selection or removes it, for fingers, which have no Ctrl key. */
   readonly addsToSelection: boolean;
   readonly servos: ServoView;
   readonly positionsIn: PositionsIn;
   readonly servoLayout: ServoLayout;
   readonly selectedPose: number | null;
-  /** How long a pose takes to be reached. */
+  /** The duration of a move to a pose. */
   readonly poseMs: number;
   readonly selectedButton: number | null;
   readonly editsButtons: boolean;
   readonly moveTime: MoveTime;
-  /** Chosen for the group at hand; null: where that goes by itself. */
+  /** The slot chosen for the open group; null for the automatic one. */
   readonly slot: number | null;
   readonly times: number;
   readonly untilStopped: boolean;
-  /** The next run may go on without this page; chosen anew for each. */
+  /** The next run may continue without this page; reset after each run. */
   readonly goesOn: boolean;
-  /** At most. */
+  /** The longest time without this page. */
   readonly keepRunningMinutes: number;
 }
 
 export type View = StoreApi<ViewState>;
 
-/** Where each remembered choice is stored, and what it may be. What is worked on outlives a reload, and no other tab begins with it. */
+/** The storage key and schema of each remembered choice. The current task survives a reload in its tab only. */
 const REMEMBERED = {
   theme: { by: 'browser', key: 'servodeck.view', values: ['system', 'light', 'dark'] },
   language: { by: 'browser', key: 'servodeck.language', values: ['system', ...LANGUAGE_CODES] },
@@ -82,7 +81,7 @@ interface Memory<Value> {
   readonly values: readonly Value[];
 }
 
-/** What the browser keeps for each of its visits, and what it keeps for one of its tabs. */
+/** The browser's storage for all visits, and the one of its tab. */
 export interface Memories {
   readonly browser: TextStorage;
   readonly tab: TextStorage;
@@ -155,6 +154,6 @@ function save(storage: TextStorage, key: string, text: string): void {
   try {
     storage.setItem(key, text);
   } catch {
-    // Storage is forbidden here: the choice lasts as long as the page, and that is all it is worth.
+    // Storage is forbidden: the choice lasts as long as the page.
   }
 }

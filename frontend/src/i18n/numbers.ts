@@ -5,14 +5,14 @@ const digits = (count: number): Intl.NumberFormatOptions => ({
   maximumFractionDigits: count,
 });
 
-/** Whole seconds of what is left, rounded up. */
+/** Remaining whole seconds, rounded up. */
 export const secondsLeft = (ms: number): number => Math.max(0, Math.ceil(ms / 1000));
 
 const TWO_MINUTES_MS = 120_000;
 
 export type Numbers = ReturnType<typeof numbersIn>;
 
-/** `locale` as Intl takes it. */
+/** `locale`: as for Intl. */
 export function numbersIn(locale: string) {
   const plurals = new Intl.PluralRules(locale);
   const whole = new Intl.NumberFormat(locale, { useGrouping: false });

@@ -19,7 +19,7 @@ export function robotFlawSentence(flaw: RobotFlaw): string {
   return words.robots.flaw({ flaw: robotFlawText(flaw) });
 }
 
-/** Without its beginning and its full stop. */
+/** The flaw without the start of the sentence and its full stop. */
 export function robotFlawText(flaw: RobotFileFlaw): string {
   const { field, strangeField, servoTwice, alarmNotBelow, servo, ...others } = words.robotFlaws;
   switch (flaw.code) {
@@ -55,7 +55,7 @@ function servoFlawText(flaw: ServoFlaw): string {
   }
 }
 
-/** Which servo of the file it is; empty for the robot itself. */
+/** The servo in the file; empty for the robot itself. */
 function placeText(servo: ServoInList | null): string {
   if (servo === null) return '';
   return servo.name.trim() === '' ? words.robotFlaws.place(servo) : words.robotFlaws.placeNamed(servo);

@@ -15,16 +15,13 @@ export function say<Values>(message: string | ((values: Values) => string), valu
   return typeof message === 'string' ? message : message(values);
 }
 
-// What boards are called: as their maker names them, unless a language has words of its own.
-
+/** The maker's name of a board, or the one in the language in use. */
 export function boardName({ id, name }: Pick<Family, 'id' | 'name'>): string {
   const names: Readonly<Partial<Record<Family['id'], string>>> = words.boards;
   return names[id] ?? name;
 }
 
-// What ready robots, their servos and their limbs are called.
-
-/** What a ready robot and its parts are called when it is added. */
+/** The names of a template robot and of its parts when it is added. */
 export function robotNames(id: ReadyRobotId): RobotNames {
   return {
     robot: words.robots.readyNames[id],
@@ -33,9 +30,7 @@ export function robotNames(id: ReadyRobotId): RobotNames {
   };
 }
 
-// Servos by their numbers and names, as they stand in sentences.
-
-/** More are counted instead. */
+/** Up to this number servos are named; more are counted. */
 const MOST_NAMED = 8;
 
 /** Both knees of a body are called Knee, so the limb is added. */
@@ -49,7 +44,7 @@ export function numberAndName(servo: number, name: string): string {
   return name === number ? number : number + words.comma + name;
 }
 
-/** `Servos 1 and 2`: named while they fit into a line, else counted. */
+/** `Servos 1 and 2`: listed while they fit into a line, else counted. */
 export function servosText(servos: readonly number[]): string {
   const count = servos.length;
   return count > MOST_NAMED
@@ -57,7 +52,7 @@ export function servosText(servos: readonly number[]): string {
     : words.servoPanel.named({ count, servos: words.numbers.formatList(servos) });
 }
 
-/** Of everything that is driven by hand from this screen. */
+/** For moves from this screen that leave locked servos in place. */
 export function stayingSentence(names: readonly string[]): string {
   const count = names.length;
   const named = count > MOST_NAMED ? words.servoPanel.counted({ count }) : words.numbers.formatNames(names);
@@ -71,23 +66,21 @@ export function waitingSentence(servos: readonly number[]): string {
     : words.firstMoves.waiting({ count, servos: words.numbers.formatList(servos) });
 }
 
-// Slots of the board: what they hold and what plays them.
-
 export function downloadedSentence(slots: readonly number[]): string {
   return words.board.downloaded({ count: slots.length, slot: slots[0] ?? 0 });
 }
 
-/** `broken` null: it was cancelled between two groups. */
+/** `broken` is null if it was cancelled between two groups. */
 export function downloadCancelled(broken: number | null): string {
   return broken === null ? words.board.downloadCancelled : words.board.downloadBroke({ slot: broken });
 }
 
-/** In a few words; `name` is the group it holds, as far as anybody noted it. */
+/** A slot's content in a few words; `name` is the name of its group, if known. */
 export function heldText(content: SlotContent, name: string): string {
   return content === 'other' && name !== '' ? words.slots.inBarNamed({ name }) : words.slots.inBar[content];
 }
 
-/** In a sentence. */
+/** As a sentence. */
 export function triggerText(trigger: SlotTrigger): string {
   const { pad, chain, ...others } = words.slots.triggers;
   if (trigger.kind === 'pad') return pad({ button: words.slots.padButtons[trigger.button] });
@@ -101,13 +94,11 @@ export function triggerInBar(trigger: SlotTrigger): string {
   return trigger.kind === 'chain' ? chain({ slot: trigger.after }) : others[trigger.kind];
 }
 
-// People and programs by their names.
-
-/** As the gateway calls them when nobody has paired. */
+/** The gateway's names for clients without pairing. */
 const SCRIPT = 'A script on this computer';
 const COMPUTER = 'This computer';
 
-/** At the start of a sentence. Whoever is called as `you` is another window of the same browser, or of the robot's computer. */
+/** At the start of a sentence. A person with the name `you` is another window of the same browser or computer. */
 export function personName(name: string, you: string): string {
   return named(name, you, words.lease.names);
 }
@@ -126,7 +117,7 @@ function named(
   return name === SCRIPT ? ours.script : name;
 }
 
-/** `by` null: nobody knows. */
+/** `by` is null if unknown. */
 export function stoppedBy(by: string | null): string {
   if (by === null) return words.stop.elsewhere;
   if (by === COMPUTER) return words.stop.atComputer;
@@ -143,7 +134,7 @@ export function mayResumeText({
   return driver === null ? words.stop.onlyDriver : words.stop.mayResume({ name: personName(driver, you) });
 }
 
-/** `detail` is left out where the sentence is complete without it. */
+/** Omits `detail` if the sentence is complete without it. */
 export function errorSentence(code: LinkErrorCode, detail = ''): string {
   const detailed = words.errorsWithDetail;
   return code in detailed && isForReader(code, detail)
@@ -151,13 +142,13 @@ export function errorSentence(code: LinkErrorCode, detail = ''): string {
     : words.errors[code];
 }
 
-/** Programs write details in English. In another language they are for whoever mends Servodeck alone. */
+/** Details of programs are in English: other languages show them only for internal errors, or if they are not plain ASCII. */
 function isForReader(code: LinkErrorCode, detail: string): boolean {
   if (detail === '') return false;
   return words.locale === 'en' || code === 'internal' || /\P{ASCII}/u.test(detail);
 }
 
-/** Which value a board cannot take, and what is allowed; no sentence yet. */
+/** The value that a board refuses and the allowed range; not a complete sentence. */
 export function rangeText({ field, value, min, max, allowed = '', servo }: RangeRefusal): string {
   const { fields, ofServo, servoTwice, range, notTaken } = words.refusals;
   const name = servo === undefined ? fields[field] : ofServo({ field: fields[field], servo });
@@ -166,7 +157,7 @@ export function rangeText({ field, value, min, max, allowed = '', servo }: Range
   return notTaken({ field: name, value: String(value), allowed });
 }
 
-/** What is wrong with a document that was stored or written to a file. */
+/** What is wrong with a stored document or a file. */
 export function flawSentence({ code, at }: TextFlaw): string {
   if (code === 'sameNumber' && at === '') return words.flaws.sameNumberInFile;
   return say(words.flaws[code], { found: at });

@@ -1,10 +1,7 @@
-// All words in use, for parts that come later than the first load and bring theirs with them.
+// All messages in the language in use, and dates, for parts that are loaded after the first load.
 
 import { words as english } from 'virtual:words/en/rest';
 import { spoken, type Words as FirstWords } from './words.ts';
-
-// Days, times of day and long ages as people of a language read them, through Intl. For parts that come later than
-// the first load.
 
 const LONGER: readonly (readonly [Intl.RelativeTimeFormatUnit, number])[] = [
   ['day', 86_400_000],
@@ -14,7 +11,7 @@ const LONGER: readonly (readonly [Intl.RelativeTimeFormatUnit, number])[] = [
 
 type Dates = ReturnType<typeof datesIn>;
 
-/** `locale` as Intl takes it. */
+/** Dates, times and ages. `locale`: as for Intl. */
 export function datesIn(locale: string) {
   const timeOfDay = new Intl.DateTimeFormat(locale, { hour: '2-digit', minute: '2-digit', hourCycle: 'h23' });
   const moment = new Intl.DateTimeFormat(locale, {

@@ -13,9 +13,9 @@ export interface Words extends Messages {
 }
 
 interface LanguageEntry {
-  /** What it is called by those who speak it. */
+  /** The language's own name. */
   readonly name: string;
-  /** English comes with the page. */
+  /** English is part of the page. */
   readonly load: () => Promise<{ readonly words: Words }>;
 }
 
@@ -28,7 +28,7 @@ export const LANGUAGES = {
 export type Language = keyof typeof LANGUAGES;
 export const LANGUAGE_CODES = Object.keys(LANGUAGES) as readonly Language[];
 
-/** The language a browser prefers among ours; `tags` as in `navigator.languages`, the dearest first. */
+/** The preferred one of our languages; `tags` as in `navigator.languages`. */
 export function preferredLanguage(tags: readonly string[]): Language {
   const wanted = tags.map((tag) => tag.split('-')[0]?.toLowerCase() ?? '');
   return wanted.find((name): name is Language => Object.hasOwn(LANGUAGES, name)) ?? 'en';
@@ -43,14 +43,14 @@ spoken.subscribe((now) => {
 
 let wanted: Language = 'en';
 
-/** Rejects where the words cannot be loaded; then those in use stay. Of several at once the last one is spoken. */
+/** Switches the language. Rejects if it cannot be loaded; then nothing changes. Of several concurrent calls the last one wins. */
 export async function speak(language: Language): Promise<void> {
   wanted = language;
   const loaded = await LANGUAGES[language].load();
   if (wanted === language) spoken.setState(loaded.words, true);
 }
 
-/** Draws its component again in each new language; its children follow. For the page, and whatever is drawn only as it changes. */
+/** Renders the component again when the language changes, with its children. For the page and for memoised components. */
 export const useWords = (): Words => useStore(spoken);
 
 /** The locale in use. Sets the document's language, and renders its component again when the language changes. */

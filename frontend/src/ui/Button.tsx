@@ -1,5 +1,5 @@
-// A button with a verb, and an icon-only one with a name. Neutral by nature: colour is kept for what is true. Bare buttons: there are
-// dozens in a panel, and one of the library's takes as long to come up as five of them.
+// A button with text, and an icon button with a name. Neutral by default: colours mean states. Native buttons, because a panel has dozens
+// of them and one of the library's takes five times as long to mount.
 
 import type { ComponentProps, MouseEvent, ReactNode, Ref } from 'react';
 import { cx } from './cx.ts';
@@ -15,17 +15,17 @@ export interface ButtonProps extends Pick<
   readonly tone?: 'plain' | 'primary' | 'quiet' | 'danger';
   readonly icon?: IconName;
   readonly wide?: boolean;
-  /** What the verb alone does not say. */
+  /** More than the label says. */
   readonly hint?: string;
   readonly isDisabled?: boolean | undefined;
-  /** Does nothing for now, and keeps the focus. */
+  /** Ignores presses for now, and keeps the focus. */
   readonly isPending?: boolean;
   readonly children: ReactNode;
   readonly ref?: Ref<HTMLButtonElement>;
   onPress?(press: MouseEvent<HTMLButtonElement>): void;
 }
 
-/** By a key, not by a pointer. */
+/** True for a press by a key. */
 export const isByKey = ({ detail }: Pick<MouseEvent, 'detail'>): boolean => detail === 0;
 
 export function Button({

@@ -1,4 +1,4 @@
-// A word with the shape and hue of what it claims. The shape says it without colour, the word without either.
+// A word with the shape and colour of its state. Shape, colour and word each suffice to recognise it.
 
 import { cx } from './cx.ts';
 import styles from './Chip.module.css';

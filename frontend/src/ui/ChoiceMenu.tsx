@@ -1,4 +1,4 @@
-// A few choices below what opened them.
+// A menu of a few choices below the element that opened it.
 
 import type { RefObject } from 'react';
 import { Menu, MenuItem } from 'react-aria-components/Menu';

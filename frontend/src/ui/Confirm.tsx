@@ -1,5 +1,5 @@
-// A deed that cannot be taken back: a dialog names what happens before it is done, and the way out is at hand. With the button that
-// asks, or alone for whoever knows when.
+// The confirmation of an action that cannot be undone: a dialog says what will happen, and Cancel has the focus. With its button, or
+// without for callers that open it themselves.
 
 import { useState } from 'react';
 import { Button, type ButtonProps } from './Button.tsx';
@@ -14,7 +14,7 @@ interface Question {
   readonly keepLabel: string;
   readonly confirmLabel: string;
   readonly closeLabel: string;
-  /** Another way to do it, which spares something. */
+  /** A less destructive alternative. */
   readonly otherwise?: { readonly label: string; onConfirm(): void } | undefined;
   onConfirm(): void;
 }
@@ -51,7 +51,7 @@ export function Confirm({ label, tone, hint, ...question }: ConfirmProps) {
 
 export interface ConfirmDialogProps extends Question, Looks {
   readonly isOpen: boolean;
-  /** It stays as it is. */
+  /** Cancels. */
   onClose(): void;
 }
 
@@ -65,7 +65,7 @@ export function ConfirmDialog({ title, closeLabel, isOpen, ...content }: Confirm
 }
 
 export type ConfirmContentProps = Omit<ConfirmDialogProps, 'title' | 'closeLabel' | 'isOpen'> & {
-  /** The way out is at hand. */
+  /** Focuses Cancel. */
   readonly autoFocus?: boolean;
 };
 

@@ -1,5 +1,5 @@
-// A dialog over the page. STOP stays within reach. Esc closes the dialog and is STOP at the same time, as everywhere. What holds the
-// focus in it is fetched when a dialog is first opened.
+// A dialog over the page. STOP stays reachable; Esc closes the dialog and also stops the robot, as everywhere. The code that traps the
+// focus is fetched when the first dialog opens.
 
 import { later, Missing, usePart } from './later.tsx';
 import type { DialogProps } from './ModalDialog.tsx';

@@ -1,4 +1,4 @@
-// The tooltip: what it says, beside what that is about. It opens and closes as it is drawn or not.
+// The tooltip of an element. Open while it is rendered.
 
 import type { RefObject } from 'react';
 import { Tooltip, TooltipTriggerStateContext } from 'react-aria-components/Tooltip';

@@ -1,5 +1,5 @@
-// Short explanations that show on hover and on keyboard focus, of whatever says that it has one. The page has one tooltip for all
-// of them: one for each button would be drawn with it, a third of what a button costs.
+// Tooltips on hover and keyboard focus for all elements with a hint. The page has one tooltip for all of them: one per button would add a
+// third to the cost of each.
 
 import { useEffect, useRef, useState } from 'react';
 import { attach, HINT } from './hinting.ts';
@@ -16,7 +16,7 @@ export function Hints() {
       const said = shown?.getAttribute(HINT) ?? null;
       element.current = shown;
       setText(said);
-      // What is its name is said anyway.
+      // A screen reader says the element's name anyway.
       if (said !== null && shown?.getAttribute('aria-label') !== said)
         shown?.setAttribute('aria-description', said);
     });

@@ -1,4 +1,4 @@
-// The one icon set: 16 px strokes, always beside a word or inside something named. Decoration for the eye only.
+// The icons: strokes on 16 px, always beside a word or within a named element. Decorative.
 
 import styles from './Icon.module.css';
 

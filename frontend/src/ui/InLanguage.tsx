@@ -1,5 +1,5 @@
-// What the library says by itself, in the language of the page. Around each part that the library makes, so that the first load, which
-// has none of these, does without.
+// Sets the page's language for components of react-aria. Used around each of them and not around the page, because the first load has
+// none.
 
 import type { ReactNode } from 'react';
 import { I18nProvider } from 'react-aria-components/I18nProvider';

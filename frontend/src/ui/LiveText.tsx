@@ -1,14 +1,12 @@
-// A text that changes by itself, written past React: at most once a frame, or no more often than it can be read, and only
-// where it has become another one.
+// A text that changes by itself, written without React: at most once a frame, or no more often than it can be read, and only if it
+// changed.
 
 import { useLayoutEffect, useRef, useState } from 'react';
 import { cx } from './cx.ts';
 import { dueOn, CHANGING_EACH_MS, useFollow } from './useEachFrame.ts';
 import styles from './LiveText.module.css';
 
-// Writes a text past React.
-
-/** The same piece of text, where there is one: another one would be laid out anew from the ground. */
+/** Reuses the text node, because a new one needs a complete layout. */
 export function setText(place: HTMLElement, text: string): void {
   const piece = place.firstChild;
   if (!(piece instanceof Text)) place.textContent = text;
@@ -16,18 +14,18 @@ export function setText(place: HTMLElement, text: string): void {
 }
 
 interface LiveTextProps {
-  /** Asked for what is to stand there now. */
+  /** Returns the current text. */
   text(): string;
   readonly eachMs?: number;
-  /** For what is no hurry while it goes on changing: written every other second, and at rest. */
+  /** If true, a changing text is written only every other second and at rest. */
   isCalm?(): boolean;
-  /** What it is about, where that is asked more quickly than the text. */
+  /** The subject of the text, where comparing it is faster than the text. */
   about?(): unknown;
   readonly className?: string | undefined;
   readonly title?: string;
-  /** It changes all the time, and something else says it to screen readers. */
+  /** Hidden from screen readers, because it changes constantly and is said elsewhere. */
   readonly isSilent?: boolean;
-  /** `className` gives it a width and a height: another text then has nothing around it laid out anew. */
+  /** `className` sets width and height, so that a new text needs no layout around it. */
   readonly isFixed?: boolean;
 }
 

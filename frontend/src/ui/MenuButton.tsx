@@ -1,4 +1,4 @@
-// A button below which a few choices open; they are fetched when a menu is first opened.
+// A button with a menu of a few choices. The menu's code is fetched when one first opens.
 
 import { useRef, useState, type ReactNode } from 'react';
 import { Button, type ButtonProps } from './Button.tsx';
@@ -6,7 +6,7 @@ import { later, usePart } from './later.tsx';
 
 interface MenuButtonProps extends Pick<ButtonProps, 'tone'> {
   readonly label: string;
-  /** What the button shows in the label's place. */
+  /** Shown in place of the label. */
   readonly children?: ReactNode;
   readonly choices: readonly { readonly id: string; readonly name: string }[];
   onChoose(id: string): void;

@@ -1,5 +1,5 @@
-// An open dialog, as the library makes it: it holds the focus and gives it back, and all behind it is out of reach. STOP lies above
-// it: it is in the library's top layer (StopButton).
+// An open dialog of react-aria: traps the focus and restores it, and makes the page behind inert, except STOP in the top layer
+// (StopButton).
 
 import type { ReactNode } from 'react';
 import { Dialog as AriaDialog, Heading } from 'react-aria-components/Dialog';
@@ -15,7 +15,7 @@ export interface DialogProps {
   readonly isOpen: boolean;
   readonly role?: 'dialog' | 'alertdialog';
   readonly wide?: boolean;
-  /** As wide as the window allows, for work rather than a decision. */
+  /** As wide as the window, for work rather than a decision. */
   readonly full?: boolean;
   readonly children: ReactNode;
   onClose(): void;

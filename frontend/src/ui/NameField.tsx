@@ -1,12 +1,12 @@
-// A name one edits in place; taken over on Enter or on leaving the field, if anything is left of it. Enter leaves the focus where it
-// is; for a finger it ends the typing, so that its keyboard goes.
+// A name edited in place; applied on Enter or when the field loses the focus, unless it is empty. Enter keeps the focus; on touch screens
+// it blurs the field, so that the keyboard closes.
 
 import { useLayoutEffect, useRef } from 'react';
 import { cx } from './cx.ts';
 import { isTouch } from './inputEvents.ts';
 import styles from './NameField.module.css';
 
-/** As long as the names of robots and groups. */
+/** The longest name of robots and groups. */
 const MAX_LENGTH = 64;
 
 export interface NameFieldProps {
@@ -25,7 +25,7 @@ export function NameField({
   onRename,
 }: NameFieldProps) {
   const field = useRef<HTMLInputElement>(null);
-  /** What was asked for last: leaving the field does not ask for it again. */
+  /** The name applied last, so that leaving the field does not apply it again. */
   const asked = useRef(name);
 
   useLayoutEffect(() => {

@@ -1,14 +1,13 @@
-// A number one types: right-aligned, with its unit beside it. Arrow keys step by `step`, with Shift ten times as far, with
-// Alt by one. Nothing is clamped silently: a value out of range goes to `onRefused` and the field shows the old one again; what is
-// said of that holds until the next number is taken.
-// A bare input: a library's number field costs a millisecond each time its value changes, and 32 of them change at once.
+// A field for a number with its unit. Arrow keys step by `step`, with Shift ten times as far, with Alt by one. Values out of range are
+// not clamped: `onRefused` is called, the field shows the old value, and the message stays until the next valid number.
+// A native input: the library's number field costs a millisecond per change, and 32 of them change at once.
 
 import { useRef, useState, type ComponentType, type KeyboardEvent, type RefObject } from 'react';
 import { Mark, type Truth } from './Chip.tsx';
 import { cx } from './cx.ts';
 import styles from './NumberField.module.css';
 
-/** A text on the page, for whoever shows it as it changes. */
+/** A text on the page that changes by itself. */
 export interface FollowedTextProps {
   readonly element: RefObject<HTMLElement | null>;
   readonly colour: 'ink' | 'ink-dim';
@@ -19,13 +18,13 @@ export interface FollowedTextProps {
 /** A number that changes by itself. */
 export interface LiveNumber {
   now(): number | null;
-  /** Follows it past React; stands over the field's text. */
+  /** Draws the number without React, over the field's text. */
   readonly Show: ComponentType<FollowedTextProps>;
 }
 
 export interface NumberFieldProps {
   readonly label: string;
-  /** null: not known; the field is empty and shows `placeholder`. */
+  /** null if unknown: the field is empty and shows `placeholder`. */
   readonly value: number | null | LiveNumber;
   readonly min: number;
   readonly max: number;
@@ -33,25 +32,25 @@ export interface NumberFieldProps {
   readonly decimals?: 0 | 1;
   readonly unit?: string;
   readonly placeholder?: string;
-  /** What kind of number it is: its sign before it, and its word for whoever points at it. */
+  /** The kind of number: a mark before it, and a tooltip. */
   readonly truth?: { readonly mark: Truth; readonly title: string } | undefined;
-  /** Where steps begin while the value is not known. */
+  /** The start of steps while the value is unknown. */
   readonly start?: number;
   readonly size?: 'plain' | 'large' | 'small';
   readonly isDisabled?: boolean;
-  /** Takes nothing for now, yet keeps its place and the focus. */
+  /** Ignores input for now, and keeps its place and the focus. */
   readonly isReadOnly?: boolean;
   readonly excludeFromTabOrder?: boolean;
-  /** `isStep`: by a key, from the value before. */
+  /** `isStep`: a step by a key. */
   onChange(value: number, isStep: boolean): void;
-  /** Gives back what takes it back. */
+  /** Returns a function that removes the message. */
   onRefused(value: number): () => void;
 }
 
 export function NumberField(props: NumberFieldProps) {
   const { label, unit, placeholder, size = 'plain', isDisabled = false, isReadOnly = false } = props;
   const input = useRef<HTMLInputElement>(null);
-  /** What is being typed; null while it is the value. */
+  /** The typed text; null while the field shows the value. */
   const [draft, setDraft] = useState<string | null>(null);
   const refusal = useRef<(() => void) | null>(null);
   const live = typeof props.value === 'object' ? props.value : null;
@@ -131,18 +130,18 @@ export function NumberField(props: NumberFieldProps) {
   );
 }
 
-/** What may stand there on the way to a number. */
+/** Text that may become a number. */
 const PARTIAL = /^[-−]?\d*[.,]?\d*$/u;
 const THOUSANDS = /[.,](?=\d{3}$)/u;
 
-/** NaN where it is none. A comma is taken for a point; in a whole number either may part the thousands. */
+/** NaN if it is none. A comma counts as a point; in a whole number either may separate the thousands. */
 export function numberIn(text: string, decimals: 0 | 1): number {
   const written = text.replaceAll(/\s/gu, '').replace('−', '-');
   const plain = (decimals === 0 ? written.replace(THOUSANDS, '') : written).replace(',', '.');
   return plain === '' ? NaN : Number(Number(plain).toFixed(decimals));
 }
 
-/** How far the key steps, 0 for other keys. */
+/** The step of a key, 0 for other keys. */
 export function stepOf(event: Pick<KeyboardEvent, 'key' | 'shiftKey' | 'altKey'>, step: number): number {
   const direction = { ArrowUp: 1, ArrowDown: -1, PageUp: 10, PageDown: -10 }[event.key] ?? 0;
   if (event.altKey) return Math.sign(direction);

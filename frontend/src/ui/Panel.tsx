@@ -7,16 +7,16 @@ import styles from './Panel.module.css';
 
 interface PanelProps {
   readonly title: string;
-  /** In the title's place for the eye: a choice of which the title is one. F6 goes to it by itself. */
+  /** Shown in place of the title: a choice that includes it. A part of its own for F6. */
   readonly tabs?: ReactNode;
-  /** Beside the title: what the panel says of itself. */
+  /** A note beside the title. */
   readonly note?: ReactNode;
   readonly tools?: ReactNode;
   readonly className?: string | undefined;
   readonly children: ReactNode;
 }
 
-/** What stands in a panel that others share. */
+/** The content of a panel that is shown in a shared place. */
 export interface PanelParts {
   title(): string;
   readonly Note?: ComponentType;

@@ -1,4 +1,4 @@
-// How much of a known amount of work is done, as a bar. Knows no work.
+// A progress bar for a known amount of work.
 
 import styles from './ProgressBar.module.css';
 
@@ -6,7 +6,7 @@ export interface ProgressBarProps {
   readonly label: string;
   readonly done: number;
   readonly total: number;
-  /** The same in words. */
+  /** The progress in words. */
   readonly text: string;
 }
 

@@ -1,4 +1,4 @@
-// A native list to choose one from, drawn as the rest.
+// A native `select` with the page's look.
 
 import styles from './Select.module.css';
 

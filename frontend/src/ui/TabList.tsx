@@ -1,4 +1,4 @@
-// A row of tabs that says which of several panels is shown. Tab finds the chosen one; arrows, Home and End choose another.
+// A row of tabs that chooses one of several panels. Tab goes to the chosen one; arrows, Home and End choose another.
 
 import type { KeyboardEvent } from 'react';
 import { Icon, type IconName } from './Icon.tsx';
@@ -45,7 +45,7 @@ export function TabList<Id extends string>({ label, tabs, chosen, onChoose }: Ta
   );
 }
 
-/** What the panel of a tab bears. */
+/** Attributes of a tab's panel. */
 export const tabPanel = (id: string) => ({
   role: 'tabpanel',
   id: panelOf(id),
@@ -55,7 +55,7 @@ export const tabPanel = (id: string) => ({
 const tabOf = (id: string): string => `tab-${id}`;
 const panelOf = (id: string): string => `panel-${id}`;
 
-/** Around the ends; null: the key is about something else. */
+/** Wraps at the ends; null for other keys. */
 function placeAfter(key: string, index: number, count: number): number | null {
   if (key === 'ArrowRight') return (index + 1) % count;
   if (key === 'ArrowLeft') return index - 1;

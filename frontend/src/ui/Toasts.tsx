@@ -1,5 +1,5 @@
-// Short messages, read out as they come: the newest is shown, those before it wait behind it. Covers nothing: whoever places it
-// gives it room of its own. Above dialogs and within reach beside them. Whoever dismisses one is back where they came from.
+// Short messages, announced to screen readers: the newest is shown, older ones are counted. Has its own space and covers nothing; above
+// dialogs and usable beside them. Dismissing one restores the focus.
 
 import { useRef } from 'react';
 import { Button, IconButton } from './Button.tsx';
@@ -10,14 +10,14 @@ export interface Toast {
   readonly id: number;
   readonly truth: Truth;
   readonly text: string;
-  /** Pressing it dismisses the message too. */
+  /** Pressing the button also dismisses the message. */
   readonly action?: { readonly label: string; act(): void } | undefined;
 }
 
 export interface ToastsProps {
   readonly label: string;
   readonly dismissLabel: string;
-  /** How many wait behind the one that is shown. */
+  /** The label for the number of older messages. */
   moreLabel(count: number): string;
   readonly toasts: readonly Toast[];
   onDismiss(id: number): void;

@@ -1,4 +1,4 @@
-// Joins class names; what is absent is left out.
+// Joins class names and skips absent ones.
 
 export function cx(...names: readonly (string | false | null | undefined)[]): string {
   return names.filter((name) => typeof name === 'string' && name !== '').join(' ');

@@ -1,17 +1,17 @@
-// Which element's hint is to be shown: that of what the pointer rests on, or of what the keyboard leads to, until anything is done.
-// A finger has no hover and sees none. Knows no tooltip.
+// Decides which element's hint is shown: the one under a resting pointer or with the keyboard focus, until the next action. Touch screens
+// have no hover and show none. Knows no tooltip.
 
 export const HINT = 'data-hint';
 
-/** To be spread on what is explained. */
+/** Attributes of an element with a hint. */
 export const hinted = (text: string) => ({ [HINT]: text });
 
-/** Long enough for a pointer on its way to something else. */
+/** A pointer on its way to another element does not rest this long. */
 const REST_MS = 500;
-/** Whoever reads one hint after the other waits for the first alone. */
+/** Within this time after a hint the next one shows at once. */
 const AWAKE_MS = 300;
 
-/** `show` is told whose hint is to be seen; null: none. */
+/** Calls `show` with the element whose hint is to be shown, null for none. */
 export function attach(page: Document, show: (element: Element | null) => void) {
   let at: Element | null = null;
   let isShown = false;

@@ -1,6 +1,6 @@
-// Parts of the page that its first load leaves out: fetched when they are first wanted, all others once the page is at rest, so that
-// nothing is missing when the gateway goes. STOP and the sliders are no such parts; dialogs, the ways to connect and the question which
-// board this is come first of all.
+// Parts of the page that the first load leaves out. Each is fetched when it is first needed, all others once the page is idle, so that
+// nothing is missing when the gateway disappears. STOP and the sliders are in the first load; dialogs, connecting and the choice of the
+// board are fetched first.
 
 import { useEffect, type ComponentType } from 'react';
 import { createStore, useStore, type StoreApi } from 'zustand';
@@ -22,7 +22,7 @@ export interface Later<Part> {
 
 const all: Later<unknown>[] = [];
 
-/** What guards a robot comes before the rest; what is large and seldom wanted comes when it is asked for alone. */
+/** `guards`: safety comes before the rest. `asked`: large and rarely used, fetched only on demand. */
 type Rank = 'guards' | 'rest' | 'asked';
 
 export function later<Part>(load: () => Promise<Part>, rank: Rank = 'rest'): Later<Part> {
@@ -58,7 +58,7 @@ export function usePart<Part>(part: Later<Part>, isWanted = true): Fetched<Part>
   return useStore(part.store);
 }
 
-/** A component; until it is there its place is as high as `room`, a length of CSS. */
+/** A component that is loaded on demand; until then its place has the height `room`, a CSS length. */
 export function laterComponent<Props extends object>(
   load: () => Promise<ComponentType<Props>>,
   room: string,

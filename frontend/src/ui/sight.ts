@@ -1,9 +1,6 @@
-// Whether a part of the page is in sight, for whoever draws in it in each frame.
+// The size of elements and whether they are in sight, for drawing in each frame. One observer of each kind serves all elements.
 
 import { createContext, use, useLayoutEffect, useRef, type RefObject } from 'react';
-
-// What the browser says of an element's place: how large it is, and whether anything of it is in sight. One observer
-// of each kind for all of them.
 
 interface Observer {
   observe(element: Element): void;
@@ -28,23 +25,23 @@ function shared<Entry extends { readonly target: Element }>(
   };
 }
 
-/** Called before it is painted for the first time, and after each change. */
+/** Calls the listener before the first paint and after each change of size. */
 export const watchSize = shared<ResizeObserverEntry>(
   (hear) => new ResizeObserver((entries) => hear(entries)),
 );
 
-/** Of what is in sight alone: a margin around what scrolls has the browser work all of it out anew in each frame. */
+/** Without a margin: with one, the browser computes all positions again in each frame while scrolling. */
 const watchSight = shared<IntersectionObserverEntry>(
   (hear) => new IntersectionObserver((entries) => hear(entries)),
 );
 
 export type InSight = Readonly<RefObject<boolean>>;
 
-/** Outside of parts that are watched everything is. */
+/** Elements outside watched parts count as in sight. */
 const EVERYWHERE: InSight = { current: true };
 export const Sight = createContext<InSight>(EVERYWHERE);
 
-/** For `Sight`, around what is within `part`. Within a part that is watched already it is that part's. */
+/** The value for the context `Sight` within `part`. Within a watched part it is that part's value. */
 export function useSight(part: RefObject<Element | null>): InSight {
   const around = use(Sight);
   const own = useRef(true);

@@ -1,4 +1,4 @@
-// Which of the three arrangements fits the window: a phone shows one part at a time, a desktop all of them.
+// The layout for the window's width: a phone shows one part at a time, a desktop all of them.
 
 import { useSyncExternalStore } from 'react';
 

@@ -21,7 +21,7 @@ const BASE: ConnectState = {
   body: null,
 };
 
-/** Ports that nobody opens: only which is which counts. */
+/** Ports that are only compared, never opened. */
 const PORT = Object.create(null) as SerialPort;
 const OTHER_PORT = Object.create(null) as SerialPort;
 

@@ -1,4 +1,4 @@
-// The whole dashboard, or the parts of it that a state is about, with a frozen session behind it.
+// The whole dashboard, or the parts that a state concerns, with a frozen robot behind it.
 
 import { gaugeOf, type Reading, fedBy } from '#shared/profile/battery.ts';
 import { totalDurationMs } from '#shared/group/group.ts';

@@ -1,5 +1,5 @@
-// Every panel in every state, one exhibit below the other, fed by plain values. A list on top leads to each; `?state=` in the
-// address shows one alone. The panels are the real ones, the session behind them is frozen.
+// Every panel in every state, one below the other, with a list of links on top; `?state=` in the address shows one alone. The panels are
+// the real ones; the robot behind them is frozen.
 
 import { useState, useSyncExternalStore, type MouseEvent } from 'react';
 import { I18nProvider } from 'react-aria-components/I18nProvider';
@@ -75,7 +75,7 @@ function addressOf(state: string | null): string {
   return `?${wanted.toString()}`;
 }
 
-/** From state to state without loading the page anew. */
+/** Goes to another state without reloading the page. */
 function go(event: MouseEvent<HTMLAnchorElement>): void {
   event.preventDefault();
   history.pushState(null, '', event.currentTarget.href);

@@ -1,4 +1,4 @@
-// The library in each of its states, fed by a library that lives as long as the page.
+// The library and the dialog for files in their states, with a document store in memory.
 
 import { type ActionGroup, emptyGroup } from '#shared/group/group.ts';
 import { insertFrame, rename } from '#shared/group/groupEdits.ts';
@@ -59,8 +59,7 @@ export const LIBRARY: readonly Exhibit[] = [
   },
 ];
 
-// What the dialog about files shows: groups of which one asks for its unit, one that does not fit, and broken files.
-
+/** Files with a group without a unit, one that does not fit, and broken ones. */
 const READINGS: readonly (readonly [name: string, reading: Reading])[] = [
   ['No.10 wave.xml', { groups: [wave('wave', 1500, 10)], asksUnit: true, remarks: [] }],
   [

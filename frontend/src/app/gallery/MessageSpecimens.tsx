@@ -1,4 +1,4 @@
-// What stands around the work in its states: messages, the bar of whoever owns a shared robot, places being arranged.
+// Messages, the top bar of an owner of a shared robot, arranging of places, and the sender of packets, in their states.
 
 import type { SessionState } from '#shared/robot/state.ts';
 import { BodyMap } from '../../features/picture/BodyMap.tsx';
@@ -60,8 +60,6 @@ export const MESSAGES: readonly Exhibit[] = [
     stores: () => prepared(() => undefined),
   },
 ];
-
-// The sender of packets by hand in each of its cases.
 
 interface Case {
   readonly name: string;

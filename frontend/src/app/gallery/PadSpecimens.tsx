@@ -1,4 +1,4 @@
-// Keys and pad in each of their states: without a pad, held, driving with servos that nobody knows, in conflict.
+// Keys and pad in their states: without a pad, held, driving with unknown positions, in conflict.
 
 import { step } from '#shared/profile/mappingStep.ts';
 import type { Binding } from '#shared/profile/mapping.ts';

@@ -1,4 +1,4 @@
-// Coming in and letting in, in each state: a stranger's card, the stop-only page, and what an owner sees.
+// Pairing, the stop-only page and an owner's view of people, in their states.
 
 import type { ReactNode } from 'react';
 import { NameCard, PairCard, StopFace, type StopOutcome } from '../../features/people/EntryPage.tsx';
@@ -6,7 +6,7 @@ import { OwnView, PeopleView } from '../../features/people/PeopleView.tsx';
 import { PeopleError, type PeopleState } from '../../features/people/people.ts';
 import type { Exhibit } from './exhibit.ts';
 
-/** No QR code that anybody could use. */
+/** Not a real QR code. */
 const PICTURE =
   'data:image/svg+xml,%3Csvg xmlns=%22http://www.w3.org/2000/svg%22 viewBox=%220 0 7 7%22%3E%3Cpath d=%22M1 1h2v2H1zM4 1h2v2H4zM1 4h2v2H1zM5 5h1v1H5z%22/%3E%3C/svg%3E';
 const AT_MS = 1_790_000_000_000;

@@ -1,4 +1,4 @@
-// What a group becomes on the board, how it is played, and the board's slots, in their states, fed by plain values.
+// Compiling and playing a group, and the board's slots, in their states.
 
 import type { ReactNode } from 'react';
 import { insertFrame, setMeta, type NewFrame } from '#shared/group/groupEdits.ts';

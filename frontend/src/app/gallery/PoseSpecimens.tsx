@@ -1,4 +1,4 @@
-// Poses and buttons in each of their states, fed by plain values.
+// Poses and buttons in their states.
 
 import type { ReactNode } from 'react';
 import { addMacro, changeMacro } from '#shared/profile/macroEdits.ts';

@@ -1,4 +1,4 @@
-// What the dialog about robots shows: the list, the description, and the calibration at each kind of step.
+// The dialog of robots: the list, the editor, and the calibration at each kind of step.
 
 import type { DocumentStore } from '#shared/files/documentStore.ts';
 import type { Calibration } from '#shared/profile/calibration.ts';
@@ -27,7 +27,7 @@ interface Case {
   readonly isUnknown?: boolean;
   readonly place?: DocumentStore['place'];
   readonly at?: Pick<Calibration, 'servo' | 'step' | 'found'>;
-  /** Of the servo at hand. */
+  /** Of the current servo. */
   readonly limits?: Range;
 }
 

@@ -1,4 +1,4 @@
-// The action group's timeline in each of its states, fed by plain values.
+// The timeline of an action group in its states.
 
 import { addMarker } from '#shared/group/frameEdits.ts';
 import type { ActionGroup } from '#shared/group/group.ts';

@@ -1,4 +1,4 @@
-// One state that the gallery shows: its name, what is seen of it, and the stores behind that.
+// One state in the gallery: its name, its content and its stores, with a frozen robot that does nothing.
 
 import type { ReactNode } from 'react';
 import type { DocumentStore } from '#shared/files/documentStore.ts';
@@ -38,7 +38,7 @@ import { createView } from '../../features/view.ts';
 export interface Exhibit {
   readonly name: string;
   readonly content: ReactNode;
-  /** Left out: nothing is connected, nothing is written. */
+  /** If absent, nothing is connected and the group is empty. */
   stores?(): Stores;
   readonly isInDialog?: boolean;
 }
@@ -52,7 +52,7 @@ interface Standing {
   readonly place?: DocumentStore['place'];
 }
 
-/** The stores of a page whose link is in one state. */
+/** The stores of a page whose link stays in one state. */
 export function standing({
   board = 'doc',
   way = USB,
@@ -67,8 +67,6 @@ export function standing({
   stores.device.refresh();
   return stores;
 }
-
-// A robot that stays in one state and does nothing: it holds a panel still so that it can be looked at.
 
 export function frozenSession(
   family: Family,
@@ -112,8 +110,6 @@ export function frozenSession(
     motions: () => (servo) => motions[servo] ?? { target: null, estimated: null },
   };
 }
-
-// The page's stores with nothing in them and nothing behind them, for one specimen.
 
 const none = () => Promise.reject(new PeopleError('unreachable', ''));
 const NOBODY: PeopleApi = {

@@ -10,7 +10,7 @@ import '../../ui/base.css';
 const root = document.getElementById('page');
 if (root === null) throw new Error('gallery.html has no #page');
 const wanted = new URLSearchParams(location.search).get('language');
-// No await of the module itself: Chinese imports from it, and each would wait for the other.
+// No top-level await: Chinese imports from this chunk, and each would wait for the other.
 void speak(preferredLanguage(wanted === null ? [] : [wanted])).then(() =>
   createRoot(root).render(<Gallery />),
 );

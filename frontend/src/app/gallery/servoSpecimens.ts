@@ -1,4 +1,4 @@
-// The servo panel with robots of each body, and with servos selected, locked and described otherwise.
+// The servo panel with each kind of body, and with servos that are selected, locked or calibrated.
 
 import type { Robot } from '#shared/profile/robot.ts';
 import type { FamilyId } from '#shared/codec/families.ts';
@@ -6,17 +6,17 @@ import { freshRobot } from '../../features/profiles/robots.ts';
 import type { ServoView } from '../../features/servoView.ts';
 import type { ViewState } from '../../features/view.ts';
 
-/** 64 characters, the most that any name may have. */
+/** The longest name: 64 characters. */
 export const LONG_NAME = 'The very long name of a thing that somebody liked to call it so.';
 
 export interface ServoSpecimen {
-  /** Named in the language in use. */
+  /** With names in the language in use. */
   robot(): Robot;
   readonly servos?: Partial<ServoView>;
   readonly view?: Partial<ViewState>;
 }
 
-/** With limits, another home and a servo that turns the other way. */
+/** With limits, another home and a reversed servo. */
 function describedArm(): Robot {
   const arm = freshRobot('arm', 'doc');
   return {
@@ -27,7 +27,7 @@ function describedArm(): Robot {
   };
 }
 
-/** At the very edges of what the board can do, and next to no way at all. */
+/** Limits at the edges of the board's range, and limits with almost no range between them. */
 function shortWays(): Robot {
   const robot = freshRobot('plain6', 'doc');
   const ways = [
@@ -47,7 +47,7 @@ function shortWays(): Robot {
   };
 }
 
-/** Each name as long as one may be. */
+/** All names have the longest length. */
 function longNames(): Robot {
   const robot = freshRobot('humanoid18', 'lsc-24');
   return {

@@ -1,5 +1,5 @@
-// The states of the page as one table: what the session says, where the servos are, what is written and selected. What is left
-// out is usual: a cable, a board that is ready, servos at rest, no frame.
+// The states of the page as one table: snapshot, positions, group and selection. Defaults: a cable, a board that is ready, servos at rest,
+// no frame.
 
 import type { FamilyId } from '#shared/codec/families.ts';
 import { identityFrom } from '#shared/robot/identity.ts';
@@ -23,7 +23,7 @@ import {
   reported,
   running,
   SIMULATED,
-  FRAMES_OF_ALL,
+  LEASES,
   UNSURE,
   VERSION_MESSAGES,
   WATCHED,
@@ -31,17 +31,17 @@ import {
   type Pose,
 } from './states.ts';
 
-/** The bar with what is below it, live control, the action group, board and battery, the log. */
+/** The top bar with the status line, live control, the action group, board and battery, the log. */
 export type Part = 'bar' | 'live' | 'group' | 'board' | 'log';
 
 export interface Specimen {
   readonly name: string;
-  /** Where it is unlike others; left out: everywhere. */
+  /** The parts that differ from other states; all if absent. */
   readonly shows?: readonly Part[];
-  /** Another robot than the usual one of the board. */
+  /** If absent, the usual robot of the board. */
   readonly robot?: ServoSpecimen;
   readonly board?: FamilyId;
-  /** Nobody has said which board it is. */
+  /** The family of the board is unknown. */
   readonly isUnknown?: boolean;
   readonly nickname?: string;
   readonly groupName?: string;
@@ -51,7 +51,7 @@ export interface Specimen {
   readonly frames?: number;
   readonly selectedFrame?: number;
   readonly feed?: BatteryFeed;
-  /** Where the board's servos were last sent, at an earlier visit. */
+  /** The last targets of an earlier visit. */
   readonly lastPositions?: Readonly<Record<number, number>>;
 }
 
@@ -64,7 +64,7 @@ const WITH_MESSAGES: Shows = { shows: ['bar', 'live', 'board'] };
 
 const LATCHED = { pose: 'moving', frames: 3, ...DRIVEN } as const;
 
-/** Why nothing moves, and what is known of the stop. */
+/** Why nothing moves, and the details of the stop. */
 const latched = (
   reason: Latch['reason'],
   stop: Latch['stop'],
@@ -202,7 +202,7 @@ export const SPECIMENS: readonly Specimen[] = [
     pose: 'unknown',
     ...DRIVEN,
   },
-  ...Object.entries(FRAMES_OF_ALL).map(([name, lease]): Specimen => ({
+  ...Object.entries(LEASES).map(([name, lease]): Specimen => ({
     ...{ name, way: REMOTE, state: { ...READY, lease }, pose: 'moving', frames: 2 },
     ...(lease.unattended === null ? DRIVEN : WITH_MESSAGES),
   })),

@@ -1,4 +1,4 @@
-// What a session says in the states that the gallery shows, and where its servos are then, as plain values.
+// Snapshots, positions, battery readings and packets for the states of the gallery, as plain values.
 
 import { FAMILIES, type FamilyId } from '#shared/codec/families.ts';
 import type { BatteryKind } from '#shared/profile/robot.ts';
@@ -13,7 +13,7 @@ import type { Command } from '#shared/codec/commands.ts';
 import { fromHex } from '#shared/codec/packet.ts';
 import type { Report } from '#shared/codec/reports.ts';
 
-/** What feeds the robot, and what was read until now, one reading every five seconds. */
+/** The kind of battery, and its readings, one every five seconds. */
 export interface BatteryFeed {
   readonly kind: BatteryKind;
   readonly volts: readonly number[];
@@ -29,7 +29,7 @@ export const READY: SessionState = {
   battery: { kind: 'read', batteryMv: 7500, atMs: 0 },
 };
 
-/** No reading ever comes where the board has no command for it. */
+/** Of a board without a command to read it. */
 export const NO_BATTERY: SessionState = { ...READY, battery: { kind: 'unread' } };
 
 export const LEASE: Lease = {
@@ -54,8 +54,8 @@ const PRESENT: Lease['candidates'] = [
   { id: 'cleo', name: 'Cleo' },
 ];
 
-/** Whose turn it is, as each of the people there sees it. */
-export const FRAMES_OF_ALL: Readonly<Record<string, Lease>> = {
+/** The lease as each of the people sees it. */
+export const LEASES: Readonly<Record<string, Lease>> = {
   'You drive': LEASE,
   'You drive, asked': { ...LEASE, requestedBy: 'Bert', grantedInMs: 5000 },
   'You drive, others may': { ...LEASE, candidates: PRESENT },
@@ -151,7 +151,7 @@ export const DOWNLOADING_SEVERAL: SessionState = {
   },
 };
 
-/** Half an hour of a pack that is used. */
+/** Half an hour of a pack in use. */
 const sinking = (fromMv: number, toMv: number): readonly number[] =>
   Array.from({ length: 360 }, (_, index) => {
     const share = index / 359;
@@ -186,8 +186,6 @@ export function motionsOf(board: FamilyId, pose: Pose): Readonly<Record<number, 
 
 const POSED = [0.3, 0.5, 0.72, 0.8, 0.3, 0.6];
 const STARTED = [0.45, 0.4, 0.6, 0.65, 0.42, 0.5];
-
-// One packet of each kind, for the log of the gallery.
 
 const POSE = [1200, 1500, 1950, 2050, 1150, 1500].map((position, index) => ({ servo: index + 1, position }));
 

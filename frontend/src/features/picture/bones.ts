@@ -1,5 +1,5 @@
-// Hand, humanoid and hexapod as bones between the places of their servos: where each bone is in a pose. A diagram, not a
-// model: it turns, lifts and folds limbs so that one sees which moves how. Pure geometry in percent of the picture.
+// Hand, humanoid and hexapod as bones between the places of their servos, in a pose. A diagram, not a model: limbs turn, lift and fold so
+// that each movement is visible. Pure geometry in percent of the picture.
 
 import { degreesOf, type Robot, type RobotServo } from '#shared/profile/robot.ts';
 import { limbsOf, fraction, type Pose } from './pose.ts';
@@ -13,55 +13,55 @@ export interface Bone {
   readonly servo: number;
   readonly from: Point;
   readonly to: Point;
-  /** false: its servo, or one that carries it, is somewhere unknown. */
+  /** False if the position of its servo, or of one that carries it, is unknown. */
   readonly known: boolean;
 }
 
 export interface BonePicture {
   /** Palm or trunk. */
   readonly trunk: readonly Point[];
-  /** Of a body seen from above: the farther beside the trunk, the higher it is. Empty for others. */
+  /** The shadow of a body seen from above: the farther from the trunk, the higher the body. Empty for others. */
   readonly shadow: readonly Point[];
   readonly bones: readonly Bone[];
 }
 
 const CENTRE: Point = { x: 50, y: 50 };
-/** Above its middle, so that hips come before knees and shoulders before elbows. */
+/** Above the middle, so that hips are nearer than knees and shoulders nearer than elbows. */
 const HUMANOID_CENTRE: Point = { x: 50, y: 30 };
-/** Nothing that points at the eye vanishes. */
+/** Bones that point at the viewer do not vanish. */
 const SHORTEST = 0.15;
-/** A body that lies on the ground, and what its shadow goes beside it for each step up. */
+/** The shadow of a body on the ground, and its distance for each unit of height. */
 const SHADOW = { least: 1, each: 0.4 };
-/** It stands on three legs at least, whatever the others do. */
+/** A hexapod stands on at least three legs. */
 const STANDS_ON = 3;
 const PALM: Point = { x: 50, y: 62 };
-/** Limbs of a humanoid bend towards and away from the eye; drawn sideways at half the turn they stay apart. */
+/** Limbs of a humanoid bend towards the viewer; drawn sideways at half the angle they do not overlap. */
 const BEND = 0.5;
 /** How much of its length a closed finger loses. */
 const FOLD = 0.65;
-/** What the last servo of a limb carries, beside the bone before it. */
+/** Length of a limb's last part, in relation to the bone before it. */
 const TIP = 0.7;
 
-/** Null for bodies that are not drawn by bones. */
+/** null for bodies that are not drawn by bones. */
 export function bonesOf(robot: Robot, pose: Pose): BonePicture | null {
   if (robot.body === 'humanoid') return humanoid(jointedLimbs(robot), pose);
   if (robot.body === 'hexapod') return hexapod(jointedLimbs(robot), pose);
   return robot.body === 'hand' ? hand(robot.servos, pose) : null;
 }
 
-/** What a joint does to the rest of its limb. */
+/** The effect of a joint on the rest of its limb. */
 interface Turn {
   readonly degrees: number;
-  /** As long as it looks, 0 to 1. */
+  /** Foreshortened length, 0 to 1. */
   readonly length: number;
 }
 
-/** Turn of the joints of a limb up to and with the last one given, all in degrees. */
+/** From the angles of a limb's joints, up to the last one given, in degrees. */
 type Kinematics = (angles: readonly number[]) => Turn;
 
 const bending: Kinematics = (angles) => ({ degrees: sum(angles) * BEND, length: 1 });
 
-/** A leg that bends looks shorter, too. */
+/** A bent leg also looks shorter. */
 const standing: Kinematics = (angles) => ({ ...bending(angles), length: foreshortened(sum(angles)) });
 
 /** Seen from above the first joint swings the leg, the others lift it. */
@@ -80,7 +80,7 @@ export interface Limb {
   readonly kinematics: Kinematics;
 }
 
-/** Of a humanoid or a hexapod; others have none. */
+/** The limbs of a humanoid or hexapod; none for other bodies. */
 export function jointedLimbs({ body, servos }: Robot): readonly Limb[] {
   if (body === 'hexapod') return chainsOf(servos, CENTRE).map((chain) => ({ chain, kinematics: lifting }));
   if (body !== 'humanoid') return [];
@@ -96,7 +96,7 @@ const chainsOf = (servos: readonly RobotServo[], centre: Point): readonly Chain[
 const trunkOf = (limbs: readonly Limb[]): readonly Point[] =>
   aroundMiddle(limbs.map(({ chain }) => rootOf(chain)));
 
-/** It stands on the lower of its feet: where both legs bend, all of it sinks. */
+/** Stands on the lower foot: with both legs bent the whole body sinks. */
 function humanoid(limbs: readonly Limb[], pose: Pose): BonePicture {
   const posed = (as: Pose): readonly Bone[] => limbs.flatMap((limb) => bonesOfLimb(limb, as));
   const bones = posed(pose);
@@ -108,7 +108,7 @@ function humanoid(limbs: readonly Limb[], pose: Pose): BonePicture {
   };
 }
 
-/** It goes far down and hardly aside. */
+/** Legs go far down and hardly sideways. */
 export function isLeg(chain: Chain): boolean {
   const [root, tip] = [chain[0], chain.at(-1)];
   if (root === undefined || tip === undefined) return false;
@@ -130,7 +130,7 @@ function hexapod(limbs: readonly Limb[], pose: Pose): BonePicture {
   };
 }
 
-/** How far its foot is below its root. The sides are built as mirrors: what lifts the one lowers the other. */
+/** The distance of a foot below its root. The sides are mirrored: an angle that lifts one lowers the other. */
 function reachDown(chain: Chain, pose: Pose): number {
   const side = (chain[0]?.place.x ?? 0) < CENTRE.x ? -1 : 1;
   let lift = 0;
@@ -159,7 +159,7 @@ function bonesOfLimb(limb: Limb, pose: Pose): Bone[] {
   return bones;
 }
 
-/** The bone of the joint that turned last, from its own start. */
+/** The bone of the last joint, from its start. */
 export function lastBone({ chain, kinematics }: Limb, angles: readonly number[]): Point {
   const { degrees, length } = kinematics(angles);
   return turned(restBone(chain, angles.length - 1), degrees, length);
@@ -167,7 +167,7 @@ export function lastBone({ chain, kinematics }: Limb, angles: readonly number[])
 
 export const rootOf = (chain: Chain): Point => chain[0]?.place ?? CENTRE;
 
-/** From this servo's place to the next one's; the last goes on as the one before it. */
+/** From a servo's place to the next one's; the last bone continues the one before it. */
 function restBone(chain: Chain, index: number): Point {
   const [here, next, before] = [chain[index], chain[index + 1], chain[index - 1]];
   if (here === undefined) return { x: 0, y: 0 };
@@ -202,7 +202,7 @@ function hand(servos: readonly RobotServo[], pose: Pose): BonePicture {
   };
 }
 
-/** The corners in the order in which one walks around them. */
+/** Sorts the corners around their middle. */
 function aroundMiddle(corners: readonly Point[]): readonly Point[] {
   const middle = {
     x: sum(corners.map(({ x }) => x)) / corners.length,

@@ -1,13 +1,12 @@
-// From positions to the picture: angles of an arm's joints and of a dial's needle. Pure geometry; what a position is in
-// the real world (trim, direction) no board can tell, so the middle of the range is drawn as straight.
+// From positions to angles of an arm's joints and of a dial's needle. Pure geometry. No board reports the real angle (trim, direction),
+// so the middle of the range is drawn as straight.
 
 import type { RobotServo } from '#shared/profile/robot.ts';
 import type { Family, Range } from '#shared/codec/families.ts';
 
-// The servos of a robot by limb, in the order in which the robot names them.
-
+/** The servos of a limb, in the order of the robot. */
 export interface Limb {
-  /** Empty for servos that belong to none. */
+  /** Empty for servos without a limb. */
   readonly group: string;
   readonly servos: readonly RobotServo[];
 }
@@ -17,7 +16,7 @@ export function limbsOf(servos: readonly RobotServo[]): readonly Limb[] {
   return groups.map((group) => ({ group, servos: servos.filter((servo) => servo.group === group) }));
 }
 
-/** Position of a servo, null where it is not known. */
+/** The position of a servo; null if unknown. */
 export type Pose = (servo: number) => number | null;
 
 /** Joints of the usual six-servo arm (boards.md section 9). */
@@ -25,7 +24,7 @@ export const JOINT = { gripper: 1, roll: 2, wrist: 3, elbow: 4, shoulder: 5, bas
 
 /** Turn of the output shaft over the whole range, in degrees: PWM servos half a turn, bus servos two thirds. */
 const TURN_DEGREES = { us: 180, steps: 240 } as const;
-/** A dial leaves its lower quarter open, like the gauge of an instrument. */
+/** A dial is open at the bottom, like a gauge. */
 const DIAL_DEGREES = 240;
 const JAW_OPEN_DEGREES = 42;
 const JAW_SHUT_DEGREES = 3;
@@ -39,15 +38,15 @@ export interface ArmPicture {
   readonly wrist: Link;
   readonly base: Link;
   readonly roll: Link;
-  /** Half the angle between the jaws as seen from the side, where the roll foreshortens it. */
+  /** Half the angle between the jaws seen from the side, foreshortened by the roll. */
   readonly jaw: Link;
-  /** The same seen from the front. */
+  /** Half the angle seen from the front. */
   readonly jawFront: Link;
 }
 
 interface Link {
   readonly degrees: number;
-  /** false: this joint, or one that carries it, is somewhere unknown. */
+  /** False if the position of this joint, or of one that carries it, is unknown. */
   readonly known: boolean;
 }
 
@@ -78,24 +77,24 @@ export function armPicture(pose: Pose, scale: Scale): ArmPicture {
   };
 }
 
-/** Whether the arm is where it was asked to be, as far as the eye can tell: then its outline says nothing. */
+/** True if two pictures differ too little to be seen; then the outline of the target is hidden. */
 export function samePicture(one: ArmPicture, other: ArmPicture): boolean {
   return (['shoulder', 'elbow', 'wrist', 'jaw'] as const).every(
     (link) => Math.abs(one[link].degrees - other[link].degrees) < SAME_DEGREES,
   );
 }
 
-/** Turn of the shaft away from the centre. */
+/** The angle of the shaft from the centre. */
 export function shaftDegrees(position: number, { unit, position: range, centre }: Scale): number {
   return ((position - centre) / (range.max - range.min)) * TURN_DEGREES[unit];
 }
 
-/** Turn of a dial's needle away from straight up. */
+/** The angle of a dial's needle from straight up. */
 export function dialDegrees(position: number, scale: Scale): number {
   return (fraction(position, scale.position) - 0.5) * DIAL_DEGREES;
 }
 
-/** A sixth of a pixel at the needle's tip: finer turns are painted for nobody. */
+/** A sixth of a pixel at the needle's tip: finer angles are invisible. */
 export const halfDegree = (degrees: number): number => Math.round(degrees * 2) / 2;
 
 /** 0 at the low end of the range, 1 at the high end. */

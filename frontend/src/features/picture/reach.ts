@@ -1,5 +1,5 @@
-// How far a body by bones reaches in any pose within its limits, so that its picture has room for all of them and never has to
-// change its scale. Pure geometry in percent of the picture.
+// How far a body by bones reaches in any pose within its limits, so that the scale of its picture never changes. Pure geometry in percent
+// of the picture.
 
 import { degreesOf, servoOf, type Robot, type RobotServo } from '#shared/profile/robot.ts';
 import {
@@ -21,14 +21,14 @@ export interface Reach {
 }
 
 const SQUARE: Reach = { left: 0, top: 0, right: 100, bottom: 100 };
-/** Half of a bone's thickness, and its line. */
+/** Half of a bone's thickness with its outline. */
 const THICKNESS = 3;
-/** From one limit to the other, in so many looks. */
+/** The samples between a servo's limits. */
 const LOOKS = Array.from({ length: 17 }, (_, look) => look / 16);
 
 const known = new WeakMap<Robot, Reach>();
 
-/** Null for bodies that are not drawn by bones. */
+/** null for bodies that are not drawn by bones. */
 export function reachOf(robot: Robot): Reach | null {
   const home = bonesOf(robot, () => null);
   if (home === null) return null;
@@ -39,15 +39,15 @@ export function reachOf(robot: Robot): Reach | null {
   return reach;
 }
 
-/** The square of the places, and more where this one pose needs it: for a picture that stands still. */
+/** The square of the places, enlarged for this pose: for a picture that does not move. */
 export const roomFor = ({ bones }: BonePicture): Reach =>
   including(SQUARE, outgrown(around(bones.map(({ to }) => to))));
 
-/** As an SVG has it. */
+/** As the `viewBox` of an SVG. */
 export const viewBoxOf = ({ left, top, right, bottom }: Reach): string =>
   `${left} ${top} ${right - left} ${bottom - top}`;
 
-/** The base turns the hand, and each finger is straight or folded. */
+/** For each turn of the base, with each finger straight or folded. */
 function handReach(robot: Robot): Reach {
   const base = handBase(robot.servos);
   const poses = LOOKS.flatMap((look) =>
@@ -62,7 +62,7 @@ function handReach(robot: Robot): Reach {
     .reduce(including);
 }
 
-/** Each bone adds what it may: joints that follow each other nearly always can point the same way. */
+/** Sums the largest extent of each bone: consecutive joints can nearly always point in the same direction. */
 function limbsReach(robot: Robot): Reach {
   const limbs = jointedLimbs(robot).map((limb) => ({
     root: pointReach(rootOf(limb.chain)),
@@ -70,7 +70,7 @@ function limbsReach(robot: Robot): Reach {
   }));
   const all = limbs.flatMap(({ root, ends }) => [root, ...ends]).reduce(including);
   if (robot.body !== 'humanoid') return all;
-  // It stands on its lowest bone: it is drawn as far lower or higher as that one is in this pose.
+  // The body stands on its lowest bone, so the picture shifts by the height of that bone in a pose.
   const ground = Math.max(...(bonesOf(robot, () => null)?.bones ?? []).map(({ to }) => to.y));
   const ends = limbs.flatMap((limb) => limb.ends);
   const rises = Math.max(0, Math.max(...ends.map(({ bottom }) => bottom)) - ground);

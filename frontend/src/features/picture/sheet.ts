@@ -1,18 +1,18 @@
-// The pictures that share one canvas: dozens of canvases cost the browser more than all that is drawn on them. Knows where those in
-// sight stand; draws nothing by itself.
+// Pictures that share one canvas, because dozens of canvases cost more than the drawing. Tracks the positions of visible pictures; draws
+// nothing itself.
 
 import { createContext } from 'react';
 import type { InSight } from '../../ui/sight.ts';
 import type { Pen, Picture, Size } from './Canvas.tsx';
 
-/** A picture on a sheet: drawn where `place` stands, as large as that is. */
+/** A picture on a sheet, drawn at the position and in the size of `place`. */
 export interface Part<Shown extends readonly unknown[]> extends Picture<Shown> {
   readonly place: Element;
   readonly sight: InSight;
 }
 
 export interface Placed {
-  /** The same from frame to frame. */
+  /** Identical from frame to frame. */
   readonly part: object;
   readonly left: number;
   readonly top: number;
@@ -22,11 +22,11 @@ export interface Placed {
 }
 
 export interface Sheet {
-  /** Returns what takes it away again. */
+  /** Returns a function that removes it. */
   readonly add: <Shown extends readonly unknown[]>(part: Part<Shown>) => () => void;
-  /** Something may stand elsewhere now. */
+  /** Positions may have changed. */
   readonly measureAnew: () => void;
-  /** Those in sight, seen from the corner of `around`. */
+  /** The visible pictures, relative to the corner of `around`. */
   readonly inSight: (around: Element) => readonly Placed[];
 }
 
@@ -40,7 +40,7 @@ interface Box {
 
 interface Registered {
   readonly sight: InSight;
-  /** null: to be measured. */
+  /** null until it is measured. */
   box: Box | null;
   measured(corner: DOMRect): Box;
   picture(): Pick<Placed, 'shown' | 'paint'>;
@@ -77,7 +77,7 @@ function keep<Shown extends readonly unknown[]>({ place, sight, shown, paint }: 
     box: null,
     measured(corner) {
       const { left, top, width, height } = place.getBoundingClientRect();
-      // The same object as long as it is the same size: what is measured by it is measured once.
+      // The same object while the size is the same, so that measurements that depend on it are cached.
       if (size.width !== width || size.height !== height) size = { width, height };
       return { left: left - corner.left, top: top - corner.top, size };
     },
@@ -88,7 +88,7 @@ function keep<Shown extends readonly unknown[]>({ place, sight, shown, paint }: 
   };
 }
 
-/** In pixels of the page. */
+/** In CSS pixels. */
 export interface Area {
   readonly left: number;
   readonly top: number;
@@ -96,8 +96,8 @@ export interface Area {
   readonly height: number;
 }
 
-/** What the canvas lies over, seen from the corner of the list: as much as all of them take, on whole pixels. Where none is in sight it
-    stays: a canvas without a size is not drawn any more. */
+/** The area of the canvas, relative to the list: covers all parts, on whole pixels. Unchanged without parts, because a canvas without a
+    size is not drawn any more. */
 export function coverOf(parts: readonly Placed[], before: Area): Area {
   if (parts.length === 0) return before;
   const left = Math.floor(Math.min(...parts.map((part) => part.left)));
@@ -114,12 +114,12 @@ export const isSameArea = (one: Area, other: Area): boolean =>
   one.height === other.height;
 
 interface Painted extends Placed {
-  /** Of the canvas. */
+  /** The area on the canvas. */
   readonly area: Area;
 }
 
-/** Of the pictures on a canvas few change in a frame: only those are painted again. `cover`: where on the list the canvas is. `isClean`:
-    nothing is on it any more. */
+/** Paints only the pictures that changed, which are few in a frame. `cover`: the area of the canvas on the list. `isClean`: the canvas
+    was cleared. */
 export function createPainting() {
   let painted = new Map<object, Painted>();
   let ground: Area | null = null;
@@ -151,7 +151,7 @@ export function createPainting() {
 const isSameShown = (one: readonly unknown[], other: readonly unknown[]): boolean =>
   one.length === other.length && one.every((value, index) => value === other[index]);
 
-/** On whole pixels of the screen: between two of them no edge would be sharp, and none could be cleared without a trace. */
+/** Rounded to whole pixels of the screen, so that edges are sharp and can be cleared without a trace. */
 function areaOf({ left, top, size }: Placed, cover: Area): Area {
   return {
     left: Math.round((left - cover.left) * devicePixelRatio) / devicePixelRatio,

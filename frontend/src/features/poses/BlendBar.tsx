@@ -1,5 +1,5 @@
-// Between two poses: a slider from the selected one to another, with its picture and as a preview on the body. The robot goes there
-// when asked to, or follows the slider as long as that is switched on.
+// Blends the selected pose with another one by a slider, with a picture and a preview on the body. The robot moves there on request, or
+// follows the slider while that is switched on.
 
 import { useEffect, useState } from 'react';
 import { type Pose, addPose } from '#shared/profile/pose.ts';
@@ -15,7 +15,7 @@ import styles from './PosesPanel.module.css';
 
 export interface BlendBarProps {
   readonly pose: Pose;
-  /** The one it is blended with at first, by its id. */
+  /** The id of the pose that it is blended with at first. */
   readonly otherFirst?: number;
 }
 

@@ -1,4 +1,4 @@
-// One pose as a card: its picture, its name, the way to it. The face selects; the grip drags.
+// One pose as a card with its picture, its name and a button to move there. The face selects; the grip drags.
 
 import { type Pose, movePose, renamePose } from '#shared/profile/pose.ts';
 import { unknownServos } from '#shared/profile/poseShapes.ts';
@@ -16,7 +16,7 @@ import styles from './PoseCard.module.css';
 
 export interface PoseCardProps {
   readonly pose: Pose;
-  /** What the book says of it, in words; empty for nothing. */
+  /** What the book of poses says about it, in words; may be empty. */
   readonly marks: string;
   readonly isSelected: boolean;
   readonly isTabStop: boolean;

@@ -1,4 +1,4 @@
-// One of the robot's poses, or a verb, from a list. One that is gone stays in it for as long as it is chosen.
+// A list to choose one of the robot's poses, home or rest. A deleted pose stays in the list while it is chosen.
 
 import { POSE_VERBS, type PoseRef } from '#shared/profile/pose.ts';
 import { poseName } from './poses.ts';

@@ -1,4 +1,4 @@
-// What can be done with the selected pose, in words. Always in its place, so that nothing jumps when a pose is selected.
+// The tools for the selected pose. Always present, so that nothing moves when a pose is selected.
 
 import { addMacro } from '#shared/profile/macroEdits.ts';
 import {
@@ -21,10 +21,10 @@ import { words } from '../../i18n/whole.ts';
 import { useSelectedPose } from './naming.ts';
 import styles from './PosesPanel.module.css';
 
-/** A step of the book, in the words of the moment. */
+/** The label of an undo step. */
 type PoseLabel = (name: string) => string;
 
-/** What lies open below the tools. */
+/** The part that is unfolded below the tools. */
 export type Drawer = 'servos' | 'blend';
 
 export interface PoseToolsProps {
@@ -58,7 +58,7 @@ export function PoseTools({ drawer, onDrawer }: PoseToolsProps) {
   );
 }
 
-/** Its targets: as the robot is commanded now, mirrored, flipped; and where the robot rests. */
+/** Changes the targets: to the current ones, mirrored, flipped. Also sets the rest pose. */
 function Shapes() {
   const { device, poses, notices, macros, document, view } = useStores();
   const pose = useSelectedPose();

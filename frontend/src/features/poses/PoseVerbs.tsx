@@ -1,4 +1,4 @@
-// The foot of the poses: keep the pose at hand, and the ways home and to rest, in the time that holds for every pose.
+// The foot of the panel: capture a pose, move home or to rest, the duration for all poses, and files of poses.
 
 import { useRef, type MouseEvent } from 'react';
 import { poseBookToText, POSE_VERBS } from '#shared/profile/pose.ts';
@@ -13,8 +13,7 @@ import { NumberField } from '../../ui/NumberField.tsx';
 import type { Captured } from './naming.ts';
 import styles from './PosesPanel.module.css';
 
-// Poses to a file and from one. An import adds to what is there.
-
+/** Export and import of poses. An import adds to the existing poses. */
 function PoseFiles() {
   const { poses, notices } = useStores();
   const book = usePoses(({ present }) => present);
@@ -34,7 +33,7 @@ function PoseFiles() {
         hidden
         onChange={({ target }) => {
           take(target.files);
-          // The same file may be chosen again.
+          // Allows choosing the same file again.
           target.value = '';
         }}
       />
@@ -52,7 +51,7 @@ function PoseFiles() {
 }
 
 interface PoseVerbsProps {
-  /** A pose that was captured by a key has its name typed next; while keys drive, they go on driving. */
+  /** Called for a pose captured by a key, to edit its name; not while keys drive the robot. */
   onNew(captured: Captured): void;
 }
 

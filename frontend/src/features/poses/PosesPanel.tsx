@@ -1,5 +1,5 @@
-// The robot's poses: a contact sheet of cards, what can be done with one, and the ways to home, rest and any pose. The robot
-// moves only by the buttons that say so.
+// The panel of poses: cards, tools for the selected pose, and moving home, to rest or to a pose. The robot moves only by buttons that say
+// so.
 
 import { useRef, useState } from 'react';
 import { type Pose, movePose, removePose, setPose } from '#shared/profile/pose.ts';
@@ -20,13 +20,12 @@ import { PoseVerbs } from './PoseVerbs.tsx';
 import { useNaming, useSelectedPose } from './naming.ts';
 import styles from './PosesPanel.module.css';
 
-// Where there is no pose yet: how some would look, on the robot at hand.
-
+/** Shown without poses: what some would look like on the current robot. */
 function EmptyPoses() {
   return <EmptyState title={words.poses.empty} hint={words.poses.emptyHint} sketch={<Sketch />} />;
 }
 
-/** How far each servo is from home, of the way to its limit. */
+/** The sketches' distances from home, as fractions of the way to the limit. */
 const SHARES = [-0.4, 0, 0.4];
 
 function Sketch() {
@@ -50,8 +49,6 @@ function Sketch() {
 function turned({ home, min, max }: Record<'home' | 'min' | 'max', number>, share: number): number {
   return Math.round(home + share * (share < 0 ? home - min : max - home));
 }
-
-// The poses in order, one card each; they wrap like a contact sheet.
 
 function PoseList() {
   const { poses, view, notices } = useStores();
@@ -101,9 +98,7 @@ function PoseList() {
   );
 }
 
-// Which servos a pose is about. One that is put in takes the place it is commanded to now; one that is left out stays
-// where it is when the pose is gone to.
-
+/** Chooses the servos of a pose. A servo that is added gets its current target; servos that are not in the pose do not move. */
 function ServoPicker({ pose }: { readonly pose: Pose }) {
   const { device, poses } = useStores();
   const robot = useRobot();
@@ -111,7 +106,7 @@ function ServoPicker({ pose }: { readonly pose: Pose }) {
   const known = useDevice((state) => state.known);
   const sameUnit = useDevice((state) => state.family.unit === pose.unit);
   const included = new Set(pose.targets.map(({ servo }) => servo));
-  /** Of a file: they can be left out. */
+  /** Servos from a file that this robot lacks; they can be removed. */
   const unknown = unknownServos(robot, pose.targets);
 
   function choose(servo: number, isIn: boolean): void {

@@ -1,5 +1,5 @@
-// A pose between two others, looked at before anything goes there: the body shows it, and where the person switched that on the
-// robot goes along with the slider. STOP and a lost link switch it off. Knows no panel.
+// The blend of two poses: a preview on the body, and while “follow” is on the robot moves with the slider. STOP and a lost link switch it
+// off. Knows no panel.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { ServoTarget } from '#shared/codec/commands.ts';
@@ -9,16 +9,16 @@ import { freeOf, type Locking } from '../servoView.ts';
 import { createFollower } from '../../robot/follower.ts';
 
 export interface BlendState {
-  /** null: nothing is looked at. */
+  /** null without a preview. */
   readonly targets: readonly ServoTarget[] | null;
   readonly isLive: boolean;
 }
 
 export interface Blend {
   readonly store: StoreApi<BlendState>;
-  /** In the unit of the board at hand; null ends it, and the robot stays. */
+  /** In the unit of the connected board; null ends the preview, and the robot stays. */
   show(targets: readonly ServoTarget[] | null): void;
-  /** From now on the robot goes there, gently at first, or not any more. */
+  /** Switches following on, with a slow first move, or off. */
   follow(isLive: boolean): void;
 }
 

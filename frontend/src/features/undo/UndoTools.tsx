@@ -1,4 +1,4 @@
-// Undo and redo of one history, each named by what it takes back or brings again. Knows no particular history.
+// Buttons for undo and redo of a history, each named after its step. Knows no particular history.
 
 import type { StoreApi } from 'zustand';
 import { redoLabel, undoLabel, type History } from '#shared/document/history.ts';

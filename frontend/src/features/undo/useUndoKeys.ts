@@ -1,11 +1,10 @@
-// Ctrl+Z and Ctrl+Shift+Z or Ctrl+Y (Command on a Mac) for the document, from anywhere but a text field, which has an undo
-// of its own.
+// Ctrl+Z, Ctrl+Shift+Z and Ctrl+Y (Command on a Mac) for a document, except in text fields, which have their own undo.
 
 import { useEffect } from 'react';
 import type { Undoable } from '../../state/undoable.ts';
 import { isTextField } from '../../ui/inputEvents.ts';
 
-/** null: they do nothing now. */
+/** null if the keys do nothing now. */
 export function useUndoKeys(document: Pick<Undoable<unknown>, 'undo' | 'redo'> | null): void {
   useEffect(() => {
     const key = (event: KeyboardEvent): void => {
