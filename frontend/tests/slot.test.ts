@@ -60,7 +60,7 @@ test('a group without a slot of its own gets a free one, and another group is re
   await dashboard.type(dashboard.slot, 2);
   await expect(dashboard.boardBar).toContainText('Holds “Bow in two”');
   await dashboard.button('Download').click();
-  await expect(question).toContainText('“Wave in none” takes the place of “Bow in two”');
+  await expect(question).toContainText('“Wave in none” replaces “Bow in two”');
   await question.getByRole('button', { name: 'Leave it as it is' }).click();
   await expect(question).toBeHidden();
   expect(await stored()).toEqual([2]);
