@@ -131,7 +131,7 @@ test('no `if` asks which family a board is of: what it would know is a field of 
 
 test('no identifier of the page is a word that says nothing by itself', () => {
   const banned =
-    /^(told|kept|keeper|gang|aside|fate|desk|asks|shelving|workedOut|playedAt|lateNews)$|^(?:told|keeper|gang|shelving|lateNews)[A-Z]/;
+    /^(told|kept|keeper|gang|aside|fate|desk|asks|shelving|strangers?|meant|goOn|creep(?:s|ing)?|whoever|nobody|somebody|workedOut|playedAt|lateNews)$|^(?:told|keeper|gang|shelving|goOn|lateNews)[A-Z]/;
   /** A file that does not say its unit asks for it. */
   const allowed = ['asksUnit'];
   const identifiersOf = (file: string): readonly string[] =>

@@ -630,8 +630,8 @@ export interface Messages {
     readonly label: string;
     readonly drives: string;
     readonly others: (values: { readonly count: number }) => string;
-    readonly nobody: string;
-    readonly nobodyMore: string;
+    readonly noDriver: string;
+    readonly noDriverMore: string;
     readonly watching: string;
     readonly theirsIn: (values: { readonly seconds: number }) => string;
     readonly yoursIn: (values: { readonly seconds: number }) => string;

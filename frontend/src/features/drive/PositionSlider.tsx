@@ -188,7 +188,7 @@ function valueText(scale: Scale, target: number | null, isRead: boolean, guess: 
 function Track({ servo, range }: { readonly servo: RobotServo; readonly range: Range }) {
   return (
     <div
-      className={cx(styles.lane, isNarrow(servo, range) && styles.narrow)}
+      className={cx(styles.rail, isNarrow(servo, range) && styles.narrow)}
       style={between(servo, range)}
       aria-hidden="true"
     >

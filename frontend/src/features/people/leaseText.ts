@@ -64,8 +64,8 @@ const beingRequested = ({ you }: Lease, requestedBy: string): LeaseText => ({
 
 const unclaimed = ({ mayDrive }: Lease): LeaseText => ({
   truth: 'neutral',
-  text: words.lease.nobody,
-  more: { said: mayDrive ? words.lease.nobodyMore : words.lease.watching },
+  text: words.lease.noDriver,
+  more: { said: mayDrive ? words.lease.noDriverMore : words.lease.watching },
   acts: [],
 });
 

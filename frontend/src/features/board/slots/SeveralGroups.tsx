@@ -240,7 +240,7 @@ export interface Wanted {
 }
 
 /** `own`: the slot that is stored in the group. */
-type Asked = Omit<Wanted, 'slot'> & { readonly own: number | null };
+type Requested = Omit<Wanted, 'slot'> & { readonly own: number | null };
 
 /** Why a group cannot be downloaded; null if it can. */
 export function hindranceOf(one: Wanted, all: readonly Wanted[]): string | null {
@@ -257,12 +257,12 @@ export function hindranceOf(one: Wanted, all: readonly Wanted[]): string | null 
  * theirs before groups that take any. `placeOf`: as `slotFor`, without the slots that are taken.
  */
 export function thoseThatCan(
-  asked: readonly Asked[],
+  requested: readonly Requested[],
   wanted: readonly Wanted[],
   placeOf: (own: number | null, taken: readonly number[]) => number,
 ): { readonly can: readonly Wanted[]; readonly cannot: readonly Wanted[] } {
   const [can, cannot]: [Wanted[], Wanted[]] = [[], []];
-  for (const { own, ...one } of asked.toSorted((a, b) => Number(a.own === null) - Number(b.own === null))) {
+  for (const { own, ...one } of requested.toSorted((a, b) => Number(a.own === null) - Number(b.own === null))) {
     const before = [...wanted, ...can];
     const taken = before.map(({ slot }) => slot);
     const placed = { ...one, slot: placeOf(own, taken) };

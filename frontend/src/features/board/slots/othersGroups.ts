@@ -23,7 +23,7 @@ export interface OthersGroupsOptions {
 export function findOthersGroups(options: OthersGroupsOptions): void {
   const { device, robots, slots, compiled, library } = options;
   let isLooking = false;
-  let isAskedAgain = false;
+  let isListedAgain = false;
   /** Documents that were missing when the library was listed for them. */
   const listedFor = new Set<string>();
 
@@ -39,12 +39,12 @@ export function findOthersGroups(options: OthersGroupsOptions): void {
   }
 
   async function look(): Promise<void> {
-    isAskedAgain = isLooking;
+    isListedAgain = isLooking;
     if (isLooking) return;
     isLooking = true;
     for (const [slot, stored] of unfound()) await lookFor(slot, stored).catch(() => undefined);
     isLooking = false;
-    if (isAskedAgain) await look();
+    if (isListedAgain) await look();
   }
 
   async function lookFor(slot: number, { documentId, version, name, by, atMs }: StoredGroup): Promise<void> {

@@ -29,11 +29,11 @@ interface AnswerProps extends Omit<ButtonProps, 'onPress'> {
 
 export function Answer({ onPress, ...rest }: AnswerProps) {
   const { clock } = useStores().device;
-  const [askedMs] = useState(clock.now);
+  const [shownMs] = useState(clock.now);
 
   function isEcho({ detail, nativeEvent }: MouseEvent): boolean {
     const isFinger = nativeEvent instanceof PointerEvent && nativeEvent.pointerType === 'touch';
-    return isFinger ? clock.now() - askedMs < READ_MS : detail > 1;
+    return isFinger ? clock.now() - shownMs < READ_MS : detail > 1;
   }
 
   return (
