@@ -300,6 +300,7 @@ export interface Messages {
     readonly look: string;
     readonly missing: string;
     readonly missingHint: string;
+    readonly belowFloor: (values: { readonly seconds: string }) => string;
   };
   readonly authoring: {
     readonly label: string;

@@ -15,6 +15,7 @@ const NAMES = [
     'estimated',
     'confirmed',
     'unknown',
+    'warning',
   ] as const),
   ...COLOURS,
 ] as const;

@@ -5,4 +5,8 @@ import { laterComponent } from '../../ui/later.tsx';
 
 export const LiveArm = laterComponent(async () => (await import('./LiveArm.tsx')).LiveArm, '0');
 export const LiveBones = laterComponent(async () => (await import('./LiveBones.tsx')).LiveBones, '0');
-export const RobotView = laterComponent(async () => (await import('./three/RobotView.tsx')).RobotView, '0', 'asked');
+export const RobotView = laterComponent(
+  async () => (await import('./three/RobotView.tsx')).RobotView,
+  '0',
+  'asked',
+);
