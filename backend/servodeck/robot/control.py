@@ -208,7 +208,7 @@ class Control:
         if for_ms is None:
             self.board.unattended.end()
             return
-        run = self.board.run
+        run = self.board.activity.run
         if run is None:
             raise CancelledError("Nothing is running.")
         self.board.unattended.allow(run, session, for_ms / 1000)

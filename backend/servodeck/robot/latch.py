@@ -83,7 +83,7 @@ class Watch:
             self._stop_unwatched()
 
     def driver_silent(self) -> None:
-        if self._control.board.may_still_move() and not self._control.board.unattended.by:
+        if self._control.board.activity.may_still_move() and not self._control.board.unattended.by:
             self._stop_unwatched()
 
     def driver_lost(self) -> None:
@@ -93,7 +93,7 @@ class Watch:
         """What one driver began does not go on under the next; nobody has to resume for it."""
         board = self._control.board
         is_unattended = board.unattended.by and self._control.driving.driver is None
-        if board.may_move() and not is_unattended:
+        if board.activity.may_move() and not is_unattended:
             self.end_quietly(NotDrivingError("Another client drives now."))
 
     def lease_changed(self) -> None:
@@ -113,7 +113,7 @@ class Watch:
             board.unattended.end()
         elif not is_of(driver, caller_id):
             return
-        if board.may_still_move():
+        if board.activity.may_still_move():
             with contextlib.suppress(GatewayError):
                 self._control.stop(Cause("person", by))
 

@@ -127,7 +127,7 @@ class Operations:
             grant = Grant(self._control, claim)
             self._control.board.plays.judge_idle()
             # One that left between the repeats of a stop would be ended by the last one.
-            for stops in (self._ending, self._control.board.returning):
+            for stops in (self._ending, self._control.board.returns.stops):
                 if stops:
                     await asyncio.shield(stops)
                     claim.renew()
@@ -200,7 +200,7 @@ class Operations:
 
     def _judge_rest(self) -> None:
         """Flash work freezes servos and then lets them jump (S29, S39)."""
-        if self._control.board.may_move() or not self._control.board.moves.is_empty:
+        if self._control.board.activity.may_move() or not self._control.board.moves.is_empty:
             raise MovingError("The robot is moving: wait until it rests, or stop it first.")
 
     @contextlib.asynccontextmanager

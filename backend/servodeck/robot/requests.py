@@ -197,7 +197,7 @@ class Requests:
         board.jobs.judge_idle()
         board.plays.judge_idle()
         is_clear = board.moves.is_empty and wire.is_clear_of(lambda number: number not in HARMLESS)
-        if board.may_move() or not is_clear:
+        if board.activity.may_move() or not is_clear:
             raise MovingError(still_moving(board.motion, self._now()))
         claim()
         return board.jobs.begin(parts, by, board.link.place, wire)

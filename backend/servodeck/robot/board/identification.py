@@ -2,7 +2,7 @@
 it is taken for, named by a person, watched while idle. Twin of shared/src/robot/identification.ts and
 heartbeat.ts.
 
-Decides when a board is ready, and how much silence means that it is gone; the questions and their meaning are
+Decides when a board is ready, and after how many questions it is gone; the questions and their meaning are
 identity.py. Knows no port.
 """
 
@@ -263,30 +263,3 @@ class Heartbeat:
                 self._gone()  # which may stop it
         if self._runs:
             self._wait()
-
-
-ANSWER_S = 0.5  # the longest answer, that for six positions, takes 450 ms (X7)
-
-
-class Silence:
-    def __init__(self) -> None:
-        self._answered: set[int] = set()
-        self._asked_s: float | None = None
-        self._misses = 0
-
-    def asked(self, command: int, at_s: float) -> None:
-        """That question leaves the wire then."""
-        is_due = self._is_due(at_s)
-        if command in self._answered and (self._asked_s is None or is_due):
-            self._misses += is_due
-            self._asked_s = at_s
-
-    def heard(self, command: int) -> None:
-        self._answered.add(command)
-        self._asked_s, self._misses = None, 0
-
-    def is_silent(self, now: float) -> bool:
-        return self._misses + self._is_due(now) >= HEARTBEAT.misses
-
-    def _is_due(self, now: float) -> bool:
-        return self._asked_s is not None and now - self._asked_s >= ANSWER_S

@@ -1,9 +1,8 @@
-"""Frames that the gateway plays by its own clock: how far they are and how they ended, one play at a time;
-and the run, of the board or played from here, that may go on without its driver. Twin of
-shared/src/robot/live.ts.
+"""Frames that the gateway plays by its own clock: how far they are and how they ended. One play at a time.
+Twin of the playing in shared/src/robot/live.ts.
 
-Knows frames, the moves that wait for the wire, and time; not who may begin a play or let one go on, nor how a
-run is stopped.
+Knows frames, the moves that wait for the wire, and time; not who may begin a play, and not when somebody else
+ends it.
 """
 
 import asyncio
@@ -15,12 +14,12 @@ from servodeck.errors import CancelledError, GatewayError, MovingError, OutOfRan
 from servodeck.port.wire import Left
 from servodeck.protocol.families import Family
 from servodeck.protocol.limits import PacketError, check, check_range
-from servodeck.protocol.values import Frame, Move, Run, ServoTarget
+from servodeck.protocol.values import Frame, Move, ServoTarget
 from servodeck.robot.board.move_buffer import MoveBuffer, MoveRequest
 from servodeck.robot.board.player import Player
 from servodeck.robot.board.rules import extremes_of, refusal_of
 from servodeck.robot.hub import Session
-from servodeck.snapshots import PlayState, UnattendedRun
+from servodeck.snapshots import PlayState
 from servodeck.value import value
 
 # As often as others are told what left.
@@ -241,57 +240,3 @@ class Plays:
         self._teller, self._published_s = None, self._now()
         if self.latest:
             self._publish(self.latest)
-
-
-@value
-class AllowedRun:
-    run: Run | Playing
-    by: Session
-    until_s: float
-
-
-class Unattended:
-    def __init__(
-        self, now: Callable[[], float], over: Callable[[], None], changed: Callable[[], None]
-    ) -> None:
-        """`over`: its time is. `changed`: so is what people are told of it."""
-        self._now = now
-        self._over = over
-        self._changed = changed
-        self._present: AllowedRun | None = None
-        self._timer: asyncio.TimerHandle | None = None
-
-    @property
-    def by(self) -> Session | None:
-        return self._present.by if self._present else None
-
-    def snapshot(self) -> UnattendedRun | None:
-        if self._present is None:
-            return None
-        run, left_s = self._present.run, max(0.0, self._present.until_s - self._now())
-        slot = run.slot if isinstance(run, Run) else None
-        return UnattendedRun(
-            slot=slot, times=run.times, by=self._present.by.caller.name, ends_in_ms=round(left_s * 1000)
-        )
-
-    def allow(self, run: Run | Playing, by: Session, for_s: float) -> None:
-        self._show(AllowedRun(run, by, self._now() + for_s))
-
-    def end(self) -> None:
-        """It is nobody's any more, or watched again."""
-        if self._present:
-            self._show(None)
-
-    def follow(self, run: Run | Playing | None) -> None:
-        """That one runs now, so far as anybody knows: another one has not been allowed anything."""
-        if self._present and self._present.run is not run:
-            self._show(None)
-
-    def _show(self, allowed: AllowedRun | None) -> None:
-        if self._timer:
-            self._timer.cancel()
-        self._present, self._timer = allowed, None
-        if allowed:
-            delay_s = allowed.until_s - self._now()
-            self._timer = asyncio.get_running_loop().call_later(delay_s, self._over)
-        self._changed()
