@@ -1920,10 +1920,30 @@ export interface Messages {
       readonly keyBefore: string;
       readonly keyAfter: string;
       readonly nextMarker: string;
+      readonly toggleKey: string;
+      readonly toStart: string;
+      readonly toEnd: string;
+      readonly tickBefore: string;
+      readonly tickAfter: string;
+      readonly ticksBefore: string;
+      readonly ticksAfter: string;
+      readonly pageBefore: string;
+      readonly pageAfter: string;
     };
     readonly markerVerbs: {
       readonly marker: string;
       readonly remove: string;
+    };
+    readonly needs: {
+      readonly keys: string;
+      readonly keysOrMarker: string;
+    };
+    readonly keyUses: {
+      readonly move: string;
+      readonly moveFar: string;
+      readonly select: string;
+      readonly add: string;
+      readonly type: string;
     };
     readonly nudge: string;
     readonly nudges: {

@@ -1,23 +1,25 @@
-// The tooltip: what it says, beside what that is about. It opens and closes as it is drawn or not.
+// The tooltip: what it says and which key does the same, beside what that is about. It opens and closes as it is drawn or not.
 
 import type { RefObject } from 'react';
 import { Tooltip, TooltipTriggerStateContext } from 'react-aria-components/Tooltip';
+import type { HintText } from './hinting.ts';
 import { InLanguage } from './InLanguage.tsx';
 import styles from './Hints.module.css';
 
-interface HintProps {
-  readonly text: string;
+interface HintProps extends HintText {
   readonly of: RefObject<Element | null>;
   onClose(): void;
 }
 
-export function Hint({ text, of, onClose }: HintProps) {
+export function Hint({ text, keys, whyNot, of, onClose }: HintProps) {
   const state = { isOpen: true, shouldSkipAnimation: true, open: () => undefined, close: onClose };
   return (
     <InLanguage>
       <TooltipTriggerStateContext value={state}>
         <Tooltip key={text} triggerRef={of} className={styles.hint ?? ''} offset={6}>
           {text}
+          {keys !== '' && <kbd className={styles.keys}>{keys}</kbd>}
+          {whyNot !== '' && <p className={styles.whyNot}>{whyNot}</p>}
         </Tooltip>
       </TooltipTriggerStateContext>
     </InLanguage>

@@ -16,7 +16,7 @@ export interface ToggleButtonProps {
 export function ToggleButton({ isOn, hint, children, onChange }: ToggleButtonProps) {
   return (
     <button
-      {...(hint === undefined ? {} : hinted(hint))}
+      {...hinted({ hint })}
       type="button"
       className={styles.button}
       aria-pressed={isOn}

@@ -1,10 +1,42 @@
 // Which element's hint is to be shown: that of what the pointer rests on, or of what the keyboard leads to, until anything is done.
 // A finger has no hover and sees none. Knows no tooltip.
 
+import { chordText, shortcutsOf } from './action.ts';
+
 export const HINT = 'data-hint';
+const KEYS = 'data-hint-keys';
+const WHY_NOT = 'data-hint-why-not';
+
+export interface Hinted {
+  /** What the name alone does not say. */
+  readonly hint?: string | undefined;
+  /** Keys that do the same; the first is shown. */
+  readonly keys?: readonly string[] | undefined;
+  /** Why it cannot be done now. */
+  readonly whyNot?: string | undefined;
+}
 
 /** To be spread on what is explained. */
-export const hinted = (text: string) => ({ [HINT]: text });
+export function hinted({ hint, keys = [], whyNot }: Hinted) {
+  const [shown] = keys;
+  if (hint === undefined && shown === undefined && whyNot === undefined) return {};
+  return {
+    [HINT]: hint ?? '',
+    ...(shown !== undefined && { [KEYS]: chordText(shown), 'aria-keyshortcuts': shortcutsOf(keys) }),
+    ...(whyNot !== undefined && { [WHY_NOT]: whyNot }),
+  };
+}
+
+export interface HintText {
+  readonly text: string;
+  readonly keys: string;
+  readonly whyNot: string;
+}
+
+export function hintOf(element: Element): HintText {
+  const said = (name: string): string => element.getAttribute(name) ?? '';
+  return { text: said(HINT), keys: said(KEYS), whyNot: said(WHY_NOT) };
+}
 
 /** Long enough for a pointer on its way to something else. */
 const REST_MS = 500;

@@ -6,7 +6,7 @@ import { deleteFrames, duplicateFrames, moveFrames } from '#shared/group/groupEd
 import type { ActionGroup } from '#shared/group/group.ts';
 import { type TimelineStores, contextOf, rangeOf, rowOf } from '../timeline/context.ts';
 import { spanFrames, showFrame, showFrames } from '../timeline/inStep.ts';
-import { chordOf } from '../timeline/keymap.ts';
+import { chordOf } from '../../../ui/action.ts';
 import { neighbour } from '../../../ui/useCards.ts';
 import { ALL_ROW } from '../timeline/timeline.ts';
 import { wholeFrames } from '../timeline/wholeFrames.ts';

@@ -24,13 +24,13 @@ import { copy, cut, paste } from './changes.ts';
 import { clipFromText, clipToText } from './clipText.ts';
 import { contextOf } from './context.ts';
 import { keepInStep } from './inStep.ts';
-import { actionOf } from './keymap.ts';
 import { bringToLife, sizesNow } from './trackCanvas.ts';
 import { Minimap } from './Minimap.tsx';
 import { PlayheadLine } from './PlayheadLine.tsx';
 import { heightOf, placedRows } from './rows.ts';
 import { topOfRows } from './sizes.ts';
 import { StatusText, type Said } from './StatusText.tsx';
+import { pressInTimeline } from './timelineActions.ts';
 import { TimelineMenu, type OpenMenu } from './TimelineMenu.tsx';
 import { TimelineTools } from './TimelineTools.tsx';
 import { useRows } from './useTimelineContext.ts';
@@ -130,11 +130,9 @@ export const Timeline = memo(function Timeline({ onPlay }: { onPlay(isPreview: b
   function key(event: KeyboardEvent): void {
     if (event.target !== grid.current) return;
     const isMenuKey = event.key === 'ContextMenu' || (event.key === 'F10' && event.shiftKey);
-    const action = actionOf(event.nativeEvent);
     if (isMenuKey) openMenu('keys', cellAtCursor());
     else if (event.key === ' ' && !event.ctrlKey) onPlay(event.shiftKey);
-    else if (action === undefined) return;
-    else action(contextOf(stores));
+    else if (!pressInTimeline(contextOf(stores), event.nativeEvent)) return;
     event.preventDefault();
   }
 

@@ -1,4 +1,4 @@
-// The menu of the timeline, at the pointer or below its button: the verbs that fit what is selected, or what is done to a row.
+// The menu of the timeline, at the pointer or below its button: the actions that fit what is selected, or what is done to a row.
 
 import { memo } from 'react';
 import { Menu, MenuItem, MenuSection, SubmenuTrigger } from 'react-aria-components/Menu';
@@ -8,13 +8,14 @@ import { COLOURS } from '#shared/document/schema.ts';
 import { EASINGS } from '#shared/group/group.ts';
 import { toggled, type ServoView } from '../../servoView.ts';
 import { editServoView, useServoView, useStores } from '../../stores.ts';
+import { chordText } from '../../../ui/action.ts';
+import { hinted } from '../../../ui/hinting.ts';
 import { Icon } from '../../../ui/Icon.tsx';
 import { words } from '../../../i18n/whole.ts';
 import { colour, ease } from './changes.ts';
 import { contextOf, rowOf } from './context.ts';
-import { chordText } from './keymap.ts';
 import type { Row } from './rows.ts';
-import { mayRun, verbName, VERBS, type VerbName } from './verbs.ts';
+import { TIMELINE_ACTIONS, type TimelineActionName } from './timelineActions.ts';
 import { InLanguage } from '../../../ui/InLanguage.tsx';
 import styles from '../../../ui/Menu.module.css';
 
@@ -24,12 +25,12 @@ export interface OpenMenu {
   readonly anchor: { readonly current: Element | null };
 }
 
-const SECTIONS: readonly (readonly VerbName[])[] = [
+const SECTIONS: readonly (readonly TimelineActionName[])[] = [
   ['setKey', 'editValue', 'marker'],
   ['cut', 'copy', 'paste', 'duplicate', 'remove', 'removeTime'],
 ];
 /** Behind a word of their own: all in one list are higher than a small window. */
-const CHANGES: readonly VerbName[] = [
+const CHANGES: readonly TimelineActionName[] = [
   'reverse',
   'mirror',
   'scaleTime',
@@ -38,7 +39,13 @@ const CHANGES: readonly VerbName[] = [
   'insertTime',
   'note',
 ];
-const LOOKS: readonly VerbName[] = ['selectAll', 'selectRow', 'fitSelection', 'range', 'nextMarker'];
+const LOOKS: readonly TimelineActionName[] = [
+  'selectAll',
+  'selectRow',
+  'fitSelection',
+  'range',
+  'nextMarker',
+];
 
 export const TimelineMenu = memo(function TimelineMenu({
   menu,
@@ -65,13 +72,13 @@ export const TimelineMenu = memo(function TimelineMenu({
 function KeysMenu({ onClose }: { onClose(): void }) {
   const stores = useStores();
   const context = contextOf(stores);
-  const items = (verbs: readonly VerbName[]): React.ReactElement[] =>
-    verbs.map((verb) => <VerbItem key={verb} verb={verb} />);
+  const items = (names: readonly TimelineActionName[]): React.ReactElement[] =>
+    names.map((name) => <ActionItem key={name} name={name} />);
   return (
     <Menu className={styles.menu ?? ''} aria-label={words.timeline.menu} autoFocus="first" onClose={onClose}>
-      {SECTIONS.map((verbs) => (
-        <MenuSection key={verbs[0]} aria-label={words.timeline.menu}>
-          {items(verbs)}
+      {SECTIONS.map((names) => (
+        <MenuSection key={names[0]} aria-label={words.timeline.menu}>
+          {items(names)}
           <Separator className={styles.separator ?? ''} />
         </MenuSection>
       ))}
@@ -112,21 +119,24 @@ function KeysMenu({ onClose }: { onClose(): void }) {
   );
 }
 
-function VerbItem({ verb }: { readonly verb: VerbName }) {
+function ActionItem({ name }: { readonly name: TimelineActionName }) {
   const stores = useStores();
-  const { icon, keys, run } = VERBS[verb];
-  const { state } = contextOf(stores);
-  const name = verbName(verb, state);
+  const { icon, keys, label, enabled, run } = TIMELINE_ACTIONS[name];
+  const context = contextOf(stores);
+  const text = label(context);
+  const mayNow = enabled(context);
+  const [key] = keys;
   return (
     <MenuItem
+      {...(mayNow !== true && hinted({ whyNot: mayNow }))}
       className={styles.item ?? ''}
-      textValue={name}
-      isDisabled={!mayRun(contextOf(stores), VERBS[verb])}
+      textValue={text}
+      isDisabled={mayNow !== true}
       onAction={() => run(contextOf(stores))}
     >
       <Icon name={icon} />
-      {name}
-      <kbd className={styles.keys}>{chordText(keys)}</kbd>
+      {text}
+      {key !== undefined && <kbd className={styles.keys}>{chordText(key)}</kbd>}
     </MenuItem>
   );
 }

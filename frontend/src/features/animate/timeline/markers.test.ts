@@ -1,7 +1,7 @@
 import { describe, expect, test } from 'vitest';
 import { addMarker } from '#shared/group/frameEdits.ts';
 import { createTestTimeline } from './timelineUnderTest.ts';
-import { verbName } from './verbs.ts';
+import { TIMELINE_ACTIONS } from './timelineActions.ts';
 
 async function withMarkers() {
   const context = await createTestTimeline();
@@ -47,10 +47,12 @@ describe('markers by keyboard', () => {
     expect([chosen(), keys(1), steps() - stepsBefore]).toEqual(['Wave', before, 3]);
   });
 
-  test('are renamed and deleted by the verbs of keys, which then say so', async () => {
+  test('are renamed and deleted by the actions of keys, which then say so', async () => {
     const { key, marks, stores } = await withMarkers();
     const named = () =>
-      (['marker', 'remove'] as const).map((verb) => verbName(verb, stores.timeline.getState()));
+      (['marker', 'remove'] as const).map((name) =>
+        TIMELINE_ACTIONS[name].label({ state: stores.timeline.getState() }),
+      );
     expect(named()).toEqual(['Set marker', 'Delete keys']);
     key('M', { shiftKey: true });
     expect(named()).toEqual(['Rename marker', 'Delete marker']);

@@ -11,9 +11,9 @@ import { contextOf, select } from './context.ts';
 import type { Held } from './gesture.ts';
 import { gestureOf } from './gestures.ts';
 import { selectedKeys } from './groupTimes.ts';
-import { actionOf } from './keymap.ts';
 import { keyY, sceneOf } from './scene.ts';
 import { sizesOf } from './sizes.ts';
+import { pressInTimeline } from './timelineActions.ts';
 import { xOf } from './timeScale.ts';
 
 const at = (...positions: readonly (number | null)[]) =>
@@ -30,6 +30,8 @@ export function smallGroup(): ActionGroup {
 
 const SIZES = sizesOf(false, false);
 const NOTHING_HELD: Held = { ctrl: false, shift: false, alt: false };
+
+const NO_KEY_HELD = { ctrlKey: false, metaKey: false, shiftKey: false, altKey: false };
 
 export async function createTestTimeline() {
   const { device, notices, robots, noticeTexts } = await createTestPage();
@@ -89,7 +91,7 @@ export async function createTestTimeline() {
     },
     click: (spot: { x: number; y: number }, held: Partial<Held> = {}) => press(spot, held).end(true),
     key: (key: string, held: { ctrlKey?: boolean; shiftKey?: boolean } = {}) =>
-      actionOf({ key, ctrlKey: false, metaKey: false, shiftKey: false, altKey: false, ...held })?.(context()),
+      pressInTimeline(context(), { ...NO_KEY_HELD, key, ...held }),
     steps: () => document.store.getState().past.length - 1,
     /** Times and positions of a servo's keys. */
     keys: (servo: number) =>

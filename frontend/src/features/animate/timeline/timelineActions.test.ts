@@ -6,32 +6,34 @@ import { servoOf } from '#shared/profile/robot.ts';
 import { editServoView } from '../../stores.ts';
 import { ALL_ROW } from './timeline.ts';
 import { words } from '../../../i18n/whole.ts';
-import { chordOf, chordText } from './keymap.ts';
 import { keepInStep } from './inStep.ts';
-import { VERBS } from './verbs.ts';
+import { TIMELINE_ACTIONS } from './timelineActions.ts';
 import { createTestTimeline } from './timelineUnderTest.ts';
 
-test('a key is named by what is held with it, Command like Ctrl, and Shift only where it makes no other sign', () => {
-  const plain = { ctrlKey: false, metaKey: false, shiftKey: false, altKey: false };
-  expect(chordOf({ ...plain, key: 'A', metaKey: true, shiftKey: true })).toBe('Ctrl+Shift+a');
-  expect(chordOf({ ...plain, key: '+', shiftKey: true })).toBe('+');
-  expect(chordOf({ ...plain, key: 'ArrowLeft', shiftKey: true })).toBe('Shift+ArrowLeft');
+test('what cannot be done says why, and its key does nothing', async () => {
+  const { key, select, steps, context } = await createTestTimeline();
+  const whyNot = () =>
+    (['reverse', 'remove', 'paste', 'setKey'] as const).map((name) =>
+      TIMELINE_ACTIONS[name].enabled(context()),
+    );
+  expect(whyNot()).toEqual([
+    words.timeline.needs.keys,
+    words.timeline.needs.keysOrMarker,
+    words.timeline.nothingToPaste,
+    true,
+  ]);
+  const before = steps();
+  expect(key('r')).toBe(true);
+  expect(steps()).toBe(before);
+  select([2, 1]);
+  TIMELINE_ACTIONS.copy.run(context());
+  expect(whyNot()).toEqual([true, true, true, true]);
 });
 
-test('the menu names a key as it is written on it', () => {
-  expect(['Ctrl+x', 'r', 'Shift+f', 'Ctrl+Shift+a'].map(chordText)).toEqual([
-    'Ctrl+X',
-    'R',
-    'Shift+F',
-    'Ctrl+Shift+A',
-  ]);
-  expect(['Enter', 'F2', 'Shift+Delete', '+', ','].map(chordText)).toEqual([
-    'Enter',
-    'F2',
-    'Shift+Delete',
-    '+',
-    ',',
-  ]);
+test('a key that means nothing in the timeline is left to others', async () => {
+  const { key } = await createTestTimeline();
+  expect(key('q')).toBe(false);
+  expect(key('c', { ctrlKey: true })).toBe(false);
 });
 
 test('a typed number opens the field of the selected keys, with its first digit', async () => {
@@ -248,9 +250,9 @@ describe('keys', () => {
   test('copy, paste and duplicate; each is one step', async () => {
     const { key, keys, select, stores, context, steps } = await createTestTimeline();
     select([1, 3], [3, 3]);
-    VERBS.copy.run(context());
+    TIMELINE_ACTIONS.copy.run(context());
     stores.timeline.setState({ playheadMs: 2000 });
-    VERBS.paste.run(context());
+    TIMELINE_ACTIONS.paste.run(context());
     expect(stores.timeline.getState().cursor).toMatchObject({ row: ALL_ROW, frameId: 4 });
     expect(keys(3)).toEqual([
       [500, 2000],
@@ -266,11 +268,11 @@ describe('keys', () => {
   test('keys go from one group to another, and each group undoes its own', async () => {
     const { key, keys, select, stores, context, group } = await createTestTimeline();
     select([1, 3], [3, 3]);
-    VERBS.copy.run(context());
+    TIMELINE_ACTIONS.copy.run(context());
     const first = stores.document.store.getState();
     stores.document.take(startHistory(emptyGroup('Other', 'us')));
     stores.timeline.setState({ playheadMs: 300, ripples: true });
-    VERBS.paste.run(context());
+    TIMELINE_ACTIONS.paste.run(context());
     expect(keys(3)).toEqual([
       [300, 2000],
       [1300, 1000],
@@ -387,7 +389,7 @@ describe('keys', () => {
     const moments = [{ atMs: 0, easing: 'linear', note: '', colour: null, targets }] as const;
     stores.timeline.setState({ clip: { unit: 'us', leadMs: 0, moments } });
     const before = group();
-    VERBS.paste.run(context());
+    TIMELINE_ACTIONS.paste.run(context());
     expect(group()).toBe(before);
     expect(noticeTexts()).toEqual(['Not pasted: Gripper at 2600 is out of range; it takes 500 to 2500.']);
   });
