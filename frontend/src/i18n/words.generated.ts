@@ -1001,6 +1001,13 @@ export interface Messages {
       readonly busy: string;
     };
   };
+  readonly cards: {
+    readonly toStart: string;
+    readonly toEnd: string;
+    readonly isFirst: string;
+    readonly isLast: string;
+    readonly walk: string;
+  };
   readonly actions: {
     readonly defaultName: string;
     readonly capture: string;
@@ -1063,6 +1070,12 @@ export interface Messages {
     readonly notConverted: string;
     readonly frameAbout: (values: { readonly number: number; readonly durationMs: number; readonly count: number; readonly servos: string }) => string;
     readonly moved: (values: { readonly count: number; readonly from: number; readonly first: number; readonly last: number }) => string;
+    readonly selectAll: string;
+    readonly onlyOne: string;
+    readonly spanTo: string;
+    readonly nothingToUndo: string;
+    readonly nothingToRedo: string;
+    readonly nothingWritten: string;
   };
   readonly board: {
     readonly details: string;
@@ -2231,5 +2244,21 @@ export interface Messages {
     readonly battery: (values: { readonly mv: number }) => string;
     readonly copy: string;
     readonly copied: string;
+  };
+  readonly actionList: {
+    readonly title: string;
+    readonly search: string;
+    readonly nothing: string;
+    readonly elsewhere: (values: { readonly place: string }) => string;
+    readonly nextPart: string;
+    readonly previousPart: string;
+    readonly menu: string;
+    readonly places: {
+      readonly page: string;
+      readonly timeline: string;
+      readonly frames: string;
+      readonly poses: string;
+      readonly buttons: string;
+    };
   };
 }

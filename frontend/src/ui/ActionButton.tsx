@@ -1,7 +1,7 @@
 // Buttons made from an action: its name, icon and key, and while it cannot be done, why.
 
 import type { Action } from './action.ts';
-import { IconButton } from './Button.tsx';
+import { Button, IconButton, type ButtonProps } from './Button.tsx';
 
 interface ActionButtonProps<Context, Shown> {
   readonly action: Action<Context, Shown>;
@@ -24,5 +24,22 @@ export function ActionIconButton<Context, Shown>({
       {...{ icon, keys, label: action.label(shown), whyNot: whyNotOf(action.enabled(shown)) }}
       onPress={() => action.run(context())}
     />
+  );
+}
+
+export function ActionButton<Context, Shown>({
+  action,
+  shown,
+  context,
+  ...looks
+}: ActionButtonProps<Context, Shown> & Pick<ButtonProps, 'tone' | 'hint'>) {
+  const { icon, keys } = action;
+  return (
+    <Button
+      {...{ ...looks, icon, keys, whyNot: whyNotOf(action.enabled(shown)) }}
+      onPress={() => action.run(context())}
+    >
+      {action.label(shown)}
+    </Button>
   );
 }

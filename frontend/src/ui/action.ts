@@ -70,3 +70,14 @@ export function actionOf<One extends Pick<Action<never>, 'keys'>>(
   const chord = chordOf(pressed);
   return OF_CLIPBOARD.includes(chord) ? undefined : actions.find(({ keys }) => keys.includes(chord));
 }
+
+/** Whether the key was one of these actions; one that cannot be done now has its key and does nothing. */
+export function runByKey<Context extends Shown, Shown>(
+  actions: readonly Action<Context, Shown>[],
+  pressed: Pressed,
+  context: Context,
+): boolean {
+  const action = actionOf(actions, pressed);
+  if (action?.enabled(context) === true) action.run(context);
+  return action !== undefined;
+}

@@ -1,7 +1,8 @@
-// Keys of a list of cards with one tab stop: arrows select, Alt with an arrow moves the card, Delete deletes it. The focus
-// follows the selection. Knows no document.
+// Keys of a list of cards with one tab stop: arrows select, and the keys of its actions act on the card. The focus follows the
+// selection. Knows no document.
 
 import { useEffect, useEffectEvent, useRef, useState, type KeyboardEvent, type RefObject } from 'react';
+import type { Pressed } from './action.ts';
 
 // Which place in a list a key leads to from `index`: the same for every list of cards. null: the key leads nowhere.
 
@@ -25,17 +26,15 @@ interface CardsOptions {
   /** The attribute in which a card carries its id; the part that takes the focus has `data-card-face`. */
   readonly attribute: string;
   select(id: number | null): void;
-  /** Selects what has moved. */
-  move(id: number, to: number): void;
-  /** Selects what comes next. */
-  remove(id: number, next: number | null): void;
+  /** Whether the key was one of an action, which is done to the card and selects what is to have the focus then. */
+  act(pressed: Pressed, id: number): boolean;
 }
 
 interface Cards<List extends HTMLElement> {
   readonly list: RefObject<List | null>;
   /** The card that Tab leads to. */
   readonly tabStop: number | null;
-  /** The focus follows what was selected by any other key. */
+  /** The focus follows what was selected by anything else. */
   focusSelected(): void;
   /** To be heard by the list, so that a card is drawn again only when it is another. */
   key(event: KeyboardEvent): void;
@@ -65,11 +64,10 @@ export function useCards<List extends HTMLElement>(options: CardsOptions): Cards
       if (id === null) return;
       const index = ids.indexOf(id);
       const to = neighbour(event.key, index, ids.length);
-      if (event.key === 'Delete' || event.key === 'Backspace')
-        options.remove(id, ids[index + 1] ?? ids[index - 1] ?? null);
-      else if (to === null) return;
-      else if (event.altKey && to !== index) options.move(id, to);
-      else options.select(ids[to] ?? id);
+      if (!options.act(event.nativeEvent, id)) {
+        if (to === null) return;
+        options.select(ids[to] ?? id);
+      }
       focusSelected();
       event.preventDefault();
     },

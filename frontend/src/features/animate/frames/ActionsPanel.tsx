@@ -2,7 +2,7 @@
 // frames first, and what begins one right below them. Edits go to the document alone; the robot moves only by Play and by loading a
 // pose.
 
-import { Fragment, useCallback } from 'react';
+import { Fragment } from 'react';
 import { totalDurationMs } from '#shared/group/group.ts';
 import { rename } from '#shared/group/groupEdits.ts';
 import { convertGroup } from '#shared/group/frameEdits.ts';
@@ -21,7 +21,7 @@ import { useIsPainted } from '../../../ui/useInFrame.ts';
 import { useLayout } from '../../../ui/useLayout.ts';
 import { NameField } from '../../../ui/NameField.tsx';
 import type { PanelParts } from '../../../ui/Panel.tsx';
-import { PlayBar, usePlayer } from '../play/PlayBar.tsx';
+import { PlayBar } from '../play/PlayBar.tsx';
 import { UndoTools } from '../../undo/UndoTools.tsx';
 import { FrameStrip } from './FrameStrip.tsx';
 import { FrameTools } from './FrameTools.tsx';
@@ -116,14 +116,9 @@ function Tools() {
 
 function Content() {
   const isEmpty = useDocument(({ present }) => present.frames.length === 0);
-  const player = usePlayer();
   const isPhone = useLayout() === 'phone';
   const isPainted = useIsPainted();
-  const play = useCallback(
-    (isPreview: boolean) => (isPreview ? player.togglePreview() : player.toggle()),
-    [player],
-  );
-  const timeline = <Timeline key="timeline" onPlay={play} />;
+  const timeline = <Timeline key="timeline" />;
   const capture = <CaptureBar key="capture" />;
   const tools = <FrameTools key="tools" />;
   const frames = (

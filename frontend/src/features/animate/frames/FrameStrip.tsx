@@ -1,19 +1,12 @@
 // The frames in order, one card each, for people who think in poses. The frame that plays is marked, and those that are selected
 // in the timeline.
 
-import {
-  useEffect,
-  useEffectEvent,
-  type RefObject,
-  useState,
-  useMemo,
-  type CSSProperties,
-  type KeyboardEvent,
-} from 'react';
+import { useEffect, useEffectEvent, type RefObject, useState, useMemo, type CSSProperties } from 'react';
 import { indexOfFrame } from '#shared/group/groupEdits.ts';
 import { useStores } from '../../stores.ts';
 import { clipFromText, clipToText } from '../timeline/clipText.ts';
-import { copy, cut, paste, togetherNow, moveBy, removeFrames, createStripKeys } from './frameVerbs.ts';
+import { createStripKeys } from './frameActions.ts';
+import { copy, cut, paste, togetherNow } from './frameVerbs.ts';
 import { cardOf, useCards } from '../../../ui/useCards.ts';
 import { usePlayedFrame } from '../play/usePlayedFrame.ts';
 import { showFrame } from '../timeline/inStep.ts';
@@ -122,21 +115,13 @@ export function FrameStrip() {
   const selected = useInFrame(stores.view, (state) => state.selectedFrame);
   const playing = usePlayedFrame();
   const whole = useWholeFrames();
-  const [ownKeys] = useState(() => createStripKeys(stores));
+  const [act] = useState(() => createStripKeys(stores));
   const { list, tabStop, key, focusSelected } = useCards<HTMLOListElement>({
     ...{ ids: group.frames.map(({ id }) => id), selected, attribute: ATTRIBUTE },
     select: (id) => showFrame(stores, id),
-    move: (id, to) => moveBy(stores, id, to - indexOfFrame(group, id)),
-    remove: (id) => removeFrames(stores, togetherNow(stores, id)),
+    act,
   });
   useStripClipboard(list, focusSelected);
-
-  function anyKey(event: KeyboardEvent): void {
-    const id = cardOf(event.target, ATTRIBUTE);
-    if (id === null || !ownKeys(event.nativeEvent, id)) return key(event);
-    event.preventDefault();
-    focusSelected();
-  }
 
   const { first, end, roomBeforePx, roomBehindPx } = useStripWindow(
     list,
@@ -150,7 +135,7 @@ export function FrameStrip() {
       ref={list}
       className={styles.strip}
       aria-label={words.actions.frames}
-      onKeyDown={anyKey}
+      onKeyDown={key}
       style={roomOf(roomBeforePx, roomBehindPx)}
     >
       {group.frames.slice(first, end).map((frame, index) => (

@@ -1,153 +1,63 @@
 // What can be done with the selected frames, in words. Always in its place, so that nothing jumps when a frame is selected.
 
-import { indexOfFrame, setTargets } from '#shared/group/groupEdits.ts';
-import { freeOf, stayingOf } from '../../locks.ts';
+import { indexOfFrame } from '#shared/group/groupEdits.ts';
 import { motionHindrance } from '../../../robot/readiness.ts';
-import { GENTLE_MOVE_MS } from '../../../robot/moveTime.ts';
 import { useDevice, useDocument, useSnapshot, useStores, useTimeline, useView } from '../../stores.ts';
-import { Button, IconButton } from '../../../ui/Button.tsx';
+import { ActionButton, ActionIconButton } from '../../../ui/ActionButton.tsx';
 import { words } from '../../../i18n/whole.ts';
 import { AddsSwitch } from '../timeline/TimelineTools.tsx';
 import { useWholeFrames } from '../timeline/wholeFrames.ts';
-import { captureFrame } from './capture.ts';
+import { FRAME_ACTIONS, frameContextOf, type FrameContext } from './frameActions.ts';
+import { together } from './frameVerbs.ts';
 import { useKnowsPose } from './CaptureStrip.tsx';
-import { copy, cut, duplicate, moveBy, paste, removeFrames, together, type FrameIds } from './frameVerbs.ts';
 import styles from './FrameTools.module.css';
 
-const INSERTS = [
-  ['before', 'insertBefore'],
-  ['after', 'insertAfter'],
+const ICONS = [
+  ['before', 'after', 'earlier', 'later', 'duplicate'],
+  ['cut', 'copy', 'paste', 'remove'],
 ] as const;
 
 export function FrameTools() {
-  const stores = useStores();
-  const { device, document, notices } = stores;
-  const id = useView((state) => state.selectedFrame) ?? -1;
-  const index = useDocument(({ present }) => indexOfFrame(present, id));
-  const unit = useDocument(({ present }) => present.unit);
-  const knowsPose = useKnowsPose();
-  const mayMove = useSnapshot((snapshot) => motionHindrance(snapshot) === null);
-  const sameUnit = useDevice((state) => state.family.unit === unit);
-  const whole = together(useWholeFrames(), id);
-  const several = whole.length > 1;
-  const none = index < 0;
-  /** These are about one frame. */
-  const notOne = none || several;
-
-  const load = (): void => {
-    const frame = document.store.getState().present.frames[index];
-    if (frame === undefined) return;
-    const free = freeOf(stores, frame.targets);
-    const staying = stayingOf(stores, frame.targets);
-    if (free.length > 0) device.move(free, Math.max(frame.durationMs, GENTLE_MOVE_MS));
-    if (staying !== null) notices.tell('info', staying);
-  };
-  const update = (): void =>
-    document.edit(
-      () => words.actions.steps.update({ number: index + 1 }),
-      (before) => setTargets(before, id, device.pose()),
-    );
+  const shown = useFrameContext();
+  const { stores, id, ids } = shown;
+  const context = (): FrameContext => frameContextOf(stores);
+  const index = useDocument(({ present }) => indexOfFrame(present, id ?? -1));
   return (
     <div className={styles.tools} role="group" aria-label={words.actions.tools}>
       <span className={styles.which}>
-        {none
+        {id === null
           ? words.actions.select
-          : several
-            ? words.actions.several({ count: whole.length })
+          : ids.length > 1
+            ? words.actions.several({ count: ids.length })
             : words.actions.frame({ number: index + 1 })}
       </span>
       <AddsSwitch />
-      <Button tone="quiet" icon="pose" isDisabled={notOne || !mayMove || !sameUnit} onPress={load}>
-        {words.actions.load}
-      </Button>
-      <Button tone="quiet" icon="update" isDisabled={notOne || !knowsPose || !sameUnit} onPress={update}>
-        {words.actions.update}
-      </Button>
-      <span className={styles.icons}>
-        {INSERTS.map(([side, icon]) => (
-          <IconButton
-            key={side}
-            icon={icon}
-            label={words.actions.insert[side]}
-            isDisabled={notOne || !knowsPose || !sameUnit}
-            onPress={() => captureFrame(stores, side)}
-          />
-        ))}
-        <OrderButtons ids={none ? [] : whole} />
-      </span>
-      <span className={styles.icons}>
-        <ClipButtons ids={none ? [] : whole} />
-        <IconButton
-          icon="trash"
-          label={words.actions.delete}
-          isDisabled={none}
-          onPress={() => removeFrames(stores, whole)}
-        />
-      </span>
+      <ActionButton tone="quiet" action={FRAME_ACTIONS.load} {...{ shown, context }} />
+      <ActionButton tone="quiet" action={FRAME_ACTIONS.update} {...{ shown, context }} />
+      {ICONS.map((names) => (
+        <span key={names[0]} className={styles.icons}>
+          {names.map((name) => (
+            <ActionIconButton key={name} action={FRAME_ACTIONS[name]} {...{ shown, context }} />
+          ))}
+        </span>
+      ))}
     </div>
   );
 }
 
-interface OfFrames {
-  readonly ids: FrameIds;
-}
-
-function OrderButtons({ ids }: OfFrames) {
+/** Drawn again whenever something changes that the actions look at. */
+function useFrameContext(): FrameContext {
   const stores = useStores();
-  const isAtStart = useDocument(({ present }) => ids.includes(present.frames[0]?.id ?? -1));
-  const isAtEnd = useDocument(({ present }) => ids.includes(present.frames.at(-1)?.id ?? -1));
-  const [id] = ids;
-  const move = (places: number) => (): void => {
-    if (id !== undefined) moveBy(stores, id, places);
-  };
-  return (
-    <>
-      <IconButton
-        icon="earlier"
-        label={words.actions.earlier}
-        isDisabled={id === undefined || isAtStart}
-        onPress={move(-1)}
-      />
-      <IconButton
-        icon="later"
-        label={words.actions.later}
-        isDisabled={id === undefined || isAtEnd}
-        onPress={move(1)}
-      />
-      <IconButton
-        icon="duplicate"
-        label={words.actions.duplicate}
-        isDisabled={id === undefined}
-        onPress={() => duplicate(stores, ids)}
-      />
-    </>
-  );
-}
-
-function ClipButtons({ ids }: OfFrames) {
-  const stores = useStores();
-  const hasClip = useTimeline(({ clip }) => clip !== null);
-  const none = ids.length === 0;
-  return (
-    <>
-      <IconButton
-        icon="cut"
-        label={words.actions.cut}
-        isDisabled={none}
-        onPress={() => void cut(stores, ids)}
-      />
-      <IconButton
-        icon="copy"
-        label={words.actions.copy}
-        isDisabled={none}
-        onPress={() => void copy(stores, ids)}
-      />
-      <IconButton
-        icon="paste"
-        label={words.actions.paste}
-        isDisabled={!hasClip}
-        onPress={() => paste(stores, stores.timeline.getState().clip)}
-      />
-    </>
-  );
+  const selected = useView((state) => state.selectedFrame);
+  const whole = useWholeFrames();
+  useKnowsPose();
+  useSnapshot(motionHindrance);
+  useDevice((state) => state.family);
+  useTimeline(({ clip }) => clip !== null);
+  useDocument(({ present }) => present.unit);
+  useDocument(({ present }) => [present.frames[0]?.id, present.frames.at(-1)?.id].join());
+  const isThere = useDocument(({ present }) => indexOfFrame(present, selected ?? -1) >= 0);
+  return isThere && selected !== null
+    ? { stores, id: selected, ids: together(whole, selected) }
+    : { stores, id: null, ids: [] };
 }

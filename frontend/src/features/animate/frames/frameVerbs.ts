@@ -1,53 +1,16 @@
-// The verbs of the frame strip, for one frame or several: moved, duplicated, deleted, cut, copied, pasted. Each is one step of
+// What is done to one frame or several: moved, duplicated, deleted, cut, copied, pasted. Each is one step of
 // the history, and the selection goes along. Knows no panel; moves no robot.
 
 import { copyFrames, pasteFrames, type Clip } from '#shared/group/clip.ts';
 import { deleteFrames, duplicateFrames, moveFrames } from '#shared/group/groupEdits.ts';
 import type { ActionGroup } from '#shared/group/group.ts';
 import { type TimelineStores, contextOf, rangeOf, rowOf } from '../timeline/context.ts';
-import { spanFrames, showFrame, showFrames } from '../timeline/inStep.ts';
-import { chordOf } from '../../../ui/action.ts';
-import { neighbour } from '../../../ui/useCards.ts';
+import { showFrame, showFrames } from '../timeline/inStep.ts';
 import { ALL_ROW } from '../timeline/timeline.ts';
 import { wholeFrames } from '../timeline/wholeFrames.ts';
 import { namesIn } from '../../profiles/servoName.ts';
 import { notPasted } from '../timeline/clipText.ts';
 import { words } from '../../../i18n/whole.ts';
-
-// Keys of the frame strip beside those of every list of cards: Shift with an arrow selects up to there, Ctrl+A all,
-// Ctrl+D duplicates.
-
-/** Whether the key was one of these. `id`: the card that has the focus. */
-type StripKeys = (event: Pressed, id: number) => boolean;
-type Pressed = Parameters<typeof chordOf>[0];
-
-const VERBS: Readonly<Record<string, (stores: TimelineStores, id: number) => void>> = {
-  'Ctrl+a': selectAllFrames,
-  'Ctrl+d': (stores, id) => duplicate(stores, togetherNow(stores, id)),
-};
-
-export function createStripKeys(stores: TimelineStores): StripKeys {
-  /** What Shift has selected so far: it grows and shrinks at the other end. */
-  let span = { from: 0, to: 0 };
-
-  function extend(key: string, id: number): boolean {
-    const ids = stores.document.store.getState().present.frames.map((frame) => frame.id);
-    const to = neighbour(key, ids.indexOf(id), ids.length);
-    if (to === null) return false;
-    const goesOn = span.to === id && togetherNow(stores, id).includes(span.from);
-    span = { from: goesOn ? span.from : id, to: ids[to] ?? id };
-    spanFrames(stores, span.from, span.to);
-    return true;
-  }
-
-  return (event, id) => {
-    const { key, shiftKey, ctrlKey, metaKey, altKey } = event;
-    if (shiftKey && !ctrlKey && !metaKey && !altKey) return extend(key, id);
-    const verb = VERBS[chordOf(event)];
-    verb?.(stores, id);
-    return verb !== undefined;
-  };
-}
 
 export type FrameIds = readonly number[];
 /** As the person counts the frames, from 1. */

@@ -1,8 +1,7 @@
 // The actions of the timeline and the other keys that mean something in it, each with what must be selected for it. Toolbar, menu,
 // keys and the list of all actions are made from these. Escape is not among them: it is STOP everywhere.
 
-import type { Action, KeyUse, Pressed } from '../../../ui/action.ts';
-import { actionOf, chordOf } from '../../../ui/action.ts';
+import { chordOf, runByKey, type Action, type KeyUse, type Pressed } from '../../../ui/action.ts';
 import { words, type Words } from '../../../i18n/whole.ts';
 import {
   copy,
@@ -187,15 +186,17 @@ export const TIMELINE_KEYS: readonly TimelineKeys[] = [
   },
 ];
 
-/** Whether the key means something in the timeline. An action that cannot be done now has its key and does nothing. */
+export const MENU_KEYS: Pick<TimelineKeys, 'id' | 'keys' | 'label'> = {
+  ...{ id: 'menu', keys: ['Shift+F10', 'ContextMenu'], label: () => words.actionList.menu },
+};
+
+/** Whether the key means something in the timeline. */
 export function pressInTimeline(context: TimelineContext, pressed: Pressed): boolean {
   const chord = chordOf(pressed);
-  const action = actionOf(all, pressed);
   const use = TIMELINE_KEYS.find(({ keys }) => keys.includes(chord));
   // It begins a number where the selected keys can be below zero.
   if (chord === '-' && mayBeNegative(context)) type(context, chord);
   else if (use !== undefined) use.press(context, chord);
-  else if (action === undefined) return false;
-  else if (action.enabled(context) === true) action.run(context);
+  else return runByKey(all, pressed, context);
   return true;
 }

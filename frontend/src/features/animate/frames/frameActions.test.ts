@@ -1,7 +1,8 @@
 import { expect, test } from 'vitest';
 import { keepInStep, pressFrame } from '../timeline/inStep.ts';
 import { createTestTimeline } from '../timeline/timelineUnderTest.ts';
-import { chosenFrames, createStripKeys } from './frameVerbs.ts';
+import { createStripKeys } from './frameActions.ts';
+import { chosenFrames } from './frameVerbs.ts';
 
 async function createStrip() {
   const { stores, group } = await createTestTimeline();
@@ -35,7 +36,7 @@ test('Shift with arrows selects from where it began, there and back', async () =
   expect(chosen()).toEqual([2, 3]);
 });
 
-test('all are selected and duplicated; other keys are left to others', async () => {
+test('all are selected, duplicated and moved; other keys are left to others', async () => {
   const { click, press, chosen, group } = await createStrip();
   click(1);
   expect(press('a', { ctrlKey: true })).toBe(true);
@@ -44,5 +45,11 @@ test('all are selected and duplicated; other keys are left to others', async () 
   expect(group().frames).toHaveLength(6);
   expect(press('ArrowRight')).toBe(false);
   expect(press('x', { shiftKey: true })).toBe(false);
-  expect(press('ArrowRight', { altKey: true })).toBe(false);
+  const ids = () => group().frames.map(({ id }) => id);
+  click(1);
+  expect(press('ArrowRight', { altKey: true })).toBe(true);
+  expect(ids().slice(0, 3)).toEqual([2, 1, 3]);
+  expect(press('ArrowLeft', { altKey: true })).toBe(true);
+  expect(press('ArrowLeft', { altKey: true })).toBe(true);
+  expect(ids().slice(0, 3)).toEqual([1, 2, 3]);
 });
