@@ -25,7 +25,8 @@ export default defineConfig({
     ],
   },
   optimizeDeps: {
-    include: ['axe-core'],
+    // Found by the scan only where there is no cache of another version of the page.
+    include: ['axe-core', 'react-aria-components/Autocomplete', 'react-aria-components/SearchField'],
     rolldownOptions: { transform: { define: { 'process.env.NODE_ENV': '"production"' } } },
   },
   publicDir: 'frontend/public',

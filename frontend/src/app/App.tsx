@@ -4,7 +4,6 @@
 import { useEffect, useLayoutEffect, useRef, type UIEvent } from 'react';
 import { useStore } from 'zustand';
 import { CaptureStrip } from '../features/animate/frames/CaptureStrip.tsx';
-import { useUndoKeys } from '../features/undo/useUndoKeys.ts';
 import { useBatteryTab } from '../features/battery/BatteryReadout.tsx';
 import { motionsInFrame } from '../features/picture/motionInFrame.ts';
 import { BoardPanel } from '../features/board/BoardPanel.tsx';
@@ -14,14 +13,15 @@ import { LogDrawer, LogPanel, Messages } from '../features/log/LogDrawer.tsx';
 import { FilesProvider } from '../features/library/files/FilesArea.tsx';
 import { LibraryDialog } from '../features/library/LibraryDialog.tsx';
 import { PeopleDialog } from '../features/people/PeopleDialog.tsx';
-import { TakeThat } from '../features/animate/play/TakeThat.tsx';
+import { TakeDialog } from '../features/animate/play/TakeDialog.tsx';
 import { RobotDialog } from '../features/profiles/RobotDialog.tsx';
+import { ActionsDialog } from './ActionsDialog.tsx';
 import { Authoring } from './Authoring.tsx';
+import { usePageKeys } from './pageActions.ts';
 import { ReplaceQuestion } from '../features/board/slots/ReplaceQuestion.tsx';
 import { LivePanel } from './LivePanel.tsx';
 import { StopButton } from '../features/drive/StopButton.tsx';
 import { StoresContext, useStores, useView } from '../features/stores.ts';
-import type { Undoable } from '../state/undoable.ts';
 import type { Tab as TabName, Theme } from '../features/view.ts';
 import { TopBar } from './TopBar.tsx';
 import { Hints } from '../ui/Hints.tsx';
@@ -73,7 +73,8 @@ function Dashboard({ page }: { readonly page: Page }) {
       <RobotDialog />
       <LibraryDialog />
       <ReplaceQuestion />
-      {!isKiosk && <TakeThatKey />}
+      {!isKiosk && <TakeDialog />}
+      {!isKiosk && <ActionsDialog />}
       <PeopleDialog />
       <Hints />
     </div>
@@ -82,10 +83,11 @@ function Dashboard({ page }: { readonly page: Page }) {
 
 /** What goes on whatever is shown. On its own: all below whoever listens to something is drawn again when that changes. */
 function Unseen() {
-  const { device, pad, playback } = useStores();
+  const stores = useStores();
+  const { device, pad, playback } = stores;
   useTheme();
   useBatteryTab();
-  useUndoKeys(useWritten());
+  usePageKeys(stores);
   useFocusRestored();
   useNoPasteByMouse();
   useParts();
@@ -108,21 +110,6 @@ const whenIdle = (): Promise<void> =>
       REST_MS,
     );
   });
-
-/** What the undo keys are about: what is written on now. */
-function useWritten(): Pick<Undoable<unknown>, 'undo' | 'redo'> | null {
-  const { document: group, poses, macros, mappings } = useStores();
-  return useView(({ kiosk, tab, authoring }) => {
-    if (kiosk === 'on') return null;
-    if (tab === 'buttons') return macros;
-    return { group, poses: poses.book, pad: mappings }[authoring];
-  });
-}
-
-/** On the page of buttons letters start buttons. */
-function TakeThatKey() {
-  return useView((state) => state.tab !== 'buttons') ? <TakeThat /> : null;
-}
 
 function WideWork() {
   const isButtons = useView((state) => state.tab === 'buttons');

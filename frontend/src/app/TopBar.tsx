@@ -14,6 +14,7 @@ import { PageSwitch } from '../features/buttons/PageSwitch.tsx';
 import { boardName } from '../i18n/sentences.ts';
 import { LinkChip } from '../features/connect/LinkChip.tsx';
 import { StatusLine, type StatusLineProps } from '../features/connect/StatusLine.tsx';
+import { ActionsButton } from './ActionsDialog.tsx';
 import { PART } from '../ui/useParts.ts';
 import languageControlStyles from './LanguageControl.module.css';
 import styles from './TopBar.module.css';
@@ -58,6 +59,9 @@ export function TopBar({ onMoveHere }: Pick<StatusLineProps, 'onMoveHere'>) {
       </div>
       <BatteryReadout />
       <div className={styles.looks}>
+        <span className={styles.actions}>
+          <ActionsButton />
+        </span>
         <PeopleButton />
         <LanguageControl />
         <ThemeButton />

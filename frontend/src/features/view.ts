@@ -33,6 +33,8 @@ export interface ViewState {
   readonly connectOpen: boolean;
   readonly libraryOpen: boolean;
   readonly peopleOpen: boolean;
+  /** The list of all actions. */
+  readonly actionsOpen: boolean;
   /** What of the robots is open; null: nothing. */
   readonly robotView: 'list' | 'edit' | 'calibrate' | null;
   /** How far that of one robot has come: nothing of it is lost by a reload. */
@@ -100,6 +102,7 @@ export const INITIAL_VIEW: ViewState = {
   connectOpen: false,
   libraryOpen: false,
   peopleOpen: false,
+  actionsOpen: false,
   robotView: null,
   calibration: null,
   logOpen: false,

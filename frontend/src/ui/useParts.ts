@@ -1,4 +1,4 @@
-// F6 goes from one part of the page to the next and Shift+F6 back, to where the keys were in it last: from the sliders to the
+// The way from one part of the page to the next and back, to where the focus was in it last: from the sliders to the
 // frames with one press, not with forty. A dialog is alone on the page while it is open.
 
 import { useEffect } from 'react';
@@ -9,37 +9,31 @@ export const PART = { 'data-part': '' } as const;
 const PARTS = '[data-part]';
 const STOPS = 'a[href], button, input, select, textarea, [tabindex]';
 
+/** Where the focus was last in each part. */
+const lastIn = new WeakMap<Element, HTMLElement>();
+
 export function useParts(): void {
   useEffect(() => {
-    const lastIn = new WeakMap<Element, HTMLElement>();
-
-    function note({ target }: FocusEvent): void {
+    const note = ({ target }: FocusEvent): void => {
       const part = partOf(target);
       if (part !== null && target instanceof HTMLElement) lastIn.set(part, target);
-    }
-
-    function go(event: KeyboardEvent): void {
-      if (event.key !== 'F6' || event.ctrlKey || event.altKey || event.metaKey) return;
-      event.preventDefault();
-      const stops = [...document.querySelectorAll(PARTS)]
-        .flatMap((part) => {
-          const [first, last] = [firstStop(part), lastIn.get(part)];
-          const isLastThere = last !== undefined && part.contains(last) && isStop(last);
-          return first === undefined ? [] : [{ part, first, stop: isLastThere ? last : first }];
-        })
-        .toSorted((one, other) => (isBefore(one.first, other.first) ? -1 : 1));
-      const here = stops.findIndex(({ part }) => part === partOf(document.activeElement));
-      const next = event.shiftKey ? (here < 0 ? -1 : here - 1) : here + 1;
-      stops.at(next % Math.max(1, stops.length))?.stop.focus();
-    }
-
-    document.addEventListener('focusin', note);
-    window.addEventListener('keydown', go);
-    return () => {
-      document.removeEventListener('focusin', note);
-      window.removeEventListener('keydown', go);
     };
+    document.addEventListener('focusin', note);
+    return () => document.removeEventListener('focusin', note);
   }, []);
+}
+
+export function goToPart(direction: 1 | -1): void {
+  const stops = [...document.querySelectorAll(PARTS)]
+    .flatMap((part) => {
+      const [first, last] = [firstStop(part), lastIn.get(part)];
+      const isLastThere = last !== undefined && part.contains(last) && isStop(last);
+      return first === undefined ? [] : [{ part, first, stop: isLastThere ? last : first }];
+    })
+    .toSorted((one, other) => (isBefore(one.first, other.first) ? -1 : 1));
+  const here = stops.findIndex(({ part }) => part === partOf(document.activeElement));
+  const next = direction === -1 ? (here < 0 ? -1 : here - 1) : here + 1;
+  stops.at(next % Math.max(1, stops.length))?.stop.focus();
 }
 
 const partOf = (target: EventTarget | null): Element | null =>

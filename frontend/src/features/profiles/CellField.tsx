@@ -2,7 +2,8 @@
 // can be mended, and the field is marked. Enter goes on in the same column of the next row.
 
 import { useState, type KeyboardEvent } from 'react';
-import { undoActionOf } from '../undo/useUndoKeys.ts';
+import { actionOf } from '../../ui/action.ts';
+import { UNDO_ACTIONS } from '../undo/undoActions.ts';
 import styles from './ServoTable.module.css';
 
 export interface CellFieldProps {
@@ -34,7 +35,7 @@ export function CellField(props: CellFieldProps) {
       else neighbour.focus();
     }
     // What is being typed has the browser's own undo.
-    if (draft !== null && undoActionOf(event) !== null) event.stopPropagation();
+    if (draft !== null && actionOf(UNDO_ACTIONS, event) !== undefined) event.stopPropagation();
   }
 
   return (

@@ -30,10 +30,12 @@ import { PlayheadLine } from './PlayheadLine.tsx';
 import { heightOf, placedRows } from './rows.ts';
 import { topOfRows } from './sizes.ts';
 import { StatusText, type Said } from './StatusText.tsx';
-import { pressInTimeline } from './timelineActions.ts';
+import { MENU_KEYS, pressInTimeline } from './timelineActions.ts';
 import { TimelineMenu, type OpenMenu } from './TimelineMenu.tsx';
 import { TimelineTools } from './TimelineTools.tsx';
 import { useRows } from './useTimelineContext.ts';
+import { actionOf, chordOf } from '../../../ui/action.ts';
+import { PLAY, PREVIEW } from '../play/playActions.ts';
 import { PART } from '../../../ui/useParts.ts';
 import styles from './Timeline.module.css';
 
@@ -61,8 +63,7 @@ function useActiveCell(grid: RefObject<HTMLElement | null>, id: string): void {
   }, [grid, cell, row]);
 }
 
-/** `onPlay`: the play key was pressed here, with Shift to play on the drawing alone. */
-export const Timeline = memo(function Timeline({ onPlay }: { onPlay(isPreview: boolean): void }) {
+export const Timeline = memo(function Timeline() {
   const stores = useStores();
   const id = useId();
   const [menu, setMenu] = useState<OpenMenu | null>(null);
@@ -129,9 +130,10 @@ export const Timeline = memo(function Timeline({ onPlay }: { onPlay(isPreview: b
 
   function key(event: KeyboardEvent): void {
     if (event.target !== grid.current) return;
-    const isMenuKey = event.key === 'ContextMenu' || (event.key === 'F10' && event.shiftKey);
-    if (isMenuKey) openMenu('keys', cellAtCursor());
-    else if (event.key === ' ' && !event.ctrlKey) onPlay(event.shiftKey);
+    const plays = actionOf([PLAY, PREVIEW], event);
+    if (MENU_KEYS.keys.includes(chordOf(event))) openMenu('keys', cellAtCursor());
+    // The player says what keeps it from playing.
+    else if (plays !== undefined) plays.run(stores);
     else if (!pressInTimeline(contextOf(stores), event.nativeEvent)) return;
     event.preventDefault();
   }
