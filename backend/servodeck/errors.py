@@ -12,6 +12,7 @@ ErrorCode = Literal[
     "portMissing",
     "portBusy",
     "portDenied",
+    "hidDenied",
     "otherDevice",
     "boardUnknown",
     "wrongBoard",
@@ -80,6 +81,12 @@ class PortBusyError(PortError):
 
 class PortDeniedError(PortError):
     code: ClassVar[ErrorCode] = "portDenied"
+
+
+class HidDeniedError(PortDeniedError):
+    """A board on its own USB cable, which takes a rule of its own on Linux."""
+
+    code: ClassVar[ErrorCode] = "hidDenied"
 
 
 class OtherDeviceError(PortError):

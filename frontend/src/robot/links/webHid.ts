@@ -4,6 +4,7 @@
 import type { ByteChannel } from '#shared/robot/byteChannel.ts';
 import { REPORT_BYTES } from '#shared/robot/hidReports.ts';
 import { LinkError, type LinkErrorCode } from '#shared/robot/linkError.ts';
+import USB from '../../../../shared/protocol/usb.json' with { type: 'json' };
 import type { Withheld } from '#shared/robot/state.ts';
 import { createDeviceFinder } from './deviceFinder.ts';
 import { openBoard } from './hidConnection.ts';
@@ -25,9 +26,7 @@ export interface HidHere {
   readonly granted: readonly GrantedBoard[];
 }
 
-/** Unrelated devices share the numbers; boards bear one of the names. */
-const BOARD = { vendorId: 0x0483, productId: 0x5750 } as const;
-const NAMES = ['lobot', 'hiwonder'];
+const { vendorId, productId, names: NAMES } = USB.hid;
 /** Commands of their own do these on HID, and only others' programs tell of those (docs/adr/0028). */
 export const HID_WITHHELD: readonly Withheld[] = ['download', 'erase'];
 
@@ -45,7 +44,7 @@ export async function lookForHid(): Promise<HidHere> {
  */
 export async function chooseBoard(all = false): Promise<HIDDevice> {
   try {
-    const [board] = await navigator.hid.requestDevice({ filters: all ? [] : [BOARD] });
+    const [board] = await navigator.hid.requestDevice({ filters: all ? [] : [{ vendorId, productId }] });
     if (board !== undefined) return board;
   } catch (error) {
     const code = ['NotFoundError', 'AbortError'].includes(nameOf(error)) ? 'notChosen' : 'portDenied';
@@ -84,5 +83,7 @@ const kindOf = ({ vendorId, productId, productName }: HIDDevice): string =>
 const hex = (id: number): string => id.toString(16).padStart(4, '0');
 
 export function boardLabel(board: HIDDevice): string {
-  return board.productName === '' ? `HID ${hex(board.vendorId)}:${hex(board.productId)}` : board.productName;
+  return board.productName === ''
+    ? `HID device (id ${hex(board.vendorId)}:${hex(board.productId)})`
+    : board.productName;
 }
