@@ -42,6 +42,7 @@ export interface Messages {
     readonly moveHere: string;
     readonly gatewayAnswers: string;
     readonly useGateway: string;
+    readonly sharedBoard: string;
     readonly needsYou: string;
     readonly chip: (values: { readonly status: string }) => string;
     readonly chipWithPort: (values: { readonly status: string; readonly label: string }) => string;
@@ -71,6 +72,7 @@ export interface Messages {
     readonly notThis: string;
     readonly version: (values: { readonly version: number }) => string;
     readonly askDetails: string;
+    readonly answeredIn: (values: { readonly ms: number }) => string;
     readonly unproven: string;
     readonly offsets: (values: { readonly offsets: string }) => string;
     readonly answers: {
@@ -88,6 +90,7 @@ export interface Messages {
       readonly echoed: string;
       readonly answered: string;
       readonly noise: string;
+      readonly silentOnOwnCable: string;
       readonly silent: string;
     };
     readonly described: {
@@ -907,13 +910,15 @@ export interface Messages {
     readonly webSerial: {
       readonly title: string;
       readonly about: (values: { readonly body: string }) => string;
+      readonly listed: string;
       readonly choose: string;
       readonly inUse: string;
       readonly secureLink: string;
     };
     readonly webHid: {
       readonly title: string;
-      readonly about: string;
+      readonly about: (values: { readonly body: string }) => string;
+      readonly listed: string;
       readonly choose: string;
       readonly showAll: string;
       readonly inUse: string;
@@ -923,6 +928,7 @@ export interface Messages {
     readonly webBluetooth: {
       readonly title: string;
       readonly about: string;
+      readonly listed: string;
       readonly choose: string;
       readonly inUse: string;
       readonly unsupported: string;
@@ -936,6 +942,7 @@ export interface Messages {
       readonly refresh: string;
       readonly inUse: (values: { readonly hasOthers: boolean }) => string;
       readonly simulated: string;
+      readonly unnamed: string;
       readonly noneHere: string;
     };
     readonly simulated: {
@@ -953,6 +960,7 @@ export interface Messages {
       readonly hexapod: string;
       readonly plain: string;
     };
+    readonly listed: (values: { readonly names: string }) => string;
     readonly how: string;
     readonly notHere: string;
   };
@@ -1527,7 +1535,12 @@ export interface Messages {
     readonly more: (values: { readonly list: string; readonly count: number }) => string;
   };
   readonly guide: {
-    readonly title: string;
+    readonly title: {
+      readonly serial: string;
+      readonly hid: string;
+    };
+    readonly copy: string;
+    readonly copied: string;
     readonly system: string;
     readonly systems: {
       readonly windows: string;
@@ -1548,6 +1561,10 @@ export interface Messages {
       readonly snap: string;
       readonly notLinux: string;
       readonly school: string;
+      readonly hidWindows: string;
+      readonly hidHeld: string;
+      readonly hidRule: string;
+      readonly notHid: string;
       readonly hid: string;
     };
   };
@@ -2240,8 +2257,9 @@ export interface Messages {
     readonly link: (values: { readonly way: string; readonly status: string; readonly why: string }) => string;
     readonly heardPackets: (values: { readonly count: number }) => string;
     readonly heardNoise: (values: { readonly count: number; readonly kind: string }) => string;
+    readonly heardNothingOnOwnCable: string;
     readonly heardNothing: string;
-    readonly battery: (values: { readonly mv: number }) => string;
+    readonly battery: (values: { readonly mv: number; readonly ms: number }) => string;
     readonly copy: string;
     readonly copied: string;
   };

@@ -20,6 +20,7 @@ import { createLimitGate } from './limitGate.ts';
 import { moveDurationMs, type Pace } from './moveTime.ts';
 import { createMovingWatch, createTargetBook } from './targetBook.ts';
 import type { Notices } from '../state/notices.ts';
+import { createUnaskedAnswers } from './unaskedAnswers.ts';
 import { createTrafficLog, type TrafficLog } from './traffic.ts';
 
 export type WayKind = 'webSerial' | 'webHid' | 'webBluetooth' | 'gateway' | 'simulated';
@@ -258,9 +259,13 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
       session.setAutoReconnect(autoReconnect);
       store.setState({ way });
       noteState(next.state);
+      const unasked = createUnaskedAnswers(() => notices.tell('warning', words.link.sharedBoard));
       unsubscribe = next.subscribe({
         state: noteState,
-        traffic: (entry) => traffic.add(entry, next.state.family.id),
+        traffic(entry) {
+          traffic.add(entry, next.state.family.id);
+          unasked(entry);
+        },
         problem: noteProblem,
         resumed: noteResumed,
       });

@@ -6,6 +6,7 @@ Knows packets and the link. Must not know clients, nor who may ask for what.
 
 import asyncio
 import contextlib
+import logging
 from collections.abc import Callable, Sequence
 from typing import Protocol
 
@@ -31,14 +32,14 @@ from servodeck.protocol.decoder import DecoderEvent, NoiseEvent, PacketEvent
 from servodeck.protocol.families import FAMILIES, UNKNOWN, Family, Question, Withheld, carried
 from servodeck.protocol.packets import CommandPacket, parse_report
 from servodeck.protocol.timings import BATTERY, IDENTIFY, wire_s
-from servodeck.protocol.values import Battery, Command, Report, RunAccepted, RunStarted
+from servodeck.protocol.values import Battery, Command, ReadBattery, Report, RunAccepted, RunStarted
 from servodeck.robot.board.activity import Activity, Unattended
 from servodeck.robot.board.estimate import Estimate
 from servodeck.robot.board.identification import Identification, Status
 from servodeck.robot.board.identity import QUESTIONS, identity_state
 from servodeck.robot.board.move_buffer import MoveBuffer
 from servodeck.robot.board.playing import Plays
-from servodeck.robot.board.readings import BatteryPoll, BatteryReader, Readings
+from servodeck.robot.board.readings import BatteryPoll, BatteryReader, Readings, UnaskedAnswers
 from servodeck.robot.board.replies import Replies
 from servodeck.robot.board.resync import Returns
 from servodeck.robot.board.rules import STOP, Part, packet_of
@@ -48,6 +49,7 @@ from servodeck.robot.motion.halt_plan import Unheld
 from servodeck.snapshots import IdentityState, JobState, LinkState, PlayState, PortState, StoredGroup
 
 DRAIN_S = 0.5
+log = logging.getLogger("servodeck.robot")
 
 
 class BoardEvents(Protocol):
@@ -122,6 +124,7 @@ class Board:
         self.jobs = Jobs(self, self.replies, now, slot_memory)
         self.moves = MoveBuffer(self, now, events.board_changed)
         self.plays = Plays(self.moves, self._play_changed, now)
+        self._unasked = UnaskedAnswers()
         self.unattended = Unattended(now, events.unattended_time_over, events.board_changed)
         self.activity = Activity(
             *(FAMILIES[family_id], self.plays, self.unattended, now),
@@ -268,6 +271,7 @@ class Board:
 
     def port_opened(self, wire: Wire) -> None:
         metrics.totals.port_openings += 1
+        self._unasked = UnaskedAnswers()
         self._events.port_opened()
         self.activity.lose()
         if self.returns.was_lost:
@@ -426,6 +430,8 @@ class Board:
         if command is None:  # filler
             return
         self.activity.left(packet, command, at_s, is_halting=self.link.wire().is_halting)
+        if isinstance(command, ReadBattery):
+            self._unasked.asked(at_s)
         self.jobs.left(command, at_s, self.link.place)
         is_opening = packet.number == STOP and owner is self
         if not is_opening:  # which ends nothing that anybody began
@@ -445,6 +451,9 @@ class Board:
         may_have_swallowed = self.motion.may_swallow
         self.activity.heard(report, event.packet.command)
         self.battery.heard(report)
+        if isinstance(report, Battery) and self._unasked.answered(self._now()):
+            facts = {"device": self.link.place}
+            log.warning("the board answers another program, too; close it", extra={"facts": facts})
         self.jobs.heard(report, self.link.place)
         self.replies.heard(report, self._now())
         hears_again = may_have_swallowed and not self.motion.may_swallow

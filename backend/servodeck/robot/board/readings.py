@@ -214,3 +214,24 @@ class BatteryPoll:
     async def _read(self) -> None:
         with contextlib.suppress(GatewayError):  # what the board did not say is counted where it is asked
             await self._ask()
+
+
+class UnaskedAnswers:
+    """Notices battery answers that were not asked for here, for one opening of the port: then another program
+    uses the same board, which neither a HID cable nor Bluetooth forbids. Twin of
+    frontend/src/robot/unaskedAnswers.ts.
+    """
+
+    def __init__(self) -> None:
+        self._asked_s = -math.inf
+        self._count = 0
+
+    def asked(self, at_s: float) -> None:
+        self._asked_s = at_s
+
+    def answered(self, at_s: float) -> bool:
+        """True once, when it is sure enough."""
+        if at_s - self._asked_s <= BATTERY.unasked_after_ms / 1000:
+            return False
+        self._count += 1
+        return self._count == BATTERY.unasked_limit
