@@ -29,6 +29,8 @@ const CASES: readonly {
   readonly name: string;
   readonly state: ConnectState;
   readonly current: Way['kind'] | null;
+  /** The current way leads nowhere. */
+  readonly isClosed?: boolean;
 }[] = [
   {
     name: 'Connect, no gateway',
@@ -58,6 +60,12 @@ const CASES: readonly {
         { device: '/dev/ttyACM1', description: 'Arduino', inUse: false },
       ],
     },
+  },
+  {
+    name: 'Connect, gateway without a port',
+    current: 'gateway',
+    isClosed: true,
+    state: { ...BASE, gateway: { device: null, isSimulated: false } },
   },
   {
     name: 'Connect, insecure address',
@@ -101,7 +109,7 @@ const ACTIONS: Actions = {
   disconnect: nothing,
 };
 
-export const CONNECT: readonly Exhibit[] = CASES.map(({ name, state, current }) => ({
+export const CONNECT: readonly Exhibit[] = CASES.map(({ name, state, current, isClosed = false }) => ({
   name,
   isInDialog: true,
   content: (
@@ -109,7 +117,8 @@ export const CONNECT: readonly Exhibit[] = CASES.map(({ name, state, current }) 
       state={state}
       current={current}
       body="arm"
-      isReady={current !== null}
+      isOpen={current !== null && !isClosed}
+      isReady={current !== null && !isClosed}
       actions={ACTIONS}
       onChoose={nothing}
       onLook={nothing}

@@ -2,11 +2,12 @@
 
 import { useEffect, useState } from 'react';
 import { useDevice, useSnapshot, useStores } from '../stores.ts';
-import { Button } from '../../ui/Button.tsx';
 import { Mark, type Truth } from '../../ui/Chip.tsx';
 import { errorSentence } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/whole.ts';
+import { isBoardsOwnCable } from '../../robot/readiness.ts';
 import type { ConnectState } from '../../robot/connector.ts';
+import { CopyButton } from './CopyButton.tsx';
 import { findingsOf, heardIn, interfacesHere, type Facts, type Finding } from './doctor.ts';
 import styles from './Doctor.module.css';
 
@@ -21,9 +22,10 @@ export function Doctor({ state }: { readonly state: ConnectState }) {
 }
 
 function Findings({ state }: { readonly state: ConnectState }) {
-  const { device, notices } = useStores();
+  const { device } = useStores();
   const interfaces = useInterfaces();
   const link = useSnapshot((snapshot) => snapshot.link);
+  const isOwnCable = useSnapshot(({ withheld }) => isBoardsOwnCable(withheld));
   const battery = useSnapshot((snapshot) => snapshot.battery);
   const way = useDevice((known) => known.way);
   if (interfaces === null) return null;
@@ -35,6 +37,7 @@ function Findings({ state }: { readonly state: ConnectState }) {
     gateway: typeof state.gateway === 'object' ? 'answers' : state.gateway,
     ...{ link, way: way?.label ?? null },
     heard: heardIn(device.traffic),
+    isOwnCable,
     batteryMv: battery.kind === 'read' ? battery.batteryMv : null,
   };
   const findings = findingsOf(facts);
@@ -43,10 +46,6 @@ function Findings({ state }: { readonly state: ConnectState }) {
     ...findings.map((finding) => `${signOf(finding)} ${sentenceOf(finding)}`),
     ...(facts.heard.noise.length > 0 ? [hexOf(facts.heard.noise)] : []),
   ].join('\n');
-  const copy = (): void =>
-    void navigator.clipboard
-      .writeText(report)
-      .then(() => notices.tell('info', words.doctor.copied), notices.tellError);
   return (
     <>
       <ul className={styles.findings}>
@@ -57,11 +56,7 @@ function Findings({ state }: { readonly state: ConnectState }) {
           </li>
         ))}
       </ul>
-      {window.isSecureContext && (
-        <Button tone="quiet" icon="copy" onPress={copy}>
-          {words.doctor.copy}
-        </Button>
-      )}
+      <CopyButton text={report} label={words.doctor.copy} done={words.doctor.copied} />
     </>
   );
 }
@@ -99,7 +94,9 @@ function sentenceOf(finding: Finding): string {
     case 'heardNoise':
       return words.doctor.heardNoise({ count: finding.count, kind: finding.kind });
     case 'battery':
-      return words.doctor.battery({ mv: finding.batteryMv });
+      return words.doctor.battery({ mv: finding.batteryMv, ms: Math.round(finding.answeredMs ?? 0) });
+    case 'heardNothing':
+      return finding.isOwnCable ? words.doctor.heardNothingOnOwnCable : words.doctor.heardNothing;
     default:
       return words.doctor[finding.id];
   }
