@@ -78,6 +78,8 @@ export interface PolledRun {
   /** What moved before the first frame has arrived by then; no frame takes longer than `longestMs`. */
   readonly restedMs: number;
   readonly longestMs: number;
+  /** Servos of `rest` that may end elsewhere. */
+  readonly unsure: ReadonlySet<number>;
   /** `rest` stands in the tracks already. */
   readonly isBlurred: boolean;
 }

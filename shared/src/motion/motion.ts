@@ -285,7 +285,8 @@ export function forgotten(motion: Motion, atMs: number): Motion {
 
 /** Whoever had the link before it was opened at `atMs` may have set something in motion. */
 export function inherited(motion: Motion, atMs: number): Motion {
-  return { ...motion, inheritedUntilMs: atMs + LONGEST_MOVE_MS };
+  // A question of ours may have ended their group (L8).
+  return { ...motion, inheritedUntilMs: atMs + LONGEST_MOVE_MS, skipsFirst: 'maybe' };
 }
 
 /** Of two forgotten motions nobody knows which it was. */

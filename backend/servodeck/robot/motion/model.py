@@ -106,7 +106,8 @@ class DeadlineRun:
 class PolledRun:
     """Known until `rest_at_ms`; behind it `rest` is where the servos of the later frames end, somewhen before
     `end_ms`. `rested_ms`: what moved before the first frame has arrived by then; no frame takes longer than
-    `longest_ms`. `is_blurred`: `rest` stands in the tracks already.
+    `longest_ms`. `unsure`: servos of `rest` that may end elsewhere. `is_blurred`: `rest` stands in the tracks
+    already.
     """
 
     slot: int
@@ -116,6 +117,7 @@ class PolledRun:
     end_ms: float
     rested_ms: float
     longest_ms: float
+    unsure: frozenset[int] = frozenset()
     is_blurred: bool = False
 
 

@@ -332,7 +332,8 @@ def forgotten(motion: Motion, at_ms: float, board: KnownBoard) -> Motion:
 
 def inherited(motion: Motion, at_ms: float) -> Motion:
     """Whoever had the port before it was opened at `at_ms` may have set something in motion."""
-    return replace(motion, inherited_until_ms=at_ms + LONGEST_MOVE_MS)
+    # A question of ours may have ended their group (L8).
+    return replace(motion, inherited_until_ms=at_ms + LONGEST_MOVE_MS, skips_first="maybe")
 
 
 def either_of(one: Motion, other: Motion) -> Motion:
