@@ -18,6 +18,8 @@ from tests.samples import BATTERY_REPORT
 from tests.test_ports import Pty
 from tests.vectors import load_vectors
 
+pytestmark = pytest.mark.slow
+
 NOBODY = "http://127.0.0.1:1"
 
 

@@ -31,6 +31,7 @@ FIRST_MOVE_MS = MOVE.first_ms
 LEAST_HELD = 0.2
 
 pytestmark = [
+    pytest.mark.slow,
     pytest.mark.skipif(not ENTRY.exists(), reason="the simulator is not built: npm run build"),
     pytest.mark.skipif(NODE is None, reason="Node is not installed"),
 ]
