@@ -16,7 +16,7 @@ from servodeck.access.roles import DRIVER, OWNER, VIEWER
 from servodeck.api.routes import Controlled, routes
 from servodeck.api.websocket import play as play_for_page
 from servodeck.callers import Caller
-from servodeck.errors import MalformedError, NotFoundError, OutOfRangeError
+from servodeck.errors import CancelledError, MalformedError, NotFoundError, OutOfRangeError
 from servodeck.intents import ContinueMs, FrameBody, MessageId, Nonce, PersonId, PlayIntent, Servo
 from servodeck.protocol.families import Family
 from servodeck.protocol.limits import UNITS
@@ -100,7 +100,19 @@ Driving = Annotated[Caller, DRIVER]
 motion_api = routes("/api", "motion")
 
 
-@motion_api.post("/move")
+async def once_identified(request: Request, control: Controlled) -> None:
+    """A script may begin with the gateway: what it asks waits until the port is open and the board has
+    answered.
+    """
+    await control.until_identified()
+    if await request.is_disconnected():
+        raise CancelledError("The client disconnected.")
+
+
+ONCE_IDENTIFIED = [Depends(once_identified)]
+
+
+@motion_api.post("/move", dependencies=ONCE_IDENTIFIED)
 async def move(wish: MoveWish, request: Request, caller: Driving, scripts: Scripted) -> MoveBegun:
     """Moves servos together. Answers when the last packet has left the wire; `overInMs` later they are there.
     Servos that nobody knows the place of take 1500 ms at least and start one after another.
@@ -125,7 +137,7 @@ async def begin_move(
     return MoveBegun(packets=moved.packets, over_in_ms=moved.over_in_ms, first_moves=list(moved.first_moves))
 
 
-@motion_api.post("/slots/{slot}/run")
+@motion_api.post("/slots/{slot}/run", dependencies=ONCE_IDENTIFIED)
 async def run(
     slot: Annotated[int, Path(ge=0, le=255)], caller: Driving, scripts: Scripted, wish: RunWish = ONCE
 ) -> RunBegun:
@@ -136,7 +148,7 @@ async def run(
     return RunBegun(outcome=outcome)
 
 
-@motion_api.post("/erase")
+@motion_api.post("/erase", dependencies=ONCE_IDENTIFIED)
 async def erase(caller: Annotated[Caller, OWNER], scripts: Scripted, wish: EraseWish = POLITELY) -> Erased:
     """Erases every slot of the board, for good."""
     await scripts.erase(caller, take=wish.take)
@@ -180,7 +192,7 @@ async def list_poses(control: Controlled) -> Poses:
     return Poses(robot=facts.name if facts else "", poses=facts.poses if facts else [])
 
 
-@poses_api.post("/{pose}/apply")
+@poses_api.post("/{pose}/apply", dependencies=ONCE_IDENTIFIED)
 async def apply(
     pose: Annotated[str, Path(min_length=1, max_length=64)],
     request: Request,
@@ -261,7 +273,7 @@ class DownloadWish(Message):
 jobs_api = routes("/api", "jobs")
 
 
-@jobs_api.post("/download", status_code=202)
+@jobs_api.post("/download", status_code=202, dependencies=ONCE_IDENTIFIED)
 async def download(
     wish: DownloadWish,
     caller: Annotated[Caller, DRIVER],
@@ -314,7 +326,7 @@ class PlayWish(PlayIntent):
 play_api = routes("/api", "play")
 
 
-@play_api.post("/play", status_code=202)
+@play_api.post("/play", status_code=202, dependencies=ONCE_IDENTIFIED)
 async def play(
     wish: PlayWish, caller: Annotated[Caller, DRIVER], control: Controlled, scripts: Scripted
 ) -> PlayState:

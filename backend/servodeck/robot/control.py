@@ -3,6 +3,8 @@
 What else clients ask is judged in requests.py. Must not know HTTP, WebSockets or how a byte reaches the port.
 """
 
+import asyncio
+import contextlib
 import math
 from collections.abc import Callable, Sequence
 
@@ -44,6 +46,8 @@ from servodeck.robot.requests import Requests
 from servodeck.snapshots import JobState, PlayState, UnheldServos
 
 UNNAMED_PERSON = Cause("person")
+# Longer than a port takes to open and a LeArm to start and to be asked (L1).
+IDENTIFIED_WITHIN_S = 8.0
 
 
 class Control:
@@ -97,6 +101,7 @@ class Control:
         self.requests = Requests(self.board, self.driving, self.limits, self._latch, now)
         self.operations = Operations(self)
         self._halting: Left | None = None
+        self._changed = asyncio.Event()
         self._pressed_s = 0.0
         self._unheld: Unheld | None = None
 
@@ -185,6 +190,18 @@ class Control:
             self.board.motion.resumed(self.now())
             self._broadcast.everybody(ResumedMessage(by=caller.name), but=session)
 
+    async def until_identified(self) -> None:
+        """Returns when it is known which board is there, or that it cannot be known now: whoever asks is
+        refused with the reason then. Raises CancelledError where STOP was pressed meanwhile.
+        """
+        stopped_s = self._latch.stopped_s
+        with contextlib.suppress(TimeoutError):
+            async with asyncio.timeout(IDENTIFIED_WITHIN_S):
+                while self.board.link_state.status in ("opening", "identifying"):
+                    await self._changed.wait()
+        if self._latch.stopped_s != stopped_s:
+            raise CancelledError("STOP was pressed after this was requested.")
+
     def name_board(self, caller: Caller, board: str) -> None:
         """Raises NotDrivingError where somebody else drives whatever else it was."""
         if board != self.board.family_id and not self.driving.may_rule(caller):
@@ -249,6 +266,8 @@ class Control:
         return len(self.hub) > 0
 
     def board_changed(self) -> None:
+        self._changed.set()
+        self._changed = asyncio.Event()
         self._broadcast.state()
         self._see_robot()
 
