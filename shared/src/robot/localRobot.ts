@@ -10,7 +10,8 @@ import type { ByteChannel } from './byteChannel.ts';
 import { createDriver, type Driver } from './driver.ts';
 import { createHalt } from './halt.ts';
 import { createIdentification } from './identification.ts';
-import { createLink, type LineState } from './link.ts';
+import { createChannelLink } from './channelLink.ts';
+import type { LineState } from './link.ts';
 import { LinkError } from './linkError.ts';
 import { createQueue } from './queue.ts';
 import { createReceiver } from './receiver.ts';
@@ -50,7 +51,7 @@ export function createLocalRobot(options: LocalRobotOptions): Robot {
   let isOpened = false;
   let openedMs = 0;
 
-  const link = createLink({
+  const link = createChannelLink({
     channel,
     clock,
     received: (bytes, whole = false) => receiver.push(bytes, whole),
