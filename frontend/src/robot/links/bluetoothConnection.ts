@@ -6,8 +6,15 @@ import { wireMs } from '#shared/codec/packet.ts';
 import { LinkError, type LinkErrorCode } from '#shared/robot/linkError.ts';
 import MODULE from '../../../../shared/protocol/bluetooth.json' with { type: 'json' };
 import { browserClock } from './browserClock.ts';
+import {
+  createConnection,
+  gone,
+  settled,
+  within,
+  type Connection,
+  type ConnectionEvents,
+} from './connection.ts';
 import { nameOf } from './serialPorts.ts';
-import type { Connection, ConnectionEvents } from './tabChannel.ts';
 
 type Characteristic = BluetoothRemoteGATTCharacteristic;
 
@@ -111,45 +118,20 @@ function begin(
   events: ConnectionEvents,
 ): Connection {
   if (!gatt.connected) throw gone();
-  let closing: Promise<void> | null = null;
   /** Of the packet that is leaving. */
   let waiting: Uint8Array<ArrayBuffer>[] = [];
   let writing: Promise<void> | null = null;
-  let failSending = (_error: LinkError): void => undefined;
 
   const gather = createGatherer((bytes) => {
-    if (closing === null) events.received(bytes);
+    if (!connection.isClosing) events.received(bytes);
   });
   const hear = (): void => {
     const { value } = notifies;
     if (value !== undefined) gather(new Uint8Array(value.buffer, value.byteOffset, value.byteLength));
   };
-  const goAway = (): void => lose(undefined);
+  const goAway = (): void => connection.lose();
   notifies.addEventListener('characteristicvaluechanged', hear);
   device.addEventListener('gattserverdisconnected', goAway);
-
-  function lose(cause: unknown): void {
-    if (closing !== null) return;
-    const error = gone(cause);
-    void close();
-    events.lost(error);
-  }
-
-  function close(): Promise<void> {
-    closing ??= end();
-    failSending(gone());
-    return closing;
-  }
-
-  async function end(): Promise<void> {
-    notifies.removeEventListener('characteristicvaluechanged', hear);
-    device.removeEventListener('gattserverdisconnected', goAway);
-    if (gatt.connected) {
-      await writing?.catch(() => undefined);
-      await sleep(browserClock, MODULE.drainMs);
-    }
-    gatt.disconnect();
-  }
 
   /** A module takes one at a time: at once where none is under way, else behind it. */
   function write(chunk: Uint8Array<ArrayBuffer>): Promise<void> {
@@ -177,33 +159,24 @@ function begin(
     }
   }
 
-  return {
-    send(packet) {
-      if (closing !== null) return Promise.reject(gone());
-      return new Promise((resolve, reject) => {
-        failSending = reject;
-        writeOut(packet).then(resolve, (error: unknown) => {
-          lose(error);
-          reject(gone(error));
-        });
-      });
+  const connection = createConnection(
+    {
+      writeOut,
+      async sendAtOnce(packet) {
+        const rest = [...waiting.splice(0), ...chunksOf(packet)];
+        await Promise.allSettled(rest.map(write));
+      },
+      async end() {
+        notifies.removeEventListener('characteristicvaluechanged', hear);
+        device.removeEventListener('gattserverdisconnected', goAway);
+        if (gatt.connected) {
+          await settled(writing ?? undefined);
+          await sleep(browserClock, MODULE.drainMs);
+        }
+        gatt.disconnect();
+      },
     },
-    async sendAtOnce(packet) {
-      const rest = [...waiting.splice(0), ...chunksOf(packet)];
-      await Promise.allSettled(rest.map(write));
-    },
-    close,
-  };
-}
-
-/** Browsers leave some promises open for ever where a device went at the wrong moment. */
-function within<T>(limitMs: number, work: Promise<T>): Promise<T> {
-  return new Promise((resolve, reject) => {
-    const calm = browserClock.after(limitMs, () => reject(gone()));
-    work.then(resolve, reject).finally(calm);
-  });
-}
-
-function gone(cause?: unknown): LinkError {
-  return new LinkError('lost', 'the module is gone', { cause });
+    events,
+  );
+  return connection;
 }

@@ -7,8 +7,8 @@ import { reportOf, splitReport } from '#shared/robot/hidReports.ts';
 import { LinkError, type LinkErrorCode } from '#shared/robot/linkError.ts';
 import timings from '../../../../shared/protocol/timings.json' with { type: 'json' };
 import { browserClock } from './browserClock.ts';
+import { createConnection, settled, within, type Connection, type ConnectionEvents } from './connection.ts';
 import { nameOf } from './serialPorts.ts';
-import type { Connection, ConnectionEvents } from './tabChannel.ts';
 
 const { shortestMs, sendTimeoutMs } = timings.hid;
 /** The boards number no reports. */
@@ -35,9 +35,7 @@ function openFailure(error: unknown): LinkErrorCode {
 }
 
 function begin(device: HIDDevice, events: ConnectionEvents): Connection {
-  let closing: Promise<void> | null = null;
   let leaving: Promise<void> = Promise.resolve();
-  let failSending = (_error: LinkError): void => undefined;
 
   function heard({ data }: HIDInputReportEvent): void {
     const { packet, rest } = splitReport(new Uint8Array(data.buffer, data.byteOffset, data.byteLength));
@@ -46,37 +44,14 @@ function begin(device: HIDDevice, events: ConnectionEvents): Connection {
   }
 
   function unplugged(event: HIDConnectionEvent): void {
-    if (event.device === device) lose();
+    if (event.device === device) connection.lose();
   }
 
   device.addEventListener('inputreport', heard);
   navigator.hid.addEventListener('disconnect', unplugged);
 
-  /** Tells first: a device that is gone may take its time to close. */
-  function lose(cause?: unknown): void {
-    if (closing !== null) return;
-    // What it was given since will never settle.
-    leaving = Promise.resolve();
-    const error = gone(cause);
-    void close();
-    events.lost(error);
-  }
-
-  function close(): Promise<void> {
-    closing ??= end();
-    failSending(gone());
-    return closing;
-  }
-
-  async function end(): Promise<void> {
-    device.removeEventListener('inputreport', heard);
-    navigator.hid.removeEventListener('disconnect', unplugged);
-    await settled(leaving);
-    await settled(within(CLOSE_WITHIN_MS, device.close()));
-  }
-
   /** Resolves when the UART behind the cable has had the time for it, too. */
-  async function writeOut(packet: Uint8Array): Promise<void> {
+  async function send(packet: Uint8Array): Promise<void> {
     const startMs = browserClock.now();
     await within(sendTimeoutMs, device.sendReport(REPORT_ID, reportOf(packet)));
     await sleep(
@@ -85,36 +60,19 @@ function begin(device: HIDDevice, events: ConnectionEvents): Connection {
     );
   }
 
-  return {
-    send(packet) {
-      if (closing !== null) return Promise.reject(gone());
-      return new Promise((resolve, reject) => {
-        failSending = reject;
-        leaving = writeOut(packet);
-        leaving.then(resolve, lose);
-      });
+  const connection = createConnection(
+    {
+      writeOut: (packet) => (leaving = send(packet)),
+      sendAtOnce: (packet) => (leaving = settled(Promise.all([leaving, send(packet)]))),
+      async end(isGone) {
+        device.removeEventListener('inputreport', heard);
+        navigator.hid.removeEventListener('disconnect', unplugged);
+        // What a device was given since it went never settles.
+        if (!isGone) await settled(leaving);
+        await settled(within(CLOSE_WITHIN_MS, device.close()));
+      },
     },
-    sendAtOnce(packet) {
-      leaving = settled(Promise.all([leaving, writeOut(packet)]));
-      return leaving;
-    },
-    close,
-  };
-}
-
-/** `sendReport` of a device that went never settles, and so may others. */
-function within<T>(ms: number, work: Promise<T>): Promise<T> {
-  return new Promise((resolve, reject) => {
-    const calm = browserClock.after(ms, () => reject(new LinkError('lost', 'the device takes nothing')));
-    work.then(resolve, reject).finally(calm);
-  });
-}
-
-function gone(cause?: unknown): LinkError {
-  return new LinkError('lost', 'the device is gone', { cause });
-}
-
-/** What fails here was about to end anyway. */
-async function settled(work: Promise<unknown>): Promise<void> {
-  await work.catch(() => undefined);
+    events,
+  );
+  return connection;
 }

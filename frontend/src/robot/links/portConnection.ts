@@ -5,8 +5,8 @@ import { sleep } from '#shared/clock.ts';
 import { BAUD, wireMs } from '#shared/codec/packet.ts';
 import { LinkError, type LinkErrorCode } from '#shared/robot/linkError.ts';
 import { LINE_IDLE_MS } from '#shared/robot/timings.ts';
-import type { Connection, ConnectionEvents } from './tabChannel.ts';
 import { browserClock } from './browserClock.ts';
+import { createConnection, gone, settled, type Connection, type ConnectionEvents } from './connection.ts';
 import { isGone } from './portFinder.ts';
 import { nameOf } from './serialPorts.ts';
 
@@ -42,20 +42,18 @@ function openFailure(port: SerialPort, error: unknown): LinkErrorCode {
 function connect(port: SerialPort, events: ConnectionEvents): Connection {
   let reader: ReadableStreamDefaultReader<Uint8Array> | null = null;
   let writer: WritableStreamDefaultWriter<Uint8Array> | null = null;
-  let closing: Promise<void> | null = null;
   let leftAtMs = -Infinity;
-  let failSending = (_error: LinkError): void => undefined;
 
   // Whoever asked hears first that the port is open, and then of its loss.
   browserClock.after(0, () => void readAll());
 
   async function readAll(): Promise<void> {
-    while (closing === null) {
+    while (!connection.isClosing) {
       try {
         await readUntilError();
       } catch (error) {
         if (!isLineError(error)) {
-          lose(error);
+          connection.lose(error);
           return;
         }
         await sleep(browserClock, LINE_ERROR_PAUSE_MS);
@@ -70,7 +68,7 @@ function connect(port: SerialPort, events: ConnectionEvents): Connection {
       for (;;) {
         const { value, done } = await source.read();
         if (done) throw gone();
-        if (closing === null) events.received(value);
+        if (!connection.isClosing) events.received(value);
       }
     } finally {
       letGo(source);
@@ -82,23 +80,9 @@ function connect(port: SerialPort, events: ConnectionEvents): Connection {
     return writer.write(packet);
   }
 
-  /** Tells first: a port that is gone may take its time to close. */
-  function lose(cause: unknown): void {
-    if (closing !== null) return;
-    const error = gone(cause);
-    void close();
-    events.lost(error);
-  }
-
-  function close(): Promise<void> {
-    closing ??= end();
-    failSending(gone());
-    return closing;
-  }
-
   async function end(): Promise<void> {
     // Closing a port throws away what its driver still holds; closing the stream first lets it leave.
-    await Promise.race([settled(drain), sleep(browserClock, DRAIN_WITHIN_MS)]);
+    await Promise.race([settled(drain()), sleep(browserClock, DRAIN_WITHIN_MS)]);
     await Promise.race([shut(), sleep(browserClock, CLOSE_WITHIN_MS)]);
   }
 
@@ -109,10 +93,10 @@ function connect(port: SerialPort, events: ConnectionEvents): Connection {
   }
 
   async function shut(): Promise<void> {
-    await settled(() => reader?.cancel());
+    await settled(reader?.cancel());
     if (reader !== null) letGo(reader);
     if (writer !== null) letGo(writer);
-    await settled(() => port.close());
+    await settled(port.close());
   }
 
   /** The driver takes the bytes at once; they are on the wire for much longer. */
@@ -123,17 +107,11 @@ function connect(port: SerialPort, events: ConnectionEvents): Connection {
     await sleep(browserClock, leftAtMs - browserClock.now());
   }
 
-  return {
-    send(packet) {
-      if (closing !== null) return Promise.reject(gone());
-      return new Promise((resolve, reject) => {
-        failSending = reject;
-        writeOut(packet).then(resolve, lose);
-      });
-    },
-    sendAtOnce: (packet) => settled(() => writeOut(packet)),
-    close,
-  };
+  const connection = createConnection(
+    { writeOut, end, sendAtOnce: (packet) => settled(writeOut(packet)) },
+    events,
+  );
+  return connection;
 }
 
 function streamOf<T>(stream: T | null): T {
@@ -141,22 +119,9 @@ function streamOf<T>(stream: T | null): T {
   return stream;
 }
 
-function gone(cause?: unknown): LinkError {
-  return new LinkError('lost', 'the device is gone', { cause });
-}
-
 /** These leave the port usable with a fresh stream; everything else means that the device is gone. */
 function isLineError(error: unknown): boolean {
   return ['BreakError', 'BufferOverrunError', 'FramingError', 'ParityError'].includes(nameOf(error));
-}
-
-/** What fails here was about to end anyway. */
-async function settled(work: () => Promise<void> | undefined): Promise<void> {
-  try {
-    await work();
-  } catch {
-    return;
-  }
 }
 
 function letGo(holder: { releaseLock(): void }): void {

@@ -2,25 +2,11 @@
 // and closes one after the other. Knows no kind of device and no packets.
 
 import { sleep } from '#shared/clock.ts';
-import type { ByteChannel, ChannelEvents, OpenOptions } from '#shared/robot/byteChannel.ts';
+import type { ByteChannel, OpenOptions } from '#shared/robot/byteChannel.ts';
 import { LinkError } from '#shared/robot/linkError.ts';
 import { browserClock } from './browserClock.ts';
+import type { Connection, ConnectionEvents } from './connection.ts';
 import { createPortLock } from './portLock.ts';
-
-export interface ConnectionEvents extends Pick<ChannelEvents, 'received' | 'unread'> {
-  /** At most once, never after `close`. */
-  lost(error: LinkError): void;
-}
-
-/** An open device, from opening to closing. */
-export interface Connection {
-  /** Resolves when the packet's last bit has left the wire. Any failure ends the connection. */
-  send(packet: Uint8Array): Promise<void>;
-  /** Hands the packet over before it returns, behind what is leaving. Resolves when it has left, or never will. */
-  sendAtOnce(packet: Uint8Array): Promise<void>;
-  /** Never rejects and never hangs. */
-  close(): Promise<void>;
-}
 
 export interface TabDevice extends Pick<ByteChannel, 'label' | 'longestPacket'> {
   /** The same in all tabs. */
