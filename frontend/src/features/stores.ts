@@ -12,7 +12,7 @@ import type { MacroPage } from '#shared/profile/macro.ts';
 import type { PoseBook } from '#shared/profile/pose.ts';
 import type { BatteryState, BatteryStore } from './battery/battery.ts';
 import type { Blend, BlendState } from './poses/blend.ts';
-import type { Boards } from '../robot/boards.ts';
+import type { Boards } from '../robot/remembered.ts';
 import { boardOfGroup, knownFamily, type GroupBoard } from './groupBoard.ts';
 import type { CompiledState, CompiledStore } from './animate/group/compiled.ts';
 import type { MotionTape } from './animate/play/motionTape.ts';

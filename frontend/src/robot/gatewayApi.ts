@@ -1,5 +1,5 @@
 // The gateway's HTTP interface as far as connecting needs it: is there one at the page's own address, which board and ports
-// does it have, open that port. Trusts no answer's shape; every failure is a LinkError.
+// does it have, open that port, put a robot on its board. Trusts no answer's shape; every failure is a LinkError.
 
 import type { Clock } from '#shared/clock.ts';
 import { LinkError } from '#shared/robot/linkError.ts';
@@ -21,6 +21,8 @@ export interface GatewayPort {
 }
 
 const ANSWER_WITHIN_MS = 2000;
+/** It is read from the library first. */
+const ROBOT_WITHIN_MS = 4000;
 /** For one that has just said who is here: it is only slow, and nobody is to be given another robot for that. */
 export const SURE_WITHIN_MS = 10_000;
 const PATIENT_MS = 30_000;
@@ -88,4 +90,10 @@ function isPort(value: unknown): value is GatewayPort {
     typeof value.description === 'string' &&
     typeof value.inUse === 'boolean'
   );
+}
+
+/** Puts a robot of the library on the gateway's board, for everybody. */
+export async function putOnBoard(document: string, insteadOf: string | null): Promise<void> {
+  const body = { id: document, insteadOf };
+  await askGateway('api/robot', { method: 'PUT', body, withinMs: ROBOT_WITHIN_MS });
 }

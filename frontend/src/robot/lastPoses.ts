@@ -5,7 +5,7 @@ import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { Robot, RobotServo } from '#shared/profile/robot.ts';
 import type { ServoTarget } from '#shared/codec/commands.ts';
 import { FAMILIES, type FamilyId } from '#shared/codec/families.ts';
-import { nameOf } from './boards.ts';
+import { nameOf } from './remembered.ts';
 import type { Device, DeviceState } from './device.ts';
 import { type TextStorage, createSoon } from '../state/soon.ts';
 
@@ -19,7 +19,7 @@ export interface LastPose {
 }
 
 type Poses = Readonly<Record<string, LastPose>>;
-/** By the way's name, see `nameOf` in boards.ts. */
+/** By the way's name, see `nameOf` in remembered.ts. */
 export type LastPoses = StoreApi<Poses>;
 
 const KEY = 'servodeck.lastPoses';

@@ -11,11 +11,9 @@ const BASE: ConnectState = {
   reconnects: true,
   serialObstacle: null,
   granted: [],
-  openPort: null,
   hid: { obstacle: null, granted: [] },
-  openBoard: null,
   bluetooth: { obstacle: null, granted: [] },
-  openModule: null,
+  openDevice: null,
   gateway: 'absent',
   gatewayPorts: [],
   body: null,
@@ -42,7 +40,7 @@ const CASES: readonly {
     current: 'webSerial',
     state: {
       ...BASE,
-      openPort: PORT,
+      openDevice: PORT,
       granted: [
         { port: PORT, label: 'CH340 USB serial adapter' },
         { port: OTHER_PORT, label: 'FT232 USB serial adapter' },

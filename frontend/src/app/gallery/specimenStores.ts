@@ -6,7 +6,7 @@ import { pageClock } from '../page.ts';
 import { createMemoryStore } from '../../features/library/memoryStore.ts';
 import { createBattery } from '../../features/battery/battery.ts';
 import { createBlend } from '../../features/poses/blend.ts';
-import { createBoards } from '../../robot/boards.ts';
+import { createBoards } from '../../robot/remembered.ts';
 import { createCompiled } from '../../features/animate/group/compiled.ts';
 import { createDevice } from '../../robot/device.ts';
 import { createDocument } from '../../features/animate/group/document.ts';

@@ -11,7 +11,7 @@ import {
   supplyOf,
   type Supply,
 } from '#shared/profile/battery.ts';
-import { nameOf } from '../../robot/boards.ts';
+import { nameOf } from '../../robot/remembered.ts';
 import type { Device, DeviceState, RobotProfiles } from '../../robot/device.ts';
 
 /** A group of the board, or one played from the page. `toMs` is null while it goes on. */

@@ -74,7 +74,7 @@ const webSerial: Cable = {
   devices: (here) =>
     here.state.granted.map(({ port, label }) => ({
       label,
-      isOpen: isOpenBy(here, 'webSerial') && port === here.state.openPort,
+      isOpen: isOpenBy(here, 'webSerial') && port === here.state.openDevice,
       open: (actions) => actions.useSerialPort(port),
     })),
   note: (here) => (isOpenBy(here, 'webSerial') ? words.connect.webSerial.inUse : null),
@@ -98,7 +98,7 @@ const webHid: Cable = {
   devices: (here) =>
     here.state.hid.granted.map(({ board, label }) => ({
       label,
-      isOpen: isOpenBy(here, 'webHid') && board === here.state.openBoard,
+      isOpen: isOpenBy(here, 'webHid') && board === here.state.openDevice,
       open: (actions) => actions.useBoard(board),
     })),
   note: (here) => (isOpenBy(here, 'webHid') ? words.connect.webHid.inUse : null),
@@ -129,7 +129,7 @@ const webBluetooth: Cable = {
   devices: (here) =>
     here.state.bluetooth.granted.map(({ module, label }) => ({
       label,
-      isOpen: isOpenBy(here, 'webBluetooth') && module.id === here.state.openModule?.id,
+      isOpen: isOpenBy(here, 'webBluetooth') && module === here.state.openDevice,
       open: (actions) => actions.useModule(module),
     })),
   note: (here) => (isOpenBy(here, 'webBluetooth') ? words.connect.webBluetooth.inUse : null),

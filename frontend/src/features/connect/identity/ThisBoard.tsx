@@ -10,7 +10,7 @@ import { words } from '../../../i18n/whole.ts';
 import { mayAsk } from '../../../robot/readiness.ts';
 import { useDevice, useSnapshot, useStores } from '../../stores.ts';
 import { Button } from '../../../ui/Button.tsx';
-import { nameOf, NICKNAME_LENGTH } from '../../../robot/boards.ts';
+import { nameOf, NICKNAME_LENGTH } from '../../../robot/remembered.ts';
 import { boardName } from '../../../i18n/sentences.ts';
 import whichBoardStyles from './WhichBoard.module.css';
 import field from '../../../ui/Field.module.css';
