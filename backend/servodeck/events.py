@@ -31,7 +31,7 @@ from servodeck.snapshots import (
     UnheldServos,
 )
 
-PROTOCOL = 8
+PROTOCOL = 9
 """Counted up with each change that a page of before would not understand: it is told to load itself again."""
 
 

@@ -162,14 +162,27 @@ class ServoWay(Message):
     duration_ms: float
 
 
+class ReportedPosition(Message):
+    """Where the board said that a servo stood, so long ago. `isCurrent`: as far as the gateway can tell it
+    stands there still.
+    """
+
+    servo: int
+    position: int
+    age_ms: int
+    is_current: bool
+
+
 class MotionState(Message):
-    """Where packets have taken the servos since the port opened; of one that is not named nobody knows the
-    place. `runSlot`: the group that may run. `released`: they have no torque, so hands may have turned them.
+    """Where packets have taken the servos since the port opened, and what the board has reported of them; of
+    one that is not named the place is unknown. `runSlot`: the group that may run. `released`: they have no
+    torque, so hands may have turned them.
     """
 
     servos: list[ServoWay]
     run_slot: int | None
     released: list[int]
+    reported: list[ReportedPosition]
 
 
 JobStatus = Literal["running", "done", "failed", "cancelled"]

@@ -10,12 +10,15 @@ from math import inf
 from servodeck.protocol.families import Family
 from servodeck.protocol.timings import RUN
 from servodeck.protocol.values import (
+    AllPositions,
     Command,
     Download,
     Erase,
     Erased,
     Frame,
     Move,
+    Positions,
+    Release,
     Report,
     Run,
     RunFinished,
@@ -50,7 +53,7 @@ from servodeck.robot.motion.motion import (
     latest_end_ms,
 )
 from servodeck.robot.motion.reports import after_cut, after_end, after_report
-from servodeck.snapshots import MotionState, ServoWay
+from servodeck.snapshots import MotionState, ReportedPosition, ServoWay
 
 # Longer than the start or the end of a run takes to be told: neither shall be taken for the next one's.
 RUN_REPORT_MS = 500
@@ -64,6 +67,8 @@ class Estimate:
     def __init__(self, family: Family) -> None:
         self.family = family
         self._memory = GroupMemory()
+        self._reported: dict[int, tuple[int, float]] = {}
+        """By servo: the position that the board said last, and when."""
         self._motion = UNKNOWN_MOTION
         self._at_ms = -inf
         """Until then everything is booked: the packet on the wire has left by then."""
@@ -91,6 +96,9 @@ class Estimate:
         """The last bit of that command leaves then."""
         at_ms = self._advance(at_s)
         self._at_ms = at_ms
+        if isinstance(command, Release):
+            for servo in command.servos:  # it drops
+                self._reported.pop(servo, None)
         is_heard, ran = hears(self._motion, at_ms), self._motion.run
         self._change_memory(command, is_heard=is_heard)
         self._motion = after_command(self._motion, command, at_ms, self)
@@ -111,6 +119,8 @@ class Estimate:
 
     def heard(self, report: Report, at_s: float) -> None:
         at_ms = self._advance(at_s)
+        if isinstance(report, Positions | AllPositions):
+            self._reported |= {one.servo: (one.position, at_s) for one in report.positions}
         if isinstance(report, Erased) and Erased in self._motion.answers_owed:
             self._memory.empty()
         if isinstance(report, RunStarted):
@@ -136,6 +146,7 @@ class Estimate:
         arrived or not, and where nothing ends it the board takes what comes next for its rest.
         """
         self._memory.clear()
+        self._reported.clear()
         at_ms = self._advance(now)
         arrived = after_command(self._motion, cut, at_ms, self) if cut else self._motion
         self._forget(at_ms)
@@ -222,11 +233,21 @@ class Estimate:
         return unheld_since(pressed_s * 1000, self._motion, self._advance(now), self)
 
     def snapshot(self, now: float) -> MotionState:
-        """As whoever comes now is told of it."""
+        """As a client that joins now is told of it."""
         self._advance(now)
-        released = list(only_released(self._motion.readings))
+        readings = self._motion.readings
+        released = list(only_released(readings))
+        reported = [
+            ReportedPosition(
+                servo=servo,
+                position=position,
+                age_ms=round((now - at_s) * 1000),
+                is_current=servo in readings and readings[servo].position == position,
+            )
+            for servo, (position, at_s) in self._reported.items()
+        ]
         if self._run:
-            return MotionState(servos=[], run_slot=self._run.slot, released=released)
+            return MotionState(servos=[], run_slot=self._run.slot, released=released, reported=reported)
         ways = [
             ServoWay(
                 servo=servo,
@@ -238,7 +259,7 @@ class Estimate:
             for servo, track in self._motion.tracks.items()
             if track.to_leeway < inf
         ]
-        return MotionState(servos=ways, run_slot=None, released=released)
+        return MotionState(servos=ways, run_slot=None, released=released, reported=reported)
 
     def _forget(self, at_ms: float) -> None:
         self._memory.forget_speeds()

@@ -87,7 +87,7 @@ export function createGatewaySnapshot(options: GatewaySnapshotOptions): GatewayS
       case 'welcome':
         driving.leaseChanged(message.lease);
         document = message.robot?.id ?? null;
-        before = motionBefore(message.motion);
+        before = motionBefore(message.motion, clock.now());
         slots.jobChanged(message.job);
         play = message.play;
         battery = batteryOf(message.battery, clock.now());
@@ -206,7 +206,10 @@ export function createGatewaySnapshot(options: GatewaySnapshotOptions): GatewayS
 
   function becomesReady(): void {
     showSlotsOfBoard();
-    if (before !== null) estimate.placed(before);
+    if (before === null) return;
+    estimate.placed(before);
+    const reported = before.reported.map(({ servo, position, atMs }) => [servo, { position, atMs }] as const);
+    store.update({ reported: Object.fromEntries(reported) });
   }
 
   /** The board may have moved, restarted or been changed for another before it is ready again. */

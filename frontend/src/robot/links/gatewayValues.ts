@@ -63,9 +63,13 @@ export function batteryOf(battery: BatteryMessage['battery'], nowMs: number): Ba
   return { kind: 'read', batteryMv: battery.batteryMv, atMs: nowMs - battery.ageMs };
 }
 
-export function motionBefore({ servos, runSlot, released }: MotionState): MotionBefore {
+export function motionBefore(
+  { servos, runSlot, released, reported }: MotionState,
+  nowMs: number,
+): MotionBefore {
   const ways = servos.map(({ start, target, ...way }) => ({ ...way, from: start, to: target }));
-  return { ways, runSlot, released };
+  const said = reported.map(({ ageMs, ...one }) => ({ ...one, atMs: nowMs - ageMs }));
+  return { ways, runSlot, released, reported: said };
 }
 
 export function frameBody({ durationMs, targets }: Frame): FrameBody {

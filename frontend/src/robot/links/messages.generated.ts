@@ -632,13 +632,15 @@ export interface PlayState {
   detail: string | null;
 }
 /**
- * Where packets have taken the servos since the port opened; of one that is not named nobody knows the
- * place. `runSlot`: the group that may run. `released`: they have no torque, so hands may have turned them.
+ * Where packets have taken the servos since the port opened, and what the board has reported of them; of
+ * one that is not named the place is unknown. `runSlot`: the group that may run. `released`: they have no
+ * torque, so hands may have turned them.
  */
 export interface MotionState {
   servos: ServoWay[];
   runSlot: number | null;
   released: number[];
+  reported: ReportedPosition[];
 }
 /**
  * A servo on its way, or there already: begun so long ago (below 0: not yet), and taking so long. `start`
@@ -650,6 +652,16 @@ export interface ServoWay {
   target: number;
   begunMsAgo: number;
   durationMs: number;
+}
+/**
+ * Where the board said that a servo stood, so long ago. `isCurrent`: as far as the gateway can tell it
+ * stands there still.
+ */
+export interface ReportedPosition {
+  servo: number;
+  position: number;
+  ageMs: number;
+  isCurrent: boolean;
 }
 export interface BatteryUnread {
   kind: 'unread';
@@ -938,4 +950,4 @@ export interface PlayedMessage {
   play: PlayState;
 }
 /** Of these messages. */
-export const PROTOCOL = 8;
+export const PROTOCOL = 9;
