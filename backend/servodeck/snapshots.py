@@ -152,7 +152,7 @@ class StoredGroup(Message):
 
 class ServoWay(Message):
     """A servo on its way, or there already: begun so long ago (below 0: not yet), and taking so long. `start`
-    is null where nobody knows where it began.
+    is null where it is unknown where it began.
     """
 
     servo: int
@@ -252,7 +252,7 @@ class RobotState(Message):
 
 
 class UnheldServos(Message):
-    """What may go on in spite of a STOP: these servos, `null` where nobody knows which, for so long at most
+    """What may go on in spite of a STOP: these servos, `null` where it is unknown which, for so long at most
     from its press; `null` where a group may run that heard no stop.
     """
 
@@ -266,7 +266,7 @@ a board never says.
 """
 
 StopFor = Literal["person", "battery"]
-"""Somebody pressed STOP; the policy for a low battery, on the page of whoever drives."""
+"""Somebody pressed STOP; the policy for a low battery, on the driver's page."""
 
 LatchedBy = Literal[StopFor, "silence", "loss"]
 """Besides these: a driver was not heard while the robot moved; the port went away."""

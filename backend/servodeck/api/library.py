@@ -67,8 +67,8 @@ class ListedDocument(Message):
 
 
 class LibraryListing(Message):
-    """`damagedFile` names a damaged file that was found and kept; `changesLost`: the last changes before the
-    gateway's start may be missing.
+    """`damagedFile` names a damaged file that was found and set apart; `changesLost`: the last changes before
+    the gateway's start may be missing.
     """
 
     documents: list[ListedDocument]
@@ -223,7 +223,7 @@ def list_versions(document: IdInPath, library: OfLibrary) -> list[ListedVersion]
 
 @library_api.get("/{document}/versions/{version}", dependencies=[VIEWER])
 def read_version(document: IdInPath, version: IdInPath, library: OfLibrary) -> VersionText:
-    """The text that was kept under that version's name."""
+    """The text that was saved under that version's name."""
     return VersionText(text=library.read_version(document, version))
 
 
@@ -246,7 +246,7 @@ def check_document(text: str) -> None:
 
 
 class RobotChoice(Message):
-    """`insteadOf`: the one that whoever asks knows to stand there."""
+    """`insteadOf`: the one that the caller knows to stand there."""
 
     id: Id
     instead_of: Id | None = None

@@ -41,7 +41,7 @@ class MoveWish(Message):
 
 
 class MoveBegun(Message):
-    """`firstMoves`: nobody knew where these servos stood, so they started one after another."""
+    """`firstMoves`: these servos stood at an unknown place, so they started one after another."""
 
     packets: int
     over_in_ms: int
@@ -115,7 +115,7 @@ ONCE_IDENTIFIED = [Depends(once_identified)]
 @motion_api.post("/move", dependencies=ONCE_IDENTIFIED)
 async def move(wish: MoveWish, request: Request, caller: Driving, scripts: Scripted) -> MoveBegun:
     """Moves servos together. Answers when the last packet has left the wire; `overInMs` later they are there.
-    Servos that nobody knows the place of take 1500 ms at least and start one after another.
+    Servos of unknown place take 1500 ms at least and start one after another.
     """
     positions = {int(servo): position for servo, position in wish.positions.items()}
     return await begin_move(request, caller, scripts, wish.time_ms, positions, take=wish.take)
@@ -157,14 +157,14 @@ async def erase(caller: Annotated[Caller, OWNER], scripts: Scripted, wish: Erase
 
 @motion_api.post("/lease")
 async def lease(wish: LeaseWish, caller: Driving, scripts: Scripted) -> LeaseState:
-    """Who drives. Asked for by itself with each motion, and kept 2 s longer than that lasts."""
+    """Who drives. Requested by itself with each motion, and held 2 s longer than that lasts."""
     return scripts.act(caller, wish.action)
 
 
 @motion_api.put("/driver")
 async def give(wish: DriverWish, caller: Driving, scripts: Scripted) -> LeaseState:
     """Hands the robot to somebody who is here with a page and may drive, unasked; what moves is stopped
-    first. Whoever drives may, and owners.
+    first. The driver may, and owners.
     """
     return scripts.give(caller, wish.id)
 
@@ -282,7 +282,7 @@ async def download(
 ) -> JobState:
     """Stores groups in slots of the board, one after the other, as one job, also where they come in several
     requests. Goes on when its client has left. STOP ends it, and so does the loss of the right to drive; then
-    the slot of the group in progress is broken: nobody may run it before another download to it has ended
+    the slot of the group in progress is broken: it cannot be run before another download to it has ended
     well.
     """
     control.board.judge_known()
@@ -343,6 +343,6 @@ async def play(
 
 @play_api.delete("/play", dependencies=[DRIVER])
 async def stop_playing(control: Controlled) -> PlayState | None:
-    """Ends it with its frame in progress, whoever began it; how the latest one ended."""
+    """Ends it with its frame in progress, whichever client began it; how the latest one ended."""
     control.requests.stop_playing()
     return control.board.plays.latest

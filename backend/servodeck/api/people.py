@@ -37,7 +37,9 @@ class You(Message):
 
 
 class Me(Message):
-    """`you` is null for a stranger. `overheard`: what is said here can be read by others on the network."""
+    """`you` is null for an unauthenticated caller. `overheard`: what is said here can be read by others on
+    the network.
+    """
 
     mode: Mode
     overheard: bool
@@ -107,7 +109,7 @@ class TokenWish(Message):
 
 
 class Token(Message):
-    """Shown once: only its SHA-256 is kept."""
+    """Shown once: only its SHA-256 is stored."""
 
     id: str
     token: str
@@ -167,7 +169,7 @@ async def rename_me(
 
 
 def spread_name(device: Device, control: Control) -> None:
-    """Nothing of theirs ends by it: whoever drives goes on under the new one."""
+    """Nothing of theirs ends by it: a driver goes on under the new one."""
     control.hub.rename(device.id, device.name)
     control.driving.send_states()
 
@@ -180,7 +182,9 @@ async def pair(
     present: Annotated[Caller | None, ANYBODY],
     scripts: Scripted,
 ) -> You:
-    """Comes in by a link, a code or a stop-only link, for a cookie; whoever may do as much keeps theirs."""
+    """Comes in by a link, a code or a stop-only link, for a cookie; a device that may do as much keeps its
+    own.
+    """
     caller, credential = accept_invite(wish, entrance, present)
     if present and not entrance.still_lets_in(present):
         reason = "This device was paired again."
@@ -196,7 +200,7 @@ async def pair(
             httponly=True,
             samesite="strict",
         )
-        with contextlib.suppress(StorageError):  # a full disk keeps nobody out; until the next start it holds
+        with contextlib.suppress(StorageError):  # a full disk does not undo it; until the next start it holds
             await entrance.devices.keep()
     return you_of(caller)
 
@@ -291,7 +295,7 @@ async def invite(wish: InviteWish, entrance: Entered, base: Base) -> Invitation:
 
 @people_api.delete("/invites/{invitation}", status_code=204, dependencies=[OWNER])
 async def withdraw(invitation: str, entrance: Entered) -> None:
-    """Ends an invitation that nobody has used."""
+    """Ends an invitation that was not used."""
     entrance.pairing.withdraw(invitation)
 
 

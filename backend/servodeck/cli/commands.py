@@ -33,8 +33,8 @@ from servodeck.cli.remote import RefusedError, Remote, UnreachableError, stopped
 BEAT_S = 1.0
 # What the gateway lets go on without its driver at most.
 LONGEST_ALONE_S = 3600
-# How long the end of a group is waited for where nobody said: until its computed end and a little more, or
-# where only the board could tell.
+# How long the end of a group is waited for where it was not said: until its computed end and a little more,
+# or where only the board could tell.
 AFTER_END_S = 2.0
 UNKNOWN_END_S = 30.0
 # Servos of unknown place start a quarter of a second apart.
@@ -186,7 +186,7 @@ def usual_limit_s(ends_in_ms: int | None) -> float:
 
 
 def let_go(remote: Remote) -> None:
-    """Which ends what runs, and nobody has to resume."""
+    """Which ends what runs, and needs no resume."""
     asked(remote, "POST", "/api/lease", {"action": "release"})
 
 
@@ -281,8 +281,8 @@ def library(remote: Remote, as_json: AsJson = False) -> None:
 
 
 def library_words(listing: dict[str, Any]) -> str:
-    kept = [one for one in listing["documents"] if not one["isRemoved"]]
-    return "\n".join(map(document_words, kept)) or "The library is empty."
+    present = [one for one in listing["documents"] if not one["isRemoved"]]
+    return "\n".join(map(document_words, present)) or "The library is empty."
 
 
 def document_words(document: dict[str, Any]) -> str:

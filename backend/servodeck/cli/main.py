@@ -43,7 +43,7 @@ app.command()(doctor)
 
 # Its number comes before 73-seat-late.rules, which gives what `uaccess` promises.
 RULE_FILE = UDEV_RULE_FILE
-TELL_UDEV = (("udevadm", "control", "--reload"), ("udevadm", "trigger", "--subsystem-match=hidraw"))
+UDEV_COMMANDS = (("udevadm", "control", "--reload"), ("udevadm", "trigger", "--subsystem-match=hidraw"))
 
 
 @app.command()
@@ -58,7 +58,7 @@ def udev_rule(
         return
     try:
         RULE_FILE.write_text(f"{UDEV_RULE}\n", "utf-8")
-        for command in TELL_UDEV:
+        for command in UDEV_COMMANDS:
             subprocess.run(command, check=True, capture_output=True)
     except PermissionError:
         fail(f"{RULE_FILE} cannot be written. Run this as root, with sudo.", FAILURE)

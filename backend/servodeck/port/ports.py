@@ -28,7 +28,7 @@ from servodeck.value import value
 
 POSIX = os.name == "posix"
 READ_WAIT_S = 0.2
-# Nobody stalls us longer than this. Windows waits for the last bit by itself unless the time-out is 0, and
+# No port stalls us longer than this. Windows waits for the last bit by itself unless the time-out is 0, and
 # POSIX with 0 spins while the buffer is full.
 WRITE_WAIT_S = 0.2 if POSIX else 0.0
 READ_BYTES = 4096

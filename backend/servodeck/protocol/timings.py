@@ -52,7 +52,7 @@ class Move(NamedTuple):
 class Estimate(NamedTuple):
     longest_deafness_ms: int
     last_ticks_ms: int
-    end_told_within_ms: int
+    end_reported_within_ms: int
     preemptive_slot: int
     poll_ms: int
     poll_step_ms: int

@@ -1,4 +1,4 @@
-"""What clients are told unasked: the whole state when they join and when something of it has changed, and the
+"""What clients hear unasked: the whole state when they join and when something of it has changed, and the
 commands that have left the wire.
 
 Knows seats, messages and the parts they are about; changes none of them.
@@ -87,7 +87,7 @@ Commands = tuple[Command, ...]
 
 @value
 class Leaving:
-    """`known_to` was told apart."""
+    """`known_to` heard of it apart."""
 
     command: Command
     at_s: float
@@ -104,7 +104,7 @@ class Relay:
         self._timer: asyncio.TimerHandle | None = None
 
     def leaving(self, owner: Owner, command: Command, at_s: float) -> None:
-        """Its last bit leaves then; it is told when it has: at once to its `owner`, and to the driver."""
+        """Its last bit leaves then; clients hear of it then: its `owner` and the driver at once."""
         driver = self._driver()
         known_to = [session for session in self._hub.sessions if session is owner or session is driver]
         for session in known_to:
@@ -115,7 +115,7 @@ class Relay:
             self._plan()
 
     def send_left(self) -> None:
-        """What has left by now is told before what follows from it."""
+        """What has left by now is sent before what follows from it."""
         if self._timer:
             self._timer.cancel()
             self._flush()
@@ -159,7 +159,7 @@ def text_of(commands: Commands) -> str:
 @lru_cache(maxsize=16)
 def newest(commands: Commands) -> Commands:
     """Without the moves whose every servo was sent elsewhere right after."""
-    kept: list[Command] = []
+    latest: list[Command] = []
     moved: set[int] = set()
     for command in reversed(commands):
         servos = {target.servo for target in command.targets} if isinstance(command, Move) else None
@@ -169,5 +169,5 @@ def newest(commands: Commands) -> Commands:
             continue
         else:
             moved |= servos
-        kept.append(command)
-    return tuple(reversed(kept))
+        latest.append(command)
+    return tuple(reversed(latest))

@@ -70,7 +70,7 @@ class Control:
         """`named_device` is the port named at the start: always offered, even where the system does not list
         it. `simulated`: what is behind it is no real board. `epoch`: leases are counted on from there.
         Without `slot_memory` and `remembered` these are forgotten at the end.
-        `recalls_board`: where nobody has said of which family the board is, it is as it was last.
+        `recalls_board`: where no person has said of which family the board is, it is as it was last.
         `identifies_board`: who it is, at each opening and before anything moves, and then whether it is still
         there; otherwise it is what it is taken for. `polls_battery`: the battery is read for everybody.
         `read_robot` asks the library.
@@ -180,7 +180,7 @@ class Control:
 
     def resume(self, caller: Caller, session: Session | None = None) -> None:
         """Everybody but `session` hears whose word it was. Raises NotDrivingError while somebody else drives.
-        Refused while the port is lost: whoever resumes shall see the robot's answer.
+        Refused while the port is lost: the person who resumes shall see the robot's answer.
         """
         self.driving.judge_resume(caller)
         port = self.board.link.state
@@ -247,7 +247,7 @@ class Control:
 
     async def shut_down(self) -> None:
         """Stops the robot whatever it does and lets go of the port. Twice is harmless."""
-        self._latch.cause = UNNAMED_PERSON  # nobody starts it again behind the stops
+        self._latch.cause = UNNAMED_PERSON  # so that it is not started again behind the stops
         await self.board.shut_down()
         self.hub.close()
 
@@ -260,7 +260,7 @@ class Control:
         self._latch.cause = Cause("loss")  # the change of the link's state follows and tells both
 
     def stopped_at_return(self, since_s: float) -> None:
-        self._tell_unheld(since_s)
+        self._publish_unheld(since_s)
 
     def is_watched(self) -> bool:
         return len(self.hub) > 0
@@ -313,8 +313,8 @@ class Control:
 
     def _halted(self, left: Left) -> None:
         if not left.cancelled() and left.exception() is None:
-            self._tell_unheld(self._pressed_s)
+            self._publish_unheld(self._pressed_s)
 
-    def _tell_unheld(self, since_s: float) -> None:
+    def _publish_unheld(self, since_s: float) -> None:
         self._unheld = self.board.unheld_since(since_s)
         self._broadcast.everybody(HaltedMessage(unheld=self.unheld))

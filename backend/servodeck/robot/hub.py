@@ -1,5 +1,5 @@
 """The clients on the WebSocket: a seat each, with a bounded outbox, so that one who does not read stalls
-nobody.
+no other.
 
 Knows seats, who sits there, and text; no socket, no message's meaning, no port.
 """
@@ -12,13 +12,13 @@ from typing import Any, TypeVar
 from servodeck.callers import THIS_COMPUTER, Caller, Role
 from servodeck.value import value
 
-# Enough for a second of a busy board (960 bytes) and the answers to a full queue; far more means nobody
-# reads.
+# Enough for a second of a busy board (960 bytes) and the answers to a full queue; far more means that
+# it does not read.
 OUTBOX_MESSAGES = 256
 # So many may sit when somebody of that role comes: viewers never take the seats of those who drive, nor these
-# the seats of whoever lets others in.
+# the seats of owners, who let others in.
 SESSIONS_AT_MOST: dict[Role, int] = {"stopper": 200, "viewer": 200, "driver": 208, "owner": 216}
-# Nobody needs more windows; a single phone shall not take every seat.
+# More windows are not needed; a single phone shall not take every seat.
 SESSIONS_EACH = 8
 TRY_AGAIN_LATER, AGAINST_THE_RULES, GOING_AWAY = 1013, 1008, 1012
 
@@ -35,7 +35,7 @@ class CloseReason:
 
 
 class Session:
-    """One client. Whoever serves it takes texts with `next`, and closes it once it has `ended`."""
+    """One client. Its server takes texts with `next`, and closes it once it has `ended`."""
 
     def __init__(self, caller: Caller, *, answers: bool = True) -> None:
         """`answers` is False for one that only listens."""
@@ -120,7 +120,7 @@ class Hub:
                 session.caller = replace(session.caller, name=name)
 
     def close(self) -> None:
-        """Nobody sits here any more."""
+        """All clients have to go."""
         for session in self._sessions:
             session.end(GOING_AWAY, "The gateway is shutting down.")
 

@@ -1,5 +1,5 @@
 """What a driver has the board do besides moves: run, end and erase groups, set their speed, let servos go.
-For pages and for scripts alike; each is sent once, and its outcome is told (docs/adr/0014, class C).
+For pages and for scripts alike; each is sent once, and its outcome is reported (docs/adr/0014, class C).
 
 Knows what is asked and in which order it leaves. How somebody shows that they drive is a `Claim`'s affair,
 what may leave `control`'s.
@@ -142,7 +142,7 @@ class Operations:
 
     async def end_group(self, session: Session) -> Outcome:
         """Behind its frame in progress; everything else is free to move. Said three times (S54), also where
-        whoever asked has gone meanwhile.
+        the caller has gone meanwhile.
         """
         left = self._control.requests.stop_once(session)
         if self._ending is None:

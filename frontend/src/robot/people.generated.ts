@@ -32,7 +32,8 @@ export interface StopLinkWish {
   name: string;
 }
 /**
- * `you` is null for a stranger. `overheard`: what is said here can be read by others on the network.
+ * `you` is null for an unauthenticated caller. `overheard`: what is said here can be read by others on
+ * the network.
  */
 export interface Me {
   mode: 'local' | 'lan' | 'proxy';
@@ -78,7 +79,7 @@ export interface Invitation {
   expiresInMs: number;
 }
 /**
- * Shown once: only its SHA-256 is kept.
+ * Shown once: only its SHA-256 is stored.
  */
 export interface Token {
   id: string;

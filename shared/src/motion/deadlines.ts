@@ -25,7 +25,7 @@ function announcementMs({ runReportsNameSlot, answers }: Family): number {
 
 /** The end of the group before may be told while the next one runs, and then not which it was. */
 function owesEnd({ untoldEndMs }: Motion, atMs: number, { family }: KnownBoard): boolean {
-  return !family.runReportsNameSlot && atMs - untoldEndMs < timings.estimate.endToldWithinMs;
+  return !family.runReportsNameSlot && atMs - untoldEndMs < timings.estimate.endReportedWithinMs;
 }
 
 /** A run that begins at `atMs`. */

@@ -164,7 +164,7 @@ class Unattended:
     def __init__(
         self, now: Callable[[], float], over: Callable[[], None], changed: Callable[[], None]
     ) -> None:
-        """`over`: its time is. `changed`: so is what people are told of it."""
+        """`over`: its time is. `changed`: so is what clients see of it."""
         self._now = now
         self._over = over
         self._changed = changed
@@ -188,7 +188,7 @@ class Unattended:
         self._show(AllowedRun(run, by, self._now() + for_s))
 
     def end(self) -> None:
-        """It is nobody's any more, or watched again."""
+        """It has no owner any more, or is watched again."""
         if self._present:
             self._show(None)
 

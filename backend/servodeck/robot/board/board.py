@@ -84,7 +84,7 @@ class BoardEvents(Protocol):
     def heard_noise(self, noise: NoiseEvent) -> None: ...
 
     def may_have_missed_stops(self) -> None:
-        """The board says that a group runs: behind a stop it is one that it kept while its flash worked,
+        """The board says that a group runs: behind a stop it is one that waited while its flash worked,
         which drops stops (S9, S41). Or it answers for the first time since a packet was cut: the stops since
         then it may have taken for the rest of that.
         """
@@ -154,7 +154,7 @@ class Board:
 
     @property
     def port(self) -> PortState:
-        """How the port stands, as clients are told."""
+        """How the port stands, for clients."""
         state = self.link.state
         is_simulated = state.device is not None and state.device == self._simulated_device
         withheld = sorted(self.link.withheld)
@@ -171,7 +171,7 @@ class Board:
 
     @property
     def link_state(self) -> LinkState:
-        """The way to the board and the board itself, as clients are told."""
+        """The way to the board and the board itself, for clients."""
         port = self.link.state
         if port.status != "open":
             return LinkState(status=port.status, code=port.code, detail=port.detail)
@@ -186,7 +186,7 @@ class Board:
         return identity_state(self.identification.evidence)
 
     def judge_known(self) -> None:
-        """Raises what keeps it from being told anything that moves or stores: nobody knows which board it is,
+        """Raises what keeps commands that move or store from it: it is unknown which board it is,
         or whether it is there. Without a port nothing can be said but that.
         """
         state = self.identification.state
@@ -313,7 +313,7 @@ class Board:
     async def ask(self, question: Question) -> Report | None:
         if question == "readBattery" and self.identification.state.status != "identifying":
             try:
-                return Battery(await self.battery.read())  # shared with whoever asks at the same time
+                return Battery(await self.battery.read())  # shared with others that ask at the same time
             except NoAnswerError:
                 return None
         packet, answer = QUESTIONS[question].packet, QUESTIONS[question].answer
@@ -377,14 +377,14 @@ class Board:
         self._events.battery_changed()
 
     def looked_at(self) -> None:
-        """Somebody begins to look on: what nobody wanted to know for a while is asked now."""
+        """A client has joined: what was not read for a while is read now."""
         newest = self.battery.newest
         if newest is None or self._now() - newest.at_s > BATTERY.every_ms / 1000:
             self._battery_poll.looked_at()
 
     def _may_poll_battery(self) -> bool:
-        can_tell = "readBattery" in self.family.answers and not self.battery.is_silent
-        return can_tell and self.identification.state.status == "ready" and self.may_ask()
+        is_answered = "readBattery" in self.family.answers and not self.battery.is_silent
+        return is_answered and self.identification.state.status == "ready" and self.may_ask()
 
     # What a download tells
 

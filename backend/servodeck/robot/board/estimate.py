@@ -55,11 +55,11 @@ from servodeck.robot.motion.motion import (
 from servodeck.robot.motion.reports import after_cut, after_end, after_report
 from servodeck.snapshots import MotionState, ReportedPosition, ServoWay
 
-# Longer than the start or the end of a run takes to be told: neither shall be taken for the next one's.
+# Longer than the board takes to report the start or end of a run: neither shall be taken for the next one's.
 RUN_REPORT_MS = 500
 # Seconds and milliseconds of one instant may differ by so much.
 CLOCK_GRAIN_MS = 0.001
-# An end later than that nobody waits for: it is a bound and no news.
+# An end later than that is a bound, for which no client waits.
 LONGEST_SHOWN_MS = 3_600_000
 
 
@@ -81,7 +81,7 @@ class Estimate:
         self._unheard_until_ms = -inf
         """A move that the board may take up late has ended by then."""
         self._last_frame_until_ms = -inf
-        """The last frame of a group that was ended, and that nobody knows, is over by then."""
+        """The last frame of a group that was ended, and whose frames are unknown, is over by then."""
         self._resumed_at_ms = -inf
 
     def played_frames(self, slot: int) -> Sequence[Frame] | None:
@@ -142,7 +142,7 @@ class Estimate:
             self._forget(self._advance(now))
 
     def lost(self, now: float, cut: Command | None = None) -> None:
-        """The link is gone: what the board does and holds nobody knows. The command that was `cut` may have
+        """The link is gone: what the board does and holds is unknown. The command that was `cut` may have
         arrived or not, and where nothing ends it the board takes what comes next for its rest.
         """
         self._memory.clear()
@@ -155,7 +155,7 @@ class Estimate:
             self._motion = after_cut_packet(self._motion, self.family)
 
     def opened(self, now: float) -> None:
-        """Whoever had the port before may have set something in motion."""
+        """The last owner of the port may have set something in motion."""
         self.lost(now)
         self._motion = inherited(self._motion, self._advance(now))
 
@@ -171,7 +171,7 @@ class Estimate:
 
     @property
     def run(self) -> Run | None:
-        """The group that may run: nobody has stopped it, and it has not ended as far as anybody knows."""
+        """The group that may run: it was not stopped, and as far as is known it has not ended."""
         return self._run
 
     def group_may_run(self, now: float) -> bool:
@@ -197,12 +197,12 @@ class Estimate:
         return is_on_its_way or now_ms < self._unheard_until_ms
 
     def last_frame_may_move(self, now: float) -> bool:
-        """Of a group that was ended, where nobody knows how long that takes."""
+        """Of a group that was ended, where it is unknown how long that takes."""
         now_ms = self._advance(now)
         return now_ms < min(self._last_frame_until_ms, self._motion.restless_until_ms)
 
     def is_unknown(self, servo: int, now: float) -> bool:
-        """Nobody has moved it, and the board has not said where it stands."""
+        """It was not moved, and the board has not said where it stands."""
         now_ms = self._advance(now)
         return target_of(self._motion, servo) is None and position_at(self._motion, servo, now_ms) is None
 
@@ -233,7 +233,7 @@ class Estimate:
         return unheld_since(pressed_s * 1000, self._motion, self._advance(now), self)
 
     def snapshot(self, now: float) -> MotionState:
-        """As a client that joins now is told of it."""
+        """For a client that joins now."""
         self._advance(now)
         readings = self._motion.readings
         released = list(only_released(readings))

@@ -70,7 +70,7 @@ class Identification:
 
     @property
     def candidates(self) -> list[str]:
-        """Families that answer like it; none where nobody asked."""
+        """Families that answer like it; none where it was not asked."""
         return candidates_of(self.evidence)
 
     @property
@@ -185,7 +185,7 @@ class Identification:
     def _heartbeat_question(self) -> Question | None:
         if not self._identifies:
             return None
-        # A board that is silent is asked for whoever comes, also over HTTP.
+        # A board that is silent is asked also where no client looks: one may come over HTTP.
         may_ask = self._board.may_ask() or (self.state.status == "stale" and self._board.is_idle())
         return next(iter(self.claim.certain_answers), None) if may_ask else None
 
@@ -214,8 +214,8 @@ class Heartbeat:
         ask: Callable[[Question], Awaitable[bool | None]],
         gone: Callable[[], None],
     ) -> None:
-        """`question`: None while none may be asked: nobody looks, something runs, no such board answers
-        anything. `ask`: False when no answer came, None when nobody can tell.
+        """`question`: None while none may be asked: no client looks, something runs, no such board answers
+        anything. `ask`: False when no answer came, None when that is unknown.
         """
         self._question = question
         self._ask = ask

@@ -77,7 +77,7 @@ class MoveBuffer:
         self._next_start_s = -inf
         self._timer: asyncio.TimerHandle | None = None
         self.waiting_to_start: list[int] = []
-        """Asked to move, but nobody knows where they stand: they start in this order."""
+        """Asked to move from an unknown place: they start in this order."""
 
     @property
     def is_empty(self) -> bool:

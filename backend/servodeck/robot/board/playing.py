@@ -22,7 +22,7 @@ from servodeck.robot.hub import Session
 from servodeck.snapshots import PlayState
 from servodeck.value import value
 
-# As often as others are told what left.
+# As often as other clients hear what left.
 PUBLISH_EVERY_S = 0.05
 log = logging.getLogger("servodeck.robot")
 
@@ -74,7 +74,7 @@ class Playing:
         *,
         as_run: bool,
     ) -> None:
-        """`as_run`: nobody answers for it more often than for a run of the board."""
+        """`as_run`: its driver need not be heard more often than of a run of the board."""
         self.by = by
         self.as_run = as_run
         self.state = PlayState(
@@ -174,7 +174,7 @@ class Plays:
         self.latest: PlayState | None = None
         self._ended: Callable[[PlayState], None] = lambda _: None
         self._published_s = float("-inf")
-        self._teller: asyncio.TimerHandle | None = None
+        self._publish_timer: asyncio.TimerHandle | None = None
 
     def begin(
         self,
@@ -185,7 +185,7 @@ class Plays:
         *,
         as_run: bool,
     ) -> PlayState:
-        """Raises MovingError while another one lasts. `ended` hears how it ended, whoever ended it."""
+        """Raises MovingError while another one lasts. `ended` hears how it ended, by whichever cause."""
         self.judge_idle()
         play = Playing(group, by, self._moves, self._now, judge, self._changed, self._finish, as_run=as_run)
         self.present, self._ended = play, ended
@@ -195,7 +195,7 @@ class Plays:
         return play.state
 
     def end(self, error: GatewayError) -> None:
-        """At once; the frame in progress goes on as far as nobody holds it."""
+        """At once; the frame in progress goes on where it is not held."""
         if self.present:
             self._finish(self.present, error)
 
@@ -215,10 +215,10 @@ class Plays:
     def _changed(self, state: PlayState) -> None:
         """At once, and not more often than anybody can see."""
         self.latest = state
-        if self._teller is None:
+        if self._publish_timer is None:
             delay_s = max(0.0, self._published_s + PUBLISH_EVERY_S - self._now())
             if delay_s:
-                self._teller = asyncio.get_running_loop().call_later(delay_s, self._publish_latest)
+                self._publish_timer = asyncio.get_running_loop().call_later(delay_s, self._publish_latest)
             else:
                 self._publish_latest()
 
@@ -235,8 +235,8 @@ class Plays:
         ended(play.state)
 
     def _publish_latest(self) -> None:
-        if self._teller:
-            self._teller.cancel()
-        self._teller, self._published_s = None, self._now()
+        if self._publish_timer:
+            self._publish_timer.cancel()
+        self._publish_timer, self._published_s = None, self._now()
         if self.latest:
             self._publish(self.latest)

@@ -56,8 +56,8 @@ class Readings:
         self._under_way: dict[Key, asyncio.Task[None]] = {}
 
     async def read(self, what: Reading, servos: Sequence[int] = ()) -> None:
-        """Until the board has said it, to everybody. Whoever asks the same meanwhile shares the answer.
-        Raises what keeps it from being asked, and NoAnswerError.
+        """Until the board has said it, to everybody. A second caller that asks the same meanwhile shares the
+        answer. Raises what keeps it from being asked, and NoAnswerError.
         """
         key = (what, tuple(servos))
         if key not in self._under_way:
@@ -85,7 +85,7 @@ class Readings:
     def _ended(self, key: Key, reading: asyncio.Task[None]) -> None:
         del self._under_way[key]
         if not reading.cancelled():
-            reading.exception()  # whoever asked has it; nobody may be left to take it
+            reading.exception()  # callers have it; none may be left to take it
 
 
 def positions_s(servo_count: int) -> float:
@@ -146,7 +146,7 @@ class BatteryReader:
         return BatteryRead(battery_mv=newest.battery_mv, age_ms=round((self._now() - newest.at_s) * 1000))
 
     async def read(self) -> int:
-        """In mV. Whoever asks while a question is under way shares its answer."""
+        """In mV. A caller that asks while a question is under way shares its answer."""
         if self._question is None:
             self._question = asyncio.create_task(self._read())
             self._question.add_done_callback(self._read_done)
@@ -173,7 +173,7 @@ class BatteryReader:
     def _read_done(self, question: asyncio.Task[int]) -> None:
         self._question = None
         if not question.cancelled():
-            question.exception()  # whoever asked has it; nobody may be left to take it
+            question.exception()  # callers have it; none may be left to take it
 
 
 class BatteryPoll:

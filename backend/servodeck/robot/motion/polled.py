@@ -1,5 +1,5 @@
 """Groups without deadlines: LeArm looks now and then whether all servos have arrived, then begins the next
-frame (L6-L11). When that is cannot be told within a tick, so of a group only the first frame is known, and
+frame (L6-L11). That moment is not known within a tick, so of a group only the first frame is known, and
 where it ends. Knows runs; no servo's way. Twin of shared/src/motion/polled.ts.
 """
 
@@ -84,7 +84,7 @@ def begin(motion: Motion, order: Order, at_ms: float, board: KnownBoard) -> Moti
 
 
 def begin_either(motion: Motion, whole: Order, less: Order | None, at_ms: float, board: KnownBoard) -> Motion:
-    """Whether it plays `less` nobody knows: it moves its servos from now on, as long as `whole` takes, to the
+    """It may play `less` or not: it moves its servos from now on, as long as `whole` takes, to the
     end of one or the other.
     """
     rested_ms = max(last_end_ms(motion.tracks, at_ms), motion.restless_until_ms)
@@ -151,7 +151,7 @@ def cut(motion: Motion, at_ms: float) -> Motion:
 
 
 def lost_ways(run: PolledRun, until_ms: float) -> Tracks:
-    """On their way to one of its places, nobody knows which."""
+    """On their way to one of its places, it is unknown to which."""
     duration_ms = until_ms - run.rest_at_ms
     return {servo: Track(None, to, run.rest_at_ms, duration_ms, *NOWHERE) for servo, to in run.rest.items()}
 
@@ -160,7 +160,7 @@ class Polled:
     def request(self, motion: Motion, request: Run, at_ms: float, board: KnownBoard) -> Motion:
         frames = board.played_frames(request.slot)
         after = replace(motion, skips_first="no")
-        # What becomes of a run when the next one comes nobody has read.
+        # What becomes of a run when the next one comes has not been read in the firmware.
         if frames is None or motion.run is not None:
             return running_unknown(after, request.slot, until_ms=at_ms + self._longest_ms(request, board))
         order = order_of_play(request.slot, frames, request.times, skips_first=motion.skips_first == "yes")

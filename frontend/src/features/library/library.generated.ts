@@ -96,8 +96,8 @@ export interface VersionWrite {
   text: string;
 }
 /**
- * `damagedFile` names a damaged file that was found and kept; `changesLost`: the last changes before the
- * gateway's start may be missing.
+ * `damagedFile` names a damaged file that was found and set apart; `changesLost`: the last changes before
+ * the gateway's start may be missing.
  */
 export interface LibraryListing {
   documents: ListedDocument[];
