@@ -1,12 +1,9 @@
-"""The library over HTTP, and which of its robots stands on the board. `python -m servodeck.api.library`
-prints the JSON schema of the messages, from which the page's types are generated.
+"""The library over HTTP, and which of its robots stands on the board.
 
 Translates between messages, `library` and `control`; decides only what text is a document. The library waits
 for a disk: in threads, where STOP does not wait for it.
 """
 
-import json
-import sys
 from typing import Annotated, Any, Literal
 
 from fastapi import Depends, Path
@@ -21,7 +18,7 @@ from servodeck.errors import MalformedError, NotDrivingError
 from servodeck.library.library import Library, Version
 from servodeck.robot.control import Control
 from servodeck.robot.profile import ReadFacts
-from servodeck.schema import Message, is_object, schema_of
+from servodeck.schema import Message, is_object
 from servodeck.snapshots import Name, PoseTarget, RobotFacts, Whole
 
 MAX_TEXT = 2 * 1024 * 1024
@@ -263,12 +260,3 @@ async def put_on_board(choice: RobotChoice, control: Controlled, caller: Annotat
     if not control.driving.may_rule(caller):
         raise NotDrivingError("Another client drives: only the driver or an owner may change the robot.")
     await control.robot.put(choice.id, choice.instead_of)
-
-
-if __name__ == "__main__":
-    said = {"LibraryRequest": DocumentWrite | DocumentIds | VersionWrite}
-    answered = {
-        "LibraryAnswer": LibraryListing | StoredDocument | DocumentWritten | list[ListedVersion] | VersionText
-    }
-    json.dump(schema_of("Library", said, answered), sys.stdout, indent=2)
-    sys.stdout.write("\n")

@@ -1,12 +1,9 @@
-"""Pairing over HTTP: who am I, come in, and for owners who else may. `python -m servodeck.api.people` prints
-the JSON schema of the messages, from which the page's types are generated.
+"""Pairing over HTTP: who am I, come in, and for owners who else may.
 
 Decides no role and makes no secret. A change holds at once; it is written down before the answer.
 """
 
 import contextlib
-import json
-import sys
 from typing import Annotated, Literal
 
 from fastapi import Depends, Query, Request, Response
@@ -23,7 +20,7 @@ from servodeck.callers import Caller, Role
 from servodeck.errors import ForbiddenError, MalformedError, StorageError
 from servodeck.robot.control import Control
 from servodeck.robot.hub import is_of
-from servodeck.schema import Message, schema_of
+from servodeck.schema import Message
 
 PersonRole = Literal["viewer", "driver", "owner"]
 Name = Annotated[str, Field(max_length=64, pattern=r"^[^\x00-\x1f\x7f]*$")]
@@ -314,10 +311,3 @@ async def make_stop_link(wish: StopLinkWish, entrance: Entered, base: Base) -> S
     await entrance.devices.keep()
     link = stop_link(base, credential)
     return StopLink(id=device.id, link=link, picture=picture_of(link))
-
-
-if __name__ == "__main__":
-    said = {"PeopleRequest": PairWish | OwnName | PersonChange | InviteWish | TokenWish | StopLinkWish}
-    answered = {"PeopleAnswer": Me | You | People | Person | Invitation | Token | StopLink}
-    json.dump(schema_of("PeopleMessage", said, answered), sys.stdout, indent=2)
-    sys.stdout.write("\n")

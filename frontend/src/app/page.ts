@@ -26,7 +26,7 @@ import { createMotionTape } from '../features/animate/play/motionTape.ts';
 import { createNotices } from '../state/notices.ts';
 import { createPad } from '../features/inputs/pad.ts';
 import { createPeople, peopleProblem } from '../features/people/people.ts';
-import type { Me } from '../robot/people.generated.ts';
+import type { Me } from '../robot/http.generated.ts';
 import { createPlayback, createPlayhead } from '../features/animate/play/playback.ts';
 import { createPoses } from '../features/poses/poses.ts';
 import { createTeaching } from '../features/drive/teaching.ts';

@@ -33,7 +33,7 @@ const FROM_HERE_PASSING = 500;
 /** null where no gateway answers: the page came from elsewhere, or the gateway is gone. */
 export async function readGateway(withinMs = ANSWER_WITHIN_MS): Promise<GatewayStatus | null> {
   try {
-    const status: unknown = await askGateway('api/status', { withinMs });
+    const status: unknown = await askGateway('get', '/api/status', { withinMs });
     if (!isRecord(status) || !isRecord(status.port)) return null;
     const { device, code, simulated } = status.port;
     // Whatever has its name now is one to be chosen like any other.
@@ -65,7 +65,7 @@ export async function hasGateway(clock: Clock): Promise<boolean> {
 
 /** Ports of the gateway's machine, the likely ones first. */
 export async function readPorts(withinMs = ANSWER_WITHIN_MS): Promise<readonly GatewayPort[]> {
-  const list: unknown = await askGateway('api/ports', { withinMs });
+  const list: unknown = await askGateway('get', '/api/ports', { withinMs });
   if (!Array.isArray(list)) throw new LinkError('internal', 'the gateway’s list of ports is no list');
   return list.filter(isPort).map(({ device, description, inUse }) => ({ device, description, inUse }));
 }
@@ -73,7 +73,7 @@ export async function readPorts(withinMs = ANSWER_WITHIN_MS): Promise<readonly G
 /** Whatever board is there: the gateway knows it from before, or asks it. */
 export async function openGatewayPort(device: string): Promise<void> {
   const body = { device, board: 'unknown' };
-  await askGateway('api/port', { method: 'PUT', body, withinMs: ANSWER_WITHIN_MS });
+  await askGateway('put', '/api/port', { body, withinMs: ANSWER_WITHIN_MS });
 }
 
 /** The gateway's WebSocket beside the page. */
@@ -95,5 +95,5 @@ function isPort(value: unknown): value is GatewayPort {
 /** Puts a robot of the library on the gateway's board, for everybody. */
 export async function putOnBoard(document: string, insteadOf: string | null): Promise<void> {
   const body = { id: document, insteadOf };
-  await askGateway('api/robot', { method: 'PUT', body, withinMs: ROBOT_WITHIN_MS });
+  await askGateway('put', '/api/robot', { body, withinMs: ROBOT_WITHIN_MS });
 }

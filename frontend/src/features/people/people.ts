@@ -14,7 +14,7 @@ import type {
   Token,
   TokenWish,
   You,
-} from '../../robot/people.generated.ts';
+} from '../../robot/http.generated.ts';
 
 // Why the gateway did not let somebody in, or did not do what was asked about people.
 

@@ -48,9 +48,9 @@ export function createGatewayPlayer(
     const nonce = await begin(NEW_MS);
     if (waiter !== mine) return;
     const message: PlayMessage = { type: 'play', id: mine.id, nonce, ...wish };
-    const { type, ...body } = message;
+    const { type: _, ...body } = message;
     if (JSON.stringify(message).length <= MESSAGE_BYTES) post(message);
-    else await askGateway(`api/${type}`, { method: 'POST', body, withinMs: TAKEN_WITHIN_MS });
+    else await askGateway('post', '/api/play', { body, withinMs: TAKEN_WITHIN_MS });
     mine.isHandedOver = true;
     // Its end was wanted while it was on its way.
     if (waiter !== mine) post({ type: 'stopPlaying' });

@@ -5,6 +5,7 @@ import { fingerprintOf } from '#shared/group/fingerprint.ts';
 import { LinkError } from '#shared/robot/linkError.ts';
 import { DOWNLOAD_PORTION_BYTES } from '#shared/robot/timings.ts';
 import type { DownloadProgress, SlotGroup, SlotVersions } from '#shared/robot/state.ts';
+import type { GroupBody } from '../http.generated.ts';
 import { isRecord } from '../request.ts';
 import { askGateway, refusal } from './gatewayHttp.ts';
 import { frameBody } from './gatewayValues.ts';
@@ -53,7 +54,7 @@ export function createGatewaySlots(begin: () => Promise<string>, changed: () => 
   async function handOver(portion: readonly SlotGroup[], behind?: string): Promise<string> {
     const nonce = await begin();
     const body = { groups: portion.map(toBody), nonce, ...(behind !== undefined && { behind }) };
-    const taken = await askGateway('api/download', { method: 'POST', body, withinMs: TAKEN_WITHIN_MS });
+    const taken = await askGateway('post', '/api/download', { body, withinMs: TAKEN_WITHIN_MS });
     if (!isRecord(taken) || typeof taken.id !== 'string')
       throw new LinkError('internal', 'the gateway’s answer is no job');
     return taken.id;
@@ -89,7 +90,7 @@ export function createGatewaySlots(begin: () => Promise<string>, changed: () => 
     },
     async cancel() {
       if (job?.status !== 'running') return;
-      await askGateway(`api/jobs/${job.id}`, { method: 'DELETE', withinMs: TAKEN_WITHIN_MS });
+      await askGateway('delete', '/api/jobs/{job}', { values: { job: job.id }, withinMs: TAKEN_WITHIN_MS });
     },
     jobChanged(next) {
       job = next;
@@ -127,7 +128,7 @@ function portions(groups: readonly SlotGroup[]): readonly (readonly SlotGroup[])
   return all;
 }
 
-function toBody({ slot, frames, replaces, name = '', documentId = null }: SlotGroup): object {
+function toBody({ slot, frames, replaces, name = '', documentId = null }: SlotGroup): GroupBody {
   const version = fingerprintOf(frames);
   const about = { slot, version, name, document: documentId };
   return { ...about, ...(replaces !== undefined && { replaces }), frames: frames.map(frameBody) };
