@@ -17,7 +17,9 @@ from servodeck.cli.options import (
     TIMED_OUT,
     USAGE,
     AsJson,
+    MoveTime,
     Take,
+    Times,
     asked,
     asking,
     board,
@@ -84,9 +86,7 @@ def move(
     targets: Annotated[
         list[str], typer.Argument(metavar="SERVO=POSITION...", help="For example 1=1500 2=900")
     ],
-    time_ms: Annotated[
-        int, typer.Option("--time", help="Milliseconds; a servo's first move takes 1500.")
-    ] = 1500,
+    time_ms: MoveTime = 1500,
     take: Take = False,
     as_json: AsJson = False,
 ) -> None:
@@ -113,7 +113,7 @@ def positions_in(targets: list[str]) -> dict[str, int]:
 def run(
     remote: Remote,
     slot: Annotated[int, typer.Argument(help="Slot of the board, from 0.")],
-    times: Annotated[int, typer.Option(help="0: until stopped.")] = 1,
+    times: Times = 1,
     go_on: Annotated[
         int | None,
         typer.Option(
@@ -261,9 +261,7 @@ def poses_words(book: dict[str, Any]) -> str:
 def pose(
     remote: Remote,
     wanted: Annotated[str, typer.Argument(metavar="POSE", help="Its name or its number; 0 is home.")],
-    time_ms: Annotated[
-        int, typer.Option("--time", help="Milliseconds; a servo's first move takes 1500.")
-    ] = 1500,
+    time_ms: MoveTime = 1500,
     take: Take = False,
     as_json: AsJson = False,
 ) -> None:

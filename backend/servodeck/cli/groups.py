@@ -14,6 +14,7 @@ from servodeck.cli.options import (
     USAGE,
     AsJson,
     Take,
+    Times,
     asked,
     asking,
     fail,
@@ -130,7 +131,7 @@ def group_in(file: Path) -> dict[str, Any]:
 def play(
     remote: Remote,
     file: Annotated[Path, typer.Argument(help="A file with one group, as for `servodeck download`.")],
-    times: Annotated[int, typer.Option(help="0: until stopped.")] = 1,
+    times: Times = 1,
     go_on: Annotated[
         int | None,
         typer.Option(
