@@ -3,7 +3,6 @@
 Asks one harmless question, for the battery. Knows no gateway and no terminal.
 """
 
-import asyncio
 import os
 import time
 from collections.abc import Awaitable
@@ -70,6 +69,8 @@ def listen(device: str) -> Heard:
     try:
         asked_s = time.monotonic()
         if leaving := port.write(encode(ReadBattery(), FAMILIES["doc"])):
+            import asyncio  # of all commands only this one needs a loop
+
             asyncio.run(until_left(leaving))
         heard = heard_on(port)
         if heard.battery_mv is not None:
