@@ -35,9 +35,9 @@ from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.values import Command, Report
 from servodeck.robot.board.board import Board
 from servodeck.robot.board.slots import SlotMemory
-from servodeck.robot.broadcast import Broadcast, Relay
+from servodeck.robot.broadcast import Broadcast
 from servodeck.robot.driving import Driving
-from servodeck.robot.hub import AGAINST_THE_RULES, Hub, Session
+from servodeck.robot.hub import AGAINST_THE_RULES, Hub, Relay, Session
 from servodeck.robot.latch import Cause, Latch, Watch
 from servodeck.robot.motion.halt_plan import Unheld
 from servodeck.robot.operations import Operations
