@@ -13,7 +13,9 @@ import { openDashboard, withBluetoothBoard, withBoard, withPage, type BoardOnPor
 import { percentile } from './statistics.ts';
 import { measureStopDragging } from './stop.ts';
 
-const DRAG_MS = amount(3_000, 800);
+const TRIPS = amount(40, 12);
+const PRESSES = amount(12, 3);
+const DRAG_MS = amount(1_500, 800);
 /** First moves of six servos, one after another. */
 const FIRST_MOVES_MS = 3_500;
 /** What waits behind the last event has left by then. */
@@ -38,12 +40,14 @@ export async function measureBluetooth(): Promise<Figure[]> {
       against: { what: 'serial', value: percentile(serialAges, percent) },
       note: `all sliders dragged once a frame, ${bluetoothAges.length} packets; age of a value at its last byte`,
     })),
-    ...(await measureStopDragging('bluetooth.stopDragging', withBluetoothBoard)),
+    ...(await measureStopDragging('bluetooth.stopDragging', withBluetoothBoard, PRESSES)),
   ];
 }
 
 function tripsOn(lend: typeof withBoard): Promise<readonly number[]> {
-  return lend(['--baud', '0'], ({ device }) => withPage(device, tripsThroughPage));
+  return lend(['--baud', '0'], ({ device }) =>
+    withPage(device, (page, url) => tripsThroughPage(page, url, TRIPS)),
+  );
 }
 
 function agesOn(lend: typeof withBoard): Promise<readonly number[]> {
