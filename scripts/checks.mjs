@@ -24,10 +24,7 @@ const build = { name: 'build', command: [process.execPath, 'scripts/build.mjs'] 
 /** What the compiler has to say is among it. @type {Task} */
 const lint = { name: 'lint and types', command: node('oxlint/bin/oxlint') };
 /** @type {Task} */
-const format = {
-  name: 'format',
-  command: node('prettier/bin/prettier.cjs', '--check', '--cache', '--log-level', 'warn', '.'),
-};
+const format = { name: 'format', command: node('oxfmt/bin/oxfmt', '--check') };
 /** @type {Task} */
 const layers = {
   name: 'layer rule',

@@ -4,7 +4,7 @@
 import { readFileSync, writeFileSync } from 'node:fs';
 import { compile } from 'json-schema-to-typescript';
 import openapiTypes, { astToString } from 'openapi-typescript';
-import { format } from 'prettier';
+import { format } from 'oxfmt';
 import { python } from './python.mjs';
 import { SetupProblem, at, main, mustRun, say } from './steps.mjs';
 import { readTree, typesText } from './words.mjs';
@@ -59,7 +59,8 @@ async function http() {
     }),
   );
   const source = banner('the routes of backend/servodeck/api');
-  return format(`${source}\n\n${types}`, { parser: 'typescript', printWidth: 110, singleQuote: true });
+  const { code } = await format(HTTP, `${source}\n\n${types}`, { printWidth: 110, singleQuote: true });
+  return code;
 }
 
 /** @param {string} target */

@@ -7,7 +7,14 @@ import type { LinkErrorCode } from '#shared/robot/linkError.ts';
 import { wasCommanded, type LinkState, type ServoMotion, type SessionState } from '#shared/robot/state.ts';
 
 export type Hindrance =
-  'closed' | 'identifying' | 'stale' | 'latched' | 'watching' | 'asking' | 'viewing' | 'busy';
+  | 'closed'
+  | 'identifying'
+  | 'stale'
+  | 'latched'
+  | 'watching'
+  | 'asking'
+  | 'viewing'
+  | 'busy';
 
 /** Where its servos stand can be asked of such a board. */
 export function tellsPositions({ commands }: Family): boolean {

@@ -38,7 +38,9 @@ type Input =
 
 /** What must come of it. */
 type Output =
-  { readonly leaves: string } | { readonly tells: Told } | { readonly ends: number; readonly with: string };
+  | { readonly leaves: string }
+  | { readonly tells: Told }
+  | { readonly ends: number; readonly with: string };
 
 export type ScenarioEvent = { readonly atMs: number } & (Input | Output);
 
