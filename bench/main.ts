@@ -33,6 +33,7 @@ import { measureTimeline } from './timeline.ts';
 
 /** First what takes longest, for a quick look; last what keeps this very process busy: the timers of others would be late. */
 const GROUPS: Readonly<Record<string, () => Figure[] | Promise<Figure[]>>> = {
+  bluetooth: measureBluetooth,
   network: measureNetwork,
   drag: measureDrag,
   start: measureStart,
@@ -44,7 +45,6 @@ const GROUPS: Readonly<Record<string, () => Figure[] | Promise<Figure[]>>> = {
   'stop.download': measureStopDownload,
   'stop.flood': measureStopFlood,
   'stop.reconnect': measureStopReconnect,
-  bluetooth: measureBluetooth,
   crowd: measureCrowd,
   frames: measureFrames,
   tracks: measureTracks,
