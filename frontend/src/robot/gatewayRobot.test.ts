@@ -4,7 +4,7 @@ import { afterEach, describe, expect, test, vi } from 'vitest';
 import type { Command, Frame } from '#shared/codec/commands.ts';
 import { encodeCommand } from '#shared/codec/encode.ts';
 import { family as familyOf } from '#shared/codec/families.ts';
-import { fromHex } from '#shared/codec/packet.ts';
+import { fromHex, toHex } from '#shared/codec/packet.ts';
 import { createGateway, FREE, OURS, READY, THEIRS, type GatewayUnderTest } from './gatewayUnderTest.ts';
 import type {
   GatewayMessage,
@@ -217,6 +217,29 @@ describe('STOP', () => {
     expect(robot.state.latch).toMatchObject({
       ...{ reason: 'reconnected', stop: 'sent', unheld: { servos: null, forMs: 900 } },
     });
+  });
+});
+
+describe('a packet by hand', () => {
+  test('is not undone by a value that waited for its servo; other servos’ values are sent', async () => {
+    const gateway = await createGateway({ welcome: { lease: OURS } });
+    const { robot, posted } = gateway;
+    const packet = encodeCommand({ kind: 'move', targets: TARGET, durationMs: 1_500 }, familyOf('doc'));
+    robot.move([{ servo: 1, position: 1_100 }], 1_500);
+    await vi.waitFor(() => expect(posted).toHaveLength(1));
+    robot.move(
+      [1, 2].map((servo) => ({ servo, position: 1_200 })),
+      1_500,
+    );
+    const sent = robot.sendRaw(packet);
+    await vi.waitFor(() => expect(posted).toHaveLength(2));
+    gateway.done();
+    await settled(gateway);
+    await sent;
+    expect(posted.slice(1)).toMatchObject([
+      { type: 'packet', bytes: toHex(packet).replaceAll(' ', '').toLowerCase() },
+      { type: 'move', targets: [{ servo: 2, position: 1_200 }] },
+    ]);
   });
 });
 

@@ -292,7 +292,7 @@ export function createGatewayRobot({ url, clock, mayDrive = true }: GatewayRobot
     async sendRaw(packet) {
       const { sendRaw } = await import('#shared/robot/raw.ts');
       await sendRaw(packet, store.state, snapshot.estimate, {
-        ...{ run, stop: stopGroup, release, readBattery, send: sendPacket },
+        ...{ run, stop: stopGroup, release, readBattery, send: sendPacket, overtake: moves.drop },
       });
     },
     readPositions: (servos) => read('positions', servos),

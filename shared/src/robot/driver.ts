@@ -77,6 +77,7 @@ export function createDriver(family: Family, options: DriverOptions): Driver {
     sendRaw: (packet) =>
       sendRaw(packet, store.state, estimate, {
         ...{ run: groups.run, stop: groups.stop, release, readBattery, send: queue.request },
+        overtake: moves.drop,
       }),
     applied(command) {
       estimate.applied(command);

@@ -19,6 +19,8 @@ export interface MoveBuffer {
   /** Servos with a wish, in the order they were first asked. */
   servos(): readonly number[];
   clear(): void;
+  /** These have no wish any more. */
+  drop(servos: readonly number[]): void;
   /** As many wishes of these servos as one packet takes, in the longest duration of any of them. */
   take(servos: readonly number[]): Wishes;
 }
@@ -43,6 +45,7 @@ export function createMoveBuffer(family: Family, servosPerMove: number): MoveBuf
       return { move: { kind: 'move', targets, durationMs }, swift };
     },
     clear: () => wishes.clear(),
+    drop: (servos) => servos.forEach((servo) => wishes.delete(servo)),
   };
 }
 

@@ -105,10 +105,20 @@ class MoveBuffer:
         self._queue_up()
         return request.left
 
-    def begin_round(self) -> None:
+    def begin_round(self) -> int:
         """What is asked from now on leaves behind what waits for the wire."""
         self._round += 1
         self._queued = None
+        return self._round
+
+    def overtaken(self, servos: Collection[int], by_round: int) -> None:
+        """What was asked for before that round and still waits to start does not leave any more."""
+        for servo in servos:
+            wish = self._wishes.get(servo)
+            if wish and wish.round < by_round:
+                del self._wishes[servo]
+                wish.request.done(servo)
+        self._plan_starts()
 
     def drop(self, reason: GatewayError, owner: Owner = None) -> None:
         """Those of `owner`, or all: they do not leave any more."""

@@ -14,6 +14,8 @@ export interface GatewayMoves {
   put(targets: readonly ServoTarget[], durationMs: number): void;
   /** With a value that was not handed over yet. */
   servos(): readonly number[];
+  /** Of these servos nothing is handed over that was not yet. */
+  drop(servos: readonly number[]): void;
   /** What was not handed over is not any more, and nothing is reported of the rest. */
   clear(): void;
   /** That message was refused. */
@@ -81,6 +83,7 @@ export function createGatewayMoves({
       if (!isHandingOver) void handOver();
     },
     servos: () => [...waiting.keys()],
+    drop: (servos) => servos.forEach((servo) => waiting.delete(servo)),
     clear() {
       waiting.clear();
       forget();
