@@ -3,7 +3,7 @@
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import { FAMILIES, type FamilyId } from '#shared/codec/families.ts';
-import type { SlotMemory } from '#shared/robot/storing.ts';
+import type { SlotMemory } from '#shared/robot/download.ts';
 import type { Way, WayKind } from './device.ts';
 import type { TextStorage } from '../state/soon.ts';
 

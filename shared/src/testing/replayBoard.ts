@@ -2,7 +2,7 @@
 // by its public face.
 
 import { FAMILIES } from '../codec/families.ts';
-import { createReceiver } from '../robot/receiver.ts';
+import { createReceiver } from '../robot/channelLink.ts';
 import { createBoard, type BoardOptions } from '../simulator/board.ts';
 import type { ProfileName } from '../simulator/profileNames.ts';
 import { createVirtualClock } from './virtualClock.ts';

@@ -10,15 +10,16 @@ import type { MotionBefore } from '#shared/motion/before.ts';
 import { createRobotEstimate, type RobotEstimate } from '#shared/robot/estimate.ts';
 import { NOTHING_HEARD } from '#shared/robot/identity.ts';
 import type { LineState } from '#shared/robot/link.ts';
-import { createRunning, type Running } from '#shared/robot/running.ts';
-import type { Activity, Battery, Latch, LatchReason, LinkState } from '#shared/robot/state.ts';
 import {
+  createRunning,
+  type Running,
   createSessionStore,
   noteCommand,
   noteReport,
   NOTHING_READ,
   type SessionStore,
 } from '#shared/robot/store.ts';
+import type { Activity, Battery, Latch, LatchReason, LinkState } from '#shared/robot/state.ts';
 import type { GatewaySlots } from './gatewaySlots.ts';
 import type { Said } from './gatewaySocket.ts';
 import {

@@ -1,12 +1,70 @@
-// Plays frames from the page: each move on its deadline, counted from the start so that nothing drifts. The way to the
-// first frame is gentle. A page that comes late plays later rather than dropping a frame. Knows time and moves; no link, no document.
+// Frames played from the page on deadlines. The board's own groups are groups.ts.
 
 import type { Clock } from '../clock.ts';
 import type { Frame } from '../codec/commands.ts';
+import { setActivity, type Core } from './core.ts';
+import { LinkError } from './linkError.ts';
+import type { Moves } from './moveBuffer.ts';
 import type { Played } from './robot.ts';
+import { requireReleased } from './rules.ts';
+import type { Activity, PlayProgress } from './state.ts';
 import { CATCH_UP, FIRST_MOVE_MS, GIVE_UP_MS, LATE_MS, LOOK_MS } from './timings.ts';
 
-export interface PlayerOptions {
+export interface Player {
+  /** Each pass but the first begins with frame `loopFrom`. */
+  play(frames: readonly Frame[], times: number, loopFrom: number): Promise<Played>;
+  stop(): void;
+  /** A move did not leave. */
+  moveFailed(): void;
+  /** Whether it played. */
+  drop(): boolean;
+}
+
+export function createPlayer(core: Core, moves: Moves): Player {
+  const { store, clock } = core;
+  let playing: Playing | null = null;
+
+  const activityIs = (kind: Activity['kind']): boolean => store.state.activity.kind === kind;
+
+  function show(progress: PlayProgress | null): void {
+    if (progress !== null) setActivity(core, { kind: 'playing', ...progress });
+    else if (activityIs('playing')) setActivity(core, { kind: 'idle' });
+  }
+
+  return {
+    async play(frames, times, loopFrom) {
+      requireReleased(store.state);
+      if (!activityIs('idle')) throw new LinkError('busy', 'something else is running');
+      const current = play({
+        ...{ clock, frames, times, loopFrom },
+        startsWithinMs: ({ targets }) => moves.startsWithinMs(targets.map(({ servo }) => servo)),
+        isWaiting({ targets }) {
+          const waiting = moves.servos();
+          return targets.some(({ servo }) => waiting.includes(servo));
+        },
+        move: (frame) => moves.put(frame.targets, frame.durationMs),
+        frameBegan: (frameIndex) => show({ frameIndex, frameCount: frames.length }),
+      });
+      playing = current;
+      try {
+        return await current.done;
+      } finally {
+        if (playing === current) playing = null;
+        show(null);
+      }
+    },
+    stop: () => playing?.stop(),
+    moveFailed: () => playing?.refused(),
+    drop() {
+      const wasPlaying = playing !== null;
+      playing?.stop();
+      playing = null;
+      return wasPlaying;
+    },
+  };
+}
+
+interface PlayerOptions {
   readonly clock: Clock;
   readonly frames: readonly Frame[];
   /** 0: until stopped. */
@@ -22,7 +80,7 @@ export interface PlayerOptions {
   frameBegan(index: number): void;
 }
 
-export interface Playing {
+interface Playing {
   /** Resolves when the last frame has ended or `stop` was called. Rejects with what `move` threw. */
   readonly done: Promise<Played>;
   /** A frame did not leave. */
@@ -30,7 +88,11 @@ export interface Playing {
   stop(): void;
 }
 
-export function play(options: PlayerOptions): Playing {
+/**
+ * Each move on its deadline, counted from the start so that nothing drifts. The way to the first frame is gentle. A page that comes late plays
+ * later rather than dropping a frame.
+ */
+function play(options: PlayerOptions): Playing {
   const { clock, frames, times, loopFrom, startsWithinMs, move, isWaiting, frameBegan } = options;
   let cancelTimer = (): void => undefined;
   let finish: (played: Played) => void = () => undefined;
