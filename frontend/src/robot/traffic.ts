@@ -3,8 +3,13 @@
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { BoardId } from '#shared/codec/families.ts';
-import { createHappeningsReader, entryOf } from '#shared/files/recorder.ts';
-import { createTape, type Tape, type TapeEntry } from '#shared/files/tape.ts';
+import {
+  createHappeningsReader,
+  entryOf,
+  createTape,
+  type Tape,
+  type TapeEntry,
+} from '#shared/files/recorder.ts';
 import type { SessionState, Traffic } from '#shared/robot/state.ts';
 
 export type LogEntry = TapeEntry;

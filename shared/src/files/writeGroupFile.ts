@@ -3,12 +3,10 @@
 import type { Family } from '../codec/families.ts';
 import { type ActionGroup, groupToFile } from '../group/group.ts';
 import type { Robot } from '../profile/robot.ts';
-import { arduinoOf } from './arduino.ts';
+import { arduinoOf, programOf, type Program, pythonOf } from './program.ts';
 import { writeCsv, sheetOf, type Sheet } from './csv.ts';
 import { fileNameOf } from './fileName.ts';
 import { filled, OTHER_UNIT, type Misfit } from './fit.ts';
-import { programOf, type Program } from './program.ts';
-import { pythonOf } from './python.ts';
 import { ROB_SERVOS, writeRob } from './rob.ts';
 import { writeXml } from './xml.ts';
 

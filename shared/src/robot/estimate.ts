@@ -3,6 +3,7 @@
 
 import type { Clock } from '../clock.ts';
 import { takenOver, type MotionBefore } from '../motion/before.ts';
+import { afterCut, afterEnd, afterReport } from '../motion/reports.ts';
 import { haltPlan, holdBehindStop, unheldSince, type HaltPlan, type Unheld } from '../motion/haltPlan.ts';
 import {
   advance,
@@ -24,7 +25,6 @@ import {
   type KnownBoard,
   type Motion,
 } from '../motion/motion.ts';
-import { afterCut, afterEnd, afterReport } from '../motion/reports.ts';
 import type { Command, Frame, MoveCommand } from '../codec/commands.ts';
 import type { Family } from '../codec/families.ts';
 import { moveBytes, wireMs } from '../codec/packet.ts';

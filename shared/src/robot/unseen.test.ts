@@ -7,7 +7,7 @@ import type { Command } from '../codec/commands.ts';
 import { encodeCommand } from '../codec/encode.ts';
 import { family as familyOf, type Family, type Range } from '../codec/families.ts';
 import { createEstimateUnderTest, isWrong, SIMULATED, type EstimateUnderTest } from './estimateUnderTest.ts';
-import { TIMES } from './faults/amount.ts';
+import { TIMES } from '../testing/cases.ts';
 import { FOREIGN_SLOT, KNOWN_SLOT } from './historiesUnderTest.ts';
 import { createRig } from './rig.ts';
 import { foreignFlash } from './stopUnderTest.ts';

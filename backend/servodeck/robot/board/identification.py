@@ -1,6 +1,5 @@
 """Which board is at the other end, through a link's whole life: asked at each opening, weighed against what
-it is taken for, named by a person, watched while idle. Twin of shared/src/robot/identification.ts and
-heartbeat.ts.
+it is taken for, named by a person, watched while idle. Twin of shared/src/robot/identification.ts.
 
 Decides when a board is ready, and after how many questions it is gone; the questions and their meaning are
 identity.py. Knows no port.

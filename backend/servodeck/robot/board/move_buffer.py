@@ -2,7 +2,7 @@
 when the wire is free. Servos of unknown place start slowly and one after another (safety.md section 2).
 
 Knows targets, time and the wire. The caller judges who may move a servo, when it is asked and when it leaves.
-Twin of shared/src/robot/moveBuffer.ts and firstMoves.ts, and of `softened` in shared/src/robot/estimate.ts.
+Twin of shared/src/robot/moveBuffer.ts, and of `softened` in shared/src/robot/estimate.ts.
 """
 
 import asyncio

@@ -1,5 +1,5 @@
 """Frames that the gateway plays by its own clock: how far they are and how they ended. One play at a time.
-Twin of the playing in shared/src/robot/live.ts.
+Twin of shared/src/robot/playing.ts.
 
 Knows frames, the moves that wait for the wire, and time; not who may begin a play, and not when somebody else
 ends it.

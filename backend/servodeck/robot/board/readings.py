@@ -1,6 +1,5 @@
 """Asks the board what it can say of itself: its battery, where its servos stand, its firmware, its trims.
-Everybody who asks while a question is under way shares its answer. Twin of shared/src/robot/readings.ts and
-batteryReader.ts.
+Everybody who asks while a question is under way shares its answer. Twin of shared/src/robot/readings.ts.
 
 The battery is read when a board becomes ready, soon after something has ended, and every few seconds while
 nothing moves: on some boards any packet disturbs what runs, and under load the voltage sags anyway. A board

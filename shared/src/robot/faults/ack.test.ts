@@ -5,12 +5,12 @@ import { expect, test } from 'vitest';
 import type { Clock } from '../../clock.ts';
 import type { Frame } from '../../codec/commands.ts';
 import { family } from '../../codec/families.ts';
-import { createRandom } from '../../simulator/random.ts';
+import { createRandom } from '../../simulator/faults.ts';
 import { createSimulatedChannel } from '../../simulator/channel.ts';
 import { createVirtualClock } from '../../testing/virtualClock.ts';
 import { createLocalRobot } from '../localRobot.ts';
 import type { ByteChannel } from '../byteChannel.ts';
-import { caseOf, named, seeds } from './amount.ts';
+import { caseOf, named, seeds } from '../../testing/cases.ts';
 
 const FILE = 'ack.test.ts';
 const FATES = ['kept', 'lost', 'late', 'doubled', 'foreign'] as const;

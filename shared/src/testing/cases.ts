@@ -1,4 +1,6 @@
-// How much the fault tests try, and how a failing case names itself. Knows the test runner's environment; no fault.
+// How many cases properties and fault tables try, how a failing one names itself, and numbers for them. Knows the test runner's environment.
+
+import * as fc from 'fast-check';
 
 /** Shared code is compiled without a platform; the test runner has one. */
 const { process: runner } = globalThis as { process?: { env: Readonly<Record<string, string | undefined>> } };
@@ -43,4 +45,14 @@ export async function named(
     const text = `${what}, seed ${seed}\nreplay: ${replay(file, seed)}\n${String(error)}`;
     throw new Error(text, { cause: error });
   }
+}
+
+const STEPS = 10_000;
+
+/**
+ * Numbers that are as likely anywhere between two others: fast-check's own doubles are as likely at each size, so that between 0 and 1
+ * nearly all of them are next to 0.
+ */
+export function evenly(min: number, max: number): fc.Arbitrary<number> {
+  return fc.integer({ min: 0, max: STEPS }).map((step) => min + ((max - min) * step) / STEPS);
 }
