@@ -74,7 +74,7 @@ export interface Connector {
   disconnect(): void;
   /** After `heldElsewhere` or `movedAway`: the other tab stops the robot and lets go, then this one tries again. */
   moveHere(): Promise<void>;
-  /** The page goes: the robot is told to stop, where nobody else drives it. */
+  /** The page goes: a stop leaves, unless another client drives. */
   leave(): void;
 }
 
@@ -85,7 +85,7 @@ export interface ConnectorOptions {
   readonly notices: Notices;
   readonly boards: Boards;
   readonly storage: TextStorage;
-  /** What whoever opened the page may do at its gateway. */
+  /** What this page may do at its gateway. */
   readonly role: You['role'];
   /** It has answered already. */
   readonly isAtGateway: boolean;
@@ -215,7 +215,7 @@ export function createConnector(options: ConnectorOptions): Connector {
     if (gateway === 'absent') void offerLateGateway();
   }
 
-  /** One that was too slow to be found: nobody is to take the robot in the page for the real one. */
+  /** One that was too slow to be found: the robot in the page must not be taken for the real one. */
   async function offerLateGateway(): Promise<void> {
     if (!(await hasGateway(device.clock)) || current?.way().kind !== 'simulated') return;
     await look();

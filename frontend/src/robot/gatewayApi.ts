@@ -23,7 +23,7 @@ export interface GatewayPort {
 const ANSWER_WITHIN_MS = 2000;
 /** It is read from the library first. */
 const ROBOT_WITHIN_MS = 4000;
-/** For one that has just said who is here: it is only slow, and nobody is to be given another robot for that. */
+/** For one that has just said who is here: it is only slow, and must not be replaced by another robot for that. */
 export const SURE_WITHIN_MS = 10_000;
 const PATIENT_MS = 30_000;
 const ASK_AGAIN_MS = 1000;
@@ -47,7 +47,7 @@ export async function readGateway(withinMs = ANSWER_WITHIN_MS): Promise<GatewayS
 }
 
 /**
- * Asks until somebody answers: a gateway that is slow is one, a server that answers otherwise has none. Documents must not be kept
+ * Asks until an answer comes: a gateway that is slow is one, a server that answers otherwise has none. Documents must not be stored
  * at two places because of a bad moment.
  */
 export async function hasGateway(clock: Clock): Promise<boolean> {
@@ -56,7 +56,7 @@ export async function hasGateway(clock: Clock): Promise<boolean> {
     const answer = await fetch('api/status', { signal: AbortSignal.timeout(PATIENT_MS) }).catch(() => null);
     if (answer !== null && answer.status < FROM_HERE_PASSING) {
       const status: unknown = await answer.json().catch(() => null);
-      // One that wants to be told first who asks is a gateway, too.
+      // One that wants to know first who asks is a gateway, too.
       return isRecord(status) && (isRecord(status.port) || typeof status.code === 'string');
     }
     await new Promise<void>((resolve) => void clock.after(ASK_AGAIN_MS, resolve));

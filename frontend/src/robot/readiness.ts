@@ -57,7 +57,7 @@ export function mayBrush(snapshot: SessionState, motion: ServoMotion): boolean {
   return drives && wasCommanded(motion) && motionHindrance(snapshot) === null;
 }
 
-/** What moves the robot by itself ends here for good: whoever may drive again begins it anew. */
+/** What moves the robot by itself ends here for good: it is begun anew by a person. */
 export function endsMotion({ link, latch, lease }: SessionState): boolean {
   return link.status !== 'ready' || latch !== null || isWatching(lease);
 }

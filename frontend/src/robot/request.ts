@@ -48,7 +48,7 @@ export class GatewayProblem extends Error {
   }
 }
 
-/** The static site says in its head that there is none, and asks nobody. Measurements and tests under Node have no document. */
+/** The static site says in its head that there is none, and no request is sent. Measurements and tests under Node have no document. */
 export const isWithoutGateway = (): boolean =>
   typeof document !== 'undefined' &&
   document.querySelector('meta[name="servodeck-gateway"][content="none"]') !== null;

@@ -15,7 +15,7 @@ import type { SessionState, Traffic } from '#shared/robot/state.ts';
 export type LogEntry = TapeEntry;
 
 export interface LogBounds {
-  /** The oldest entry that is kept. */
+  /** The oldest entry that is left. */
   readonly oldestId: number;
   /** What the next one will get. */
   readonly nextId: number;

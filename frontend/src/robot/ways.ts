@@ -109,5 +109,5 @@ export function createWays({ clock, boards, storage, mayDrive, isWatched }: Ways
   return { webSerial, webHid, webBluetooth, gateway, simulated };
 }
 
-/** A board that nobody has modelled is simulated by the usual one. */
+/** A board without a model is simulated by the usual one. */
 const simulatedAs = (board: FamilyId) => (isProfileName(board) ? { profile: board } : {});

@@ -14,11 +14,11 @@ import timings from '../../protocol/timings.json' with { type: 'json' };
 export interface Program {
   readonly group: ActionGroup;
   readonly family: Family;
-  /** Whole poses, as the board is to be told. */
+  /** Whole poses, as the board counts. */
   readonly frames: readonly Frame[];
 }
 
-/** The way to the first frame is gentle: nobody knows where the servos stand. */
+/** The way to the first frame is gentle: it is unknown where the servos stand. */
 export const FIRST_MOVE_MS = timings.move.firstMs;
 
 export function programOf(

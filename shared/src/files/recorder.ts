@@ -56,13 +56,13 @@ function isOurStop(latch: SessionState['latch']): boolean {
 export interface Tape {
   /** `board`: whose bytes they are; a change of it is an entry of its own. */
   add(entry: Entry, board: BoardId): void;
-  /** The oldest that is still kept; `nextId` where there is none. */
+  /** The oldest that is left; `nextId` where there is none. */
   oldestId(): number;
   nextId(): number;
-  /** Throws RangeError for an entry that is not kept. */
+  /** Throws RangeError for an entry that is not there. */
   at(id: number): TapeEntry;
   clear(): void;
-  /** What is kept, and the board its first entry came from; `board` where nothing is kept. */
+  /** What is left, and the board its first entry came from; `board` where nothing is. */
   content(board: BoardId): { readonly board: BoardId; readonly entries: Recording['entries'] };
 }
 

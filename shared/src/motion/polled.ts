@@ -153,7 +153,7 @@ function cut(motion: Motion, atMs: number): Motion {
   return { ...motion, run: null, tracks: new Map([...motion.tracks, ...lostWays(run, untilMs)]) };
 }
 
-/** On their way to one of its places, nobody knows which. */
+/** On their way to one of its places, it is unknown which. */
 function lostWays({ rest, restAtMs }: PolledRun, untilMs: number): Tracks {
   const way = { from: null, startMs: restAtMs, durationMs: untilMs - restAtMs };
   return new Map([...rest].map(([servo, to]) => [servo, { ...way, to, ...NOWHERE }]));

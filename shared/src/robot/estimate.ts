@@ -39,7 +39,7 @@ export interface RobotEstimate {
   /** The board said something just now. */
   heard(report: Report): void;
   motions(): Motions;
-  /** Nobody has moved it, and the board has not said where it stands. */
+  /** Nothing has moved it, and the board has not said where it stands. */
   isUnknown(servo: number): boolean;
   /** How long it takes at least because a servo of unknown place starts with it or is on its first way still; else 0. */
   firstMs(move: MoveCommand): number;

@@ -16,12 +16,12 @@ import { STOP_EVERY_MS, STOP_REPEATS } from './timings.ts';
 export interface Halt {
   halt(why?: HaltReason): Promise<void>;
   resume(): Promise<void>;
-  /** The link went: whoever brings it back must look before anything moves again. */
+  /** The link went: a person must look before anything moves again. */
   latchedByLoss(): void;
   /** The link is back after a loss: end what may still run, wait for a person. */
   stopAfterReturn(): void;
   /**
-   * The board says that a group runs: behind a stop it is one that it kept while its flash worked, which drops stops (S9, S41). Or it
+   * The board says that a group runs: behind a stop it is one that it held while its flash worked, which drops stops (S9, S41). Or it
    * answers for the first time since a packet was cut: the stops since then it may have taken for the rest of that. Or it was deaf
    * when they left.
    */
@@ -60,7 +60,7 @@ export function createHalt(options: HaltOptions): Halt {
   let underWay: Promise<void> = Promise.resolve();
   let sequence: Sequence | null = null;
   let latches = 0;
-  /** What goes on is counted from then, also where the board is told once more. */
+  /** What goes on is counted from then, also where a stop is sent once more. */
   let pressedMs = 0;
 
   function latch(value: Latch): void {

@@ -24,7 +24,7 @@ interface IdentificationOptions {
   readonly family: Family;
   readonly identifies: boolean;
   isWatched(): boolean;
-  /** Shows its answer, and shares it with whoever asks at the same time. */
+  /** Shows its answer, and shares it with others who ask at the same time. */
   readBattery(): Promise<number>;
   /** Something moves: no time for questions. */
   isMoving(): boolean;

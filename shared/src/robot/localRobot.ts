@@ -30,7 +30,7 @@ export interface LocalRobotOptions {
   readonly family?: Family | undefined;
   /** Check `family` by harmless questions before anything moves, at each opening. Otherwise its word is enough. */
   readonly identifies?: boolean | undefined;
-  /** Nobody can have moved it before: it begins with its link. */
+  /** Nothing can have moved it before: it begins with its link. */
   readonly isNew?: boolean | undefined;
   /** Whether somebody looks: then an idle board is asked now and again whether it is still there. Absent: never. */
   readonly isWatched?: (() => boolean) | undefined;
@@ -191,7 +191,7 @@ export function createLocalRobot(options: LocalRobotOptions): Robot {
     if (previous === 'ready') unlinked(next);
   }
 
-  /** Whoever hears of it finds what is known of its slots and servos. */
+  /** Listeners find what is known of its slots and servos. */
   function becomesReady(): void {
     driver.groups.linked();
     if (isOpened && options.isNew !== true) driver.core.estimate.opened(openedMs);
@@ -232,7 +232,7 @@ export function createLocalRobot(options: LocalRobotOptions): Robot {
     setAutoReconnect: link.setAutoReconnect,
     identify: () => settled(identification.again),
     choose: (chosen) => settled(() => identification.choose(chosen)),
-    // Nobody else can drive, and the limits are the page's own.
+    // No other client can drive, and the limits are the page's own.
     lease: () => undefined,
     letRun: () => undefined,
     calibrate: () => undefined,

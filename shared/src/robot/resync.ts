@@ -39,7 +39,7 @@ export function createResync(queue: Queue): Resync {
 }
 
 /**
- * Nobody knows how much of the packet arrived, so the bytes must be harmless at every place of it. A first 00 ends the wait
+ * It is unknown how much of the packet arrived, so the bytes must be harmless at every place of it. A first 00 ends the wait
  * for LEN at once (S1) and makes a move whose count is missing an empty one, where the filler would have the board read
  * what earlier packets left behind (S13); but it names slot 0, which a run and a download must not get. What arrived of a
  * move before the cut takes effect: no byte can prevent that.

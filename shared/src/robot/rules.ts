@@ -11,7 +11,7 @@ import type { LinkState, SessionState, SlotGroup, Withheld } from './state.ts';
 
 /** What is known of the robot besides the snapshot. */
 export interface RestQuestions {
-  /** Something is on its way, as far as anybody can know. */
+  /** Something is on its way, as far as can be known. */
   isMoving(): boolean;
   /** A move or a stop of ours is still to leave. */
   isUnsettled(): boolean;

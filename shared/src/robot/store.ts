@@ -67,7 +67,7 @@ export function createSessionStore(
   };
 }
 
-/** What the board says of itself is kept whoever asked, with the time. */
+/** Notes what the board says of itself, with the time. */
 export function noteReport(store: SessionStore, report: Report, atMs: number): void {
   if (report.kind === 'version') store.update({ version: report.version });
   if (report.kind === 'offsets') store.update({ offsets: report.offsets });

@@ -42,7 +42,7 @@ export function createGatewayMoves({
   const waiting = new Map<number, { readonly target: ServoTarget; readonly durationMs: number }>();
   let isHandingOver = false;
   let lastId = 0;
-  /** Nobody wants to hear any more what became of these. */
+  /** The outcome of these and those before is not reported any more. */
   let forgottenId = 0;
 
   async function handOver(): Promise<void> {

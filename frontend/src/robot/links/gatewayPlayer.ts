@@ -16,7 +16,7 @@ export interface GatewayPlayer {
   stop(): void;
   refused(id: number, error: LinkError): void;
   ended(message: PlayedMessage): void;
-  /** Nobody will hear how it ends. */
+  /** Its end will not be heard. */
   gone(error: LinkError): void;
 }
 
@@ -33,7 +33,7 @@ const NEW_MS = 100;
 
 const NOTHING_PLAYED: Played = { lateFrames: 0, latestMs: 0, skippedFrames: 0, isWhole: false };
 
-/** Whoever ended it, or the page itself, says so elsewhere. */
+/** The end is shown elsewhere already. */
 const SAID_ELSEWHERE = ['cancelled', 'latched', 'notDriving'];
 
 /** `begin` gives the nonce of this page's lease. */

@@ -18,7 +18,7 @@ export interface GatewaySlots {
   /** Slots that hold half a group. */
   readonly broken: readonly number[];
   readonly versions: SlotVersions;
-  /** The latest download, whoever began it; null where there was none. */
+  /** The latest download, whichever client began it; null where there was none. */
   readonly download: (DownloadProgress & { readonly isOver: boolean }) | null;
   /** In their order; resolves when the board has all of them; rejects with what ended it. */
   store(groups: readonly SlotGroup[]): Promise<void>;
@@ -26,7 +26,7 @@ export interface GatewaySlots {
   cancel(): Promise<void>;
   jobChanged(job: JobState | null): void;
   slotsChanged(broken: readonly number[], versions: StateMessage['slotVersions']): void;
-  /** The gateway is gone: whoever waits for a download waits in vain, though it may go on. */
+  /** The gateway is gone: the waiting for a download ends, though the download may go on. */
   gone(error: LinkError): void;
 }
 
@@ -83,7 +83,7 @@ export function createGatewaySlots(begin: () => Promise<string>, changed: () => 
       const id = await handOver(first);
       const ended = new Promise<void>((resolve, reject) => {
         waiter = { id, resolve, reject };
-        // Its end may have been told before its beginning was answered.
+        // Its end may have come before its beginning was answered.
         settle();
       });
       await Promise.all([ended, handOverRest(rest, id)]);

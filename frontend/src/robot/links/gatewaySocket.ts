@@ -24,7 +24,7 @@ export interface GatewaySocketOptions {
   /** E.g. `ws://127.0.0.1:8300/ws`. */
   readonly url: string;
   heard(message: Said): void;
-  /** Nobody waits for the answer to that one. */
+  /** Its answer is not awaited. */
   refused(id: number, error: LinkError): void;
   /** The socket has closed by itself, or its port is not open any more. */
   lost(error: LinkError): void;

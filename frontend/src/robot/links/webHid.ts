@@ -111,7 +111,7 @@ async function openBoard(device: HIDDevice, events: ConnectionEvents): Promise<C
 
 function openFailure(error: unknown): LinkErrorCode {
   const name = nameOf(error);
-  // Chromium says so whatever kept it: on Linux nearly always the rights to the device.
+  // Chromium says so whatever the reason: on Linux nearly always the rights to the device.
   if (name === 'NotAllowedError' || name === 'SecurityError') return 'hidDenied';
   return name === 'NotFoundError' ? 'portMissing' : 'portBusy';
 }

@@ -80,7 +80,7 @@ function connect(port: SerialPort, events: ConnectionEvents): Connection {
   let writer: WritableStreamDefaultWriter<Uint8Array> | null = null;
   let leftAtMs = -Infinity;
 
-  // Whoever asked hears first that the port is open, and then of its loss.
+  // The opening is reported first, and then the loss.
   browserClock.after(0, () => void readAll());
 
   async function readAll(): Promise<void> {
