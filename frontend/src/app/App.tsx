@@ -3,7 +3,7 @@
 
 import { useEffect, useLayoutEffect, useRef, type UIEvent } from 'react';
 import { useStore } from 'zustand';
-import { CaptureStrip } from '../features/animate/frames/CaptureStrip.tsx';
+import { CaptureStrip } from './CaptureStrip.tsx';
 import { useBatteryTab } from '../features/battery/BatteryReadout.tsx';
 import { motionsInFrame } from '../features/picture/motionInFrame.ts';
 import { BoardPanel } from '../features/board/BoardPanel.tsx';
@@ -43,6 +43,10 @@ const ButtonsPage = laterComponent(
 const BatteryPanel = laterComponent(
   async () => (await import('../features/battery/BatteryPanel.tsx')).BatteryPanel,
   '200px',
+);
+const CompileRow = laterComponent(
+  async () => (await import('../features/animate/group/CompileRow.tsx')).CompileRow,
+  'var(--control)',
 );
 const Kiosk = laterComponent(async () => (await import('./Kiosk.tsx')).Kiosk, '100%');
 
@@ -134,7 +138,7 @@ function WideWork() {
             <Authoring />
           </div>
           <div className={styles.boardRow}>
-            <BoardPanel isSpread />
+            <BoardPanel isSpread fit={<CompileRow />} />
             <BatteryPanel />
           </div>
         </div>
@@ -186,7 +190,7 @@ function PhonePanel({ tab }: { readonly tab: TabName }) {
   if (tab === 'buttons') return <ButtonsPage />;
   return (
     <>
-      <BoardPanel />
+      <BoardPanel fit={<CompileRow />} />
       <BatteryPanel />
     </>
   );

@@ -2,15 +2,15 @@
 
 import type { Clock } from '#shared/clock.ts';
 import { FAMILIES } from '#shared/codec/families.ts';
-import { createCompileWorker } from '../features/animate/group/compileInWorker.ts';
+import { createCompileWorker } from '../features/board/compile/compileInWorker.ts';
 import { createBattery } from '../features/battery/battery.ts';
 import { applyBatteryPolicy } from '../features/battery/batteryPolicy.ts';
 import { pollBattery } from '../features/battery/batteryPoll.ts';
 import { createBlend } from '../features/poses/blend.ts';
 import { createBoards } from '../robot/remembered.ts';
-import { createCompiled } from '../features/animate/group/compiled.ts';
+import { createCompiled } from '../features/board/compile/compiled.ts';
 import { createDevice } from '../robot/device.ts';
-import { createDocument } from '../features/animate/group/document.ts';
+import { createDocument } from '../features/groupDocument.ts';
 import type { TextStorage } from '../state/soon.ts';
 import type { DocumentStore } from '#shared/files/documentStore.ts';
 import { watchInputs } from '../features/inputs/watchInputs.ts';

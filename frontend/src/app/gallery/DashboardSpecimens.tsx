@@ -7,6 +7,7 @@ import { FAMILIES, UNKNOWN_BOARD, type Family } from '#shared/codec/families.ts'
 import { actionsParts } from '../../features/animate/frames/ActionsPanel.tsx';
 import { AuthoringPanel } from '../Authoring.tsx';
 import { BatteryPanel } from '../../features/battery/BatteryPanel.tsx';
+import { CompileRow } from '../../features/animate/group/CompileRow.tsx';
 import { BoardPanel } from '../../features/board/BoardPanel.tsx';
 import { pageClock } from '../page.ts';
 import { LogPanel } from '../../features/log/LogPanel.tsx';
@@ -55,7 +56,7 @@ function Dashboard({ shows }: { readonly shows: readonly Part[] }) {
 function BoardRow() {
   return (
     <div className={styles.row}>
-      <BoardPanel />
+      <BoardPanel fit={<CompileRow />} />
       <BatteryPanel />
     </div>
   );

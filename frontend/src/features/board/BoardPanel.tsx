@@ -1,16 +1,15 @@
 // What lives on the board: the strip of what is done with it again and again, and below it the details.
 
-import { useId, useRef, type RefObject } from 'react';
+import { useId, useRef, type ReactNode, type RefObject } from 'react';
 import { slotTrigger } from '#shared/codec/families.ts';
 import type { Activity } from '#shared/robot/state.ts';
-import { runAsChosen } from '../animate/play/playback.ts';
 import { motionHindrance } from '../../robot/readiness.ts';
 import { useSnapshot, useStores, useCompiled, useDevice, useDocument, useSlot } from '../stores.ts';
 import { Button } from '../../ui/Button.tsx';
 import { words } from '../../i18n/words.ts';
 import { useSlotContents, CONTENT_TRUTH, useHeldName } from './slots/useSlotContents.ts';
-import { useRunSettings } from './useRunSettings.ts';
-import { obstacles } from '../animate/group/compiled.ts';
+import { runAsChosen, useRunSettings } from './runSettings.ts';
+import { obstacles } from './compile/compiled.ts';
 import { Chip } from '../../ui/Chip.tsx';
 import { NumberField } from '../../ui/NumberField.tsx';
 import { triggerInBar, heldText } from '../../i18n/sentences.ts';
@@ -147,9 +146,11 @@ const BoardDetails = laterComponent(async () => (await import('./BoardDetails.ts
 interface BoardPanelProps {
   /** Its two parts stand in the column around it, as wide as that: the strip stays in sight, the details scroll. */
   readonly isSpread?: boolean;
+  /** How the group at hand fits the board. */
+  readonly fit: ReactNode;
 }
 
-export function BoardPanel({ isSpread = false }: BoardPanelProps) {
+export function BoardPanel({ isSpread = false, fit }: BoardPanelProps) {
   const titleId = useId();
   const details = useRef<HTMLDivElement>(null);
   return (
@@ -162,7 +163,7 @@ export function BoardPanel({ isSpread = false }: BoardPanelProps) {
         {isSpread && <DetailsButton details={details} />}
       </header>
       <div ref={details} className={styles.rows}>
-        <BoardDetails />
+        <BoardDetails fit={fit} />
       </div>
     </section>
   );

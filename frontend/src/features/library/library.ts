@@ -20,7 +20,7 @@ import {
 } from '#shared/files/documentStore.ts';
 import { libraryProblem } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/words.ts';
-import type { Document } from '../animate/group/document.ts';
+import type { Document } from '../groupDocument.ts';
 import type { TextStorage } from '../../state/soon.ts';
 import type { Notices } from '../../state/notices.ts';
 import type { RobotStore } from '../profiles/robots.ts';

@@ -3,7 +3,7 @@
 import { type ActionGroup, groupToText } from '#shared/group/group.ts';
 import type { DocumentStore, Version } from '#shared/files/documentStore.ts';
 import { words } from '../../i18n/words.ts';
-import type { Document } from '../animate/group/document.ts';
+import type { Document } from '../groupDocument.ts';
 import type { Notices } from '../../state/notices.ts';
 import { groupOf } from './openDocument.ts';
 

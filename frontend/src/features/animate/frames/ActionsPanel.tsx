@@ -14,7 +14,7 @@ import { useFiles } from '../../library/files/FilesArea.tsx';
 import { ExamplesControl } from '../group/ExamplesControl.tsx';
 import { RecordControl } from '../play/RecordControl.tsx';
 import { captureFrame } from './capture.ts';
-import { CaptureButton } from './CaptureStrip.tsx';
+import { CaptureButton } from './CaptureButton.tsx';
 import { BodyPicture } from '../../picture/Body.tsx';
 import { EmptyState } from '../../../ui/EmptyState.tsx';
 import { useIsPainted } from '../../../ui/useInFrame.ts';

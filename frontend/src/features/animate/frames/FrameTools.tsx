@@ -9,7 +9,7 @@ import { AddsSwitch } from '../timeline/TimelineTools.tsx';
 import { useWholeFrames } from '../timeline/wholeFrames.ts';
 import { FRAME_ACTIONS, frameContextOf, type FrameContext } from './frameActions.ts';
 import { together } from './frameVerbs.ts';
-import { useKnowsPose } from './CaptureStrip.tsx';
+import { useKnowsPose } from './CaptureButton.tsx';
 import styles from './FrameTools.module.css';
 
 const ICONS = [

@@ -16,8 +16,8 @@ import {
   useKnownFamily,
 } from '../../stores.ts';
 import { showKey } from '../timeline/inStep.ts';
-import { obstacles } from './compiled.ts';
-import { problemText } from './problemText.ts';
+import { obstacles } from '../../board/compile/compiled.ts';
+import { problemText } from '../../board/compile/problemText.ts';
 import { words } from '../../../i18n/whole.ts';
 import { servoName } from '../../profiles/servoName.ts';
 import { Chip } from '../../../ui/Chip.tsx';

@@ -21,7 +21,7 @@ import { chosenTimes } from '../../board/slots/groupPlace.ts';
 import { useSlotContents } from '../../board/slots/useSlotContents.ts';
 import { motionHindrance, startHindrance } from '../../../robot/readiness.ts';
 import { isSilent } from '../../servoView.ts';
-import { timesOf } from '../timeline/groupTimes.ts';
+import { timesOf } from '#shared/group/groupTimes.ts';
 import { Button, IconButton } from '../../../ui/Button.tsx';
 import { cx } from '../../../ui/cx.ts';
 import { LiveText } from '../../../ui/LiveText.tsx';

@@ -6,7 +6,7 @@ import type { PointerEvent } from 'react';
 import { Canvas } from '../../picture/Canvas.tsx';
 import { useDocument, useStores, useTimeline } from '../../stores.ts';
 import { words } from '../../../i18n/whole.ts';
-import { timesOf } from './groupTimes.ts';
+import { timesOf } from '#shared/group/groupTimes.ts';
 import { setTime } from './looking.ts';
 import { paintFrames, paintPlayhead } from './paintMinimap.ts';
 import { panned, seenSpan } from './timeScale.ts';

@@ -8,7 +8,7 @@ import { keyName, type KeySet } from './timeline.ts';
 import { cx } from '../../../ui/cx.ts';
 import { useWords } from '../../../i18n/words.ts';
 import { nameOfKey } from './valueText.ts';
-import { keysOfFrame, timesOf, type GroupTimes } from './groupTimes.ts';
+import { keysOfFrame, timesOf, type GroupTimes } from '#shared/group/groupTimes.ts';
 import { RowHead } from './RowHead.tsx';
 import type { Row } from './rows.ts';
 import { keysInRow, within } from './rowKeys.ts';

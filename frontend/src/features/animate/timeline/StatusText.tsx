@@ -6,7 +6,7 @@ import { useStores, useServoView, editServoView } from '../../stores.ts';
 import { IconButton, Button } from '../../../ui/Button.tsx';
 import { words, type Words } from '../../../i18n/whole.ts';
 import { contextOf, changeable, whyHeld } from './context.ts';
-import { selectedKeys } from './groupTimes.ts';
+import { selectedKeys } from './timeline.ts';
 import { nudgeMarker, selectedMarker } from './markers.ts';
 import { nudge, currentServo } from './moving.ts';
 import { turnText, instantText, cellName } from './valueText.ts';

@@ -4,16 +4,23 @@
 import type { ActionGroup } from '#shared/group/group.ts';
 import type { Label } from '#shared/document/history.ts';
 import type { Key, KeyRef } from '#shared/group/tracks.ts';
-import type { Robot } from '#shared/profile/robot.ts';
-import { servoOf } from '#shared/profile/robot.ts';
+import { type Robot, servoOf } from '#shared/profile/robot.ts';
 import { positionRange, type Family, type Range } from '#shared/codec/families.ts';
-import { framesByServo, keySet, type KeySet, ALL_ROW, type Cursor, type TimelineState } from './timeline.ts';
+import {
+  ALL_ROW,
+  type Cursor,
+  framesByServo,
+  type KeySet,
+  keySet,
+  selectedKeys,
+  type TimelineState,
+} from './timeline.ts';
 import { isHeld, type ServoView } from '../../servoView.ts';
 import { setChanged } from '../../../state/setChanged.ts';
 import { groupBoardOf, servoViewOf, type Stores } from '../../stores.ts';
 import type { PositionsIn } from '../../view.ts';
 import { words } from '../../../i18n/whole.ts';
-import { selectedKeys, timesOf, type GroupTimes } from './groupTimes.ts';
+import { type GroupTimes, timesOf } from '#shared/group/groupTimes.ts';
 import { rowsNow, type Row } from './rows.ts';
 
 export type TimelineStores = Pick<Stores, 'device' | 'document' | 'view' | 'notices' | 'robots' | 'timeline'>;

@@ -2,8 +2,8 @@ import { expect, test } from 'vitest';
 import fc from 'fast-check';
 import { deleteFrames } from '#shared/group/groupEdits.ts';
 import { reverse } from '#shared/group/timeEdits.ts';
-import { keySet } from './timeline.ts';
-import { allKeys, selectedKeys, timesOf } from './groupTimes.ts';
+import { keySet, selectedKeys } from './timeline.ts';
+import { allKeys, timesOf } from '#shared/group/groupTimes.ts';
 import { smallGroup } from './timelineUnderTest.ts';
 
 const SERVOS = [1, 2, 3];

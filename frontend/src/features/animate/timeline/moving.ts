@@ -11,7 +11,7 @@ import { words } from '../../../i18n/whole.ts';
 import type { Cursor } from './timeline.ts';
 import { cellName, nudgeUnits } from './valueText.ts';
 import { apply, changeable, hasChangeable, rangeOf, rowOf, type TimelineContext } from './context.ts';
-import { timesOf, type GroupTimes } from './groupTimes.ts';
+import { timesOf, type GroupTimes } from '#shared/group/groupTimes.ts';
 
 export interface Move {
   edit(group: ActionGroup): ActionGroup;

@@ -11,7 +11,7 @@ import { keysInRow, within } from './rowKeys.ts';
 import { keyY, type Scene } from './scene.ts';
 import { msAt, seenSpan, xOf } from './timeScale.ts';
 import { topOfRows } from './sizes.ts';
-import { keysOfFrame } from './groupTimes.ts';
+import { keysOfFrame } from '#shared/group/groupTimes.ts';
 
 /** Keys closer than this are ticks: diamonds would be one band. */
 const CROWDED_PX = 8;

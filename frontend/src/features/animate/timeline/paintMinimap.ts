@@ -1,7 +1,7 @@
 // Draws the whole group in one line, and on a canvas of its own the playhead, which moves in each frame. Draws what it is given.
 
 import type { Pen } from '../../picture/Canvas.tsx';
-import type { GroupTimes } from './groupTimes.ts';
+import type { GroupTimes } from '#shared/group/groupTimes.ts';
 
 const GROUND_PX = 2;
 const PLAYHEAD_PX = 2;

@@ -1,7 +1,7 @@
 // The keys of a row in the order of time, and those within a stretch of it. Pure; knows no screen.
 
 import type { Key } from '#shared/group/tracks.ts';
-import type { GroupTimes } from './groupTimes.ts';
+import type { GroupTimes } from '#shared/group/groupTimes.ts';
 import type { Row } from './rows.ts';
 
 const NONE: readonly Key[] = [];

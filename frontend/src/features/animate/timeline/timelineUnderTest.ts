@@ -4,13 +4,12 @@
 import { insertFrame } from '#shared/group/groupEdits.ts';
 import { emptyGroup, type ActionGroup } from '#shared/group/group.ts';
 import { createTestPage } from '../../pageUnderTest.ts';
-import { createDocument } from '../group/document.ts';
-import { keySet, createTimeline } from './timeline.ts';
+import { createDocument } from '../../groupDocument.ts';
+import { createTimeline, keySet, selectedKeys } from './timeline.ts';
 import { createView } from '../../view.ts';
 import { contextOf, select } from './context.ts';
 import type { Held } from './gesture.ts';
 import { gestureOf } from './gestures.ts';
-import { selectedKeys } from './groupTimes.ts';
 import { keyY, sceneOf } from './scene.ts';
 import { sizesOf } from './sizes.ts';
 import { pressInTimeline } from './timelineActions.ts';

@@ -3,7 +3,7 @@
 
 import { useShallow } from 'zustand/react/shallow';
 import { useDocument, useGroupBoard, useServoView, useStores, useTimeline, useView } from '../../stores.ts';
-import { timesOf } from './groupTimes.ts';
+import { timesOf } from '#shared/group/groupTimes.ts';
 import { rowsNow, type Row } from './rows.ts';
 import { useInFrame } from '../../../ui/useInFrame.ts';
 import { contextOf, type TimelineContext } from './context.ts';

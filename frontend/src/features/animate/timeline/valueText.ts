@@ -6,7 +6,7 @@ import { words } from '../../../i18n/whole.ts';
 import { inUnits, scaleOf, type Scale } from '../../drive/scale.ts';
 import { rangeOf, type TimelineContext, contextOf, type TimelineStores } from './context.ts';
 import type { Cursor } from './timeline.ts';
-import { keysOfFrame, endOfFrame } from './groupTimes.ts';
+import { keysOfFrame, endOfFrame } from '#shared/group/groupTimes.ts';
 import type { Row } from './rows.ts';
 
 // An instant of a group with its unit, as it stands in sentences.

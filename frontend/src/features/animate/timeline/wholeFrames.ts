@@ -4,10 +4,10 @@
 import type { GroupFrame } from '#shared/group/group.ts';
 import { sameList } from '#shared/group/groupEdits.ts';
 import type { Key } from '#shared/group/tracks.ts';
-import { framesByServo, type KeySet } from './timeline.ts';
+import { framesByServo, type KeySet, selectedKeys } from './timeline.ts';
 import { useStores } from '../../stores.ts';
 import { useInFrame } from '../../../ui/useInFrame.ts';
-import { selectedKeys, timesOf, type GroupTimes } from './groupTimes.ts';
+import { type GroupTimes, timesOf } from '#shared/group/groupTimes.ts';
 import { useRows } from './useTimelineContext.ts';
 
 /** In the order of time. A frame without a key to select goes with the frames on both sides of it. */

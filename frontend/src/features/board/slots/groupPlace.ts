@@ -5,7 +5,7 @@ import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { ActionGroup } from '#shared/group/group.ts';
 import { ownSlot, slotFor, type KnownSlots } from '#shared/group/slotPlaces.ts';
 import type { Device } from '../../../robot/device.ts';
-import type { Document } from '../../animate/group/document.ts';
+import type { Document } from '../../groupDocument.ts';
 import type { View, ViewState } from '../../view.ts';
 import type { Slots } from './slots.ts';
 

@@ -1,7 +1,7 @@
 // Several groups that are to go to the board at once: which slot each takes, and what keeps one of them from it. Pure.
 
-import { obstacles, type CompiledGroup } from '../../animate/group/compiled.ts';
-import { problemText } from '../../animate/group/problemText.ts';
+import { obstacles, type CompiledGroup } from '../compile/compiled.ts';
+import { problemText } from '../compile/problemText.ts';
 import type { SlotDownload } from './slots.ts';
 import { words } from '../../../i18n/whole.ts';
 

@@ -1,8 +1,8 @@
 import { expect, test } from 'vitest';
 import { insertFrame } from '#shared/group/groupEdits.ts';
 import { FAMILIES, UNKNOWN_BOARD } from '#shared/codec/families.ts';
-import { freshRobot } from '../../profiles/robots.ts';
-import { createTestPage } from '../../pageUnderTest.ts';
+import { freshRobot } from './profiles/robots.ts';
+import { createTestPage } from './pageUnderTest.ts';
 
 const POSE = Array.from({ length: 16 }, (_, index) => ({ servo: index + 1, position: 1200 + index }));
 

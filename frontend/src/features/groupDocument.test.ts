@@ -3,10 +3,10 @@ import { insertFrame, moveFrames } from '#shared/group/groupEdits.ts';
 import { setDuration } from '#shared/group/timeEdits.ts';
 import { groupFromText } from '#shared/group/group.ts';
 import { createVirtualClock } from '#shared/testing/virtualClock.ts';
-import { words } from '../../../i18n/words.ts';
-import { createDocument } from './document.ts';
-import type { TextStorage } from '../../../state/soon.ts';
-import { createNotices } from '../../../state/notices.ts';
+import { words } from '../i18n/words.ts';
+import { createDocument } from './groupDocument.ts';
+import type { TextStorage } from '../state/soon.ts';
+import { createNotices } from '../state/notices.ts';
 
 const FRAME = { durationMs: 500, targets: [{ servo: 1, position: 1500 }] };
 

@@ -4,10 +4,10 @@
 import { emptyGroup, type ActionGroup, groupFromText, groupToText } from '#shared/group/group.ts';
 import type { History } from '#shared/document/history.ts';
 import type { Clock } from '#shared/clock.ts';
-import { words } from '../../../i18n/words.ts';
-import type { Notices } from '../../../state/notices.ts';
-import { createSoon, type TextStorage } from '../../../state/soon.ts';
-import { createUndoable, type Undoable } from '../../../state/undoable.ts';
+import { words } from '../i18n/words.ts';
+import type { Notices } from '../state/notices.ts';
+import { createSoon, type TextStorage } from '../state/soon.ts';
+import { createUndoable, type Undoable } from '../state/undoable.ts';
 
 export type DocumentState = History<ActionGroup>;
 

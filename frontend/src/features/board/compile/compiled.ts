@@ -6,7 +6,7 @@ import type { CompileProblem } from '#shared/group/compileReport.ts';
 import { type ActionGroup, maxErrorOf } from '#shared/group/group.ts';
 import type { Clock } from '#shared/clock.ts';
 import type { Device } from '../../../robot/device.ts';
-import type { Document } from './document.ts';
+import type { Document } from '../../groupDocument.ts';
 import { knownFamily } from '../../groupBoard.ts';
 import type { RobotStore } from '../../profiles/robots.ts';
 import { setChanged } from '../../../state/setChanged.ts';

@@ -1,40 +1,14 @@
 // Beside the sliders of a phone, where the action group and the poses are a tab away: the pose at hand as the next frame or
 // as a pose, in one press. Says what was captured and offers to take it back.
 
-import { tellsPositions } from '../../../robot/readiness.ts';
-import { useDevice, useIsUnidentified, useKnownFamily, useStores, type Stores } from '../../stores.ts';
-import { Button, type ButtonProps } from '../../../ui/Button.tsx';
-import { words } from '../../../i18n/words.ts';
-import { capturePose } from '../../poses/capturePose.ts';
-import type { Undoable } from '../../../state/undoable.ts';
-import { captureFrame } from './capture.ts';
-import captureButtonStyles from './CaptureButton.module.css';
+import { useIsUnidentified, useStores, type Stores } from '../features/stores.ts';
+import { Button } from '../ui/Button.tsx';
+import { words } from '../i18n/words.ts';
+import { capturePose } from '../features/poses/capturePose.ts';
+import type { Undoable } from '../state/undoable.ts';
+import { useKnowsPose, useUnknownText } from '../features/animate/frames/CaptureButton.tsx';
+import { captureFrame } from '../features/animate/frames/capture.ts';
 import styles from './CaptureStrip.module.css';
-
-// Keeps the pose that the robot was asked for or that its board has said; says why it cannot while nobody knows one.
-
-interface CaptureButtonProps extends Required<Pick<ButtonProps, 'hint' | 'onPress'>> {
-  readonly label: string;
-}
-
-export function CaptureButton({ label, hint, onPress }: CaptureButtonProps) {
-  const isKnown = useKnowsPose();
-  const unknown = useUnknownText();
-  return (
-    <>
-      <Button tone="primary" icon="plus" hint={hint} isDisabled={!isKnown} onPress={onPress}>
-        {label}
-      </Button>
-      {!isKnown && <p className={captureButtonStyles.hint}>{unknown}</p>}
-    </>
-  );
-}
-
-/** What makes a pose known. */
-const useUnknownText = (): string =>
-  tellsPositions(useKnownFamily()) ? words.actions.nothingKnownOrRead : words.actions.nothingKnown;
-
-export const useKnowsPose = (): boolean => useDevice(({ known }) => known.length > 0);
 
 export function CaptureStrip() {
   const stores = useStores();

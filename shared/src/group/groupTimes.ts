@@ -1,7 +1,7 @@
-// What the timeline reads from a group's frames, worked out once for each state of them: tracks, ends, places by id.
+// A group's frames as keys in time, worked out once for each state of them: tracks, ends, places by id.
 
-import type { GroupFrame } from '#shared/group/group.ts';
-import { sameList } from '#shared/group/groupEdits.ts';
+import type { GroupFrame } from './group.ts';
+import { sameList } from './groupEdits.ts';
 import {
   arePlacedAlike,
   frameEnds,
@@ -11,8 +11,7 @@ import {
   type Key,
   type KeyRef,
   type Tracks,
-} from '#shared/group/tracks.ts';
-import { framesByServo, isMadeOf, type KeySet } from './timeline.ts';
+} from './tracks.ts';
 
 export interface GroupTimes extends Places {
   readonly frames: readonly GroupFrame[];
@@ -89,29 +88,6 @@ export function keysOfFrame(
 export function keyOf(times: GroupTimes, ref: KeyRef): Key | undefined {
   const atMs = endOfFrame(times, ref.frameId);
   return atMs === null ? undefined : keyIn(times.tracks, ref, atMs);
-}
-
-const selections = new WeakMap<GroupTimes, WeakMap<KeySet, readonly Key[]>>();
-
-/** Those of the set that are there, servo by servo; worked out once, however many ask. */
-export function selectedKeys(times: GroupTimes, selected: KeySet): readonly Key[] {
-  const ofTimes = selections.get(times) ?? new WeakMap<KeySet, readonly Key[]>();
-  selections.set(times, ofTimes);
-  const keys = ofTimes.get(selected) ?? keysNamed(times, selected);
-  ofTimes.set(selected, keys);
-  return keys;
-}
-
-/** Each servo's keys are read once, in the order of time, however the names come. */
-function keysNamed({ tracks }: GroupTimes, selected: KeySet): readonly Key[] {
-  const frames = framesByServo(selected);
-  const servos = [...frames.keys()].sort((one, other) => one - other);
-  const keys = servos.flatMap((servo) => {
-    const wanted = frames.get(servo);
-    return tracks.get(servo)?.keys.filter(({ frameId }) => wanted?.has(frameId)) ?? [];
-  });
-  if (keys.length === selected.size) isMadeOf(selected, keys);
-  return keys;
 }
 
 /** The times of these keys, first and last; null where there are none. */
