@@ -6,8 +6,7 @@ import { Button } from '../ui/Button.tsx';
 import { words } from '../i18n/words.ts';
 import { capturePose } from '../features/poses/capturePose.ts';
 import type { Undoable } from '../state/undoable.ts';
-import { useKnowsPose, useUnknownText } from '../features/animate/frames/CaptureButton.tsx';
-import { captureFrame } from '../features/animate/frames/capture.ts';
+import { captureFrame, useKnowsPose, useUnknownText } from '../features/animate/frames/CaptureButton.tsx';
 import styles from './CaptureStrip.module.css';
 
 export function CaptureStrip() {

@@ -4,7 +4,7 @@ import { addMacro } from '#shared/profile/macroEdits.ts';
 import { type PoseBook, markRest, setPose } from '#shared/profile/pose.ts';
 import { flippedTargets, mirroredTargets } from '#shared/profile/poseShapes.ts';
 import { servoOf } from '#shared/profile/robot.ts';
-import { putFrame } from '../animate/frames/capture.ts';
+import { putFrame } from '../animate/frames/CaptureButton.tsx';
 import { GENTLE_MOVE_MS } from '../../robot/moveTime.ts';
 import { useDevice, useDocument, usePoses, useRobot, useStores } from '../stores.ts';
 import { ActionIconButton } from '../../ui/ActionButton.tsx';

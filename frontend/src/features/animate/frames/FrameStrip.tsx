@@ -6,16 +6,17 @@ import { indexOfFrame } from '#shared/group/groupEdits.ts';
 import { useStores } from '../../stores.ts';
 import { clipFromText, clipToText } from '../timeline/clipText.ts';
 import { createStripKeys } from './frameActions.ts';
-import { copy, cut, paste, togetherNow } from './frameVerbs.ts';
+import { copy, cut, paste, togetherNow, useWholeFrames } from './frameVerbs.ts';
 import { cardOf, useCards } from '../../../ui/useCards.ts';
-import { usePlayedFrame } from '../play/usePlayedFrame.ts';
+import { usePlayedFrame } from '../play/playback.ts';
 import { showFrame } from '../timeline/inStep.ts';
-import { useWholeFrames } from '../timeline/wholeFrames.ts';
 import { useInFrame } from '../../../ui/useInFrame.ts';
 import { words } from '../../../i18n/whole.ts';
 import { FrameCard } from './FrameCard.tsx';
-import { framePoses } from './framePoses.ts';
 import styles from './FrameStrip.module.css';
+import type { Frame } from '#shared/codec/commands.ts';
+import { poseAt } from '#shared/group/group.ts';
+import { sameLook, samePose } from '../../picture/pose.ts';
 
 // Copy, cut and paste of the system while a card of the strip has the focus. The events go to wherever the browser
 // thinks text would be, so they are heard for the whole page.
@@ -158,3 +159,46 @@ const roomOf = (beforePx: number, behindPx: number): CSSProperties => ({
 });
 
 const NO_POSE = { pose: new Map<number, number>(), changed: [] };
+
+// The pose after each of some frames that follow each other, and which servos moved to get there, in one pass. Pure.
+
+export interface FramePose {
+  readonly pose: ReadonlyMap<number, number>;
+  /** In ascending order. */
+  readonly changed: readonly number[];
+}
+
+type Pose = FramePose['pose'];
+
+interface Step {
+  readonly from: Pose;
+  readonly to: FramePose;
+}
+
+const known = new WeakMap<Frame, Step>();
+
+/** The very same ones as before as long as they say the same: an edit of one frame has nothing done for dozens of others. */
+export function framePoses(frames: readonly Frame[], first: number, end: number): readonly FramePose[] {
+  let from: Pose = poseAt(frames, first - 1);
+  return frames.slice(first, end).map((frame) => {
+    const to = stepFrom(from, frame);
+    from = to.pose;
+    return to;
+  });
+}
+
+function stepFrom(from: Pose, frame: Frame): FramePose {
+  const before = known.get(frame);
+  if (before !== undefined && samePose(before.from, from)) return before.to;
+  const made = newStep(from, frame);
+  const to = before !== undefined && sameLook(before.to, made) ? before.to : made;
+  known.set(frame, { from, to });
+  return to;
+}
+
+function newStep(from: Pose, { targets }: Frame): FramePose {
+  const pose = new Map(from);
+  for (const { servo, position } of targets) pose.set(servo, position);
+  const changed = [...pose.keys()].filter((servo) => from.get(servo) !== pose.get(servo));
+  return { pose, changed: changed.sort((one, other) => one - other) };
+}

@@ -11,7 +11,7 @@ import { neighbour } from '../../../ui/useCards.ts';
 import type { TimelineStores } from '../timeline/context.ts';
 import { spanFrames } from '../timeline/inStep.ts';
 import { words } from '../../../i18n/whole.ts';
-import { captureFrame } from './capture.ts';
+import { captureFrame } from './CaptureButton.tsx';
 import {
   copy,
   cut,

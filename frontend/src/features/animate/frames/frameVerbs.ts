@@ -2,15 +2,18 @@
 // the history, and the selection goes along. Knows no panel; moves no robot.
 
 import { copyFrames, pasteFrames, type Clip } from '#shared/group/clip.ts';
-import { deleteFrames, duplicateFrames, moveFrames } from '#shared/group/groupEdits.ts';
-import type { ActionGroup } from '#shared/group/group.ts';
-import { type TimelineStores, contextOf, rangeOf, rowOf } from '../timeline/context.ts';
+import { deleteFrames, duplicateFrames, moveFrames, sameList } from '#shared/group/groupEdits.ts';
+import type { ActionGroup, GroupFrame } from '#shared/group/group.ts';
+import { contextOf, rangeOf, rowOf, type TimelineStores, useRows } from '../timeline/context.ts';
 import { showFrame, showFrames } from '../timeline/inStep.ts';
-import { ALL_ROW } from '../timeline/timeline.ts';
-import { wholeFrames } from '../timeline/wholeFrames.ts';
+import { ALL_ROW, framesByServo, type KeySet, selectedKeys } from '../timeline/timeline.ts';
 import { namesIn } from '../../profiles/servoName.ts';
 import { notPasted } from '../timeline/clipText.ts';
 import { words } from '../../../i18n/whole.ts';
+import type { Key } from '#shared/group/tracks.ts';
+import { useStores } from '../../stores.ts';
+import { useInFrame } from '../../../ui/useInFrame.ts';
+import { type GroupTimes, timesOf } from '#shared/group/groupTimes.ts';
 
 export type FrameIds = readonly number[];
 /** As the person counts the frames, from 1. */
@@ -145,3 +148,74 @@ export function selectAllFrames(stores: TimelineStores, lead: number): void {
     lead,
   );
 }
+
+// Which frames are selected as a whole, with every key of theirs in a row that is shown, and the rests between them: what the strip
+// marks, and what is done to several frames is done to. The list is pure, and kept as long as it says the same.
+
+/** In the order of time. A frame without a key to select goes with the frames on both sides of it. */
+export function wholeFrames(
+  { frames }: Pick<GroupTimes, 'frames'>,
+  selected: KeySet,
+  shownServos: ReadonlySet<number>,
+): readonly number[] {
+  const chosen = framesByServo(selected);
+  const ids: number[] = [];
+  let isBehindWhole = false;
+  let rests: number[] = [];
+  for (const frame of frames) {
+    const state = stateOf(frame, chosen, shownServos);
+    if (state === 'rest') {
+      rests.push(frame.id);
+      continue;
+    }
+    if (state === 'whole') ids.push(...(isBehindWhole ? rests : []), frame.id);
+    isBehindWhole = state === 'whole';
+    rests = [];
+  }
+  return ids;
+}
+
+/** By its keys in rows that are shown. */
+function stateOf(
+  { id, targets }: GroupFrame,
+  chosen: ReturnType<typeof framesByServo>,
+  shownServos: ReadonlySet<number>,
+): 'whole' | 'partial' | 'rest' {
+  let state: 'whole' | 'rest' = 'rest';
+  for (const { servo } of targets) {
+    if (!shownServos.has(servo)) continue;
+    if (chosen.get(servo)?.has(id) !== true) return 'partial';
+    state = 'whole';
+  }
+  return state;
+}
+
+interface Whole {
+  readonly shown: readonly number[];
+  readonly ids: readonly number[];
+}
+
+/** By the selected keys, of which there is one list for each selection in each state of the group. */
+const known = new WeakMap<readonly Key[], Whole>();
+let latest: readonly number[] = [];
+
+/** The very same list as before where it says the same: an edit that leaves them the same has nothing drawn again. */
+function wholeNow(times: GroupTimes, selected: KeySet, shown: readonly number[]): readonly number[] {
+  const keys = selectedKeys(times, selected);
+  const before = known.get(keys);
+  if (before?.shown === shown) return before.ids;
+  latest = sameList(before?.ids ?? latest, wholeFrames(times, selected, new Set(shown)));
+  known.set(keys, { shown, ids: latest });
+  return latest;
+}
+
+/** With the next frame: what an edit of thousands of keys does to strip and tools does not keep the key that made it. */
+export function useWholeFrames(): readonly number[] {
+  const { document, timeline } = useStores();
+  const shown = useRows().find(({ kind }) => kind === 'all')?.servos ?? NO_SERVOS;
+  return useInFrame(document.store, ({ present }) =>
+    wholeNow(timesOf(present), timeline.getState().selected, shown),
+  );
+}
+
+const NO_SERVOS: readonly number[] = [];

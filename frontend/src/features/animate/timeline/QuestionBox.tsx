@@ -10,13 +10,12 @@ import { cx } from '../../../ui/cx.ts';
 import { isTouch } from '../../../ui/touch.ts';
 import { words } from '../../../i18n/whole.ts';
 import { answer, ASKED } from './questions.ts';
-import { contextOf } from './context.ts';
+import { contextOf, type ShownContext, useTimelineContext } from './context.ts';
 import { endOfFrame } from '#shared/group/groupTimes.ts';
 import { sizesNow } from './trackCanvas.ts';
 import { scaleAt } from './valueText.ts';
 import { sceneOf } from './scene.ts';
 import { xOf } from './timeScale.ts';
-import { useTimelineContext, type ShownContext } from './useTimelineContext.ts';
 import styles from './QuestionBox.module.css';
 
 export interface AskBoxProps {

@@ -3,10 +3,8 @@
 import { type KeySet, selectedKeys, type TimelineState } from './timeline.ts';
 import type { KeyRef } from '#shared/group/tracks.ts';
 import { type GroupTimes, keysOfFrame, spanOf } from '#shared/group/groupTimes.ts';
-import type { PlacedRow, Row } from './rows.ts';
-import { keysInRow, within } from './rowKeys.ts';
+import { keysInRow, type PlacedRow, type Row, topOfRows, within } from './rows.ts';
 import { keyY, type Scene } from './scene.ts';
-import { topOfRows } from './sizes.ts';
 import { msAt, xOf, type Span } from './timeScale.ts';
 
 export type Hit =

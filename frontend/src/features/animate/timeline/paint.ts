@@ -6,11 +6,9 @@ import { handleX, HANDLES, stretchOf } from './hit.ts';
 import { type Brush, paintHeads, paintMarkers } from './paintHeads.ts';
 import type { Look } from '../../picture/look.ts';
 import { changedStretch, isWithin, wholeOf, type Stretch } from './repaint.ts';
-import type { PlacedRow } from './rows.ts';
-import { keysInRow, within } from './rowKeys.ts';
+import { keysInRow, type PlacedRow, topOfRows, within } from './rows.ts';
 import { keyY, type Scene } from './scene.ts';
 import { msAt, seenSpan, xOf } from './timeScale.ts';
-import { topOfRows } from './sizes.ts';
 import { keysOfFrame } from '#shared/group/groupTimes.ts';
 
 /** Keys closer than this are ticks: diamonds would be one band. */

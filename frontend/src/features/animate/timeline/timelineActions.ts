@@ -32,8 +32,7 @@ import {
   zoom,
   type Direction,
 } from './looking.ts';
-import { goToMarker, nudgeMarker } from './markers.ts';
-import { nudge } from './moving.ts';
+import { goToMarker, nudge, nudgeMarker } from './moving.ts';
 import { mayBeNegative } from './questions.ts';
 import type { Ask, TimelineState } from './timeline.ts';
 

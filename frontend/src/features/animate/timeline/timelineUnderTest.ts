@@ -11,7 +11,7 @@ import { contextOf, select } from './context.ts';
 import type { Held } from './gesture.ts';
 import { gestureOf } from './gestures.ts';
 import { keyY, sceneOf } from './scene.ts';
-import { sizesOf } from './sizes.ts';
+import { sizesOf } from './rows.ts';
 import { pressInTimeline } from './timelineActions.ts';
 import { xOf } from './timeScale.ts';
 

@@ -3,7 +3,7 @@ import fc from 'fast-check';
 import { expect, test } from 'vitest';
 import { changedServos, poseAt } from '#shared/group/group.ts';
 import type { Frame } from '#shared/codec/commands.ts';
-import { framePoses } from './framePoses.ts';
+import { framePoses } from './FrameStrip.tsx';
 
 const target = fc.record({ servo: fc.integer({ min: 1, max: 4 }), position: fc.integer({ min: 1, max: 3 }) });
 const frame = fc.record({

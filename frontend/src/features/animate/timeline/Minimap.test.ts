@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest';
 import { recordingPen } from '../../picture/penUnderTest.ts';
-import { paintPlayhead } from './paintMinimap.ts';
+import { paintPlayhead } from './Minimap.tsx';
 
 test('the playhead is a line over all of the height, within both ends', () => {
   const { strokes, pen } = recordingPen({ width: 402, height: 16 });

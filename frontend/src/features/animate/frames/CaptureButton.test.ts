@@ -1,7 +1,7 @@
 import { expect, test } from 'vitest';
 import { insertFrame } from '#shared/group/groupEdits.ts';
 import { createTestPage } from '../../pageUnderTest.ts';
-import { captureFrame } from './capture.ts';
+import { captureFrame } from './CaptureButton.tsx';
 
 test.each([
   ['before', [100, 1000, 200, 300]],

@@ -2,7 +2,7 @@ import { expect, test } from 'vitest';
 import { deleteKeys, moveKeys, setKey } from '#shared/group/keyEdits.ts';
 import type { ActionGroup } from '#shared/group/group.ts';
 import { timesOf } from '#shared/group/groupTimes.ts';
-import { keysInRow } from './rowKeys.ts';
+import { keysInRow } from './rows.ts';
 import { smallGroup } from './timelineUnderTest.ts';
 
 const row = (kind: 'all' | 'limb' | 'servo', ...servos: number[]) => ({

@@ -3,7 +3,7 @@ import { startHistory } from '#shared/document/history.ts';
 import { rangeOf } from './context.ts';
 import { scaleAt } from './valueText.ts';
 import { keyY, sceneOf } from './scene.ts';
-import { sizesOf } from './sizes.ts';
+import { sizesOf } from './rows.ts';
 import { createTestTimeline, smallGroup } from './timelineUnderTest.ts';
 
 async function pageInSteps() {

@@ -1,8 +1,8 @@
 import { expect, test } from 'vitest';
 import { editServoView } from '../../stores.ts';
 import { ALL_ROW } from './timeline.ts';
-import { keepCursorInSight } from './trackCanvas.ts';
-import { sizesOf, topOfRows } from './sizes.ts';
+import { hoverAt, keepCursorInSight } from './trackCanvas.ts';
+import { sizesOf, topOfRows } from './rows.ts';
 import { createTestTimeline } from './timelineUnderTest.ts';
 
 const SIZES = sizesOf(false, false);
@@ -41,4 +41,18 @@ test('where its row is hidden the cursor is in the row of all servos, on the sam
   const { frameId } = stores.timeline.getState().cursor;
   editServoView(stores, (view) => ({ ...view, hidden: [1] }));
   expect(stores.timeline.getState().cursor).toEqual({ row: ALL_ROW, frameId });
+});
+
+test('what a press would do is said of each place before it is pressed', async () => {
+  const { stores, spotOf, select } = await createTestTimeline();
+  const statusAt = (spot: { x: number; y: number }) => hoverAt(stores, sizesOf(false, false), spot).status;
+  expect(statusAt({ x: 30, y: 5 })).toBe('scrub');
+  expect(statusAt({ x: 100, y: 33 })).toBe('duration');
+  expect(statusAt({ x: 75, y: 33 })).toBe('box');
+  expect(statusAt(spotOf(1, 2))).toBe('move');
+  select([2, 1], [3, 1]);
+  expect(statusAt(spotOf(1, 2))).toBe('selected');
+  expect(statusAt({ x: 88, y: 57 })).toBe('stretchBack');
+  expect(statusAt({ x: 162, y: 57 })).toBe('stretch');
+  expect(statusAt({ x: 700, y: 90 })).toBe('nothing');
 });
