@@ -4,7 +4,12 @@
 import { FRAME_ACTIONS, FRAME_KEYS, frameContextOf } from '../features/animate/frames/frameActions.ts';
 import { PLAY, PREVIEW } from '../features/animate/play/playActions.ts';
 import { contextOf } from '../features/animate/timeline/context.ts';
-import { MENU_KEYS, TIMELINE_ACTIONS, TIMELINE_KEYS } from '../features/animate/timeline/timelineActions.ts';
+import {
+  MENU_KEYS,
+  ROW_ACTIONS,
+  TIMELINE_ACTIONS,
+  TIMELINE_KEYS,
+} from '../features/animate/timeline/timelineActions.ts';
 import { MACRO_ACTIONS, macroContextOf } from '../features/buttons/macroActions.ts';
 import { POSE_ACTIONS, poseContextOf } from '../features/poses/poseActions.ts';
 import type { Stores } from '../features/stores.ts';
@@ -34,10 +39,11 @@ function listed<Context extends Shown, Shown>(
   context: () => Context,
   where: true | string = true,
 ): readonly ListedAction[] {
+  const now = context();
   return actions.map(({ id, icon, keys, label, enabled, run }) => ({
     ...{ id, icon, keys },
-    label: label(context()),
-    enabled: where === true ? enabled(context()) : where,
+    label: label(now),
+    enabled: where === true ? enabled(now) : where,
     run: () => run(context()),
   }));
 }
@@ -64,6 +70,10 @@ export const ACTION_PLACES: readonly ActionPlace[] = [
       ...listed([PLAY, PREVIEW], () => stores, isOpen(stores, 'group')),
       ...listed(Object.values(TIMELINE_ACTIONS), () => contextOf(stores), isOpen(stores, 'group')),
     ],
+  },
+  {
+    ...{ id: 'row', keys: [] },
+    actions: (stores) => listed(Object.values(ROW_ACTIONS), () => contextOf(stores), isOpen(stores, 'group')),
   },
   {
     ...{ id: 'frames', keys: FRAME_KEYS },

@@ -1967,6 +1967,7 @@ export interface Messages {
     readonly needs: {
       readonly keys: string;
       readonly keysOrMarker: string;
+      readonly limb: string;
     };
     readonly keyUses: {
       readonly move: string;
@@ -2274,6 +2275,7 @@ export interface Messages {
     readonly places: {
       readonly page: string;
       readonly timeline: string;
+      readonly row: string;
       readonly frames: string;
       readonly poses: string;
       readonly buttons: string;

@@ -1,4 +1,5 @@
-// Captures the pose that the robot was asked for or that its board has said; says why it cannot while none is known.
+// Puts a pose into the group as a frame, beside another one or at the end: one that is given, or that which the robot was asked for or
+// its board has said. The button that captures it says why it cannot while none is known. Moves nothing.
 
 import { tellsPositions } from '../../../robot/readiness.ts';
 import { type Stores, useDevice, useKnownFamily } from '../../stores.ts';
@@ -31,9 +32,6 @@ export const useUnknownText = (): string =>
   tellsPositions(useKnownFamily()) ? words.actions.nothingKnownOrRead : words.actions.nothingKnown;
 
 export const useKnowsPose = (): boolean => useDevice(({ known }) => known.length > 0);
-
-// Puts a pose into the group as a frame beside another one or at the end: the one that the robot was asked for, or a kept one.
-// Moves nothing.
 
 const USUAL_FRAME_MS = 1000;
 

@@ -1,4 +1,4 @@
-// What a verb of the timeline works with, gathered anew each time, and how it leaves the selection. Edits go to the document
+// What an action of the timeline works with, gathered anew each time, and how it leaves the selection. Edits go to the document
 // alone, as one step each.
 
 import type { ActionGroup } from '#shared/group/group.ts';

@@ -132,7 +132,7 @@ export function nudge(context: TimelineContext, ticks: number, valueSteps: numbe
   context.stores.notices.say(cellName({ ...context, times }, cursor));
 }
 
-// Markers without a pointer: from one to the next, and moved by the board's ticks. One that is selected is what the verbs mean.
+// Markers without a pointer: from one to the next, and moved by the board's ticks. One that is selected is what the actions are about.
 
 export const selectedMarker = ({
   group: { markers },

@@ -16,7 +16,10 @@ import {
   setKeys,
   turnRound,
 } from './changes.ts';
-import type { TimelineContext } from './context.ts';
+import { editServoView } from '../../stores.ts';
+import { toggled } from '../../servoView.ts';
+import { rowOf, type TimelineContext } from './context.ts';
+import type { Row } from './rows.ts';
 import {
   fitAll,
   fitSelection,
@@ -133,6 +136,54 @@ export const TIMELINE_ACTIONS = Object.fromEntries(
 ) as Readonly<Record<TimelineActionName, TimelineAction>>;
 
 const all = Object.values(TIMELINE_ACTIONS);
+
+/** The rows of a list of the servo view: its icon, and its words where it is to have the row, and where it has it. */
+const ROW_LISTS = {
+  locked: { icon: 'lock', takes: 'lock', frees: 'unlock' },
+  muted: { icon: 'mute', takes: 'mute', frees: 'unmute' },
+  solo: { icon: 'solo', takes: 'solo', frees: 'unsolo' },
+  armed: { icon: 'record', takes: 'arm', frees: 'disarm' },
+  hidden: { icon: 'hide', takes: 'hide', frees: 'hide' },
+} as const;
+
+type RowAction = Action<TimelineContext>;
+
+const cursorRow = (context: TimelineContext): Row | undefined => rowOf(context, context.state.cursor.row);
+
+const toList = (list: keyof typeof ROW_LISTS): RowAction => ({
+  ...{ id: list, icon: ROW_LISTS[list].icon, keys: [] },
+  label(context) {
+    const servos = cursorRow(context)?.servos ?? [];
+    const isIn = servos.length > 0 && servos.every((servo) => context.servoView[list].includes(servo));
+    return words.timeline.rows[ROW_LISTS[list][isIn ? 'frees' : 'takes']];
+  },
+  enabled: () => true,
+  run(context) {
+    const servos = cursorRow(context)?.servos ?? [];
+    editServoView(context.stores, (before) => ({ ...before, [list]: toggled(before[list], servos) }));
+  },
+});
+
+const isFolded = (context: TimelineContext): boolean =>
+  context.servoView.folded.includes(cursorRow(context)?.name ?? '');
+
+/** What is done to the row of the cursor. */
+export const ROW_ACTIONS: Readonly<Record<keyof typeof ROW_LISTS | 'folded', RowAction>> = {
+  locked: toList('locked'),
+  muted: toList('muted'),
+  solo: toList('solo'),
+  armed: toList('armed'),
+  hidden: toList('hidden'),
+  folded: {
+    ...{ id: 'folded', icon: 'down', keys: [] },
+    label: (context) => words.timeline.rows[isFolded(context) ? 'unfold' : 'foldAway'],
+    enabled: (context) => cursorRow(context)?.kind === 'limb' || words.timeline.needs.limb,
+    run(context) {
+      const limb = cursorRow(context)?.name ?? '';
+      editServoView(context.stores, (before) => ({ ...before, folded: toggled(before.folded, [limb]) }));
+    },
+  },
+};
 
 const ARROWS: Readonly<Record<string, { direction: Direction; ticks: number; valueSteps: number }>> = {
   ArrowLeft: { direction: 'left', ticks: -1, valueSteps: 0 },
