@@ -8,7 +8,7 @@ import { clipFromText, clipToText } from '../timeline/clipText.ts';
 import { createStripKeys } from './frameActions.ts';
 import { copy, cut, paste, togetherNow, useWholeFrames } from './frameVerbs.ts';
 import { cardOf, useCards } from '../../../ui/useCards.ts';
-import { usePlayedFrame } from '../play/playback.ts';
+import { usePlayedFrame } from '../play/usePlayedFrame.ts';
 import { showFrame } from '../timeline/inStep.ts';
 import { useInFrame } from '../../../ui/useInFrame.ts';
 import { words } from '../../../i18n/whole.ts';

@@ -13,8 +13,6 @@ import type { RobotStore } from '../../profiles/robots.ts';
 import type { GroupPlace } from '../../board/slots/groupPlace.ts';
 import type { Replacing } from '../../board/slots/replacing.ts';
 import type { Slots } from '../../board/slots/slots.ts';
-import { usePlayback, useStores, useTimeline } from '../../stores.ts';
-import { timesOf } from '#shared/group/groupTimes.ts';
 
 // Where the timeline's playhead is, for whoever plays the group.
 
@@ -113,18 +111,4 @@ export function createPlayback(options: PlaybackOptions): Playback {
     hidden: () => player?.hidden(),
     player: (make) => (player ??= make(options, store)),
   };
-}
-
-// Which frame of the group is being played, by the playhead: what is sent are other frames, as compile makes them.
-
-/** As an index; null while nothing is played. */
-export function usePlayedFrame(): number | null {
-  const { document } = useStores();
-  const isPlaying = usePlayback(({ phase }) => phase !== null && phase !== 'storing');
-  const index = useTimeline(({ playheadMs }) =>
-    isPlaying
-      ? timesOf(document.store.getState().present).ends.findIndex((endMs) => endMs >= playheadMs)
-      : -1,
-  );
-  return index === -1 ? null : index;
 }
