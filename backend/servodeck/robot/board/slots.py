@@ -1,5 +1,6 @@
 """What the board's slots hold: the groups that this gateway stored there since it opened the port (twin of
-`createGroupMemory` in shared/src/robot/estimate.ts), and, on disk, which version of what was stored in each slot last.
+`createGroupMemory` in shared/src/robot/estimate.ts), and, on disk, which version of what was stored in each
+slot last.
 
 Of a group only its packets are kept: a full board's frames would be 200 MB, its packets are 10. Knows slots;
 not what runs.
