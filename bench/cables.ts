@@ -1,15 +1,22 @@
-// A board behind a Bluetooth module at the gateway, beside the same board on a serial port: a question and its answer, the age
-// of slider values, and STOP while sliders are dragged. All parts are real but the radio, which takes its own time on top: up to a
-// connection interval (7.5 to 60 ms) each way.
+// A board on its own USB cable (HID) and one behind a Bluetooth module, each at the gateway and beside the same board on a serial port:
+// a question and its answer, the age of slider values, and STOP while sliders are dragged. All parts are real but two, which take their
+// own time on top: the USB interval (unpublished; 1 to 10 ms in similar firmware), and the radio, up to a connection interval (7.5 to 60 ms) each way.
 
 import type { Page } from '@playwright/test';
-import { bluezProblem } from '../scripts/browser.mjs';
+import { bluezProblem, umockdevProblem } from '../scripts/browser.mjs';
 import { say } from '../scripts/steps.mjs';
 import { amount } from './amounts.ts';
 import { packetsInto } from './busPackets.ts';
 import type { Figure } from './figure.ts';
 import { slowest, tripsThroughPage } from './relay.ts';
-import { openDashboard, withBluetoothBoard, withBoard, withPage, type BoardOnPort } from './station.ts';
+import {
+  openDashboard,
+  withBluetoothBoard,
+  withBoard,
+  withHidBoard,
+  withPage,
+  type BoardOnPort,
+} from './station.ts';
 import { percentile } from './statistics.ts';
 import { measureStopDragging } from './stop.ts';
 
@@ -27,21 +34,42 @@ export async function measureBluetooth(): Promise<Figure[]> {
     say(`no figures of Bluetooth: ${problem}`);
     return [];
   }
-  const [bluetoothTrips, serialTrips] = [await tripsOn(withBluetoothBoard), await tripsOn(withBoard)];
-  const [bluetoothAges, serialAges] = [await agesOn(withBluetoothBoard), await agesOn(withBoard)];
+  return beside('bluetooth', withBluetoothBoard, 'page, gateway, bleak, D-Bus, board and back; no radio');
+}
+
+export async function measureHid(): Promise<Figure[]> {
+  const problem = umockdevProblem();
+  if (problem !== null) {
+    say(`no figures of HID: ${problem}`);
+    return [];
+  }
+  return beside('hid', withHidBoard, 'page, gateway, hidraw node, board and back; no USB interval');
+}
+
+async function beside(name: string, lend: typeof withBoard, note: string): Promise<Figure[]> {
+  const [trips, serialTrips] = [await tripsOn(lend), await serial.trips()];
+  const [ages, serialAges] = [await agesOn(lend), await serial.ages()];
   return [
     ...[50, 99].map((percent) => ({
-      ...{ key: `bluetooth.roundtripP${percent}Us`, value: slowest(bluetoothTrips, percent), unit: 'µs' },
+      ...{ key: `${name}.roundtripP${percent}Us`, value: slowest(trips, percent), unit: 'µs' },
       against: { what: 'serial', value: slowest(serialTrips, percent) },
-      note: 'page, gateway, bleak, D-Bus, board and back; no radio',
+      note,
     })),
     ...[50, 99].map((percent) => ({
-      ...{ key: `bluetooth.dragP${percent}Ms`, value: percentile(bluetoothAges, percent), unit: 'ms' },
+      ...{ key: `${name}.dragP${percent}Ms`, value: percentile(ages, percent), unit: 'ms' },
       against: { what: 'serial', value: percentile(serialAges, percent) },
-      note: `all sliders dragged once a frame, ${bluetoothAges.length} packets; age of a value at its last byte`,
+      note: `all sliders dragged once a frame, ${ages.length} packets; age of a value at its last byte`,
     })),
-    ...(await measureStopDragging('bluetooth.stopDragging', withBluetoothBoard, PRESSES)),
+    ...(await measureStopDragging(`${name}.stopDragging`, lend, PRESSES)),
   ];
+}
+
+/** Measured once a run, for each cable to stand beside. */
+const serial = { trips: once(() => tripsOn(withBoard)), ages: once(() => agesOn(withBoard)) };
+
+function once<Value>(measure: () => Promise<Value>): () => Promise<Value> {
+  let measured: Promise<Value> | undefined;
+  return () => (measured ??= measure());
 }
 
 function tripsOn(lend: typeof withBoard): Promise<readonly number[]> {
