@@ -16,9 +16,10 @@ from servodeck import __version__
 from servodeck.cli.options import FAILURE, Token, TokenFile, Url, remote_at
 from servodeck.cli.remote import HERE, RefusedError, Remote, UnreachableError
 from servodeck.errors import PortError
-from servodeck.port.diagnosis import OTHER_RATES, Heard, access_to, find_rate, listen, looks_like
+from servodeck.port.diagnosis import Heard, access_to, find_rate, listen, looks_like
 from servodeck.port.hid import ALLOW_HID, is_hid
 from servodeck.port.ports import PortInfo, is_same_port, list_devices
+from servodeck.protocol.timings import LINE
 from servodeck.value import value
 
 NOISE_SHOWN = 32
@@ -179,7 +180,7 @@ def heard_findings(name: str, heard: Heard, *, is_on_hid: bool) -> Iterator[Find
 def rate_finding(name: str, device: str) -> Finding:
     found = find_rate(device)
     if found is None:
-        rates = ", ".join(str(rate) for rate in OTHER_RATES)
+        rates = ", ".join(str(rate) for rate in LINE.other_rates)
         return Finding("--", f"At {rates} baud nothing that can be read arrives on {name} by itself.")
     rate, heard = found
     if heard.packets:

@@ -15,13 +15,10 @@ from servodeck.port.ports import OpenPort, group_of, open_port
 from servodeck.protocol.decoder import Decoder, DecoderEvent, PacketEvent
 from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.packets import encode
-from servodeck.protocol.timings import DECODER
+from servodeck.protocol.timings import DECODER, LINE
 from servodeck.protocol.values import ReadBattery
 from servodeck.value import value
 
-LISTENS_S = 1.0
-# Of serial ports beside the boards' own, the usual one of ESP32 and Arduino programs first.
-OTHER_RATES = (115_200, 57_600, 38_400, 19_200, 4_800)
 BATTERY = 15
 PRINTABLE = frozenset(range(0x20, 0x7F)) | {0x0A, 0x0D}
 # At another speed bits run together: one run of ones beside one of zeros.
@@ -88,7 +85,7 @@ def find_rate(device: str) -> tuple[int, Heard] | None:
     """The first other speed at which what arrives can be read, and what that is. Writes nothing. Raises a
     PortError with a sentence.
     """
-    for baud in OTHER_RATES:
+    for baud in LINE.other_rates:
         port = open_port(device, baud)
         try:
             heard = heard_on(port)
@@ -103,7 +100,7 @@ def heard_on(port: OpenPort) -> Heard:
     heard = Heard()
     decoder = Decoder(heard.take)
     inbox = ReportInbox(heard.take) if port.in_reports else decoder
-    until_s = time.monotonic() + LISTENS_S
+    until_s = time.monotonic() + LINE.listen_ms / 1000
     while time.monotonic() < until_s and heard.battery_mv is None:
         if data := port.read():
             inbox.push(data)

@@ -18,6 +18,8 @@ class Line(NamedTuple):
     pause_ms: int
     idle_ms: int
     filler_bytes: int
+    other_rates: tuple[int, ...]
+    listen_ms: int
     reconnect_ms: tuple[int, ...]
 
 

@@ -2261,6 +2261,11 @@ export interface Messages {
     readonly heardNothingOnOwnCable: string;
     readonly heardNothing: string;
     readonly battery: (values: { readonly mv: number; readonly ms: number }) => string;
+    readonly rates: string;
+    readonly listening: string;
+    readonly rateFound: (values: { readonly baud: number; readonly kind: string }) => string;
+    readonly rateNone: string;
+    readonly ratesAtGateway: string;
     readonly copy: string;
     readonly copied: string;
   };

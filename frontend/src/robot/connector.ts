@@ -12,6 +12,7 @@ import type { Notices } from '../state/notices.ts';
 import type { You } from './http.generated.ts';
 import { choosePort, grantedPorts, portLabel, webSerialObstacle } from './links/serialPorts.ts';
 import type { BluetoothHere, GrantedModule } from './links/webBluetooth.ts';
+import type { HeardAtRate } from './links/otherRates.ts';
 import type { GrantedBoard, HidHere } from './links/webHid.ts';
 import { words } from '../i18n/words.ts';
 import {
@@ -43,6 +44,8 @@ export interface ConnectState {
   readonly body: BodyKind | null;
 }
 
+export type { HeardAtRate };
+
 export interface GrantedPort {
   readonly port: SerialPort;
   /** The channel's own name of it. */
@@ -65,6 +68,8 @@ export interface Connector {
   useSerialPort(port: SerialPort): Promise<void>;
   /** Opens the browser's chooser. Rejects with a LinkError. */
   chooseSerialPort(): Promise<void>;
+  /** Listens at other speeds on the serial port in use, whose link ends for that and is opened again. */
+  findRate(isReadable: (heard: HeardAtRate) => boolean): Promise<HeardAtRate | null>;
   useBoard(board: HIDDevice): Promise<void>;
   /** Opens the browser's chooser; `all`: with every HID device. Rejects with a LinkError. */
   chooseBoard(all: boolean): Promise<void>;
@@ -262,6 +267,17 @@ export function createConnector(options: ConnectorOptions): Connector {
     useSerialPort: takePort,
     async chooseSerialPort() {
       await takePort(await choosePort());
+    },
+    async findRate(isReadable) {
+      if (current?.way().kind !== 'webSerial') return null;
+      const port = current.port as SerialPort;
+      const { findRate } = await import('./links/otherRates.ts');
+      await device.detach();
+      try {
+        return await findRate(port, isReadable);
+      } finally {
+        chosen(await ways.webSerial(port));
+      }
     },
     useBoard: takeBoard,
     async chooseBoard(all) {

@@ -100,6 +100,7 @@ const ACTIONS: Actions = {
   useGatewayPort: later,
   useSerialPort: later,
   chooseSerialPort: later,
+  findRate: () => Promise.resolve(null),
   useBoard: later,
   chooseBoard: later,
   useModule: later,

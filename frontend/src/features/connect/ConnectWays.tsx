@@ -94,7 +94,7 @@ export function Ways(props: WaysProps) {
         </WayCard>
       </section>
       {others.length > 0 && (
-        <section className={styles.list} aria-label={words.connect.notHere}>
+        <section className={styles.obstacles} aria-label={words.connect.notHere}>
           <h3>{words.connect.notHere}</h3>
           {others.map(({ cable: { kind }, obstacle }) => (
             <div key={kind} className={styles.obstacle} role="group" aria-label={words.connect[kind].title}>
@@ -104,7 +104,7 @@ export function Ways(props: WaysProps) {
           ))}
         </section>
       )}
-      <Doctor state={state} />
+      <Doctor state={state} actions={actions} />
       <footer className={styles.foot}>
         <p className={styles.dim}>{words.connect.intro}</p>
         <Toggle

@@ -6,22 +6,29 @@ import { Mark, type Truth } from '../../ui/Chip.tsx';
 import { errorSentence } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/whole.ts';
 import { isBoardsOwnCable } from '../../robot/readiness.ts';
-import type { ConnectState } from '../../robot/connector.ts';
+import type { ConnectState, HeardAtRate } from '../../robot/connector.ts';
+import { Button } from '../../ui/Button.tsx';
+import type { Actions } from './cables.ts';
 import { CopyButton } from './CopyButton.tsx';
-import { findingsOf, heardIn, interfacesHere, type Facts, type Finding } from './doctor.ts';
+import { findingsOf, heardIn, interfacesHere, isReadable, type Facts, type Finding } from './doctor.ts';
 import styles from './Doctor.module.css';
 
-export function Doctor({ state }: { readonly state: ConnectState }) {
+interface DoctorProps {
+  readonly state: ConnectState;
+  readonly actions: Pick<Actions, 'findRate'>;
+}
+
+export function Doctor({ state, actions }: DoctorProps) {
   const [isOpen, setOpen] = useState(false);
   return (
     <details className={styles.doctor} onToggle={(event) => setOpen(event.currentTarget.open)}>
       <summary>{words.doctor.title}</summary>
-      {isOpen && <Findings state={state} />}
+      {isOpen && <Findings state={state} actions={actions} />}
     </details>
   );
 }
 
-function Findings({ state }: { readonly state: ConnectState }) {
+function Findings({ state, actions }: DoctorProps) {
   const { device } = useStores();
   const interfaces = useInterfaces();
   const link = useSnapshot((snapshot) => snapshot.link);
@@ -56,8 +63,42 @@ function Findings({ state }: { readonly state: ConnectState }) {
           </li>
         ))}
       </ul>
+      {way?.kind === 'webSerial' && facts.heard.packets === 0 && <OtherRates findRate={actions.findRate} />}
+      {way?.kind === 'gateway' && facts.heard.packets === 0 && !isOwnCable && (
+        <p className={styles.hint}>{words.doctor.ratesAtGateway}</p>
+      )}
       <CopyButton text={report} label={words.doctor.copy} done={words.doctor.copied} />
     </>
+  );
+}
+
+/** Nothing that can be read has arrived: the board may have another speed. */
+function OtherRates({ findRate }: Pick<Actions, 'findRate'>) {
+  const { notices } = useStores();
+  const [found, setFound] = useState<HeardAtRate | 'none' | 'listening' | null>(null);
+  const listen = (): void => {
+    setFound('listening');
+    findRate(isReadable).then(
+      (heard) => setFound(heard ?? 'none'),
+      (error: unknown) => {
+        setFound(null);
+        notices.tellError(error);
+      },
+    );
+  };
+  const result =
+    found === 'none'
+      ? words.doctor.rateNone
+      : found === null || found === 'listening'
+        ? ''
+        : words.doctor.rateFound({ baud: found.baud, kind: found.packets > 0 ? 'packets' : 'text' });
+  return (
+    <div className={styles.rates}>
+      <Button icon="refresh" isPending={found === 'listening'} onPress={listen}>
+        {found === 'listening' ? words.doctor.listening : words.doctor.rates}
+      </Button>
+      <p role="status">{result}</p>
+    </div>
   );
 }
 

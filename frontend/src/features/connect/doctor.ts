@@ -90,6 +90,11 @@ export function kindOfNoise(bytes: readonly number[]): NoiseKind {
   return share((byte) => RUNS.has(byte)) >= timings.decoder.noiseShare ? 'rate' : 'other';
 }
 
+/** Packets, or text of a program that prints. */
+export function isReadable({ packets, noise }: Pick<Heard, 'packets' | 'noise'>): boolean {
+  return packets > 0 || (noise.length > 0 && kindOfNoise(noise) === 'text');
+}
+
 /** Bytes of one run of ones beside one run of zeros. */
 const RUNS = new Set(Array.from({ length: 9 }, (_, zeros) => [(0xff << zeros) & 0xff, 0xff >> zeros]).flat());
 
