@@ -3,7 +3,7 @@
 import { FRAME_ACTIONS, FRAME_KEYS } from '../src/features/animate/frames/frameActions.ts';
 import { TIMELINE_ACTIONS, TIMELINE_KEYS } from '../src/features/animate/timeline/timelineActions.ts';
 import { PAGE_ACTIONS } from '../src/app/pageActions.ts';
-import { chordText } from '../src/ui/action.ts';
+import { chordText } from '../src/ui/chordText.ts';
 import type { Page } from './harness/page.ts';
 import { dashboardOf, expect, test } from './harness/test.ts';
 

@@ -6,7 +6,7 @@ import { Autocomplete, useFilter } from 'react-aria-components/Autocomplete';
 import { Header, Menu, MenuItem, MenuSection, Text } from 'react-aria-components/Menu';
 import { Input, SearchField } from 'react-aria-components/SearchField';
 import { useStores } from '../features/stores.ts';
-import { chordText } from '../ui/action.ts';
+import { chordText } from '../ui/chordText.ts';
 import { cx } from '../ui/cx.ts';
 import { Icon } from '../ui/Icon.tsx';
 import { words } from '../i18n/whole.ts';

@@ -2,6 +2,7 @@
 
 import type { RefObject } from 'react';
 import { Tooltip, TooltipTriggerStateContext } from 'react-aria-components/Tooltip';
+import { chordText } from './chordText.ts';
 import type { HintText } from './hinting.ts';
 import { InLanguage } from './InLanguage.tsx';
 import styles from './Hints.module.css';
@@ -18,7 +19,7 @@ export function Hint({ text, keys, whyNot, of, onClose }: HintProps) {
       <TooltipTriggerStateContext value={state}>
         <Tooltip key={text} triggerRef={of} className={styles.hint ?? ''} offset={6}>
           {text}
-          {keys !== '' && <kbd className={styles.keys}>{keys}</kbd>}
+          {keys !== '' && <kbd className={styles.keys}>{chordText(keys)}</kbd>}
           {whyNot !== '' && <p className={styles.whyNot}>{whyNot}</p>}
         </Tooltip>
       </TooltipTriggerStateContext>

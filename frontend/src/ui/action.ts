@@ -34,31 +34,9 @@ export function chordOf({ key, ctrlKey, metaKey, shiftKey, altKey }: Pressed): s
   return [...held.filter((one) => one !== ''), name].join('+');
 }
 
-const SIGNS: Readonly<Record<string, string>> = {
-  ...{ ' ': 'Space', Escape: 'Esc', PageUp: 'Page Up', PageDown: 'Page Down' },
-  ...{ ArrowLeft: '←', ArrowRight: '→', ArrowUp: '↑', ArrowDown: '↓' },
-};
-
-/** As it is written on the keys. */
-export function chordText(chord: string): string {
-  const { held, key } = partsOf(chord);
-  const name = SIGNS[key] ?? (/^\p{Ll}$/u.test(key) ? key.toUpperCase() : key);
-  return [...held, name].join('+');
-}
-
 /** For `aria-keyshortcuts`. */
-export function shortcutsOf(keys: readonly string[]): string {
-  const spoken = (chord: string): string => {
-    const { held, key } = partsOf(chord);
-    return [...held.map((one) => (one === 'Ctrl' ? 'Control' : one)), key === ' ' ? 'Space' : key].join('+');
-  };
-  return keys.map(spoken).join(' ');
-}
-
-function partsOf(chord: string): { readonly held: readonly string[]; readonly key: string } {
-  const held = /^(?:(?:Ctrl|Alt|Shift)\+)*/u.exec(chord)?.[0] ?? '';
-  return { held: held.split('+').slice(0, -1), key: chord.slice(held.length) };
-}
+export const shortcutsOf = (keys: readonly string[]): string =>
+  keys.map((chord) => chord.replace('Ctrl', 'Control').replace(/ $/u, 'Space')).join(' ');
 
 /** They come as events of their own, because only those may touch the clipboard of the system. */
 const OF_CLIPBOARD: readonly string[] = ['Ctrl+c', 'Ctrl+x', 'Ctrl+v'];

@@ -1,7 +1,7 @@
 // Which element's hint is to be shown: that of what the pointer rests on, or of what the keyboard leads to, until anything is done.
 // A finger has no hover and sees none. Knows no tooltip.
 
-import { chordText, shortcutsOf } from './action.ts';
+import { shortcutsOf } from './action.ts';
 
 export const HINT = 'data-hint';
 const KEYS = 'data-hint-keys';
@@ -22,7 +22,7 @@ export function hinted({ hint, keys = [], whyNot }: Hinted) {
   if (hint === undefined && shown === undefined && whyNot === undefined) return {};
   return {
     [HINT]: hint ?? '',
-    ...(shown !== undefined && { [KEYS]: chordText(shown), 'aria-keyshortcuts': shortcutsOf(keys) }),
+    ...(shown !== undefined && { [KEYS]: shown, 'aria-keyshortcuts': shortcutsOf(keys) }),
     ...(whyNot !== undefined && { [WHY_NOT]: whyNot }),
   };
 }
