@@ -116,7 +116,7 @@ module.exports = {
       'links-know-no-page',
       'A link is a cable, a radio or a socket.',
       { path: `${page}robot/links/` },
-      { path: page, pathNot: `${page}robot/(links/|request[.]ts$)` },
+      { path: page, pathNot: `${page}robot/(links/|(request|http[.]generated)[.]ts$)` },
     ),
     forbid(
       'robot-knows-no-feature',
@@ -131,7 +131,7 @@ module.exports = {
       'gateway-requests-know-nothing',
       'A request of the gateway is made by those who know what it is for.',
       { path: `${page}robot/request[.]ts$` },
-      { pathNot: `${page}robot/request[.]ts$` },
+      { pathNot: `${page}robot/(request|http[.]generated)[.]ts$` },
     ),
     forbid(
       'state-knows-no-feature',
@@ -145,7 +145,7 @@ module.exports = {
       { path: `${page}features/library/(browser|gateway|memory)Store[.]ts$` },
       {
         path: page,
-        pathNot: `${page}(features/library/((browser|gateway|memory)Store|library[.]generated)[.]ts$|robot/request[.]ts$)`,
+        pathNot: `${page}(features/library/(browser|gateway|memory)Store[.]ts$|robot/(request|http[.]generated)[.]ts$)`,
       },
     ),
     forbid(

@@ -3,24 +3,9 @@
 
 import { defineConfig } from '@playwright/test';
 import type { Way } from './e2e/fixtures/test.ts';
-import { findBrowser } from './scripts/browser.mjs';
+import { browserArgs, findBrowser } from './scripts/browser.mjs';
 
 const executablePath = findBrowser();
-
-/**
- * Two pop-ups of an address bar that nobody sees cost a fifth of all the time: they are a page each, in every window. This
- * list takes the place of Playwright's own, so what matters of that one is repeated.
- */
-const unwantedFeatures = [
-  'WebUIOmniboxPopup',
-  'WebUIOmniboxAimPopup',
-  'HttpsUpgrades',
-  'LensOverlay',
-  'MediaRouter',
-  'OptimizationHints',
-  'PaintHolding',
-  'SpareRendererForSitePerProcess',
-];
 
 export default defineConfig<object, { way: Way }>({
   testDir: 'e2e',
@@ -40,11 +25,13 @@ export default defineConfig<object, { way: Way }>({
   reporter: [['list']],
   projects: [
     { name: 'gateway', testMatch: ['commands/**', 'gateway/**', 'tasks/**'], use: { way: 'gateway' } },
-    { name: 'webserial', testMatch: 'tasks/**', grep: /@everyWay/, use: { way: 'webSerial' } },
-    { name: 'real-webserial', testMatch: 'realSerial/**', use: { way: 'webSerial' } },
-    // No gateway there either.
-    { name: 'real-bluetooth', testMatch: 'realBluetooth/**', use: { way: 'webSerial' } },
-    { name: 'real-hid', testMatch: 'realHid/**', use: { way: 'webSerial' } },
+    // One for all that need no gateway: each project costs two workers, with a browser each.
+    {
+      name: 'webserial',
+      testMatch: ['tasks/**', 'real{Serial,Bluetooth,Hid}/**'],
+      grep: [/@everyWay/, / real(?:Serial|Bluetooth|Hid)\//],
+      use: { way: 'webSerial' },
+    },
   ],
   use: {
     locale: 'en-GB',
@@ -54,7 +41,7 @@ export default defineConfig<object, { way: Way }>({
     screenshot: 'only-on-failure',
     launchOptions: {
       ...(executablePath === null ? {} : { executablePath }),
-      args: [`--disable-features=${unwantedFeatures.join(',')}`],
+      args: [...browserArgs],
     },
   },
 });

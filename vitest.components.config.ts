@@ -5,7 +5,7 @@ import { resolve } from 'node:path';
 import { playwright } from '@vitest/browser-playwright';
 import { defineConfig } from 'vitest/config';
 import { BROWSER_WINDOW, commands } from './frontend/tests/harness/commands.ts';
-import { findBrowser } from './scripts/browser.mjs';
+import { browserArgs, findBrowser } from './scripts/browser.mjs';
 import { words } from './scripts/words.mjs';
 
 const executablePath = findBrowser();
@@ -25,7 +25,8 @@ export default defineConfig({
     ],
   },
   optimizeDeps: {
-    include: ['axe-core'],
+    // Found by the scan only where there is no cache of another version of the page.
+    include: ['axe-core', 'react-aria-components/Autocomplete', 'react-aria-components/SearchField'],
     rolldownOptions: { transform: { define: { 'process.env.NODE_ENV': '"production"' } } },
   },
   publicDir: 'frontend/public',
@@ -46,7 +47,7 @@ export default defineConfig({
       screenshotFailures: false,
       viewport: { width: 1440, height: 900 },
       provider: playwright({
-        launchOptions: executablePath === null ? {} : { executablePath },
+        launchOptions: { args: [...browserArgs], ...(executablePath === null ? {} : { executablePath }) },
         contextOptions: { locale: 'en-GB', viewport: BROWSER_WINDOW },
       }),
       commands,

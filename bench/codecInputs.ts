@@ -5,7 +5,7 @@ import type { Command, ServoTarget } from '#shared/codec/commands.ts';
 import { encodeCommand, encodeReport } from '#shared/codec/encode.ts';
 import { family } from '#shared/codec/families.ts';
 import type { Report } from '#shared/codec/reports.ts';
-import { createRandom } from '#shared/simulator/random.ts';
+import { createRandom } from '#shared/simulator/faults.ts';
 
 /** What a serial adapter hands over at once, at most: one full-speed USB packet. */
 const CHUNK_BYTES = 64;

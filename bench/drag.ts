@@ -7,8 +7,7 @@
 // same everywhere, so the figure is exact and repeatable, and the other client's backlog (up to a minute) need not be
 // waited for. That real timers change little is measured too: `drag.N.realTimersP99Ms`.
 
-import type { Clock } from '#shared/clock.ts';
-import { sleep } from '#shared/clock.ts';
+import { type Clock, sleep } from '#shared/clock.ts';
 import type { ServoTarget } from '#shared/codec/commands.ts';
 import { encodeCommand } from '#shared/codec/encode.ts';
 import { family as familyOf } from '#shared/codec/families.ts';

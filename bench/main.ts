@@ -7,7 +7,7 @@ import { parseArgs } from 'node:util';
 import { endChildren, onEnd } from '../scripts/children.mjs';
 import { SetupProblem, main, say } from '../scripts/steps.mjs';
 import { amount, isQuick } from './amounts.ts';
-import { measureBluetooth } from './bluetooth.ts';
+import { measureBluetooth, measureHid } from './cables.ts';
 import { measureCodec } from './codec.ts';
 import { measureCrowd } from './crowd.ts';
 import { measureDownload } from './download.ts';
@@ -33,6 +33,8 @@ import { measureTimeline } from './timeline.ts';
 
 /** First what takes longest, for a quick look; last what keeps this very process busy: the timers of others would be late. */
 const GROUPS: Readonly<Record<string, () => Figure[] | Promise<Figure[]>>> = {
+  bluetooth: measureBluetooth,
+  hid: measureHid,
   network: measureNetwork,
   drag: measureDrag,
   start: measureStart,
@@ -44,7 +46,6 @@ const GROUPS: Readonly<Record<string, () => Figure[] | Promise<Figure[]>>> = {
   'stop.download': measureStopDownload,
   'stop.flood': measureStopFlood,
   'stop.reconnect': measureStopReconnect,
-  bluetooth: measureBluetooth,
   crowd: measureCrowd,
   frames: measureFrames,
   tracks: measureTracks,

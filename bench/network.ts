@@ -27,7 +27,7 @@ import { median, percentile } from './statistics.ts';
 
 const DELAYS_MS = [0, 5, 20, 50];
 const SERVO_COUNTS = [6, 32];
-const DRAG_MS = amount(1_200, 400);
+const DRAG_MS = amount(1_000, 400);
 /** The page takes no more than that, see useRawDrag.ts. */
 const POINTER_MS = 4;
 const SHARE_LIMIT = 0.95;

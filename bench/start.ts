@@ -11,7 +11,7 @@ import type { Figure } from './figure.ts';
 import { temporaryFolder, withSilentBoard } from './station.ts';
 import { median } from './statistics.ts';
 
-const STARTS = amount(9, 1);
+const STARTS = amount(7, 1);
 const IDLE_MS = amount(3_000, 1_000);
 const POLL_MS = 2;
 const READY_MS = 15_000;

@@ -9,8 +9,9 @@ import type { BusLogEntry } from '#shared/simulator/line.ts';
 import { browserForTests, findBrowser } from '../scripts/browser.mjs';
 import { bluetoothAddress, bluetoothBoard, simulatedBoard } from '../scripts/cable.mjs';
 import { endChild, startChild } from '../scripts/children.mjs';
+import { createHidTree } from '../scripts/hid_tree.mjs';
 import { python } from '../scripts/python.mjs';
-import { SetupProblem } from '../scripts/steps.mjs';
+import { at, SetupProblem } from '../scripts/steps.mjs';
 
 const READY_MS = 10_000;
 const POLL_MS = 20;
@@ -39,9 +40,11 @@ export function withBoard<Result>(
 export async function withSilentBoard<Result>(
   simulatorArgs: readonly string[],
   work: (device: string) => Promise<Result>,
+  { hid = false } = {},
 ): Promise<Result> {
   const lines: string[] = [];
   const cable = await simulatedBoard({
+    hid,
     link: `build/bench-board-${process.pid}-${(boards += 1)}`,
     simulatorArgs,
     onLine: (line) => lines.push(line),
@@ -64,17 +67,49 @@ export async function withBluetoothBoard<Result>(
   const folder = temporaryFolder();
   const busLog = path.join(folder, 'bus.jsonl');
   const board = await bluetoothBoard({ folder, simulatorArgs: ['--bus-log', busLog, ...simulatorArgs] });
-  const before = process.env.DBUS_SYSTEM_BUS_ADDRESS;
-  process.env.DBUS_SYSTEM_BUS_ADDRESS = board.busAddress;
   try {
-    return await work({
-      device: `ble:${bluetoothAddress}`,
-      readBusLog: () => parseBusLog(readFileSync(busLog, 'utf8')),
-    });
+    const device = `ble:${bluetoothAddress}`;
+    return await withEnvironment(device, [`DBUS_SYSTEM_BUS_ADDRESS=${board.busAddress}`], () =>
+      work({ device, readBusLog: () => parseBusLog(readFileSync(busLog, 'utf8')) }),
+    );
   } finally {
-    if (before === undefined) delete process.env.DBUS_SYSTEM_BUS_ADDRESS;
-    else process.env.DBUS_SYSTEM_BUS_ADDRESS = before;
     await board.end();
+  }
+}
+
+/** As `withBoard`, on its own USB cable; its device is one for a gateway that starts meanwhile. */
+export async function withHidBoard<Result>(
+  simulatorArgs: readonly string[],
+  work: (board: BoardOnPort) => Promise<Result>,
+): Promise<Result> {
+  const folder = temporaryFolder();
+  const busLog = path.join(folder, 'bus.jsonl');
+  return withSilentBoard(
+    ['--bus-log', busLog, ...simulatorArgs],
+    (link) => {
+      const { tree } = createHidTree(path.join(folder, 'mock'), at(link));
+      const environment = ['LD_PRELOAD=libumockdev-preload.so.0', `UMOCKDEV_DIR=${tree}`];
+      return withEnvironment('hid', environment, () =>
+        work({ device: 'hid', readBusLog: () => parseBusLog(readFileSync(busLog, 'utf8')) }),
+      );
+    },
+    { hid: true },
+  );
+}
+
+/** What a gateway on that device is started with, as for `env`; others are not to see it. */
+const environments = new Map<string, readonly string[]>();
+
+async function withEnvironment<Result>(
+  device: string,
+  environment: readonly string[],
+  work: () => Promise<Result>,
+): Promise<Result> {
+  environments.set(device, environment);
+  try {
+    return await work();
+  } finally {
+    environments.delete(device);
   }
 }
 
@@ -95,9 +130,9 @@ export async function withGateway<Result>(
   const lines: string[] = [];
   const listen = ['--listen', '127.0.0.1:0', '--data', temporaryFolder()];
   const serve = ['-m', 'servodeck', 'serve', ...listen, '--serial', device];
-  const gateway = startChild(python, [...serve, '--no-open', '--exit-with-stdin'], (line) =>
-    lines.push(line),
-  );
+  const command = [...(environments.get(device) ?? []), python, ...serve, '--no-open', '--exit-with-stdin'];
+  const [program = '', ...args] = environments.has(device) ? ['env', ...command] : command;
+  const gateway = startChild(program, args, (line) => lines.push(line));
   try {
     return await work(await openedGateway(lines), gateway.pid ?? 0);
   } finally {
@@ -141,9 +176,7 @@ async function openedGateway(lines: readonly string[]): Promise<string> {
 async function startBrowser(): Promise<Browser> {
   if (findBrowser() === null) await browserForTests();
   const executablePath = findBrowser();
-  // It outlives the bus of a Bluetooth board, and would end with that.
-  const env = { ...process.env, DBUS_SYSTEM_BUS_ADDRESS: undefined };
-  return chromium.launch(executablePath === null ? { env } : { executablePath, env });
+  return chromium.launch(executablePath === null ? {} : { executablePath });
 }
 
 async function eventually<Found>(

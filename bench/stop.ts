@@ -13,7 +13,7 @@ import type { Figure } from './figure.ts';
 import { stopFigures, stopTimes, type StopTimes } from './presses.ts';
 import { openDashboard, withBoard, withPage, type BoardOnPort } from './station.ts';
 
-const PRESSES = amount(25, 3);
+const PRESSES = amount(20, 3);
 /** Between Resume and the next press: at any moment of the packet on the wire, whose cycle is about 36 ms. */
 const PAUSE_MS = { shortest: 60, longest: 110 };
 /** A stop goes out at 0, 70 and 140 ms, then the hold. */
@@ -25,11 +25,15 @@ export function measureStopIdle(): Promise<Figure[]> {
   return measure('stop.idle', 'in the page; nothing else on the wire', () => Promise.resolve());
 }
 
-export function measureStopDragging(name = 'stop.dragging', lend = withBoard): Promise<Figure[]> {
+export function measureStopDragging(
+  name = 'stop.dragging',
+  lend = withBoard,
+  presses = PRESSES,
+): Promise<Figure[]> {
   return measure(
     ...([name, 'in the page; all sliders dragged'] as const),
     (page) => page.getByRole('slider').evaluateAll(dragInPage),
-    lend,
+    ...([lend, presses] as const),
   );
 }
 
@@ -38,25 +42,26 @@ function measure(
   note: string,
   begin: (page: Page) => Promise<void>,
   lend = withBoard,
+  presses = PRESSES,
 ): Promise<Figure[]> {
   return lend([], (board) =>
     withPage(board.device, async (page, url) => {
       await openDashboard(page, url);
       await begin(page);
-      return stopFigures(name, await timesOfPresses(page, board), note);
+      return stopFigures(name, await timesOfPresses(page, board, presses), note);
     }),
   );
 }
 
-async function timesOfPresses(page: Page, board: BoardOnPort): Promise<StopTimes> {
+async function timesOfPresses(page: Page, board: BoardOnPort, presses: number): Promise<StopTimes> {
   const fromMs = Date.now();
-  const pressedMs = await pressAgainAndAgain(page);
+  const pressedMs = await pressAgainAndAgain(page, presses);
   const packets = packetsInto(board.readBusLog().filter(({ atMs }) => atMs >= fromMs));
   return stopTimes(pressedMs, packets, { gapMs: GAP_MS, stopsPerPress: STOPS_PER_PRESS });
 }
 
 /** Returns when each press was, in milliseconds since the epoch. */
-async function pressAgainAndAgain(page: Page): Promise<readonly number[]> {
+async function pressAgainAndAgain(page: Page, presses: number): Promise<readonly number[]> {
   const pressedMs = await page.evaluateHandle(() => {
     const times: number[] = [];
     const note = ({ timeStamp }: Event) => times.push(performance.timeOrigin + timeStamp);
@@ -65,7 +70,7 @@ async function pressAgainAndAgain(page: Page): Promise<readonly number[]> {
   });
   const resume = page.getByRole('button', { name: 'Resume' });
   await page.getByRole('button', { name: 'Stop', exact: true }).hover();
-  for (let press = 0; press < PRESSES; press += 1) {
+  for (let press = 0; press < presses; press += 1) {
     await page.waitForTimeout(PAUSE_MS.shortest + Math.random() * (PAUSE_MS.longest - PAUSE_MS.shortest));
     await page.mouse.down();
     await page.mouse.up();

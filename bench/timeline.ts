@@ -10,7 +10,7 @@ import { setEasing } from '#shared/group/frameEdits.ts';
 import { deleteTime, insertTime, reverse, stretch } from '#shared/group/timeEdits.ts';
 import { tracksOf, type KeyRef } from '#shared/group/tracks.ts';
 import { family } from '#shared/codec/families.ts';
-import { createRandom } from '#shared/simulator/random.ts';
+import { createRandom } from '#shared/simulator/faults.ts';
 import { amount } from './amounts.ts';
 import type { Figure } from './figure.ts';
 import { median } from './statistics.ts';

@@ -3,33 +3,64 @@
 
 import { readFileSync, writeFileSync } from 'node:fs';
 import { compile } from 'json-schema-to-typescript';
+import openapiTypes, { astToString } from 'openapi-typescript';
+import { format } from 'oxfmt';
 import { python } from './python.mjs';
 import { SetupProblem, at, main, mustRun, say } from './steps.mjs';
 import { readTree, typesText } from './words.mjs';
 
-const TARGETS = [
-  { module: 'events', target: 'frontend/src/robot/links/messages.generated.ts' },
-  { module: 'api.library', target: 'frontend/src/features/library/library.generated.ts' },
-  { module: 'api.people', target: 'frontend/src/robot/people.generated.ts' },
-];
+const MESSAGES = 'frontend/src/robot/links/messages.generated.ts';
+const HTTP = 'frontend/src/robot/http.generated.ts';
 
-/** @param {string} module @returns {Promise<string>} */
-async function generate(module) {
+/** @typedef {{ content?: Record<string, { example?: unknown }> }} Part */
+/** @typedef {{ description?: string, security?: unknown, requestBody?: Part, responses: Record<string, Part> }} Operation */
+/** @typedef {import('openapi-typescript').OpenAPI3 & { paths: Record<string, Record<string, Operation>> }} Description */
+
+/** @param {string} module */
+function printedBy(module) {
   const env = { PYTHONPATH: at('backend') };
-  const schema = await mustRun('read the message models', python, ['-m', `servodeck.${module}`], { env });
-  /** @type {{title: string, version?: number}} */
-  const parsed = JSON.parse(schema);
-  const types = await compile(parsed, parsed.title, {
-    bannerComment:
-      "// Made from the gateway's models by `npm run messages`; a check fails when the two differ. Change " +
-      `backend/servodeck/${module.replaceAll('.', '/')}.py instead.`,
+  return mustRun('read the gateway’s models', python, ['-m', module], { env });
+}
+
+/** @param {string} source */
+const banner = (source) =>
+  "// Made from the gateway's models by `npm run messages`; a check fails when the two differ. Change " +
+  `${source} instead.`;
+
+async function messages() {
+  /** @type {{ title: string, version: number }} */
+  const schema = JSON.parse(await printedBy('servodeck.events'));
+  const types = await compile(schema, schema.title, {
+    bannerComment: banner('backend/servodeck/events.py'),
     additionalProperties: false,
     ignoreMinAndMaxItems: true,
     unreachableDefinitions: true,
     style: { printWidth: 110, singleQuote: true },
   });
-  if (parsed.version === undefined) return types;
-  return `${types}/** Of these messages. */\nexport const PROTOCOL = ${parsed.version};\n`;
+  return `${types}/** Of these messages. */\nexport const PROTOCOL = ${schema.version};\n`;
+}
+
+/** Routes, what they take and what they answer; every refusal is the same `{code, detail}`, and examples are for people. */
+async function http() {
+  /** @type {Description} */
+  const description = JSON.parse(await printedBy('servodeck.api.app'));
+  for (const operation of Object.values(description.paths).flatMap((path) => Object.values(path))) {
+    delete operation.description;
+    delete operation.security;
+    const taken = Object.entries(operation.responses).filter(([status]) => status.startsWith('2'));
+    operation.responses = Object.fromEntries(taken);
+    for (const part of [operation.requestBody, ...Object.values(operation.responses)])
+      for (const body of Object.values(part?.content ?? {})) delete body.example;
+  }
+  const types = astToString(
+    await openapiTypes(description, {
+      ...{ alphabetize: true, defaultNonNullable: false },
+      ...{ rootTypes: true, rootTypesNoSchemaPrefix: true },
+    }),
+  );
+  const source = banner('the routes of backend/servodeck/api');
+  const { code } = await format(HTTP, `${source}\n\n${types}`, { printWidth: 110, singleQuote: true });
+  return code;
 }
 
 /** @param {string} target */
@@ -54,7 +85,7 @@ function bring(mayWrite, target, fresh, source) {
 await main(async () => {
   const mayWrite = !process.argv.includes('--check');
   bring(mayWrite, 'frontend/src/i18n/words.generated.ts', typesText(readTree('en')), 'the English words');
-  for (const { module, target } of TARGETS)
-    bring(mayWrite, target, await generate(module), "the gateway's models");
+  bring(mayWrite, MESSAGES, await messages(), "the gateway's models");
+  bring(mayWrite, HTTP, await http(), "the gateway's routes");
   return 0;
 });

@@ -12,10 +12,15 @@ export async function setUp() {
   await Promise.all([nodePackages().then(builtParts), pythonEnvironment()]);
 }
 
-/** What checks need: they look at the sources, and a build is one of the things they prove. */
-export async function setUpPackages() {
+/** What checks need, each part as it comes: they look at the sources, and a build is one of the things they prove. */
+export function startPackages() {
   checkNode();
-  await Promise.all([nodePackages(), pythonEnvironment()]);
+  return { node: nodePackages(), python: pythonEnvironment() };
+}
+
+export async function setUpPackages() {
+  const { node, python } = startPackages();
+  await Promise.all([node, python]);
 }
 
 function checkNode() {

@@ -2,7 +2,7 @@
 // each table and names the ten slowest tests; `-- --long` gives properties ten times the inputs.
 
 import { onEnd } from './children.mjs';
-import { setUpPackages } from './setup.mjs';
+import { startPackages } from './setup.mjs';
 import { main } from './steps.mjs';
 
 function amount() {
@@ -12,7 +12,9 @@ function amount() {
 
 await main(async () => {
   onEnd(() => process.exit(130));
-  await setUpPackages();
+  const { node, python } = startPackages();
+  // Python's may take longer, and most checks need none; where they fail sooner, all ends here.
+  await Promise.race([node, python.then(() => node)]);
   const { test } = await import('./checks.mjs'); // only now: on a fresh clone the set-up brings what it needs
-  return test(amount());
+  return test(amount(), python);
 });

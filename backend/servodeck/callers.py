@@ -29,12 +29,12 @@ class Caller:
 
 
 THIS_COMPUTER = Caller("local", "This computer", "owner")
-"""Whoever asks on the gateway's own computer: it is theirs."""
+"""A caller on the gateway's own computer owns it."""
 
 LOCAL_SCRIPT = replace(THIS_COMPUTER, name="A script on this computer")
 LOCAL_NAMES = frozenset({THIS_COMPUTER.name, LOCAL_SCRIPT.name})
 
 
 def as_script(caller: Caller) -> Caller:
-    """A token has its name already; this computer's page and its scripts shall be told apart."""
+    """A token has its name already; this computer's page and its scripts shall have different names."""
     return LOCAL_SCRIPT if caller is THIS_COMPUTER else caller

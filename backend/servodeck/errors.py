@@ -1,6 +1,7 @@
 """Everything that can go wrong, as one tree: each class carries its code on the wire and its HTTP status.
 
-Knows no message and no sentence of its own; whoever raises says what happened and what to do about it.
+Knows no message and no sentence of its own; the caller that raises says what happened and what to do about
+it.
 """
 
 import math
@@ -12,6 +13,7 @@ ErrorCode = Literal[
     "portMissing",
     "portBusy",
     "portDenied",
+    "hidDenied",
     "otherDevice",
     "boardUnknown",
     "wrongBoard",
@@ -82,6 +84,12 @@ class PortDeniedError(PortError):
     code: ClassVar[ErrorCode] = "portDenied"
 
 
+class HidDeniedError(PortDeniedError):
+    """A board on its own USB cable, which takes a rule of its own on Linux."""
+
+    code: ClassVar[ErrorCode] = "hidDenied"
+
+
 class OtherDeviceError(PortError):
     """The name leads to another device now, or perhaps: a person must choose."""
 
@@ -89,7 +97,7 @@ class OtherDeviceError(PortError):
 
 
 class ClosedError(GatewayError):
-    """No port is open and nobody asked for one, or it was closed on request."""
+    """No port is open and none was requested, or it was closed on request."""
 
     code: ClassVar[ErrorCode] = "closed"
     status: ClassVar[int] = 409
@@ -102,7 +110,7 @@ class BoardError(GatewayError):
 
 
 class BoardUnknownError(BoardError):
-    """Nobody has said which board it is."""
+    """Which board it is has not been said."""
 
     code: ClassVar[ErrorCode] = "boardUnknown"
 
@@ -134,7 +142,7 @@ class LatchedError(GatewayError):
 
 
 class NotDrivingError(GatewayError):
-    """Somebody else drives, or nobody does."""
+    """Another client drives, or none does."""
 
     code: ClassVar[ErrorCode] = "notDriving"
     status: ClassVar[int] = 409
@@ -180,7 +188,7 @@ class SlotBrokenError(GatewayError):
 
 
 class SlotChangedError(GatewayError):
-    """The slot does not hold any more what whoever asks has seen there."""
+    """The slot does not hold any more what the caller has seen there."""
 
     code: ClassVar[ErrorCode] = "slotChanged"
     status: ClassVar[int] = 409
@@ -230,7 +238,7 @@ class ForbiddenError(GatewayError):
 
 
 class NotPairedError(GatewayError):
-    """A stranger asked for what only paired devices get."""
+    """An unauthenticated caller asked for what only paired devices get."""
 
     code: ClassVar[ErrorCode] = "notPaired"
     status: ClassVar[int] = 401

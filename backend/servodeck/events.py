@@ -31,16 +31,16 @@ from servodeck.snapshots import (
     UnheldServos,
 )
 
-PROTOCOL = 8
-"""Counted up with each change that a page of before would not understand: it is told to load itself again."""
+PROTOCOL = 9
+"""Counted up with each change that an older page would not understand: that page is asked to reload."""
 
 
 class GatewayState(Message):
     """How the gateway stands, for everybody alike. `board` is the family that it is driven as.
-    `brokenSlots` hold half a group: nobody may run them.
+    `brokenSlots` hold half a group: they cannot be run.
     `slotVersions` tell what was stored in each slot last, as far as the gateway knows. `stoppedBy` is what
-    people call whoever pressed STOP, or whose page did it for the battery, where that is known.
-    `waitingToStart`: servos that were asked to move, but nobody knows where they stand, so they start one
+    people call the person who pressed STOP, or whose page did it for the battery, where that is known.
+    `waitingToStart`: servos that were asked to move from an unknown place, so they start one
     after another, in this order.
     """
 
@@ -72,7 +72,7 @@ class WelcomeMessage(GatewayState):
 
 
 class BatteryMessage(Message):
-    """The board has told its battery, which the gateway asks for now and then, or stays silent about it."""
+    """The board has reported its battery, which is read now and then, or stays silent about it."""
 
     type: Literal["battery"] = "battery"
     battery: Annotated[BatteryState, Field(discriminator="kind")]
@@ -132,21 +132,21 @@ class StateMessage(GatewayState):
 
 
 class JobMessage(Message):
-    """A download began, came further or ended; the latest one, whoever began it."""
+    """A download began, came further or ended; the latest one of all clients."""
 
     type: Literal["job"] = "job"
     job: JobState
 
 
 class PlayStateMessage(Message):
-    """What the gateway plays began, came further or ended; the latest play, whoever began it."""
+    """What the gateway plays began, came further or ended; the latest play of all clients."""
 
     type: Literal["play"] = "play"
     play: PlayState
 
 
 class PlayedMessage(Message):
-    """To whoever asked for it: that play has ended, and how."""
+    """To the client that asked for it: that play has ended, and how."""
 
     type: Literal["played"] = "played"
     id: MessageId
@@ -168,7 +168,7 @@ class LeaseStateMessage(Message):
 
 
 class LeftMessage(Message):
-    """What has left the wire since the last of these, whoever asked for it."""
+    """What has left the wire since the last of these, for all clients."""
 
     type: Literal["left"] = "left"
     commands: list[CommandModel]

@@ -39,7 +39,7 @@ def write_whole(file: Path, text: str) -> None:
 
 
 class BackgroundFile:
-    """What is held in memory, written behind: a disk that takes nothing hinders nobody."""
+    """What is held in memory, written behind: a disk that takes nothing hinders no caller."""
 
     def __init__(self, file: Path | None, text: Callable[[], str]) -> None:
         """`text` is asked for in a thread. Without a file it is forgotten with the gateway."""
@@ -126,7 +126,7 @@ class Memory(Message):
 
 class Remembered:
     def __init__(self, folder: Path | None = None) -> None:
-        """Without a folder it is forgotten with the gateway. Whoever says something has it kept."""
+        """Without a folder it is forgotten with the gateway. What is said is stored."""
         file = folder / FILE if folder else None
         self._memory = read(file) if file else Memory()
         behind = BackgroundFile(file, self._text)

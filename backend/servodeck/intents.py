@@ -61,8 +61,8 @@ class Target(Message):
 
 
 class MoveMessage(Message):
-    """Move servos. Of each the newest value counts; what waits for the wire leaves together, servos whose
-    place nobody knows slowly and one after another. `durationMs` 0: as fast as the servos and the link allow.
+    """Move servos. Of each the newest value counts; what waits for the wire leaves together, servos of
+    unknown place slowly and one after another. `durationMs` 0: as fast as the servos and the link allow.
     `nonce` shows that the driver says it, and now. Answered only where it is refused: `left` tells what has
     left.
     """
@@ -153,8 +153,8 @@ class BoardMessage(Message):
 
 
 class ReadMessage(Message):
-    """Ask the board now; what it says is told to everybody, and `done` once it has. Needs no lease. `servos`:
-    whose positions; some boards tell all of them, whichever are meant.
+    """Ask the board now; every client hears what it says, and `done` once it has. Needs no lease. `servos`:
+    whose positions; some boards report all of them, whichever are named.
     """
 
     type: Literal["read"]

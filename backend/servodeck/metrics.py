@@ -1,7 +1,7 @@
 """What has been counted since the start, as plain numbers: the library that shows them to Prometheus is
 loaded when somebody asks (api/prometheus.py). Knows names and numbers, nothing of what they count.
 
-One set for the process: whoever has something to count does it here in one line.
+One set for the process: each module counts here in one line.
 """
 
 from bisect import bisect_left
@@ -43,5 +43,5 @@ refused: Counter[str] = Counter()
 
 
 def name_of(command: int) -> str:
-    """For a label; what has no name in the protocol is told by its number."""
+    """For a label; what has no name in the protocol goes by its number."""
     return COMMAND_OF_NUMBER.get(command) or f"0x{command:02x}"

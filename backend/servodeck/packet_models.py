@@ -1,7 +1,7 @@
 """What a host can ask of a board and what a board can say, as JSON: the values of protocol/values.py with the
 same names as shared/src/codec/commands.ts and reports.ts.
 
-Knows no bytes but those that nobody can read, and no rule.
+Knows no bytes but those of unknown packets, and no rule.
 """
 
 from typing import Annotated, Literal

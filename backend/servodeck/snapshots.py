@@ -152,7 +152,7 @@ class StoredGroup(Message):
 
 class ServoWay(Message):
     """A servo on its way, or there already: begun so long ago (below 0: not yet), and taking so long. `start`
-    is null where nobody knows where it began.
+    is null where it is unknown where it began.
     """
 
     servo: int
@@ -162,14 +162,27 @@ class ServoWay(Message):
     duration_ms: float
 
 
+class ReportedPosition(Message):
+    """Where the board said that a servo stood, so long ago. `isCurrent`: as far as the gateway can tell it
+    stands there still.
+    """
+
+    servo: int
+    position: int
+    age_ms: int
+    is_current: bool
+
+
 class MotionState(Message):
-    """Where packets have taken the servos since the port opened; of one that is not named nobody knows the
-    place. `runSlot`: the group that may run. `released`: they have no torque, so hands may have turned them.
+    """Where packets have taken the servos since the port opened, and what the board has reported of them; of
+    one that is not named the place is unknown. `runSlot`: the group that may run. `released`: they have no
+    torque, so hands may have turned them.
     """
 
     servos: list[ServoWay]
     run_slot: int | None
     released: list[int]
+    reported: list[ReportedPosition]
 
 
 JobStatus = Literal["running", "done", "failed", "cancelled"]
@@ -239,7 +252,7 @@ class RobotState(Message):
 
 
 class UnheldServos(Message):
-    """What may go on in spite of a STOP: these servos, `null` where nobody knows which, for so long at most
+    """What may go on in spite of a STOP: these servos, `null` where it is unknown which, for so long at most
     from its press; `null` where a group may run that heard no stop.
     """
 
@@ -253,7 +266,7 @@ a board never says.
 """
 
 StopFor = Literal["person", "battery"]
-"""Somebody pressed STOP; the policy for a low battery, on the page of whoever drives."""
+"""Somebody pressed STOP; the policy for a low battery, on the driver's page."""
 
 LatchedBy = Literal[StopFor, "silence", "loss"]
 """Besides these: a driver was not heard while the robot moved; the port went away."""

@@ -13,7 +13,7 @@ NAME = "in the background"
 
 
 async def in_thread(action: Callable[[], T], undo: Callable[[T], None] | None = None) -> T:
-    """What `action`, which may block, gives or raises; `undo` gets the result where nobody waits any more."""
+    """What `action`, which may block, gives or raises; `undo` gets the result where the caller has gone."""
     loop = asyncio.get_running_loop()
     outcome: asyncio.Future[T] = loop.create_future()
 
@@ -29,11 +29,11 @@ async def in_thread(action: Callable[[], T], undo: Callable[[T], None] | None = 
 
     def run() -> None:
         try:
-            told = partial(deliver, action())
+            deliver_outcome = partial(deliver, action())
         except Exception as error:  # noqa: BLE001 (whatever it is, somebody waits for it)
-            told = partial(refuse, error)
+            deliver_outcome = partial(refuse, error)
         with contextlib.suppress(RuntimeError):  # the loop is closed: the process is ending
-            loop.call_soon_threadsafe(told)
+            loop.call_soon_threadsafe(deliver_outcome)
 
     threading.Thread(target=run, name=NAME, daemon=True).start()
     return await outcome

@@ -81,14 +81,14 @@ class DevicesInMemory(Devices):
 
 @asynccontextmanager
 async def script(
-    role: Role = "driver", board: str = "doc", behind: FakePort | None = None
+    role: Role = "driver", board: str = "doc", behind: FakePort | None = None, *, identifies: bool = False
 ) -> AsyncIterator[Scripted]:
-    """`behind` the port."""
+    """`behind` the port. `identifies`: the board is asked who it is from now on."""
     port = behind or FakePort()
     entrance = Entrance(addresses.lan(PORT), DevicesInMemory(NoDeviceStore(), wall_clock_ms), now)
     _, owner = entrance.devices.admit("device", "Olga", "owner")
     device, token = entrance.devices.admit("token", "Dance", role)
-    control = Control(FakePorts(port), now, board)
+    control = Control(FakePorts(port), now, board, identifies_board=identifies)
     await control.use_port(DEVICE)
     await asyncio.sleep(0.1)
     app = create_app(control, NO_LIBRARY, entrance)

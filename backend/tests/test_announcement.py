@@ -35,9 +35,10 @@ def hears_itself() -> bool:
         return False
 
 
-pytestmark = pytest.mark.skipif(
-    sys.platform != "linux", reason="only Linux has a second loopback address unasked"
-)
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(sys.platform != "linux", reason="only Linux has a second loopback address unasked"),
+]
 
 
 @pytest.fixture(scope="module", autouse=True)

@@ -129,7 +129,7 @@ async def test_the_ports_list_holds_the_one_named_at_the_start() -> None:
         listed = (await client.get("/api/ports")).json()
         assert listed[0] == {
             "device": DEVICE,
-            "description": "Named at the start",
+            "description": "Port named at the start",
             "likely": True,
             "lasting": None,
             "inUse": False,

@@ -23,6 +23,8 @@ from servodeck.files import FILE
 from tests.samples import STOP
 from tests.test_ports import Pty
 
+pytestmark = pytest.mark.slow
+
 READY = re.compile(r"Servodeck is at (http://127\.0\.0\.1:\d+)\n")
 END_S = 3.0
 

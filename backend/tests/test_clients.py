@@ -24,6 +24,8 @@ from tests.fake_port import FakePort, FakePorts
 from tests.running import Running, server_on
 from tests.samples import BATTERY, BATTERY_HEARD, BATTERY_REPORT, MOVE, RUN, STOP
 
+pytestmark = pytest.mark.slow
+
 PATIENCE_S = 3
 
 

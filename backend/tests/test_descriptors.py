@@ -14,7 +14,10 @@ from tests.test_cli import Served
 SHOWN = "import resource; print(*resource.getrlimit(resource.RLIMIT_NOFILE))"
 ALLOW = f"from servodeck.api.health import allow_descriptors; allow_descriptors(); {SHOWN}"
 
-pytestmark = pytest.mark.skipif(not Path("/bin/sh").exists(), reason="the limits are set by a shell")
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(not Path("/bin/sh").exists(), reason="the limits are set by a shell"),
+]
 
 
 @pytest.mark.parametrize(

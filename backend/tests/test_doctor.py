@@ -6,15 +6,19 @@ import sys
 import termios
 import threading
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 from typer.testing import CliRunner
 
 from servodeck.cli.main import app
 from servodeck.port.diagnosis import looks_like
+from tests.hid_board import FakeHidraw
 from tests.samples import BATTERY_REPORT
 from tests.test_ports import Pty
 from tests.vectors import load_vectors
+
+pytestmark = pytest.mark.slow
 
 NOBODY = "http://127.0.0.1:1"
 
@@ -40,7 +44,7 @@ def diagnosed(pty: Pty, answer: bytes) -> tuple[int, str]:
 
 def test_a_board_that_answers_is_in_order(pty: Pty) -> None:
     code, said = diagnosed(pty, b"\x55\x55\x04\x0f\x38\x1d")
-    assert "its battery has 7.48 V" in said
+    assert "ms; its battery has 7.48 V" in said
     assert code == 0
 
 
@@ -67,6 +71,32 @@ def test_a_port_that_a_program_has_open_names_the_program(pty: Pty) -> None:
     other.kill()
     other.wait()
     assert f"is open in sleep ({other.pid}): close it there." in result.stdout
+
+
+@pytest.mark.parametrize(
+    ("answers", "said"),
+    [
+        (True, "A board answers on hid:497223563535 (LOBOT, USB cable of the board) after"),
+        (False, "switch it on"),
+    ],
+)
+def test_a_board_on_its_own_usb_cable_is_asked_too(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, answers: bool, said: str
+) -> None:
+    hidraw = FakeHidraw(tmp_path, monkeypatch)
+    board = hidraw.plug()
+
+    def answer() -> None:
+        if board.heard() and answers:
+            board.say(BATTERY_REPORT)
+
+    answering = threading.Thread(target=answer)
+    answering.start()
+    result = CliRunner().invoke(app, ["doctor", "--url", NOBODY, "--port", "hid"])
+    answering.join()
+    hidraw.unplug_all()
+    assert said in result.stdout
+    assert "TX" not in result.stdout
 
 
 def test_without_a_gateway_it_says_how_to_start_one(pty: Pty) -> None:

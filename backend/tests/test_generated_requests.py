@@ -32,6 +32,8 @@ from tests.running import DEVICE, Running, server_on
 from tests.samples import BATTERY, BATTERY_REPORT, ERASE, STOP
 from tests.test_openapi import SCHEMA
 
+pytestmark = pytest.mark.slow
+
 # Without these a second of each example would pass in waiting.
 ANSWERS = {BATTERY: BATTERY_REPORT, ERASE: bytes.fromhex("55550208")}
 RUN_TAKEN, RUN_COMMAND = bytes.fromhex("55550206"), 6

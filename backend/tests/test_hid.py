@@ -1,6 +1,7 @@
 """Boards on a HID cable: found by sysfs, named, opened, lost; and what is said where that fails."""
 
 import errno
+import subprocess
 import sys
 import threading
 from collections.abc import Iterator
@@ -10,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from servodeck.errors import OtherDeviceError, PortBusyError, PortDeniedError, PortLostError, PortMissingError
+from servodeck.errors import HidDeniedError, OtherDeviceError, PortBusyError, PortLostError, PortMissingError
 from servodeck.port.hid import HidPort, explain, is_hid, list_boards, open_board
 from servodeck.port.ports import PortInfo, is_same_port, list_devices, list_usb, open_port
 from servodeck.port.whereabouts import UsbDevice, Whereabouts
@@ -105,6 +106,25 @@ def test_a_second_opener_is_told_that_the_board_is_busy(hidraw: FakeHidraw) -> N
     open_board("hid").close()
 
 
+HOLDS = (
+    "import fcntl, sys; node = open(sys.argv[1]); fcntl.flock(node, fcntl.LOCK_EX); "
+    "print(flush=True); sys.stdin.read()"
+)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="other systems do not tell")
+def test_the_program_that_has_the_board_is_named(hidraw: FakeHidraw) -> None:
+    node = hidraw.plug().node
+    with subprocess.Popen(
+        [sys.executable, "-c", HOLDS, node], stdin=subprocess.PIPE, stdout=subprocess.PIPE
+    ) as other:
+        assert other.stdout
+        other.stdout.readline()
+        with pytest.raises(PortBusyError, match=rf"is open in python\S* \({other.pid}\). Close it there."):
+            open_board("hid")
+        other.communicate(b"")
+
+
 async def test_an_unplugged_board_is_lost_whatever_is_done_with_it(hidraw: FakeHidraw) -> None:
     board = hidraw.plug()
     port = open_board("hid")
@@ -140,7 +160,7 @@ def test_a_board_without_permission_says_what_allows_it(
 
     hidraw.plug()
     monkeypatch.setattr("servodeck.port.hid_devices.open_device", refuse)
-    with pytest.raises(PortDeniedError) as refused:
+    with pytest.raises(HidDeniedError) as refused:
         open_board("hid")
     assert refused.value.detail.endswith(f"sudo {sys.executable} -m servodeck udev-rule --install")
 

@@ -112,3 +112,19 @@ async def test_pages_are_told_what_the_cable_is_not_to_carry() -> None:
     port = FakeHidPort()
     async with gateway_on(port) as control:
         assert control.board.port.withheld == ["download", "erase"]
+
+
+@in_virtual_time
+async def test_answers_that_were_not_asked_for_are_logged_once(caplog: pytest.LogCaptureFixture) -> None:
+    port = FakeHidPort()
+    async with gateway_on(port) as control:
+        asked = asyncio.create_task(control.board.battery.read())
+        await port.until_written(2)
+        port.say(BATTERY_REPORT)
+        await asked
+        for _ in range(4):
+            await asyncio.sleep(5)
+            port.say(BATTERY_REPORT)
+        await asyncio.sleep(0.1)
+    warned = [record for record in caplog.records if "another program" in record.message]
+    assert len(warned) == 1

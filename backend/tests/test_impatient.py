@@ -16,6 +16,8 @@ from tests.fake_port import FakePort, FakePorts
 from tests.running import Running, server_on
 from tests.test_clients import hear_until
 
+pytestmark = pytest.mark.slow
+
 # Slow machines run tests, too.
 MARGIN_S = 1.0
 HEAD = b"GET /api/health HTTP/1.1\r\nHost: %s\r\n"

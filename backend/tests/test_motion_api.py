@@ -35,6 +35,36 @@ async def test_a_move_answers_when_it_has_left_and_says_when_it_will_be_over() -
 
 
 @in_virtual_time
+async def test_what_is_asked_with_the_opening_waits_until_the_board_is_identified() -> None:
+    async with script(identifies=True) as here:
+        begun = await here.move(1500, s1=2000)
+        assert begun.json()["packets"] == 1
+        assert here.control.board.link_state.status == "ready"
+        assert here.sent()[-1] == move(1500, s1=2000)
+
+
+@in_virtual_time
+async def test_where_the_board_stays_unknown_it_is_refused_with_the_reason() -> None:
+    async with script(board="unknown", identifies=True) as here:
+        assert refusal(await here.move(1500, s1=2000)) == (409, "boardUnknown")
+
+
+@in_virtual_time
+async def test_stop_ends_what_waits_for_the_board_also_where_somebody_resumes() -> None:
+    async with script(identifies=True) as here:
+        waiting = [
+            asyncio.create_task(here.move(1500, s1=2000)),
+            asyncio.create_task(here.post("slots/5/run")),
+        ]
+        await asyncio.sleep(0.2)
+        here.control.stop()
+        here.control.resume(THIS_COMPUTER)
+        for asked in waiting:
+            assert refusal(await asked) == (409, "cancelled")
+        assert not {3, 6} & {packet[3] for packet in here.sent()}
+
+
+@in_virtual_time
 async def test_servos_of_unknown_place_start_a_quarter_of_a_second_apart() -> None:
     async with script() as here:
         refused = await here.move(1000, s1=2000)

@@ -125,6 +125,21 @@ async def test_what_waits_leaves_together_and_a_named_time_is_the_time_of_all() 
 
 
 @in_virtual_time
+async def test_a_value_that_waits_to_start_does_not_undo_a_packet_by_hand() -> None:
+    port = FakePort()
+    async with gateway_on(port) as control:
+        anna = Client(control)
+        control.driving.act(anna, "request")
+        await anna.heard()
+        asked = ask(anna, s1=1400, s2=1410, s3=1420)
+        await asyncio.sleep(0.001)
+        await anna.send(encode(Move(FIRST_MOVE_MS, (ServoTarget(3, 1500),)), control.board.family))
+        await asyncio.wait_for(asked, 2)
+        left = [each.positions for each in moves_on(port)]
+    assert left == [{1: 1400}, {3: 1500}, {2: 1410}]
+
+
+@in_virtual_time
 async def test_what_is_asked_behind_a_packet_by_hand_leaves_behind_it() -> None:
     port = FakePort()
     async with gateway_on(port) as control:

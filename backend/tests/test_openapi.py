@@ -56,13 +56,13 @@ def test_every_example_fits_the_models(route: APIRoute, method: str, role: Role 
     example = EXAMPLES[method, route.path]
     operation = SCHEMA["paths"][route.path][method.lower()]
     body = operation.get("requestBody")
-    assert (body is None) == (example.asks is None)
+    assert (body is None) == (example.request is None)
     if body:
-        assert_fits(example.asks, body["content"]["application/json"]["schema"])
+        assert_fits(example.request, body["content"]["application/json"]["schema"])
     if route.response_model:
-        TypeAdapter(route.response_model).validate_json(json.dumps(example.answers))
+        TypeAdapter(route.response_model).validate_json(json.dumps(example.response))
     elif route.status_code == 204:
-        assert example.answers is None
+        assert example.response is None
 
 
 def test_each_operation_has_a_subject_and_a_name_of_its_own_that_can_be_read() -> None:

@@ -15,6 +15,8 @@ from tests.running import Running, server_on
 from tests.samples import ERASE, MOVE, STOP
 from tests.test_clients import drive, hear, hear_until, say
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture
 def port() -> FakePort:

@@ -20,7 +20,7 @@ from typer.testing import CliRunner
 
 from servodeck.cli.main import app
 from servodeck.errors import PortBusyError, PortDeniedError, PortError, PortLostError, PortMissingError
-from servodeck.port.ports import explain, is_same_port, list_devices, list_usb, open_port
+from servodeck.port.ports import explain, is_same_port, kind_of, list_devices, list_usb, open_port
 from servodeck.port.whereabouts import Whereabouts
 
 NOBODY = 65534
@@ -213,6 +213,7 @@ class FakeDev:
         self._ports.append(
             SimpleNamespace(
                 device=str(device),
+                name=device.name,
                 description=by_id,
                 vid=0x1A86,
                 pid=0x7523,
@@ -317,3 +318,19 @@ def test_a_known_chip_gives_the_port_a_name_that_people_know(dev: FakeDev) -> No
     (port,) = [port for port in list_devices() if port.device == device]
     assert port.description == "CH340 USB serial adapter"
     assert port.likely
+
+
+@pytest.mark.parametrize(
+    ("description", "ids", "name"),
+    [
+        ("ttyUSB0", (0x1234, 0x5678), "USB serial adapter (id 1234:5678)"),
+        ("Sim Board", (0x1234, 0x5678), "Sim Board"),
+        ("ttyS0", None, "Serial port"),
+        ("n/a", None, "Serial port"),
+    ],
+)
+def test_a_path_or_a_number_is_no_name(description: str, ids: tuple[int, int] | None, name: str) -> None:
+    vid, pid = ids or (None, None)
+    end = description if description.startswith("tty") else "ttyUSB0"
+    port = SimpleNamespace(name=end, description=description, vid=vid, pid=pid)
+    assert kind_of(port) == name

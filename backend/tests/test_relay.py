@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.packets import encode, parse_command
-from servodeck.robot.broadcast import newest
+from servodeck.robot.hub import newest
 from tests.client import Client, gateway_on
 from tests.fake_port import FakePort
 from tests.samples import BATTERY, MOVE, MOVE_S, RUN, STOP, hold_at

@@ -18,6 +18,8 @@ from servodeck.cli.remote import held_words
 from tests.samples import BATTERY, RUN, STOP
 from tests.test_cli import Served, run
 
+pytestmark = pytest.mark.slow
+
 SILENT = ("--log-level", "error")
 RUN_9 = bytes.fromhex("55550506090100")
 ENDLESS = bytes.fromhex("55550506080000")

@@ -1,6 +1,6 @@
 """When a board that has answered before counts as silent."""
 
-from servodeck.robot.board.identification import Silence
+from servodeck.robot.board.activity import Silence
 
 BATTERY, POSITIONS = 15, 21
 

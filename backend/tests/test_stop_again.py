@@ -26,12 +26,12 @@ async def test_it_is_said_again_when_the_longest_work_is_over() -> None:
         await control.stop()
         await asyncio.sleep(2)
         assert port.packets() == [STOP, ERASE, RUN, *STOPS]
-        assert control.board.may_move()
+        assert control.board.activity.may_move()
         await asyncio.sleep(1)
         assert port.packets() == [STOP, ERASE, RUN, *STOPS, *STOPS]
         assert port.written[6][0] - run_s <= LONGEST_DEAF_S + 0.001
         await asyncio.sleep(10)
-        assert (port.packets()[9:], control.board.may_move(), control.latch) == ([], False, True)
+        assert (port.packets()[9:], control.board.activity.may_move(), control.latch) == ([], False, True)
 
 
 @in_virtual_time
@@ -46,7 +46,7 @@ async def test_it_is_said_again_as_soon_as_the_board_has_answered() -> None:
         await asyncio.sleep(0.3)
         assert port.packets() == [STOP, ERASE, RUN, *STOPS, *STOPS]
         assert port.written[6][0] - answered_s <= GAP_MS / 1000 + 0.01
-        assert not control.board.may_move()
+        assert not control.board.activity.may_move()
 
 
 @in_virtual_time

@@ -11,12 +11,11 @@ from typing import Any
 
 import pytest
 
-from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.timings import ESTIMATE, MOVE
 from servodeck.snapshots import UnheldServos
 from tests.amount import named, seeds
 from tests.lockstep import ENTRY, NODE, SERVOS, Simulator
-from tests.stop_under_test import DOORS, KNOWN_SLOT, OPENED_LONG_AGO_S, Outcome, stopped
+from tests.stop_under_test import DOORS, Outcome, stopped
 from tests.vectors import load_vectors
 
 CASES = load_vectors("stops")
@@ -32,6 +31,7 @@ FIRST_MOVE_MS = MOVE.first_ms
 LEAST_HELD = 0.2
 
 pytestmark = [
+    pytest.mark.slow,
     pytest.mark.skipif(not ENTRY.exists(), reason="the simulator is not built: npm run build"),
     pytest.mark.skipif(NODE is None, reason="Node is not installed"),
 ]
@@ -57,19 +57,6 @@ def test_the_robot_does_what_stop_says(simulator: Simulator, board: str) -> None
     said = [outcome.said[0] for outcome in outcomes if outcome.said]
     assert sum(one.unheld is None for one in said) >= LEAST_HELD * len(said)
     assert any(outcome.moved_on for outcome in outcomes if outcome.said)
-
-
-def played_before(board: str, history: dict[str, Any]) -> dict[str, Any]:
-    """Whoever had the port before may have left a LeArm that skips the first frame of its next run (L11): the
-    gateway knows what it plays once it has run a group there and stopped it.
-    """
-    if FAMILIES[board].motion.groups != "polled":
-        return history
-    before = [
-        *({"kind": "run", "slot": KNOWN_SLOT, "times": 1}, {"kind": "wait", "ms": 500}, {"kind": "halt"}),
-        *({"kind": "wait", "ms": 1000 * OPENED_LONG_AGO_S}, {"kind": "resume"}),
-    ]
-    return {**history, "steps": [*before, *history["steps"]]}
 
 
 def too_much(history: dict[str, Any], unheld: UnheldServos | None) -> list[str]:
@@ -99,7 +86,7 @@ def test_it_names_no_more_than_what_may_move(simulator: Simulator, board: str) -
         for history in simulator.draw(board, seed, PLAIN_HISTORIES, is_plain=True):
             door = doors.choice(sorted(DOORS))
             with named("test_stop_says.py", seed, f"{board} at {door}: {json.dumps(history)}"):
-                outcome = stopped(simulator, board, played_before(board, history), door)
+                outcome = stopped(simulator, board, history, door)
                 assert [wrong for said in outcome.said for wrong in too_much(history, said.unheld)] == []
                 assert outcome.broken() == []
 

@@ -73,5 +73,5 @@ async def test_whatever_scripts_ask_it_ends_by_itself_and_the_lease_is_free() ->
                 # then says nothing.
                 await asyncio.sleep(5 + 5 + 2 + 0.5)
                 assert here.control.driving.driver is None
-                assert not here.control.board.may_move()
+                assert not here.control.board.activity.may_move()
                 assert here.control.board.unattended.snapshot() is None

@@ -14,7 +14,7 @@ from servodeck.port.hid import UDEV_RULE
 def rule_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     file = tmp_path / "70-servodeck.rules"
     monkeypatch.setattr(main, "RULE_FILE", file)
-    monkeypatch.setattr(main, "TELL_UDEV", (("true",),))
+    monkeypatch.setattr(main, "UDEV_COMMANDS", (("true",),))
     return file
 
 
@@ -48,7 +48,7 @@ def test_without_rights_it_names_sudo(rule_file: Path, monkeypatch: pytest.Monke
 def test_where_udev_does_not_take_it_that_is_said(
     rule_file: Path, monkeypatch: pytest.MonkeyPatch, program: str
 ) -> None:
-    monkeypatch.setattr(main, "TELL_UDEV", ((program,),))
+    monkeypatch.setattr(main, "UDEV_COMMANDS", ((program,),))
     result = run("--install")
     assert result.exit_code == 1
     assert "udev does not take the rule" in result.stderr

@@ -2,6 +2,9 @@
 
 import asyncio
 
+from servodeck.protocol.families import FAMILIES
+from servodeck.protocol.packets import encode
+from servodeck.protocol.values import Move, Release, ServoTarget
 from servodeck.robot.control import Control
 from tests.client import Client, driven, gateway_on
 from tests.fake_port import FakePort, FakePorts
@@ -24,6 +27,10 @@ async def test_each_client_is_welcomed_and_the_others_hear_how_many_there_are() 
         assert [(message["type"], message["clients"]) for message in await anna.heard()] == [("state", 1)]
 
 
+# So long may go on what somebody began before this gateway opened the port.
+OTHERS_MOVE_S = 60
+
+
 def port_status(control: Control) -> str:
     return control.board.port.status
 
@@ -43,6 +50,37 @@ async def test_whoever_comes_late_is_told_where_the_servos_are() -> None:
         await Client(control).send(MOVE)
         await asyncio.sleep(2)
         assert await told_of_servos(control) == [1]
+
+
+@in_virtual_time
+async def test_a_client_that_joins_late_gets_the_positions_that_the_board_has_reported() -> None:
+    port = FakePort()
+
+    async def reported(control: Control) -> list[tuple[int, int, int, bool]]:
+        newcomer = Client(control)
+        [welcome] = await newcomer.heard()
+        control.leave(newcomer)
+        found = welcome["motion"]["reported"]
+        return [(one["servo"], one["position"], one["ageMs"], one["isCurrent"]) for one in found]
+
+    async with gateway_on(port, board="bus-ctrl") as control:
+        await asyncio.sleep(OTHERS_MOVE_S)
+        assert await reported(control) == []
+        port.say(bytes.fromhex("55550c15 03 01 f401 02 5802 03 bc02"))
+        await asyncio.sleep(2)
+        assert await reported(control) == [(1, 500, 1980, True), (2, 600, 1980, True), (3, 700, 1980, True)]
+        await Client(control).send(encode(Move(1000, (ServoTarget(1, 400),)), FAMILIES["bus-ctrl"]))
+        anna = control.driving.driver
+        assert isinstance(anna, Client)
+        await anna.send(encode(Release((2,)), FAMILIES["bus-ctrl"]))
+        await asyncio.sleep(1)
+        assert [(servo, current) for servo, _, _, current in await reported(control)] == [
+            (1, False),
+            (3, True),
+        ]
+        port.unplug()
+        await asyncio.sleep(0.1)
+        assert await reported(control) == []
 
 
 @in_virtual_time

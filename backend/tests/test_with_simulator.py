@@ -33,6 +33,7 @@ SIMULATOR = ROOT / "build" / "simulator.mjs"
 NODE = shutil.which("node")
 
 pytestmark = [
+    pytest.mark.slow,
     pytest.mark.skipif(not SIMULATOR.exists(), reason="the simulator is not built: npm run build"),
     pytest.mark.skipif(NODE is None, reason="Node is not installed"),
     pytest.mark.skipif(os.name != "posix", reason="a pty needs POSIX"),

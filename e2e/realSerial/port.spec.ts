@@ -20,7 +20,7 @@ test('a port that is open says so, and is not opened once more @exhaustive', asy
 }) => {
   const before = (await ptyBoard.bus()).length;
   await connected.link.click();
-  await expect(connected.button('USB serial 1234:5678 is open')).toBeDisabled();
+  await expect(connected.button('USB serial adapter (id 1234:5678) is open')).toBeDisabled();
   await connected.button('Close').click();
   await expect(connected.link).toHaveText(READY);
   expect((await kindsAfter(ptyBoard.bus, before)).filter((kind) => kind !== 'readBattery')).toEqual([]);

@@ -154,7 +154,7 @@ test('a key that no button may have is refused with the reason', async ({ dashbo
   await makeButton(dashboard, page);
   await dashboard.button('G').click();
   await page.keyboard.press('Control+c');
-  await expect(dashboard.notices).toContainText('A button takes a letter, a digit or a sign');
+  await expect(dashboard.notices).toContainText('Use a letter, a digit or a symbol');
   await page.keyboard.press('Space');
   await expect(buttonOf(page, 'Pose 1')).toHaveAccessibleName('Pose 1, key G');
   await page.keyboard.press('h');

@@ -37,3 +37,19 @@ test('a hint shows at what the keyboard leads to, and goes with the next key', a
   await page.keyboard.press('Escape');
   await expect(hintIn(page)).toBeHidden();
 });
+
+test('a hint names the key that does the same, and why a button cannot be pressed now', async ({
+  page,
+  url,
+}) => {
+  await page.goto(url);
+  const { link } = dashboardOf(page);
+  await expect(link).toHaveText(/Simulated/);
+  const tools = page.getByRole('toolbar', { name: 'Change the timeline' });
+  await tools.getByRole('button', { name: 'Set key', exact: true }).hover();
+  await expect(hintIn(page)).toHaveText('Set keyEnter');
+  const remove = tools.getByRole('button', { name: 'Delete keys', exact: true });
+  await remove.hover();
+  await expect(hintIn(page)).toHaveText(/Delete.*Select keys or a marker first\.$/);
+  await expect(remove).toHaveAccessibleDescription('Select keys or a marker first.');
+});

@@ -94,3 +94,17 @@ test('a press on a part selects its servo', async ({ dashboard, page }) => {
   await page.mouse.up();
   await expect(page.getByRole('group', { name: 'Selected servos' })).toContainText(/Servo [3-6]/);
 });
+
+test('a group that goes through the floor says when', async ({ dashboard, page }) => {
+  const model = await openStraight({ dashboard, page });
+  await dashboard.button('Capture frame').click();
+  await dashboard.type(model.along('Up'), 250);
+  await dashboard.type(model.along('Forward'), 150);
+  await dashboard.button('Capture frame').click();
+  const warning = page.getByText(/below the floor/);
+  await expect(warning).toBeHidden();
+  await dashboard.type(model.along('Up'), -20);
+  await expect(model.along('Up')).toHaveValue('-20');
+  await dashboard.button('Capture frame').click();
+  await expect(warning).toBeVisible();
+});

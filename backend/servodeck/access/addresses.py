@@ -76,7 +76,7 @@ class Access:
 
 
 def local(port: int) -> Access:
-    """This computer only; whoever asks there is its owner."""
+    """This computer only; everybody at it is its owner."""
     return Access("local", "http", port, LOOPBACK)
 
 
@@ -134,7 +134,7 @@ QUIET_MODULES = 3
 
 
 def link_base(access: Access, host: str) -> str:
-    """An address that other devices can reach: the one that whoever invites came by, if it is not this
+    """An address that other devices can reach: the one that the inviting page came by, if it is not this
     computer's own, or if no other one answers.
     """
     if access.mode == "lan" and any(host == access.host_of(name) for name in LOOPBACK):
@@ -213,7 +213,7 @@ class Announcement:
                 if addresses := self._addresses():
                     self._announce(addresses)
                     continue  # the addresses are others now
-            except Exception:  # no network, or whatever a library raises that nobody here can name
+            except Exception:  # no network, or whatever a library raises, which cannot be named here
                 log.warning("this computer cannot be announced", exc_info=True)
             self._ended.wait(self._look_again_s)
 

@@ -64,7 +64,7 @@ KNOWN_IDLE_S = 20
 HEAD_S = 1.0
 # A library of 3 MiB over a poor wireless link; for who is unknown, the answer, too.
 BODY_S = 30.0
-# Whoever has its answer and talks on may read it first.
+# A client that has its answer and talks on may read it first.
 ANSWERED_S = 0.5
 HEAD_BYTES = 32 * 1024
 HEADERS = 100
@@ -89,7 +89,7 @@ class Connection(Protocol):
         """Somebody has proved who they are."""
 
     def when_lost(self, lost: Callable[[], None]) -> None:
-        """Nobody hears an answer any more: once, and at once where it is so already."""
+        """The client does not hear an answer any more: once, and at once where it is so already."""
 
     def abort(self) -> None:
         """Cuts it, also where its other end does not read."""
@@ -193,7 +193,7 @@ class ImpatientProtocol(Losable, HttpToolsProtocol):
         return self._upgrades
 
     def _unsupported_upgrade_warning(self) -> None:
-        """Nothing to warn of: whoever refuses it says why."""
+        """Nothing to warn of: the module that refuses it says why."""
 
     def handle_websocket_upgrade(self) -> None:
         self._end_in(None)
@@ -304,7 +304,7 @@ class ImpatientSocket(Losable, WebSocketsSansIOProtocol):
         self.transport.abort()
 
     async def send(self, message: ASGISendEvent) -> None:
-        if self.close_sent:  # nobody's mistake: it was on its way when the end came
+        if self.close_sent:  # no mistake: it was on its way when the end came
             raise ClientDisconnected
         await super().send(message)
         # uvicorn takes a refusal for an application that forgot to answer, and logs an error.

@@ -3,7 +3,7 @@ secret for a link and eight digits for a keyboard, once, for two minutes. Pure: 
 
 A cookie counts only for our own page: with its Origin, which a browser adds to whatever may change something,
 or with the page's own header, which no other page can add to a GET without leave. Programs send a token. Five
-wrong codes spend all codes that are open, whoever typed them; links, which nobody can guess, stay valid.
+wrong codes spend all codes that are open, from whatever devices; links, which cannot be guessed, stay valid.
 """
 
 import hashlib
@@ -65,7 +65,7 @@ def make_id() -> str:
 
 
 def digest_of(secret: str) -> bytes:
-    """What is kept of a secret. A fast hash will do: it is random and long, nobody can guess through it."""
+    """What is stored of a secret. A fast hash will do: the secret is random and too long to be guessed."""
     return hashlib.sha256(secret.encode()).digest()
 
 
@@ -85,7 +85,7 @@ MAX_OPEN = 8
 
 @value
 class Invite:
-    """`code` is None once codes are spent. `name` may be empty: whoever comes says theirs."""
+    """`code` is None once codes are spent. `name` may be empty: the device that comes says its own."""
 
     id: str
     role: Role

@@ -51,18 +51,18 @@ class DeviceStore(Protocol):
 
 
 class NoDeviceStore:
-    """Where nobody needs to be paired."""
+    """Where no device needs to be paired."""
 
     def load(self) -> list[Device]:
         return []
 
     def save(self, devices: Callable[[], list[Device]]) -> None:
-        """Nothing is kept."""
+        """Nothing is stored."""
 
 
 class Devices:
     def __init__(self, store: DeviceStore, now_ms: Callable[[], int]) -> None:
-        """Raises a StorageError where the shelf cannot be read: nobody shall come in by an old list."""
+        """Raises a StorageError where the file cannot be read: no device shall come in by an old list."""
         self._store = store
         self._now_ms = now_ms
         self._devices = {one.id: one for one in store.load()}
@@ -72,7 +72,7 @@ class Devices:
         return list(self._devices.values())
 
     def admit(self, kind: Kind, name: str, role: Role) -> tuple[Device, str]:
-        """A new one and its credential, which nobody can tell again."""
+        """A new one and its credential, which is not stored."""
         if len(self._devices) >= MAX_DEVICES:
             raise OutOfRangeError(f"{MAX_DEVICES} devices are paired, which is the limit. Revoke one first.")
         secret = make_secret()
@@ -127,7 +127,7 @@ class Devices:
 
     def _unique_name(self, name: str, but: Device | None = None) -> str:
         """With a number behind it where somebody else is called so: a class has more than one Android. Who
-        comes in is never called as whoever sits at the gateway's computer.
+        comes in is never called as the person at the gateway's computer.
         """
         taken = {one.name for one in self.all if one is not but} | LOCAL_NAMES
         names = (name if count == 1 else f"{name[: MAX_NAME - 4]} {count}" for count in itertools.count(1))
@@ -183,7 +183,7 @@ class DeviceFile:
                 raise self._unusable(error) from error
 
     def _open(self) -> sqlite3.Connection:
-        # Nobody else of this computer needs to read who is paired.
+        # No other account of this computer needs to read who is paired.
         self._path.touch(mode=0o600, exist_ok=True)
         db = sqlite3.connect(self._path, timeout=BUSY_S, isolation_level=None)
         try:

@@ -27,7 +27,7 @@ class Entrance:
         self._rates = Rates(now)
 
     def find(self, headers: list[tuple[bytes, bytes]]) -> Caller | None:
-        """Whoever has proved who they are; None for a stranger."""
+        """The caller, where they have proved who they are; else None."""
         if not self.access.needs_pairing:
             return THIS_COMPUTER
         credential = credential_of(headers, self.access.cookie)
@@ -35,7 +35,7 @@ class Entrance:
         return device.caller if device else None
 
     def judge(self, headers: list[tuple[bytes, bytes]], role: Role) -> Caller:
-        """Raises NotPairedError for a stranger, ForbiddenError for somebody who may do less."""
+        """Raises NotPairedError for an unauthenticated caller, ForbiddenError for one who may do less."""
         caller = self.find(headers)
         if caller is None:
             raise NotPairedError("This device is not paired with the gateway.")
@@ -43,7 +43,7 @@ class Entrance:
         return caller
 
     def still_lets_in(self, caller: Caller) -> bool:
-        """Whoever was let in a moment ago may have been revoked since, or have another role."""
+        """A caller who was let in a moment ago may have been revoked since, or have another role."""
         return not self.access.needs_pairing or self.devices.role_of(caller.id) == caller.role
 
     def count(self, caller: Caller) -> None:
@@ -52,9 +52,9 @@ class Entrance:
             self._rates.take(self.devices.get(caller.id))
 
     def accept_invite(self, invite: Invite, name: str, present: Caller | None) -> tuple[Caller, str | None]:
-        """Uses the invitation up: who they are from now on, and their new credential. Whoever may do as much
-        already stays who they are, and the invitation stays open for somebody else; whoever may less keeps
-        their name.
+        """Uses the invitation up: who they are from now on, and their new credential. A caller who may do as
+        much already stays who they are, and the invitation stays open for somebody else; one who may do less
+        keeps their name.
         """
         if present and present.may(invite.role):
             return present, None
@@ -134,7 +134,7 @@ class Rates:
     def _rate_of(self, device: Device) -> Rate:
         key = device.id, device.role
         if key not in self._rates:
-            if len(self._rates) >= 2 * MAX_DEVICES:  # whoever was revoked meanwhile
+            if len(self._rates) >= 2 * MAX_DEVICES:  # one that was revoked meanwhile
                 del self._rates[next(iter(self._rates))]
             per_second, burst = OF_DRIVERS if device.caller.may("driver") else OF_VIEWERS
             is_page = device.kind == "device"

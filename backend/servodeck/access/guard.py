@@ -54,8 +54,8 @@ LARGER_BODIES = (
     # Reading one takes 15 ms, in which a stop waits. The largest group there is, or 90 of the usual size.
     (re.compile(r"/api/(download|play)"), 512 * 1024),
 )
-# Requests of nobody known, all together: a refusal takes up to a millisecond, in which a stop waits, on a
-# small computer three.
+# Requests of unauthenticated callers, all together: a refusal takes up to a millisecond, in which a stop
+# waits, on a small computer three.
 OF_UNKNOWN = (200.0, 10)
 STARTS = frozenset({"http.response.start", "websocket.http.response.start"})
 
@@ -101,7 +101,7 @@ class Guard:
             log_refusal(scope, error)
             # The Host is not to be trusted here, so it does not appear in the policy.
             refusal = JSONResponse({"code": error.code, "detail": error.detail}, error.status)
-            if upgrades:  # nobody reads what follows it
+            if upgrades:  # what follows it is not read
                 refusal.headers["Connection"] = "close"
             return await refusal(scope, receive, with_headers(send, "'self'"))
         if not is_known and not await self._wait_of_unknown(scope):
@@ -119,7 +119,7 @@ class Guard:
             return False
 
     async def _wait_of_unknown(self, scope: Scope) -> bool:
-        """False where nobody hears an answer any more."""
+        """False where the client does not hear an answer any more."""
         connection = connection_of(scope)
         return connection is None or await self._queue_of_unknown.wait(connection)
 

@@ -84,7 +84,7 @@ class JudgingRoute(APIRoute):
         return judge_and_handle
 
     def judge(self, request: Request) -> None:
-        """Raises a GatewayError for whoever may not ask this."""
+        """Raises a GatewayError for a caller who may not request this."""
         for needs in needs_of(self.dependant):
             request.state.caller = needs.judge(request)
 
@@ -123,7 +123,7 @@ def needs_of(dependant: Dependant | None) -> Iterator[Needs]:
 
 
 def require_roles(routes: Sequence[BaseRoute]) -> None:
-    """Denies by default: whoever adds a route without a role finds out before anybody can use it."""
+    """Denies by default: a route that was added without a role fails before it can be used."""
     for route, roles in named_roles(routes):
         if len(roles) != 1:
             raise TypeError(f"{route} has to name one role")

@@ -1,7 +1,8 @@
 """Puts the gateway together: guard, routes, page, and one shape for every error. Holds no rule of its own.
 
 A start does not wait for most routes: each part is loaded with the first request for an address of its own,
-all of them soon after the gateway serves.
+all of them soon after the gateway serves. `python -m servodeck.api.app` prints the description of all routes,
+from which the page's types are made.
 """
 
 import asyncio
@@ -135,6 +136,19 @@ def add_routes(app: FastAPI, *routers: APIRouter) -> None:
 
 def create_app(control: Control, library: Library, entrance: Entrance, static: Path = STATIC) -> Guard:
     """The gateway with that entrance and the page built into `static`."""
+    app = app_without_state()
+    app.state.control = control
+    app.state.scripts = Scripts(control, entrance.still_lets_in)
+    app.state.library = library
+    app.state.pulse = Pulse(sign_of_life())
+    app.state.disk = Disk(library.folder, control.now)
+    app.state.entrance = entrance
+    app.mount("/", page(static))
+    return Guard(app, entrance)
+
+
+def app_without_state() -> LaterApp:
+    """Its routes, as they can be described."""
     app = LaterApp(
         title="Servodeck gateway",
         description="Drives a servo controller on a serial port. An error is a code and a sentence.",
@@ -147,18 +161,11 @@ def create_app(control: Control, library: Library, entrance: Entrance, static: P
         lifespan=lifespan,
     )
     app.router.route_class = JudgingRoute
-    app.state.control = control
-    app.state.scripts = Scripts(control, entrance.still_lets_in)
-    app.state.library = library
-    app.state.pulse = Pulse(sign_of_life())
-    app.state.disk = Disk(library.folder, control.now)
-    app.state.entrance = entrance
     add_routes(app, health_api)
     add_docs(app)
     add_errors(app)
     require_roles(app.routes)
-    app.mount("/", page(static))
-    return Guard(app, entrance)
+    return app
 
 
 @contextlib.asynccontextmanager
@@ -255,3 +262,14 @@ def methods_at(app: LaterApp, path: str) -> list[str]:
 def problem(status: int, code: ErrorCode, detail: str) -> JSONResponse:
     metrics.refused[code] += 1
     return JSONResponse({"code": code, "detail": detail}, status)
+
+
+if __name__ == "__main__":
+    import json
+    import sys
+
+    from servodeck.api.openapi import described
+
+    whole = app_without_state()
+    whole.load_all()
+    json.dump(described(whole), sys.stdout)

@@ -9,10 +9,10 @@ from servodeck.errors import ErrorCode
 
 
 class Example(NamedTuple):
-    """`asks` and `answers` are None where there is no body. `errors`: those that not every route has."""
+    """`request` and `response` are None where there is no body. `errors`: those that not every route has."""
 
-    answers: Any
-    asks: Any = None
+    response: Any
+    request: Any = None
     errors: tuple[ErrorCode, ...] = ()
 
 

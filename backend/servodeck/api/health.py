@@ -129,7 +129,7 @@ async def health(control: Controlled, pulse: Beating, disk: Stored) -> Health:
 
 
 def port_troubles(port: PortState) -> list[Trouble]:
-    """No port is none: nobody asked for one."""
+    """No port is no trouble: none was requested."""
     if port.status != "lost":
         return []
     return [Trouble(part="port", detail=f"The serial port is lost ({port.code}) and tried again.")]

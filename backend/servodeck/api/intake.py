@@ -39,7 +39,7 @@ class Intake:
         self._timer: asyncio.TimerHandle | None = None
 
     def take_at_once(self, message: AnyClientMessage) -> None:
-        """What waits was meant for a robot that moves: it goes."""
+        """What waits was for a robot that moves: it is dropped."""
         self._replace(None)
         self._take(message)
 

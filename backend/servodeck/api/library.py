@@ -1,12 +1,9 @@
-"""The library over HTTP, and which of its robots stands on the board. `python -m servodeck.api.library`
-prints the JSON schema of the messages, from which the page's types are generated.
+"""The library over HTTP, and which of its robots stands on the board.
 
 Translates between messages, `library` and `control`; decides only what text is a document. The library waits
 for a disk: in threads, where STOP does not wait for it.
 """
 
-import json
-import sys
 from typing import Annotated, Any, Literal
 
 from fastapi import Depends, Path
@@ -21,7 +18,7 @@ from servodeck.errors import MalformedError, NotDrivingError
 from servodeck.library.library import Library, Version
 from servodeck.robot.control import Control
 from servodeck.robot.profile import ReadFacts
-from servodeck.schema import Message, is_object, schema_of
+from servodeck.schema import Message, is_object
 from servodeck.snapshots import Name, PoseTarget, RobotFacts, Whole
 
 MAX_TEXT = 2 * 1024 * 1024
@@ -67,8 +64,8 @@ class ListedDocument(Message):
 
 
 class LibraryListing(Message):
-    """`damagedFile` names a damaged file that was found and kept; `changesLost`: the last changes before the
-    gateway's start may be missing.
+    """`damagedFile` names a damaged file that was found and set apart; `changesLost`: the last changes before
+    the gateway's start may be missing.
     """
 
     documents: list[ListedDocument]
@@ -223,7 +220,7 @@ def list_versions(document: IdInPath, library: OfLibrary) -> list[ListedVersion]
 
 @library_api.get("/{document}/versions/{version}", dependencies=[VIEWER])
 def read_version(document: IdInPath, version: IdInPath, library: OfLibrary) -> VersionText:
-    """The text that was kept under that version's name."""
+    """The text that was saved under that version's name."""
     return VersionText(text=library.read_version(document, version))
 
 
@@ -246,7 +243,7 @@ def check_document(text: str) -> None:
 
 
 class RobotChoice(Message):
-    """`insteadOf`: the one that whoever asks knows to stand there."""
+    """`insteadOf`: the one that the caller knows to stand there."""
 
     id: Id
     instead_of: Id | None = None
@@ -263,12 +260,3 @@ async def put_on_board(choice: RobotChoice, control: Controlled, caller: Annotat
     if not control.driving.may_rule(caller):
         raise NotDrivingError("Another client drives: only the driver or an owner may change the robot.")
     await control.robot.put(choice.id, choice.instead_of)
-
-
-if __name__ == "__main__":
-    said = {"LibraryRequest": DocumentWrite | DocumentIds | VersionWrite}
-    answered = {
-        "LibraryAnswer": LibraryListing | StoredDocument | DocumentWritten | list[ListedVersion] | VersionText
-    }
-    json.dump(schema_of("Library", said, answered), sys.stdout, indent=2)
-    sys.stdout.write("\n")

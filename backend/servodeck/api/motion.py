@@ -16,7 +16,7 @@ from servodeck.access.roles import DRIVER, OWNER, VIEWER
 from servodeck.api.routes import Controlled, routes
 from servodeck.api.websocket import play as play_for_page
 from servodeck.callers import Caller
-from servodeck.errors import MalformedError, NotFoundError, OutOfRangeError
+from servodeck.errors import CancelledError, MalformedError, NotFoundError, OutOfRangeError
 from servodeck.intents import ContinueMs, FrameBody, MessageId, Nonce, PersonId, PlayIntent, Servo
 from servodeck.protocol.families import Family
 from servodeck.protocol.limits import UNITS
@@ -41,7 +41,7 @@ class MoveWish(Message):
 
 
 class MoveBegun(Message):
-    """`firstMoves`: nobody knew where these servos stood, so they started one after another."""
+    """`firstMoves`: these servos stood at an unknown place, so they started one after another."""
 
     packets: int
     over_in_ms: int
@@ -100,10 +100,22 @@ Driving = Annotated[Caller, DRIVER]
 motion_api = routes("/api", "motion")
 
 
-@motion_api.post("/move")
+async def once_identified(request: Request, control: Controlled) -> None:
+    """A script may begin with the gateway: what it asks waits until the port is open and the board has
+    answered.
+    """
+    await control.until_identified()
+    if await request.is_disconnected():
+        raise CancelledError("The client disconnected.")
+
+
+ONCE_IDENTIFIED = [Depends(once_identified)]
+
+
+@motion_api.post("/move", dependencies=ONCE_IDENTIFIED)
 async def move(wish: MoveWish, request: Request, caller: Driving, scripts: Scripted) -> MoveBegun:
     """Moves servos together. Answers when the last packet has left the wire; `overInMs` later they are there.
-    Servos that nobody knows the place of take 1500 ms at least and start one after another.
+    Servos of unknown place take 1500 ms at least and start one after another.
     """
     positions = {int(servo): position for servo, position in wish.positions.items()}
     return await begin_move(request, caller, scripts, wish.time_ms, positions, take=wish.take)
@@ -125,7 +137,7 @@ async def begin_move(
     return MoveBegun(packets=moved.packets, over_in_ms=moved.over_in_ms, first_moves=list(moved.first_moves))
 
 
-@motion_api.post("/slots/{slot}/run")
+@motion_api.post("/slots/{slot}/run", dependencies=ONCE_IDENTIFIED)
 async def run(
     slot: Annotated[int, Path(ge=0, le=255)], caller: Driving, scripts: Scripted, wish: RunWish = ONCE
 ) -> RunBegun:
@@ -136,7 +148,7 @@ async def run(
     return RunBegun(outcome=outcome)
 
 
-@motion_api.post("/erase")
+@motion_api.post("/erase", dependencies=ONCE_IDENTIFIED)
 async def erase(caller: Annotated[Caller, OWNER], scripts: Scripted, wish: EraseWish = POLITELY) -> Erased:
     """Erases every slot of the board, for good."""
     await scripts.erase(caller, take=wish.take)
@@ -145,14 +157,14 @@ async def erase(caller: Annotated[Caller, OWNER], scripts: Scripted, wish: Erase
 
 @motion_api.post("/lease")
 async def lease(wish: LeaseWish, caller: Driving, scripts: Scripted) -> LeaseState:
-    """Who drives. Asked for by itself with each motion, and kept 2 s longer than that lasts."""
+    """Who drives. Requested by itself with each motion, and held 2 s longer than that lasts."""
     return scripts.act(caller, wish.action)
 
 
 @motion_api.put("/driver")
 async def give(wish: DriverWish, caller: Driving, scripts: Scripted) -> LeaseState:
     """Hands the robot to somebody who is here with a page and may drive, unasked; what moves is stopped
-    first. Whoever drives may, and owners.
+    first. The driver may, and owners.
     """
     return scripts.give(caller, wish.id)
 
@@ -180,7 +192,7 @@ async def list_poses(control: Controlled) -> Poses:
     return Poses(robot=facts.name if facts else "", poses=facts.poses if facts else [])
 
 
-@poses_api.post("/{pose}/apply")
+@poses_api.post("/{pose}/apply", dependencies=ONCE_IDENTIFIED)
 async def apply(
     pose: Annotated[str, Path(min_length=1, max_length=64)],
     request: Request,
@@ -261,7 +273,7 @@ class DownloadWish(Message):
 jobs_api = routes("/api", "jobs")
 
 
-@jobs_api.post("/download", status_code=202)
+@jobs_api.post("/download", status_code=202, dependencies=ONCE_IDENTIFIED)
 async def download(
     wish: DownloadWish,
     caller: Annotated[Caller, DRIVER],
@@ -270,7 +282,7 @@ async def download(
 ) -> JobState:
     """Stores groups in slots of the board, one after the other, as one job, also where they come in several
     requests. Goes on when its client has left. STOP ends it, and so does the loss of the right to drive; then
-    the slot of the group in progress is broken: nobody may run it before another download to it has ended
+    the slot of the group in progress is broken: it cannot be run before another download to it has ended
     well.
     """
     control.board.judge_known()
@@ -314,7 +326,7 @@ class PlayWish(PlayIntent):
 play_api = routes("/api", "play")
 
 
-@play_api.post("/play", status_code=202)
+@play_api.post("/play", status_code=202, dependencies=ONCE_IDENTIFIED)
 async def play(
     wish: PlayWish, caller: Annotated[Caller, DRIVER], control: Controlled, scripts: Scripted
 ) -> PlayState:
@@ -331,6 +343,6 @@ async def play(
 
 @play_api.delete("/play", dependencies=[DRIVER])
 async def stop_playing(control: Controlled) -> PlayState | None:
-    """Ends it with its frame in progress, whoever began it; how the latest one ended."""
+    """Ends it with its frame in progress, whichever client began it; how the latest one ended."""
     control.requests.stop_playing()
     return control.board.plays.latest

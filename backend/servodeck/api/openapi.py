@@ -61,7 +61,7 @@ def described(app: FastAPI) -> dict[str, Any]:
             title=app.title, version=app.version, description=app.description, routes=app.routes
         )
         for name in ("HTTPValidationError", "ValidationError"):
-            # Of 422, the framework's own shape, which nobody is sent.
+            # Of 422, the framework's own shape, which is never sent.
             schema["components"]["schemas"].pop(name)
         schema["components"]["schemas"][Problem.__name__] = Problem.model_json_schema(
             ref_template=REFERENCE, mode="serialization"
@@ -85,12 +85,12 @@ def complete(operation: dict[str, Any], example: Example, role: Role | None) -> 
     operation["description"] = f"{text} {who(role)}"
     operation["security"] = [] if role is None else ALL_SCHEMES
     if "requestBody" in operation:
-        operation["requestBody"]["content"][JSON]["example"] = example.asks
+        operation["requestBody"]["content"][JSON]["example"] = example.request
     responses = operation["responses"]
     responses.pop("422", None)
     for answer in responses.values():
         for content in answer.get("content", {}).values():
-            content["example"] = example.answers
+            content["example"] = example.response
     responses |= problems(operation, example, role)
 
 

@@ -1,8 +1,8 @@
 """Serves the built page from the folder `static`. Knows files, caching and encodings, nothing of boards.
 
-A file whose name carries its hash may be kept for ever; all others are asked for again each time. The build
-wrote compressed files beside the plain ones. What was asked for once is kept in memory: on this loop STOP
-waits, for no disk and no thread of a thousand strangers who ask for the page.
+A file whose name carries its hash may be cached for ever; all others are requested again each time. The build
+wrote compressed files beside the plain ones. A file that was requested once stays in memory: on this loop
+STOP waits, for no disk and no thread of a thousand unknown clients that load the page.
 """
 
 import hashlib

@@ -1,12 +1,9 @@
-"""Pairing over HTTP: who am I, come in, and for owners who else may. `python -m servodeck.api.people` prints
-the JSON schema of the messages, from which the page's types are generated.
+"""Pairing over HTTP: who am I, come in, and for owners who else may.
 
 Decides no role and makes no secret. A change holds at once; it is written down before the answer.
 """
 
 import contextlib
-import json
-import sys
 from typing import Annotated, Literal
 
 from fastapi import Depends, Query, Request, Response
@@ -23,7 +20,7 @@ from servodeck.callers import Caller, Role
 from servodeck.errors import ForbiddenError, MalformedError, StorageError
 from servodeck.robot.control import Control
 from servodeck.robot.hub import is_of
-from servodeck.schema import Message, schema_of
+from servodeck.schema import Message
 
 PersonRole = Literal["viewer", "driver", "owner"]
 Name = Annotated[str, Field(max_length=64, pattern=r"^[^\x00-\x1f\x7f]*$")]
@@ -37,7 +34,9 @@ class You(Message):
 
 
 class Me(Message):
-    """`you` is null for a stranger. `overheard`: what is said here can be read by others on the network."""
+    """`you` is null for an unauthenticated caller. `overheard`: what is said here can be read by others on
+    the network.
+    """
 
     mode: Mode
     overheard: bool
@@ -107,7 +106,7 @@ class TokenWish(Message):
 
 
 class Token(Message):
-    """Shown once: only its SHA-256 is kept."""
+    """Shown once: only its SHA-256 is stored."""
 
     id: str
     token: str
@@ -167,7 +166,7 @@ async def rename_me(
 
 
 def spread_name(device: Device, control: Control) -> None:
-    """Nothing of theirs ends by it: whoever drives goes on under the new one."""
+    """Nothing of theirs ends by it: a driver goes on under the new one."""
     control.hub.rename(device.id, device.name)
     control.driving.send_states()
 
@@ -180,7 +179,9 @@ async def pair(
     present: Annotated[Caller | None, ANYBODY],
     scripts: Scripted,
 ) -> You:
-    """Comes in by a link, a code or a stop-only link, for a cookie; whoever may do as much keeps theirs."""
+    """Comes in by a link, a code or a stop-only link, for a cookie; a device that may do as much keeps its
+    own.
+    """
     caller, credential = accept_invite(wish, entrance, present)
     if present and not entrance.still_lets_in(present):
         reason = "This device was paired again."
@@ -196,7 +197,7 @@ async def pair(
             httponly=True,
             samesite="strict",
         )
-        with contextlib.suppress(StorageError):  # a full disk keeps nobody out; until the next start it holds
+        with contextlib.suppress(StorageError):  # a full disk does not undo it; until the next start it holds
             await entrance.devices.keep()
     return you_of(caller)
 
@@ -291,7 +292,7 @@ async def invite(wish: InviteWish, entrance: Entered, base: Base) -> Invitation:
 
 @people_api.delete("/invites/{invitation}", status_code=204, dependencies=[OWNER])
 async def withdraw(invitation: str, entrance: Entered) -> None:
-    """Ends an invitation that nobody has used."""
+    """Ends an invitation that was not used."""
     entrance.pairing.withdraw(invitation)
 
 
@@ -310,10 +311,3 @@ async def make_stop_link(wish: StopLinkWish, entrance: Entered, base: Base) -> S
     await entrance.devices.keep()
     link = stop_link(base, credential)
     return StopLink(id=device.id, link=link, picture=picture_of(link))
-
-
-if __name__ == "__main__":
-    said = {"PeopleRequest": PairWish | OwnName | PersonChange | InviteWish | TokenWish | StopLinkWish}
-    answered = {"PeopleAnswer": Me | You | People | Person | Invitation | Token | StopLink}
-    json.dump(schema_of("PeopleMessage", said, answered), sys.stdout, indent=2)
-    sys.stdout.write("\n")

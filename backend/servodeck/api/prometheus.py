@@ -52,7 +52,7 @@ class Numbers(Collector):
         yield GaugeMetricFamily("servodeck_clients", "Clients on the WebSocket", len(control.hub))
         reading = control.board.battery.newest
         battery_mv = reading.battery_mv if reading else float("nan")
-        yield GaugeMetricFamily("servodeck_battery_millivolts", "As the board told last", battery_mv)
+        yield GaugeMetricFamily("servodeck_battery_millivolts", "As the board reported last", battery_mv)
         yield GaugeMetricFamily(
             "servodeck_loop_delay_seconds", "The longest wait for the event loop lately", self._loop_delay_s
         )

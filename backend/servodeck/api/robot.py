@@ -44,7 +44,7 @@ class BatteryAge(Message):
 
 
 class Running(Message):
-    """The group that may run: it was begun, and nobody has stopped it or heard that it ended. `endsInMs`: at
+    """The group that may run: it was begun, and was neither stopped nor heard to end. `endsInMs`: at
     the latest; null where only the board could tell, which not every family does.
     """
 
@@ -231,7 +231,8 @@ async def battery(control: Controlled) -> Battery:
     return Battery(battery_mv=await control.board.battery.read())
 
 
-# A line that says nothing: whoever is gone is found out, and nothing between closes a stream for its silence.
+# A line that says nothing: a client that is gone is noticed, and nothing between closes a stream for its
+# silence.
 SILENCE_S = 15.0
 CLOSE_WAIT_S = 0.1
 MAX_ID = 64
@@ -318,7 +319,7 @@ async def events(
 ) -> EventStream:
     """What happens, from now on, as server-sent events with an id: each is one message as `/ws` tells it to
     pages. The first is a `welcome` with everything as it stands. Nothing is repeated: with Last-Event-ID a
-    `gap` comes before it, because what happened since that event is not told.
+    `gap` comes before it, because what happened since that event is not repeated.
     """
     if not control.hub.has_room_for(caller):
         raise BusyError("Too many clients are connected: close another window or event stream.")

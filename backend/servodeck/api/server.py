@@ -1,4 +1,4 @@
-"""Runs the gateway on a socket until it is told to end, and ends it in order: the robot first, then the
+"""Runs the gateway on a socket until it is asked to end, and ends it in order: the robot first, then the
 clients.
 
 Knows uvicorn and signals, no message and no packet.
@@ -33,7 +33,8 @@ from servodeck.errors import PortError
 from servodeck.protocol.timings import PLAY
 from servodeck.robot.control import Control
 
-# Whoever has not gone by then is cut off. Later, uvicorn would cancel what they asked and call that an error.
+# Connections that are open then are cut off. Later, uvicorn would cancel what they asked and call that an
+# error.
 LEAVE_S = 1.0
 CANCEL_S = 2
 END_S = 2.5
@@ -135,7 +136,7 @@ class Server(uvicorn.Server):
 
 def end_for_sure() -> None:
     """Ends the process a while later, whatever holds it up by then. The robot is stopped long before, and
-    what the library called kept survives.
+    what the library called saved survives.
     """
     last_resort = threading.Timer(END_S, os._exit, (FORCED,))
     last_resort.daemon = True
@@ -143,7 +144,7 @@ def end_for_sure() -> None:
 
 
 def leave_with_stdin(leave: Callable[[], None]) -> None:
-    """Calls `leave` when whoever started us has closed our stdin, or is gone."""
+    """Calls `leave` when the parent process has closed our stdin, or is gone."""
 
     def wait() -> None:
         with contextlib.suppress(OSError, ValueError):

@@ -86,7 +86,7 @@ async def serve_client(socket: WebSocket, caller: Caller, control: Control) -> N
     if not control.hub.has_room_for(caller):
         raise BusyError("Too many clients are connected: close another window or event stream.")
     session = Session(caller)
-    control.join(session)  # before anything is waited for: whoever is revoked now is found
+    control.join(session)  # before anything is waited for: one that is revoked now is found
     try:
         await socket.accept()
         await serve_session(socket, session, control)
@@ -164,7 +164,7 @@ def take_text(text: str, session: Session, intake: Intake) -> None:
 
 
 def id_of(message: AnyClientMessage) -> int | None:
-    """Of whoever asks for something; the others are about the lease, or a stop."""
+    """Of a message that asks for something; the others are about the lease, or a stop."""
     number = getattr(message, "id", None)
     return number if isinstance(number, int) else None
 
@@ -208,7 +208,7 @@ def take_play(message: PlayMessage, session: Session, control: Control) -> None:
 
 
 def play(group: FrameGroup, message_id: int, nonce: str, session: Session, control: Control) -> PlayState:
-    """Raises what keeps it from beginning. Whoever asked hears how it ended."""
+    """Raises what keeps it from beginning. The client hears how it ended."""
     return control.requests.play(
         session, group, nonce, lambda state: session.put(encode(PlayedMessage(id=message_id, play=state)))
     )

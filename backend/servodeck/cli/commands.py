@@ -17,7 +17,9 @@ from servodeck.cli.options import (
     TIMED_OUT,
     USAGE,
     AsJson,
+    MoveTime,
     Take,
+    Times,
     asked,
     asking,
     board,
@@ -33,8 +35,8 @@ from servodeck.cli.remote import RefusedError, Remote, UnreachableError, stopped
 BEAT_S = 1.0
 # What the gateway lets go on without its driver at most.
 LONGEST_ALONE_S = 3600
-# How long the end of a group is waited for where nobody said: until its computed end and a little more, or
-# where only the board could tell.
+# How long the end of a group is waited for where it was not said: until its computed end and a little more,
+# or where only the board could tell.
 AFTER_END_S = 2.0
 UNKNOWN_END_S = 30.0
 # Servos of unknown place start a quarter of a second apart.
@@ -84,9 +86,7 @@ def move(
     targets: Annotated[
         list[str], typer.Argument(metavar="SERVO=POSITION...", help="For example 1=1500 2=900")
     ],
-    time_ms: Annotated[
-        int, typer.Option("--time", help="Milliseconds; a servo's first move takes 1500.")
-    ] = 1500,
+    time_ms: MoveTime = 1500,
     take: Take = False,
     as_json: AsJson = False,
 ) -> None:
@@ -113,7 +113,7 @@ def positions_in(targets: list[str]) -> dict[str, int]:
 def run(
     remote: Remote,
     slot: Annotated[int, typer.Argument(help="Slot of the board, from 0.")],
-    times: Annotated[int, typer.Option(help="0: until stopped.")] = 1,
+    times: Times = 1,
     go_on: Annotated[
         int | None,
         typer.Option(
@@ -186,7 +186,7 @@ def usual_limit_s(ends_in_ms: int | None) -> float:
 
 
 def let_go(remote: Remote) -> None:
-    """Which ends what runs, and nobody has to resume."""
+    """Which ends what runs, and needs no resume."""
     asked(remote, "POST", "/api/lease", {"action": "release"})
 
 
@@ -261,9 +261,7 @@ def poses_words(book: dict[str, Any]) -> str:
 def pose(
     remote: Remote,
     wanted: Annotated[str, typer.Argument(metavar="POSE", help="Its name or its number; 0 is home.")],
-    time_ms: Annotated[
-        int, typer.Option("--time", help="Milliseconds; a servo's first move takes 1500.")
-    ] = 1500,
+    time_ms: MoveTime = 1500,
     take: Take = False,
     as_json: AsJson = False,
 ) -> None:
@@ -281,8 +279,8 @@ def library(remote: Remote, as_json: AsJson = False) -> None:
 
 
 def library_words(listing: dict[str, Any]) -> str:
-    kept = [one for one in listing["documents"] if not one["isRemoved"]]
-    return "\n".join(map(document_words, kept)) or "The library is empty."
+    present = [one for one in listing["documents"] if not one["isRemoved"]]
+    return "\n".join(map(document_words, present)) or "The library is empty."
 
 
 def document_words(document: dict[str, Any]) -> str:

@@ -16,9 +16,10 @@ from servodeck import __version__
 from servodeck.cli.options import FAILURE, Token, TokenFile, Url, remote_at
 from servodeck.cli.remote import HERE, RefusedError, Remote, UnreachableError
 from servodeck.errors import PortError
-from servodeck.port.diagnosis import OTHER_RATES, Heard, access_to, find_rate, listen, looks_like
-from servodeck.port.hid import is_hid
+from servodeck.port.diagnosis import Heard, access_to, find_rate, listen, looks_like
+from servodeck.port.hid import ALLOW_HID, is_hid
 from servodeck.port.ports import PortInfo, is_same_port, list_devices
+from servodeck.protocol.timings import LINE
 from servodeck.value import value
 
 NOISE_SHOWN = 32
@@ -110,33 +111,57 @@ def port_findings(port: PortInfo, *, is_owned: bool, is_asked: bool, rates: bool
     if is_owned:
         yield Finding("ok", f"{name} is the gateway's.")
         return
-    is_serial = not is_hid(port.device) and "://" not in port.device
-    if is_serial:
-        access = access_to(port.device)
-        if access.held_by:
-            yield Finding("look", f"{name} is open in {', '.join(access.held_by)}: close it there.")
-            return
-        if not access.may_open:
-            group = f"sudo usermod -aG {access.group} $USER, then log in again"
-            yield Finding("look", f"This account may not open {name}: {group}.")
-            return
+    if problem := access_problem(name, port.device):
+        yield Finding("look", problem)
+        return
     if not is_asked:
         yield Finding("--", f"{name} is no usual cable of a board. To ask it: --port {port.device}")
         return
     try:
         heard = listen(port.device)
-        yield from heard_findings(name, heard)
-        if rates and is_serial and not heard.packets:
+        yield from heard_findings(name, heard, is_on_hid=is_hid(port.device))
+        if rates and has_rates(port.device) and not heard.packets:
             yield rate_finding(name, port.device)
     except PortError as error:
         yield Finding("look", error.detail)
 
 
-def heard_findings(name: str, heard: Heard) -> Iterator[Finding]:
+def access_problem(name: str, device: str) -> str | None:
+    """Why this account cannot have it, and what to do; None where it can, or where only opening it tells."""
+    if "://" in device:
+        return None
+    try:
+        access = access_to(device)
+    except PortError as error:
+        return error.detail
+    if access.held_by:
+        return f"{name} is open in {', '.join(access.held_by)}: close it there."
+    if access.may_open:
+        return None
+    if is_hid(device):
+        return f"This account may not open {name}: {ALLOW_HID}, then plug it in again."
+    return f"This account may not open {name}: sudo usermod -aG {access.group} $USER, then log in again."
+
+
+def has_rates(device: str) -> bool:
+    return not is_hid(device) and "://" not in device
+
+
+def heard_findings(name: str, heard: Heard, *, is_on_hid: bool) -> Iterator[Finding]:
     if heard.battery_mv is not None:
-        yield Finding("ok", f"A board answers on {name}; its battery has {heard.battery_mv / 1000:.2f} V.")
+        yield Finding(
+            "ok",
+            f"A board answers on {name} after {heard.answered_ms or 0:.0f} ms; its battery has "
+            f"{heard.battery_mv / 1000:.2f} V.",
+        )
     elif heard.packets:
         yield Finding("ok", f"A board sends on {name} and does not tell its battery, as some do not.")
+    elif not heard.noise and is_on_hid:
+        yield Finding(
+            "look",
+            f"Nothing answers on {name}. Every board on such a cable answers: switch it on, the cable alone "
+            "does not power it. Is it the board? Other devices share its numbers.",
+        )
     elif not heard.noise:
         yield Finding(
             "look",
@@ -155,7 +180,7 @@ def heard_findings(name: str, heard: Heard) -> Iterator[Finding]:
 def rate_finding(name: str, device: str) -> Finding:
     found = find_rate(device)
     if found is None:
-        rates = ", ".join(str(rate) for rate in OTHER_RATES)
+        rates = ", ".join(str(rate) for rate in LINE.other_rates)
         return Finding("--", f"At {rates} baud nothing that can be read arrives on {name} by itself.")
     rate, heard = found
     if heard.packets:

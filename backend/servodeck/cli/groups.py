@@ -14,6 +14,7 @@ from servodeck.cli.options import (
     USAGE,
     AsJson,
     Take,
+    Times,
     asked,
     asking,
     fail,
@@ -46,7 +47,7 @@ def download(
     """Store groups on the board, one after the other. Ctrl-C cancels the download."""
     job = delivered(remote, [group_of(text) for text in groups], take=take)
     if wait:
-        job = followed(remote, job, tells=not as_json)
+        job = followed(remote, job, shows_progress=not as_json)
     show(job, as_json, download_words)
     if job["status"] not in ("done", "running"):
         raise typer.Exit(FAILURE)
@@ -76,14 +77,14 @@ def portions_of(groups: list[dict[str, Any]]) -> list[list[dict[str, Any]]]:
     return portions
 
 
-def followed(remote: Remote, job: dict[str, Any], *, tells: bool) -> dict[str, Any]:
+def followed(remote: Remote, job: dict[str, Any], *, shows_progress: bool) -> dict[str, Any]:
     """Until it has ended."""
     stored = 0
     try:
         while job["status"] == "running":
             time.sleep(LOOK_S)
             job = asked(remote, "GET", f"/api/jobs/{job['id']}")
-            for slot in job["slots"][stored : job["groupsStored"]] if tells else ():
+            for slot in job["slots"][stored : job["groupsStored"]] if shows_progress else ():
                 print(f"Slot {slot} is stored.", flush=True)
             stored = job["groupsStored"]
     except KeyboardInterrupt:
@@ -130,7 +131,7 @@ def group_in(file: Path) -> dict[str, Any]:
 def play(
     remote: Remote,
     file: Annotated[Path, typer.Argument(help="A file with one group, as for `servodeck download`.")],
-    times: Annotated[int, typer.Option(help="0: until stopped.")] = 1,
+    times: Times = 1,
     go_on: Annotated[
         int | None,
         typer.Option(

@@ -5,7 +5,6 @@ codes; the work is done elsewhere.
 import json
 import subprocess
 from dataclasses import asdict, fields
-from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -27,7 +26,7 @@ from servodeck.cli.options import (
     toml_line,
 )
 from servodeck.cli.serve import new_program
-from servodeck.port.hid import UDEV_RULE
+from servodeck.port.hid import UDEV_RULE, UDEV_RULE_FILE
 from servodeck.port.ports import PortInfo, list_devices
 from servodeck.protocol.describe import describe
 from servodeck.protocol.limits import PacketError
@@ -42,9 +41,9 @@ for command in (*COMMANDS, pose, poses, download, play, library):
 app.command()(doctor)
 
 
-# Before 73-seat-late.rules, which gives what `uaccess` promises.
-RULE_FILE = Path("/etc/udev/rules.d/70-servodeck.rules")
-TELL_UDEV = (("udevadm", "control", "--reload"), ("udevadm", "trigger", "--subsystem-match=hidraw"))
+# Its number comes before 73-seat-late.rules, which gives what `uaccess` promises.
+RULE_FILE = UDEV_RULE_FILE
+UDEV_COMMANDS = (("udevadm", "control", "--reload"), ("udevadm", "trigger", "--subsystem-match=hidraw"))
 
 
 @app.command()
@@ -59,7 +58,7 @@ def udev_rule(
         return
     try:
         RULE_FILE.write_text(f"{UDEV_RULE}\n", "utf-8")
-        for command in TELL_UDEV:
+        for command in UDEV_COMMANDS:
             subprocess.run(command, check=True, capture_output=True)
     except PermissionError:
         fail(f"{RULE_FILE} cannot be written. Run this as root, with sudo.", FAILURE)

@@ -55,6 +55,8 @@ TokenFile = Annotated[
 ]
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON.")]
 Take = Annotated[bool, typer.Option("--take", help="Take the robot from its present driver (owners only).")]
+MoveTime = Annotated[int, typer.Option("--time", help="Milliseconds; a servo's first move takes 1500.")]
+Times = Annotated[int, typer.Option(help="0: until stopped.")]
 
 
 def remote_at(url: Url = HERE, token: Token = "", token_file: TokenFile = None) -> Remote:
@@ -180,12 +182,7 @@ class Setting(NamedTuple):
 
 def config_folder() -> Path:
     """Where this system wants a program to keep a user's settings."""
-    home = Path.home()
-    if sys.platform == "win32":
-        return Path(os.environ.get("APPDATA") or home / "AppData" / "Roaming") / "Servodeck"
-    if sys.platform == "darwin":
-        return home / "Library" / "Application Support" / "Servodeck"
-    return Path(os.environ.get("XDG_CONFIG_HOME") or home / ".config") / "servodeck"
+    return user_folder(("APPDATA", "AppData/Roaming"), ("XDG_CONFIG_HOME", ".config"))
 
 
 def take_file(context: typer.Context, path: Path | None) -> Path | None:
@@ -275,12 +272,16 @@ def refuse_unknown(given: Iterable[str], known: Collection[str], where: str) -> 
 
 
 def data_folder() -> Path:
-    home = Path.home()
-    if sys.platform == "win32":
-        return Path(os.environ.get("LOCALAPPDATA") or home / "AppData" / "Local") / "Servodeck"
+    return user_folder(("LOCALAPPDATA", "AppData/Local"), ("XDG_DATA_HOME", ".local/share"))
+
+
+def user_folder(on_windows: tuple[str, str], elsewhere: tuple[str, str]) -> Path:
+    """Ours in the folder that a variable names, or else in that one of the home folder."""
     if sys.platform == "darwin":
-        return home / "Library" / "Application Support" / "Servodeck"
-    return Path(os.environ.get("XDG_DATA_HOME") or home / ".local" / "share") / "servodeck"
+        return Path.home() / "Library" / "Application Support" / "Servodeck"
+    variable, usual = on_windows if sys.platform == "win32" else elsewhere
+    name = "Servodeck" if sys.platform == "win32" else "servodeck"
+    return Path(os.environ.get(variable) or Path.home() / usual) / name
 
 
 Level = Literal["debug", "info", "warning", "error"]

@@ -28,7 +28,7 @@ class RefusedError(Exception):
 
 
 class UnreachableError(Exception):
-    """Nobody answers there, or nobody like us."""
+    """Nothing answers there, or no gateway."""
 
 
 class Remote:

@@ -230,7 +230,7 @@ def robots_in(library: "Library") -> "ReadFacts":
 
 
 def entrance_to(where: "Access", folder: Path) -> "Entrance":
-    """Ends the program with an explanation where nobody can tell who is paired."""
+    """Ends the program with an explanation where it cannot be read who is paired."""
     from servodeck.access.devices import DeviceFile, Devices, NoDeviceStore
     from servodeck.access.entrance import Entrance
     from servodeck.errors import StorageError
@@ -280,5 +280,5 @@ def new_program() -> typer.Typer:
 
 
 def serve_alone(whole: Callable[[], typer.Typer]) -> None:
-    """`whole` loads the program with all its commands, for whoever has to name one."""
+    """`whole` loads the program with all its commands, where a command has to be named."""
     new_program()(obj=lambda: get_command(whole()))

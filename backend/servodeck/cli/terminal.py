@@ -90,7 +90,7 @@ def write_all(take: Callable[[], bytes | None], descriptor: int) -> None:
             while line:
                 line = line[os.write(descriptor, line) :]
         except OSError:
-            return  # nobody can read any more
+            return  # there is no reader any more
 
 
 def set_up_logs(level: Level, form: Form, descriptor: int = STDERR) -> logging.Handler:
@@ -103,7 +103,7 @@ def set_up_logs(level: Level, form: Form, descriptor: int = STDERR) -> logging.H
 
 
 def facts_of(record: logging.LogRecord) -> dict[str, object]:
-    """What `extra={"facts": …}` told beside the sentence, without what there is none of."""
+    """What `extra={"facts": …}` said beside the sentence, without what there is none of."""
     facts: dict[str, object] = getattr(record, "facts", {})
     return {name: value for name, value in facts.items() if value is not None}
 
@@ -144,7 +144,7 @@ OVERHEARD = (
 def greeting(entrance: Entrance, urls: list[str], *, invites: bool, only_here: str = "") -> str:
     """`urls` are the addresses for others, the best first; `invites` one more owner where there is one.
 
-    `only_here` is what to listen on instead, where nobody else reaches it.
+    `only_here` is what to listen on instead, where no other computer reaches it.
     """
     lines = [reached_at(urls, only_here)]
     if invites or needs_owner(entrance):

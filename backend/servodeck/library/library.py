@@ -60,7 +60,7 @@ class Library:
         steps: Sequence[Sequence[str]] = STEPS,
     ) -> None:
         self.damaged_file: str | None = None
-        """The name of a damaged file that was found and kept."""
+        """The name that a damaged file was given when it was found."""
         self.changes_lost = False
         """The last ones before the start may be missing."""
         self.folder = folder
@@ -243,7 +243,7 @@ def name_in(db: sqlite3.Connection, document: str) -> str:
 
 
 def whole_versions(db: sqlite3.Connection, document: str) -> str:
-    """For whoever looks for a way back, the newest first."""
+    """For a person who looks for a way back, the newest first."""
     query = (
         f"SELECT name FROM version WHERE document = ? AND text_sum = {VERSION_SUM} ORDER BY at_ms DESC, id"
     )

@@ -62,7 +62,7 @@ class DamagedError(Exception):
 class Opened(NamedTuple):
     db: sqlite3.Connection
     damaged_file: str | None
-    """The name under which a damaged file was kept."""
+    """The name that a damaged file was given."""
     changes_lost: bool
     """The journal is damaged before its end: what was written last may be missing."""
 
@@ -89,7 +89,7 @@ def open_sound(path: Path, steps: Sequence[Sequence[str]]) -> sqlite3.Connection
     db.text_factory = lambda data: data.decode(errors="replace")  # its sum tells
     try:
         db.execute("PRAGMA journal_mode = WAL")
-        # A document that was called kept survives a power cut; writes are rare enough to pay for it.
+        # A document that was called saved survives a power cut; writes are rare enough to pay for it.
         db.execute("PRAGMA synchronous = FULL")
         # What a damaged journal held is gone: few documents stand in it alone.
         db.execute(f"PRAGMA wal_autocheckpoint = {JOURNAL_PAGES}")

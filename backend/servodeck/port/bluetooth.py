@@ -270,7 +270,7 @@ class BluetoothPort:
         except queue.Empty:
             return b""
         if data is None:
-            self.lose()  # for whoever asks again
+            self.lose()  # for the next that asks
             raise self._lost()
         return data
 

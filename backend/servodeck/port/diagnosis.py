@@ -5,21 +5,20 @@ Asks one harmless question, for the battery. Knows no gateway and no terminal.
 
 import os
 import time
+from collections.abc import Awaitable
 from dataclasses import dataclass, field
-from pathlib import Path
 
+from servodeck.port.hid import find_board, is_hid
+from servodeck.port.hid_reports import ReportInbox
+from servodeck.port.holders import holders_of
 from servodeck.port.ports import OpenPort, group_of, open_port
 from servodeck.protocol.decoder import Decoder, DecoderEvent, PacketEvent
 from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.packets import encode
-from servodeck.protocol.timings import DECODER
+from servodeck.protocol.timings import DECODER, LINE
 from servodeck.protocol.values import ReadBattery
 from servodeck.value import value
 
-PROCESSES = Path("/proc")
-LISTENS_S = 1.0
-# Of serial ports beside the boards' own, the usual one of ESP32 and Arduino programs first.
-OTHER_RATES = (115_200, 57_600, 38_400, 19_200, 4_800)
 BATTERY = 15
 PRINTABLE = frozenset(range(0x20, 0x7F)) | {0x0A, 0x0D}
 # At another speed bits run together: one run of ones beside one of zeros.
@@ -38,6 +37,8 @@ class Access:
 @dataclass(slots=True)
 class Heard:
     battery_mv: int | None = None
+    answered_ms: float | None = None
+    """From the question to its answer, where the battery was asked for."""
     packets: int = 0
     noise: bytearray = field(default_factory=bytearray)
     """What is no packet."""
@@ -52,49 +53,39 @@ class Heard:
 
 
 def access_to(device: str) -> Access:
-    """`device` is the path of a serial port."""
-    return Access(os.access(device, os.R_OK | os.W_OK), group_of(device), tuple(holders_of(device)))
-
-
-def holders_of(device: str) -> list[str]:
-    """Empty where the system does not tell, as on macOS and Windows."""
-    real = os.path.realpath(device)
-    return [
-        f"{name_of(process)} ({process.name})"
-        for process in PROCESSES.glob("[0-9]*")
-        if process.name != str(os.getpid()) and has_open(process, real)
-    ]
-
-
-def has_open(process: Path, real: str) -> bool:
-    try:
-        return any(os.path.realpath(link) == real for link in (process / "fd").iterdir())
-    except OSError:  # another account's, or gone by now
-        return False
-
-
-def name_of(process: Path) -> str:
-    try:
-        return (process / "comm").read_text().strip()
-    except OSError:
-        return "a program"
+    """`device` is the path of a serial port, or the name of a board on a HID cable. Raises a PortError where
+    that is not there.
+    """
+    path = find_board(device).device.node if is_hid(device) else device
+    return Access(os.access(path, os.R_OK | os.W_OK), group_of(path), tuple(holders_of(path)))
 
 
 def listen(device: str) -> Heard:
     """Opens the port, asks for the battery and listens for a second. Raises a PortError with a sentence."""
     port = open_port(device)
     try:
-        port.write(encode(ReadBattery(), FAMILIES["doc"]))
-        return heard_on(port)
+        asked_s = time.monotonic()
+        if leaving := port.write(encode(ReadBattery(), FAMILIES["doc"])):
+            import asyncio  # of all commands only this one needs a loop
+
+            asyncio.run(until_left(leaving))
+        heard = heard_on(port)
+        if heard.battery_mv is not None:
+            heard.answered_ms = (time.monotonic() - asked_s) * 1000
+        return heard
     finally:
         port.close()
+
+
+async def until_left(leaving: Awaitable[None]) -> None:
+    await leaving
 
 
 def find_rate(device: str) -> tuple[int, Heard] | None:
     """The first other speed at which what arrives can be read, and what that is. Writes nothing. Raises a
     PortError with a sentence.
     """
-    for baud in OTHER_RATES:
+    for baud in LINE.other_rates:
         port = open_port(device, baud)
         try:
             heard = heard_on(port)
@@ -108,9 +99,11 @@ def find_rate(device: str) -> tuple[int, Heard] | None:
 def heard_on(port: OpenPort) -> Heard:
     heard = Heard()
     decoder = Decoder(heard.take)
-    until_s = time.monotonic() + LISTENS_S
+    inbox = ReportInbox(heard.take) if port.in_reports else decoder
+    until_s = time.monotonic() + LINE.listen_ms / 1000
     while time.monotonic() < until_s and heard.battery_mv is None:
-        decoder.push(port.read())
+        if data := port.read():
+            inbox.push(data)
     decoder.idle()
     return heard
 

@@ -8,12 +8,13 @@ import errno
 import sys
 from collections import Counter
 from collections.abc import Callable
-from typing import TypeVar
+from pathlib import Path
+from typing import Any, Final, TypeVar
 
 from servodeck.errors import (
+    HidDeniedError,
     OtherDeviceError,
     PortBusyError,
-    PortDeniedError,
     PortError,
     PortLostError,
     PortMissingError,
@@ -21,20 +22,21 @@ from servodeck.errors import (
 from servodeck.port import hid_devices
 from servodeck.port.hid_devices import HidDevice, OpenDevice
 from servodeck.port.hid_reports import report_of
+from servodeck.port.holders import busy
 from servodeck.port.whereabouts import SHARED_NUMBERS, UsbDevice
+from servodeck.protocol import load_shared
 from servodeck.protocol.families import Withheld
 from servodeck.protocol.timings import HID
 from servodeck.value import value
 
 ANY = "hid"
 PREFIX = "hid:"
-VENDOR, PRODUCT = 0x0483, 0x5750
-# Unrelated devices share the numbers; boards call themselves by the first name, newer ones by the other.
-PRODUCT_NAMES = ("lobot", "hiwonder")
-UDEV_RULE = (
-    f'SUBSYSTEM=="hidraw", ATTRS{{idVendor}}=="{VENDOR:04x}", ATTRS{{idProduct}}=="{PRODUCT:04x}", '
-    'GROUP="dialout", MODE="0660", TAG+="uaccess"'
-)
+BOARD: Final[dict[str, Any]] = load_shared("usb")["hid"]
+VENDOR, PRODUCT = int(BOARD["vendorId"]), int(BOARD["productId"])
+UDEV_RULE = str(BOARD["rule"])
+UDEV_RULE_FILE = Path(BOARD["ruleFile"])
+# By the interpreter: `sudo` finds no program of a virtual environment, be it of pipx or of a checkout.
+ALLOW_HID = f"sudo {sys.executable} -m servodeck udev-rule --install"
 DENIED = frozenset({errno.EACCES, errno.EPERM})
 BUSY = frozenset({errno.EBUSY, errno.EAGAIN, errno.EWOULDBLOCK})
 
@@ -50,7 +52,7 @@ class HidBoard:
 
     @property
     def is_likely(self) -> bool:
-        return any(name in self.device.product.lower() for name in PRODUCT_NAMES)
+        return any(name in self.device.product.lower() for name in BOARD["names"])
 
     @property
     def usb_device(self) -> UsbDevice:
@@ -108,14 +110,11 @@ def explain(board: HidBoard, error: Exception) -> PortError:
     number = getattr(error, "errno", None)
     name = f"{board.name} ({board.device.node})"
     if number in DENIED:
-        return PortDeniedError(
-            f"This account may not open {name}. Allow it once, then plug the cable in again: "
-            f"sudo {sys.executable} -m servodeck udev-rule --install"
+        return HidDeniedError(
+            f"This account may not open {name}. Allow it once, then plug the cable in again: {ALLOW_HID}"
         )
     if number in BUSY or not hid_devices.IS_LINUX:
-        return PortBusyError(
-            f"Another program uses {name}. Close it: another Servodeck, the maker's program."
-        )
+        return PortBusyError(busy(name, board.device.node, "another Servodeck, the maker's program"))
     return PortMissingError(f"{name} cannot be opened. Is the cable plugged in and the board switched on?")
 
 

@@ -123,7 +123,7 @@ def text_in(file: Path) -> str:
 
 
 class Hidapi:
-    """One device that hidapi has opened; it tells of reports only to whoever waits for them."""
+    """One device that hidapi has opened; it hands reports only to a thread that waits for them."""
 
     def __init__(self, node: str) -> None:
         self._device: Any = import_module("hid").device()

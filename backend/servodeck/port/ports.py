@@ -18,6 +18,7 @@ from serial.tools import list_ports
 
 from servodeck.errors import PortBusyError, PortDeniedError, PortError, PortLostError, PortMissingError
 from servodeck.port import hid
+from servodeck.port.holders import busy
 from servodeck.port.whereabouts import SHARED_NUMBERS, UsbDevice
 from servodeck.protocol import load_shared
 from servodeck.protocol.decoder import LONGEST_PACKET
@@ -27,7 +28,7 @@ from servodeck.value import value
 
 POSIX = os.name == "posix"
 READ_WAIT_S = 0.2
-# Nobody stalls us longer than this. Windows waits for the last bit by itself unless the time-out is 0, and
+# No port stalls us longer than this. Windows waits for the last bit by itself unless the time-out is 0, and
 # POSIX with 0 spins while the buffer is full.
 WRITE_WAIT_S = 0.2 if POSIX else 0.0
 READ_BYTES = 4096
@@ -178,9 +179,7 @@ def explain(device: str, error: Exception) -> PortError:
         return PortMissingError(f"Nothing answers at {device}.")
     # Windows gives no number: the name of the cause stands in the text, and "denied" means that it is in use.
     if number in BUSY or (number is None and "PermissionError" in str(error)):
-        return PortBusyError(
-            f"Another program uses {device}. Close it: another Servodeck, a serial monitor, a browser tab."
-        )
+        return PortBusyError(busy(device, device, "another Servodeck, a serial monitor, a browser tab"))
     if number in DENIED:
         return PortDeniedError(
             f"This account may not open {device}. On Linux add it to the group: "
@@ -203,7 +202,7 @@ def list_devices(*also: str | None) -> list[PortInfo]:
     """All ports of this computer, the likely ones first, and `also` those known by name alone."""
     found = [*map(describe, list_ports.comports()), *map(describe_hid, hid.list_boards())]
     extra = [
-        PortInfo(name, "Named at the start", likely=True)
+        PortInfo(name, "Port named at the start", likely=True)
         for name in dict.fromkeys(also)
         if name and not any(is_same_port(name, port.device) for port in found)
     ]
@@ -234,14 +233,21 @@ def usb_device(port: Any) -> UsbDevice:
 
 def describe(port: Any) -> PortInfo:
     """`port` is pyserial's ListPortInfo, whose fields its stubs leave half typed."""
-    chip = None if port.vid is None else ADAPTERS.get(f"{port.vid:04x}:{port.pid:04x}")
-    text = port.description if port.description not in (None, "n/a") else port.name
-    if chip:
-        text = f"{chip} USB serial adapter"
     device = str(port.device)
     has_number = (port.serial_number or "") not in SHARED_NUMBERS
     lasting = lasting_name(device, has_number=has_number)
-    return PortInfo(device, str(text), likely=port.vid in LIKELY_VENDORS, lasting=lasting)
+    return PortInfo(device, kind_of(port), likely=port.vid in LIKELY_VENDORS, lasting=lasting)
+
+
+def kind_of(port: Any) -> str:
+    """By its chip, else as it calls itself. Twin of portLabel in frontend/src/robot/links/serialPorts.ts."""
+    # pyserial gives the end of the path where a device has no name of its own.
+    own_name = "" if port.description in (None, "n/a", port.name) else str(port.description)
+    if port.vid is None:
+        return own_name or "Serial port"
+    ids = f"{port.vid:04x}:{port.pid:04x}"
+    chip = ADAPTERS.get(ids)
+    return f"{chip} USB serial adapter" if chip else own_name or f"USB serial adapter (id {ids})"
 
 
 def describe_hid(board: hid.HidBoard) -> PortInfo:

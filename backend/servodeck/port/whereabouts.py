@@ -28,7 +28,7 @@ class UsbDevice:
 
     @property
     def kind(self) -> tuple[int, int, str, str]:
-        """All that it says of itself; one adapter may carry several ports, told apart behind the colon."""
+        """All that it says of itself; one adapter may carry several ports, which differ behind the colon."""
         return self.vendor, self.product, self.serial, self.interface
 
     @property

@@ -307,7 +307,7 @@ def settle(future: Left) -> None:
 
 
 def fail(future: Left, error: GatewayError) -> None:
-    """Fails it without the loop's complaint when nobody is interested any more."""
+    """Fails it without the loop's complaint where no caller waits any more."""
     if not future.done():
         future.set_exception(error)
         future.exception()

@@ -24,7 +24,7 @@ COMMAND_AT: Final = 3
 NOISE_SIZE: Final = DECODER.noise_bytes
 MOST_SERVOS: Final = DECODER.most_servos
 
-# Verdicts beside a size: no packet begins here; the bytes end before it can be told.
+# Verdicts beside a size: no packet begins here; the bytes end before it is clear.
 NO: Final = -1
 WAIT: Final = 0
 
@@ -164,7 +164,7 @@ class Decoder:
         return stop
 
     def _emit_noise(self) -> None:
-        """Noise is told in pieces, so that a line of pure noise is heard of."""
+        """Noise is reported in pieces, so that a line of pure noise is noticed."""
         if self._noise:
             piece = bytes(self._noise[:NOISE_SIZE])
             del self._noise[:NOISE_SIZE]

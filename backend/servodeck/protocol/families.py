@@ -95,7 +95,7 @@ class Family:
     answers: tuple[CommandKind, ...]
     # Harmless questions that every such board answers, the cheapest first.
     certain_answers: tuple[Question, ...]
-    # 6 and 8 with LEN 5 tell slot and times, whoever asked for the run; otherwise they are empty.
+    # 6 and 8 with LEN 5 name slot and times, whatever began the run; otherwise they are empty.
     run_reports_name_slot: bool
     # What an empty packet 7 says: opposite things per family.
     empty_seven: Literal["runFinished", "runStopped", "unknown"]
@@ -105,7 +105,7 @@ class Family:
     resync_filler: int | None
     # Command numbers that must not go out, not even by hand.
     never_send: tuple[int, ...]
-    # Numbers it does not know do nothing at all there (S5); elsewhere nobody knows what they do.
+    # Numbers it does not know do nothing at all there (S5); elsewhere it is unknown what they do.
     ignores_unknown: bool
     # Pause after the last byte has left the wire.
     service_gap_ms: int
@@ -138,7 +138,7 @@ def _value(value: object) -> Any:
 
 
 def _family(family_id: str, row: Row) -> Family:
-    """A field that is missing or that nobody knows is an error at once."""
+    """A field that is missing or unknown is an error at once."""
     ranges = {int(servo): Range(**allowed) for servo, allowed in row.pop("servoPosition").items()}
     motion = MotionTraits(**{snake(name): _value(value) for name, value in row.pop("motion").items()})
     rest = {snake(name): _value(value) for name, value in row.items()}
@@ -162,5 +162,5 @@ def carried(family_id: str, longest_packet: int) -> Family:
 
 
 FAMILIES: Final = _table()
-# A board nobody has identified yet: harmless questions and the stop, nothing that moves or stores.
+# A board that is not identified yet: harmless questions and the stop, nothing that moves or stores.
 UNKNOWN: Final = FAMILIES["unknown"]

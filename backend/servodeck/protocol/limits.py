@@ -69,7 +69,7 @@ def check_frame(frame: Frame, servo_count: Range, family: Family) -> None:
 
 
 def check_servos(servos: tuple[int, ...], family: Family) -> None:
-    """Never all servos at once by an empty list or by 254, only those that are meant."""
+    """Never all servos at once by an empty list or by 254, only those that are named."""
     check_range("servoCount", len(servos), Range(1, family.servos_per_move))
     for at, servo in enumerate(servos):
         check_range("servo", servo, family.servo)

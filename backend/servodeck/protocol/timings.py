@@ -18,6 +18,8 @@ class Line(NamedTuple):
     pause_ms: int
     idle_ms: int
     filler_bytes: int
+    other_rates: tuple[int, ...]
+    listen_ms: int
     reconnect_ms: tuple[int, ...]
 
 
@@ -52,7 +54,7 @@ class Move(NamedTuple):
 class Estimate(NamedTuple):
     longest_deafness_ms: int
     last_ticks_ms: int
-    end_told_within_ms: int
+    end_reported_within_ms: int
     preemptive_slot: int
     poll_ms: int
     poll_step_ms: int
@@ -90,6 +92,8 @@ class Battery(NamedTuple):
     silent_limit: int
     every_ms: int
     after_run_ms: int
+    unasked_after_ms: int
+    unasked_limit: int
 
 
 class Read(NamedTuple):

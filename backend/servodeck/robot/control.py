@@ -3,6 +3,8 @@
 What else clients ask is judged in requests.py. Must not know HTTP, WebSockets or how a byte reaches the port.
 """
 
+import asyncio
+import contextlib
 import math
 from collections.abc import Callable, Sequence
 
@@ -33,9 +35,9 @@ from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.values import Command, Report
 from servodeck.robot.board.board import Board
 from servodeck.robot.board.slots import SlotMemory
-from servodeck.robot.broadcast import Broadcast, Relay
+from servodeck.robot.broadcast import Broadcast
 from servodeck.robot.driving import Driving
-from servodeck.robot.hub import AGAINST_THE_RULES, Hub, Session
+from servodeck.robot.hub import AGAINST_THE_RULES, Hub, Relay, Session
 from servodeck.robot.latch import Cause, Latch, Watch
 from servodeck.robot.motion.halt_plan import Unheld
 from servodeck.robot.operations import Operations
@@ -44,6 +46,8 @@ from servodeck.robot.requests import Requests
 from servodeck.snapshots import JobState, PlayState, UnheldServos
 
 UNNAMED_PERSON = Cause("person")
+# Longer than a port takes to open and a LeArm to start and to be asked (L1).
+IDENTIFIED_WITHIN_S = 8.0
 
 
 class Control:
@@ -66,7 +70,7 @@ class Control:
         """`named_device` is the port named at the start: always offered, even where the system does not list
         it. `simulated`: what is behind it is no real board. `epoch`: leases are counted on from there.
         Without `slot_memory` and `remembered` these are forgotten at the end.
-        `recalls_board`: where nobody has said of which family the board is, it is as it was last.
+        `recalls_board`: where no person has said of which family the board is, it is as it was last.
         `identifies_board`: who it is, at each opening and before anything moves, and then whether it is still
         there; otherwise it is what it is taken for. `polls_battery`: the battery is read for everybody.
         `read_robot` asks the library.
@@ -97,6 +101,7 @@ class Control:
         self.requests = Requests(self.board, self.driving, self.limits, self._latch, now)
         self.operations = Operations(self)
         self._halting: Left | None = None
+        self._changed = asyncio.Event()
         self._pressed_s = 0.0
         self._unheld: Unheld | None = None
 
@@ -175,7 +180,7 @@ class Control:
 
     def resume(self, caller: Caller, session: Session | None = None) -> None:
         """Everybody but `session` hears whose word it was. Raises NotDrivingError while somebody else drives.
-        Refused while the port is lost: whoever resumes shall see the robot's answer.
+        Refused while the port is lost: the person who resumes shall see the robot's answer.
         """
         self.driving.judge_resume(caller)
         port = self.board.link.state
@@ -184,6 +189,18 @@ class Control:
         if self._latch.open():
             self.board.motion.resumed(self.now())
             self._broadcast.everybody(ResumedMessage(by=caller.name), but=session)
+
+    async def until_identified(self) -> None:
+        """Returns when it is known which board is there, or that it cannot be known now: whoever asks is
+        refused with the reason then. Raises CancelledError where STOP was pressed meanwhile.
+        """
+        stopped_s = self._latch.stopped_s
+        with contextlib.suppress(TimeoutError):
+            async with asyncio.timeout(IDENTIFIED_WITHIN_S):
+                while self.board.link_state.status in ("opening", "identifying"):
+                    await self._changed.wait()
+        if self._latch.stopped_s != stopped_s:
+            raise CancelledError("STOP was pressed after this was requested.")
 
     def name_board(self, caller: Caller, board: str) -> None:
         """Raises NotDrivingError where somebody else drives whatever else it was."""
@@ -208,7 +225,7 @@ class Control:
         if for_ms is None:
             self.board.unattended.end()
             return
-        run = self.board.run
+        run = self.board.activity.run
         if run is None:
             raise CancelledError("Nothing is running.")
         self.board.unattended.allow(run, session, for_ms / 1000)
@@ -230,7 +247,7 @@ class Control:
 
     async def shut_down(self) -> None:
         """Stops the robot whatever it does and lets go of the port. Twice is harmless."""
-        self._latch.cause = UNNAMED_PERSON  # nobody starts it again behind the stops
+        self._latch.cause = UNNAMED_PERSON  # so that it is not started again behind the stops
         await self.board.shut_down()
         self.hub.close()
 
@@ -243,12 +260,14 @@ class Control:
         self._latch.cause = Cause("loss")  # the change of the link's state follows and tells both
 
     def stopped_at_return(self, since_s: float) -> None:
-        self._tell_unheld(since_s)
+        self._publish_unheld(since_s)
 
     def is_watched(self) -> bool:
         return len(self.hub) > 0
 
     def board_changed(self) -> None:
+        self._changed.set()
+        self._changed = asyncio.Event()
         self._broadcast.state()
         self._see_robot()
 
@@ -294,8 +313,8 @@ class Control:
 
     def _halted(self, left: Left) -> None:
         if not left.cancelled() and left.exception() is None:
-            self._tell_unheld(self._pressed_s)
+            self._publish_unheld(self._pressed_s)
 
-    def _tell_unheld(self, since_s: float) -> None:
+    def _publish_unheld(self, since_s: float) -> None:
         self._unheld = self.board.unheld_since(since_s)
         self._broadcast.everybody(HaltedMessage(unheld=self.unheld))

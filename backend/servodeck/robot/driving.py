@@ -43,7 +43,7 @@ class Driving:
 
     @property
     def epoch(self) -> int:
-        """Another one with each driver, and while nobody drives."""
+        """Another one with each driver, and while there is none."""
         return self._lease.epoch
 
     def act(self, session: Session, action: LeaseAction) -> None:
@@ -64,7 +64,7 @@ class Driving:
         self._plan()
 
     def give(self, giver: Session, to: str) -> None:
-        """Hands it to somebody who is here and may drive. Raises ForbiddenError, NotDrivingError for whoever
+        """Hands it to somebody who is here and may drive. Raises ForbiddenError, NotDrivingError for one who
         does not drive and is no owner, or NotFoundError.
         """
         require_present(giver)
@@ -92,7 +92,7 @@ class Driving:
         self._plan()
 
     def presence_changed(self, session: Session) -> None:
-        """It came or went: whoever may hand the robot on hears whom to."""
+        """It came or went: those who may hand the robot on hear who is there."""
         if not could_drive(session):
             return
         for one in self._hub.sessions:

@@ -1,24 +1,29 @@
-"""The clients on the WebSocket: a seat each, with a bounded outbox, so that one who does not read stalls
-nobody.
+"""The clients on the WebSocket: a seat each, with a bounded outbox, so that one who does not read stalls no
+other; and the commands that have left the wire, which all of them hear.
 
-Knows seats, who sits there, and text; no socket, no message's meaning, no port.
+Knows seats, who sits there, text and commands; no socket, no other message's meaning, no port.
 """
 
 import asyncio
 from collections.abc import Callable, Collection, Coroutine
 from dataclasses import replace
+from functools import lru_cache
 from typing import Any, TypeVar
 
 from servodeck.callers import THIS_COMPUTER, Caller, Role
+from servodeck.events import LeftMessage, encode
+from servodeck.packet_models import command_model
+from servodeck.port.wire import Owner
+from servodeck.protocol.values import Command, Move
 from servodeck.value import value
 
-# Enough for a second of a busy board (960 bytes) and the answers to a full queue; far more means nobody
-# reads.
+# Enough for a second of a busy board (960 bytes) and the answers to a full queue; far more means that
+# it does not read.
 OUTBOX_MESSAGES = 256
 # So many may sit when somebody of that role comes: viewers never take the seats of those who drive, nor these
-# the seats of whoever lets others in.
+# the seats of owners, who let others in.
 SESSIONS_AT_MOST: dict[Role, int] = {"stopper": 200, "viewer": 200, "driver": 208, "owner": 216}
-# Nobody needs more windows; a single phone shall not take every seat.
+# More windows are not needed; a single phone shall not take every seat.
 SESSIONS_EACH = 8
 TRY_AGAIN_LATER, AGAINST_THE_RULES, GOING_AWAY = 1013, 1008, 1012
 
@@ -35,7 +40,7 @@ class CloseReason:
 
 
 class Session:
-    """One client. Whoever serves it takes texts with `next`, and closes it once it has `ended`."""
+    """One client. Its server takes texts with `next`, and closes it once it has `ended`."""
 
     def __init__(self, caller: Caller, *, answers: bool = True) -> None:
         """`answers` is False for one that only listens."""
@@ -120,7 +125,7 @@ class Hub:
                 session.caller = replace(session.caller, name=name)
 
     def close(self) -> None:
-        """Nobody sits here any more."""
+        """All clients have to go."""
         for session in self._sessions:
             session.end(GOING_AWAY, "The gateway is shutting down.")
 
@@ -134,3 +139,96 @@ class Hub:
         for session in self._sessions:
             if session is not but:
                 session.put(text)
+
+
+FLUSH_S = 0.05
+
+Commands = tuple[Command, ...]
+
+
+@value
+class Leaving:
+    """`known_to` heard of it apart."""
+
+    command: Command
+    at_s: float
+    known_to: Collection[Session]
+
+
+class Relay:
+    def __init__(self, hub: Hub, now: Callable[[], float], driver: Callable[[], Session | None]) -> None:
+        self._hub = hub
+        self._now = now
+        self._driver = driver
+        self._leaving: list[Leaving] = []
+        self._after: dict[Session, Commands] = {}
+        self._timer: asyncio.TimerHandle | None = None
+
+    def leaving(self, owner: Owner, command: Command, at_s: float) -> None:
+        """Its last bit leaves then; clients hear of it then: its `owner` and the driver at once."""
+        driver = self._driver()
+        known_to = [session for session in self._hub.sessions if session is owner or session is driver]
+        for session in known_to:
+            text = text_of((command,))
+            asyncio.get_running_loop().call_later(max(0.0, at_s - self._now()), session.put, text)
+        self._leaving.append(Leaving(command, at_s, known_to))
+        if self._timer is None:
+            self._plan()
+
+    def send_left(self) -> None:
+        """What has left by now is sent before what follows from it."""
+        if self._timer:
+            self._timer.cancel()
+            self._flush()
+
+    def forget(self, session: Session) -> None:
+        self._after.pop(session, None)
+
+    def _plan(self) -> None:
+        delay_s = max(FLUSH_S, self._leaving[0].at_s - self._now())
+        self._timer = asyncio.get_running_loop().call_later(delay_s, self._flush)
+
+    def _flush(self) -> None:
+        now = self._now()
+        left = [each for each in self._leaving if each.at_s <= now]
+        self._leaving = self._leaving[len(left) :]
+        self._timer = None
+        if self._leaving:
+            self._plan()
+        latest = newest(tuple(each.command for each in left))
+        knowing = {session for each in left for session in each.known_to}
+        for session in self._hub.sessions:
+            known = session in knowing
+            unheard = tuple(each.command for each in left if session not in each.known_to) if known else ()
+            self._publish(session, newest(unheard) if known else latest)
+
+    def _publish(self, session: Session, commands: Commands) -> None:
+        if not commands:
+            return
+        behind = self._after.get(session)
+        self._after[session] = commands if behind is None else newest(behind + commands)
+        if behind is None:
+            session.put_later(lambda: text_of(self._after.pop(session, ())))
+
+
+@lru_cache(maxsize=16)
+def text_of(commands: Commands) -> str:
+    """The same for most seats, and then made once."""
+    return encode(LeftMessage(commands=[command_model(command) for command in commands]))
+
+
+@lru_cache(maxsize=16)
+def newest(commands: Commands) -> Commands:
+    """Without the moves whose every servo was sent elsewhere right after."""
+    latest: list[Command] = []
+    moved: set[int] = set()
+    for command in reversed(commands):
+        servos = {target.servo for target in command.targets} if isinstance(command, Move) else None
+        if servos is None:
+            moved.clear()
+        elif servos <= moved:
+            continue
+        else:
+            moved |= servos
+        latest.append(command)
+    return tuple(reversed(latest))

@@ -51,7 +51,7 @@ class Latch:
         return self.cause.name if self.cause else None
 
     def close(self, cause: Cause, now: float) -> None:
-        """Who latched first is told."""
+        """The first cause stays the one that is shown."""
         self.stopped_s = now
         if self.cause is None:
             self.cause = cause
@@ -83,17 +83,17 @@ class Watch:
             self._stop_unwatched()
 
     def driver_silent(self) -> None:
-        if self._control.board.may_still_move() and not self._control.board.unattended.by:
+        if self._control.board.activity.may_still_move() and not self._control.board.unattended.by:
             self._stop_unwatched()
 
     def driver_lost(self) -> None:
         self.driver_silent()
 
     def driver_changed(self) -> None:
-        """What one driver began does not go on under the next; nobody has to resume for it."""
+        """What one driver began does not go on under the next; it needs no resume."""
         board = self._control.board
         is_unattended = board.unattended.by and self._control.driving.driver is None
-        if board.may_move() and not is_unattended:
+        if board.activity.may_move() and not is_unattended:
             self.end_quietly(NotDrivingError("Another client drives now."))
 
     def lease_changed(self) -> None:
@@ -104,7 +104,7 @@ class Watch:
 
     def disconnected(self, caller_id: str, by: str, *, run_continues: bool) -> None:
         """`by` has revoked them: STOP for what they move, and for the group that they let go on unless it
-        may. Nobody who is out answers for what moves.
+        may. A revoked client answers for nothing that moves.
         """
         board, driver = self._control.board, self._control.driving.driver
         if is_of(board.unattended.by, caller_id):
@@ -113,7 +113,7 @@ class Watch:
             board.unattended.end()
         elif not is_of(driver, caller_id):
             return
-        if board.may_still_move():
+        if board.activity.may_still_move():
             with contextlib.suppress(GatewayError):
                 self._control.stop(Cause("person", by))
 
@@ -123,8 +123,8 @@ class Watch:
             self._control.board.halt(reason)
 
     def _stop_unwatched(self) -> None:
-        """STOP because nobody watches over what moves: whoever goes on has to look first. Not twice: a second
-        hold would end later than was said of the first.
+        """STOP because no driver watches over what moves: a person has to look before it goes on. Not twice:
+        a second hold would end later than was said of the first.
         """
         if self._control.latch:
             return

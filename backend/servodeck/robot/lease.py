@@ -1,6 +1,6 @@
 """Who may move the robot: one driver at a time, who shows again and again that somebody is there.
 
-Pure: time comes in, no socket, port or disk. Must not know what a packet means; whoever owns the port acts on
+Pure: time comes in, no socket, port or disk. Must not know what a packet means; the owner of the port acts on
 what `LeaseEvents` tells.
 """
 
@@ -37,7 +37,7 @@ class LeaseEvents(Protocol):
         """Who drove does not any more: what that one began must end."""
 
     def lease_changed(self) -> None:
-        """Whatever of it people are told is another now."""
+        """What clients see of it is another now."""
 
 
 @value
@@ -57,7 +57,7 @@ class Lease(Generic[H]):
         self.epoch = epoch
         self.driver: H | None = None
         self.requester: H | None = None
-        # Who handed it to the driver; None where nobody did.
+        # Who handed it to the driver; None where it was not handed over.
         self.giver: H | None = None
         self.silence: Silence = "none"
         self._events = events
@@ -88,7 +88,7 @@ class Lease(Generic[H]):
         self._forget_requester()
 
     def release(self, who: H, now: float) -> None:
-        """To whoever asks, or to nobody. Whoever asks may take the question back."""
+        """To the client that requested it, or to none. That client may take its request back."""
         if who is self.requester:
             self._forget_requester()
         elif who is self.driver:
@@ -100,7 +100,7 @@ class Lease(Generic[H]):
             self._grant(who, now)
 
     def give(self, giver: H, to: H, now: float) -> None:
-        """Without asking `to`, and past whoever asks. Who may is not judged here."""
+        """Without asking `to`, and past a request. Who may is not judged here."""
         if to is not self.driver:
             self._grant(to, now, giver)
 
@@ -169,7 +169,7 @@ class Lease(Generic[H]):
             raise ExpiredError("This request waited too long to be sent.")
 
     def granted_in_s(self, now: float) -> float | None:
-        """How long the driver may still refuse; None where nobody asks."""
+        """How long the driver may still refuse; None where there is no request."""
         return None if self.requester is None else max(0.0, self._answer_until_s - now)
 
     def due_s(self) -> float | None:

@@ -1,5 +1,5 @@
 """What a driver has the board do besides moves: run, end and erase groups, set their speed, let servos go.
-For pages and for scripts alike; each is sent once, and its outcome is told (docs/adr/0014, class C).
+For pages and for scripts alike; each is sent once, and its outcome is reported (docs/adr/0014, class C).
 
 Knows what is asked and in which order it leaves. How somebody shows that they drive is a `Claim`'s affair,
 what may leave `control`'s.
@@ -127,7 +127,7 @@ class Operations:
             grant = Grant(self._control, claim)
             self._control.board.plays.judge_idle()
             # One that left between the repeats of a stop would be ended by the last one.
-            for stops in (self._ending, self._control.board.returning):
+            for stops in (self._ending, self._control.board.returns.stops):
                 if stops:
                     await asyncio.shield(stops)
                     claim.renew()
@@ -142,7 +142,7 @@ class Operations:
 
     async def end_group(self, session: Session) -> Outcome:
         """Behind its frame in progress; everything else is free to move. Said three times (S54), also where
-        whoever asked has gone meanwhile.
+        the caller has gone meanwhile.
         """
         left = self._control.requests.stop_once(session)
         if self._ending is None:
@@ -200,7 +200,7 @@ class Operations:
 
     def _judge_rest(self) -> None:
         """Flash work freezes servos and then lets them jump (S29, S39)."""
-        if self._control.board.may_move() or not self._control.board.moves.is_empty:
+        if self._control.board.activity.may_move() or not self._control.board.moves.is_empty:
             raise MovingError("The robot is moving: wait until it rests, or stop it first.")
 
     @contextlib.asynccontextmanager

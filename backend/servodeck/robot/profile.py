@@ -25,7 +25,7 @@ class RobotLimits:
         self._are_awaited = False
 
     def await_them(self) -> None:
-        """There are some, and nobody knows them yet: until `set` or `clear` nothing moves."""
+        """There are some, and they are not known yet: until `set` or `clear` nothing moves."""
         self._are_awaited = True
 
     def set(self, servos: Iterable[ServoLimits]) -> None:
@@ -34,13 +34,13 @@ class RobotLimits:
         self._are_awaited = False
 
     def name_of(self, servo: int) -> str:
-        """As people are told of it."""
+        """For clients."""
         limits = self._limits.get(servo)
         return f"{limits.name} (servo {servo})" if limits else f"servo {servo}"
 
     def calibrate(self, owner: Owner, servo: int | None) -> None:
-        """Whoever looks for the limits of a servo may pass the old ones, with that servo alone and until
-        `forget`.
+        """A client that looks for the limits of a servo may pass the old ones, with that servo alone and
+        until `forget`.
         """
         if servo is None:
             self.forget(owner)
@@ -51,7 +51,7 @@ class RobotLimits:
         self._calibrating.pop(owner, None)
 
     def clear(self) -> None:
-        """Nobody has described this one."""
+        """This one has no description."""
         self._limits.clear()
         self._calibrating.clear()
         self._are_awaited = False
@@ -171,7 +171,7 @@ class RobotOfBoard:
             self._forget()
             self._publish()
         else:
-            if self.facts is None:  # nobody has written it meanwhile
+            if self.facts is None:  # it was not written meanwhile
                 self._hold(document, revision, facts)
 
     def _hold(self, document: str, revision: int, facts: RobotFacts) -> None:
@@ -208,8 +208,8 @@ class RecalledBoard:
             board.recall(known)
 
     def said(self, board: Board) -> None:
-        """Somebody has. What the board's answers contradict is not kept; a simulated one is what its starter
-        says, each time anew.
+        """Somebody has. What the board's answers contradict is not stored; a simulated one is what its
+        starter says, each time anew.
         """
         family, status = board.identification.claim, board.identification.state.status
         is_contradicted = status == "refused" and family is not UNKNOWN

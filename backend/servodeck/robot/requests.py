@@ -104,9 +104,15 @@ class Requests:
             self._board.plays.judge_idle()
         if is_harmless(packet):
             return wire.send(packet, session)
-        left = wire.send(packet, session, judge=self._permitted(session, nonce))
-        self._board.moves.begin_round()
-        return left
+        permitted, moves = self._permitted(session, nonce), self._board.moves
+        this_round = moves.begin_round()
+
+        def judge() -> None:
+            permitted()
+            if isinstance(command, Move):
+                moves.overtaken([target.servo for target in command.targets], this_round)
+
+        return wire.send(packet, session, judge=judge)
 
     def put(self, session: Session, command: Command, permit: Permit) -> Left:
         """As `send`, of somebody who may have that command sent."""
@@ -197,7 +203,7 @@ class Requests:
         board.jobs.judge_idle()
         board.plays.judge_idle()
         is_clear = board.moves.is_empty and wire.is_clear_of(lambda number: number not in HARMLESS)
-        if board.may_move() or not is_clear:
+        if board.activity.may_move() or not is_clear:
             raise MovingError(still_moving(board.motion, self._now()))
         claim()
         return board.jobs.begin(parts, by, board.link.place, wire)

@@ -30,7 +30,7 @@ T = TypeVar("T")
 
 
 class ScriptSession(Session):
-    """Nobody is there to be told anything."""
+    """A program reads no messages."""
 
     def put(self, text: str) -> None:
         """Unread."""
@@ -186,7 +186,7 @@ class Scripts:
         return state
 
     def download(self, caller: Caller, parts: Sequence[Part], behind: str | None, *, take: bool) -> JobState:
-        """Needs the lease to begin with, and nobody from then on."""
+        """Needs the lease to begin with, and no driver from then on."""
         session, driving = self._session_of(caller), self._control.driving
 
         def claim() -> None:

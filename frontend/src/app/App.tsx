@@ -3,8 +3,7 @@
 
 import { useEffect, useLayoutEffect, useRef, type UIEvent } from 'react';
 import { useStore } from 'zustand';
-import { CaptureStrip } from '../features/animate/frames/CaptureStrip.tsx';
-import { useUndoKeys } from '../features/undo/useUndoKeys.ts';
+import { CaptureStrip } from './CaptureStrip.tsx';
 import { useBatteryTab } from '../features/battery/BatteryReadout.tsx';
 import { motionsInFrame } from '../features/picture/motion.ts';
 import { BoardPanel } from '../features/board/BoardPanel.tsx';
@@ -14,14 +13,15 @@ import { LogDrawer, LogPanel, Messages } from '../features/log/LogDrawer.tsx';
 import { FilesProvider } from '../features/library/files/FilesArea.tsx';
 import { LibraryDialog } from '../features/library/LibraryDialog.tsx';
 import { PeopleDialog } from '../features/people/PeopleDialog.tsx';
-import { TakeThat } from '../features/animate/play/TakeThat.tsx';
+import { TakeDialog } from '../features/animate/play/TakeDialog.tsx';
 import { RobotDialog } from '../features/profiles/RobotDialog.tsx';
+import { ActionsDialog } from './ActionsDialog.tsx';
 import { Authoring } from './Authoring.tsx';
+import { usePageKeys } from './pageActions.ts';
 import { ReplaceQuestion } from '../features/board/slots/ReplaceQuestion.tsx';
 import { LivePanel } from './LivePanel.tsx';
 import { StopButton } from '../features/drive/StopButton.tsx';
 import { StoresContext, useStores, useView } from '../features/stores.ts';
-import type { Undoable } from '../state/undoable.ts';
 import type { Tab as TabName, Theme } from '../features/view.ts';
 import { TopBar } from './TopBar.tsx';
 import { Hints } from '../ui/Hints.tsx';
@@ -41,6 +41,10 @@ const ButtonsPage = laterComponent(
 const BatteryPanel = laterComponent(
   async () => (await import('../features/battery/BatteryPanel.tsx')).BatteryPanel,
   '200px',
+);
+const CompileRow = laterComponent(
+  async () => (await import('../features/animate/group/CompileRow.tsx')).CompileRow,
+  'var(--control)',
 );
 const Kiosk = laterComponent(async () => (await import('./Kiosk.tsx')).Kiosk, '100%');
 
@@ -71,7 +75,8 @@ function Dashboard({ page }: { readonly page: Page }) {
       <RobotDialog />
       <LibraryDialog />
       <ReplaceQuestion />
-      {!isKiosk && <TakeThatKey />}
+      {!isKiosk && <TakeDialog />}
+      {!isKiosk && <ActionsDialog />}
       <PeopleDialog />
       <Hints />
     </div>
@@ -80,10 +85,11 @@ function Dashboard({ page }: { readonly page: Page }) {
 
 /** What goes on whatever is shown. On its own: all below whoever listens to something is drawn again when that changes. */
 function Unseen() {
-  const { device, pad, playback } = useStores();
+  const stores = useStores();
+  const { device, pad, playback } = stores;
   useTheme();
   useBatteryTab();
-  useUndoKeys(useWritten());
+  usePageKeys(stores);
   useFocusRestored();
   useNoPasteByMouse();
   useParts();
@@ -106,21 +112,6 @@ const whenIdle = (): Promise<void> =>
       REST_MS,
     );
   });
-
-/** What the undo keys are about: what is written on now. */
-function useWritten(): Pick<Undoable<unknown>, 'undo' | 'redo'> | null {
-  const { document: group, poses, macros, mappings } = useStores();
-  return useView(({ kiosk, tab, authoring }) => {
-    if (kiosk === 'on') return null;
-    if (tab === 'buttons') return macros;
-    return { group, poses: poses.book, pad: mappings }[authoring];
-  });
-}
-
-/** On the page of buttons letters start buttons. */
-function TakeThatKey() {
-  return useView((state) => state.tab !== 'buttons') ? <TakeThat /> : null;
-}
 
 function WideWork() {
   const isButtons = useView((state) => state.tab === 'buttons');
@@ -145,7 +136,7 @@ function WideWork() {
             <Authoring />
           </div>
           <div className={styles.boardRow}>
-            <BoardPanel isSpread />
+            <BoardPanel isSpread fit={<CompileRow />} />
             <BatteryPanel />
           </div>
         </div>
@@ -197,7 +188,7 @@ function PhonePanel({ tab }: { readonly tab: TabName }) {
   if (tab === 'buttons') return <ButtonsPage />;
   return (
     <>
-      <BoardPanel />
+      <BoardPanel fit={<CompileRow />} />
       <BatteryPanel />
     </>
   );

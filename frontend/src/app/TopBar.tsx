@@ -5,7 +5,7 @@ import { useStores, useView, useDevice } from '../features/stores.ts';
 import type { LanguageChoice, Theme } from '../features/view.ts';
 import { Icon, type IconName } from '../ui/Icon.tsx';
 import { LANGUAGE_CODES, LANGUAGES, words } from '../i18n/words.ts';
-import { nameOf } from '../robot/boards.ts';
+import { nameOf } from '../robot/remembered.ts';
 import { RobotButton } from '../features/profiles/RobotDialog.tsx';
 import { BatteryReadout } from '../features/battery/BatteryReadout.tsx';
 import { IconButton } from '../ui/Button.tsx';
@@ -13,6 +13,7 @@ import { PeopleButton } from '../features/people/PeopleDialog.tsx';
 import { boardName } from '../i18n/sentences.ts';
 import { LinkChip } from '../features/connect/LinkChip.tsx';
 import { StatusLine, type StatusLineProps } from '../features/connect/StatusLine.tsx';
+import { ActionsButton } from './ActionsDialog.tsx';
 import { PART } from '../ui/focus.ts';
 import styles from './TopBar.module.css';
 import { Choice } from '../ui/Toggle.tsx';
@@ -57,6 +58,9 @@ export function TopBar({ onMoveHere }: Pick<StatusLineProps, 'onMoveHere'>) {
       </div>
       <BatteryReadout />
       <div className={styles.looks}>
+        <span className={styles.actions}>
+          <ActionsButton />
+        </span>
         <PeopleButton />
         <LanguageControl />
         <ThemeButton />

@@ -4,7 +4,7 @@
 import type { StoreApi } from 'zustand/vanilla';
 import type { DeviceState } from '../robot/device.ts';
 import { PeopleError } from '../features/people/people.ts';
-import type { Me, PairWish, You } from '../robot/people.generated.ts';
+import type { Me, PairWish, You } from '../robot/http.generated.ts';
 import { pair, readMe } from '../features/people/peopleApi.ts';
 
 export interface Arrival {

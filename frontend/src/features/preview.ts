@@ -7,7 +7,7 @@ import { poseAtMs } from '#shared/group/tracks.ts';
 import { knownFamily } from './groupBoard.ts';
 import { isSilent } from './servoView.ts';
 import { servoViewOf, useStores, type Stores } from './stores.ts';
-import { timesOf } from './animate/timeline/groupTimes.ts';
+import { timesOf } from '#shared/group/groupTimes.ts';
 import { useEachFrame } from '../ui/useEachFrame.ts';
 import type { Pose } from './picture/pose.ts';
 

@@ -32,6 +32,8 @@ export interface ViewState {
   readonly connectOpen: boolean;
   readonly libraryOpen: boolean;
   readonly peopleOpen: boolean;
+  /** The dialog with all actions. */
+  readonly actionsOpen: boolean;
   /** The open view of the dialog of robots; null if it is closed. */
   readonly robotView: 'list' | 'edit' | 'calibrate' | null;
   /** The progress of one robot's calibration, kept over a reload. */
@@ -99,6 +101,7 @@ export const INITIAL_VIEW: ViewState = {
   connectOpen: false,
   libraryOpen: false,
   peopleOpen: false,
+  actionsOpen: false,
   robotView: null,
   calibration: null,
   logOpen: false,

@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { markText, secondsText } from './numbers.ts';
+import { markText, secondsText } from './instants.ts';
 
 test('a key says its time to the hundredth, or to the millisecond where that is needed', () => {
   expect(secondsText(1500)).toBe('1.50');

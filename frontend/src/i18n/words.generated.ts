@@ -42,6 +42,7 @@ export interface Messages {
     readonly moveHere: string;
     readonly gatewayAnswers: string;
     readonly useGateway: string;
+    readonly sharedBoard: string;
     readonly needsYou: string;
     readonly chip: (values: { readonly status: string }) => string;
     readonly chipWithPort: (values: { readonly status: string; readonly label: string }) => string;
@@ -71,6 +72,7 @@ export interface Messages {
     readonly notThis: string;
     readonly version: (values: { readonly version: number }) => string;
     readonly askDetails: string;
+    readonly answeredIn: (values: { readonly ms: number }) => string;
     readonly unproven: string;
     readonly offsets: (values: { readonly offsets: string }) => string;
     readonly answers: {
@@ -88,6 +90,7 @@ export interface Messages {
       readonly echoed: string;
       readonly answered: string;
       readonly noise: string;
+      readonly silentOnOwnCable: string;
       readonly silent: string;
     };
     readonly described: {
@@ -300,6 +303,7 @@ export interface Messages {
     readonly look: string;
     readonly missing: string;
     readonly missingHint: string;
+    readonly belowFloor: (values: { readonly seconds: string }) => string;
   };
   readonly authoring: {
     readonly label: string;
@@ -906,13 +910,15 @@ export interface Messages {
     readonly webSerial: {
       readonly title: string;
       readonly about: (values: { readonly body: string }) => string;
+      readonly listed: string;
       readonly choose: string;
       readonly inUse: string;
       readonly secureLink: string;
     };
     readonly webHid: {
       readonly title: string;
-      readonly about: string;
+      readonly about: (values: { readonly body: string }) => string;
+      readonly listed: string;
       readonly choose: string;
       readonly showAll: string;
       readonly inUse: string;
@@ -922,6 +928,7 @@ export interface Messages {
     readonly webBluetooth: {
       readonly title: string;
       readonly about: string;
+      readonly listed: string;
       readonly choose: string;
       readonly inUse: string;
       readonly unsupported: string;
@@ -935,6 +942,7 @@ export interface Messages {
       readonly refresh: string;
       readonly inUse: (values: { readonly hasOthers: boolean }) => string;
       readonly simulated: string;
+      readonly unnamed: string;
       readonly noneHere: string;
     };
     readonly simulated: {
@@ -952,6 +960,7 @@ export interface Messages {
       readonly hexapod: string;
       readonly plain: string;
     };
+    readonly listed: (values: { readonly names: string }) => string;
     readonly how: string;
     readonly notHere: string;
   };
@@ -999,6 +1008,13 @@ export interface Messages {
       readonly viewing: string;
       readonly busy: string;
     };
+  };
+  readonly cards: {
+    readonly toStart: string;
+    readonly toEnd: string;
+    readonly isFirst: string;
+    readonly isLast: string;
+    readonly walk: string;
   };
   readonly actions: {
     readonly defaultName: string;
@@ -1062,6 +1078,12 @@ export interface Messages {
     readonly notConverted: string;
     readonly frameAbout: (values: { readonly number: number; readonly durationMs: number; readonly count: number; readonly servos: string }) => string;
     readonly moved: (values: { readonly count: number; readonly from: number; readonly first: number; readonly last: number }) => string;
+    readonly selectAll: string;
+    readonly onlyOne: string;
+    readonly spanTo: string;
+    readonly nothingToUndo: string;
+    readonly nothingToRedo: string;
+    readonly nothingWritten: string;
   };
   readonly board: {
     readonly details: string;
@@ -1513,7 +1535,12 @@ export interface Messages {
     readonly more: (values: { readonly list: string; readonly count: number }) => string;
   };
   readonly guide: {
-    readonly title: string;
+    readonly title: {
+      readonly serial: string;
+      readonly hid: string;
+    };
+    readonly copy: string;
+    readonly copied: string;
     readonly system: string;
     readonly systems: {
       readonly windows: string;
@@ -1534,6 +1561,10 @@ export interface Messages {
       readonly snap: string;
       readonly notLinux: string;
       readonly school: string;
+      readonly hidWindows: string;
+      readonly hidHeld: string;
+      readonly hidRule: string;
+      readonly notHid: string;
       readonly hid: string;
     };
   };
@@ -1919,10 +1950,31 @@ export interface Messages {
       readonly keyBefore: string;
       readonly keyAfter: string;
       readonly nextMarker: string;
+      readonly toggleKey: string;
+      readonly toStart: string;
+      readonly toEnd: string;
+      readonly tickBefore: string;
+      readonly tickAfter: string;
+      readonly ticksBefore: string;
+      readonly ticksAfter: string;
+      readonly pageBefore: string;
+      readonly pageAfter: string;
     };
     readonly markerVerbs: {
       readonly marker: string;
       readonly remove: string;
+    };
+    readonly needs: {
+      readonly keys: string;
+      readonly keysOrMarker: string;
+      readonly limb: string;
+    };
+    readonly keyUses: {
+      readonly move: string;
+      readonly moveFar: string;
+      readonly select: string;
+      readonly add: string;
+      readonly type: string;
     };
     readonly nudge: string;
     readonly nudges: {
@@ -2206,9 +2258,32 @@ export interface Messages {
     readonly link: (values: { readonly way: string; readonly status: string; readonly why: string }) => string;
     readonly heardPackets: (values: { readonly count: number }) => string;
     readonly heardNoise: (values: { readonly count: number; readonly kind: string }) => string;
+    readonly heardNothingOnOwnCable: string;
     readonly heardNothing: string;
-    readonly battery: (values: { readonly mv: number }) => string;
+    readonly battery: (values: { readonly mv: number; readonly ms: number }) => string;
+    readonly rates: string;
+    readonly listening: string;
+    readonly rateFound: (values: { readonly baud: number; readonly kind: string }) => string;
+    readonly rateNone: string;
+    readonly ratesAtGateway: string;
     readonly copy: string;
     readonly copied: string;
+  };
+  readonly actionList: {
+    readonly title: string;
+    readonly search: string;
+    readonly nothing: string;
+    readonly elsewhere: (values: { readonly place: string }) => string;
+    readonly nextPart: string;
+    readonly previousPart: string;
+    readonly menu: string;
+    readonly places: {
+      readonly page: string;
+      readonly timeline: string;
+      readonly row: string;
+      readonly frames: string;
+      readonly poses: string;
+      readonly buttons: string;
+    };
   };
 }

@@ -19,13 +19,13 @@ export interface BoardVerbs {
   resume(): void;
   identify(): void;
   choose(family: Family): void;
-  /** `settled` hears whether the board took it, as far as anybody can know. */
+  /** `settled` hears whether the board took it, as far as can be known. */
   run(slot: number, times: number, settled?: Settled): void;
   stopGroup(): void;
   /** `settled` hears whether the board said so. */
   erase(settled?: Settled): void;
   readBattery(): void;
-  /** Unasked, so nobody is told that it failed: another screen's question may have met this one on the board (S52). */
+  /** Unasked, so its failure gives no notice: another screen's question may have met this one on the board (S52). */
   watchBattery(): void;
   readPositions(servos: readonly number[], settled?: Settled): void;
   /** Firmware and trims, one question after the other. */

@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { createBoards } from './boards.ts';
+import { createBoards } from './remembered.ts';
 
 const ARM = { kind: 'webSerial', label: 'CH340 USB serial adapter' } as const;
 const HAND = { kind: 'gateway', label: '/dev/ttyUSB0' } as const;

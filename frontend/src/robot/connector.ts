@@ -1,25 +1,21 @@
-// Picks the way to the robot: this computer's port, the gateway, or the simulated robot, and remembers the last one chosen. The only
-// place that knows links; hands a robot to the device and forgets it. What a robot on a cable needs is loaded with the first one.
+// Picks the way to the robot: this computer's devices, the gateway, or the simulated robot, remembers the last one chosen, and gives the
+// robot at its end to the device. How each way is opened is ways.ts.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { BodyKind, Robot as RobotProfile } from '#shared/profile/robot.ts';
-import { FAMILIES, UNKNOWN_BOARD, type BoardId, type FamilyId } from '#shared/codec/families.ts';
-import type { LocalRobotOptions } from '#shared/robot/localRobot.ts';
-import type { Robot } from '#shared/robot/robot.ts';
-import { isProfileName } from '#shared/simulator/profileNames.ts';
-import type { Boards } from './boards.ts';
-import type { Device, Way, WayKind } from './device.ts';
+import type { ServoTarget } from '#shared/codec/commands.ts';
+import { FAMILIES, type BoardId, type FamilyId } from '#shared/codec/families.ts';
+import { type Boards, recallReconnects, recallWay, rememberReconnects, rememberWay } from './remembered.ts';
+import type { Device } from './device.ts';
 import type { TextStorage } from '../state/storage.ts';
 import type { Notices } from '../state/notices.ts';
-import type { You } from './people.generated.ts';
-import { createGatewayRobot } from './gatewayRobot.ts';
+import type { You } from './http.generated.ts';
 import { choosePort, grantedPorts, portLabel, webSerialObstacle } from './links/serialPorts.ts';
 import type { BluetoothHere, GrantedModule } from './links/webBluetooth.ts';
+import type { HeardAtRate } from './links/otherRates.ts';
 import type { GrantedBoard, HidHere } from './links/webHid.ts';
-import { later } from '../ui/later.tsx';
 import { words } from '../i18n/words.ts';
 import {
-  gatewayUrl,
   hasGateway,
   openGatewayPort,
   readGateway,
@@ -28,9 +24,7 @@ import {
   type GatewayPort,
   type GatewayStatus,
 } from './gatewayApi.ts';
-import { greetingOf } from './greeting.ts';
-import { recallReconnects, recallWay, rememberReconnects, rememberWay } from './lastWay.ts';
-import { rememberSlots } from './rememberedSlots.ts';
+import { createWays, loadBluetooth, loadHid, type Opening } from './ways.ts';
 
 export interface ConnectState {
   /** What the simulated robot in the page is. */
@@ -39,20 +33,18 @@ export interface ConnectState {
   readonly reconnects: boolean;
   readonly serialObstacle: ReturnType<typeof webSerialObstacle>;
   readonly granted: readonly GrantedPort[];
-  /** The one that was opened last. */
-  readonly openPort: SerialPort | null;
   readonly hid: HidHere;
-  /** The one that was opened last. */
-  readonly openBoard: HIDDevice | null;
   readonly bluetooth: BluetoothHere;
-  /** The one that was opened last. */
-  readonly openModule: BluetoothDevice | null;
+  /** Of this computer's devices the one that was opened last. */
+  readonly openDevice: object | null;
   /** `looking` until the page's own address has answered or not. */
   readonly gateway: 'looking' | 'absent' | GatewayStatus;
   readonly gatewayPorts: readonly GatewayPort[];
   /** What the person has said the robot is; null: nothing. */
   readonly body: BodyKind | null;
 }
+
+export type { HeardAtRate };
 
 export interface GrantedPort {
   readonly port: SerialPort;
@@ -76,6 +68,8 @@ export interface Connector {
   useSerialPort(port: SerialPort): Promise<void>;
   /** Opens the browser's chooser. Rejects with a LinkError. */
   chooseSerialPort(): Promise<void>;
+  /** Listens at other speeds on the serial port in use, whose link ends for that and is opened again. */
+  findRate(isReadable: (heard: HeardAtRate) => boolean): Promise<HeardAtRate | null>;
   useBoard(board: HIDDevice): Promise<void>;
   /** Opens the browser's chooser; `all`: with every HID device. Rejects with a LinkError. */
   chooseBoard(all: boolean): Promise<void>;
@@ -85,27 +79,18 @@ export interface Connector {
   disconnect(): void;
   /** After `heldElsewhere` or `movedAway`: the other tab stops the robot and lets go, then this one tries again. */
   moveHere(): Promise<void>;
-  /** The page goes: the robot is told to stop, where nobody else drives it. */
+  /** The page goes: a stop leaves, unless another client drives. */
   leave(): void;
 }
 
 const GREETING_MS = 2000;
-
-/** A way to a robot, and the robot at its end. */
-interface Opening {
-  readonly robot: Robot;
-  /** What it leads to; a gateway says so once it is open. */
-  way(): Way;
-  /** Of this computer's devices the one that it is. */
-  readonly port?: object;
-}
 
 export interface ConnectorOptions {
   readonly device: Device;
   readonly notices: Notices;
   readonly boards: Boards;
   readonly storage: TextStorage;
-  /** What whoever opened the page may do at its gateway. */
+  /** What this page may do at its gateway. */
   readonly role: You['role'];
   /** It has answered already. */
   readonly isAtGateway: boolean;
@@ -116,18 +101,6 @@ export interface ConnectorOptions {
   isWatched(): boolean;
 }
 
-const loadLocalRobot = () => import('#shared/robot/localRobot.ts');
-const loadSerial = () => import('./links/webSerial.ts');
-const loadSimulated = () => import('./links/simulated.ts');
-const loadHid = () => import('./links/webHid.ts');
-const loadBluetooth = () => import('./links/webBluetooth.ts');
-// They need no gateway: they are there before they are wanted.
-later(loadLocalRobot);
-later(loadSerial);
-later(loadSimulated);
-later(loadHid);
-later(loadBluetooth);
-
 export function createConnector(options: ConnectorOptions): Connector {
   const { device, notices, boards, storage, role, isWatched } = options;
   const store = createStore<ConnectState>(() => ({
@@ -135,74 +108,20 @@ export function createConnector(options: ConnectorOptions): Connector {
     reconnects: recallReconnects(storage),
     serialObstacle: webSerialObstacle(),
     granted: [],
-    openPort: null,
     hid: { obstacle: null, granted: [] },
-    openBoard: null,
     bluetooth: { obstacle: null, granted: [] },
-    openModule: null,
+    openDevice: null,
     gateway: 'looking',
     gatewayPorts: [],
     body: null,
   }));
 
+  const ways = createWays({
+    ...{ clock: device.clock, boards, storage, isWatched, mayDrive: role !== 'viewer' },
+  });
+
   let current: Opening | null = null;
   let hasLeft = false;
-
-  /** Asked who it is, and taken for what it was the last time. */
-  async function onCable(
-    kind: WayKind,
-    port: object,
-    { channel, ...options }: Pick<LocalRobotOptions, 'channel' | 'withheld'>,
-  ): Promise<Opening> {
-    const { createLocalRobot } = await loadLocalRobot();
-    const way = (): Way => ({ kind, label: channel.label, isSimulated: false });
-    const known = boards.recall(way())?.family;
-    const robot = createLocalRobot({
-      ...{ ...options, channel, isWatched, clock: device.clock, identifies: true },
-      family: known === undefined ? UNKNOWN_BOARD : FAMILIES[known],
-      slotMemory: rememberSlots(storage, way),
-    });
-    return { robot, way, port };
-  }
-
-  async function openSerial(port: SerialPort): Promise<Opening> {
-    const { createWebSerialChannel } = await loadSerial();
-    store.setState({ openPort: port });
-    return onCable('webSerial', port, { channel: createWebSerialChannel(port) });
-  }
-
-  async function openBoard(board: HIDDevice): Promise<Opening> {
-    const { createWebHidChannel, HID_WITHHELD } = await loadHid();
-    store.setState({ openBoard: board });
-    return onCable('webHid', board, { channel: createWebHidChannel(board), withheld: HID_WITHHELD });
-  }
-
-  async function openModule(module: BluetoothDevice): Promise<Opening> {
-    const { createWebBluetoothChannel } = await loadBluetooth();
-    store.setState({ openModule: module });
-    return onCable('webBluetooth', module, { channel: createWebBluetoothChannel(module) });
-  }
-
-  function openGateway(): Opening {
-    const robot = createGatewayRobot({ url: gatewayUrl(), clock: device.clock, mayDrive: role !== 'viewer' });
-    const way = (): Way => ({ kind: 'gateway', label: robot.label, isSimulated: robot.isSimulated });
-    return { robot, way };
-  }
-
-  /** A new one at each visit, which is what it was made as: nothing of it is worth remembering. */
-  async function simulated(): Promise<Opening> {
-    const [{ createLocalRobot }, { createSimulatedChannel }] = await Promise.all([
-      loadLocalRobot(),
-      loadSimulated(),
-    ]);
-    const { board } = store.getState();
-    const channel = createSimulatedChannel(simulatedAs(board));
-    const robot = createLocalRobot({
-      ...{ channel, isWatched, clock: device.clock, isNew: true },
-      family: FAMILIES[board],
-    });
-    return { robot, way: () => ({ kind: 'simulated', label: channel.label, isSimulated: true }) };
-  }
 
   /** What is open already is left alone, and that is said: the browser's chooser does not know it. */
   async function openOnce<T extends object>(port: T, open: (port: T) => Promise<Opening>): Promise<void> {
@@ -211,9 +130,9 @@ export function createConnector(options: ConnectorOptions): Connector {
     else chosen(await open(port));
   }
 
-  const takePort = (port: SerialPort): Promise<void> => openOnce(port, openSerial);
-  const takeBoard = (board: HIDDevice): Promise<void> => openOnce(board, openBoard);
-  const takeModule = (module: BluetoothDevice): Promise<void> => openOnce(module, openModule);
+  const takePort = (port: SerialPort): Promise<void> => openOnce(port, ways.webSerial);
+  const takeBoard = (board: HIDDevice): Promise<void> => openOnce(board, ways.webHid);
+  const takeModule = (module: BluetoothDevice): Promise<void> => openOnce(module, ways.webBluetooth);
 
   async function lookForBoards(): Promise<readonly GrantedBoard[]> {
     const { lookForHid } = await loadHid();
@@ -232,6 +151,7 @@ export function createConnector(options: ConnectorOptions): Connector {
   async function connect(opening: Opening): Promise<void> {
     const { robot, way } = opening;
     current = opening;
+    store.setState({ openDevice: opening.port });
     // Before the page itself hears that it is ready: where somebody has changed the gateway's port, it leads to another board.
     let wasReady = false;
     let isNew = true;
@@ -289,24 +209,24 @@ export function createConnector(options: ConnectorOptions): Connector {
     const [board] = last?.kind === 'webHid' && reconnects ? await lookForBoards() : [];
     const [module] = last?.kind === 'webBluetooth' && reconnects ? await lookForModules() : [];
     if (last?.kind === 'simulated' || (gateway === 'absent' && last === null)) {
-      await connectFirst(simulated());
+      await connectFirst(ways.simulated(store.getState().board));
       if (last === null) greet();
     } else if (!reconnects) return;
-    else if (last?.kind === 'webSerial' && port !== undefined) await connectFirst(openSerial(port.port));
-    else if (board !== undefined) await connectFirst(openBoard(board.board));
-    else if (module !== undefined) await connectFirst(openModule(module.module));
-    else if (typeof gateway === 'object') await connect(openGateway());
-    else await connectFirst(simulated());
+    else if (last?.kind === 'webSerial' && port !== undefined) await connectFirst(ways.webSerial(port.port));
+    else if (board !== undefined) await connectFirst(ways.webHid(board.board));
+    else if (module !== undefined) await connectFirst(ways.webBluetooth(module.module));
+    else if (typeof gateway === 'object') await connect(ways.gateway());
+    else await connectFirst(ways.simulated(store.getState().board));
     if (gateway === 'absent') void offerLateGateway();
   }
 
-  /** One that was too slow to be found: nobody is to take the robot in the page for the real one. */
+  /** One that was too slow to be found: the robot in the page must not be taken for the real one. */
   async function offerLateGateway(): Promise<void> {
     if (!(await hasGateway(device.clock)) || current?.way().kind !== 'simulated') return;
     await look();
     notices.tell('warning', words.link.gatewayAnswers, {
       label: words.link.useGateway,
-      act: () => chosen(openGateway()),
+      act: () => chosen(ways.gateway()),
     });
   }
 
@@ -336,17 +256,28 @@ export function createConnector(options: ConnectorOptions): Connector {
     },
     async simulate(board) {
       store.setState({ board });
-      chosen(await simulated());
+      chosen(await ways.simulated(board));
     },
-    useGateway: () => chosen(openGateway()),
+    useGateway: () => chosen(ways.gateway()),
     async useGatewayPort(path) {
       await openGatewayPort(path);
       await look();
-      chosen(openGateway());
+      chosen(ways.gateway());
     },
     useSerialPort: takePort,
     async chooseSerialPort() {
       await takePort(await choosePort());
+    },
+    async findRate(isReadable) {
+      if (current?.way().kind !== 'webSerial') return null;
+      const port = current.port as SerialPort;
+      const { findRate } = await import('./links/otherRates.ts');
+      await device.detach();
+      try {
+        return await findRate(port, isReadable);
+      } finally {
+        chosen(await ways.webSerial(port));
+      }
     },
     useBoard: takeBoard,
     async chooseBoard(all) {
@@ -369,5 +300,13 @@ export function createConnector(options: ConnectorOptions): Connector {
   };
 }
 
-/** A board that nobody has modelled is simulated by the usual one. */
-const simulatedAs = (board: FamilyId) => (isProfileName(board) ? { profile: board } : {});
+/** Readable: every joint away from the line of its neighbour. */
+const GREETING = [1200, 1500, 1950, 2050, 1150, 1500];
+
+/** The pose that the simulated arm rises to when the page opens: as far as this robot's limits let each joint. */
+export function greetingOf({ servos }: RobotProfile): readonly ServoTarget[] {
+  return servos.flatMap(({ servo, min, max }) => {
+    const position = GREETING[servo - 1];
+    return position === undefined ? [] : [{ servo, position: Math.min(max, Math.max(min, position)) }];
+  });
+}

@@ -1,6 +1,6 @@
 // The robot as the page sees it: wraps one robot at a time, keeps its latest snapshot, and turns intents of the panels into calls
 // whose failures become notices. Live, never undoable; knows no link and no panel. What changes in each frame is asked
-// for and not in the store: whoever listens to that would be woken for it.
+// for and not in the store: its listeners would be woken for it.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import { sameList } from '#shared/group/groupEdits.ts';
@@ -20,6 +20,7 @@ import { createLimitGate } from './limitGate.ts';
 import { moveDurationMs, type Pace } from './moveTime.ts';
 import { createMovingWatch, createTargetBook } from './targetBook.ts';
 import type { Notices } from '../state/notices.ts';
+import { createUnaskedAnswers } from './unaskedAnswers.ts';
 import { createTrafficLog, type TrafficLog } from './traffic.ts';
 
 export type WayKind = 'webSerial' | 'webHid' | 'webBluetooth' | 'gateway' | 'simulated';
@@ -40,7 +41,7 @@ export interface DeviceState {
   readonly known: readonly number[];
   /** Those of them whose place is the board's own word. */
   readonly readServos: readonly number[];
-  /** A servo is on its way, so far as anybody can know; looked at now and then, and kept for a moment between two moves. */
+  /** A servo is on its way, as far as can be known; looked at now and then, and kept for a moment between two moves. */
   readonly isMoving: boolean;
 }
 
@@ -58,13 +59,13 @@ export interface Device extends BoardVerbs {
   motion(servo: number): ServoMotion;
   /** What the robot was last asked for, or at rest where the board says it stands; without servos of unknown place. */
   pose(): readonly ServoTarget[];
-  /** Nothing moves and nothing is under way, so far as anybody can know. */
+  /** Nothing moves and nothing is under way, as far as can be known. */
   isAtRest(): boolean;
   /** Looks what became of the motion; to be called while the page is drawn, once a frame. */
   refresh(motion?: Motions): void;
   /** Servos whose newest target has not left yet. */
   waiting(): number;
-  /** False where it was refused; then the person was told why. */
+  /** False where it was refused, with a notice. */
   move(targets: readonly ServoTarget[], pace: Pace): boolean;
   /** As `move`, between two frames: the store has what comes of it with the next one. */
   drag(targets: readonly ServoTarget[], pace: Pace): boolean;
@@ -160,7 +161,7 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     const motion = motions();
     return robot().servos.some(({ servo }) => {
       const { target, estimated } = motion(servo);
-      // Without a target we moved it nowhere, even where the board told of it.
+      // Without a target we moved it nowhere, even where the board said where it is.
       return target !== null && target !== estimated;
     });
   }
@@ -192,7 +193,7 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     takeUpRobot(snapshot);
     const becomesReady = !wasReady && snapshot.link.status === 'ready';
     if (becomesReady && calibrated !== null) session?.calibrate(calibrated);
-    // First into the log: whoever hears of the state may send something at once.
+    // First into the log: a listener of the state may send something at once.
     traffic.note(snapshot, clock.now(), snapshot.family.id);
     store.setState({ snapshot, family: snapshot.family });
     if (snapshot.latch !== null || snapshot.link.status !== 'ready') forgetWishes();
@@ -215,7 +216,7 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     lateNotices.report(error);
   }
 
-  /** `onIt`: the same in the board's own figures. False where it was refused; then the person was told why. */
+  /** `onIt`: the same in the board's own figures. False where it was refused, with a notice. */
   function send(targets: readonly ServoTarget[], onIt: readonly ServoTarget[], pace: Pace): boolean {
     if (session === null) return false;
     try {
@@ -237,7 +238,7 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
   async function detach(): Promise<void> {
     const former = session;
     unsubscribe();
-    // Whoever hears of it still finds where the robot was sent.
+    // Listeners still find where the robot was sent.
     store.setState(NOTHING);
     session = null;
     book.clear();
@@ -258,9 +259,13 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
       session.setAutoReconnect(autoReconnect);
       store.setState({ way });
       noteState(next.state);
+      const unasked = createUnaskedAnswers(() => notices.tell('warning', words.link.sharedBoard));
       unsubscribe = next.subscribe({
         state: noteState,
-        traffic: (entry) => traffic.add(entry, next.state.family.id),
+        traffic(entry) {
+          traffic.add(entry, next.state.family.id);
+          unasked(entry);
+        },
         problem: noteProblem,
         resumed: noteResumed,
       });

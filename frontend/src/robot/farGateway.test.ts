@@ -5,7 +5,7 @@ import fc from 'fast-check';
 import { afterEach, expect, test, vi } from 'vitest';
 import { family as familyOf } from '#shared/codec/families.ts';
 import { wireMs } from '#shared/codec/packet.ts';
-import { TIMES } from '#shared/robot/faults/amount.ts';
+import { TIMES } from '#shared/testing/cases.ts';
 import { LinkError } from '#shared/robot/linkError.ts';
 import { createLocalRobot } from '#shared/robot/localRobot.ts';
 import { firstMovesMs } from '#shared/robot/rig.ts';

@@ -18,7 +18,7 @@ export interface Follower {
 
 /** A step of a few milliseconds would be a jerk. */
 const LEAST_STEP_MS = 200;
-/** A servo so near is where it was told to be. */
+/** A servo so near has reached its target. */
 const NEAR_UNITS = 10;
 
 export function createFollower(device: Device): Follower {

@@ -1,5 +1,5 @@
 // The gateway's HTTP interface as far as connecting needs it: is there one at the page's own address, which board and ports
-// does it have, open that port. Trusts no answer's shape; every failure is a LinkError.
+// does it have, open that port, put a robot on its board. Trusts no answer's shape; every failure is a LinkError.
 
 import type { Clock } from '#shared/clock.ts';
 import { LinkError } from '#shared/robot/linkError.ts';
@@ -21,7 +21,9 @@ export interface GatewayPort {
 }
 
 const ANSWER_WITHIN_MS = 2000;
-/** For one that has just said who is here: it is only slow, and nobody is to be given another robot for that. */
+/** It is read from the library first. */
+const ROBOT_WITHIN_MS = 4000;
+/** For one that has just said who is here: it is only slow, and must not be replaced by another robot for that. */
 export const SURE_WITHIN_MS = 10_000;
 const PATIENT_MS = 30_000;
 const ASK_AGAIN_MS = 1000;
@@ -31,7 +33,7 @@ const FROM_HERE_PASSING = 500;
 /** null where no gateway answers: the page came from elsewhere, or the gateway is gone. */
 export async function readGateway(withinMs = ANSWER_WITHIN_MS): Promise<GatewayStatus | null> {
   try {
-    const status: unknown = await askGateway('api/status', { withinMs });
+    const status: unknown = await askGateway('get', '/api/status', { withinMs });
     if (!isRecord(status) || !isRecord(status.port)) return null;
     const { device, code, simulated } = status.port;
     // Whatever has its name now is one to be chosen like any other.
@@ -45,7 +47,7 @@ export async function readGateway(withinMs = ANSWER_WITHIN_MS): Promise<GatewayS
 }
 
 /**
- * Asks until somebody answers: a gateway that is slow is one, a server that answers otherwise has none. Documents must not be kept
+ * Asks until an answer comes: a gateway that is slow is one, a server that answers otherwise has none. Documents must not be stored
  * at two places because of a bad moment.
  */
 export async function hasGateway(clock: Clock): Promise<boolean> {
@@ -54,7 +56,7 @@ export async function hasGateway(clock: Clock): Promise<boolean> {
     const answer = await fetch('api/status', { signal: AbortSignal.timeout(PATIENT_MS) }).catch(() => null);
     if (answer !== null && answer.status < FROM_HERE_PASSING) {
       const status: unknown = await answer.json().catch(() => null);
-      // One that wants to be told first who asks is a gateway, too.
+      // One that wants to know first who asks is a gateway, too.
       return isRecord(status) && (isRecord(status.port) || typeof status.code === 'string');
     }
     await new Promise<void>((resolve) => void clock.after(ASK_AGAIN_MS, resolve));
@@ -63,7 +65,7 @@ export async function hasGateway(clock: Clock): Promise<boolean> {
 
 /** Ports of the gateway's machine, the likely ones first. */
 export async function readPorts(withinMs = ANSWER_WITHIN_MS): Promise<readonly GatewayPort[]> {
-  const list: unknown = await askGateway('api/ports', { withinMs });
+  const list: unknown = await askGateway('get', '/api/ports', { withinMs });
   if (!Array.isArray(list)) throw new LinkError('internal', 'the gateway’s list of ports is no list');
   return list.filter(isPort).map(({ device, description, inUse }) => ({ device, description, inUse }));
 }
@@ -71,7 +73,7 @@ export async function readPorts(withinMs = ANSWER_WITHIN_MS): Promise<readonly G
 /** Whatever board is there: the gateway knows it from before, or asks it. */
 export async function openGatewayPort(device: string): Promise<void> {
   const body = { device, board: 'unknown' };
-  await askGateway('api/port', { method: 'PUT', body, withinMs: ANSWER_WITHIN_MS });
+  await askGateway('put', '/api/port', { body, withinMs: ANSWER_WITHIN_MS });
 }
 
 /** The gateway's WebSocket beside the page. */
@@ -88,4 +90,10 @@ function isPort(value: unknown): value is GatewayPort {
     typeof value.description === 'string' &&
     typeof value.inUse === 'boolean'
   );
+}
+
+/** Puts a robot of the library on the gateway's board, for everybody. */
+export async function putOnBoard(document: string, insteadOf: string | null): Promise<void> {
+  const body = { id: document, insteadOf };
+  await askGateway('put', '/api/robot', { body, withinMs: ROBOT_WITHIN_MS });
 }

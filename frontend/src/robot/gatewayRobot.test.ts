@@ -4,7 +4,7 @@ import { afterEach, describe, expect, test, vi } from 'vitest';
 import type { Command, Frame } from '#shared/codec/commands.ts';
 import { encodeCommand } from '#shared/codec/encode.ts';
 import { family as familyOf } from '#shared/codec/families.ts';
-import { fromHex } from '#shared/codec/packet.ts';
+import { fromHex, toHex } from '#shared/codec/packet.ts';
 import { createGateway, FREE, OURS, READY, THEIRS, type GatewayUnderTest } from './gatewayUnderTest.ts';
 import type {
   GatewayMessage,
@@ -220,6 +220,29 @@ describe('STOP', () => {
   });
 });
 
+describe('a packet by hand', () => {
+  test('is not undone by a value that waited for its servo; other servos’ values are sent', async () => {
+    const gateway = await createGateway({ welcome: { lease: OURS } });
+    const { robot, posted } = gateway;
+    const packet = encodeCommand({ kind: 'move', targets: TARGET, durationMs: 1_500 }, familyOf('doc'));
+    robot.move([{ servo: 1, position: 1_100 }], 1_500);
+    await vi.waitFor(() => expect(posted).toHaveLength(1));
+    robot.move(
+      [1, 2].map((servo) => ({ servo, position: 1_200 })),
+      1_500,
+    );
+    const sent = robot.sendRaw(packet);
+    await vi.waitFor(() => expect(posted).toHaveLength(2));
+    gateway.done();
+    await settled(gateway);
+    await sent;
+    expect(posted.slice(1)).toMatchObject([
+      { type: 'packet', bytes: toHex(packet).replaceAll(' ', '').toLowerCase() },
+      { type: 'move', targets: [{ servo: 2, position: 1_200 }] },
+    ]);
+  });
+});
+
 describe('groups of the board', () => {
   async function running(): Promise<GatewayUnderTest & { readonly run: Promise<unknown> }> {
     const gateway = await createGateway();
@@ -352,13 +375,37 @@ describe('playing', () => {
 describe('what moved before the page came', () => {
   const MOVED: WelcomeMessage['motion'] = {
     servos: [{ servo: 1, start: 1_000, target: 2_000, begunMsAgo: 60_000, durationMs: 500 }],
-    ...{ runSlot: null, released: [] },
+    ...{ runSlot: null, released: [], reported: [] },
   };
 
   test('is known as soon as the robot is ready', async () => {
     const { robot } = await createGateway({ welcome: { motion: MOVED } });
     expect(robot.motions()(1)).toEqual({ target: 2_000, estimated: 2_000 });
     expect(robot.motions()(2)).toEqual({ target: null, estimated: null });
+  });
+
+  test('and what the board has reported since then, with its time', async () => {
+    const reported = [
+      { servo: 1, position: 1_990, ageMs: 2_000, isCurrent: true },
+      { servo: 2, position: 1_400, ageMs: 9_000, isCurrent: false },
+      { servo: 3, position: 700, ageMs: 1_000, isCurrent: true },
+      { servo: 4, position: 800, ageMs: 500, isCurrent: true },
+    ];
+    const { robot, clock } = await createGateway({
+      welcome: { motion: { ...MOVED, reported, released: [4] } },
+    });
+    const now = clock.now();
+    expect(robot.state.reported).toEqual({
+      1: { position: 1_990, atMs: now - 2_000 },
+      2: { position: 1_400, atMs: now - 9_000 },
+      3: { position: 700, atMs: now - 1_000 },
+      4: { position: 800, atMs: now - 500 },
+    });
+    const motions = robot.motions();
+    expect(motions(1)).toEqual({ target: 1_990, estimated: 1_990, reported: 'commanded' });
+    expect(motions(2)).toEqual({ target: null, estimated: null });
+    expect(motions(3)).toEqual({ target: 700, estimated: 700, reported: 'untouched' });
+    expect(motions(4)).toEqual({ target: 800, estimated: 800, reported: 'released' });
   });
 
   test('while a group may run nothing may begin that needs a robot at rest', async () => {

@@ -39,7 +39,7 @@ export const READY: Omit<StateMessage, 'type'> = {
 const WELCOME: WelcomeMessage = {
   ...READY,
   ...{ type: 'welcome', version: 'test', robot: null, lease: FREE, job: null, play: null },
-  motion: { servos: [], runSlot: null, released: [] },
+  motion: { servos: [], runSlot: null, released: [], reported: [] },
   battery: { kind: 'unread' },
 };
 

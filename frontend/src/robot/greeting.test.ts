@@ -2,7 +2,7 @@ import { expect, test } from 'vitest';
 import { refusedTarget } from '#shared/profile/robot.ts';
 import { changeServo } from '#shared/profile/robotEdits.ts';
 import { freshRobot } from '../features/profiles/robots.ts';
-import { greetingOf } from './greeting.ts';
+import { greetingOf } from './connector.ts';
 
 test('the arm rises within the limits that were set', () => {
   const narrow = changeServo(freshRobot('arm', 'doc'), 1, { min: 500, max: 520, home: 510 });

@@ -1,11 +1,11 @@
-// Where the servos of each board were last sent, kept for the next visit: a guess that is offered, never a position that is
-// known. Hears the device and knows storage; moves nothing. A simulated board begins anew each time: nothing of it is kept.
+// Where the servos of each board were last sent, stored for the next visit: a guess that is offered, never a position that is
+// known. Hears the device and knows storage; moves nothing. A simulated board begins anew each time: nothing of it is stored.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { Robot, RobotServo } from '#shared/profile/robot.ts';
 import type { ServoTarget } from '#shared/codec/commands.ts';
 import { FAMILIES, type FamilyId } from '#shared/codec/families.ts';
-import { nameOf } from './boards.ts';
+import { nameOf } from './remembered.ts';
 import type { Device, DeviceState } from './device.ts';
 import { type TextStorage, createThrottle } from '../state/storage.ts';
 
@@ -19,7 +19,7 @@ export interface LastPose {
 }
 
 type Poses = Readonly<Record<string, LastPose>>;
-/** By the way's name, see `nameOf` in boards.ts. */
+/** By the way's name, see `nameOf` in remembered.ts. */
 export type LastPoses = StoreApi<Poses>;
 
 const KEY = 'servodeck.lastPoses';
@@ -59,7 +59,7 @@ export function createLastPoses(storage: TextStorage, device: Device): LastPoses
   return store;
 }
 
-/** The very same poses where the board is kept so already. */
+/** The very same poses where they hold that already. */
 function withPose(poses: Poses, state: DeviceState, asked: readonly ServoTarget[]): Poses {
   const name = remembered(state);
   const family = state.family.id;
@@ -94,7 +94,7 @@ export function guessesOf(poses: Poses, state: DeviceState, { servos }: Robot): 
   return guesses;
 }
 
-/** What its pose is kept under; null where none is kept. */
+/** What its pose is stored under; null where none is stored. */
 function remembered({ way, snapshot }: DeviceState): string | null {
   return way === null || way.isSimulated || snapshot.link.status !== 'ready' ? null : nameOf(way);
 }

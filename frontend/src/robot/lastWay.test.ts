@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { recallWay, rememberWay } from './lastWay.ts';
+import { recallWay, rememberWay } from './remembered.ts';
 
 function storage() {
   const stored = new Map<string, string>();

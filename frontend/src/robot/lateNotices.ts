@@ -1,4 +1,4 @@
-// That something came too late, or was slept through, is told until what was asked for again goes well: then the news is old.
+// That something came too late, or was slept through, stays shown until the same goes well: then the notice is old.
 // Knows the messages and no session.
 
 import type { Clock } from '#shared/clock.ts';
@@ -8,7 +8,7 @@ import type { Notices } from '../state/notices.ts';
 
 export interface LateNotices {
   report(error: unknown): void;
-  /** Something was asked for, and nobody has refused it. */
+  /** Something was asked for and not refused. */
   asked(): void;
 }
 

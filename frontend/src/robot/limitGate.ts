@@ -1,5 +1,5 @@
-// Between what is asked for and what a board is told: the limits and trims of the robot at hand. Whatever leaves is in the
-// board's own figures and within the limits; whatever is not does not leave, and the person is told. Sends nothing.
+// Between what is asked for and what a board gets: the limits and trims of the robot at hand. Whatever leaves is in the
+// board's own figures and within the limits; whatever is not does not leave, with a notice. Sends nothing.
 
 import { refusedTarget, type LimitRefusal, type Robot, fromBoard, onBoard } from '#shared/profile/robot.ts';
 import type { ServoTarget, Frame } from '#shared/codec/commands.ts';
@@ -19,7 +19,7 @@ export function limitRefusal(robot: Robot, targets: readonly ServoTarget[]): str
 const refusalText = ({ servo, position }: LimitRefusal): string =>
   words.refused({ name: servoLabel(servo), value: position, min: servo.min, max: servo.max });
 
-/** Each gives what the board is told, or null where a limit forbids it. */
+/** Each gives what the board gets, or null where a limit forbids it. */
 export interface LimitGate {
   targets(asked: readonly ServoTarget[]): readonly ServoTarget[] | null;
   frames(asked: readonly Frame[]): readonly Frame[] | null;

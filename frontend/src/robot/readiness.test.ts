@@ -1,8 +1,9 @@
 import { describe, expect, test } from 'vitest';
+import { LinkError } from '#shared/robot/linkError.ts';
 import type { Lease } from '#shared/robot/lease.ts';
 import { INITIAL_STATE } from '#shared/robot/store.ts';
 import type { SessionState } from '#shared/robot/state.ts';
-import { mayBrush, motionHindrance } from './readiness.ts';
+import { isLineOpen, mayBrush, motionHindrance } from './readiness.ts';
 
 const READY: SessionState = { ...INITIAL_STATE, link: { status: 'ready' } };
 const LEASE: Lease = {
@@ -53,4 +54,21 @@ test.each([
   ['a viewer, while somebody drives', { ...LEASE, mayDrive: false, driver: 'Anna' }, 'viewing'],
 ] as const)('what keeps a page from moving: %s', (_, lease, hindrance) => {
   expect(motionHindrance({ ...READY, lease })).toBe(hindrance);
+});
+
+describe('a line', () => {
+  const refused = (code: 'closed' | 'boardUnknown') =>
+    ({ status: 'refused', error: new LinkError(code, 'for a test') }) as const;
+
+  test('is open although nobody has said which board is on it', () => {
+    expect(isLineOpen(refused('boardUnknown'))).toBe(true);
+    expect(isLineOpen({ status: 'stale', sinceMs: 0 })).toBe(true);
+  });
+
+  test('is not open at a gateway that has no port, nor while it is lost', () => {
+    expect(isLineOpen(refused('closed'))).toBe(false);
+    expect(isLineOpen({ status: 'lost', error: new LinkError('lost', 'for a test'), retryAtMs: null })).toBe(
+      false,
+    );
+  });
 });

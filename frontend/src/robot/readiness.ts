@@ -3,10 +3,18 @@
 
 import { isWatching } from '#shared/robot/lease.ts';
 import type { Family } from '#shared/codec/families.ts';
-import { wasCommanded, type ServoMotion, type SessionState } from '#shared/robot/state.ts';
+import type { LinkErrorCode } from '#shared/robot/linkError.ts';
+import { wasCommanded, type LinkState, type ServoMotion, type SessionState } from '#shared/robot/state.ts';
 
 export type Hindrance =
-  'closed' | 'identifying' | 'stale' | 'latched' | 'watching' | 'asking' | 'viewing' | 'busy';
+  | 'closed'
+  | 'identifying'
+  | 'stale'
+  | 'latched'
+  | 'watching'
+  | 'asking'
+  | 'viewing'
+  | 'busy';
 
 /** Where its servos stand can be asked of such a board. */
 export function tellsPositions({ commands }: Family): boolean {
@@ -17,6 +25,20 @@ export function tellsPositions({ commands }: Family): boolean {
 export function mayAsk({ link, activity }: SessionState, { queryKillsRun }: Family): boolean {
   if (link.status !== 'ready' || activity.kind === 'downloading' || activity.kind === 'erasing') return false;
   return activity.kind !== 'running' || !queryKillsRun;
+}
+
+/** Of a line that is open, what the board on it did not say. */
+const OF_OPEN_LINES: readonly LinkErrorCode[] = ['boardUnknown', 'wrongBoard', 'echo'];
+
+/** The line is open, whatever the board on it says. */
+export function isLineOpen(link: LinkState): boolean {
+  if (link.status === 'refused') return OF_OPEN_LINES.includes(link.error.code);
+  return link.status === 'identifying' || link.status === 'ready' || link.status === 'stale';
+}
+
+/** The link is the board's own USB cable, which is not to carry these: every board on one answers. */
+export function isBoardsOwnCable(withheld: SessionState['withheld']): boolean {
+  return withheld.includes('download');
 }
 
 /** null: motion may begin. */
@@ -35,7 +57,7 @@ export function mayBrush(snapshot: SessionState, motion: ServoMotion): boolean {
   return drives && wasCommanded(motion) && motionHindrance(snapshot) === null;
 }
 
-/** What moves the robot by itself ends here for good: whoever may drive again begins it anew. */
+/** What moves the robot by itself ends here for good: it is begun anew by a person. */
 export function endsMotion({ link, latch, lease }: SessionState): boolean {
   return link.status !== 'ready' || latch !== null || isWatching(lease);
 }

@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { rememberSlots } from './rememberedSlots.ts';
+import { rememberSlots } from './remembered.ts';
 
 function storageIn(texts: Map<string, string>) {
   return {

@@ -1,16 +1,39 @@
-// One request of the gateway's HTTP interface beside the page. Trusts no answer's shape. Knows no route, and not what a refusal
-// means to whoever asks.
+// One request of the gateway's HTTP interface beside the page. Routes, verbs and bodies are typed from the gateway's own description
+// (http.generated.ts); an answer's shape is not trusted. Knows no route, and not what a refusal means to the caller.
+
+import type { paths } from './http.generated.ts';
 
 /** How a request says that our own page makes it: a browser adds no Origin to a GET, and no other page may add this header. */
 const OWN_PAGE = { 'x-servodeck-page': '1' };
 
-export type Method = 'GET' | 'POST' | 'PUT' | 'PATCH' | 'DELETE';
+type AnyVerb = 'get' | 'post' | 'put' | 'patch' | 'delete';
 
-export interface Asking {
-  readonly method?: Method;
-  readonly body?: object | undefined;
-  readonly withinMs: number;
-}
+export type Path = keyof paths;
+/** What may be done at that path. */
+export type Verb<P extends Path> = {
+  [V in AnyVerb]: paths[P][V] extends { responses: unknown } ? V : never;
+}[AnyVerb];
+
+type Frozen<T> = T extends object ? { readonly [K in keyof T]: Frozen<T[K]> } : T;
+type Json<T> = T extends { content: { 'application/json': infer Body } } ? Body : never;
+type Needs<K extends string, T> = [T] extends [never]
+  ? Readonly<Partial<Record<K, never>>>
+  : Readonly<Record<K, Frozen<T>>>;
+type ValuesIn<Operation> = Operation extends { parameters: { path: infer Values } } ? Values : never;
+type QueryOf<Operation> = Operation extends { parameters: { query?: infer Query } } ? Query : never;
+type BodyOf<Operation> = Operation extends { requestBody: infer Body } ? Json<Body> : never;
+
+/** What goes with a request: `values` for the names in its path, its body where it takes one. */
+export type Asked<P extends Path, V extends Verb<P>> = { readonly withinMs: number } & Needs<
+  'values',
+  ValuesIn<paths[P][V]>
+> &
+  Needs<'body', BodyOf<paths[P][V]>> & { readonly query?: Frozen<QueryOf<paths[P][V]>> };
+
+/** What the gateway says that it answers. */
+export type Answer<P extends Path, V extends Verb<P>> = paths[P][V] extends { responses: infer Responses }
+  ? Json<Responses[keyof Responses]>
+  : never;
 
 /** `code` is the gateway's word for why it refuses; null where none has answered, or something else has. */
 export class GatewayProblem extends Error {
@@ -25,16 +48,21 @@ export class GatewayProblem extends Error {
   }
 }
 
-/** The static site says in its head that there is none, and asks nobody. Measurements and tests under Node have no document. */
+/** The static site says in its head that there is none, and no request is sent. Measurements and tests under Node have no document. */
 export const isWithoutGateway = (): boolean =>
   typeof document !== 'undefined' &&
   document.querySelector('meta[name="servodeck-gateway"][content="none"]') !== null;
 
 /** The answer, null where it is none. Rejects with a GatewayProblem. */
-export async function request(path: string, { method = 'GET', body, withinMs }: Asking): Promise<unknown> {
+export async function request<P extends Path, V extends Verb<P>>(
+  verb: V,
+  path: P,
+  asked: Asked<P, V>,
+): Promise<unknown> {
+  const { withinMs, values = {}, body, query = {} } = asked as Plain;
   if (isWithoutGateway()) throw new GatewayProblem(null, 'this page is served without a gateway');
-  const response = await fetch(path, {
-    method,
+  const response = await fetch(addressOf(path, values, query), {
+    method: verb.toUpperCase(),
     signal: AbortSignal.timeout(withinMs),
     headers: { ...OWN_PAGE, ...(body !== undefined && { 'content-type': 'application/json' }) },
     ...(body !== undefined && { body: JSON.stringify(body) }),
@@ -46,6 +74,23 @@ export async function request(path: string, { method = 'GET', body, withinMs }: 
   const { code, detail } = isRecord(answer) ? answer : {};
   if (typeof code !== 'string') throw new GatewayProblem(null, 'no gateway is at this address');
   throw new GatewayProblem(code, typeof detail === 'string' ? detail : '');
+}
+
+interface Plain {
+  readonly withinMs: number;
+  readonly values?: object;
+  readonly body?: unknown;
+  readonly query?: object;
+}
+
+/** Beside the page, which may be served below a path of its own. */
+function addressOf(path: string, values: object, query: object): string {
+  const known = new Map(Object.entries(values));
+  const address = path
+    .slice(1)
+    .replace(/\{(\w+)\}/g, (_, name: string) => encodeURIComponent(String(known.get(name))));
+  const asked = new URLSearchParams(Object.entries(query).map(([name, value]) => [name, String(value)]));
+  return asked.size === 0 ? address : `${address}?${asked.toString()}`;
 }
 
 export function isRecord(value: unknown): value is Record<string, unknown> {

@@ -4,7 +4,7 @@
 import type { Clock } from '#shared/clock.ts';
 import type { ServoTarget } from '#shared/codec/commands.ts';
 
-// Whether anything is on its way, told so that it can be read: looked at a few times a second, and kept for a moment
+// Whether anything is on its way, said so that it can be read: looked at a few times a second, and for a moment
 // after the last move, so that a stream of drags is one motion.
 
 interface MovingWatch {

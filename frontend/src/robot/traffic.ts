@@ -3,14 +3,19 @@
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { BoardId } from '#shared/codec/families.ts';
-import { createHappeningsReader, entryOf } from '#shared/files/recorder.ts';
-import { createTape, type Tape, type TapeEntry } from '#shared/files/tape.ts';
+import {
+  createHappeningsReader,
+  entryOf,
+  createTape,
+  type Tape,
+  type TapeEntry,
+} from '#shared/files/recorder.ts';
 import type { SessionState, Traffic } from '#shared/robot/state.ts';
 
 export type LogEntry = TapeEntry;
 
 export interface LogBounds {
-  /** The oldest entry that is kept. */
+  /** The oldest entry that is left. */
   readonly oldestId: number;
   /** What the next one will get. */
   readonly nextId: number;

@@ -3,20 +3,18 @@
 
 import type { ComponentProps, MouseEvent, ReactNode, Ref } from 'react';
 import { cx } from './cx.ts';
-import { hinted } from './hinting.ts';
+import { hinted, type Hinted } from './hinting.ts';
 import { Icon, type IconName } from './Icon.tsx';
 import { pressOnce } from './inputEvents.ts';
 import styles from './Button.module.css';
 
-export interface ButtonProps extends Pick<
-  ComponentProps<'button'>,
-  'aria-expanded' | 'aria-haspopup' | 'aria-label' | 'autoFocus' | 'type'
-> {
+export interface ButtonProps
+  extends
+    Hinted,
+    Pick<ComponentProps<'button'>, 'aria-expanded' | 'aria-haspopup' | 'aria-label' | 'autoFocus' | 'type'> {
   readonly tone?: 'plain' | 'primary' | 'quiet' | 'danger';
   readonly icon?: IconName;
   readonly wide?: boolean;
-  /** More than the label says. */
-  readonly hint?: string;
   readonly isDisabled?: boolean | undefined;
   /** Ignores presses for now, and keeps the focus. */
   readonly isPending?: boolean;
@@ -33,7 +31,9 @@ export function Button({
   icon,
   wide = false,
   hint,
-  isDisabled,
+  keys,
+  whyNot,
+  isDisabled = whyNot !== undefined,
   isPending = false,
   children,
   onPress,
@@ -43,7 +43,7 @@ export function Button({
     <button
       type="button"
       {...rest}
-      {...(hint === undefined ? {} : hinted(hint))}
+      {...hinted({ hint, keys, whyNot })}
       disabled={isDisabled}
       aria-disabled={isPending || undefined}
       className={cx(styles.button, styles[tone], wide && styles.wide)}
@@ -56,21 +56,22 @@ export function Button({
   );
 }
 
-export interface IconButtonProps extends Pick<
-  ComponentProps<'button'>,
-  'aria-expanded' | 'aria-haspopup' | 'tabIndex'
-> {
+export interface IconButtonProps
+  extends
+    Pick<Hinted, 'keys' | 'whyNot'>,
+    Pick<ComponentProps<'button'>, 'aria-expanded' | 'aria-haspopup' | 'tabIndex'> {
   readonly icon: IconName;
   readonly label: string;
   readonly isDisabled?: boolean | undefined;
   onPress(target: Element): void;
 }
 
-export function IconButton({ icon, label, isDisabled, onPress, ...rest }: IconButtonProps) {
+export function IconButton({ icon, label, keys, whyNot, onPress, ...props }: IconButtonProps) {
+  const { isDisabled = whyNot !== undefined, ...rest } = props;
   return (
     <button
       {...rest}
-      {...hinted(label)}
+      {...hinted({ hint: label, keys, whyNot })}
       type="button"
       disabled={isDisabled}
       aria-label={label}

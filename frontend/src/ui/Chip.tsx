@@ -4,7 +4,14 @@ import { cx } from './cx.ts';
 import styles from './Chip.module.css';
 
 export type Truth =
-  'neutral' | 'commanded' | 'estimated' | 'confirmed' | 'unknown' | 'guessed' | 'warning' | 'danger';
+  | 'neutral'
+  | 'commanded'
+  | 'estimated'
+  | 'confirmed'
+  | 'unknown'
+  | 'guessed'
+  | 'warning'
+  | 'danger';
 
 export function Mark({ truth }: { readonly truth: Truth }) {
   return (

@@ -2,28 +2,30 @@
 // third to the cost of each.
 
 import { useEffect, useRef, useState } from 'react';
-import { attach, HINT } from './hinting.ts';
+import { attach, hintOf, type HintText } from './hinting.ts';
 import { later, usePart } from './later.tsx';
 
-const hint = later(async () => (await import('./Hint.tsx')).Hint);
+const tooltip = later(async () => (await import('./Hint.tsx')).Hint);
 
 export function Hints() {
-  const [text, setText] = useState<string | null>(null);
+  const [hint, setHint] = useState<HintText | null>(null);
   const element = useRef<Element | null>(null);
   const hide = useRef((): void => undefined);
   useEffect(() => {
     const hints = attach(document, (shown) => {
-      const said = shown?.getAttribute(HINT) ?? null;
       element.current = shown;
-      setText(said);
+      if (shown === null) return setHint(null);
+      const next = hintOf(shown);
+      setHint(next);
       // A screen reader says the element's name anyway.
-      if (said !== null && shown?.getAttribute('aria-label') !== said)
-        shown?.setAttribute('aria-description', said);
+      const text = next.text === shown.getAttribute('aria-label') ? '' : next.text;
+      const said = [text, next.whyNot].filter((part) => part !== '').join(' ');
+      if (said !== '') shown.setAttribute('aria-description', said);
     });
     hide.current = hints.hide;
     return hints.detach;
   }, []);
-  const { part: Hint } = usePart(hint, text !== null);
-  if (text === null || Hint === null) return null;
-  return <Hint text={text} of={element} onClose={() => hide.current()} />;
+  const { part: Hint } = usePart(tooltip, hint !== null);
+  if (hint === null || Hint === null) return null;
+  return <Hint {...hint} of={element} onClose={() => hide.current()} />;
 }

@@ -1,9 +1,7 @@
-// A switch, a row of buttons of which one is chosen, and a button that stays pressed. Native inputs with the page's look.
+// A switch, and a row of buttons of which one is chosen. Native inputs with the page's look.
 
-import { useId, type ReactNode } from 'react';
+import { useId } from 'react';
 import styles from './Toggle.module.css';
-import { hinted } from './hinting.ts';
-import { pressOnce } from './inputEvents.ts';
 
 interface ToggleProps {
   readonly label: string;
@@ -53,28 +51,5 @@ export function Choice<Value extends string>({ label, value, options, onChange }
         </label>
       ))}
     </fieldset>
-  );
-}
-
-interface ToggleButtonProps {
-  readonly isOn: boolean;
-  /** What the word alone does not say. */
-  readonly hint?: string;
-  readonly children: ReactNode;
-  onChange(isOn: boolean): void;
-}
-
-export function ToggleButton({ isOn, hint, children, onChange }: ToggleButtonProps) {
-  return (
-    <button
-      {...(hint === undefined ? {} : hinted(hint))}
-      type="button"
-      className={styles.button}
-      aria-pressed={isOn}
-      onClick={() => onChange(!isOn)}
-      onKeyDown={pressOnce}
-    >
-      {children}
-    </button>
   );
 }

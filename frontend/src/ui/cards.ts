@@ -1,5 +1,4 @@
-// Lists of cards with one tab stop. Arrows select, Alt with an arrow moves a card, Delete deletes it, dragging reorders. Knows no
-// document.
+// Lists of cards with one tab stop. Arrows select, the keys of the list's actions act on the card, dragging reorders. Knows no document.
 
 import {
   useEffect,
@@ -10,6 +9,7 @@ import {
   type RefObject,
   type PointerEvent as ReactPointerEvent,
 } from 'react';
+import type { Pressed } from './action.ts';
 
 /** The index that a key leads to from `index`; null for other keys. */
 export function neighbour(key: string, index: number, count: number): number | null {
@@ -32,17 +32,15 @@ interface CardsOptions {
   /** The attribute in which a card carries its id; the part that takes the focus has `data-card-face`. */
   readonly attribute: string;
   select(id: number | null): void;
-  /** Moves a card and selects it. */
-  move(id: number, to: number): void;
-  /** Deletes a card and selects `next`. */
-  remove(id: number, next: number | null): void;
+  /** True if the key belongs to an action, which acts on the card and selects the next one to focus. */
+  act(pressed: Pressed, id: number): boolean;
 }
 
 interface Cards<List extends HTMLElement> {
   readonly list: RefObject<List | null>;
   /** The card that Tab leads to. */
   readonly tabStop: number | null;
-  /** Moves the focus to the selected card, after other keys selected it. */
+  /** Moves the focus to the selected card, if something else selected it. */
   focusSelected(): void;
   /** For the list's `onKeyDown`, so that cards need no handler of their own. */
   key(event: KeyboardEvent): void;
@@ -72,11 +70,10 @@ export function useCards<List extends HTMLElement>(options: CardsOptions): Cards
       if (id === null) return;
       const index = ids.indexOf(id);
       const to = neighbour(event.key, index, ids.length);
-      if (event.key === 'Delete' || event.key === 'Backspace')
-        options.remove(id, ids[index + 1] ?? ids[index - 1] ?? null);
-      else if (to === null) return;
-      else if (event.altKey && to !== index) options.move(id, to);
-      else options.select(ids[to] ?? id);
+      if (!options.act(event.nativeEvent, id)) {
+        if (to === null) return;
+        options.select(ids[to] ?? id);
+      }
       focusSelected();
       event.preventDefault();
     },

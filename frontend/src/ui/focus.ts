@@ -1,47 +1,42 @@
-// Keyboard focus on the whole page: F6 and Shift+F6 go from part to part, and a focus that would get lost is restored.
+// Keyboard focus on the whole page: going from part to part, and restoring a focus that would get lost.
 
 import { useEffect, useRef } from 'react';
 import { isTextField } from './inputEvents.ts';
 import { useEachFrame } from './useEachFrame.ts';
 
-/** Attributes of an element that F6 stops at. */
+/** Attributes of a part of the page. */
 export const PART = { 'data-part': '' } as const;
 
 const PARTS = '[data-part]';
 const STOPS = 'a[href], button, input, select, textarea, [tabindex]';
 
-/** F6 goes to the next part and to the element in it that had the focus last. An open dialog is the only part. */
+/** The element of each part that had the focus last. */
+const lastIn = new WeakMap<Element, HTMLElement>();
+
+/** Tracks the focus within each part, for `goToPart`. */
 export function useParts(): void {
   useEffect(() => {
-    const lastIn = new WeakMap<Element, HTMLElement>();
-
-    function note({ target }: FocusEvent): void {
+    const note = ({ target }: FocusEvent): void => {
       const part = partOf(target);
       if (part !== null && target instanceof HTMLElement) lastIn.set(part, target);
-    }
-
-    function go(event: KeyboardEvent): void {
-      if (event.key !== 'F6' || event.ctrlKey || event.altKey || event.metaKey) return;
-      event.preventDefault();
-      const stops = [...document.querySelectorAll(PARTS)]
-        .flatMap((part) => {
-          const [first, last] = [firstStop(part), lastIn.get(part)];
-          const isLastThere = last !== undefined && part.contains(last) && isStop(last);
-          return first === undefined ? [] : [{ part, first, stop: isLastThere ? last : first }];
-        })
-        .toSorted((one, other) => (isBefore(one.first, other.first) ? -1 : 1));
-      const here = stops.findIndex(({ part }) => part === partOf(document.activeElement));
-      const next = event.shiftKey ? (here < 0 ? -1 : here - 1) : here + 1;
-      stops.at(next % Math.max(1, stops.length))?.stop.focus();
-    }
-
-    document.addEventListener('focusin', note);
-    window.addEventListener('keydown', go);
-    return () => {
-      document.removeEventListener('focusin', note);
-      window.removeEventListener('keydown', go);
     };
+    document.addEventListener('focusin', note);
+    return () => document.removeEventListener('focusin', note);
   }, []);
+}
+
+/** Focuses the next or previous part, at the element that had the focus last. An open dialog is the only part. */
+export function goToPart(direction: 1 | -1): void {
+  const stops = [...document.querySelectorAll(PARTS)]
+    .flatMap((part) => {
+      const [first, last] = [firstStop(part), lastIn.get(part)];
+      const isLastThere = last !== undefined && part.contains(last) && isStop(last);
+      return first === undefined ? [] : [{ part, first, stop: isLastThere ? last : first }];
+    })
+    .toSorted((one, other) => (isBefore(one.first, other.first) ? -1 : 1));
+  const here = stops.findIndex(({ part }) => part === partOf(document.activeElement));
+  const next = direction === -1 ? (here < 0 ? -1 : here - 1) : here + 1;
+  stops.at(next % Math.max(1, stops.length))?.stop.focus();
 }
 
 const partOf = (target: EventTarget | null): Element | null =>

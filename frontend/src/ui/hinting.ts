@@ -1,10 +1,42 @@
 // Decides which element's hint is shown: the one under a resting pointer or with the keyboard focus, until the next action. Touch screens
 // have no hover and show none. Knows no tooltip.
 
-export const HINT = 'data-hint';
+import { shortcutsOf } from './action.ts';
 
-/** Attributes of an element with a hint. */
-export const hinted = (text: string) => ({ [HINT]: text });
+export const HINT = 'data-hint';
+const KEYS = 'data-hint-keys';
+const WHY_NOT = 'data-hint-why-not';
+
+export interface Hinted {
+  /** What the name alone does not say. */
+  readonly hint?: string | undefined;
+  /** Keys that do the same; the first is shown. */
+  readonly keys?: readonly string[] | undefined;
+  /** Why it cannot be done now. */
+  readonly whyNot?: string | undefined;
+}
+
+/** To be spread on what is explained. */
+export function hinted({ hint, keys = [], whyNot }: Hinted) {
+  const [shown] = keys;
+  if (hint === undefined && shown === undefined && whyNot === undefined) return {};
+  return {
+    [HINT]: hint ?? '',
+    ...(shown !== undefined && { [KEYS]: shown, 'aria-keyshortcuts': shortcutsOf(keys) }),
+    ...(whyNot !== undefined && { [WHY_NOT]: whyNot }),
+  };
+}
+
+export interface HintText {
+  readonly text: string;
+  readonly keys: string;
+  readonly whyNot: string;
+}
+
+export function hintOf(element: Element): HintText {
+  const said = (name: string): string => element.getAttribute(name) ?? '';
+  return { text: said(HINT), keys: said(KEYS), whyNot: said(WHY_NOT) };
+}
 
 /** A pointer on its way to another element does not rest this long. */
 const REST_MS = 500;

@@ -1,19 +1,9 @@
 // Drawing in animation frames, outside React's rendering: for values that change by themselves. One request of the browser per frame
 // serves all components; those with the same interval draw in the same frame.
 
-import {
-  use,
-  useLayoutEffect,
-  useRef,
-  useState,
-  useEffect,
-  useEffectEvent,
-  startTransition,
-  useReducer,
-} from 'react';
+import { use, useLayoutEffect, useRef, useState, useEffect, useEffectEvent } from 'react';
 import { flushSync } from 'react-dom';
 import { Sight, type InSight } from './sight.ts';
-import type { StoreApi } from 'zustand/vanilla';
 
 interface Follow<T> {
   /** Called in each interval for the value to show. */
@@ -179,45 +169,4 @@ export function useNow(now: () => number, intervalMs: number): number {
   const [time, setTime] = useState(now);
   useEachFrame(() => setTime(now()), { eachMs: intervalMs });
   return time;
-}
-
-/** After this time the rest is rendered with normal priority; as a transition it could wait for seconds. */
-const TRANSITION_LIMIT_MS = 250;
-
-/** False in a component's first frame, so that its most important part can be painted first. */
-export function useIsPainted(): boolean {
-  const [isPainted, setPainted] = useState(false);
-  useEffect(() => {
-    let timer: ReturnType<typeof setTimeout> | undefined;
-    // The browser paints right after this callback, before any timer.
-    const request = requestAnimationFrame(() => {
-      timer = setTimeout(() => {
-        startTransition(() => setPainted(true));
-        timer = setTimeout(() => setPainted(true), TRANSITION_LIMIT_MS);
-      });
-    });
-    return () => {
-      cancelAnimationFrame(request);
-      clearTimeout(timer);
-    };
-  }, []);
-  return isPainted;
-}
-
-/**
- * As zustand's `useStore`, but renders with the next frame instead of within the change. For views that follow from an edit: the edit
- * does not wait for them, and several edits in one frame render once.
- */
-export function useInFrame<State, Seen>(
-  store: Pick<StoreApi<State>, 'getState'>,
-  select: (state: State) => Seen,
-): Seen {
-  const [, drawAgain] = useReducer((times: number) => times + 1, 0);
-  const seen = select(store.getState());
-  const drawn = useRef(seen);
-  useLayoutEffect(() => void (drawn.current = seen));
-  useEachFrame(() => {
-    if (!Object.is(select(store.getState()), drawn.current)) drawAgain();
-  });
-  return seen;
 }

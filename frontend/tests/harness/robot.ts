@@ -6,7 +6,7 @@ import type { BoardSettings } from '../../../e2e/fixtures/robot.ts';
 import type { Page } from './page.ts';
 import { advance, timeOriginMs, worldClock } from './time.ts';
 
-const PORT = 'webSerial USB serial 1234:5678';
+const PORT = 'webSerial USB serial adapter (id 1234:5678)';
 
 export function createRobot(page: Page, settings: BoardSettings) {
   install(settings, worldClock);

@@ -42,6 +42,10 @@ export type Command =
   /** The trims it keeps in flash. */
   | { readonly kind: 'readOffsets' };
 
+export type MoveCommand = Extract<Command, { kind: 'move' }>;
+/** Stores one frame. */
+export type FrameCommand = Extract<Command, { kind: 'download' }>;
+
 export type CommandKind = Command['kind'];
 
 /** Neither moves anything nor changes what a group does: anybody may send it at any time. */

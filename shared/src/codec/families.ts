@@ -48,7 +48,7 @@ export interface Family {
    * tells the families apart (boards.md 2.5), and whether a board is still there.
    */
   readonly certainAnswers: readonly Question[];
-  /** Reports of runs name slot and times (6 and 8 with LEN 5), whoever asked for the run; otherwise they are empty. */
+  /** Reports of runs name slot and times (6 and 8 with LEN 5), whichever client began the run; otherwise they are empty. */
   readonly runReportsNameSlot: boolean;
   /** What an empty packet 7 says: opposite things per family (boards.md 2.4). */
   readonly emptySeven: 'runFinished' | 'runStopped' | 'unknown';
@@ -56,9 +56,9 @@ export interface Family {
   readonly queryKillsRun: boolean;
   /** What frees a parser that waits for the rest of a cut packet (S7); null where that may do harm. */
   readonly resyncFiller: number | null;
-  /** Command numbers that must not go out, not even by hand: they write settings, move, or mean nobody knows what. */
+  /** Command numbers that must not go out, not even by hand: they write settings, move, or their meaning is unknown. */
   readonly neverSend: readonly number[];
-  /** Numbers it does not know do nothing at all there (S5); elsewhere nobody knows what they do. */
+  /** Numbers it does not know do nothing at all there (S5); elsewhere it is unknown what they do. */
   readonly ignoresUnknown: boolean;
   /** Pause the board needs between two packets, after the last byte has left the wire (S52, S54). */
   readonly serviceGapMs: number;
@@ -124,7 +124,7 @@ export const FAMILIES = Object.fromEntries(
   Object.entries(data.families).map(([id, row]) => [id, expanded(id as FamilyId, row as unknown as Row)]),
 ) as unknown as Readonly<Record<FamilyId, Family>>;
 
-/** A board nobody has identified yet: harmless questions and the stop, nothing that moves or stores. */
+/** A board that is not identified yet: harmless questions and the stop, nothing that moves or stores. */
 export const UNKNOWN_BOARD = expanded('unknown', data.unknown as unknown as Row);
 
 export function family(id: BoardId): Family {

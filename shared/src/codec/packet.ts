@@ -52,3 +52,8 @@ export function fromHex(text: string): Uint8Array {
   for (let i = 0; i < bytes.length; i++) bytes[i] = parseInt(digits.slice(2 * i, 2 * i + 2), 16);
   return bytes;
 }
+
+export const moveBytes = (servoCount: number): number => 7 + 3 * servoCount;
+
+/** As many servos as a move of that length names. */
+export const servosIn = (bytes: number): number => Math.floor((bytes - moveBytes(0)) / 3);

@@ -12,7 +12,7 @@ export interface ServoOffset {
 export type Report =
   /** The board took a run command. Proves reception only: it comes before the slot is looked up (S18). */
   | { readonly kind: 'runAccepted' }
-  /** A group started, whoever asked for it (LSC family). */
+  /** A group started, whichever client began it (LSC family). */
   | { readonly kind: 'runStarted'; readonly slot: number; readonly times: number }
   /** A group ended by itself; `slot` where the board names it. */
   | { readonly kind: 'runFinished'; readonly slot: number | null }

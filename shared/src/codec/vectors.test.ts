@@ -23,7 +23,8 @@ interface ReportVector {
   readonly family: FamilyId;
   readonly hex: string;
   readonly report:
-    Exclude<Report, { kind: 'unknown' }> | { kind: 'unknown'; command: number; params: string };
+    | Exclude<Report, { kind: 'unknown' }>
+    | { kind: 'unknown'; command: number; params: string };
 }
 
 interface RefusalVector {

@@ -16,9 +16,9 @@ export interface Listed<F extends Facts = GroupFacts> {
 
 export interface Listing {
   readonly documents: readonly Listed<Facts>[];
-  /** The name of a damaged file that the keeper found and kept; null for none. */
+  /** The name of a damaged file that the store found and set apart; null for none. */
   readonly damagedFile: string | null;
-  /** The last changes before the keeper's start may be missing. */
+  /** The last changes before the store's start may be missing. */
   readonly changesLost: boolean;
 }
 
@@ -72,10 +72,10 @@ export interface DocumentStore {
 
 export const LIBRARY_ERROR_CODES = [
   'conflict', // somebody else has changed it since it was read
-  'notFound', // the keeper does not have it
+  'notFound', // the store does not have it
   'full', // no room where it is stored
-  'busy', // another program holds the keeper's file
-  'tooLarge', // more than a keeper takes
+  'busy', // another program holds the store's file
+  'tooLarge', // more than a store takes
   'unreachable', // the gateway does not answer
   'damaged', // the disk has changed it; the message says which and what is whole
   'unreadable', // this version cannot read what is stored

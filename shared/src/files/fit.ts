@@ -14,7 +14,7 @@ interface Filled {
   readonly frames: readonly Frame[];
   /** Which frames got positions that the group does not name, counted from 1. */
   readonly completed: readonly number[];
-  /** Which still lack a servo of the group, because nobody knows where it stands. */
+  /** Which still lack a servo of the group, because it is unknown where it stands. */
   readonly lacking: readonly number[];
 }
 

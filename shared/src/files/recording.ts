@@ -111,10 +111,10 @@ export function readBoard(text: string): BoardId {
 }
 
 function readBytes(text: string): Uint8Array {
-  const stranger = text.split(/[ \t]+/u).find((pair) => !/^[0-9a-f]{2}$/iu.test(pair));
-  if (stranger === '') throw new LineProblem('there are no bytes');
-  if (stranger !== undefined)
-    throw new LineProblem(`"${stranger}" is no byte like 0F; words stand behind a #`);
+  const wrongByte = text.split(/[ \t]+/u).find((pair) => !/^[0-9a-f]{2}$/iu.test(pair));
+  if (wrongByte === '') throw new LineProblem('there are no bytes');
+  if (wrongByte !== undefined)
+    throw new LineProblem(`"${wrongByte}" is no byte like 0F; words stand behind a #`);
   const bytes = fromHex(text);
   if (bytes.length > MAX_BYTES) throw new LineProblem(`more than ${MAX_BYTES} bytes in one line`);
   return bytes;

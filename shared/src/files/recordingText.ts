@@ -20,7 +20,8 @@ interface TextProblem {
 
 /** Not one entry of a text with problems is given: half a log proves nothing. */
 type ReadResult =
-  { readonly recording: Recording } | { readonly recording: null; readonly problems: readonly TextProblem[] };
+  | { readonly recording: Recording }
+  | { readonly recording: null; readonly problems: readonly TextProblem[] };
 
 const FORMAT = '1';
 const MAX_CHARS = 100_000_000;

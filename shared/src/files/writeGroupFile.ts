@@ -3,12 +3,10 @@
 import type { Family } from '../codec/families.ts';
 import { type ActionGroup, groupToFile } from '../group/group.ts';
 import type { Robot } from '../profile/robot.ts';
-import { arduinoOf } from './arduino.ts';
+import { arduinoOf, programOf, type Program, pythonOf } from './program.ts';
 import { writeCsv, sheetOf, type Sheet } from './csv.ts';
 import { fileNameOf } from './fileName.ts';
 import { filled, OTHER_UNIT, type Misfit } from './fit.ts';
-import { programOf, type Program } from './program.ts';
-import { pythonOf } from './python.ts';
 import { ROB_SERVOS, writeRob } from './rob.ts';
 import { writeXml } from './xml.ts';
 
@@ -77,7 +75,7 @@ function robOf(group: ActionGroup): Uint8Array<ArrayBuffer> | { readonly misfits
   return { misfits: [{ code: 'servo', servo: first.servo, frames, values, allowed }] };
 }
 
-// What a format other than ours does not keep of a group, told before saving.
+// What a format other than ours does not hold of a group, said before saving.
 
 const LOSS_CODES = ['easings', 'marks', 'about', 'times', 'completed', 'lacking'] as const;
 type LossCode = (typeof LOSS_CODES)[number];
@@ -88,7 +86,7 @@ export interface Loss {
   readonly frames: readonly number[];
 }
 
-/** Told before saving, so that nobody finds out later. */
+/** Said before saving, so that it is no surprise later. */
 export function lossesIn(format: SaveFormat, group: ActionGroup): readonly Loss[] {
   if (format === 'json') return [];
   const { frames, markers, robot, tags, times } = group;

@@ -33,7 +33,7 @@ export interface Pasted {
   readonly problems: readonly PasteProblem[];
 }
 
-/** How far a servo may be turned; null where nobody knows. */
+/** How far a servo may be turned; null where unknown. */
 type RangeOf = (servo: number) => Range | null;
 
 interface PasteOptions extends Ripple {

@@ -55,7 +55,7 @@ const markerSchema = v.strictObject({
 export const groupSchema = v.strictObject({
   name: v.pipe(v.string(), v.maxLength(GROUP_NAME_LENGTH)),
   unit: v.picklist(['us', 'steps']),
-  /** The name of the robot it was made for; empty where nobody said. */
+  /** The name of the robot it was made for; empty where it was not said. */
   robot: v.pipe(v.string(), v.maxLength(GROUP_NAME_LENGTH)),
   tags: v.pipe(
     v.array(v.pipe(v.string(), v.minLength(1), v.maxLength(GROUP_NAME_LENGTH))),
@@ -65,7 +65,7 @@ export const groupSchema = v.strictObject({
   slot: v.nullable(whole(0, 255)),
   /** How often it is played; 0: until stopped. */
   times: whole(0, 0xffff),
-  /** How far off its board may be on the way; left out: as little as nobody can see. */
+  /** How far off its board may be on the way; left out: so little that it cannot be seen. */
   maxErrorUnits: v.optional(whole(1, MOST_ERROR_UNITS)),
   frames: v.pipe(v.array(frameSchema), v.maxLength(MAX_FRAMES)),
   markers: v.pipe(v.array(markerSchema), v.maxLength(MAX_MARKERS)),
@@ -125,7 +125,7 @@ export function changedServos(frames: readonly Frame[], index: number): readonly
 
 // How far a servo may be off its way when a group becomes frames of a board.
 
-/** As good as nobody can see: half a degree. */
+/** Too little to be seen: half a degree. */
 const USUAL_ERROR = { us: 5, steps: 2 } as const;
 
 /** What the group says, in its own unit. */

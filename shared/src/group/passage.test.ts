@@ -1,6 +1,6 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
-import { evenly } from '../testing/evenly.ts';
+import { evenly } from '../testing/cases.ts';
 import { someGroup } from '../testing/groups.ts';
 import { passageOf, type PassageOptions } from './passage.ts';
 import { positionAt, tracksOf } from './tracks.ts';

@@ -58,7 +58,7 @@ export function passageOf(frames: readonly Frame[], options: PassageOptions): Pa
   const step = steps[Math.max(0, first)];
   if (step === undefined) return { frames: [], loopFrom: 0, returns: false, atMs: [], beginMs: 0 };
   const pace = 100 / options.speedPercent;
-  // Before the first frame is done nobody knows where its servos come from.
+  // Before the first frame is done it is unknown where its servos come from.
   const isWhole = first <= 0;
   const startMs = isWhole ? Math.min(step.endMs, toMs) : fromMs;
   const rest = cut(isWhole ? steps.slice(1) : steps.slice(first), startMs, toMs);

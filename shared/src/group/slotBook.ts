@@ -36,7 +36,7 @@ const fileSchema = versionedSchema(FORMAT, bookSchema);
 export interface SlotRecord {
   readonly slot: number;
   readonly name: string;
-  /** Which document of the library it is; null where nobody noted it. */
+  /** Which document of the library it is; null where it was not noted. */
   readonly documentId: string | null;
   readonly storedAtMs: number;
   /** Somebody else, where it was not downloaded from here. */
@@ -107,7 +107,7 @@ export function withVersions(book: SlotBook, versions: StoredVersions): SlotBook
   return isSame && isEmptied === book.isEmptied ? book : { ...book, stored, erased, isEmptied };
 }
 
-/** An erase has begun: nobody knows what is left. */
+/** An erase has begun: it is unknown what is left. */
 export function withErasing({ stored, erased, begun }: SlotBook): SlotBook {
   return { stored: [], erased: joined(erased, stored), isEmptied: false, begun };
 }

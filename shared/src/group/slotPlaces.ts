@@ -53,7 +53,7 @@ const slotsFor = ({ min, max }: Range): readonly number[] =>
 // What becomes of groups on their way to the board, by what is told of the download: whoever asked for them may have
 // been away.
 
-/** The latest download, by whomever. */
+/** The latest download, by whichever client. */
 export interface LatestDownload {
   readonly slots: readonly number[];
   readonly groupsStored: number;
@@ -62,7 +62,7 @@ export interface LatestDownload {
 
 interface Outcome {
   readonly arrived: readonly SlotRecord[];
-  /** Nobody knows what their slots hold now. */
+  /** It is unknown what their slots hold now. */
   readonly lost: readonly SlotRecord[];
   readonly waiting: readonly SlotRecord[];
 }

@@ -20,7 +20,7 @@ const NOW_MS = 10_000;
 const WAY: WayBefore = { servo: 3, from: 1_000, to: 2_000, begunMsAgo: 400, durationMs: 1_000 };
 
 function came(ways: readonly WayBefore[], runSlot: MotionBefore['runSlot'] = null): Motion {
-  return takenOver(UNKNOWN_MOTION, { ways, runSlot, released: [5] }, NOW_MS, DOC.family);
+  return takenOver(UNKNOWN_MOTION, { ways, runSlot, released: [5], reported: [] }, NOW_MS, DOC.family);
 }
 
 test.each([null, 8])(

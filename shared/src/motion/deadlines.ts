@@ -23,9 +23,9 @@ function announcementMs({ runReportsNameSlot, answers }: Family): number {
   return answers.includes('run') ? BARE_PACKET_MS : 0;
 }
 
-/** The end of the group before may be told while the next one runs, and then not which it was. */
+/** The end of the group before may be said while the next one runs, and then not which it was. */
 function owesEnd({ untoldEndMs }: Motion, atMs: number, { family }: KnownBoard): boolean {
-  return !family.runReportsNameSlot && atMs - untoldEndMs < timings.estimate.endToldWithinMs;
+  return !family.runReportsNameSlot && atMs - untoldEndMs < timings.estimate.endReportedWithinMs;
 }
 
 /** A run that begins at `atMs`. */
@@ -100,7 +100,7 @@ function beginFrame(motion: Motion, run: DeadlineRun, board: KnownBoard): Motion
 function endPass(motion: Motion, run: DeadlineRun, board: KnownBoard): Motion {
   const loopsDone = run.times === 0 ? run.loopsDone : run.loopsDone + 1;
   if (run.times !== 0 && loopsDone >= run.times) return endRun(motion, run, board);
-  // Without any time it goes round as fast as the board's loop, and nobody knows how fast that is.
+  // Without any time it goes round as fast as the board's loop, and it is unknown how fast that is.
   if (run.nextAtMs === run.passAtMs) return runningUnknown(motion, run.slot, run.endsToHear);
   return { ...motion, run: { ...run, next: 0, passAtMs: run.nextAtMs, loopsDone } };
 }

@@ -11,7 +11,7 @@ import { endMs, guessOf, leewayOf, LONGEST_MOVE_MS, stands, type Track } from '.
 
 /** What a STOP cannot hold; null where all is held. */
 export interface Unheld {
-  /** Null: nobody knows which, because a group whose frames are not known may run. */
+  /** Null: it is unknown which, because a group whose frames are not known may run. */
   readonly servos: readonly number[] | null;
   /** The longest that they may still move, counted from the press of STOP; Infinity where a group may run that heard no stop. */
   readonly forMs: number;
@@ -136,7 +136,7 @@ function heldAt(track: Track, atMs: number, family: Family): Omit<Held, 'servo'>
   const at = guessOf(track, atMs);
   // One that is held on a guess is held again: the first hold may be lost.
   if (leeway === Infinity) return at === null || endMs(track) <= atMs ? null : guessHeld(at);
-  // A stop has halted it, nobody knows where to the tick.
+  // A stop has halted it, where to the tick is unknown.
   if (at === null || (stands(track, atMs) && track.toLeeway > 0)) return null;
   return heldAhead(at, track.to, leeway);
 }
@@ -168,7 +168,7 @@ function holdMs(motion: Motion, held: readonly Held[], atMs: number, family: Fam
   return Math.ceil(needsMs / traits.tickMs) * traits.tickMs;
 }
 
-/** A group that nobody knows, or the frame behind which it was stopped. Orders that contest a servo are known both. */
+/** An unknown group, or the frame behind which it was stopped. Orders that contest a servo are known both. */
 function mayMoveUnknown({ run, restlessUntilMs }: Motion, atMs: number): boolean {
   return run !== null || restlessUntilMs > atMs;
 }

@@ -78,6 +78,8 @@ export interface PolledRun {
   /** What moved before the first frame has arrived by then; no frame takes longer than `longestMs`. */
   readonly restedMs: number;
   readonly longestMs: number;
+  /** Servos of `rest` that may end elsewhere. */
+  readonly unsure: ReadonlySet<number>;
   /** `rest` stands in the tracks already. */
   readonly isBlurred: boolean;
 }
@@ -89,7 +91,7 @@ export interface Motion {
   readonly run: UnknownRun | DeadlineRun | PolledRun | null;
   /** Moves and frames of almost now. */
   readonly recent: readonly Order[];
-  /** When a group ended by our clock that the board has not told the end of yet; -Infinity for none. */
+  /** When a group ended by our clock whose end the board has not said yet; -Infinity for none. */
   readonly untoldEndMs: number;
   /** Until then the board may be busy with flash or servos, its servos frozen, packets waiting or dropped (S9, S41). */
   readonly deafUntilMs: number;
@@ -110,7 +112,7 @@ export interface Motion {
 /** The board as far as it stays the same while it moves. */
 export interface KnownBoard {
   readonly family: Family;
-  /** The group with the times it is played with (X3); empty where nothing is stored, null where nobody knows. */
+  /** The group with the times it is played with (X3); empty where nothing is stored, null where unknown. */
   playedFrames(slot: number): readonly Frame[] | null;
 }
 
@@ -149,7 +151,7 @@ export const UNKNOWN_MOTION: Motion = {
   skipsFirst: 'no',
 };
 
-/** Nobody knows where anything is while that group may run, nor behind it: perhaps its slot is empty, and the moves go on. */
+/** It is unknown where anything is while that group may run, nor behind it: perhaps its slot is empty, and the moves go on. */
 export function runningUnknown(motion: Motion, slot: number | null, endsToHear = 1): Motion {
   const readings = onlyReleased(motion.readings);
   return { ...motion, tracks: doubted(motion.tracks), readings, run: { kind: 'unknown', slot, endsToHear } };

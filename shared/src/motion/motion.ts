@@ -90,7 +90,7 @@ export function advance(motion: Motion, nowMs: number, board: KnownBoard): Motio
   return playbackOf(board).advance(motion, nowMs, board);
 }
 
-/** False where the board may be too busy to take up what it is told, or takes it for the rest of a cut packet. */
+/** False where the board may be too busy to take up what it is sent, or takes it for the rest of a cut packet. */
 export const hears = ({ deafUntilMs, maySwallow }: Motion, atMs: number): boolean =>
   atMs >= deafUntilMs && maySwallow === 0;
 
@@ -124,7 +124,7 @@ export function afterCutPacket(motion: Motion, { resyncFiller, maxLength }: Fami
   return { ...motion, maySwallow: Math.ceil(longestBytes / SHORTEST_PACKET_BYTES) };
 }
 
-/** Where a group nobody knows has ended, its last move may go on for that long. */
+/** Where an unknown group has ended, its last move may go on for that long. */
 export function restless(before: Motion, after: Motion, atMs: number, forMs = LONGEST_MOVE_MS): Motion {
   if (before.run?.kind !== 'unknown' || after.run !== null) return after;
   return { ...after, restlessUntilMs: Math.max(after.restlessUntilMs, atMs + forMs) };
@@ -285,10 +285,11 @@ export function forgotten(motion: Motion, atMs: number): Motion {
 
 /** Whoever had the link before it was opened at `atMs` may have set something in motion. */
 export function inherited(motion: Motion, atMs: number): Motion {
-  return { ...motion, inheritedUntilMs: atMs + LONGEST_MOVE_MS };
+  // A question of ours may have ended their group (L8).
+  return { ...motion, inheritedUntilMs: atMs + LONGEST_MOVE_MS, skipsFirst: 'maybe' };
 }
 
-/** Of two forgotten motions nobody knows which it was. */
+/** Of two forgotten motions it is unknown which it was. */
 export function eitherOf(one: Motion, other: Motion): Motion {
   return {
     ...one,

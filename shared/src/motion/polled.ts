@@ -61,10 +61,11 @@ function request(motion: Motion, { slot, times }: RunRequest, atMs: number, boar
   const frames = board.playedFrames(slot);
   const next = { ...motion, skipsFirst: 'no' } as const;
   // What becomes of a run when the next one comes nobody has read.
-  if (frames === null || motion.run !== null || motion.skipsFirst === 'maybe')
-    return runningUnknown(next, slot);
+  if (frames === null || motion.run !== null) return runningUnknown(next, slot);
   const order = orderOfPlay(frames, times, motion.skipsFirst === 'yes');
-  return order === null ? next : begin(next, order, atMs, board);
+  if (order === null) return next;
+  if (motion.skipsFirst !== 'maybe') return begin(next, order, atMs, board);
+  return beginEither(next, order, orderOfPlay(frames, times, true), atMs, board);
 }
 
 /** Before the first frame, too, it may wait until all servos have arrived. */
@@ -79,6 +80,25 @@ function begin(motion: Motion, order: Order, atMs: number, board: KnownBoard): M
     tracks,
     run: runOf(order, [], arrivedMs, arrivedMs, atMs + surelyMs(first, board), board),
   };
+}
+
+/** Whether it plays `less` nobody knows: it moves its servos from now on, as long as `whole` takes, to the end of one or the other. */
+function beginEither(
+  motion: Motion,
+  whole: Order,
+  less: Order | null,
+  atMs: number,
+  board: KnownBoard,
+): Motion {
+  const restedMs = Math.max(lastEndMs(motion.tracks, atMs), motion.restlessUntilMs);
+  const runFor = (order: Order): PolledRun => runOf(order, [order.first], atMs, restedMs, atMs, board);
+  const run = runFor(whole);
+  const shorter = less === null ? null : runFor(less);
+  const unsure = [...run.rest]
+    .filter(([servo, to]) => shorter?.rest.get(servo) !== to)
+    .map(([servo]) => servo);
+  const surelyUntilMs = shorter?.surelyUntilMs ?? atMs;
+  return { ...motion, run: { ...run, restAtMs: atMs, surelyUntilMs, unsure: new Set(unsure) } };
 }
 
 /** `ahead` and all behind it come somewhen after `restAtMs`, and no later than counted from `countedMs`. */
@@ -101,6 +121,7 @@ function runOf(
     restedMs: countedMs,
     longestMs: Math.max(...frames.map((frame) => surelyMs(frame, board))),
     endMs: countedMs + SPARE_POLLS * POLL_MS + total(latestMs),
+    unsure: new Set(),
     isBlurred: false,
   };
 }
@@ -109,7 +130,9 @@ function runOf(
 function blur(motion: Motion, run: PolledRun): Motion {
   const tracks = new Map(motion.tracks);
   const way = { from: null, startMs: run.restAtMs, durationMs: run.endMs - run.restAtMs };
-  for (const [servo, to] of run.rest) tracks.set(servo, { ...way, to, fromLeeway: 0, toLeeway: 0 });
+  const sure = { fromLeeway: 0, toLeeway: 0 };
+  for (const [servo, to] of run.rest)
+    tracks.set(servo, { ...way, to, ...(run.unsure.has(servo) ? NOWHERE : sure) });
   return { ...motion, tracks, run: { ...run, isBlurred: true } };
 }
 
@@ -130,7 +153,7 @@ function cut(motion: Motion, atMs: number): Motion {
   return { ...motion, run: null, tracks: new Map([...motion.tracks, ...lostWays(run, untilMs)]) };
 }
 
-/** On their way to one of its places, nobody knows which. */
+/** On their way to one of its places, it is unknown which. */
 function lostWays({ rest, restAtMs }: PolledRun, untilMs: number): Tracks {
   const way = { from: null, startMs: restAtMs, durationMs: untilMs - restAtMs };
   return new Map([...rest].map(([servo, to]) => [servo, { ...way, to, ...NOWHERE }]));

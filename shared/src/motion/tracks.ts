@@ -6,7 +6,7 @@ import type { ServoTarget } from '../codec/commands.ts';
 import type { Family } from '../codec/families.ts';
 
 /**
- * One servo's way. `from` is null when nobody knows where it started. A leeway of Infinity says that the position is right only
+ * One servo's way. `from` is null when it is unknown where it started. A leeway of Infinity says that the position is right only
  * if no group that nobody knows has moved the servo: a guess, good enough to hold it there, not to show it.
  */
 export interface Track {
@@ -65,13 +65,13 @@ export function guessOf(track: Track, nowMs: number): number | null {
   return track.from === null ? null : track.from + (track.to - track.from) * done;
 }
 
-/** The same; null while nobody knows. */
+/** The same; null while unknown. */
 export function positionOf(track: Track, nowMs: number): number | null {
   const leeway = nowMs >= endMs(track) ? track.toLeeway : track.fromLeeway;
   return leeway === Infinity ? null : guessOf(track, nowMs);
 }
 
-/** From now on a group that nobody knows may have moved them. */
+/** From now on an unknown group may have moved them. */
 export function doubted(tracks: Tracks): Tracks {
   const guess = { fromLeeway: Infinity, toLeeway: Infinity };
   return new Map([...tracks].map(([servo, track]) => [servo, { ...track, ...guess }]));
@@ -198,7 +198,7 @@ function guessed(track: Track | undefined, to: number, atMs: number, durationMs:
   return { from, to, startMs: atMs, durationMs, fromLeeway: Infinity, toLeeway: Infinity };
 }
 
-/** After new targets took effect at `atMs`; `isSure` false where a group that nobody knows may overrule them. */
+/** After new targets took effect at `atMs`; `isSure` false where an unknown group may overrule them. */
 export function retarget(
   tracks: Tracks,
   targets: readonly ServoTarget[],

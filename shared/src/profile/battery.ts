@@ -13,7 +13,7 @@ export interface Supply {
   /** At or below: charge soon, and charge now. */
   readonly warnMv: number;
   readonly alarmMv: number;
-  /** Above this the board measures nothing more (S60); null where nobody knows of such a ceiling. */
+  /** Above this the board measures nothing more (S60); null where no such ceiling is known. */
   readonly ceilingMv: number | null;
 }
 

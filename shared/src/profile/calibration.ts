@@ -28,7 +28,7 @@ interface Done {
   readonly step: CalibrationStep;
 }
 
-// How far the calibration of a robot has come, as a text that is kept until it goes on. What is none is not taken.
+// How far the calibration of a robot has come, as a text that is stored until it goes on. What is none is not taken.
 
 /** Of which robot, by its number among those of this browser. */
 export interface StoredCalibration {

@@ -69,7 +69,7 @@ export function macroOf(page: MacroPage, macroId: number | null): Macro | undefi
   return page.macros.find((macro) => macro.id === macroId);
 }
 
-/** The key as it is kept; null for keys that no button may have: those that name something, and the space bar. */
+/** The key as it is stored; null for keys that no button may have: those that name something, and the space bar. */
 export function keyOf(pressed: string): string | null {
   const key = pressed.toLowerCase();
   return /^\S$/u.test(key) ? key : null;

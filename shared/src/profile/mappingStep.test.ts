@@ -1,6 +1,6 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
-import { evenly } from '../testing/evenly.ts';
+import { evenly } from '../testing/cases.ts';
 import { type Action, type Feel, type Input, NO_INPUTS, type Inputs } from './mapping.ts';
 import { AT_REST, step, type Driven, type Moment } from './mappingStep.ts';
 import { readyRobot } from './readyRobots.ts';

@@ -2,7 +2,7 @@
 
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
-import { evenly } from '../testing/evenly.ts';
+import { evenly } from '../testing/cases.ts';
 import type { ServoTarget } from '../codec/commands.ts';
 import {
   EMPTY_BOOK,

@@ -8,7 +8,7 @@ import { placeOf } from '../document/schema.ts';
 import type { ServoTarget } from '../codec/commands.ts';
 import { FAMILIES, positionRange, type FamilyId, type Range } from '../codec/families.ts';
 
-// Where something has not the shape of a robot: which of its fields, and of which servo, for whoever has the words.
+// Where something has not the shape of a robot: which of its fields, and of which servo, for those who have the words.
 
 const ROBOT_FIELDS = [
   ...(['robot', 'name', 'board', 'body', 'servos'] as const),
@@ -123,7 +123,7 @@ export type Robot = Readonly<Omit<v.InferOutput<typeof robotSchema>, 'servos'>> 
   readonly servos: readonly RobotServo[];
 };
 
-/** What is wrong with a robot, for whoever has the words: ranges are what is allowed. */
+/** What is wrong with a robot, for those who have the words: ranges are what is allowed. */
 export type RobotFlaw =
   | { readonly code: 'servoTwice'; readonly servo: number }
   | { readonly code: 'alarmNotBelow'; readonly alarmMv: number; readonly warnMv: number }
@@ -184,7 +184,7 @@ export function refusedTarget(robot: Robot, targets: readonly ServoTarget[]): Li
   return null;
 }
 
-/** As the board must be told: with each servo's trim. */
+/** As the board counts: with each servo's trim. */
 export function onBoard(robot: Robot, targets: readonly ServoTarget[]): readonly ServoTarget[] {
   return targets.map(({ servo, position: wanted }) => ({
     servo,

@@ -16,7 +16,7 @@ import {
   type EstimateOptions,
   type EstimateUnderTest,
 } from './estimateUnderTest.ts';
-import { TIMES } from './faults/amount.ts';
+import { TIMES } from '../testing/cases.ts';
 import {
   knownSlots,
   someFrames,

@@ -26,7 +26,7 @@ export interface ByteChannel {
   readonly label: string;
   /** In bytes; Infinity where a packet of any length passes. Longer ones never reach `write`. */
   readonly longestPacket: number;
-  /** Set before `open`; each attempt may set another. null: nobody listens. */
+  /** Set before `open`; each attempt may set another. null: no listener. */
   events: ChannelEvents | null;
   /** Rejects with a LinkError, in bounded time. May be called again after `lost`, `close` or a failure. */
   open(options?: OpenOptions): Promise<void>;

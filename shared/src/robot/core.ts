@@ -3,7 +3,7 @@
 import type { Clock } from '../clock.ts';
 import type { Family } from '../codec/families.ts';
 import type { RobotEstimate } from './estimate.ts';
-import type { Exchange } from './exchange.ts';
+import type { Exchange } from './replies.ts';
 import type { Queue } from './queue.ts';
 import { requireRest } from './rules.ts';
 import type { Activity } from './state.ts';

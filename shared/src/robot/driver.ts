@@ -3,21 +3,19 @@
 
 import { COMMAND_NUMBER, type Command } from '../codec/commands.ts';
 import type { Family } from '../codec/families.ts';
-import { createBatteryReader } from './batteryReader.ts';
+import { servosIn } from '../codec/packet.ts';
+import { createBatteryReader, createReadings, type Readings } from './readings.ts';
 import { requireAtRest, type Core } from './core.ts';
 import { createRobotEstimate } from './estimate.ts';
-import { createExchange } from './exchange.ts';
-import { createFirstMoves } from './firstMoves.ts';
+import { createExchange, type Replies } from './replies.ts';
 import { createGroups, type Groups } from './groups.ts';
 import type { LinkError } from './linkError.ts';
-import { createLive, type Live } from './live.ts';
-import { createMoveBuffer, servosIn } from './moveBuffer.ts';
+import { createMoves, type Moves } from './moveBuffer.ts';
+import { createPlayer, type Player } from './playing.ts';
 import { sendRaw } from './raw.ts';
-import { createReadings, type Readings } from './readings.ts';
-import type { Replies } from './replies.ts';
-import { encodeOrRefuse, releaseCommands } from './rules.ts';
+import { releaseCommands } from './rules.ts';
 import { noteCommand } from './store.ts';
-import type { SlotMemory } from './storing.ts';
+import type { SlotMemory } from './download.ts';
 
 export interface DriverOptions extends Pick<Core, 'clock' | 'store' | 'queue'> {
   readonly replies: Replies;
@@ -28,16 +26,17 @@ export interface DriverOptions extends Pick<Core, 'clock' | 'store' | 'queue'> {
 
 export interface Driver {
   readonly core: Core;
-  readonly live: Live;
+  readonly moves: Moves;
+  readonly player: Player;
   readonly groups: Groups;
   readonly readings: Readings;
   readBattery(): Promise<number>;
   sendRaw(packet: Uint8Array): Promise<void>;
   release(servos: readonly number[]): Promise<void>;
+  /** Moves and frames that have not left; false where there were none. */
+  dropMoves(): boolean;
   /** A command's last bit left the wire just now. */
   applied(command: Command): void;
-  /** The newest move, or null when there is nothing to say. */
-  takeMove(): Uint8Array | null;
   /** Ends what is under way here. What the board was asked and did not answer stays unknown. */
   drop(error: LinkError): void;
 }
@@ -51,14 +50,15 @@ export function createDriver(family: Family, options: DriverOptions): Driver {
     exchange: createExchange(family, clock, queue, replies),
     isUnsettled: () => moves.servos().length > 0 || groups.isStopping() || isMotion(queue.unfinished()),
   };
-  const moves = createMoveBuffer(family, servosPerMove);
-  const firstMoves = createFirstMoves({ clock, isUnknown: estimate.isUnknown, due: queue.wake, waiting });
-  const live = createLive(core, moves, firstMoves);
+  const moves = createMoves(core);
+  const player = createPlayer(core, moves);
   const groups = createGroups(core, slotMemory);
   const readBattery = createBatteryReader(core);
 
-  function waiting(waitingToStart: readonly number[]): void {
-    if (!sameList(waitingToStart, store.state.waitingToStart)) store.update({ waitingToStart });
+  function dropMoves(): boolean {
+    const wasWaiting = moves.servos().length > 0;
+    moves.clear();
+    return player.drop() || wasWaiting;
   }
 
   /** At rest only: a move that goes on or still waits for the wire would power the servos again (X7). */
@@ -69,7 +69,9 @@ export function createDriver(family: Family, options: DriverOptions): Driver {
 
   return {
     core,
-    live,
+    moves,
+    player,
+    dropMoves,
     groups,
     readings: createReadings(core),
     readBattery,
@@ -77,30 +79,20 @@ export function createDriver(family: Family, options: DriverOptions): Driver {
     sendRaw: (packet) =>
       sendRaw(packet, store.state, estimate, {
         ...{ run: groups.run, stop: groups.stop, release, readBattery, send: queue.request },
+        overtake: moves.drop,
       }),
     applied(command) {
       estimate.applied(command);
       noteCommand(store, command);
     },
-    takeMove() {
-      const servos = firstMoves.next(moves.servos());
-      if (servos.length === 0) return null;
-      const { move, swift } = moves.take(servos);
-      return encodeOrRefuse(estimate.softened(move, swift), family);
-    },
     drop(error) {
-      live.drop();
-      waiting([]);
+      dropMoves();
       groups.drop();
       queue.purge(error);
       replies.fail(error);
       store.update({ activity: { kind: 'idle' } });
     },
   };
-}
-
-function sameList(one: readonly number[], other: readonly number[]): boolean {
-  return one.length === other.length && one.every((servo, index) => servo === other[index]);
 }
 
 function isMotion(packet: Uint8Array | null): boolean {

@@ -3,6 +3,7 @@
 
 import type { Clock } from '../clock.ts';
 import { takenOver, type MotionBefore } from '../motion/before.ts';
+import { afterCut, afterEnd, afterReport } from '../motion/reports.ts';
 import { haltPlan, holdBehindStop, unheldSince, type HaltPlan, type Unheld } from '../motion/haltPlan.ts';
 import {
   advance,
@@ -24,15 +25,13 @@ import {
   type KnownBoard,
   type Motion,
 } from '../motion/motion.ts';
-import { afterCut, afterEnd, afterReport } from '../motion/reports.ts';
-import type { Command, Frame } from '../codec/commands.ts';
+import type { Command, Frame, MoveCommand } from '../codec/commands.ts';
 import type { Family } from '../codec/families.ts';
-import { wireMs } from '../codec/packet.ts';
+import { moveBytes, wireMs } from '../codec/packet.ts';
 import type { Report } from '../codec/reports.ts';
-import { createGroupMemory } from './groupMemory.ts';
-import { moveBytes, type MoveCommand } from './moveBuffer.ts';
 import type { Motions, ServoMotion } from './state.ts';
 import { FIRST_MOVE_MS, RANGE_MS } from './timings.ts';
+import timings from '../../protocol/timings.json' with { type: 'json' };
 
 export interface RobotEstimate {
   /** A command's last bit left the wire just now. */
@@ -40,7 +39,7 @@ export interface RobotEstimate {
   /** The board said something just now. */
   heard(report: Report): void;
   motions(): Motions;
-  /** Nobody has moved it, and the board has not said where it stands. */
+  /** Nothing has moved it, and the board has not said where it stands. */
   isUnknown(servo: number): boolean;
   /** How long it takes at least because a servo of unknown place starts with it or is on its first way still; else 0. */
   firstMs(move: MoveCommand): number;
@@ -183,4 +182,73 @@ function motionOf(motion: Motion, servo: number, nowMs: number): ServoMotion {
   const at = { target: reading.position, estimated: reading.position };
   if (reading.isReleased) return { ...at, reported: 'released' };
   return { ...at, reported: target === null ? 'untouched' : 'commanded' };
+}
+
+export interface GroupMemory {
+  store(slot: number, frames: readonly Frame[]): void;
+  /** Without a slot, all of them. */
+  clear(slot?: number): void;
+  /** The board has erased all of them. */
+  empty(): void;
+  slots(): readonly number[];
+  /** Without a slot, of every group (X3); without a percentage it is unknown whether the board took one. */
+  setSpeed(slot: number | null, percent: number | null): void;
+  /** The board may have lost its speeds with its power, or kept them. */
+  forgetSpeeds(): void;
+  /** With the times the board plays them in; empty where nothing is stored, null where the frames or the speed are unknown. */
+  playedFrames(slot: number): readonly Frame[] | null;
+}
+
+const AS_STORED = timings.run.asStoredPercent;
+
+/** The groups that were stored from here and how fast the board plays them. */
+export function createGroupMemory(): GroupMemory {
+  const groups = new Map<number, readonly Frame[]>();
+  const percents = new Map<number, number | null>();
+  let usualPercent: number | null = AS_STORED;
+  /** Slots without frames are known to be empty, but for those that something was stored in since. */
+  let isErased = false;
+  const unknown = new Set<number>();
+
+  function playedFrames(slot: number): readonly Frame[] | null {
+    const frames = groups.get(slot);
+    if (frames === undefined && isErased && !unknown.has(slot)) return [];
+    const own = percents.get(slot);
+    const percent = own === undefined ? usualPercent : own;
+    if (frames === undefined || percent === null) return null;
+    if (percent === AS_STORED) return frames;
+    const scaled = (durationMs: number): number => Math.round((durationMs * AS_STORED) / percent);
+    return frames.map(({ durationMs, targets }) => ({ durationMs: scaled(durationMs), targets }));
+  }
+
+  return {
+    store: (slot, frames) => void groups.set(slot, frames),
+    clear(slot) {
+      if (slot === undefined) {
+        groups.clear();
+        isErased = false;
+        return;
+      }
+      groups.delete(slot);
+      unknown.add(slot);
+    },
+    empty() {
+      groups.clear();
+      unknown.clear();
+      isErased = true;
+    },
+    slots: () => [...groups.keys()].sort((a, b) => a - b),
+    setSpeed(slot, percent) {
+      if (slot !== null) percents.set(slot, percent);
+      else {
+        percents.clear();
+        usualPercent = percent;
+      }
+    },
+    forgetSpeeds() {
+      if (percents.size > 0 || usualPercent !== AS_STORED) usualPercent = null;
+      percents.clear();
+    },
+    playedFrames,
+  };
 }

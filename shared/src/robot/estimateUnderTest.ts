@@ -22,8 +22,8 @@ import { createBoard, type Board } from '../simulator/board.ts';
 import type { Fault } from '../simulator/faults.ts';
 import { isProfileName, type ProfileName } from '../simulator/profileNames.ts';
 import { createVirtualClock, type VirtualClock } from '../testing/virtualClock.ts';
-import { createGroupMemory, type GroupMemory } from './groupMemory.ts';
-import { createReceiver } from './receiver.ts';
+import { createGroupMemory, type GroupMemory } from './estimate.ts';
+import { createReceiver } from './channelLink.ts';
 
 export interface Sample {
   readonly atMs: number;

@@ -3,7 +3,7 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import { family } from '../codec/families.ts';
-import { TIMES } from './faults/amount.ts';
+import { TIMES } from '../testing/cases.ts';
 import { createRig, firstMovesMs, type Rig } from './rig.ts';
 import { FIRST_MOVE_MS, FIRST_MOVE_STAGGER_MS } from './timings.ts';
 

@@ -1,14 +1,14 @@
 // Action groups in the board's own memory: run, stop, erase, their speed, download. Class C commands are never repeated by themselves
-// (safety.md section 4). Knows slots; the moves of the page are live.ts.
+// (safety.md section 4). Knows slots; the moves of the page are moveBuffer.ts.
 
 import type { Command } from '../codec/commands.ts';
 import type { Report } from '../codec/reports.ts';
 import { requireAtRest, setActivity, type Core } from './core.ts';
 import { LinkError } from './linkError.ts';
 import { refuseUnfit, requireCarried, requireReady, requireReleased, requireRunnable } from './rules.ts';
-import { createRunning } from './running.ts';
-import { repeatStop } from './stops.ts';
-import { createStoring, type SlotMemory, type Storing } from './storing.ts';
+import { createRunning } from './store.ts';
+import { repeatStop } from './halt.ts';
+import { createStoring, type SlotMemory, type Storing } from './download.ts';
 import { ERASE_TIMEOUT_MS, RUN_TIMEOUT_MS } from './timings.ts';
 
 export interface Groups extends Pick<Storing, 'store' | 'cancel' | 'linked'> {

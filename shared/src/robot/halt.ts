@@ -2,24 +2,26 @@
 // has come. Motion waits until a person resumes.
 
 import { sleep, type Clock } from '../clock.ts';
+import { encodeCommand } from '../codec/encode.ts';
+import { UNKNOWN_BOARD } from '../codec/families.ts';
+import { wireMs } from '../codec/packet.ts';
 import type { HaltPlan, Unheld } from '../motion/haltPlan.ts';
 import { LinkError } from './linkError.ts';
 import type { Queue } from './queue.ts';
 import { requireReady } from './rules.ts';
 import type { HaltReason, Latch } from './state.ts';
-import { repeatStop, sendStop } from './stops.ts';
 import type { SessionStore } from './store.ts';
 import { STOP_EVERY_MS, STOP_REPEATS } from './timings.ts';
 
 export interface Halt {
   halt(why?: HaltReason): Promise<void>;
   resume(): Promise<void>;
-  /** The link went: whoever brings it back must look before anything moves again. */
+  /** The link went: a person must look before anything moves again. */
   latchedByLoss(): void;
   /** The link is back after a loss: end what may still run, wait for a person. */
   stopAfterReturn(): void;
   /**
-   * The board says that a group runs: behind a stop it is one that it kept while its flash worked, which drops stops (S9, S41). Or it
+   * The board says that a group runs: behind a stop it is one that it held while its flash worked, which drops stops (S9, S41). Or it
    * answers for the first time since a packet was cut: the stops since then it may have taken for the rest of that. Or it was deaf
    * when they left.
    */
@@ -58,7 +60,7 @@ export function createHalt(options: HaltOptions): Halt {
   let underWay: Promise<void> = Promise.resolve();
   let sequence: Sequence | null = null;
   let latches = 0;
-  /** What goes on is counted from then, also where the board is told once more. */
+  /** What goes on is counted from then, also where a stop is sent once more. */
   let pressedMs = 0;
 
   function latch(value: Latch): void {
@@ -193,4 +195,31 @@ export function createHalt(options: HaltOptions): Halt {
     },
     confirmed: () => note('confirmed'),
   };
+}
+
+/** The same on every board, so also on one that is not identified yet. */
+export const STOP_PACKET = encodeCommand({ kind: 'stop' }, UNKNOWN_BOARD);
+
+/** Resolves when that packet has left the wire, ahead of all else that waits. */
+type SendFirst = (packet: Uint8Array) => Promise<void>;
+
+/** Resolves, when it has left, with the time at which it began to. */
+async function sendStop(clock: Clock, send: SendFirst): Promise<number> {
+  await send(STOP_PACKET);
+  return clock.now() - wireMs(STOP_PACKET.length);
+}
+
+/**
+ * Sends a stop now, and repeats of it: each begins to leave so long after the one before, or later where the wire is taken. Two that
+ * are closer may both fall into the time in which a board hears none (S54). No more of them leave once `isWanted` says no.
+ */
+export async function repeatStop(
+  clock: Clock,
+  send: SendFirst,
+  isWanted = (): boolean => true,
+): Promise<void> {
+  for (let repeat = 0; repeat <= STOP_REPEATS && isWanted(); repeat += 1) {
+    const begunMs = await sendStop(clock, send);
+    if (repeat < STOP_REPEATS) await sleep(clock, Math.max(0, begunMs + STOP_EVERY_MS - clock.now()));
+  }
 }

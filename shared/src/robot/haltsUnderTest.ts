@@ -13,7 +13,7 @@ import { createDecoder } from '../codec/decoder.ts';
 import { createBoard } from '../simulator/board.ts';
 import type { ProfileName } from '../simulator/profileNames.ts';
 import { createVirtualClock } from '../testing/virtualClock.ts';
-import { createReceiver } from './receiver.ts';
+import { createReceiver } from './channelLink.ts';
 import { createRobotEstimate, type RobotEstimate } from './estimate.ts';
 import { someFrames, someStep, usualServos, STORED_SLOTS, type Step } from './stepsUnderTest.ts';
 import { FOREIGN_SLOT } from './historiesUnderTest.ts';

@@ -133,7 +133,7 @@ export function somePlainHistory(profile: ProfileName): fc.Arbitrary<StopHistory
     const isRun = runs.length > refused.length;
     return {
       ...{ ...history, isSlow: false },
-      // A group without any time goes round as fast as the board's loop, and nobody knows how fast that is.
+      // A group without any time goes round as fast as the board's loop, and it is unknown how fast that is.
       known: history.known.map((frame) => ({ ...frame, durationMs: Math.max(1, frame.durationMs) })),
       steps: steps.filter((step) => !refused.includes(step) && !(isRun && step.kind === 'read')),
     };

@@ -5,19 +5,17 @@
 import type { Clock } from '../clock.ts';
 import { UNKNOWN_BOARD, type Family, type Question } from '../codec/families.ts';
 import type { Report } from '../codec/reports.ts';
-import { createExchange, isNoAnswer } from './exchange.ts';
-import { createHeartbeat } from './heartbeat.ts';
+import { createExchange, isNoAnswer, type Replies } from './replies.ts';
 import { isEcho, QUESTIONS, identify } from './identify.ts';
 import { fitOf, identityFrom, NOTHING_HEARD } from './identity.ts';
 import { LinkError, type LinkErrorCode } from './linkError.ts';
 import type { Queue } from './queue.ts';
-import type { Replies } from './replies.ts';
 import { requireIdle } from './rules.ts';
 import type { LinkState } from './state.ts';
 import type { SessionStore } from './store.ts';
-import { IDENTIFY_TIMEOUT_MS } from './timings.ts';
+import { IDENTIFY_TIMEOUT_MS, HEARTBEAT_MISSES, HEARTBEAT_MS, STALE_HEARTBEAT_MS } from './timings.ts';
 
-export interface IdentificationOptions {
+interface IdentificationOptions {
   readonly clock: Clock;
   readonly store: SessionStore;
   readonly queue: Queue;
@@ -26,7 +24,7 @@ export interface IdentificationOptions {
   readonly family: Family;
   readonly identifies: boolean;
   isWatched(): boolean;
-  /** Shows its answer, and shares it with whoever asks at the same time. */
+  /** Shows its answer, and shares it with others who ask at the same time. */
   readBattery(): Promise<number>;
   /** Something moves: no time for questions. */
   isMoving(): boolean;
@@ -35,7 +33,7 @@ export interface IdentificationOptions {
   entered(state: LinkState): void;
 }
 
-export interface Identification {
+interface Identification {
   /** The line is open. */
   begin(): void;
   /** The line is down. */
@@ -162,6 +160,64 @@ export function createIdentification(options: IdentificationOptions): Identifica
     heardNoise(bytes) {
       hears(bytes);
       noiseBytes += bytes.length;
+    },
+  };
+}
+
+interface HeartbeatOptions {
+  readonly clock: Clock;
+  /** The question, or null while it may not be asked: nobody looks, something runs, no such board answers anything. */
+  question(): Question | null;
+  /** Sends it and waits; false when no answer came, null when nobody can tell. */
+  ask(question: Question): Promise<boolean | null>;
+  gone(): void;
+}
+
+interface Heartbeat {
+  /** `isGone`: it has been silent already, so it is asked more often. */
+  start(isGone: boolean): void;
+  stop(): void;
+  /** The board said something: no need to ask for a while. */
+  heard(): void;
+}
+
+/** Asks an idle board whether it is still there, by the cheapest harmless question that such a board always answers. */
+function createHeartbeat({ clock, question, ask, gone }: HeartbeatOptions): Heartbeat {
+  let runs = false;
+  let misses = 0;
+  let cancelTimer = (): void => undefined;
+  /** Counts lives, so that an answer to an old one's question is no answer now. */
+  let life = 0;
+
+  function wait(): void {
+    cancelTimer();
+    cancelTimer = clock.after(misses === 0 ? HEARTBEAT_MS : STALE_HEARTBEAT_MS, () => void beat(life));
+  }
+
+  async function beat(mine: number): Promise<void> {
+    const asked = question();
+    const answered = asked && (await ask(asked));
+    if (mine !== life) return;
+    if (answered === false) misses += 1;
+    if (answered === false && misses === HEARTBEAT_MISSES) gone();
+    wait();
+  }
+
+  return {
+    start(isGone) {
+      life += 1;
+      runs = true;
+      misses = isGone ? HEARTBEAT_MISSES : 0;
+      wait();
+    },
+    stop() {
+      life += 1;
+      runs = false;
+      cancelTimer();
+    },
+    heard() {
+      misses = 0;
+      if (runs) wait();
     },
   };
 }

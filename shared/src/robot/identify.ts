@@ -7,7 +7,7 @@ import { encodeCommand } from '../codec/encode.ts';
 import { UNKNOWN_BOARD, type Question } from '../codec/families.ts';
 import { toHex } from '../codec/packet.ts';
 import type { ReportKind } from '../codec/reports.ts';
-import { isNoAnswer, type Exchange } from './exchange.ts';
+import { isNoAnswer, type Exchange } from './replies.ts';
 import type { Evidence } from './identity.ts';
 import { LinkError } from './linkError.ts';
 import { BOOT_MS, IDENTIFY_ATTEMPTS, IDENTIFY_LISTEN_MS, IDENTIFY_TIMEOUT_MS } from './timings.ts';

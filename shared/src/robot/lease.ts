@@ -1,14 +1,14 @@
-// Who may move a shared robot, as this end is told. Knows no transport; who gets the lease is decided where the port is.
+// Who may move a shared robot, as this end learns it. Knows no transport; who gets the lease is decided where the port is.
 
 import { LinkError } from './linkError.ts';
 
-/** A run that may go on without whoever began it. */
+/** A run that may go on without the client that began it. */
 export interface Unattended {
   /** null where the gateway plays. */
   readonly slot: number | null;
   readonly times: number;
   readonly by: string;
-  /** At the latest, from when this was told. */
+  /** At the latest, from when this was said. */
   readonly endsInMs: number;
 }
 
@@ -21,7 +21,7 @@ export interface Candidate {
 export interface Lease {
   /** What people call this end; its other windows are called so too. */
   readonly you: string;
-  /** People's name for whoever drives, null where nobody does: whoever wants to move then gets it by that. */
+  /** People's name for the driver; null where there is none: the first who moves gets it. */
   readonly driver: string | null;
   /** That is this end. */
   readonly drives: boolean;
@@ -34,13 +34,13 @@ export interface Lease {
   readonly mayDrive: boolean;
   /** Without asking. */
   readonly mayTake: boolean;
-  /** Who handed it to this end, which drives; null where nobody did. */
+  /** Who granted it to this end, which drives; null where it was not granted. */
   readonly grantedBy: string | null;
   /** Whom this end may hand it to. */
   readonly candidates: readonly Candidate[];
   /** Others who look on or drive. */
   readonly others: number;
-  /** What runs without its driver; whoever drives next ends it. */
+  /** What runs without its driver; the next driver ends it. */
   readonly unattended: Unattended | null;
 }
 
@@ -55,7 +55,7 @@ export function isWatching(lease: Lease | null): boolean {
   return lease !== null && !lease.drives && (lease.driver !== null || !lease.mayDrive);
 }
 
-/** Who may resume: while somebody drives they or an owner, otherwise whoever may drive. */
+/** Who may resume: the driver or an owner; where there is no driver, everyone who may drive. */
 export function mayResume(lease: Lease | null): boolean {
   return lease === null || lease.mayTake || (lease.mayDrive && (lease.drives || lease.driver === null));
 }

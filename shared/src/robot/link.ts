@@ -1,53 +1,53 @@
-// One channel's life: opening, open, lost and back again. Knows the clock; nothing of packets, nor which board is at the other end.
-// Every failure leaves here as a LinkError.
+// A link's life, whatever it leads to: opening, open, lost and back again, when it is tried again included. Knows the clock; not what
+// is opened. Every failure leaves here as a LinkError.
 
 import type { Clock } from '../clock.ts';
-import type { ByteChannel, ChannelEvents, OpenOptions } from './byteChannel.ts';
+import type { OpenOptions } from './byteChannel.ts';
 import { asLinkError, LinkError, passesByItself } from './linkError.ts';
-import { createReconnect } from './reconnect.ts';
 import type { LinkState } from './state.ts';
+import { RECONNECT_DELAYS_MS } from './timings.ts';
 
 /** What the line itself can be; who answers on it is decided above. */
 export type LineState =
   | Extract<LinkState, { status: 'closed' | 'opening' | 'lost' | 'refused' }>
   | { readonly status: 'open'; readonly isReturn: boolean };
 
-export interface LinkOptions extends Omit<ChannelEvents, 'lost' | 'available'> {
-  readonly channel: ByteChannel;
+export interface LinkOptions {
   readonly clock: Clock;
+  /** Resolves when the line is open. Called again after a failure, a loss or `close`. */
+  open(options?: OpenOptions): Promise<void>;
+  close(): Promise<void> | void;
   changed(state: LineState): void;
 }
 
 export interface Link {
   readonly isOpen: boolean;
+  /** Counts attempts, so that a late event of an old one is not taken for the new one's. */
+  readonly attempt: number;
   open(): Promise<void>;
   close(): Promise<void>;
   retryNow(): void;
   /** An attempt now, before which another tab lets go of the device. Rejects with `heldElsewhere` where it does not. */
   takeOver(): Promise<void>;
-  /** The page is about to go: hands the packet over before it returns, and the link is lost. */
-  leave(lastPacket: Uint8Array): void;
   setAutoReconnect(enabled: boolean): void;
-  send(packet: Uint8Array): Promise<void>;
+  /** The open line ended by itself. */
+  lost(error: LinkError): void;
+  /** Worth an attempt before the next one is due. */
+  available(): void;
+  /** Throws where the line is not open. */
+  requireOpen(): void;
 }
 
-export function createLink({ channel, clock, changed, ...events }: LinkOptions): Link {
+export function createLink({ clock, open, close, changed }: LinkOptions): Link {
   let state: LineState = { status: 'closed' };
   let wasOpenBefore = false;
-  let mayBeBack = (): void => undefined;
-  /** Counts connections, so that a late word of an old one is not taken for the new one's. */
-  let generation = 0;
+  let attempt = 0;
 
-  const isOpen = (connection: number): boolean => state.status === 'open' && connection === generation;
   const isDown = (): boolean => state.status === 'lost' || state.status === 'refused';
 
   const reconnect = createReconnect({
     clock,
-    attempt: retry,
-    watch(notify) {
-      mayBeBack = notify;
-      return () => (mayBeBack = () => undefined);
-    },
+    retry,
     planned(retryAtMs) {
       if (state.status === 'lost') enter({ ...state, retryAtMs });
     },
@@ -71,48 +71,28 @@ export function createLink({ channel, clock, changed, ...events }: LinkOptions):
   }
 
   async function connect(options?: OpenOptions): Promise<void> {
-    const mine = (generation += 1);
+    const mine = (attempt += 1);
     if (!isDown()) enter({ status: 'opening' });
-    const isCurrent = (): boolean => mine === generation;
-    channel.events = {
-      received: (bytes, whole) => isCurrent() && events.received(bytes, whole),
-      unread: (bytes) => isCurrent() && events.unread(bytes),
-      lost: (error) => isCurrent() && fail(error),
-      available: () => mayBeBack(),
-      claimed: async () => {
-        if (isCurrent()) await events.claimed();
-      },
-    };
     try {
-      await channel.open(options);
+      await open(options);
     } catch (error) {
       const reason = asLinkError(error);
-      if (mine === generation) fail(reason);
+      if (mine === attempt) fail(reason);
       throw reason;
     }
-    if (mine !== generation) return;
+    if (mine !== attempt) return;
     reconnect.refresh();
     const isReturn = wasOpenBefore;
     wasOpenBefore = true;
     enter({ status: 'open', isReturn });
   }
 
-  async function send(packet: Uint8Array): Promise<void> {
-    const mine = generation;
-    if (!isOpen(mine))
-      throw isDown()
-        ? new LinkError('lost', 'the link is gone')
-        : new LinkError('closed', 'the link is not open');
-    if (packet.length > channel.longestPacket)
-      throw new LinkError('outOfRange', `${packet.length} bytes, the link carries ${channel.longestPacket}`);
-    await channel.write(packet);
-    // A channel may count the wire's time without looking at the cable.
-    if (!isOpen(mine)) throw new LinkError('lost', 'the link went while the packet left');
-  }
-
   return {
     get isOpen() {
       return state.status === 'open';
+    },
+    get attempt() {
+      return attempt;
     },
     open() {
       reconnect.rest();
@@ -121,10 +101,10 @@ export function createLink({ channel, clock, changed, ...events }: LinkOptions):
     },
     async close() {
       reconnect.rest();
-      generation += 1;
+      attempt += 1;
       wasOpenBefore = false;
       if (state.status !== 'closed') enter({ status: 'closed' });
-      await channel.close();
+      await close();
     },
     retryNow() {
       if (isDown()) retry();
@@ -133,12 +113,81 @@ export function createLink({ channel, clock, changed, ...events }: LinkOptions):
       reconnect.rest();
       return connect({ takesOver: true });
     },
-    leave(lastPacket) {
-      if (state.status !== 'open') return;
-      void channel.close(lastPacket);
-      fail(new LinkError('lost', 'the page was left'));
-    },
     setAutoReconnect: reconnect.setEnabled,
-    send,
+    lost(error) {
+      if (state.status === 'open') fail(error);
+    },
+    available: reconnect.available,
+    requireOpen() {
+      if (state.status === 'open') return;
+      throw isDown()
+        ? new LinkError('lost', 'the link is gone')
+        : new LinkError('closed', 'the link is not open');
+    },
+  };
+}
+
+interface ReconnectOptions {
+  readonly clock: Clock;
+  retry(): void;
+  /** An attempt was planned or called off by the switch. */
+  planned(retryAtMs: number | null): void;
+}
+
+interface Reconnect {
+  /** Waits for the next attempt; returns when it comes. `byTime` false: only when the device shows up, or a person asks. */
+  plan(byTime: boolean): number | null;
+  /** Ends the waiting. */
+  rest(): void;
+  /** The link is up, or a person begins anew: the next pause is the short one again. */
+  refresh(): void;
+  /** The device may be back. */
+  available(): void;
+  setEnabled(enabled: boolean): void;
+}
+
+/** The one place that begins an attempt without a person, so its switch holds for every such path. */
+function createReconnect({ clock, retry, planned }: ReconnectOptions): Reconnect {
+  let enabled = true;
+  let attempts = 0;
+  let waiting: { readonly byTime: boolean } | null = null;
+  let cancelTimer = (): void => undefined;
+
+  function rest(): void {
+    waiting = null;
+    cancelTimer();
+    cancelTimer = () => undefined;
+  }
+
+  function plan(byTime: boolean): number | null {
+    rest();
+    waiting = { byTime };
+    if (!enabled || !byTime) return null;
+    const delayMs = nextDelayMs();
+    cancelTimer = clock.after(delayMs, retry);
+    return clock.now() + delayMs;
+  }
+
+  function nextDelayMs(): number {
+    const delayMs = RECONNECT_DELAYS_MS[Math.min(attempts, RECONNECT_DELAYS_MS.length - 1)] ?? 0;
+    attempts += 1;
+    return delayMs;
+  }
+
+  return {
+    plan,
+    rest,
+    refresh() {
+      attempts = 0;
+    },
+    available() {
+      if (enabled && waiting !== null) retry();
+    },
+    setEnabled(next) {
+      if (next === enabled) return;
+      enabled = next;
+      attempts = 0;
+      if (waiting !== null) planned(plan(waiting.byTime));
+    },
   };
 }

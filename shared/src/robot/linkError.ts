@@ -20,7 +20,7 @@ export const LINK_ERROR_CODES = [
   'gatewayUnreachable', // no gateway answers at this address
   'pageOutdated', // the page was loaded from another version of the gateway
   'gatewayRefused', // the gateway said no; `detail` says why
-  'boardUnknown', // nobody has said which board this is
+  'boardUnknown', // no person has said which board this is
   'wrongBoard', // its answers are not those of the board it is taken for
   'echo', // the line sends back what it is given
   'boardSilent', // it does not answer what such a board always answers

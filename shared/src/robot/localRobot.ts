@@ -7,22 +7,21 @@ import { UNKNOWN_BOARD, type Family } from '../codec/families.ts';
 import { commandIn } from '../codec/parse.ts';
 import type { Report } from '../codec/reports.ts';
 import type { ByteChannel } from './byteChannel.ts';
+import { createChannelLink, createReceiver } from './channelLink.ts';
+import type { SlotMemory } from './download.ts';
 import { createDriver, type Driver } from './driver.ts';
-import { createHalt } from './halt.ts';
+import { createReplies } from './replies.ts';
+import { createHalt, STOP_PACKET } from './halt.ts';
 import { createIdentification } from './identification.ts';
-import { createLink, type LineState } from './link.ts';
+import type { LineState } from './link.ts';
 import { LinkError } from './linkError.ts';
 import { createQueue } from './queue.ts';
-import { createReceiver } from './receiver.ts';
-import { createReplies } from './replies.ts';
-import { createResync } from './resync.ts';
+import { createResync, createStopAgain } from './resync.ts';
 import type { Robot } from './robot.ts';
 import { encodeOrRefuse } from './rules.ts';
 import type { LinkState, SessionState } from './state.ts';
-import { createStopAgain, STOP_PACKET } from './stops.ts';
 import { createSessionStore, noteReport, NOTHING_READ } from './store.ts';
-import type { SlotMemory } from './storing.ts';
-import { createWakefulClock } from './wakefulClock.ts';
+import { OVERSLEPT_MS } from './timings.ts';
 
 export interface LocalRobotOptions {
   readonly channel: ByteChannel;
@@ -31,7 +30,7 @@ export interface LocalRobotOptions {
   readonly family?: Family | undefined;
   /** Check `family` by harmless questions before anything moves, at each opening. Otherwise its word is enough. */
   readonly identifies?: boolean | undefined;
-  /** Nobody can have moved it before: it begins with its link. */
+  /** Nothing can have moved it before: it begins with its link. */
   readonly isNew?: boolean | undefined;
   /** Whether somebody looks: then an idle board is asked now and again whether it is still there. Absent: never. */
   readonly isWatched?: (() => boolean) | undefined;
@@ -50,7 +49,7 @@ export function createLocalRobot(options: LocalRobotOptions): Robot {
   let isOpened = false;
   let openedMs = 0;
 
-  const link = createLink({
+  const link = createChannelLink({
     channel,
     clock,
     received: (bytes, whole = false) => receiver.push(bytes, whole),
@@ -63,7 +62,7 @@ export function createLocalRobot(options: LocalRobotOptions): Robot {
     clock,
     serviceGapMs: UNKNOWN_BOARD.serviceGapMs,
     send: link.send,
-    takeMove: () => driver.takeMove(),
+    takeMove: () => driver.moves.take(),
     leaving: note,
     sent: (packet) => take(commandIn(packet)),
     moveFailed,
@@ -115,7 +114,7 @@ export function createLocalRobot(options: LocalRobotOptions): Robot {
   }
 
   function moveFailed(error: LinkError): void {
-    driver.live.moveFailed();
+    driver.player.moveFailed();
     store.emit('problem', error);
   }
 
@@ -134,7 +133,7 @@ export function createLocalRobot(options: LocalRobotOptions): Robot {
   /** What waited to leave does not any more; a group that the board plays goes on, and so does a download. */
   function overslept(): void {
     const error = new LinkError('overslept', 'this computer or page slept');
-    if (driver.live.drop()) store.emit('problem', error);
+    if (driver.dropMoves()) store.emit('problem', error);
     if (store.state.activity.kind !== 'downloading') queue.purge(error);
   }
 
@@ -192,7 +191,7 @@ export function createLocalRobot(options: LocalRobotOptions): Robot {
     if (previous === 'ready') unlinked(next);
   }
 
-  /** Whoever hears of it finds what is known of its slots and servos. */
+  /** Listeners find what is known of its slots and servos. */
   function becomesReady(): void {
     driver.groups.linked();
     if (isOpened && options.isNew !== true) driver.core.estimate.opened(openedMs);
@@ -233,11 +232,11 @@ export function createLocalRobot(options: LocalRobotOptions): Robot {
     setAutoReconnect: link.setAutoReconnect,
     identify: () => settled(identification.again),
     choose: (chosen) => settled(() => identification.choose(chosen)),
-    // Nobody else can drive, and the limits are the page's own.
+    // No other client can drive, and the limits are the page's own.
     lease: () => undefined,
     letRun: () => undefined,
     calibrate: () => undefined,
-    move: (targets, durationMs) => driver.live.move(targets, durationMs),
+    move: (targets, durationMs) => driver.moves.put(targets, durationMs),
     run: (slot, times) => driver.groups.run(slot, times),
     stopGroup: () => driver.groups.stop(),
     halt: halt.halt,
@@ -252,8 +251,8 @@ export function createLocalRobot(options: LocalRobotOptions): Robot {
     release: (servos) => driver.release(servos),
     download: (groups) => driver.groups.store(groups),
     cancelDownload: () => settled(() => driver.groups.cancel()),
-    play: (frames, playing) => driver.live.play(frames, playing?.times ?? 1, playing?.loopFrom ?? 0),
-    stopPlaying: () => driver.live.stopPlaying(),
+    play: (frames, playing) => driver.player.play(frames, playing?.times ?? 1, playing?.loopFrom ?? 0),
+    stopPlaying: () => driver.player.stop(),
     motions: () => driver.core.estimate.motions(),
   };
 }
@@ -264,3 +263,25 @@ const settled = (work: () => void): Promise<void> =>
     work();
     resolve();
   });
+
+/**
+ * Notices when a timer fires far too late: the computer slept, or the browser froze the page. What was to happen before must not happen
+ * now (safety.md section 5, I3). `overslept` is called before a late timer's own work, which it may still cancel.
+ */
+function createWakefulClock(clock: Clock, overslept: () => void): Clock {
+  return {
+    now: () => clock.now(),
+    after(delayMs, run) {
+      const dueMs = clock.now() + delayMs;
+      let isCancelled = false;
+      const cancelTimer = clock.after(delayMs, () => {
+        if (clock.now() - dueMs > OVERSLEPT_MS) overslept();
+        if (!isCancelled) run();
+      });
+      return () => {
+        isCancelled = true;
+        cancelTimer();
+      };
+    },
+  };
+}

@@ -4,7 +4,7 @@
 import type { Clock } from '../clock.ts';
 import { asLinkError, type LinkError } from './linkError.ts';
 
-export interface QueueOptions {
+interface QueueOptions {
   readonly clock: Clock;
   readonly serviceGapMs: number;
   /** Resolves when the packet's last bit has left the wire. */

@@ -53,6 +53,18 @@ describe('a packet sent by hand', () => {
     expect(await send(rig, '55 55 0B 03 02 D0 07 01 DC 05 02 DC 05')).toBeNull();
   });
 
+  test('is not undone by a value that waited for its servo; other servos’ values leave', async () => {
+    const rig = await createRig();
+    const sent = sentBy(rig);
+    const targets = [3, 1, 2].map((servo) => ({ servo, position: 1_200 }));
+    rig.session.move(targets, 1_500);
+    await rig.clock.advance(0);
+    expect(await send(rig, MOVE_SLOWLY)).toBeNull();
+    const slowlyTo1200 = (servo: number) => `55 55 08 03 01 DC 05 0${servo} B0 04`;
+    expect(sent).toEqual([slowlyTo1200(3), MOVE_SLOWLY, slowlyTo1200(2)]);
+    expect(rig.session.motions()(1).target).toBe(2_000);
+  });
+
   test('asks the battery as the page does', async () => {
     const rig = await createRig();
     expect(await send(rig, '55 55 02 0F')).toBeNull();

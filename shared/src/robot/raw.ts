@@ -15,6 +15,8 @@ export interface RawOperations {
   stop(): Promise<void>;
   release(servos: readonly number[]): Promise<void>;
   readBattery(): Promise<unknown>;
+  /** Values that wait for these servos do not leave any more: they were asked for before. */
+  overtake(servos: readonly number[]): void;
   /** Any other packet, as a request. Resolves when it has left. */
   send(packet: Uint8Array): Promise<void>;
 }
@@ -49,7 +51,10 @@ export async function sendRaw(
       await operations.readBattery();
       return;
     }
-    if (command.kind === 'move') requireGentle(command);
+    if (command.kind === 'move') {
+      requireGentle(command);
+      operations.overtake(command.targets.map(({ servo }) => servo));
+    }
     return operations.send(bytes);
   }
 

@@ -43,10 +43,12 @@ export function firstMovesMs(servoCount: number): number {
 /** Opened and ready; the board has been on for a while and knows its battery. */
 export async function createRig(
   options: SimulatedChannelOptions &
-    Partial<Pick<LocalRobotOptions, 'family' | 'slotMemory' | 'identifies' | 'isWatched' | 'withheld'>> = {},
+    Partial<
+      Pick<LocalRobotOptions, 'family' | 'slotMemory' | 'identifies' | 'isWatched' | 'withheld' | 'isNew'>
+    > = {},
 ): Promise<Rig> {
   const { family = familyOf('doc'), ...rest } = options;
-  const { slotMemory, identifies, isWatched, withheld, ...board } = rest;
+  const { slotMemory, identifies, isWatched, withheld, isNew = true, ...board } = rest;
   const clock = createVirtualClock();
   const heard: HeardCommand[] = [];
   const ear = createEar(clock, heard);
@@ -57,7 +59,7 @@ export async function createRig(
   });
   const computer = createSleepingClock(clock);
   const session = createLocalRobot({
-    ...{ channel, clock: computer, family, slotMemory, identifies, isWatched, withheld, isNew: true },
+    ...{ channel, clock: computer, family, slotMemory, identifies, isWatched, withheld, isNew },
   });
   await session.open();
   return {

@@ -1,5 +1,5 @@
 // The one interface of a robot that the page knows: intents in, one snapshot and events out. Whether it is on a cable of this
-// computer's own (localRobot.ts) or at a gateway nobody above can tell; what it cannot do is in its snapshot.
+// computer's own (localRobot.ts) or at a gateway is not known above; what it cannot do is in its snapshot.
 
 import type { Frame, ServoTarget } from '../codec/commands.ts';
 import type { Family } from '../codec/families.ts';
@@ -16,7 +16,7 @@ export interface Robot {
   retryNow(): void;
   /** After `heldElsewhere` or `movedAway`: the other tab stops the robot and lets go, then this one connects. */
   takeOver(): Promise<void>;
-  /** The page is about to go: where nobody else can drive, a stop leaves and the link is lost. */
+  /** The page is about to go: unless others can drive, a stop leaves and the link is lost. */
   leave(): void;
   /** Off: a lost link stays lost until `retryNow`. */
   setAutoReconnect(enabled: boolean): void;
@@ -58,7 +58,7 @@ export interface Robot {
   release(servos: readonly number[]): Promise<void>;
   /** Stores them one after the other, until one fails; progress is in `state.activity`, the end in `state.lastDownload`. */
   download(groups: readonly SlotGroup[]): Promise<void>;
-  /** Behind its frame in progress, with the groups behind it, whoever began it. */
+  /** Behind its frame in progress, with the groups behind it, whichever client began it. */
   cancelDownload(): Promise<void>;
   /** Plays from the page. Resolves at the end or after `stopPlaying`. */
   play(frames: readonly Frame[], options?: PlayOptions): Promise<Played>;

@@ -1,7 +1,7 @@
 // What may begin now, judged by the snapshot, and what a board of the family does not take. Every refusal is a LinkError. Knows no
 // link: a robot on its own channel and a robot at the gateway refuse by the same rules.
 
-import type { Command } from '../codec/commands.ts';
+import type { Command, FrameCommand } from '../codec/commands.ts';
 import { encodeCommand, RangeRefusal } from '../codec/encode.ts';
 import type { Family } from '../codec/families.ts';
 import { checkCommand } from '../codec/limits.ts';
@@ -11,7 +11,7 @@ import type { LinkState, SessionState, SlotGroup, Withheld } from './state.ts';
 
 /** What is known of the robot besides the snapshot. */
 export interface RestQuestions {
-  /** Something is on its way, as far as anybody can know. */
+  /** Something is on its way, as far as can be known. */
   isMoving(): boolean;
   /** A move or a stop of ours is still to leave. */
   isUnsettled(): boolean;
@@ -102,8 +102,6 @@ function notReady(link: LinkState): LinkError {
     ? new LinkError('busy', 'the board is being asked who it is')
     : new LinkError('closed', 'the link is not open');
 }
-
-type FrameCommand = Extract<Command, { kind: 'download' }>;
 
 /** A packet for each frame of each group. Throws `outOfRange` where a slot is named twice or a group has no frame. */
 export function frameCommands(groups: readonly SlotGroup[]): readonly (readonly FrameCommand[])[] {

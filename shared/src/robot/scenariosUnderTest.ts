@@ -38,7 +38,9 @@ type Input =
 
 /** What must come of it. */
 type Output =
-  { readonly leaves: string } | { readonly tells: Told } | { readonly ends: number; readonly with: string };
+  | { readonly leaves: string }
+  | { readonly tells: Shown }
+  | { readonly ends: number; readonly with: string };
 
 export type ScenarioEvent = { readonly atMs: number } & (Input | Output);
 
@@ -52,7 +54,7 @@ export interface Scenario {
 }
 
 /** The part of the state that a scenario tells: each only when it has changed. */
-interface Told {
+interface Shown {
   /** The status, and where it is refused the code. */
   readonly link?: string;
   readonly latched?: boolean;
@@ -101,12 +103,12 @@ export async function played({ events, ...head }: Scenario): Promise<Scenario> {
     if (!isBack) channel.events?.lost(new LinkError('lost', 'the device was pulled'));
   }
 
-  let before = toldOf(session.state);
+  let before = shownOf(session.state);
   session.subscribe({
     state(state) {
-      const after = toldOf(state);
+      const after = shownOf(state);
       const changed = Object.entries(after).filter(
-        ([field, value]) => JSON.stringify(value) !== JSON.stringify(before[field as keyof Told]),
+        ([field, value]) => JSON.stringify(value) !== JSON.stringify(before[field as keyof Shown]),
       );
       before = after;
       if (changed.length > 0 && isBegun) note({ tells: Object.fromEntries(changed) });
@@ -171,7 +173,7 @@ async function asked(session: Robot, intent: Intent): Promise<unknown> {
   }
 }
 
-function toldOf({ link, latch, brokenSlots, waitingToStart, activity }: SessionState): Told {
+function shownOf({ link, latch, brokenSlots, waitingToStart, activity }: SessionState): Shown {
   return {
     link: link.status === 'refused' ? `refused: ${link.error.code}` : link.status,
     latched: latch !== null,
@@ -182,7 +184,7 @@ function toldOf({ link, latch, brokenSlots, waitingToStart, activity }: SessionS
   };
 }
 
-function rounded(unheld: NonNullable<SessionState['latch']>['unheld']): NonNullable<Told['unheld']> | null {
+function rounded(unheld: NonNullable<SessionState['latch']>['unheld']): NonNullable<Shown['unheld']> | null {
   if (unheld === null) return null;
   const { servos, forMs } = unheld;
   return { servos, forMs: forMs === Infinity ? null : Math.ceil(forMs) };

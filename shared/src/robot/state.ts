@@ -24,7 +24,7 @@ export interface SlotGroup {
   readonly frames: readonly Frame[];
   /** Which version was seen in that slot, '' for none: where others store too, it is refused when another one is there by now. */
   readonly replaces?: string;
-  /** What others may be told of it. */
+  /** What others may know of it. */
   readonly name?: string;
   readonly documentId?: string | null;
 }
@@ -38,7 +38,7 @@ export interface StoredGroup {
   /** Which one of the library it is of. */
   readonly documentId: string | null;
   readonly by: string;
-  /** Since 1970; null where nobody noted it. */
+  /** Since 1970; null where it was not noted. */
   readonly atMs: number | null;
 }
 
@@ -84,7 +84,7 @@ export type LinkState =
   | { readonly status: 'stale'; readonly sinceMs: number }
   /** `retryAtMs` on the robot's clock; null where automatic reconnecting is switched off. */
   | { readonly status: 'lost'; readonly error: LinkError; readonly retryAtMs: number | null }
-  /** Only a person can go on: no access, or nobody knows which board this is. */
+  /** Only a person can go on: no access, or it is unknown which board this is. */
   | { readonly status: 'refused'; readonly error: LinkError };
 
 /** Motion is refused while this is not null; only `resume` clears it. */
@@ -94,7 +94,7 @@ export interface Latch {
    * it moved, `reconnected`: the link came back and nobody has looked yet.
    */
   readonly reason: HaltReason | LatchReason;
-  /** People's name for whoever stopped it elsewhere; null where it was here. */
+  /** Name of the person who stopped it elsewhere; null where it was here. */
   readonly by: string | null;
   /** `sending`: the stop packets are on their way. `sent`: they left the wire. `confirmed`: the board said so. */
   readonly stop: 'sending' | 'sent' | 'confirmed' | 'failed';
@@ -137,19 +137,19 @@ export interface SessionState {
   /** Who drives a robot that others can drive, too; null on a link of one's own. */
   readonly lease: Lease | null;
   readonly activity: Activity;
-  /** Asked to move, but nobody knows where they stand: they start one after another, in this order (safety.md). */
+  /** Asked to move, but it is unknown where they stand: they start one after another, in this order (safety.md). */
   readonly waitingToStart: readonly number[];
   readonly battery: Battery;
   /** Where servos stand by the board's own word, the newest one for each servo number. */
   readonly reported: Readonly<Record<number, Reading>>;
-  /** The firmware's, or null before the board has told it. */
+  /** The firmware's, or null before the board has said it. */
   readonly version: number | null;
   readonly offsets: readonly ServoOffset[] | null;
   /** Slots whose download was begun and not finished, here or in an earlier visit: broken on the board (S35). */
   readonly brokenSlots: readonly number[];
   /** Null where nobody else can store. */
   readonly slotVersions: SlotVersions | null;
-  /** How far the download before this moment came, by whomever; null where nobody knows of one. */
+  /** How far the download before this moment came, by whichever client; null where none is known. */
   readonly lastDownload: Pick<DownloadProgress, 'slots' | 'groupsStored'> | null;
   /** What was stored from here, by slot. */
   readonly storedSlots: readonly number[];
@@ -161,7 +161,7 @@ export interface SessionState {
 export interface ServoMotion {
   /** Where it was last asked to be; at rest the board's own word takes its place. null before either. */
   readonly target: number | null;
-  /** The best known position: reported while nothing of ours has moved it since, else estimated. null while nobody knows. */
+  /** The best known position: reported while nothing of ours has moved it since, else estimated. null while unknown. */
   readonly estimated: number | null;
   /**
    * Left out unless both are the board's word. `commanded`: of a servo that holds what it was asked for, `untouched`: of one that was

@@ -5,7 +5,7 @@ import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import { LONGEST_DEAFNESS_MS } from '../motion/motion.ts';
 import { SIMULATED } from './estimateUnderTest.ts';
-import { TIMES } from './faults/amount.ts';
+import { TIMES } from '../testing/cases.ts';
 import { SERVOS, somePlainHistory, someStopHistory, type StopHistory } from './historiesUnderTest.ts';
 import { SELDOM_MS, stopped, type StopOutcome } from './stopUnderTest.ts';
 

@@ -1,11 +1,14 @@
-// The snapshot of a robot and its listeners, and what a board's answers make of it. Each change makes a new object, so that a page can
+// The snapshot of a robot and its listeners, what a board's answers make of it, and the group that runs. Each change makes a new object, so that a page can
 // compare references.
 
 import type { Command } from '../codec/commands.ts';
 import { UNKNOWN_BOARD } from '../codec/families.ts';
 import type { Report } from '../codec/reports.ts';
 import { NOTHING_HEARD } from './identity.ts';
-import type { SessionEvents, SessionState } from './state.ts';
+import type { SessionEvents, SessionState, Activity } from './state.ts';
+import type { Clock } from '../clock.ts';
+import type { RobotEstimate } from './estimate.ts';
+import { RUN_END_GRACE_MS } from './timings.ts';
 
 export interface SessionStore {
   readonly state: SessionState;
@@ -64,7 +67,7 @@ export function createSessionStore(
   };
 }
 
-/** What the board says of itself is kept whoever asked, with the time. */
+/** Notes what the board says of itself, with the time. */
 export function noteReport(store: SessionStore, report: Report, atMs: number): void {
   if (report.kind === 'version') store.update({ version: report.version });
   if (report.kind === 'offsets') store.update({ offsets: report.offsets });
@@ -80,4 +83,50 @@ export function noteCommand(store: SessionStore, command: Command): void {
     ([servo]) => !command.servos.includes(Number(servo)),
   );
   store.update({ reported: Object.fromEntries(others) });
+}
+
+type Truth = Extract<Activity, { kind: 'running' }>['truth'];
+
+export interface Running {
+  began(slot: number, times: number, truth: Truth): void;
+  confirm(truth: Truth): void;
+  ended(): void;
+  /** Its end is not waited for any more. */
+  forget(): void;
+}
+
+/**
+ * The group that the board runs: from when, how true that is, and its end, which the board's own word may be missing for. Sends nothing.
+ */
+export function createRunning(
+  clock: Clock,
+  store: SessionStore,
+  estimate: () => Pick<RobotEstimate, 'groupMs' | 'groupEnded'>,
+): Running {
+  let cancelEndTimer = (): void => undefined;
+
+  function ended(): void {
+    cancelEndTimer();
+    if (store.state.activity.kind === 'running') store.update({ activity: { kind: 'idle' } });
+  }
+
+  return {
+    began(slot, times, truth) {
+      store.update({ activity: { kind: 'running', slot, times, sinceMs: clock.now(), truth } });
+      cancelEndTimer();
+      const passMs = estimate().groupMs(slot);
+      if (times === 0 || passMs === null) return;
+      // The board's own word for the end may be lost on the way.
+      cancelEndTimer = clock.after(passMs * times + RUN_END_GRACE_MS, () => {
+        estimate().groupEnded();
+        ended();
+      });
+    },
+    confirm(truth) {
+      const { activity } = store.state;
+      if (activity.kind === 'running') store.update({ activity: { ...activity, truth } });
+    },
+    ended,
+    forget: () => cancelEndTimer(),
+  };
 }

@@ -3,9 +3,14 @@
 
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
-import type { Family, Range } from '../codec/families.ts';
+import type { Command } from '../codec/commands.ts';
+import { encodeCommand } from '../codec/encode.ts';
+import { family as familyOf, type Family, type Range } from '../codec/families.ts';
 import { createEstimateUnderTest, isWrong, SIMULATED, type EstimateUnderTest } from './estimateUnderTest.ts';
-import { TIMES } from './faults/amount.ts';
+import { TIMES } from '../testing/cases.ts';
+import { FOREIGN_SLOT, KNOWN_SLOT } from './historiesUnderTest.ts';
+import { createRig } from './rig.ts';
+import { foreignFlash } from './stopUnderTest.ts';
 import { someMove, usualServos } from './stepsUnderTest.ts';
 
 const REPORTING = SIMULATED.filter(({ family }) => family.runReportsNameSlot);
@@ -94,4 +99,39 @@ describe.each(SIMULATED)('$profile', ({ family, profile }) => {
     },
     TIMEOUT_MS,
   );
+});
+
+test('a group of others dies of our first question on a LeArm: of the next one (L11) only is known what it moves, and where it ends', async () => {
+  const profile = 'learm-esp32';
+  const family = familyOf(profile);
+  const frames = [1000, 2000].map((position) => ({ durationMs: 2_000, targets: [{ servo: 2, position }] }));
+  const rig = await createRig({ profile, family, flash: foreignFlash(profile, frames), isNew: false });
+  const { session, clock, channel } = rig;
+  const foreign = async (command: Command): Promise<void> => {
+    channel.board.receive(encodeCommand(command, family));
+    await clock.advance(100);
+  };
+  await foreign({ kind: 'run', slot: FOREIGN_SLOT, times: 1 });
+  await foreign({ kind: 'readVersion' });
+  // Behind all that others may have begun.
+  await clock.advance(31_000);
+  session.move([{ servo: 2, position: 1_500 }], 1_500);
+  await clock.advance(2_000);
+  const stored = session.download([{ slot: KNOWN_SLOT, frames }]);
+  await clock.advance(3_000);
+  await stored;
+  void session.run(KNOWN_SLOT, 1);
+  await clock.advance(1_000);
+  expect(channel.board.pulse(2)).toBeGreaterThan(1_600);
+  expect(session.motions()(2).estimated).toBeNull();
+  const halted = session.halt();
+  await clock.advance(1_000);
+  await halted;
+  expect(session.state.latch?.unheld).toBeNull();
+  expect(rig.ofKind('move'), 'nothing is held on a guess').toHaveLength(1);
+  await session.resume();
+  void session.run(KNOWN_SLOT, 1);
+  await clock.advance(10_000);
+  expect(session.motions()(2)).toMatchObject({ target: 2_000, estimated: 2_000 });
+  expect(channel.board.pulse(2)).toBe(2_000);
 });

@@ -11,7 +11,7 @@ import {
   motionHandlers,
   createParser,
 } from './dispatch.ts';
-import { type OwnTimeServos, createOwnTimeServos } from './ownTimeServos.ts';
+import { type OwnTimeServos, createOwnTimeServos, TICK_MS } from './servos.ts';
 import { readUint16, uint16, createGroupStore, openLayout, decodeFrame } from './groupStore.ts';
 import type { Work } from './agenda.ts';
 import { COMMAND_NUMBER, type Frame } from '../codec/commands.ts';
@@ -19,7 +19,6 @@ import { createBatterySampler, createMailbox, createMainLoop, createSlots } from
 import type { Engine, EngineParts } from './engine.ts';
 import { createPanel } from './panel.ts';
 import { createRunner, type RunReports } from './runner.ts';
-import { TICK_MS } from './servos.ts';
 
 // How fast groups are played (X3): a percentage for each, lost at power-off.
 

@@ -3,7 +3,6 @@
 
 import { HEADER } from '../codec/packet.ts';
 import type { Press } from './panel.ts';
-import { createRandom } from './random.ts';
 
 /** Faults of the line strike each byte by chance, in both directions. */
 const LINE_FAULTS = ['droppedByte', 'doubledByte', 'flippedByte', 'insertedByte', 'stray55'] as const;
@@ -263,4 +262,15 @@ export function parseFault(text: string): Fault {
   const [name = '', value] = text.split('=', 2);
   if (isFaultName(name)) return READERS[name](value);
   throw new RangeError(`no fault is called "${text}"; there are ${Object.keys(READERS).join(', ')}`);
+}
+
+/** Numbers in 0 ≤ n < 1 from a 32-bit counter whose bits are mixed well (splitmix32). */
+export function createRandom(seed: number): () => number {
+  let state = seed | 0;
+  return () => {
+    state = (state + 0x9e3779b9) | 0;
+    let mixed = Math.imul(state ^ (state >>> 16), 0x21f0aaad);
+    mixed = Math.imul(mixed ^ (mixed >>> 15), 0x735a2d97);
+    return ((mixed ^ (mixed >>> 15)) >>> 0) / 2 ** 32;
+  };
 }

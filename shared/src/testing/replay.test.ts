@@ -5,8 +5,7 @@ import { compare, tally, type Row } from './compare.ts';
 import { entryOf, type PacketEntry } from '../files/recorder.ts';
 import type { Entry } from '../files/recording.ts';
 import { createRecordingRig } from './recordingRig.ts';
-import { replayToBoard } from './replayBoard.ts';
-import { replayToSession } from './replaySession.ts';
+import { replayToBoard, replayToSession } from './replaySession.ts';
 
 const frames = (count: number) =>
   Array.from({ length: count }, (_, index) => ({

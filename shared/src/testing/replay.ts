@@ -7,8 +7,7 @@ import { isProfileName, type ProfileName } from '../simulator/profileNames.ts';
 import { compare, tally, type Row } from './compare.ts';
 import { entryOf, type PacketEntry } from '../files/recorder.ts';
 import type { Entry, Recording } from '../files/recording.ts';
-import { replayToBoard } from './replayBoard.ts';
-import { replayToSession, type SessionReplay } from './replaySession.ts';
+import { replayToBoard, replayToSession, type SessionReplay } from './replaySession.ts';
 import { PROFILES } from '../simulator/profiles.ts';
 import { readRecording } from '../files/recordingText.ts';
 

@@ -8,10 +8,14 @@ import { sleep, type Clock } from '../clock.ts';
 import { wireMs } from '../codec/packet.ts';
 import { LinkError, type LinkErrorCode } from '../robot/linkError.ts';
 import type { ByteChannel } from '../robot/byteChannel.ts';
-import { family, type BoardId } from '../codec/families.ts';
+import { family, type BoardId, FAMILIES } from '../codec/families.ts';
 import type { SessionState, Traffic } from '../robot/state.ts';
 import { createVirtualClock } from './virtualClock.ts';
 import type { Entry, Happening } from '../files/recording.ts';
+import { createReceiver } from '../robot/channelLink.ts';
+import { createBoard, type BoardOptions } from '../simulator/board.ts';
+import type { ProfileName } from '../simulator/profileNames.ts';
+import type { PacketEntry } from '../files/recorder.ts';
 
 // Asks a session for what the host of a recording wanted.
 
@@ -161,4 +165,44 @@ function listen(session: Robot, clock: Clock) {
     problem: (error) => failed('link', error),
   });
   return { traffic, failures, failed };
+}
+
+/** On for so long already that it serves commands and knows its battery. */
+const ON_FOR_MS = 60_000;
+/** An erase at its worst, and the answer to it. */
+const BOARD_SETTLES_MS = 5_000;
+
+/** `entries` in the order of their times. Gives the board's packets and noise. */
+export async function replayToBoard(
+  entries: readonly Entry[],
+  profile: ProfileName,
+  options: Pick<BoardOptions, 'faults' | 'seed' | 'batteryMv'> = {},
+): Promise<readonly PacketEntry[]> {
+  const clock = createVirtualClock(entries[0]?.atMs ?? 0);
+  const heard: PacketEntry[] = [];
+  const hear =
+    (mark: 'received' | 'garbage' | 'truncated') =>
+    (bytes: Uint8Array): number =>
+      heard.push({ atMs: clock.now(), mark, bytes });
+  const receiver = createReceiver({
+    clock,
+    family: () => FAMILIES[profile],
+    report: (_, bytes) => hear('received')(bytes),
+    noise: (reason, bytes) => hear(reason)(bytes),
+  });
+  const board = createBoard({
+    ...{ onForMs: ON_FOR_MS, ...options, clock, profile },
+    send: (bytes) => receiver.push(bytes, false),
+  });
+
+  for (const entry of entries) {
+    await clock.advance(entry.atMs - clock.now());
+    if (entry.mark === 'sent') board.receive(entry.bytes);
+    if (entry.mark !== 'link') continue;
+    if (entry.happening === 'lost') board.unplug();
+    if (entry.happening === 'opened') board.plugIn();
+  }
+  await clock.advance(BOARD_SETTLES_MS);
+  board.powerOff();
+  return heard;
 }

@@ -6,8 +6,8 @@ Knows packets and the link. Must not know clients, nor who may ask for what.
 
 import asyncio
 import contextlib
+import logging
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from typing import Protocol
 
 from servodeck import metrics
@@ -30,24 +30,26 @@ from servodeck.port.reader import Inbox
 from servodeck.port.wire import STOP_PACKET, Job, Left, Owner, Wire
 from servodeck.protocol.decoder import DecoderEvent, NoiseEvent, PacketEvent
 from servodeck.protocol.families import FAMILIES, UNKNOWN, Family, Question, Withheld, carried
-from servodeck.protocol.packets import CommandPacket, encoded, parse_report
+from servodeck.protocol.packets import CommandPacket, parse_report
 from servodeck.protocol.timings import BATTERY, IDENTIFY, wire_s
-from servodeck.protocol.values import Battery, Command, Move, Report, Run, RunAccepted, RunStarted
+from servodeck.protocol.values import Battery, Command, ReadBattery, Report, RunAccepted, RunStarted
+from servodeck.robot.board.activity import Activity, Unattended
 from servodeck.robot.board.estimate import Estimate
-from servodeck.robot.board.identification import Identification, Silence, Status
+from servodeck.robot.board.identification import Identification, Status
 from servodeck.robot.board.identity import QUESTIONS, identity_state
 from servodeck.robot.board.move_buffer import MoveBuffer
-from servodeck.robot.board.playing import Playing, Plays, Unattended
-from servodeck.robot.board.readings import BatteryPoll, BatteryReader, Readings
+from servodeck.robot.board.playing import Plays
+from servodeck.robot.board.readings import BatteryPoll, BatteryReader, Readings, UnaskedAnswers
 from servodeck.robot.board.replies import Replies
-from servodeck.robot.board.resync import StopAgain, filler_for, repeat_stop
-from servodeck.robot.board.rules import STOP, Part, is_harmless, packet_of
+from servodeck.robot.board.resync import Returns
+from servodeck.robot.board.rules import STOP, Part, packet_of
 from servodeck.robot.board.slots import SlotMemory
 from servodeck.robot.board.storing import Jobs
 from servodeck.robot.motion.halt_plan import Unheld
 from servodeck.snapshots import IdentityState, JobState, LinkState, PlayState, PortState, StoredGroup
 
 DRAIN_S = 0.5
+log = logging.getLogger("servodeck.robot")
 
 
 class BoardEvents(Protocol):
@@ -82,7 +84,7 @@ class BoardEvents(Protocol):
     def heard_noise(self, noise: NoiseEvent) -> None: ...
 
     def may_have_missed_stops(self) -> None:
-        """The board says that a group runs: behind a stop it is one that it kept while its flash worked,
+        """The board says that a group runs: behind a stop it is one that waited while its flash worked,
         which drops stops (S9, S41). Or it answers for the first time since a packet was cut: the stops since
         then it may have taken for the rest of that.
         """
@@ -122,16 +124,14 @@ class Board:
         self.jobs = Jobs(self, self.replies, now, slot_memory)
         self.moves = MoveBuffer(self, now, events.board_changed)
         self.plays = Plays(self.moves, self._play_changed, now)
-        self._motion = Estimate(FAMILIES[family_id])
-        self._silence = Silence()
-        self._cut: tuple[str, CommandPacket] | None = None
-        """The packet that a loss has cut on its way to the board at that place, until filler has ended it."""
-        self._was_lost = False
-        self.returning: asyncio.Task[None] | None = None
-        """The stops that a port gets which has come back are leaving."""
-        self._stop_again = StopAgain(now, lambda: self._motion.deaf_until_s, self._stop_unheard)
-        self._run: Run | Playing | None = None
+        self._unasked = UnaskedAnswers()
         self.unattended = Unattended(now, events.unattended_time_over, events.board_changed)
+        self.activity = Activity(
+            *(FAMILIES[family_id], self.plays, self.unattended, now),
+            stop_again=self.halt_again,
+            run_ended=self._battery_poll.has_ended,
+        )
+        self.returns = Returns(now, lambda wire: wire.send(STOP_PACKET, self, urgent=True))
         self.halts = 0
         """How often what was under way has been ended."""
 
@@ -150,14 +150,11 @@ class Board:
 
     @property
     def motion(self) -> Estimate:
-        """A board that is silent may come back after its servos were turned by hand."""
-        if self._silence.is_silent(self._now()):
-            self._motion.silent(self._now())
-        return self._motion
+        return self.activity.motion
 
     @property
     def port(self) -> PortState:
-        """How the port stands, as clients are told."""
+        """How the port stands, for clients."""
         state = self.link.state
         is_simulated = state.device is not None and state.device == self._simulated_device
         withheld = sorted(self.link.withheld)
@@ -174,7 +171,7 @@ class Board:
 
     @property
     def link_state(self) -> LinkState:
-        """The way to the board and the board itself, as clients are told."""
+        """The way to the board and the board itself, for clients."""
         port = self.link.state
         if port.status != "open":
             return LinkState(status=port.status, code=port.code, detail=port.detail)
@@ -189,7 +186,7 @@ class Board:
         return identity_state(self.identification.evidence)
 
     def judge_known(self) -> None:
-        """Raises what keeps it from being told anything that moves or stores: nobody knows which board it is,
+        """Raises what keeps commands that move or store from it: it is unknown which board it is,
         or whether it is there. Without a port nothing can be said but that.
         """
         state = self.identification.state
@@ -201,24 +198,6 @@ class Board:
             raise BoardUnknownError(
                 "The board is unknown and no port is open to identify it. Open a port, or choose the board."
             )
-
-    @property
-    def run(self) -> Run | Playing | None:
-        """What may go on without its driver, if anything: the group that may run, or that a script has the
-        gateway play.
-        """
-        play = self.plays.present
-        return play if play and play.as_run else self.motion.run
-
-    def may_move(self) -> bool:
-        return self.plays.present is not None or self._is_moving()
-
-    def _is_moving(self) -> bool:
-        return self.motion.group_may_run(self._now()) or self.motion.is_moving(self._now())
-
-    def may_still_move(self) -> bool:
-        """Also with the last frame of a group that its driver has ended."""
-        return self.may_move() or self.motion.last_frame_may_move(self._now())
 
     def choose_family(self, family: str) -> None:
         """A person has said so; `unknown` has it asked again. Raises MovingError while it stores."""
@@ -266,7 +245,7 @@ class Board:
         """Without the latch: what moves ends, because its driver begins something else. As `halt`; None where
         nothing moves.
         """
-        if not self.may_move():
+        if not self.activity.may_move():
             return None
         return self.halt(CancelledError("The driver began something else."))
 
@@ -274,11 +253,11 @@ class Board:
         """Before the port is given up: ends what only this gateway could still stop."""
         self.jobs.end(ClosedError("The port was closed before the download was complete."))
         self.plays.end(ClosedError("The port was closed."))
-        self._was_lost = False
+        self.returns.was_lost = False
         if self.motion.group_may_run(self._now()):
             with contextlib.suppress(GatewayError):
                 await self.halt(CancelledError("The port is being closed."))
-        self._forget_motion()
+        self.activity.forget(FAMILIES[self.family_id])
 
     async def shut_down(self) -> None:
         """Stops whatever it does, waits for the stops to leave, lets go of the port. Twice is harmless."""
@@ -292,14 +271,15 @@ class Board:
 
     def port_opened(self, wire: Wire) -> None:
         metrics.totals.port_openings += 1
+        self._unasked = UnaskedAnswers()
         self._events.port_opened()
-        self._lose_motion()
-        if self._was_lost:
-            self.returning = asyncio.create_task(self._stop_at_return(wire))
+        self.activity.lose()
+        if self.returns.was_lost:
+            self.returns.stop(wire, lambda: self.halts, self._events.stopped_at_return)
         else:
-            self._motion.opened(self._now())
+            self.activity.opened()
             wire.send(STOP_PACKET, self, urgent=True)
-        self._was_lost = False
+        self.returns.was_lost = False
         self.identification.begin()
 
     def _stop_as_it_answers(self) -> None:
@@ -313,37 +293,19 @@ class Board:
         if stops:
             stops.add_done_callback(left)
 
-    async def _stop_at_return(self, wire: Wire) -> None:
-        """What moved when it was lost may move on. Where somebody presses STOP meanwhile, its stops leave in
-        place of these.
-        """
-        opened_s, halts = self._now(), self.halts
-        try:
-            with contextlib.suppress(GatewayError):  # lost once more
-                await repeat_stop(
-                    lambda: wire.send(STOP_PACKET, self, urgent=True), self._now, lambda: halts == self.halts
-                )
-                if halts == self.halts:
-                    self._events.stopped_at_return(opened_s)
-        finally:
-            self.returning = None
-
     def port_lost(self, unfinished: CommandPacket | None) -> None:
         metrics.totals.port_losses += 1
-        self._was_lost = True
+        self.returns.lost(self.link.place, unfinished)
         self._events.board_lost()
         self.jobs.end(PortLostError("The serial port was lost before the download was complete."))
         self.plays.end(PortLostError("The serial port was lost."))
-        is_filler = unfinished is not None and unfinished.command is None
-        if not is_filler:
-            self._cut = (self.link.place, unfinished) if unfinished else None
-        self._lose_motion(unfinished.command if unfinished else None)
+        self.activity.lose(unfinished.command if unfinished else None)
 
     def port_changed(self) -> None:
         if self.link.state.status != "open":
             self.identification.ended()
             self.moves.drop(PortLostError("The serial port is no longer open."))
-            self._lose_motion()  # also what left with the last breath of the port
+            self.activity.lose()  # also what left with the last breath of the port
         self._events.board_changed()
 
     # What its identification asks and tells
@@ -351,7 +313,7 @@ class Board:
     async def ask(self, question: Question) -> Report | None:
         if question == "readBattery" and self.identification.state.status != "identifying":
             try:
-                return Battery(await self.battery.read())  # shared with whoever asks at the same time
+                return Battery(await self.battery.read())  # shared with others that ask at the same time
             except NoAnswerError:
                 return None
         packet, answer = QUESTIONS[question].packet, QUESTIONS[question].answer
@@ -369,7 +331,7 @@ class Board:
         return self._events.is_watched() and self.is_idle()
 
     def is_idle(self) -> bool:
-        return not (self.jobs.is_busy() or self.may_still_move())
+        return not (self.jobs.is_busy() or self.activity.may_still_move())
 
     def drive(self, family: Family) -> None:
         """What was asked of the one it was taken for does not leave."""
@@ -377,7 +339,7 @@ class Board:
             return
         self.family_id = family.id
         self.battery.forget()
-        self._forget_motion()
+        self.activity.forget(FAMILIES[self.family_id])
         self._drop_all(CancelledError("Another board was chosen."))
 
     def entered(self, before: Status) -> None:
@@ -395,7 +357,7 @@ class Board:
 
     def _no_longer_ready(self, status: Status) -> None:
         """It may have moved, restarted or been changed for another before it is ready again."""
-        self._lose_motion()
+        self.activity.lose()
         self.jobs.end(BoardSilentError("The board stopped answering before the download was complete."))
         self._drop_all(BoardSilentError("The board stopped answering before this was sent."))
         if status == "stale":
@@ -415,14 +377,14 @@ class Board:
         self._events.battery_changed()
 
     def looked_at(self) -> None:
-        """Somebody begins to look on: what nobody wanted to know for a while is asked now."""
+        """A client has joined: what was not read for a while is read now."""
         newest = self.battery.newest
         if newest is None or self._now() - newest.at_s > BATTERY.every_ms / 1000:
             self._battery_poll.looked_at()
 
     def _may_poll_battery(self) -> bool:
-        can_tell = "readBattery" in self.family.answers and not self.battery.is_silent
-        return can_tell and self.identification.state.status == "ready" and self.may_ask()
+        is_answered = "readBattery" in self.family.answers and not self.battery.is_silent
+        return is_answered and self.identification.state.status == "ready" and self.may_ask()
 
     # What a download tells
 
@@ -440,56 +402,16 @@ class Board:
     # Inside
 
     def _play_changed(self, state: PlayState) -> None:
-        self._follow_run()
+        self.activity.follow_run()
         if self.plays.present is None:
             self._battery_poll.has_ended()
         self._events.play_changed(state)
 
-    def _stop_unheard(self) -> None:
-        if self._is_moving():
-            self.halt_again()
-
     def _hold(self, held: Sequence[CommandPacket]) -> CommandPacket | None:
-        """As the robot stands when it leaves; of a board that nobody knows nothing is held. Where the port
-        carries no packet that holds all servos, the others follow those that are `held`.
-        """
-        hold, family = self.motion.hold(self._now()), self.family
+        """Of a board that is unknown nothing is held; where the port carries whole packets, one holds all."""
         is_known = self.identification.state.status in ("ready", "stale")
-        if not (hold and is_known) or (held and family is FAMILIES[self.family_id]):
-            return None
-        moves = [packet.command for packet in held if isinstance(packet.command, Move)]
-        servos = {target.servo for move in moves for target in move.targets}
-        others = [target for target in hold.targets if target.servo not in servos]
-        if not others:
-            return None
-        return encoded(replace(hold, targets=tuple(others[: family.servos_per_move])), family)
-
-    def _follow_run(self) -> None:
-        run, before = self.run, self._run
-        self._run = run
-        self.unattended.follow(run)
-        if before and not run:
-            self._battery_poll.has_ended()
-
-    def _forget_motion(self) -> None:
-        """It may be another board, and whoever had the port before may have set something in motion."""
-        self._motion = Estimate(FAMILIES[self.family_id])
-        self._motion.opened(self._now())
-        self._lose_motion()
-
-    def _lose_motion(self, cut: Command | None = None) -> None:
-        self._motion.lost(self._now(), cut)
-        self._silence = Silence()
-        self._stop_again.void()
-        self.unattended.follow(None)
-
-    def _filler(self) -> CommandPacket | None:
-        """What ends the packet that was cut, where this board bears it."""
-        place, packet = self._cut or ("", None)
-        filler = self.family.resync_filler
-        if packet is None or filler is None or place != self.link.place:
-            return None
-        return CommandPacket(None, filler_for(packet.data, filler))
+        is_whole = self.family is FAMILIES[self.family_id]
+        return self.activity.hold(held, self.family) if is_known and not (held and is_whole) else None
 
     def _make_wire(self, port: OpenPort) -> Wire:
         gap_s = self.family.service_gap_ms / 1000
@@ -500,21 +422,16 @@ class Board:
             now=self._now,
             received=inbox.push,
             leaving=self._leaving,
-            first=self._filler(),
+            first=self.returns.filler(self.link.place, self.family.resync_filler),
         )
 
     def _leaving(self, owner: Owner, packet: CommandPacket, at_s: float) -> None:
         command = packet.command
         if command is None:  # filler
             return
-        self.motion.left(command, at_s)
-        if is_harmless(packet) and packet.number != STOP:
-            self._silence.asked(packet.number, at_s)
-        if packet.number == STOP:
-            self._stop_again.stopped(at_s)
-        elif not (is_harmless(packet) or self.link.wire().is_halting):
-            self._stop_again.void()
-        self._follow_run()
+        self.activity.left(packet, command, at_s, is_halting=self.link.wire().is_halting)
+        if isinstance(command, ReadBattery):
+            self._unasked.asked(at_s)
         self.jobs.left(command, at_s, self.link.place)
         is_opening = packet.number == STOP and owner is self
         if not is_opening:  # which ends nothing that anybody began
@@ -532,11 +449,11 @@ class Board:
         with contextlib.suppress(GatewayError):
             self.link.wire().answered(event.packet.command)
         may_have_swallowed = self.motion.may_swallow
-        self.motion.heard(report, self._now())
-        self._stop_again.heard()
-        self._silence.heard(event.packet.command)  # behind it: what was forgotten in the silence stays so
-        self._follow_run()
+        self.activity.heard(report, event.packet.command)
         self.battery.heard(report)
+        if isinstance(report, Battery) and self._unasked.answered(self._now()):
+            facts = {"device": self.link.place}
+            log.warning("the board answers another program, too; close it", extra={"facts": facts})
         self.jobs.heard(report, self.link.place)
         self.replies.heard(report, self._now())
         hears_again = may_have_swallowed and not self.motion.may_swallow

@@ -1,7 +1,7 @@
 """One download of one or several groups: what it stores, how far it is and how it ended.
 
 Stop and wait, frame by frame, because a second packet during flash work overwrites the first one's data
-(S11). Twin of shared/src/robot/download.ts and storing.ts. Knows packets, answers and time; not when a
+(S11). Twin of shared/src/robot/download.ts. Knows packets, answers and time; not when a
 download may begin.
 """
 

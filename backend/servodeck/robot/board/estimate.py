@@ -10,12 +10,15 @@ from math import inf
 from servodeck.protocol.families import Family
 from servodeck.protocol.timings import RUN
 from servodeck.protocol.values import (
+    AllPositions,
     Command,
     Download,
     Erase,
     Erased,
     Frame,
     Move,
+    Positions,
+    Release,
     Report,
     Run,
     RunFinished,
@@ -50,13 +53,13 @@ from servodeck.robot.motion.motion import (
     latest_end_ms,
 )
 from servodeck.robot.motion.reports import after_cut, after_end, after_report
-from servodeck.snapshots import MotionState, ServoWay
+from servodeck.snapshots import MotionState, ReportedPosition, ServoWay
 
-# Longer than the start or the end of a run takes to be told: neither shall be taken for the next one's.
+# Longer than the board takes to report the start or end of a run: neither shall be taken for the next one's.
 RUN_REPORT_MS = 500
 # Seconds and milliseconds of one instant may differ by so much.
 CLOCK_GRAIN_MS = 0.001
-# An end later than that nobody waits for: it is a bound and no news.
+# An end later than that is a bound, for which no client waits.
 LONGEST_SHOWN_MS = 3_600_000
 
 
@@ -64,6 +67,8 @@ class Estimate:
     def __init__(self, family: Family) -> None:
         self.family = family
         self._memory = GroupMemory()
+        self._reported: dict[int, tuple[int, float]] = {}
+        """By servo: the position that the board said last, and when."""
         self._motion = UNKNOWN_MOTION
         self._at_ms = -inf
         """Until then everything is booked: the packet on the wire has left by then."""
@@ -76,7 +81,7 @@ class Estimate:
         self._unheard_until_ms = -inf
         """A move that the board may take up late has ended by then."""
         self._last_frame_until_ms = -inf
-        """The last frame of a group that was ended, and that nobody knows, is over by then."""
+        """The last frame of a group that was ended, and whose frames are unknown, is over by then."""
         self._resumed_at_ms = -inf
 
     def played_frames(self, slot: int) -> Sequence[Frame] | None:
@@ -91,6 +96,9 @@ class Estimate:
         """The last bit of that command leaves then."""
         at_ms = self._advance(at_s)
         self._at_ms = at_ms
+        if isinstance(command, Release):
+            for servo in command.servos:  # it drops
+                self._reported.pop(servo, None)
         is_heard, ran = hears(self._motion, at_ms), self._motion.run
         self._change_memory(command, is_heard=is_heard)
         self._motion = after_command(self._motion, command, at_ms, self)
@@ -111,6 +119,8 @@ class Estimate:
 
     def heard(self, report: Report, at_s: float) -> None:
         at_ms = self._advance(at_s)
+        if isinstance(report, Positions | AllPositions):
+            self._reported |= {one.servo: (one.position, at_s) for one in report.positions}
         if isinstance(report, Erased) and Erased in self._motion.answers_owed:
             self._memory.empty()
         if isinstance(report, RunStarted):
@@ -132,10 +142,11 @@ class Estimate:
             self._forget(self._advance(now))
 
     def lost(self, now: float, cut: Command | None = None) -> None:
-        """The link is gone: what the board does and holds nobody knows. The command that was `cut` may have
+        """The link is gone: what the board does and holds is unknown. The command that was `cut` may have
         arrived or not, and where nothing ends it the board takes what comes next for its rest.
         """
         self._memory.clear()
+        self._reported.clear()
         at_ms = self._advance(now)
         arrived = after_command(self._motion, cut, at_ms, self) if cut else self._motion
         self._forget(at_ms)
@@ -144,7 +155,7 @@ class Estimate:
             self._motion = after_cut_packet(self._motion, self.family)
 
     def opened(self, now: float) -> None:
-        """Whoever had the port before may have set something in motion."""
+        """The last owner of the port may have set something in motion."""
         self.lost(now)
         self._motion = inherited(self._motion, self._advance(now))
 
@@ -160,7 +171,7 @@ class Estimate:
 
     @property
     def run(self) -> Run | None:
-        """The group that may run: nobody has stopped it, and it has not ended as far as anybody knows."""
+        """The group that may run: it was not stopped, and as far as is known it has not ended."""
         return self._run
 
     def group_may_run(self, now: float) -> bool:
@@ -186,12 +197,12 @@ class Estimate:
         return is_on_its_way or now_ms < self._unheard_until_ms
 
     def last_frame_may_move(self, now: float) -> bool:
-        """Of a group that was ended, where nobody knows how long that takes."""
+        """Of a group that was ended, where it is unknown how long that takes."""
         now_ms = self._advance(now)
         return now_ms < min(self._last_frame_until_ms, self._motion.restless_until_ms)
 
     def is_unknown(self, servo: int, now: float) -> bool:
-        """Nobody has moved it, and the board has not said where it stands."""
+        """It was not moved, and the board has not said where it stands."""
         now_ms = self._advance(now)
         return target_of(self._motion, servo) is None and position_at(self._motion, servo, now_ms) is None
 
@@ -222,11 +233,21 @@ class Estimate:
         return unheld_since(pressed_s * 1000, self._motion, self._advance(now), self)
 
     def snapshot(self, now: float) -> MotionState:
-        """As whoever comes now is told of it."""
+        """For a client that joins now."""
         self._advance(now)
-        released = list(only_released(self._motion.readings))
+        readings = self._motion.readings
+        released = list(only_released(readings))
+        reported = [
+            ReportedPosition(
+                servo=servo,
+                position=position,
+                age_ms=round((now - at_s) * 1000),
+                is_current=servo in readings and readings[servo].position == position,
+            )
+            for servo, (position, at_s) in self._reported.items()
+        ]
         if self._run:
-            return MotionState(servos=[], run_slot=self._run.slot, released=released)
+            return MotionState(servos=[], run_slot=self._run.slot, released=released, reported=reported)
         ways = [
             ServoWay(
                 servo=servo,
@@ -238,7 +259,7 @@ class Estimate:
             for servo, track in self._motion.tracks.items()
             if track.to_leeway < inf
         ]
-        return MotionState(servos=ways, run_slot=None, released=released)
+        return MotionState(servos=ways, run_slot=None, released=released, reported=reported)
 
     def _forget(self, at_ms: float) -> None:
         self._memory.forget_speeds()

@@ -1,8 +1,7 @@
 """Which board is at the other end, through a link's whole life: asked at each opening, weighed against what
-it is taken for, named by a person, watched while idle. Twin of shared/src/robot/identification.ts and
-heartbeat.ts.
+it is taken for, named by a person, watched while idle. Twin of shared/src/robot/identification.ts.
 
-Decides when a board is ready, and how much silence means that it is gone; the questions and their meaning are
+Decides when a board is ready, and after how many questions it is gone; the questions and their meaning are
 identity.py. Knows no port.
 """
 
@@ -70,7 +69,7 @@ class Identification:
 
     @property
     def candidates(self) -> list[str]:
-        """Families that answer like it; none where nobody asked."""
+        """Families that answer like it; none where it was not asked."""
         return candidates_of(self.evidence)
 
     @property
@@ -185,7 +184,7 @@ class Identification:
     def _heartbeat_question(self) -> Question | None:
         if not self._identifies:
             return None
-        # A board that is silent is asked for whoever comes, also over HTTP.
+        # A board that is silent is asked also where no client looks: one may come over HTTP.
         may_ask = self._board.may_ask() or (self.state.status == "stale" and self._board.is_idle())
         return next(iter(self.claim.certain_answers), None) if may_ask else None
 
@@ -214,8 +213,8 @@ class Heartbeat:
         ask: Callable[[Question], Awaitable[bool | None]],
         gone: Callable[[], None],
     ) -> None:
-        """`question`: None while none may be asked: nobody looks, something runs, no such board answers
-        anything. `ask`: False when no answer came, None when nobody can tell.
+        """`question`: None while none may be asked: no client looks, something runs, no such board answers
+        anything. `ask`: False when no answer came, None when that is unknown.
         """
         self._question = question
         self._ask = ask
@@ -263,30 +262,3 @@ class Heartbeat:
                 self._gone()  # which may stop it
         if self._runs:
             self._wait()
-
-
-ANSWER_S = 0.5  # the longest answer, that for six positions, takes 450 ms (X7)
-
-
-class Silence:
-    def __init__(self) -> None:
-        self._answered: set[int] = set()
-        self._asked_s: float | None = None
-        self._misses = 0
-
-    def asked(self, command: int, at_s: float) -> None:
-        """That question leaves the wire then."""
-        is_due = self._is_due(at_s)
-        if command in self._answered and (self._asked_s is None or is_due):
-            self._misses += is_due
-            self._asked_s = at_s
-
-    def heard(self, command: int) -> None:
-        self._answered.add(command)
-        self._asked_s, self._misses = None, 0
-
-    def is_silent(self, now: float) -> bool:
-        return self._misses + self._is_due(now) >= HEARTBEAT.misses
-
-    def _is_due(self, now: float) -> bool:
-        return self._asked_s is not None and now - self._asked_s >= ANSWER_S

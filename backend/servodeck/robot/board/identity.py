@@ -65,7 +65,7 @@ answers so.
 
 
 def candidates_of(evidence: Sequence[Evidence]) -> list[str]:
-    """Families that answer like this; none where nobody asked."""
+    """Families that answer like this; none where it was not asked."""
     if not evidence:
         return []
     return [
@@ -97,7 +97,7 @@ def is_missing(family: Family, evidence: Evidence) -> bool:
 
 
 def identity_state(evidence: Sequence[Evidence]) -> IdentityState:
-    """As clients are told."""
+    """For clients."""
     return IdentityState(
         evidence=[evidence_state(one) for one in evidence], candidates=candidates_of(evidence)
     )

@@ -2,7 +2,7 @@
 when the wire is free. Servos of unknown place start slowly and one after another (safety.md section 2).
 
 Knows targets, time and the wire. The caller judges who may move a servo, when it is asked and when it leaves.
-Twin of shared/src/robot/moveBuffer.ts and firstMoves.ts, and of `softened` in shared/src/robot/estimate.ts.
+Twin of shared/src/robot/moveBuffer.ts, and of `softened` in shared/src/robot/estimate.ts.
 """
 
 import asyncio
@@ -77,7 +77,7 @@ class MoveBuffer:
         self._next_start_s = -inf
         self._timer: asyncio.TimerHandle | None = None
         self.waiting_to_start: list[int] = []
-        """Asked to move, but nobody knows where they stand: they start in this order."""
+        """Asked to move from an unknown place: they start in this order."""
 
     @property
     def is_empty(self) -> bool:
@@ -105,10 +105,20 @@ class MoveBuffer:
         self._queue_up()
         return request.left
 
-    def begin_round(self) -> None:
+    def begin_round(self) -> int:
         """What is asked from now on leaves behind what waits for the wire."""
         self._round += 1
         self._queued = None
+        return self._round
+
+    def overtaken(self, servos: Collection[int], by_round: int) -> None:
+        """What was asked for before that round and still waits to start does not leave any more."""
+        for servo in servos:
+            wish = self._wishes.get(servo)
+            if wish and wish.round < by_round:
+                del self._wishes[servo]
+                wish.request.done(servo)
+        self._plan_starts()
 
     def drop(self, reason: GatewayError, owner: Owner = None) -> None:
         """Those of `owner`, or all: they do not leave any more."""

@@ -1,6 +1,6 @@
 """Plays frames: each move on its deadline, counted from the start so that nothing drifts. The way to the
 first frame is gentle. A gateway that comes late plays later rather than dropping a frame. Twin of
-shared/src/robot/player.ts.
+the player in shared/src/robot/playing.ts.
 
 Knows time and moves; no wire, no document.
 """

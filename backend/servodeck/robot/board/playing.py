@@ -1,9 +1,8 @@
-"""Frames that the gateway plays by its own clock: how far they are and how they ended, one play at a time;
-and the run, of the board or played from here, that may go on without its driver. Twin of
-shared/src/robot/live.ts.
+"""Frames that the gateway plays by its own clock: how far they are and how they ended. One play at a time.
+Twin of shared/src/robot/playing.ts.
 
-Knows frames, the moves that wait for the wire, and time; not who may begin a play or let one go on, nor how a
-run is stopped.
+Knows frames, the moves that wait for the wire, and time; not who may begin a play, and not when somebody else
+ends it.
 """
 
 import asyncio
@@ -15,15 +14,15 @@ from servodeck.errors import CancelledError, GatewayError, MovingError, OutOfRan
 from servodeck.port.wire import Left
 from servodeck.protocol.families import Family
 from servodeck.protocol.limits import PacketError, check, check_range
-from servodeck.protocol.values import Frame, Move, Run, ServoTarget
+from servodeck.protocol.values import Frame, Move, ServoTarget
 from servodeck.robot.board.move_buffer import MoveBuffer, MoveRequest
 from servodeck.robot.board.player import Player
 from servodeck.robot.board.rules import extremes_of, refusal_of
 from servodeck.robot.hub import Session
-from servodeck.snapshots import PlayState, UnattendedRun
+from servodeck.snapshots import PlayState
 from servodeck.value import value
 
-# As often as others are told what left.
+# As often as other clients hear what left.
 PUBLISH_EVERY_S = 0.05
 log = logging.getLogger("servodeck.robot")
 
@@ -75,7 +74,7 @@ class Playing:
         *,
         as_run: bool,
     ) -> None:
-        """`as_run`: nobody answers for it more often than for a run of the board."""
+        """`as_run`: its driver need not be heard more often than of a run of the board."""
         self.by = by
         self.as_run = as_run
         self.state = PlayState(
@@ -175,7 +174,7 @@ class Plays:
         self.latest: PlayState | None = None
         self._ended: Callable[[PlayState], None] = lambda _: None
         self._published_s = float("-inf")
-        self._teller: asyncio.TimerHandle | None = None
+        self._publish_timer: asyncio.TimerHandle | None = None
 
     def begin(
         self,
@@ -186,7 +185,7 @@ class Plays:
         *,
         as_run: bool,
     ) -> PlayState:
-        """Raises MovingError while another one lasts. `ended` hears how it ended, whoever ended it."""
+        """Raises MovingError while another one lasts. `ended` hears how it ended, by whichever cause."""
         self.judge_idle()
         play = Playing(group, by, self._moves, self._now, judge, self._changed, self._finish, as_run=as_run)
         self.present, self._ended = play, ended
@@ -196,7 +195,7 @@ class Plays:
         return play.state
 
     def end(self, error: GatewayError) -> None:
-        """At once; the frame in progress goes on as far as nobody holds it."""
+        """At once; the frame in progress goes on where it is not held."""
         if self.present:
             self._finish(self.present, error)
 
@@ -216,10 +215,10 @@ class Plays:
     def _changed(self, state: PlayState) -> None:
         """At once, and not more often than anybody can see."""
         self.latest = state
-        if self._teller is None:
+        if self._publish_timer is None:
             delay_s = max(0.0, self._published_s + PUBLISH_EVERY_S - self._now())
             if delay_s:
-                self._teller = asyncio.get_running_loop().call_later(delay_s, self._publish_latest)
+                self._publish_timer = asyncio.get_running_loop().call_later(delay_s, self._publish_latest)
             else:
                 self._publish_latest()
 
@@ -236,62 +235,8 @@ class Plays:
         ended(play.state)
 
     def _publish_latest(self) -> None:
-        if self._teller:
-            self._teller.cancel()
-        self._teller, self._published_s = None, self._now()
+        if self._publish_timer:
+            self._publish_timer.cancel()
+        self._publish_timer, self._published_s = None, self._now()
         if self.latest:
             self._publish(self.latest)
-
-
-@value
-class AllowedRun:
-    run: Run | Playing
-    by: Session
-    until_s: float
-
-
-class Unattended:
-    def __init__(
-        self, now: Callable[[], float], over: Callable[[], None], changed: Callable[[], None]
-    ) -> None:
-        """`over`: its time is. `changed`: so is what people are told of it."""
-        self._now = now
-        self._over = over
-        self._changed = changed
-        self._present: AllowedRun | None = None
-        self._timer: asyncio.TimerHandle | None = None
-
-    @property
-    def by(self) -> Session | None:
-        return self._present.by if self._present else None
-
-    def snapshot(self) -> UnattendedRun | None:
-        if self._present is None:
-            return None
-        run, left_s = self._present.run, max(0.0, self._present.until_s - self._now())
-        slot = run.slot if isinstance(run, Run) else None
-        return UnattendedRun(
-            slot=slot, times=run.times, by=self._present.by.caller.name, ends_in_ms=round(left_s * 1000)
-        )
-
-    def allow(self, run: Run | Playing, by: Session, for_s: float) -> None:
-        self._show(AllowedRun(run, by, self._now() + for_s))
-
-    def end(self) -> None:
-        """It is nobody's any more, or watched again."""
-        if self._present:
-            self._show(None)
-
-    def follow(self, run: Run | Playing | None) -> None:
-        """That one runs now, so far as anybody knows: another one has not been allowed anything."""
-        if self._present and self._present.run is not run:
-            self._show(None)
-
-    def _show(self, allowed: AllowedRun | None) -> None:
-        if self._timer:
-            self._timer.cancel()
-        self._present, self._timer = allowed, None
-        if allowed:
-            delay_s = allowed.until_s - self._now()
-            self._timer = asyncio.get_running_loop().call_later(delay_s, self._over)
-        self._changed()

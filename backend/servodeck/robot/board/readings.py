@@ -1,6 +1,5 @@
 """Asks the board what it can say of itself: its battery, where its servos stand, its firmware, its trims.
-Everybody who asks while a question is under way shares its answer. Twin of shared/src/robot/readings.ts and
-batteryReader.ts.
+Everybody who asks while a question is under way shares its answer. Twin of shared/src/robot/readings.ts.
 
 The battery is read when a board becomes ready, soon after something has ended, and every few seconds while
 nothing moves: on some boards any packet disturbs what runs, and under load the voltage sags anyway. A board
@@ -56,8 +55,8 @@ class Readings:
         self._under_way: dict[Key, asyncio.Task[None]] = {}
 
     async def read(self, what: Reading, servos: Sequence[int] = ()) -> None:
-        """Until the board has said it, to everybody. Whoever asks the same meanwhile shares the answer.
-        Raises what keeps it from being asked, and NoAnswerError.
+        """Until the board has said it, to everybody. A second caller that asks the same meanwhile shares the
+        answer. Raises what keeps it from being asked, and NoAnswerError.
         """
         key = (what, tuple(servos))
         if key not in self._under_way:
@@ -85,7 +84,7 @@ class Readings:
     def _ended(self, key: Key, reading: asyncio.Task[None]) -> None:
         del self._under_way[key]
         if not reading.cancelled():
-            reading.exception()  # whoever asked has it; nobody may be left to take it
+            reading.exception()  # callers have it; none may be left to take it
 
 
 def positions_s(servo_count: int) -> float:
@@ -146,7 +145,7 @@ class BatteryReader:
         return BatteryRead(battery_mv=newest.battery_mv, age_ms=round((self._now() - newest.at_s) * 1000))
 
     async def read(self) -> int:
-        """In mV. Whoever asks while a question is under way shares its answer."""
+        """In mV. A caller that asks while a question is under way shares its answer."""
         if self._question is None:
             self._question = asyncio.create_task(self._read())
             self._question.add_done_callback(self._read_done)
@@ -173,7 +172,7 @@ class BatteryReader:
     def _read_done(self, question: asyncio.Task[int]) -> None:
         self._question = None
         if not question.cancelled():
-            question.exception()  # whoever asked has it; nobody may be left to take it
+            question.exception()  # callers have it; none may be left to take it
 
 
 class BatteryPoll:
@@ -214,3 +213,24 @@ class BatteryPoll:
     async def _read(self) -> None:
         with contextlib.suppress(GatewayError):  # what the board did not say is counted where it is asked
             await self._ask()
+
+
+class UnaskedAnswers:
+    """Notices battery answers that were not asked for here, for one opening of the port: then another program
+    uses the same board, which neither a HID cable nor Bluetooth forbids. Twin of
+    frontend/src/robot/unaskedAnswers.ts.
+    """
+
+    def __init__(self) -> None:
+        self._asked_s = -math.inf
+        self._count = 0
+
+    def asked(self, at_s: float) -> None:
+        self._asked_s = at_s
+
+    def answered(self, at_s: float) -> bool:
+        """True once, when it is sure enough."""
+        if at_s - self._asked_s <= BATTERY.unasked_after_ms / 1000:
+            return False
+        self._count += 1
+        return self._count == BATTERY.unasked_limit

@@ -56,7 +56,7 @@ class Replies:
             return await within(wait_s, answer)
 
     async def unasked(self, wait_s: float, *kinds: type[Report]) -> Report | None:
-        """As `to`, where nobody asks."""
+        """As `to`, without a question."""
         with self._expecting(kinds, -inf) as answer:
             return await within(wait_s, answer)
 

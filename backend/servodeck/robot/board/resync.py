@@ -7,16 +7,19 @@ the return (S2, docs/adr/0007). While the board works on its flash it keeps one 
 """
 
 import asyncio
+import contextlib
 from collections.abc import Callable
 
-from servodeck.port.wire import CLOCK_GRAIN_S, STOP_PACKET, Left
+from servodeck.errors import GatewayError
+from servodeck.port.wire import CLOCK_GRAIN_S, STOP_PACKET, Left, Wire
 from servodeck.protocol.decoder import COMMAND_AT
+from servodeck.protocol.packets import CommandPacket
 from servodeck.protocol.timings import LINE, STOP, wire_s
 from servodeck.robot.board.rules import DOWNLOAD, RUN
 
 
 def filler_for(cut: bytes, filler: int) -> bytes:
-    """Nobody knows how much of the packet arrived, so the bytes must be harmless at every place of it. A
+    """It is unknown how much of the packet arrived, so the bytes must be harmless at every place of it. A
     first 00 ends the wait for LEN at once (S1) and makes a move whose count is missing an empty one, where
     the filler would have the board read what earlier packets left behind (S13); but it names slot 0, which a
     run and a download must not get. What arrived of a move before the cut takes effect: no byte can prevent
@@ -43,6 +46,48 @@ async def repeat_stop(
             return
         await send()
         due_s = now() - wire_s(len(STOP_PACKET.data)) + STOP.repeat_every_ms / 1000
+
+
+class Returns:
+    """What a link that was lost leaves behind: a packet that it has cut, and motion that may go on."""
+
+    def __init__(self, now: Callable[[], float], send_stop: Callable[[Wire], Left]) -> None:
+        self._now = now
+        self._send_stop = send_stop
+        self._cut: tuple[str, CommandPacket] | None = None
+        """The packet that a loss has cut on its way to the board at that place, until filler has ended it."""
+        self.was_lost = False
+        self.stops: asyncio.Task[None] | None = None
+        """They are leaving, because the port has come back."""
+
+    def lost(self, place: str, unfinished: CommandPacket | None) -> None:
+        self.was_lost = True
+        if unfinished is None or unfinished.command is not None:
+            self._cut = (place, unfinished) if unfinished else None
+
+    def filler(self, place: str, filler_byte: int | None) -> CommandPacket | None:
+        """What ends the packet that was cut, where this board bears it."""
+        cut_at, packet = self._cut or ("", None)
+        if packet is None or filler_byte is None or cut_at != place:
+            return None
+        return CommandPacket(None, filler_for(packet.data, filler_byte))
+
+    def stop(self, wire: Wire, halts: Callable[[], int], stopped: Callable[[float], None]) -> None:
+        """What moved when it was lost may move on. Where somebody presses STOP meanwhile (one more of
+        `halts`), its stops leave in place of these. `stopped` hears that they have left, and when the port
+        opened.
+        """
+        self.stops = asyncio.create_task(self._stop(wire, halts, stopped))
+
+    async def _stop(self, wire: Wire, halts: Callable[[], int], stopped: Callable[[float], None]) -> None:
+        opened_s, before = self._now(), halts()
+        try:
+            with contextlib.suppress(GatewayError):  # lost once more
+                await repeat_stop(lambda: self._send_stop(wire), self._now, lambda: before == halts())
+                if before == halts():
+                    stopped(opened_s)
+        finally:
+            self.stops = None
 
 
 class StopAgain:

@@ -81,12 +81,12 @@ def refusal_of(error: PacketError) -> GatewayError:
 
 
 def is_harmless(packet: CommandPacket) -> bool:
-    """It moves nothing and stores nothing: nobody has to drive for it."""
+    """It moves nothing and stores nothing, so it needs no driver."""
     return packet.number in HARMLESS
 
 
 def role_for(packet: CommandPacket) -> Role:
-    """Who may send it at least: questions harm nobody, an erased board is empty for all."""
+    """Who may send it at least: questions do no harm, an erased board is empty for all."""
     if packet.number == STOP:
         return "stopper"
     if is_harmless(packet):
@@ -113,9 +113,9 @@ class Group:
 @value
 class Part:
     """One group of a download; `packets` in the order of its frames, for boards of the family `board`.
-    `extremes`: the least and the greatest position of each servo. `version`: what it is called, by whoever
-    asks, to tell it from others; `replaces`: that of what they have seen in its slot, if they have looked;
-    `document`: of the library, where it is of one.
+    `extremes`: the least and the greatest position of each servo. `version`: what it is called, by the client
+    that asks, to tell it from others; `replaces`: that of what they have seen in its slot, if they have
+    looked; `document`: of the library, where it is of one.
     """
 
     slot: int

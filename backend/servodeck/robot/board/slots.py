@@ -1,5 +1,6 @@
 """What the board's slots hold: the groups that this gateway stored there since it opened the port (twin of
-shared/src/robot/groupMemory.ts), and, on disk, which version of what was stored in each slot last.
+`createGroupMemory` in shared/src/robot/estimate.ts), and, on disk, which version of what was stored in each
+slot last.
 
 Of a group only its packets are kept: a full board's frames would be 200 MB, its packets are 10. Knows slots;
 not what runs.
@@ -50,7 +51,7 @@ class PlayedFrames(Sequence[Frame]):
 class GroupMemory:
     def __init__(self) -> None:
         self._packets: dict[int, Sequence[bytes] | None] = {}
-        """None: nobody knows what that slot holds."""
+        """None: it is unknown what that slot holds."""
         self._are_others_empty = False
         self._percents: dict[int, int | None] = {}
         self._usual_percent: int | None = AS_STORED
@@ -59,7 +60,7 @@ class GroupMemory:
         self._packets[slot] = packets
 
     def clear(self, slot: int | None = None) -> None:
-        """What it holds nobody knows; without a slot, of all of them."""
+        """It is unknown what it holds; without a slot, of all of them."""
         if slot is None:
             self._packets.clear()
             self._are_others_empty = False
@@ -72,7 +73,7 @@ class GroupMemory:
         self._are_others_empty = True
 
     def set_speed(self, slot: int | None, percent: int | None) -> None:
-        """Without a slot, of every group (X3); without a percentage nobody knows whether it took one."""
+        """Without a slot, of every group (X3); without a percentage it is unknown whether it took one."""
         if slot is None:
             self._percents.clear()
             self._usual_percent = percent
@@ -127,7 +128,7 @@ class SlotMemory:
         return self._of(board).stored
 
     def version(self, board: str, slot: int) -> str:
-        """Empty where nobody knows of any."""
+        """Empty where none is known."""
         stored = self.stored(board).get(slot)
         return stored.version if stored else ""
 
@@ -149,7 +150,7 @@ class SlotMemory:
         self._put(board, replace(self._of(board), stored={**self.stored(board), slot: group}))
 
     def forget(self, board: str) -> None:
-        """An erase has begun: nobody knows what is left. What was broken is, until the board says more."""
+        """An erase has begun: it is unknown what is left. What was broken is, until the board says more."""
         self._put(board, replace(self._of(board), stored={}))
 
     def clear(self, board: str) -> None:

@@ -58,8 +58,8 @@ class Jobs:
         self._known: dict[str, Job] = {}
         self._current: Job | None = None
         self._published_s = float("-inf")
-        self._teller: asyncio.TimerHandle | None = None
-        # Until then the board may acknowledge a frame that nobody waits for any more.
+        self._publish_timer: asyncio.TimerHandle | None = None
+        # Until then the board may acknowledge a frame that no download waits for any more.
         self._owed_until_s = float("-inf")
         self._erasing_until_s = float("-inf")
 
@@ -144,7 +144,7 @@ class Jobs:
         return self._memory.stored(board)
 
     def judge_replaced(self, part: Part, board: str) -> None:
-        """Raises SlotChangedError where the slot does not hold any more what whoever asks has seen there."""
+        """Raises SlotChangedError where the slot does not hold any more what the caller has seen there."""
         if part.replaces is not None and part.replaces != self._memory.version(board, part.slot):
             raise SlotChangedError(f"Something else was stored in slot {part.slot} in the meantime.")
 
@@ -219,14 +219,14 @@ class Jobs:
 
     def _progressed(self, job: Job, frames: int) -> None:
         job.note(frames)
-        if self._teller is None:
+        if self._publish_timer is None:
             delay_s = max(0.0, self._published_s + PUBLISH_EVERY_S - self._now())
-            self._teller = asyncio.get_running_loop().call_later(delay_s, self._publish, job)
+            self._publish_timer = asyncio.get_running_loop().call_later(delay_s, self._publish, job)
 
     def _publish(self, job: Job) -> None:
-        if self._teller:
-            self._teller.cancel()
-        self._teller, self._published_s = None, self._now()
+        if self._publish_timer:
+            self._publish_timer.cancel()
+        self._publish_timer, self._published_s = None, self._now()
         self._events.job_changed(job.state)
 
     def _found(self, job_id: str) -> Job:

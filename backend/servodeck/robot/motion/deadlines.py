@@ -1,5 +1,5 @@
 """Groups on deadlines: a frame begins when the time of the one before it is over (S42-S50). The open
-firmware's way; of the closed boards nobody knows, and the simulated ones do the same. Knows runs; no servo's
+firmware's way; of the closed boards it is unknown, and the simulated ones do the same. Knows runs; no servo's
 way. Twin of shared/src/motion/deadlines.ts.
 """
 
@@ -41,12 +41,12 @@ def announcement_ms(family: Family) -> float:
 
 
 def owes_end(motion: Motion, at_ms: float, family: Family) -> bool:
-    """The end of the group before may be told while the next one runs, and then not which it was."""
-    return not family.run_reports_name_slot and at_ms - motion.untold_end_ms < ESTIMATE.end_told_within_ms
+    """The end of the group before may be reported while the next one runs, and then not which it was."""
+    return not family.run_reports_name_slot and at_ms - motion.untold_end_ms < ESTIMATE.end_reported_within_ms
 
 
 def longest_ms(wanted: Run, family: Family) -> float:
-    """By then a group that nobody knows has ended: as many frames as fit, each as long as a move can take,
+    """By then a group of unknown frames has ended: as many frames as fit, each as long as a move can take,
     and of each group that is played behind it (S49).
     """
     if wanted.times == 0:
@@ -126,7 +126,7 @@ def end_pass(motion: Motion, run: DeadlineRun, board: KnownBoard) -> Motion:
     loops_done = run.loops_done if run.times == 0 else run.loops_done + 1
     if run.times != 0 and loops_done >= run.times:
         return end_run(motion, run, board)
-    # Without any time it goes round as fast as the board's loop, and nobody knows how fast that is.
+    # Without any time it goes round as fast as the board's loop, and it is unknown how fast that is.
     if run.next_at_ms == run.pass_at_ms:
         longest = longest_ms(Run(run.slot, run.times), board.family)
         return running_unknown(motion, run.slot, run.ends_to_hear, run.next_at_ms + longest)

@@ -19,7 +19,7 @@ STOP_OFFSETS_MS = [STOP.repeat_every_ms * (index + 1) for index in range(STOP.re
 
 @value
 class Unheld:
-    """What a STOP cannot hold. `servos` None: nobody knows which, because a group whose frames are not known
+    """What a STOP cannot hold. `servos` None: it is unknown which, because a group whose frames are not known
     may run. `for_ms`: the longest that they may still move, counted from the press of STOP.
     """
 
@@ -135,7 +135,7 @@ def hold_at(motion: Motion, at_ms: float, family: Family) -> Move | None:
 
 
 def held_at(servo: int, track: Track, at_ms: float, family: Family) -> Held | None:
-    """None for a servo that nobody can hold, or that need not be held."""
+    """None for a servo that cannot be held, or need not be."""
     leeway = leeway_of(track, at_ms, family)
     if leeway == 0:
         return Held(servo, round(track.to), is_under_way=False, way=0)
@@ -145,7 +145,7 @@ def held_at(servo: int, track: Track, at_ms: float, family: Family) -> Held | No
         if at is None or end_ms(track) <= at_ms:
             return None
         return Held(servo, rounded(at), is_under_way=True, way=inf)
-    # A stop has halted it, nobody knows where to the tick.
+    # A stop has halted it; where is not known to the tick.
     if at is None or (stands(track, at_ms) and track.to_leeway > 0):
         return None
     return held_ahead(servo, at, track.to, leeway)
@@ -176,19 +176,19 @@ def hold_ms(motion: Motion, held: list[Held], at_ms: float, family: Family) -> i
 
 
 def may_move_unknown(motion: Motion, at_ms: float) -> bool:
-    """A group that nobody knows, or the frame behind which it was stopped. Orders that contest a servo are
+    """An unknown group, or the frame behind which it was stopped. Orders that contest a servo are
     known both.
     """
     return motion.run is not None or motion.restless_until_ms > at_ms
 
 
 def unknown_ms(motion: Motion, at_ms: float, tick_ms: float) -> float:
-    """How long what nobody can hold still needs, a begun tick with it, or is given."""
+    """How long what cannot be held still needs, a begun tick with it, or is given."""
     unheld = [track for track in motion.tracks.values() if guess_of(track, at_ms) is None]
     needs_ms = [min(end_ms(track) - at_ms + tick_ms, most_ms(track)) for track in unheld]
     return max([min(STOP.unknown_frame_ms, motion.restless_until_ms - at_ms), *needs_ms])
 
 
 def most_ms(track: Track) -> float:
-    """Of what nobody knows whether it was begun."""
+    """Of what may have been begun or not."""
     return STOP.unknown_frame_ms if track.start_leeway == inf else inf

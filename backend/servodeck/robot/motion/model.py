@@ -106,7 +106,8 @@ class DeadlineRun:
 class PolledRun:
     """Known until `rest_at_ms`; behind it `rest` is where the servos of the later frames end, somewhen before
     `end_ms`. `rested_ms`: what moved before the first frame has arrived by then; no frame takes longer than
-    `longest_ms`. `is_blurred`: `rest` stands in the tracks already.
+    `longest_ms`. `unsure`: servos of `rest` that may end elsewhere. `is_blurred`: `rest` stands in the tracks
+    already.
     """
 
     slot: int
@@ -116,6 +117,7 @@ class PolledRun:
     end_ms: float
     rested_ms: float
     longest_ms: float
+    unsure: frozenset[int] = frozenset()
     is_blurred: bool = False
 
 
@@ -131,7 +133,7 @@ class Motion:
     recent: tuple[Order, ...] = ()
     """Moves and frames of almost now."""
     untold_end_ms: float = -inf
-    """When a group ended by our clock that the board has not told the end of yet."""
+    """When a group ended by our clock whose end the board has not reported yet."""
     deaf_until_ms: float = -inf
     """Until then the board may be busy with flash or servos, its servos frozen, packets waiting or dropped
     (S9, S41).
@@ -158,7 +160,7 @@ class KnownBoard(Protocol):
 
     def played_frames(self, slot: int) -> Sequence[Frame] | None:
         """The group with the times it is played with (X3), empty where nothing is stored, or None where
-        nobody knows it.
+        it is unknown.
         """
 
 
@@ -187,7 +189,7 @@ UNKNOWN_MOTION = Motion()
 
 
 def running_unknown(motion: Motion, slot: int | None, ends_to_hear: int = 1, until_ms: float = inf) -> Motion:
-    """Nobody knows where anything is while that group may run, nor behind it: perhaps its slot is empty, and
+    """It is unknown where anything is while that group may run, nor behind it: perhaps its slot is empty, and
     the moves go on.
     """
     run = UnknownRun(slot, ends_to_hear, until_ms)

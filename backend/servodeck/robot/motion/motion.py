@@ -2,10 +2,11 @@
 it: no clock, no link. How a family moves is data (`Family.motion`), how it plays groups is deadlines.py or
 polled.py.
 
-None means that nobody can know: before the end of a servo's first move unless the board told where it stands
-(model.py), while a group runs whose frames are not ours, behind the first frame of LeArm's groups (L7), after
-a release, in a move that flash work froze (S29, S41), and after a command that came when the board may have
-been deaf. Twin of shared/src/motion/motion.ts; shared/protocol/vectors/halts.json holds both to each other.
+None means that it cannot be known: before the end of a servo's first move unless the board reported where it
+stands (model.py), while a group runs whose frames are not ours, behind the first frame of LeArm's groups
+(L7), after a release, in a move that flash work froze (S29, S41), and after a command that came when the
+board may have been deaf. Twin of shared/src/motion/motion.ts; shared/protocol/vectors/halts.json holds both
+to each other.
 """
 
 import math
@@ -108,7 +109,7 @@ def advance(motion: Motion, now_ms: float, board: KnownBoard) -> Motion:
 
 
 def hears(motion: Motion, at_ms: float) -> bool:
-    """False where the board may be too busy to take up what it is told, or takes it for the rest of a cut
+    """False where the board may be too busy to take up what it is sent, or takes it for the rest of a cut
     packet.
     """
     return at_ms >= motion.deaf_until_ms and motion.may_swallow == 0
@@ -150,7 +151,7 @@ def after_cut_packet(motion: Motion, family: Family) -> Motion:
 
 
 def restless(before: Motion, after: Motion, at_ms: float, for_ms: float = LONGEST_MOVE_MS) -> Motion:
-    """Where a group nobody knows has ended, its last move may go on for that long."""
+    """Where an unknown group has ended, its last move may go on for that long."""
     if not isinstance(before.run, UnknownRun) or after.run is not None:
         return after
     return replace(after, restless_until_ms=max(after.restless_until_ms, at_ms + for_ms))
@@ -207,8 +208,8 @@ def released(motion: Motion, servos: Collection[int]) -> Motion:
 
 
 def deafened(motion: Motion, command: Command, at_ms: float, board: KnownBoard) -> Motion:
-    """Servos at rest stay; those under way freeze and jump (S29), but they arrive. A group goes on, nobody
-    knows when.
+    """Servos at rest stay; those under way freeze and jump (S29), but they arrive. A group goes on, at an
+    unknown time.
     """
     deaf_until_ms = at_ms + ESTIMATE.longest_deafness_ms
     deaf = replace(
@@ -221,7 +222,7 @@ def deafened(motion: Motion, command: Command, at_ms: float, board: KnownBoard) 
 
 
 def held_up(tracks: Tracks, at_ms: float, until_ms: float) -> dict[int, Track]:
-    """Those under way arrive, but nobody knows from where and when: by then at the latest."""
+    """Those under way arrive, but from where and when is unknown: by then at the latest."""
     return {
         servo: track if stands(track, at_ms) else lengthened(track, until_ms)
         for servo, track in tracks.items()
@@ -301,8 +302,10 @@ def perhaps_stopped(motion: Motion, at_ms: float, family: Family) -> Motion:
 
 def perhaps_released(tracks: Tracks, servos: Collection[int], at_ms: float) -> Tracks:
     """Those under way drop or arrive."""
-    kept = only(tracks, lambda track, servo: not (servo in servos and stands(track, at_ms)))
-    return {servo: torn(track, end_ms(track)) if servo in servos else track for servo, track in kept.items()}
+    others = only(tracks, lambda track, servo: not (servo in servos and stands(track, at_ms)))
+    return {
+        servo: torn(track, end_ms(track)) if servo in servos else track for servo, track in others.items()
+    }
 
 
 def pass_ms(frames: Sequence[Frame], board: KnownBoard) -> float:
@@ -331,12 +334,13 @@ def forgotten(motion: Motion, at_ms: float, board: KnownBoard) -> Motion:
 
 
 def inherited(motion: Motion, at_ms: float) -> Motion:
-    """Whoever had the port before it was opened at `at_ms` may have set something in motion."""
-    return replace(motion, inherited_until_ms=at_ms + LONGEST_MOVE_MS)
+    """The last owner of the port, which was opened at `at_ms`, may have set something in motion."""
+    # A question of ours may have ended their group (L8).
+    return replace(motion, inherited_until_ms=at_ms + LONGEST_MOVE_MS, skips_first="maybe")
 
 
 def either_of(one: Motion, other: Motion) -> Motion:
-    """Of two forgotten motions nobody knows which it was."""
+    """Of two forgotten motions it is unknown which it was."""
     return replace(
         one,
         run=one.run or other.run,

@@ -1,5 +1,5 @@
 """Groups without deadlines: LeArm looks now and then whether all servos have arrived, then begins the next
-frame (L6-L11). When that is cannot be told within a tick, so of a group only the first frame is known, and
+frame (L6-L11). That moment is not known within a tick, so of a group only the first frame is known, and
 where it ends. Knows runs; no servo's way. Twin of shared/src/motion/polled.ts.
 """
 
@@ -25,6 +25,7 @@ from servodeck.value import value
 POLL_MS = ESTIMATE.poll_ms
 STEP_MS = ESTIMATE.poll_step_ms
 SPARE_POLLS = ESTIMATE.spare_polls
+NOWHERE = (inf, inf)
 
 
 def latest_ms(frame: Frame) -> float:
@@ -82,6 +83,23 @@ def begin(motion: Motion, order: Order, at_ms: float, board: KnownBoard) -> Moti
     return replace(motion, tracks=tracks, run=run)
 
 
+def begin_either(motion: Motion, whole: Order, less: Order | None, at_ms: float, board: KnownBoard) -> Motion:
+    """It may play `less` or not: it moves its servos from now on, as long as `whole` takes, to the
+    end of one or the other.
+    """
+    rested_ms = max(last_end_ms(motion.tracks, at_ms), motion.restless_until_ms)
+
+    def run_for(order: Order) -> PolledRun:
+        return run_of(order, (order.first,), at_ms, rested_ms, at_ms, board)
+
+    run = run_for(whole)
+    shorter = run_for(less) if less else None
+    unsure = {servo for servo, to in run.rest.items() if not shorter or shorter.rest.get(servo) != to}
+    surely_until_ms = shorter.surely_until_ms if shorter else at_ms
+    either = replace(run, rest_at_ms=at_ms, surely_until_ms=surely_until_ms, unsure=frozenset(unsure))
+    return replace(motion, run=either)
+
+
 def run_of(
     order: Order,
     ahead: tuple[Frame, ...],
@@ -112,7 +130,10 @@ def run_of(
 def blur(motion: Motion, run: PolledRun) -> Motion:
     """Behind the first frame each servo is somewhere until the run is over for sure."""
     duration_ms = run.end_ms - run.rest_at_ms
-    ways = {servo: Track(None, to, run.rest_at_ms, duration_ms) for servo, to in run.rest.items()}
+    ways = {
+        servo: Track(None, to, run.rest_at_ms, duration_ms, *(NOWHERE if servo in run.unsure else ()))
+        for servo, to in run.rest.items()
+    }
     return replace(motion, tracks={**motion.tracks, **ways}, run=replace(run, is_blurred=True))
 
 
@@ -130,20 +151,25 @@ def cut(motion: Motion, at_ms: float) -> Motion:
 
 
 def lost_ways(run: PolledRun, until_ms: float) -> Tracks:
-    """On their way to one of its places, nobody knows which."""
+    """On their way to one of its places, it is unknown to which."""
     duration_ms = until_ms - run.rest_at_ms
-    return {servo: Track(None, to, run.rest_at_ms, duration_ms, inf, inf) for servo, to in run.rest.items()}
+    return {servo: Track(None, to, run.rest_at_ms, duration_ms, *NOWHERE) for servo, to in run.rest.items()}
 
 
 class Polled:
     def request(self, motion: Motion, request: Run, at_ms: float, board: KnownBoard) -> Motion:
         frames = board.played_frames(request.slot)
         after = replace(motion, skips_first="no")
-        # What becomes of a run when the next one comes nobody has read.
-        if frames is None or motion.run is not None or motion.skips_first == "maybe":
+        # What becomes of a run when the next one comes has not been read in the firmware.
+        if frames is None or motion.run is not None:
             return running_unknown(after, request.slot, until_ms=at_ms + self._longest_ms(request, board))
         order = order_of_play(request.slot, frames, request.times, skips_first=motion.skips_first == "yes")
-        return after if order is None else begin(after, order, at_ms, board)
+        if order is None:
+            return after
+        if motion.skips_first != "maybe":
+            return begin(after, order, at_ms, board)
+        less = order_of_play(request.slot, frames, request.times, skips_first=True)
+        return begin_either(after, order, less, at_ms, board)
 
     def advance(self, motion: Motion, now_ms: float, _board: KnownBoard) -> Motion:
         run = motion.run

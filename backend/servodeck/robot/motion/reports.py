@@ -62,7 +62,7 @@ def after_answer(motion: Motion, report: type[Report], at_ms: float, board: Know
 
 
 def after_start(motion: Motion, report: RunStarted, at_ms: float, board: KnownBoard) -> Motion:
-    """By our own command a moment ago; or somebody started it at the board, and how long ago nobody can tell
+    """By our own command a moment ago; or somebody started it at the board, and how long ago is not known
     to the tick.
     """
     run, slot = motion.run, report.slot
@@ -74,7 +74,7 @@ def after_start(motion: Motion, report: RunStarted, at_ms: float, board: KnownBo
 
 def after_end(motion: Motion, slot: int | None, at_ms: float, board: KnownBoard) -> Motion:
     """After a group has ended by itself, its last frame with it: the one in `slot`, or None where
-    nobody says which.
+    the board does not say which.
     """
     current = advance(motion, at_ms, board)
     # Said so late that the next one runs already.

@@ -1,5 +1,5 @@
 """Where each servo is on its way: linear, in whole ticks of the board (S25-S27, L5). Knows targets and times;
-no group, no command. The board's ticks fall where nobody can see them, so a servo under way may be one tick
+no group, no command. The board's ticks cannot be seen, so a servo under way may be one tick
 off, either way. Twin of shared/src/motion/tracks.ts.
 """
 
@@ -19,10 +19,10 @@ LONGEST_MOVE_MS = MOVE.longest_ms
 
 @value
 class Track:
-    """One servo's way. `start` is None where nobody knows where it began. `start_leeway` and `to_leeway`: how
-    far off the two ends may be; a servo whose way is changed or halted keeps what was open then. Infinite
-    says that the position is right only if no group that nobody knows has moved the servo: a guess, good
-    enough to hold it there, not to show it.
+    """One servo's way. `start` is None where it is unknown where it began. `start_leeway` and `to_leeway`:
+    how far off the two ends may be; a servo whose way is changed or halted keeps what was open then. Infinite
+    says that the position is right only if no unknown group has moved the servo: a guess, good enough to hold
+    it there, not to show it.
     """
 
     start: float | None
@@ -79,13 +79,13 @@ def guess_of(track: Track, now_ms: float) -> float | None:
 
 
 def position_of(track: Track, now_ms: float) -> float | None:
-    """The same; None while nobody knows."""
+    """The same; None while it is unknown."""
     leeway = track.to_leeway if now_ms >= end_ms(track) else track.start_leeway
     return None if leeway == inf else guess_of(track, now_ms)
 
 
 def doubted(tracks: Tracks) -> Tracks:
-    """From now on a group that nobody knows may have moved them."""
+    """From now on an unknown group may have moved them."""
     return {servo: replace(track, start_leeway=inf, to_leeway=inf) for servo, track in tracks.items()}
 
 
@@ -106,8 +106,8 @@ def leeway_of(track: Track, now_ms: float, family: Family) -> float:
 
 
 def unrest_after(until_ms: float, requested_ms: float, at_ms: float, family: Family) -> float:
-    """Where the board re-times every servo, also what nobody knows of, which may move until then, arrives
-    with what takes effect at `at_ms` (S26).
+    """Where the board re-times every servo, those of an unknown group, which may move until then, arrive with
+    what takes effect at `at_ms` (S26).
     """
     traits = family.motion
     if traits.timing != "shared" or until_ms <= at_ms:
@@ -205,7 +205,7 @@ def retarget(
     *,
     is_sure: bool = True,
 ) -> Tracks:
-    """After new targets took effect at `at_ms`; `is_sure` False where a group that nobody knows may overrule
+    """After new targets took effect at `at_ms`; `is_sure` False where an unknown group may overrule
     them.
     """
     if not targets:
@@ -246,7 +246,7 @@ def frozen(tracks: Tracks, family: Family, at_ms: float) -> Tracks:
 
 
 def lengthened(track: Track, until_ms: float) -> Track:
-    """It arrives, but nobody knows from where and when: by then at the latest."""
+    """It arrives, but from where and when is unknown: by then at the latest."""
     return replace(track, start=None, duration_ms=max(end_ms(track), until_ms) - track.start_ms)
 
 

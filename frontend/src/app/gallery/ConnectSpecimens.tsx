@@ -11,11 +11,9 @@ const BASE: ConnectState = {
   reconnects: true,
   serialObstacle: null,
   granted: [],
-  openPort: null,
   hid: { obstacle: null, granted: [] },
-  openBoard: null,
   bluetooth: { obstacle: null, granted: [] },
-  openModule: null,
+  openDevice: null,
   gateway: 'absent',
   gatewayPorts: [],
   body: null,
@@ -29,6 +27,8 @@ const CASES: readonly {
   readonly name: string;
   readonly state: ConnectState;
   readonly current: Way['kind'] | null;
+  /** The current way leads nowhere. */
+  readonly isClosed?: boolean;
 }[] = [
   {
     name: 'Connect, no gateway',
@@ -40,7 +40,7 @@ const CASES: readonly {
     current: 'webSerial',
     state: {
       ...BASE,
-      openPort: PORT,
+      openDevice: PORT,
       granted: [
         { port: PORT, label: 'CH340 USB serial adapter' },
         { port: OTHER_PORT, label: 'FT232 USB serial adapter' },
@@ -58,6 +58,12 @@ const CASES: readonly {
         { device: '/dev/ttyACM1', description: 'Arduino', inUse: false },
       ],
     },
+  },
+  {
+    name: 'Connect, gateway without a port',
+    current: 'gateway',
+    isClosed: true,
+    state: { ...BASE, gateway: { device: null, isSimulated: false } },
   },
   {
     name: 'Connect, insecure address',
@@ -94,6 +100,7 @@ const ACTIONS: Actions = {
   useGatewayPort: later,
   useSerialPort: later,
   chooseSerialPort: later,
+  findRate: () => Promise.resolve(null),
   useBoard: later,
   chooseBoard: later,
   useModule: later,
@@ -101,7 +108,7 @@ const ACTIONS: Actions = {
   disconnect: nothing,
 };
 
-export const CONNECT: readonly Exhibit[] = CASES.map(({ name, state, current }) => ({
+export const CONNECT: readonly Exhibit[] = CASES.map(({ name, state, current, isClosed = false }) => ({
   name,
   isInDialog: true,
   content: (
@@ -109,7 +116,8 @@ export const CONNECT: readonly Exhibit[] = CASES.map(({ name, state, current }) 
       state={state}
       current={current}
       body="arm"
-      isReady={current !== null}
+      isOpen={current !== null && !isClosed}
+      isReady={current !== null && !isClosed}
       actions={ACTIONS}
       onChoose={nothing}
       onLook={nothing}

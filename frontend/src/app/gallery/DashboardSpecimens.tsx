@@ -7,13 +7,14 @@ import { FAMILIES, UNKNOWN_BOARD, type Family } from '#shared/codec/families.ts'
 import { actionsParts } from '../../features/animate/frames/ActionsPanel.tsx';
 import { AuthoringPanel } from '../Authoring.tsx';
 import { BatteryPanel } from '../../features/battery/BatteryPanel.tsx';
+import { CompileRow } from '../../features/animate/group/CompileRow.tsx';
 import { BoardPanel } from '../../features/board/BoardPanel.tsx';
 import { pageClock } from '../page.ts';
 import { LogPanel } from '../../features/log/LogPanel.tsx';
 import { ThisBoard } from '../../features/connect/identity/ThisBoard.tsx';
 import { LivePanel } from '../LivePanel.tsx';
 import type { BatteryStore } from '../../features/battery/battery.ts';
-import { nameOf } from '../../robot/boards.ts';
+import { nameOf } from '../../robot/remembered.ts';
 import type { RobotStore } from '../../features/profiles/robots.ts';
 import { editServoView, type Stores } from '../../features/stores.ts';
 import { TopBar } from '../TopBar.tsx';
@@ -52,7 +53,7 @@ function Dashboard({ shows }: { readonly shows: readonly Part[] }) {
 function BoardRow() {
   return (
     <div className={styles.row}>
-      <BoardPanel />
+      <BoardPanel fit={<CompileRow />} />
       <BatteryPanel />
     </div>
   );

@@ -3,6 +3,7 @@
 import type { ReactNode } from 'react';
 import { insertFrame, setMeta, type NewFrame } from '#shared/group/groupEdits.ts';
 import { EMPTY_SLOT_BOOK, withStored } from '#shared/group/slotBook.ts';
+import { CompileRow } from '../../features/animate/group/CompileRow.tsx';
 import { BoardPanel } from '../../features/board/BoardPanel.tsx';
 import { PlayBar } from '../../features/animate/play/PlayBar.tsx';
 import { ReplaceContent } from '../../features/board/slots/ReplaceQuestion.tsx';
@@ -52,12 +53,12 @@ interface Case {
 const CASES: readonly Case[] = [
   {
     name: 'On the board, off by a little',
-    panel: <BoardPanel />,
+    panel: <BoardPanel fit={<CompileRow />} />,
     prepare: (stores) => write(stores, frame(400, 900), frame(900, 1900, 'inOut')),
   },
   {
     name: 'On the board, does not fit',
-    panel: <BoardPanel />,
+    panel: <BoardPanel fit={<CompileRow />} />,
     prepare: (stores) => write(stores, frame(400, 300), frame(5, 1900), frame(20, 700)),
   },
   {
@@ -93,7 +94,7 @@ const CASES: readonly Case[] = [
   },
   {
     name: 'On the board, another group in the slot',
-    panel: <BoardPanel />,
+    panel: <BoardPanel fit={<CompileRow />} />,
     prepare(stores) {
       fill(stores);
       stores.view.setState({ slot: 8 });

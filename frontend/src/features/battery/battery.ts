@@ -11,7 +11,7 @@ import {
   supplyOf,
   type Supply,
 } from '#shared/profile/battery.ts';
-import { nameOf } from '../../robot/boards.ts';
+import { nameOf } from '../../robot/remembered.ts';
 import type { Device, DeviceState, RobotProfiles } from '../../robot/device.ts';
 import { BATTERY_AFTER_RUN_MS, BATTERY_EVERY_MS } from '#shared/robot/timings.ts';
 

@@ -1,7 +1,7 @@
 // The less frequent controls of the board: content of the slot, settings of runs, speed, the map of slots, erasing. Slots cannot be
 // read back from a board, so their contents are known only from downloads.
 
-import { useState } from 'react';
+import { useState, type ReactNode } from 'react';
 import { setMeta } from '#shared/group/groupEdits.ts';
 import { notRestored } from '#shared/group/slotBook.ts';
 import { Button } from '../../ui/Button.tsx';
@@ -16,7 +16,6 @@ import { NumberField } from '../../ui/NumberField.tsx';
 import { Toggle } from '../../ui/Toggle.tsx';
 import { CONTENT_TRUTH, useSlotContents, useHeldName } from './slots/slotHooks.ts';
 import { Chip } from '../../ui/Chip.tsx';
-import { CompileRow } from '../animate/group/CompileRow.tsx';
 import { boardName } from '../../i18n/sentences.ts';
 import { RunSettings } from './RunSettings.tsx';
 import styles from './BoardPanel.module.css';
@@ -169,14 +168,14 @@ function SpeedControl() {
   );
 }
 
-export function BoardDetails() {
+export function BoardDetails({ fit }: { readonly fit: ReactNode }) {
   const { commands, id } = useDevice((state) => state.family);
   const why = id === 'unknown' ? words.board.unsure : words.board.absent;
   const canErase = commands.includes('erase');
   return (
     <>
       <HeldRow />
-      <CompileRow />
+      {fit}
       {!commands.includes('download') && <Absent what={words.board.download} why={why.download} />}
       {commands.includes('run') ? <RunSettings /> : <Absent what={words.board.run} why={why.run} />}
       {commands.includes('setSpeed') ? <SpeedControl /> : <Absent what={words.board.speed} why={why.speed} />}

@@ -1,15 +1,15 @@
 // The board panel: a strip with the frequent controls (slot, download, run, end) and below it the details.
 
-import { useId, useRef, type RefObject } from 'react';
+import { useId, useRef, type ReactNode, type RefObject } from 'react';
 import { slotTrigger } from '#shared/codec/families.ts';
 import type { Activity } from '#shared/robot/state.ts';
-import { runAsChosen } from '../animate/play/playback.ts';
 import { motionHindrance } from '../../robot/readiness.ts';
 import { useSnapshot, useStores, useCompiled, useDevice, useDocument, useSlot } from '../stores.ts';
 import { Button } from '../../ui/Button.tsx';
 import { words } from '../../i18n/words.ts';
-import { useSlotContents, CONTENT_TRUTH, useHeldName, useRunSettings } from './slots/slotHooks.ts';
-import { obstacles } from '../animate/group/compiled.ts';
+import { useSlotContents, CONTENT_TRUTH, useHeldName } from './slots/slotHooks.ts';
+import { runAsChosen, useRunSettings } from './runSettings.ts';
+import { obstacles } from './compile/compiled.ts';
 import { Chip } from '../../ui/Chip.tsx';
 import { NumberField } from '../../ui/NumberField.tsx';
 import { triggerInBar, heldText } from '../../i18n/sentences.ts';
@@ -142,9 +142,11 @@ const BoardDetails = laterComponent(async () => (await import('./BoardDetails.ts
 interface BoardPanelProps {
   /** The strip and the details fill the column around them: the strip stays in sight, the details scroll. */
   readonly isSpread?: boolean;
+  /** How the group at hand fits the board. */
+  readonly fit: ReactNode;
 }
 
-export function BoardPanel({ isSpread = false }: BoardPanelProps) {
+export function BoardPanel({ isSpread = false, fit }: BoardPanelProps) {
   const titleId = useId();
   const details = useRef<HTMLDivElement>(null);
   return (
@@ -157,7 +159,7 @@ export function BoardPanel({ isSpread = false }: BoardPanelProps) {
         {isSpread && <DetailsButton details={details} />}
       </header>
       <div ref={details} className={styles.rows}>
-        <BoardDetails />
+        <BoardDetails fit={fit} />
       </div>
     </section>
   );

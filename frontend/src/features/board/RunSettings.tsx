@@ -4,7 +4,7 @@ import { useSnapshot, useStores, useView, useDevice } from '../stores.ts';
 import { NumberField } from '../../ui/NumberField.tsx';
 import { Toggle } from '../../ui/Toggle.tsx';
 import { words } from '../../i18n/whole.ts';
-import { useRunSettings } from './slots/slotHooks.ts';
+import { useRunSettings } from './runSettings.ts';
 import field from '../../ui/Field.module.css';
 import styles from './BoardPanel.module.css';
 

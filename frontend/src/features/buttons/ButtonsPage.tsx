@@ -1,13 +1,15 @@
 // The page of buttons, in use or in edit mode. The kiosk shows the same page with nothing around it.
 
-import { addMacro, moveMacro, removeMacro } from '#shared/profile/macroEdits.ts';
+import { addMacro, moveMacro } from '#shared/profile/macroEdits.ts';
 import type { Macro } from '#shared/profile/macro.ts';
 import { useStores, useMacros, useView } from '../stores.ts';
 import { words } from '../../i18n/whole.ts';
+import { runByKey } from '../../ui/action.ts';
 import { useCards, useDragOrder, type DragOrder } from '../../ui/cards.ts';
 import { Button } from '../../ui/Button.tsx';
 import { cx } from '../../ui/cx.ts';
 import { Icon } from '../../ui/Icon.tsx';
+import { MACRO_ACTIONS } from './macroActions.ts';
 import { nameAndKey, MacroFace, MacroGrid } from './MacroGrid.tsx';
 import { EmptyState, type EmptyStateProps, Panel } from '../../ui/Panel.tsx';
 import { Toggle } from '../../ui/Toggle.tsx';
@@ -31,32 +33,19 @@ function useAddMacro(): () => void {
 
 /** The buttons in edit mode: a press selects, a drag or Alt with an arrow moves. Nothing starts. */
 function EditGrid() {
-  const { macros, view, notices } = useStores();
+  const stores = useStores();
   const add = useAddMacro();
   const list = useMacros(({ present }) => present.macros);
   const selected = useView((state) => state.selectedButton);
-  const ids = list.map(({ id }) => id);
-  const nameOf = (id: number): string => list.find((macro) => macro.id === id)?.name ?? '';
-  const cards = useCards<HTMLUListElement>({
-    ...{ ids, selected, attribute: 'data-macro' },
-    select: (id) => view.setState({ selectedButton: id }),
-    move(id, to) {
-      macros.edit(
-        () => words.macros.edits.move({ name: nameOf(id) }),
-        (page) => moveMacro(page, id, to),
-      );
-      view.setState({ selectedButton: id });
-      notices.say(words.macros.moved({ from: ids.indexOf(id) + 1, to: to + 1 }));
-    },
-    remove(id, next) {
-      macros.edit(
-        () => words.macros.edits.delete({ name: nameOf(id) }),
-        (page) => removeMacro(page, id),
-      );
-      view.setState({ selectedButton: next });
-    },
+  const {
+    list: gridRef,
+    tabStop,
+    key,
+  } = useCards<HTMLUListElement>({
+    ...{ ids: list.map(({ id }) => id), selected, attribute: 'data-macro' },
+    select: (id) => stores.view.setState({ selectedButton: id }),
+    act: (pressed, id) => runByKey(Object.values(MACRO_ACTIONS), pressed, { stores, id }),
   });
-  const { list: gridRef, tabStop, key } = cards;
 
   return (
     <ul ref={gridRef} className={styles.grid} aria-label={words.macros.list} onKeyDown={key}>

@@ -2,23 +2,17 @@
 
 import { useId, useState, type KeyboardEvent } from 'react';
 import { type Macro, type MacroStep, type MacroPage, macroOf } from '#shared/profile/macro.ts';
-import {
-  addStep,
-  moveStep,
-  removeStep,
-  setStep,
-  changeMacro,
-  moveMacro,
-  removeMacro,
-} from '#shared/profile/macroEdits.ts';
+import { addStep, moveStep, removeStep, setStep, changeMacro } from '#shared/profile/macroEdits.ts';
 import { COLOURS } from '#shared/document/schema.ts';
 import { GENTLE_MOVE_MS } from '../../robot/moveTime.ts';
 import { useStores, useMacros, useView } from '../stores.ts';
+import { ActionIconButton } from '../../ui/ActionButton.tsx';
 import { Button, IconButton } from '../../ui/Button.tsx';
 import { words } from '../../i18n/whole.ts';
 import { StepFields } from './StepFields.tsx';
 import { NameField } from '../../ui/NameField.tsx';
 import { Panel } from '../../ui/Panel.tsx';
+import { MACRO_ACTIONS, macroContextOf, type MacroContext } from './macroActions.ts';
 import { macroKey } from './MacroGrid.tsx';
 import styles from './MacroEditor.module.css';
 
@@ -104,43 +98,17 @@ interface MacroProps {
 }
 
 function Tools({ macro }: MacroProps) {
-  const { macros, notices } = useStores();
-  const list = useMacros(({ present }) => present.macros);
-  const index = list.indexOf(macro);
-  const { id, name } = macro;
-  const move = (to: number) => (): void => {
-    macros.edit(
-      () => words.macros.edits.move({ name }),
-      (page) => moveMacro(page, id, to),
-    );
-    notices.say(words.macros.moved({ from: index + 1, to: to + 1 }));
-  };
-  return (
-    <>
-      <IconButton
-        icon="earlier"
-        label={words.macros.earlier}
-        isDisabled={index === 0}
-        onPress={move(index - 1)}
-      />
-      <IconButton
-        icon="later"
-        label={words.macros.later}
-        isDisabled={index === list.length - 1}
-        onPress={move(index + 1)}
-      />
-      <IconButton
-        icon="trash"
-        label={words.macros.delete}
-        onPress={() =>
-          macros.edit(
-            () => words.macros.edits.delete({ name }),
-            (page) => removeMacro(page, id),
-          )
-        }
-      />
-    </>
-  );
+  const stores = useStores();
+  useMacros(({ present }) => present.macros);
+  const context = (): MacroContext => macroContextOf(stores);
+  return (['earlier', 'later', 'remove'] as const).map((name) => (
+    <ActionIconButton
+      key={name}
+      action={MACRO_ACTIONS[name]}
+      shown={{ stores, id: macro.id }}
+      context={context}
+    />
+  ));
 }
 
 function Name({ macro: { id, name } }: MacroProps) {

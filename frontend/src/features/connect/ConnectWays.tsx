@@ -9,6 +9,7 @@ import { boardName } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/whole.ts';
 import type { Connector } from '../../robot/connector.ts';
 import type { Way } from '../../robot/device.ts';
+import { isLineOpen } from '../../robot/readiness.ts';
 import { Button } from '../../ui/Button.tsx';
 import { Chip } from '../../ui/Chip.tsx';
 import { Toggle } from '../../ui/Toggle.tsx';
@@ -36,6 +37,7 @@ export function ConnectWays({ connector, onDone }: ConnectWaysProps) {
       state={state}
       current={useDevice(({ way }) => way?.kind ?? null)}
       body={state.body ?? robotBody}
+      isOpen={useSnapshot(({ link }) => isLineOpen(link))}
       isReady={useSnapshot(({ link }) => link.status === 'ready')}
       actions={connector}
       // Closes at once for what cannot fail here, after the work for what can.
@@ -52,7 +54,8 @@ export interface WaysProps extends Here {
 }
 
 export function Ways(props: WaysProps) {
-  const { state, current, body, actions, onChoose } = props;
+  const { state, current, isOpen, body, actions, onChoose } = props;
+  const openWay = isOpen ? current : null;
   const headingId = useId();
   const found = CABLES.map((cable) => ({ cable, obstacle: cable.obstacle(state) }));
   const usable = found
@@ -65,23 +68,33 @@ export function Ways(props: WaysProps) {
       <RobotQuestion body={body} onBody={(chosen) => actions.setBody(chosen)} />
       <section className={styles.list} aria-labelledby={headingId}>
         <h3 id={headingId}>{words.connect.how}</h3>
-        {usable.map((cable) => (
+        {usable.map((cable, index) => (
           <WayCard
             key={cable.kind}
             kind={cable.kind}
             about={cable.about(body)}
-            isCurrent={current === cable.kind}
-            guide={cable.hasGuide && <PortGuide />}
+            listed={cable.listed()}
+            isCurrent={openWay === cable.kind}
+            guide={cable.guide !== null && <PortGuide kind={cable.guide} />}
           >
-            <CableChoices cable={cable} {...props} />
+            <CableChoices
+              cable={cable}
+              isFirst={index === 0 && (openWay === null || openWay === 'simulated')}
+              {...props}
+            />
           </WayCard>
         ))}
-        <WayCard kind="simulated" about={words.connect.simulated.about} isCurrent={current === 'simulated'}>
+        <WayCard
+          kind="simulated"
+          about={words.connect.simulated.about}
+          listed={null}
+          isCurrent={openWay === 'simulated'}
+        >
           <SimulatedChoices {...props} />
         </WayCard>
       </section>
       {others.length > 0 && (
-        <section className={styles.list} aria-label={words.connect.notHere}>
+        <section className={styles.obstacles} aria-label={words.connect.notHere}>
           <h3>{words.connect.notHere}</h3>
           {others.map(({ cable: { kind }, obstacle }) => (
             <div key={kind} className={styles.obstacle} role="group" aria-label={words.connect[kind].title}>
@@ -91,7 +104,7 @@ export function Ways(props: WaysProps) {
           ))}
         </section>
       )}
-      <Doctor state={state} />
+      <Doctor state={state} actions={actions} />
       <footer className={styles.foot}>
         <p className={styles.dim}>{words.connect.intro}</p>
         <Toggle
@@ -114,12 +127,13 @@ export function Ways(props: WaysProps) {
 interface WayCardProps {
   readonly kind: Way['kind'];
   readonly about: string;
+  readonly listed: string | null;
   readonly isCurrent: boolean;
   readonly guide?: ReactNode;
   readonly children: ReactNode;
 }
 
-function WayCard({ kind, about, isCurrent, guide, children }: WayCardProps) {
+function WayCard({ kind, about, listed, isCurrent, guide, children }: WayCardProps) {
   const { title } = words.connect[kind];
   return (
     <div className={styles.card} role="group" aria-label={title}>
@@ -134,6 +148,7 @@ function WayCard({ kind, about, isCurrent, guide, children }: WayCardProps) {
           )}
         </h4>
         <p className={styles.dim}>{about}</p>
+        {listed !== null && <p>{words.connect.listed({ names: listed })}</p>}
       </div>
       <div className={styles.choices}>{children}</div>
       {guide}
@@ -141,21 +156,33 @@ function WayCard({ kind, about, isCurrent, guide, children }: WayCardProps) {
   );
 }
 
-function CableChoices({ cable, actions, onChoose, onLook, ...here }: WaysProps & { readonly cable: Cable }) {
+interface CableChoicesProps extends WaysProps {
+  readonly cable: Cable;
+  /** Of all ways the likeliest: its first button is the one to press. */
+  readonly isFirst: boolean;
+}
+
+function CableChoices({ cable, isFirst, actions, onChoose, onLook, ...here }: CableChoicesProps) {
   const note = cable.note(here);
+  const devices = cable.devices(here);
   return (
     <>
-      {cable.devices(here).map(({ label, isOpen, open }, index) => (
+      {devices.map(({ label, isOpen, open }, index) => (
         // What is open already is left alone.
-        <Button key={index} isDisabled={isOpen} onPress={() => onChoose(() => open(actions))}>
+        <Button
+          key={index}
+          tone={isFirst && index === 0 ? 'primary' : 'plain'}
+          isDisabled={isOpen}
+          onPress={() => onChoose(() => open(actions))}
+        >
           {isOpen ? words.connect.inUse({ label }) : words.connect.open({ label })}
         </Button>
       ))}
       {note !== null && <p className={styles.dim}>{note}</p>}
-      {cable.choosers(here).map(({ label, isQuiet, choose }) => (
+      {cable.choosers(here).map(({ label, isQuiet, choose }, index) => (
         <Button
           key={label}
-          tone={isQuiet ? 'quiet' : 'plain'}
+          tone={isQuiet ? 'quiet' : isFirst && devices.length === 0 && index === 0 ? 'primary' : 'plain'}
           onPress={() => onChoose(() => choose(actions))}
         >
           {label}

@@ -2,28 +2,37 @@
 
 import { useEffect, useState } from 'react';
 import { useDevice, useSnapshot, useStores } from '../stores.ts';
-import { Button } from '../../ui/Button.tsx';
 import { Mark, type Truth } from '../../ui/Chip.tsx';
 import { errorSentence } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/whole.ts';
-import type { ConnectState } from '../../robot/connector.ts';
-import { findingsOf, heardIn, interfacesHere, type Facts, type Finding } from './doctor.ts';
+import { isBoardsOwnCable } from '../../robot/readiness.ts';
+import type { ConnectState, HeardAtRate } from '../../robot/connector.ts';
+import { Button } from '../../ui/Button.tsx';
+import type { Actions } from './cables.ts';
+import { CopyButton } from './CopyButton.tsx';
+import { findingsOf, heardIn, interfacesHere, isReadable, type Facts, type Finding } from './doctor.ts';
 import styles from './Doctor.module.css';
 
-export function Doctor({ state }: { readonly state: ConnectState }) {
+interface DoctorProps {
+  readonly state: ConnectState;
+  readonly actions: Pick<Actions, 'findRate'>;
+}
+
+export function Doctor({ state, actions }: DoctorProps) {
   const [isOpen, setOpen] = useState(false);
   return (
     <details className={styles.doctor} onToggle={(event) => setOpen(event.currentTarget.open)}>
       <summary>{words.doctor.title}</summary>
-      {isOpen && <Findings state={state} />}
+      {isOpen && <Findings state={state} actions={actions} />}
     </details>
   );
 }
 
-function Findings({ state }: { readonly state: ConnectState }) {
-  const { device, notices } = useStores();
+function Findings({ state, actions }: DoctorProps) {
+  const { device } = useStores();
   const interfaces = useInterfaces();
   const link = useSnapshot((snapshot) => snapshot.link);
+  const isOwnCable = useSnapshot(({ withheld }) => isBoardsOwnCable(withheld));
   const battery = useSnapshot((snapshot) => snapshot.battery);
   const way = useDevice((known) => known.way);
   if (interfaces === null) return null;
@@ -35,6 +44,7 @@ function Findings({ state }: { readonly state: ConnectState }) {
     gateway: typeof state.gateway === 'object' ? 'answers' : state.gateway,
     ...{ link, way: way?.label ?? null },
     heard: heardIn(device.traffic),
+    isOwnCable,
     batteryMv: battery.kind === 'read' ? battery.batteryMv : null,
   };
   const findings = findingsOf(facts);
@@ -43,10 +53,6 @@ function Findings({ state }: { readonly state: ConnectState }) {
     ...findings.map((finding) => `${signOf(finding)} ${sentenceOf(finding)}`),
     ...(facts.heard.noise.length > 0 ? [hexOf(facts.heard.noise)] : []),
   ].join('\n');
-  const copy = (): void =>
-    void navigator.clipboard
-      .writeText(report)
-      .then(() => notices.tell('info', words.doctor.copied), notices.tellError);
   return (
     <>
       <ul className={styles.findings}>
@@ -57,12 +63,42 @@ function Findings({ state }: { readonly state: ConnectState }) {
           </li>
         ))}
       </ul>
-      {window.isSecureContext && (
-        <Button tone="quiet" icon="copy" onPress={copy}>
-          {words.doctor.copy}
-        </Button>
+      {way?.kind === 'webSerial' && facts.heard.packets === 0 && <OtherRates findRate={actions.findRate} />}
+      {way?.kind === 'gateway' && facts.heard.packets === 0 && !isOwnCable && (
+        <p className={styles.hint}>{words.doctor.ratesAtGateway}</p>
       )}
+      <CopyButton text={report} label={words.doctor.copy} done={words.doctor.copied} />
     </>
+  );
+}
+
+/** Nothing that can be read has arrived: the board may have another speed. */
+function OtherRates({ findRate }: Pick<Actions, 'findRate'>) {
+  const { notices } = useStores();
+  const [found, setFound] = useState<HeardAtRate | 'none' | 'listening' | null>(null);
+  const listen = (): void => {
+    setFound('listening');
+    findRate(isReadable).then(
+      (heard) => setFound(heard ?? 'none'),
+      (error: unknown) => {
+        setFound(null);
+        notices.tellError(error);
+      },
+    );
+  };
+  const result =
+    found === 'none'
+      ? words.doctor.rateNone
+      : found === null || found === 'listening'
+        ? ''
+        : words.doctor.rateFound({ baud: found.baud, kind: found.packets > 0 ? 'packets' : 'text' });
+  return (
+    <div className={styles.rates}>
+      <Button icon="refresh" isPending={found === 'listening'} onPress={listen}>
+        {found === 'listening' ? words.doctor.listening : words.doctor.rates}
+      </Button>
+      <p role="status">{result}</p>
+    </div>
   );
 }
 
@@ -99,7 +135,9 @@ function sentenceOf(finding: Finding): string {
     case 'heardNoise':
       return words.doctor.heardNoise({ count: finding.count, kind: finding.kind });
     case 'battery':
-      return words.doctor.battery({ mv: finding.batteryMv });
+      return words.doctor.battery({ mv: finding.batteryMv, ms: Math.round(finding.answeredMs ?? 0) });
+    case 'heardNothing':
+      return finding.isOwnCable ? words.doctor.heardNothingOnOwnCable : words.doctor.heardNothing;
     default:
       return words.doctor[finding.id];
   }

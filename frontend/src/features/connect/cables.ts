@@ -8,12 +8,15 @@ import type { Connector, ConnectState } from '../../robot/connector.ts';
 import type { Way } from '../../robot/device.ts';
 import type { GatewayPort, GatewayStatus } from '../../robot/gatewayApi.ts';
 import { isWithoutGateway } from '../../robot/request.ts';
+import type { GuideKind } from './PortGuide.tsx';
 
 export interface Here {
   readonly state: ConnectState;
   readonly current: Way['kind'] | null;
   /** What the robot in use is. */
   readonly body: BodyKind;
+  /** The current way is open, whatever the board on it says. */
+  readonly isOpen: boolean;
   /** What is open by the current way answers. */
   readonly isReady: boolean;
 }
@@ -43,6 +46,8 @@ export interface Cable {
   readonly kind: Exclude<Way['kind'], 'simulated'>;
   /** Whose way it is, and what the person will meet. */
   about(body: BodyKind): string;
+  /** What its chooser calls the robot. */
+  listed(): string | null;
   /** Why it cannot be used here; null where it can. */
   obstacle(state: ConnectState): Obstacle | null;
   /** What opens without a chooser. */
@@ -50,8 +55,8 @@ export interface Cable {
   /** Beneath the devices. */
   note(here: Here): string | null;
   choosers(here: Here): readonly Chooser[];
-  /** A serial port may be missing for reasons of the system. */
-  readonly hasGuide: boolean;
+  /** It may be missing for reasons of the system. */
+  readonly guide: GuideKind | null;
   readonly canLookAgain: boolean;
 }
 
@@ -61,14 +66,15 @@ export function isOpenBy({ isReady, current }: Here, kind: Way['kind']): boolean
 
 const webSerial: Cable = {
   kind: 'webSerial',
-  hasGuide: true,
+  guide: 'serial',
   canLookAgain: false,
+  listed: () => words.connect.webSerial.listed,
   about: (body) => words.connect.webSerial.about({ body }),
   obstacle: ({ serialObstacle: code }) => (code === null ? null : refusal(code, errorSentence(code))),
   devices: (here) =>
     here.state.granted.map(({ port, label }) => ({
       label,
-      isOpen: isOpenBy(here, 'webSerial') && port === here.state.openPort,
+      isOpen: isOpenBy(here, 'webSerial') && port === here.state.openDevice,
       open: (actions) => actions.useSerialPort(port),
     })),
   note: (here) => (isOpenBy(here, 'webSerial') ? words.connect.webSerial.inUse : null),
@@ -83,15 +89,16 @@ const webSerial: Cable = {
 
 const webHid: Cable = {
   kind: 'webHid',
-  hasGuide: false,
+  guide: 'hid',
   canLookAgain: false,
-  about: () => words.connect.webHid.about,
+  about: (body) => words.connect.webHid.about({ body }),
+  listed: () => words.connect.webHid.listed,
   obstacle: ({ hid: { obstacle: code } }) =>
     code === null ? null : refusal(code, words.connect.webHid[code]),
   devices: (here) =>
     here.state.hid.granted.map(({ board, label }) => ({
       label,
-      isOpen: isOpenBy(here, 'webHid') && board === here.state.openBoard,
+      isOpen: isOpenBy(here, 'webHid') && board === here.state.openDevice,
       open: (actions) => actions.useBoard(board),
     })),
   note: (here) => (isOpenBy(here, 'webHid') ? words.connect.webHid.inUse : null),
@@ -111,8 +118,9 @@ const webHid: Cable = {
 
 const webBluetooth: Cable = {
   kind: 'webBluetooth',
-  hasGuide: false,
+  guide: null,
   canLookAgain: false,
+  listed: () => words.connect.webBluetooth.listed,
   about: () => words.connect.webBluetooth.about,
   obstacle({ bluetooth: { obstacle: code } }) {
     if (code === null) return null;
@@ -121,7 +129,7 @@ const webBluetooth: Cable = {
   devices: (here) =>
     here.state.bluetooth.granted.map(({ module, label }) => ({
       label,
-      isOpen: isOpenBy(here, 'webBluetooth') && module.id === here.state.openModule?.id,
+      isOpen: isOpenBy(here, 'webBluetooth') && module === here.state.openDevice,
       open: (actions) => actions.useModule(module),
     })),
   note: (here) => (isOpenBy(here, 'webBluetooth') ? words.connect.webBluetooth.inUse : null),
@@ -136,8 +144,9 @@ const webBluetooth: Cable = {
 
 const gateway: Cable = {
   kind: 'gateway',
-  hasGuide: true,
+  guide: 'serial',
   canLookAgain: true,
+  listed: () => null,
   about: () => words.connect.gateway.about,
   obstacle({ gateway: found }) {
     if (typeof found === 'object') return null;
@@ -169,7 +178,13 @@ const gateway: Cable = {
 export const CABLES: readonly Cable[] = [webSerial, webHid, webBluetooth, gateway];
 
 /** The cable in the box of most such robots; it stands first. */
-export const LIKELIEST: Partial<Record<BodyKind, Way['kind']>> = { humanoid: 'webHid', hexapod: 'webHid' };
+export const LIKELIEST: Readonly<Record<BodyKind, Way['kind']>> = {
+  arm: 'webSerial',
+  hand: 'webSerial',
+  humanoid: 'webHid',
+  hexapod: 'webHid',
+  plain: 'webHid',
+};
 
 /** At the page's loopback address the browser shows its device interfaces. */
 function refusal(code: string, text: string): Obstacle {
@@ -185,10 +200,10 @@ function otherPorts(here: Here): readonly GatewayPort[] {
   return here.state.gatewayPorts.filter((port) => !port.inUse || device === null);
 }
 
-/** What the system calls the device, and the short end of its path, which tells two of one kind apart. */
+/** What it is, and the short end of its path, which tells two of one kind apart. */
 function nameOf({ device, description }: GatewayPort): string {
   const end = device.split('/').at(-1) ?? device;
-  return description === '' || description === 'n/a' ? end : `${description} (${end})`;
+  return `${description === '' ? words.connect.gateway.unnamed : description} (${end})`;
 }
 
 function nameIn(ports: readonly GatewayPort[], device: string): string {

@@ -12,7 +12,8 @@ const FACTS: Facts = {
   gateway: 'absent',
   link: { status: 'ready' },
   way: 'USB serial',
-  heard: { packets: 3, noise: [] },
+  heard: { packets: 3, noise: [], answeredMs: 24 },
+  isOwnCable: false,
   batteryMv: 7400,
 };
 
@@ -27,7 +28,7 @@ describe('findings', () => {
   });
 
   test('no packet of an open link is a finding, of one that is not open it is none', () => {
-    const heard = { packets: 0, noise: [] };
+    const heard = { packets: 0, noise: [], answeredMs: null };
     expect(idsOf({ heard, link: { status: 'stale', sinceMs: 0 }, batteryMv: null })).toContain(
       'heardNothing',
     );
@@ -50,11 +51,24 @@ test('what was heard before the link was lost does not count for the present one
   const report = { kind: 'battery', batteryMv: 7500 } as const;
   const bytes = Uint8Array.of(0x55, 0x55, 4, 0x0f, 0x4c, 0x1d);
   traffic.add({ atMs: 1, direction: 'in', bytes, report }, 'doc');
-  expect(heardIn(traffic)).toEqual({ packets: 1, noise: [] });
+  expect(heardIn(traffic)).toEqual({ packets: 1, noise: [], answeredMs: null });
   const opened = { link: { status: 'ready' }, latch: null } as const;
   traffic.note(opened, 1, 'doc');
   traffic.note({ link: { status: 'closed' }, latch: null }, 2, 'doc');
   traffic.note(opened, 3, 'doc');
   traffic.add({ atMs: 4, direction: 'in', bytes: Uint8Array.of(0xff, 0xfe), noise: 'garbage' }, 'doc');
-  expect(heardIn(traffic)).toEqual({ packets: 0, noise: [0xff, 0xfe] });
+  expect(heardIn(traffic)).toEqual({ packets: 0, noise: [0xff, 0xfe], answeredMs: null });
+});
+
+test('an answer is timed from its own question, whatever passed in between', () => {
+  const traffic = createTrafficLog();
+  const question = Uint8Array.of(0x55, 0x55, 2, 0x0f);
+  const answer = Uint8Array.of(0x55, 0x55, 4, 0x0f, 0x4c, 0x1d);
+  const sent = { direction: 'out', bytes: question, command: { kind: 'readBattery' } } as const;
+  const received = { direction: 'in', bytes: answer, report: { kind: 'battery', batteryMv: 7500 } } as const;
+  traffic.add({ atMs: 0, ...sent }, 'doc');
+  traffic.add({ atMs: 400, ...sent }, 'doc');
+  traffic.add({ atMs: 424, ...received }, 'doc');
+  traffic.add({ atMs: 5000, ...sent }, 'doc');
+  expect(heardIn(traffic).answeredMs).toBe(24);
 });

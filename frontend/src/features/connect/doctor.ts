@@ -2,8 +2,10 @@
 // sent so far. Facts in, findings out; asks the board nothing and moves nothing.
 
 import timings from '../../../../shared/protocol/timings.json' with { type: 'json' };
+import { COMMAND_NUMBER } from '#shared/codec/commands.ts';
 import type { LinkState } from '#shared/robot/state.ts';
-import type { TrafficLog } from '../../robot/traffic.ts';
+import { isLineOpen } from '../../robot/readiness.ts';
+import type { LogEntry, TrafficLog } from '../../robot/traffic.ts';
 
 export type Sight = 'seen' | 'missing' | 'blocked';
 
@@ -18,6 +20,8 @@ export interface Facts {
   readonly link: LinkState;
   readonly way: string | null;
   readonly heard: Heard;
+  /** The link is the board's own USB cable. */
+  readonly isOwnCable: boolean;
   readonly batteryMv: number | null;
 }
 
@@ -25,6 +29,8 @@ export interface Facts {
 export interface Heard {
   readonly packets: number;
   readonly noise: readonly number[];
+  /** From the newest battery question to its answer; null where none was answered. */
+  readonly answeredMs: number | null;
 }
 
 /** What bytes that are no packet look like. `rate`: those of another speed. `text`: a program that prints. */
@@ -39,12 +45,11 @@ export type Finding =
   | { readonly id: 'noWay' }
   | { readonly id: 'heardPackets'; readonly count: number }
   | { readonly id: 'heardNoise'; readonly count: number; readonly kind: NoiseKind }
-  | { readonly id: 'heardNothing' }
-  | { readonly id: 'battery'; readonly batteryMv: number };
+  | { readonly id: 'heardNothing'; readonly isOwnCable: boolean }
+  | { readonly id: 'battery'; readonly batteryMv: number; readonly answeredMs: number | null };
 
 export function findingsOf(facts: Facts): readonly Finding[] {
   const { heard, link, way } = facts;
-  const isOpen = !['closed', 'opening'].includes(link.status);
   return [
     { id: facts.isSecure ? 'secure' : 'insecure' },
     ...(['serial', 'hid', 'bluetooth'] as const).map(
@@ -57,13 +62,15 @@ export function findingsOf(facts: Facts): readonly Finding[] {
       ? []
       : [{ id: 'gateway', answers: facts.gateway === 'answers' } as const]),
     way === null ? { id: 'noWay' } : { id: 'link', link, way },
-    ...(way !== null && isOpen ? heardFindings(heard) : []),
-    ...(facts.batteryMv === null ? [] : [{ id: 'battery', batteryMv: facts.batteryMv } as const]),
+    ...(way !== null && isLineOpen(link) ? heardFindings(heard, facts.isOwnCable) : []),
+    ...(facts.batteryMv === null
+      ? []
+      : [{ id: 'battery', batteryMv: facts.batteryMv, answeredMs: heard.answeredMs } as const]),
   ];
 }
 
-function heardFindings({ packets, noise }: Heard): readonly Finding[] {
-  if (packets === 0 && noise.length === 0) return [{ id: 'heardNothing' }];
+function heardFindings({ packets, noise }: Heard, isOwnCable: boolean): readonly Finding[] {
+  if (packets === 0 && noise.length === 0) return [{ id: 'heardNothing', isOwnCable }];
   return [
     ...(packets > 0 ? [{ id: 'heardPackets', count: packets } as const] : []),
     ...(noise.length > 0
@@ -83,6 +90,11 @@ export function kindOfNoise(bytes: readonly number[]): NoiseKind {
   return share((byte) => RUNS.has(byte)) >= timings.decoder.noiseShare ? 'rate' : 'other';
 }
 
+/** Packets, or text of a program that prints. */
+export function isReadable({ packets, noise }: Pick<Heard, 'packets' | 'noise'>): boolean {
+  return packets > 0 || (noise.length > 0 && kindOfNoise(noise) === 'text');
+}
+
 /** Bytes of one run of ones beside one run of zeros. */
 const RUNS = new Set(Array.from({ length: 9 }, (_, zeros) => [(0xff << zeros) & 0xff, 0xff >> zeros]).flat());
 
@@ -94,15 +106,23 @@ export function heardIn(traffic: TrafficLog): Heard {
   const { oldestId, nextId } = traffic.store.getState();
   let packets = 0;
   const noise: number[] = [];
+  let answerMs: number | null = null;
+  let answeredMs: number | null = null;
   for (let id = nextId - 1; id >= oldestId; id--) {
     const { entry } = traffic.at(id);
     if (entry.mark === 'link' && (entry.happening === 'lost' || entry.happening === 'closed')) break;
     if (entry.mark === 'received') packets += 1;
+    if (isOfBattery(entry) && entry.mark === 'received') answerMs = entry.atMs;
+    if (isOfBattery(entry) && entry.mark === 'sent' && answerMs !== null)
+      answeredMs ??= answerMs - entry.atMs;
     if ((entry.mark === 'garbage' || entry.mark === 'truncated') && noise.length < NOISE_KEPT)
       noise.push(...entry.bytes);
   }
-  return { packets, noise };
+  return { packets, noise, answeredMs };
 }
+
+const isOfBattery = (entry: LogEntry['entry']): boolean =>
+  'bytes' in entry && entry.bytes[3] === COMMAND_NUMBER.readBattery;
 
 /** What the browser has; asking for granted devices shows no chooser. */
 export async function interfacesHere(): Promise<Facts['interfaces']> {

@@ -4,21 +4,30 @@
 
 import { useEffect, type KeyboardEvent as ReactKeyboardEvent } from 'react';
 import type { Device } from '../../robot/device.ts';
-import { useDevice, useStores } from '../stores.ts';
+import { useDevice, useStores, type Stores } from '../stores.ts';
+import { shortcutsOf, type Action } from '../../ui/action.ts';
 import { words } from '../../i18n/words.ts';
 import styles from './StopButton.module.css';
+
+/** Its key is the only one that works everywhere; see `useStopKey`. */
+export const STOP: Action<Pick<Stores, 'device'>> = {
+  ...{ id: 'stop', icon: 'end', keys: ['Escape'] },
+  label: () => words.stop.button,
+  enabled: ({ device }) => device.store.getState().way !== null || words.servos.blocked.closed,
+  run: ({ device }) => device.halt(),
+};
 
 export function StopButton() {
   const { device } = useStores();
   const exists = useDevice((state) => state.way !== null);
-  useEscape(device);
+  useStopKey(device);
 
   return (
     <div className={styles.place} data-react-aria-top-layer="true">
       <button
         type="button"
         className={styles.stop}
-        aria-keyshortcuts="Escape"
+        aria-keyshortcuts={shortcutsOf(STOP.keys)}
         disabled={!exists}
         onPointerDown={() => device.halt()}
         onKeyDown={(event) => {
@@ -45,11 +54,12 @@ export function StopButton() {
 
 const isActivation = ({ key }: ReactKeyboardEvent): boolean => key === 'Enter' || key === ' ';
 
-/** Listens in the capture phase, before a dialog or field can stop the event. */
-function useEscape(device: Device): void {
+/** Listens while the event goes down, before any dialog or field can keep it. */
+function useStopKey(device: Device): void {
   useEffect(() => {
     const halt = (event: KeyboardEvent): void => {
-      if (event.key === 'Escape' && !event.repeat) device.halt();
+      // Whatever is held with it: in an emergency no other key is looked at.
+      if (STOP.keys.includes(event.key) && !event.repeat) STOP.run({ device });
     };
     window.addEventListener('keydown', halt, { capture: true });
     return () => window.removeEventListener('keydown', halt, { capture: true });

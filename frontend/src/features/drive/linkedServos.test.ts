@@ -1,6 +1,6 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
-import { evenly } from '#shared/testing/evenly.ts';
+import { evenly } from '#shared/testing/cases.ts';
 import { readyRobot } from '#shared/profile/readyRobots.ts';
 import { degreesOf, type RobotServo } from '#shared/profile/robot.ts';
 import { robotNames } from '../../i18n/sentences.ts';

@@ -1,6 +1,6 @@
 import fc from 'fast-check';
 import { expect, test } from 'vitest';
-import { evenly } from '#shared/testing/evenly.ts';
+import { evenly } from '#shared/testing/cases.ts';
 import { gripOf, isSideways, placeOf, valueAt } from './useDrag.ts';
 
 const way = { fromPx: 100, lengthPx: 200, min: 500, max: 2_500 };

@@ -3,7 +3,7 @@ import { FAMILIES, type FamilyId } from '#shared/codec/families.ts';
 import { isProfileName } from '#shared/simulator/profileNames.ts';
 import { servoLabel } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/words.ts';
-import { captureFrame } from '../animate/frames/capture.ts';
+import { captureFrame } from '../animate/frames/CaptureButton.tsx';
 import { createTestPage } from '../pageUnderTest.ts';
 import { canTeach, createTeaching } from './teaching.ts';
 

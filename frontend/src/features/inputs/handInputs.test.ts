@@ -4,10 +4,9 @@
 import * as fc from 'fast-check';
 import { expect, test } from 'vitest';
 import { step } from '#shared/profile/mappingStep.ts';
-import { evenly } from '#shared/testing/evenly.ts';
+import { evenly, TIMES } from '#shared/testing/cases.ts';
 import { homeTargets } from '#shared/profile/poseShapes.ts';
 import { FAMILIES } from '#shared/codec/families.ts';
-import { TIMES } from '#shared/robot/faults/amount.ts';
 import { RANGE_MS } from '#shared/robot/timings.ts';
 import { createTestPage } from '../pageUnderTest.ts';
 import { GENTLE_MOVE_MS } from '../../robot/moveTime.ts';

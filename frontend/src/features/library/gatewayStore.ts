@@ -3,21 +3,27 @@
 import * as v from 'valibot';
 import { factsSchema } from '#shared/files/factsSchema.ts';
 import { LibraryError, type DocumentStore, type LibraryErrorCode } from '#shared/files/documentStore.ts';
-import { GatewayProblem, request, type Method } from '../../robot/request.ts';
+import {
+  GatewayProblem,
+  request,
+  type Answer,
+  type Asked,
+  type Path,
+  type Verb,
+} from '../../robot/request.ts';
 import type {
-  DocumentIds,
-  DocumentWrite,
   DocumentWritten,
   LibraryListing,
   ListedVersion,
   StoredDocument,
   VersionText,
-  VersionWrite,
-} from './library.generated.ts';
+} from '../../robot/http.generated.ts';
 
 const ANSWER_WITHIN_MS = 10_000;
 /** The gateway's limit. */
 const MAX_TEXT_LENGTH = 2 * 1024 * 1024;
+
+const VERSION = '/api/library/{document}/versions/{version}';
 
 const CODES: Readonly<Record<string, LibraryErrorCode>> = {
   conflict: 'conflict',
@@ -45,50 +51,55 @@ const versionsSchema: v.GenericSchema<unknown, ListedVersion[]> = v.array(
   v.object({ id: v.string(), name: v.string(), atMs: whole }),
 );
 const versionTextSchema: v.GenericSchema<unknown, VersionText> = v.object({ text: v.string() });
-const nothing = v.unknown();
 
 export const gatewayStore: DocumentStore = {
   place: 'gateway',
-  list: () => ask('', 'GET', listingSchema),
-  read: (id) => ask(`/${id}`, 'GET', storedSchema),
+  list: () => ask('get', '/api/library', listingSchema, {}),
+  read: (id) => ask('get', '/api/library/{document}', storedSchema, { values: { document: id } }),
   async write(id, { text, facts, expected, isRemoved }) {
     if (text.length > MAX_TEXT_LENGTH) throw new LibraryError('tooLarge', 'the text is too long');
-    const wanted: DocumentWrite = { text, facts, expected, isRemoved };
-    const { revision } = await ask(`/${id}`, 'PUT', writtenSchema, wanted);
+    const body = { text, facts, expected, isRemoved };
+    const asked = { values: { document: id }, body };
+    const { revision } = await ask('put', '/api/library/{document}', writtenSchema, asked);
     return revision;
   },
-  remove: (ids) => mark('remove', ids),
-  restore: (ids) => mark('restore', ids),
-  versions: (id) => ask(`/${id}/versions`, 'GET', versionsSchema),
+  remove: (ids) => send('post', '/api/library/remove', { body: { ids } }),
+  restore: (ids) => send('post', '/api/library/restore', { body: { ids } }),
+  versions: (id) =>
+    ask('get', '/api/library/{document}/versions', versionsSchema, { values: { document: id } }),
   readVersion: async (id, version) =>
-    (await ask(`/${id}/versions/${version}`, 'GET', versionTextSchema)).text,
+    (await ask('get', VERSION, versionTextSchema, { values: { document: id, version } })).text,
   async keepVersion(id, { id: version, name, atMs }, text) {
-    const wanted: VersionWrite = { name, atMs, text };
-    await ask(`/${id}/versions/${version}`, 'PUT', nothing, wanted);
+    await send('put', VERSION, { values: { document: id, version }, body: { name, atMs, text } });
   },
   async removeVersion(id, version) {
-    await ask(`/${id}/versions/${version}`, 'DELETE', nothing);
+    await send('delete', VERSION, { values: { document: id, version } });
   },
 };
 
-async function mark(verb: 'remove' | 'restore', ids: readonly string[]): Promise<void> {
-  const wanted: DocumentIds = { ids: [...ids] };
-  await ask(`/${verb}`, 'POST', nothing, wanted);
-}
+type Given<P extends Path, V extends Verb<P>> = Omit<Asked<P, V>, 'withinMs'>;
 
-async function ask<T>(
-  path: string,
-  method: Method,
-  schema: v.GenericSchema<unknown, T>,
-  body?: object,
-): Promise<T> {
-  const asking = { method, body, withinMs: ANSWER_WITHIN_MS };
-  const answer = await request(`api/library${path}`, asking).catch((error: unknown) => {
-    throw problem(error);
-  });
-  const read = v.safeParse(schema, answer);
+async function ask<P extends Path, V extends Verb<P>>(
+  verb: V,
+  path: P,
+  schema: v.GenericSchema<unknown, Answer<P, V>>,
+  given: Given<P, V>,
+): Promise<Answer<P, V>> {
+  const read = v.safeParse(schema, await answerTo(verb, path, given));
   if (!read.success) throw new LibraryError('failed', 'the gateway’s answer is none');
   return read.output;
+}
+
+/** What it answers says nothing new. */
+async function send<P extends Path, V extends Verb<P>>(verb: V, path: P, given: Given<P, V>): Promise<void> {
+  await answerTo(verb, path, given);
+}
+
+async function answerTo<P extends Path, V extends Verb<P>>(verb: V, path: P, given: Given<P, V>) {
+  const asked = { ...given, withinMs: ANSWER_WITHIN_MS } as Asked<P, V>;
+  return request(verb, path, asked).catch((error: unknown) => {
+    throw problem(error);
+  });
 }
 
 function problem(error: unknown): unknown {

@@ -18,7 +18,7 @@ import {
 } from '#shared/files/documentStore.ts';
 import { longerName } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/words.ts';
-import type { SavedDocument } from '../../state/undoable.ts';
+import type { Document } from '../groupDocument.ts';
 import type { TextStorage } from '../../state/storage.ts';
 import type { Notices } from '../../state/notices.ts';
 import type { RobotStore } from '../profiles/robots.ts';
@@ -66,7 +66,7 @@ const ADDED_WITHIN_MS = 700;
 
 export interface LibraryOptions {
   readonly documentStore: Promise<DocumentStore>;
-  readonly document: SavedDocument<ActionGroup>;
+  readonly document: Document;
   readonly storage: TextStorage;
   readonly notices: Notices;
   readonly robots: RobotStore;

@@ -3,7 +3,7 @@
 import type { DocumentStore } from '#shared/files/documentStore.ts';
 import { insertFrame } from '#shared/group/groupEdits.ts';
 import type { VirtualClock } from '#shared/testing/virtualClock.ts';
-import { createDocument } from '../animate/group/document.ts';
+import { createDocument } from '../groupDocument.ts';
 import { createNotices } from '../../state/notices.ts';
 import { createRobots } from '../profiles/robots.ts';
 import { createView } from '../view.ts';

@@ -3,7 +3,7 @@
 import { type ActionGroup, groupToText } from '#shared/group/group.ts';
 import type { DocumentStore, Version } from '#shared/files/documentStore.ts';
 import { words } from '../../i18n/words.ts';
-import type { SavedDocument } from '../../state/undoable.ts';
+import type { Document } from '../groupDocument.ts';
 import type { Notices } from '../../state/notices.ts';
 import { groupOf } from './openDocument.ts';
 
@@ -20,7 +20,7 @@ export interface LibraryVersions {
 
 interface LibraryVersionsOptions {
   readonly documentStore: Promise<DocumentStore>;
-  readonly document: SavedDocument<ActionGroup>;
+  readonly document: Document;
   readonly notices: Notices;
   /** Milliseconds since 1970. */
   epochMs(): number;

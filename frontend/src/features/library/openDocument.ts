@@ -5,7 +5,7 @@ import * as v from 'valibot';
 import { type ActionGroup, groupFromText, sameGroup } from '#shared/group/group.ts';
 import { LibraryError, type Listed } from '#shared/files/documentStore.ts';
 import { record, startHistory, type History, type Label } from '#shared/document/history.ts';
-import type { SavedDocument } from '../../state/undoable.ts';
+import type { Document } from '../groupDocument.ts';
 import type { TextStorage } from '../../state/storage.ts';
 
 /** Parses the text of a group. Throws a LibraryError if this version cannot read it. */
@@ -47,7 +47,7 @@ const schema = v.object({
 });
 
 export function createOpenDocument(
-  document: SavedDocument<ActionGroup>,
+  document: Document,
   storage: TextStorage,
   newId: () => string,
 ): OpenDocument {

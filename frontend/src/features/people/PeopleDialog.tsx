@@ -3,7 +3,7 @@
 import { useEffect } from 'react';
 import { useStore } from 'zustand';
 import { managesPeople } from './people.ts';
-import type { Me } from '../../robot/people.generated.ts';
+import type { Me } from '../../robot/http.generated.ts';
 import { useSnapshot, useStores, useView } from '../stores.ts';
 import { IconButton } from '../../ui/Button.tsx';
 import { Dialog } from '../../ui/Dialog.tsx';

@@ -3,7 +3,7 @@
 import { useState } from 'react';
 import type { Candidate } from '#shared/robot/lease.ts';
 import { words } from '../../i18n/whole.ts';
-import type { Me, Person } from '../../robot/people.generated.ts';
+import type { Me, Person } from '../../robot/http.generated.ts';
 import { NameField } from '../../ui/NameField.tsx';
 import { type PeopleWishes, type Shown, PERSON_ROLES, type PeopleState, type PersonRole } from './people.ts';
 import { Button } from '../../ui/Button.tsx';

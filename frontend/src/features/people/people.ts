@@ -14,7 +14,7 @@ import type {
   Token,
   TokenWish,
   You,
-} from '../../robot/people.generated.ts';
+} from '../../robot/http.generated.ts';
 
 /** Why pairing or a change of people failed. */
 export type PeopleErrorCode = 'unreachable' | 'notPaired' | 'failed' | 'locked' | 'refused';

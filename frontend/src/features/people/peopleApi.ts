@@ -1,9 +1,16 @@
 // HTTP requests about people: identity, pairing, invitations, tokens. Validates every answer; every failure is a PeopleError.
 
 import * as v from 'valibot';
-import { GatewayProblem, request, type Method } from '../../robot/request.ts';
+import {
+  GatewayProblem,
+  request,
+  type Answer,
+  type Asked,
+  type Path,
+  type Verb,
+} from '../../robot/request.ts';
 import { PeopleError, type PeopleApi, type PeopleErrorCode } from './people.ts';
-import type { Invitation, Me, PairWish, People, StopLink, Token, You } from '../../robot/people.generated.ts';
+import type { Invitation, Me, PairWish, People, StopLink, Token, You } from '../../robot/http.generated.ts';
 
 const ANSWER_WITHIN_MS = 4000;
 /** Without an answer the page simulates a robot, so a busy gateway gets more time. */
@@ -48,54 +55,64 @@ const invitationSchema: v.GenericSchema<unknown, Invitation> = v.object({
 });
 const stopLinkSchema: v.GenericSchema<unknown, StopLink> = v.object(link);
 const tokenSchema: v.GenericSchema<unknown, Token> = v.object({ id: v.string(), token: v.string() });
-const nothing = v.unknown();
 
 /** null if no gateway answers: the page was served from elsewhere. */
 export async function readMe(): Promise<Me | null> {
-  return ask('me', 'GET', meSchema, undefined, HERE_WITHIN_MS).catch(() => null);
+  return ask('get', '/api/me', meSchema, {}, HERE_WITHIN_MS).catch(() => null);
 }
 
-export const pair = (wish: PairWish): Promise<You> => ask('pair', 'POST', youSchema, wish);
+export const pair = (wish: PairWish): Promise<You> => ask('post', '/api/pair', youSchema, { body: wish });
 
 /** Sets the name of this device. */
-export const sayName = (name: string): Promise<You> => ask('me', 'PATCH', youSchema, { name });
+export const sayName = (name: string): Promise<You> => ask('patch', '/api/me', youSchema, { body: { name } });
 
 /** Resolves when the stops have left the wire, or when there was no port to send them to. */
 export async function stopRobot(): Promise<void> {
-  await ask('stop', 'POST', nothing);
+  await send('post', '/api/stop', {});
 }
 
 export const peopleApi: PeopleApi = {
   me: readMe,
   sayName,
-  list: () => ask('people', 'GET', peopleSchema),
-  invite: (wish) => ask('invites', 'POST', invitationSchema, wish),
-  withdraw: async (id) => {
-    await ask(`invites/${id}`, 'DELETE', nothing);
-  },
-  change: async (id, wanted) => {
-    await ask(`people/${id}`, 'PATCH', nothing, wanted);
-  },
-  revoke: async (id, continues) => {
-    await ask(`people/${id}${continues ? '?continues=true' : ''}`, 'DELETE', nothing);
-  },
-  makeToken: (wish) => ask('tokens', 'POST', tokenSchema, wish),
-  makeStopLink: (name) => ask('stop-links', 'POST', stopLinkSchema, { name }),
+  list: () => ask('get', '/api/people', peopleSchema, {}),
+  invite: (wish) => ask('post', '/api/invites', invitationSchema, { body: wish }),
+  withdraw: (id) => send('delete', '/api/invites/{invitation}', { values: { invitation: id } }),
+  change: (id, wanted) => send('patch', '/api/people/{person}', { values: { person: id }, body: wanted }),
+  revoke: (id, continues) =>
+    send('delete', '/api/people/{person}', { values: { person: id }, query: continues ? { continues } : {} }),
+  makeToken: (wish) => ask('post', '/api/tokens', tokenSchema, { body: wish }),
+  makeStopLink: (name) => ask('post', '/api/stop-links', stopLinkSchema, { body: { name } }),
 };
 
-async function ask<T>(
-  path: string,
-  method: Method,
-  schema: v.GenericSchema<unknown, T>,
-  body?: object,
-  withinMs = ANSWER_WITHIN_MS,
-): Promise<T> {
-  const answer = await request(`api/${path}`, { method, body, withinMs }).catch((error: unknown) => {
-    throw asPeopleError(error);
-  });
-  const read = v.safeParse(schema, answer);
+type Given<P extends Path, V extends Verb<P>> = Omit<Asked<P, V>, 'withinMs'>;
+
+async function ask<P extends Path, V extends Verb<P>>(
+  verb: V,
+  path: P,
+  schema: v.GenericSchema<unknown, Answer<P, V>>,
+  given: Given<P, V>,
+  withinMs?: number,
+): Promise<Answer<P, V>> {
+  const read = v.safeParse(schema, await answerTo(verb, path, given, withinMs));
   if (!read.success) throw new PeopleError('unreachable', 'no gateway is at this address');
   return read.output;
+}
+
+/** What it answers says nothing new. */
+async function send<P extends Path, V extends Verb<P>>(verb: V, path: P, given: Given<P, V>): Promise<void> {
+  await answerTo(verb, path, given);
+}
+
+async function answerTo<P extends Path, V extends Verb<P>>(
+  verb: V,
+  path: P,
+  given: Given<P, V>,
+  withinMs = ANSWER_WITHIN_MS,
+): Promise<unknown> {
+  const asked = { ...given, withinMs } as Asked<P, V>;
+  return request(verb, path, asked).catch((error: unknown) => {
+    throw asPeopleError(error);
+  });
 }
 
 function asPeopleError(error: unknown): unknown {

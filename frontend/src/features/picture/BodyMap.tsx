@@ -2,7 +2,8 @@
 
 import { useRef, useState, type CSSProperties, type KeyboardEvent } from 'react';
 import type { BodyKind, RobotServo } from '#shared/profile/robot.ts';
-import { undoActionOf } from '../undo/useUndoKeys.ts';
+import { runByKey } from '../../ui/action.ts';
+import { UNDO_ACTIONS } from '../undo/undoActions.ts';
 import { useRobot, useServoView, useStores } from '../stores.ts';
 import { Toggle } from '../../ui/Toggle.tsx';
 import { UndoTools } from '../undo/UndoTools.tsx';
@@ -25,11 +26,9 @@ export function BodyMap({ isArrangingFirst = false }: { readonly isArrangingFirs
 
   /** While arranging, the undo keys apply to the places. */
   function undoKey(event: KeyboardEvent): void {
-    const action = isArranging ? undoActionOf(event) : null;
-    if (action === null) return;
+    if (!isArranging || !runByKey(UNDO_ACTIONS, event, robots)) return;
     event.preventDefault();
     event.stopPropagation();
-    robots[action]();
   }
 
   return (

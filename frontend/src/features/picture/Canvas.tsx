@@ -112,6 +112,7 @@ const NAMES = [
     'estimated',
     'confirmed',
     'unknown',
+    'warning',
   ] as const),
   ...COLOURS,
 ] as const;

@@ -9,7 +9,8 @@ import { type ArmPicture, armPicture, JOINT, samePicture, type Pose } from './po
 import { useDevice, usePlayback, useStores, useRobot } from '../stores.ts';
 import { ArmFigure, drawArm, BoneFigure, drawBones } from './ArmFigure.tsx';
 import { usePreview } from '../preview.ts';
-import { motionsInFrame, useMotions } from './motion.ts';
+import { motionsInFrame } from './motion.ts';
+import { useMotions } from './useMotions.ts';
 import figure from './figure.module.css';
 import styles from './LiveArm.module.css';
 import type { Robot } from '#shared/profile/robot.ts';

@@ -33,30 +33,6 @@ function eachOnce(motion: Motions): Motions {
   };
 }
 
-/** Calls `draw` in each frame in which one of the servos moved. A robot at rest costs nothing. */
-export function useMotions(servos: readonly number[], draw: () => void): void {
-  const { device } = useStores();
-  useFollow({
-    read: () => servos.map((servo) => motionInFrame(device, servo)),
-    isSame: sameMotions,
-    draw,
-  });
-}
-
-function sameMotions(some: readonly ServoMotion[], others: readonly ServoMotion[]): boolean {
-  return (
-    some.length === others.length &&
-    some.every((one, index) => {
-      const other = others[index];
-      return other !== undefined && sameMotion(one, other);
-    })
-  );
-}
-
-function sameMotion(one: ServoMotion, other: ServoMotion): boolean {
-  return one.target === other.target && one.estimated === other.estimated;
-}
-
 /** The target now; `motionInFrame` has it at the time of the frame. */
 export const targetOf = (device: Device, servo: number): number | null => device.motion(servo).target;
 

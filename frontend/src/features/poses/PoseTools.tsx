@@ -1,23 +1,18 @@
 // The tools for the selected pose. Always present, so that nothing moves when a pose is selected.
 
 import { addMacro } from '#shared/profile/macroEdits.ts';
-import {
-  type PoseBook,
-  duplicatePose,
-  markRest,
-  movePose,
-  removePose,
-  setPose,
-} from '#shared/profile/pose.ts';
+import { type PoseBook, markRest, setPose } from '#shared/profile/pose.ts';
 import { flippedTargets, mirroredTargets } from '#shared/profile/poseShapes.ts';
 import { servoOf } from '#shared/profile/robot.ts';
-import { putFrame } from '../animate/frames/capture.ts';
+import { putFrame } from '../animate/frames/CaptureButton.tsx';
 import { GENTLE_MOVE_MS } from '../../robot/moveTime.ts';
-import { longerName, servoLabel } from '../../i18n/sentences.ts';
+import { servoLabel } from '../../i18n/sentences.ts';
 import { useDevice, useDocument, usePoses, useRobot, useStores } from '../stores.ts';
-import { Button, IconButton } from '../../ui/Button.tsx';
+import { ActionIconButton } from '../../ui/ActionButton.tsx';
+import { Button } from '../../ui/Button.tsx';
 import { Toggle } from '../../ui/Toggle.tsx';
 import { words } from '../../i18n/whole.ts';
+import { POSE_ACTIONS, poseContextOf, type PoseContext } from './poseActions.ts';
 import { useSelectedPose } from './naming.ts';
 import styles from './PosesPanel.module.css';
 
@@ -164,54 +159,15 @@ function Shapes() {
 }
 
 function Arrange() {
-  const { poses, view, notices } = useStores();
-  const pose = useSelectedPose();
-  const list = usePoses(({ present }) => present.poses);
-  const nextId = usePoses(({ present }) => present.nextId);
-  const index = pose === undefined ? -1 : list.indexOf(pose);
-  const none = pose === undefined;
-
-  const move = (to: number) => (): void => {
-    if (none) return;
-    poses.book.edit(
-      () => words.poses.steps.move({ name: pose.name }),
-      (book) => movePose(book, pose.id, to),
-    );
-    notices.say(words.poses.moved({ from: index + 1, to: to + 1 }));
-  };
-  const duplicate = (): void => {
-    if (none) return;
-    view.setState({ selectedPose: nextId });
-    poses.book.edit(
-      () => words.poses.steps.duplicate({ name: pose.name }),
-      (book) => duplicatePose(book, pose.id, longerName(pose.name, words.poses.copyOf)),
-    );
-  };
-  const remove = (): void => {
-    if (none) return;
-    view.setState({ selectedPose: list[index + 1]?.id ?? list[index - 1]?.id ?? null });
-    poses.book.edit(
-      () => words.poses.steps.delete({ name: pose.name }),
-      (book) => removePose(book, pose.id),
-    );
-  };
-
+  const stores = useStores();
+  const id = useSelectedPose()?.id ?? null;
+  usePoses(({ present }) => present.poses);
+  const context = (): PoseContext => poseContextOf(stores);
   return (
     <span className={styles.icons}>
-      <IconButton
-        icon="earlier"
-        label={words.poses.earlier}
-        isDisabled={none || index === 0}
-        onPress={move(index - 1)}
-      />
-      <IconButton
-        icon="later"
-        label={words.poses.later}
-        isDisabled={none || index === list.length - 1}
-        onPress={move(index + 1)}
-      />
-      <IconButton icon="copy" label={words.poses.duplicate} isDisabled={none} onPress={duplicate} />
-      <IconButton icon="trash" label={words.poses.delete} isDisabled={none} onPress={remove} />
+      {(['earlier', 'later', 'duplicate', 'remove'] as const).map((name) => (
+        <ActionIconButton key={name} action={POSE_ACTIONS[name]} shown={{ stores, id }} context={context} />
+      ))}
     </span>
   );
 }

@@ -6,7 +6,7 @@ import { saveFile } from '../../ui/localFiles.tsx';
 import { usePoses, useRobot, useStores, useDevice, useSnapshot, useView } from '../stores.ts';
 import { IconButton, Button, isByKey } from '../../ui/Button.tsx';
 import { words } from '../../i18n/whole.ts';
-import { CaptureButton } from '../animate/frames/CaptureStrip.tsx';
+import { CaptureButton } from '../animate/frames/CaptureButton.tsx';
 import { poseName } from './poses.ts';
 import { motionHindrance } from '../../robot/readiness.ts';
 import { NumberField } from '../../ui/NumberField.tsx';

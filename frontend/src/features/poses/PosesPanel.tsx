@@ -2,15 +2,16 @@
 // so.
 
 import { useRef, useState } from 'react';
-import { type Pose, movePose, removePose, setPose } from '#shared/profile/pose.ts';
+import { type Pose, setPose } from '#shared/profile/pose.ts';
 import { unknownServos } from '#shared/profile/poseShapes.ts';
 import type { RobotServo } from '#shared/profile/robot.ts';
 import { useDevice, useRobot, usePoses, useStores, useView } from '../stores.ts';
 import { PoseThumb } from '../picture/PoseThumb.tsx';
 import { EmptyState, type PanelParts } from '../../ui/Panel.tsx';
 import { words } from '../../i18n/whole.ts';
+import { runByKey } from '../../ui/action.ts';
 import { useCards } from '../../ui/cards.ts';
-import { poseName } from './poses.ts';
+import { POSE_ACTIONS } from './poseActions.ts';
 import { PoseCard } from './PoseCard.tsx';
 import { limbsOf } from '../picture/pose.ts';
 import { UndoTools } from '../undo/UndoTools.tsx';
@@ -51,28 +52,13 @@ function turned({ home, min, max }: Record<'home' | 'min' | 'max', number>, shar
 }
 
 function PoseList() {
-  const { poses, view, notices } = useStores();
+  const stores = useStores();
   const book = usePoses(({ present }) => present);
   const selected = useView((state) => state.selectedPose);
-  const ids = book.poses.map(({ id }) => id);
   const { list, tabStop, key } = useCards<HTMLOListElement>({
-    ...{ ids, selected, attribute: 'data-pose' },
-    select: (id) => view.setState({ selectedPose: id }),
-    move(id, to) {
-      poses.book.edit(
-        () => words.poses.steps.move({ name: poseName(book, id) }),
-        (before) => movePose(before, id, to),
-      );
-      view.setState({ selectedPose: id });
-      notices.say(words.poses.moved({ from: ids.indexOf(id) + 1, to: to + 1 }));
-    },
-    remove(id, next) {
-      poses.book.edit(
-        () => words.poses.steps.delete({ name: poseName(book, id) }),
-        (before) => removePose(before, id),
-      );
-      view.setState({ selectedPose: next });
-    },
+    ...{ ids: book.poses.map(({ id }) => id), selected, attribute: 'data-pose' },
+    select: (id) => stores.view.setState({ selectedPose: id }),
+    act: (pressed, id) => runByKey(Object.values(POSE_ACTIONS), pressed, { stores, id }),
   });
 
   const marks = ({ id }: Pose): string =>

@@ -6,7 +6,8 @@ import { useRobot, useStores, useView } from '../stores.ts';
 import { Icon } from '../../ui/Icon.tsx';
 import { pressOnce } from '../../ui/inputEvents.ts';
 import { words } from '../../i18n/words.ts';
-import { undoActionOf } from '../undo/useUndoKeys.ts';
+import { UNDO_ACTIONS } from '../undo/undoActions.ts';
+import { runByKey } from '../../ui/action.ts';
 import type { ViewState } from '../view.ts';
 import { Dialog } from '../../ui/Dialog.tsx';
 import { laterComponent } from '../../ui/later.tsx';
@@ -52,11 +53,9 @@ export function RobotDialog() {
       <div
         className={styles.content}
         onKeyDown={(event) => {
-          const action = undoActionOf(event);
-          if (action === null) return;
+          if (!runByKey(UNDO_ACTIONS, event, robots)) return;
           event.preventDefault();
           event.stopPropagation();
-          robots[action]();
         }}
       >
         {Content !== null && <Content />}

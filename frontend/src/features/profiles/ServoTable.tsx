@@ -13,7 +13,8 @@ import { words } from '../../i18n/whole.ts';
 import { COLUMNS, type Column, type ColumnId, type Edited } from './columns.ts';
 import { ReachBar } from './RobotPicture.tsx';
 import styles from './ServoTable.module.css';
-import { undoActionOf } from '../undo/useUndoKeys.ts';
+import { actionOf } from '../../ui/action.ts';
+import { UNDO_ACTIONS } from '../undo/undoActions.ts';
 
 export function ServoTable() {
   const { servos, board } = useRobot();
@@ -204,7 +205,7 @@ export function CellField(props: CellFieldProps) {
       else neighbour.focus();
     }
     // While typing, the browser's undo applies.
-    if (draft !== null && undoActionOf(event) !== null) event.stopPropagation();
+    if (draft !== null && actionOf(UNDO_ACTIONS, event) !== undefined) event.stopPropagation();
   }
 
   return (

@@ -30,7 +30,7 @@ export function createDeviceFinder<T>(
     async find() {
       const granted = await listed();
       if (!granted.includes(ours) || isGone(ours)) {
-        // Never seen before it went: what is there cannot be told from it.
+        // Never seen before it went: what is there cannot be distinguished from it.
         others ??= Promise.resolve(granted);
         const known = await others;
         ours = onlyOne(granted.filter((device) => !known.includes(device) && isSameKind(device, ours)));

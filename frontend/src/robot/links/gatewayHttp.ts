@@ -1,12 +1,16 @@
 // The gateway's HTTP interface for a link: every failure is a LinkError. Knows no route.
 
 import { isLinkErrorCode, LinkError } from '#shared/robot/linkError.ts';
-import { GatewayProblem, request, type Asking } from '../request.ts';
+import { GatewayProblem, request, type Asked, type Path, type Verb } from '../request.ts';
 
 /** Rejects where nobody answers in time, and with what the gateway says it refuses for. */
-export async function askGateway(path: string, asking: Asking): Promise<unknown> {
+export async function askGateway<P extends Path, V extends Verb<P>>(
+  verb: V,
+  path: P,
+  asked: Asked<P, V>,
+): Promise<unknown> {
   try {
-    return await request(path, asking);
+    return await request(verb, path, asked);
   } catch (error) {
     if (!(error instanceof GatewayProblem)) throw error;
     const { code, message } = error;

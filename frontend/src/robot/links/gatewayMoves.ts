@@ -14,6 +14,8 @@ export interface GatewayMoves {
   put(targets: readonly ServoTarget[], durationMs: number): void;
   /** With a value that was not handed over yet. */
   servos(): readonly number[];
+  /** Of these servos nothing is handed over that was not yet. */
+  drop(servos: readonly number[]): void;
   /** What was not handed over is not any more, and nothing is reported of the rest. */
   clear(): void;
   /** That message was refused. */
@@ -40,7 +42,7 @@ export function createGatewayMoves({
   const waiting = new Map<number, { readonly target: ServoTarget; readonly durationMs: number }>();
   let isHandingOver = false;
   let lastId = 0;
-  /** Nobody wants to hear any more what became of these. */
+  /** The outcome of these and those before is not reported any more. */
   let forgottenId = 0;
 
   async function handOver(): Promise<void> {
@@ -81,6 +83,7 @@ export function createGatewayMoves({
       if (!isHandingOver) void handOver();
     },
     servos: () => [...waiting.keys()],
+    drop: (servos) => servos.forEach((servo) => waiting.delete(servo)),
     clear() {
       waiting.clear();
       forget();

@@ -16,7 +16,7 @@ export interface GatewayPlayer {
   stop(): void;
   refused(id: number, error: LinkError): void;
   ended(message: PlayedMessage): void;
-  /** Nobody will hear how it ends. */
+  /** Its end will not be heard. */
   gone(error: LinkError): void;
 }
 
@@ -33,7 +33,7 @@ const NEW_MS = 100;
 
 const NOTHING_PLAYED: Played = { lateFrames: 0, latestMs: 0, skippedFrames: 0, isWhole: false };
 
-/** Whoever ended it, or the page itself, says so elsewhere. */
+/** The end is shown elsewhere already. */
 const SAID_ELSEWHERE = ['cancelled', 'latched', 'notDriving'];
 
 /** `begin` gives the nonce of this page's lease. */
@@ -48,9 +48,9 @@ export function createGatewayPlayer(
     const nonce = await begin(NEW_MS);
     if (waiter !== mine) return;
     const message: PlayMessage = { type: 'play', id: mine.id, nonce, ...wish };
-    const { type, ...body } = message;
+    const { type: _, ...body } = message;
     if (JSON.stringify(message).length <= MESSAGE_BYTES) post(message);
-    else await askGateway(`api/${type}`, { method: 'POST', body, withinMs: TAKEN_WITHIN_MS });
+    else await askGateway('post', '/api/play', { body, withinMs: TAKEN_WITHIN_MS });
     mine.isHandedOver = true;
     // Its end was wanted while it was on its way.
     if (waiter !== mine) post({ type: 'stopPlaying' });

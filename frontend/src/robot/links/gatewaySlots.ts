@@ -5,6 +5,7 @@ import { fingerprintOf } from '#shared/group/fingerprint.ts';
 import { LinkError } from '#shared/robot/linkError.ts';
 import { DOWNLOAD_PORTION_BYTES } from '#shared/robot/timings.ts';
 import type { DownloadProgress, SlotGroup, SlotVersions } from '#shared/robot/state.ts';
+import type { GroupBody } from '../http.generated.ts';
 import { isRecord } from '../request.ts';
 import { askGateway, refusal } from './gatewayHttp.ts';
 import { frameBody } from './gatewayValues.ts';
@@ -17,7 +18,7 @@ export interface GatewaySlots {
   /** Slots that hold half a group. */
   readonly broken: readonly number[];
   readonly versions: SlotVersions;
-  /** The latest download, whoever began it; null where there was none. */
+  /** The latest download, whichever client began it; null where there was none. */
   readonly download: (DownloadProgress & { readonly isOver: boolean }) | null;
   /** In their order; resolves when the board has all of them; rejects with what ended it. */
   store(groups: readonly SlotGroup[]): Promise<void>;
@@ -25,7 +26,7 @@ export interface GatewaySlots {
   cancel(): Promise<void>;
   jobChanged(job: JobState | null): void;
   slotsChanged(broken: readonly number[], versions: StateMessage['slotVersions']): void;
-  /** The gateway is gone: whoever waits for a download waits in vain, though it may go on. */
+  /** The gateway is gone: the waiting for a download ends, though the download may go on. */
   gone(error: LinkError): void;
 }
 
@@ -53,7 +54,7 @@ export function createGatewaySlots(begin: () => Promise<string>, changed: () => 
   async function handOver(portion: readonly SlotGroup[], behind?: string): Promise<string> {
     const nonce = await begin();
     const body = { groups: portion.map(toBody), nonce, ...(behind !== undefined && { behind }) };
-    const taken = await askGateway('api/download', { method: 'POST', body, withinMs: TAKEN_WITHIN_MS });
+    const taken = await askGateway('post', '/api/download', { body, withinMs: TAKEN_WITHIN_MS });
     if (!isRecord(taken) || typeof taken.id !== 'string')
       throw new LinkError('internal', 'the gateway’s answer is no job');
     return taken.id;
@@ -82,14 +83,14 @@ export function createGatewaySlots(begin: () => Promise<string>, changed: () => 
       const id = await handOver(first);
       const ended = new Promise<void>((resolve, reject) => {
         waiter = { id, resolve, reject };
-        // Its end may have been told before its beginning was answered.
+        // Its end may have come before its beginning was answered.
         settle();
       });
       await Promise.all([ended, handOverRest(rest, id)]);
     },
     async cancel() {
       if (job?.status !== 'running') return;
-      await askGateway(`api/jobs/${job.id}`, { method: 'DELETE', withinMs: TAKEN_WITHIN_MS });
+      await askGateway('delete', '/api/jobs/{job}', { values: { job: job.id }, withinMs: TAKEN_WITHIN_MS });
     },
     jobChanged(next) {
       job = next;
@@ -127,7 +128,7 @@ function portions(groups: readonly SlotGroup[]): readonly (readonly SlotGroup[])
   return all;
 }
 
-function toBody({ slot, frames, replaces, name = '', documentId = null }: SlotGroup): object {
+function toBody({ slot, frames, replaces, name = '', documentId = null }: SlotGroup): GroupBody {
   const version = fingerprintOf(frames);
   const about = { slot, version, name, document: documentId };
   return { ...about, ...(replaces !== undefined && { replaces }), frames: frames.map(frameBody) };

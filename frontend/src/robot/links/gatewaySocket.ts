@@ -1,8 +1,9 @@
-// The WebSocket of the gateway: messages there and back, what was asked by number and how it ended, and the state of the gateway's port.
-// The socket stays open while that port is away, to hear of its return. Knows no robot.
+// The line to the gateway's board: the WebSocket and the port behind it, messages there and back, what was asked by number and how it
+// ended. The socket stays open while that port is away, to hear of its return. Knows no robot.
 
 import { LinkError } from '#shared/robot/linkError.ts';
 import { refusal } from './gatewayHttp.ts';
+import { portError } from './gatewayValues.ts';
 import {
   PROTOCOL,
   type ClientMessage,
@@ -23,15 +24,17 @@ export interface GatewaySocketOptions {
   /** E.g. `ws://127.0.0.1:8300/ws`. */
   readonly url: string;
   heard(message: Said): void;
-  /** Nobody waits for the answer to that one. */
+  /** Its answer is not awaited. */
   refused(id: number, error: LinkError): void;
-  /** The socket has closed by itself. */
-  gone(error: LinkError): void;
+  /** The socket has closed by itself, or its port is not open any more. */
+  lost(error: LinkError): void;
+  /** The port is open again. */
+  available(): void;
 }
 
 export interface GatewaySocket {
   readonly port: PortState | null;
-  /** Resolves when the gateway has said how its port stands. */
+  /** Resolves when the port is open. */
   open(): Promise<void>;
   close(): void;
   /** Throws `gatewayUnreachable`. */
@@ -43,12 +46,6 @@ export interface GatewaySocket {
   ask(message: (id: number) => ClientMessage): Promise<Outcome>;
   /** Resolves with the message that answers a stop, or a resume; a refusal without a number rejects both. */
   answered(message: ClientMessage, by: 'halted' | 'released'): Promise<void>;
-  settle(by: 'halted' | 'released'): void;
-  /** The port has another state. */
-  portChanged(port: PortState): void;
-  nextPortState(): Promise<void>;
-  /** Whoever waits for an answer waits in vain. */
-  fail(error: LinkError): void;
 }
 
 interface Waiter<T> {
@@ -58,7 +55,8 @@ interface Waiter<T> {
 
 type Waiters = Set<Waiter<void>>;
 
-export function createGatewaySocket({ url, heard, refused, gone }: GatewaySocketOptions): GatewaySocket {
+export function createGatewaySocket(options: GatewaySocketOptions): GatewaySocket {
+  const { url, heard, refused } = options;
   let socket: WebSocket | null = null;
   let port: PortState | null = null;
   let lastId = 0;
@@ -102,30 +100,60 @@ export function createGatewaySocket({ url, heard, refused, gone }: GatewaySocket
   function arrived(message: GatewayMessage): void {
     if (message.type === 'done') take(message.id)?.resolve(message.outcome ?? 'sent');
     else if (message.type === 'refused') refuse(message.id, refusal(message.code, message.detail));
-    else heard(message);
+    else said(message);
+  }
+
+  function said(message: Said): void {
+    const isState = message.type === 'welcome' || message.type === 'state';
+    if (isState) portChanged(message.port);
+    heard(message);
+    if (message.type === 'halted') settle('halted');
+    if (isState && message.latchedBy === null) settle('released');
+  }
+
+  function portChanged(next: PortState): void {
+    const wasOpen = port?.status === 'open';
+    port = next;
+    settle('port');
+    if (next.status === 'open') options.available();
+    else if (wasOpen) lost(portError(next));
+  }
+
+  /** No answer will come to what was asked. */
+  function lost(error: LinkError): void {
+    options.lost(error);
+    for (const waiter of asked.values()) waiter.reject(error);
+    asked.clear();
+    for (const by of ['halted', 'released'] as const) settle(by, error);
   }
 
   const nextPortState = (): Promise<void> =>
     new Promise((resolve, reject) => waiting.port.add({ resolve, reject }));
+
+  /** Resolves when the gateway has said how its port stands. */
+  async function connect(): Promise<void> {
+    const opening = new WebSocket(`${url}?protocol=${PROTOCOL}`);
+    socket = opening;
+    opening.onmessage = ({ data }) => arrived(JSON.parse(String(data)) as GatewayMessage);
+    opening.onclose = ({ code }) => {
+      if (socket !== opening) return;
+      socket = null;
+      port = null;
+      const error = endedBy(code);
+      settle('port', error);
+      lost(error);
+    };
+    await nextPortState();
+  }
 
   return {
     get port() {
       return port;
     },
     async open() {
-      if (socket !== null) return;
-      const opening = new WebSocket(`${url}?protocol=${PROTOCOL}`);
-      socket = opening;
-      opening.onmessage = ({ data }) => arrived(JSON.parse(String(data)) as GatewayMessage);
-      opening.onclose = ({ code }) => {
-        if (socket !== opening) return;
-        socket = null;
-        port = null;
-        const error = endedBy(code);
-        settle('port', error);
-        gone(error);
-      };
-      await nextPortState();
+      if (socket === null) await connect();
+      while (port?.status === 'opening') await nextPortState();
+      if (port?.status !== 'open') throw portError(port);
     },
     close() {
       const closing = socket;
@@ -150,17 +178,6 @@ export function createGatewaySocket({ url, heard, refused, gone }: GatewaySocket
         post(message);
         waiting[by].add({ resolve, reject });
       });
-    },
-    settle,
-    portChanged(next) {
-      port = next;
-      settle('port');
-    },
-    nextPortState,
-    fail(error) {
-      for (const waiter of asked.values()) waiter.reject(error);
-      asked.clear();
-      for (const by of ['halted', 'released'] as const) settle(by, error);
     },
   };
 }

@@ -1,8 +1,9 @@
 // Values of the gateway's messages as the snapshot has them, and the other way round. Pure: knows no socket.
 
 import type { MotionBefore } from '#shared/motion/before.ts';
-import { isHarmless, type Frame } from '#shared/codec/commands.ts';
-import { FAMILIES, type BoardId } from '#shared/codec/families.ts';
+import { isHarmless, type Command, type Frame } from '#shared/codec/commands.ts';
+import { encodeCommand } from '#shared/codec/encode.ts';
+import { FAMILIES, type BoardId, type Family } from '#shared/codec/families.ts';
 import { fromHex, toHex } from '#shared/codec/packet.ts';
 import { commandIn } from '#shared/codec/parse.ts';
 import type { Report } from '#shared/codec/reports.ts';
@@ -62,9 +63,13 @@ export function batteryOf(battery: BatteryMessage['battery'], nowMs: number): Ba
   return { kind: 'read', batteryMv: battery.batteryMv, atMs: nowMs - battery.ageMs };
 }
 
-export function motionBefore({ servos, runSlot, released }: MotionState): MotionBefore {
+export function motionBefore(
+  { servos, runSlot, released, reported }: MotionState,
+  nowMs: number,
+): MotionBefore {
   const ways = servos.map(({ start, target, ...way }) => ({ ...way, from: start, to: target }));
-  return { ways, runSlot, released };
+  const said = reported.map(({ ageMs, ...one }) => ({ ...one, atMs: nowMs - ageMs }));
+  return { ways, runSlot, released, reported: said };
 }
 
 export function frameBody({ durationMs, targets }: Frame): FrameBody {
@@ -86,4 +91,16 @@ export function compactHex(bytes: Uint8Array): string {
 
 export function reportIn({ report, bytes }: ReceivedMessage): Report {
   return report.kind === 'unknown' ? { ...report, params: fromHex(bytes).slice(PARAMS_AT) } : report;
+}
+
+/** A board that is asked who it is gets questions that only others know. */
+export function bytesForLog(command: Command, family: Family): Uint8Array | null {
+  for (const one of [family, ...Object.values(FAMILIES)]) {
+    try {
+      return encodeCommand(command, one);
+    } catch {
+      continue;
+    }
+  }
+  return null;
 }

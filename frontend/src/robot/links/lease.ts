@@ -1,4 +1,4 @@
-// The lease as the gateway gives it to this page: requests one that nobody has, answers each tick, and keeps the nonce that shows that
+// The lease as the gateway gives it to this page: requests one that is free, answers each tick, and has the nonce that shows that
 // an intent is of now. Knows no packet. It needs no timer, which a browser would slow down.
 
 import { isWatching, notDriving, type Lease, type Unattended } from '#shared/robot/lease.ts';
@@ -15,7 +15,7 @@ export interface Driving {
   ticked(nonce: string): void;
   /** Resolves when this page drives and its nonce is of now, no older than `withinMs`; rejects where somebody else drives. */
   begin(withinMs?: number): Promise<void>;
-  /** Whoever waits for it waits in vain. */
+  /** Ends the waiting, with this error. */
   fail(error: LinkError): void;
   /** The gateway is not there any more: what it said is void. */
   gone(): void;
@@ -27,7 +27,7 @@ interface Waiter {
 }
 
 /**
- * Ticks come every 250 ms; one that is late waits behind what kept this page busy, and with the one before it the gateway would
+ * Ticks come every 250 ms; one that is late waits behind what this page was busy with, and with the one before it the gateway would
  * refuse what is said now for its age.
  */
 const FRESH_MS = 300;
@@ -59,7 +59,7 @@ export function createDriving(post: (message: ClientMessage) => void, now: () =>
       const wasOurs = nonce !== null;
       if (!state.drives) nonce = null;
       if (isWatching(lease)) fail(notDriving(lease));
-      // Whoever waited for the next tick of it: there will be none.
+      // No tick of it will come any more.
       else if (wasOurs && !state.drives) fail(new LinkError('expired', 'this page’s lease was over'));
     },
     counted(clients, unattended) {

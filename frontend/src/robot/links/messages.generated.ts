@@ -39,8 +39,8 @@ export type GatewayMessage =
   | PlayedMessage;
 
 /**
- * Move servos. Of each the newest value counts; what waits for the wire leaves together, servos whose
- * place nobody knows slowly and one after another. `durationMs` 0: as fast as the servos and the link allow.
+ * Move servos. Of each the newest value counts; what waits for the wire leaves together, servos of
+ * unknown place slowly and one after another. `durationMs` 0: as fast as the servos and the link allow.
  * `nonce` shows that the driver says it, and now. Answered only where it is refused: `left` tells what has
  * left.
  */
@@ -210,8 +210,8 @@ export interface BoardMessage {
   board: string;
 }
 /**
- * Ask the board now; what it says is told to everybody, and `done` once it has. Needs no lease. `servos`:
- * whose positions; some boards tell all of them, whichever are meant.
+ * Ask the board now; every client hears what it says, and `done` once it has. Needs no lease. `servos`:
+ * whose positions; some boards report all of them, whichever are named.
  */
 export interface ReadMessage {
   type: 'read';
@@ -310,6 +310,7 @@ export interface PortState {
         | 'portMissing'
         | 'portBusy'
         | 'portDenied'
+        | 'hidDenied'
         | 'otherDevice'
         | 'boardUnknown'
         | 'wrongBoard'
@@ -361,6 +362,7 @@ export interface LinkState {
         | 'portMissing'
         | 'portBusy'
         | 'portDenied'
+        | 'hidDenied'
         | 'otherDevice'
         | 'boardUnknown'
         | 'wrongBoard'
@@ -533,6 +535,7 @@ export interface JobState {
         | 'portMissing'
         | 'portBusy'
         | 'portDenied'
+        | 'hidDenied'
         | 'otherDevice'
         | 'boardUnknown'
         | 'wrongBoard'
@@ -591,6 +594,7 @@ export interface PlayState {
         | 'portMissing'
         | 'portBusy'
         | 'portDenied'
+        | 'hidDenied'
         | 'otherDevice'
         | 'boardUnknown'
         | 'wrongBoard'
@@ -628,17 +632,19 @@ export interface PlayState {
   detail: string | null;
 }
 /**
- * Where packets have taken the servos since the port opened; of one that is not named nobody knows the
- * place. `runSlot`: the group that may run. `released`: they have no torque, so hands may have turned them.
+ * Where packets have taken the servos since the port opened, and what the board has reported of them; of
+ * one that is not named the place is unknown. `runSlot`: the group that may run. `released`: they have no
+ * torque, so hands may have turned them.
  */
 export interface MotionState {
   servos: ServoWay[];
   runSlot: number | null;
   released: number[];
+  reported: ReportedPosition[];
 }
 /**
  * A servo on its way, or there already: begun so long ago (below 0: not yet), and taking so long. `start`
- * is null where nobody knows where it began.
+ * is null where it is unknown where it began.
  */
 export interface ServoWay {
   servo: number;
@@ -646,6 +652,16 @@ export interface ServoWay {
   target: number;
   begunMsAgo: number;
   durationMs: number;
+}
+/**
+ * Where the board said that a servo stood, so long ago. `isCurrent`: as far as the gateway can tell it
+ * stands there still.
+ */
+export interface ReportedPosition {
+  servo: number;
+  position: number;
+  ageMs: number;
+  isCurrent: boolean;
 }
 export interface BatteryUnread {
   kind: 'unread';
@@ -663,7 +679,7 @@ export interface BatterySilent {
   lastMv: number | null;
 }
 /**
- * The board has told its battery, which the gateway asks for now and then, or stays silent about it.
+ * The board has reported its battery, which is read now and then, or stays silent about it.
  */
 export interface BatteryMessage {
   type: 'battery';
@@ -692,6 +708,7 @@ export interface RefusedMessage {
     | 'portMissing'
     | 'portBusy'
     | 'portDenied'
+    | 'hidDenied'
     | 'otherDevice'
     | 'boardUnknown'
     | 'wrongBoard'
@@ -796,7 +813,7 @@ export interface HaltedMessage {
   unheld: UnheldServos | null;
 }
 /**
- * What may go on in spite of a STOP: these servos, `null` where nobody knows which, for so long at most
+ * What may go on in spite of a STOP: these servos, `null` where it is unknown which, for so long at most
  * from its press; `null` where a group may run that heard no stop.
  */
 export interface UnheldServos {
@@ -853,7 +870,7 @@ export interface TickMessage {
   nonce: string;
 }
 /**
- * What has left the wire since the last of these, whoever asked for it.
+ * What has left the wire since the last of these, for all clients.
  */
 export interface LeftMessage {
   type: 'left';
@@ -908,21 +925,21 @@ export interface PlainCommand {
   kind: 'stop' | 'erase' | 'readBattery' | 'readVersion' | 'readAllPositions' | 'readOffsets';
 }
 /**
- * A download began, came further or ended; the latest one, whoever began it.
+ * A download began, came further or ended; the latest one of all clients.
  */
 export interface JobMessage {
   type: 'job';
   job: JobState;
 }
 /**
- * What the gateway plays began, came further or ended; the latest play, whoever began it.
+ * What the gateway plays began, came further or ended; the latest play of all clients.
  */
 export interface PlayStateMessage {
   type: 'play';
   play: PlayState;
 }
 /**
- * To whoever asked for it: that play has ended, and how.
+ * To the client that asked for it: that play has ended, and how.
  */
 export interface PlayedMessage {
   type: 'played';
@@ -933,4 +950,4 @@ export interface PlayedMessage {
   play: PlayState;
 }
 /** Of these messages. */
-export const PROTOCOL = 8;
+export const PROTOCOL = 9;

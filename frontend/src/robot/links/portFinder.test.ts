@@ -115,7 +115,7 @@ test('ours is found again though the browser noticed late that it went, and a tw
 test.each([
   [CH340, 'CH340 USB serial adapter'],
   [CP2102, 'CP2102 USB serial adapter'],
-  [{ usbVendorId: 0x1234, usbProductId: 0x0678 }, 'USB serial 1234:0678'],
+  [{ usbVendorId: 0x1234, usbProductId: 0x0678 }, 'USB serial adapter (id 1234:0678)'],
   [NO_USB, 'Serial port'],
 ])('a port is called by its chip where that is known', (ids, label) => {
   expect(portLabel(createBrowser().plugIn(ids).port)).toBe(label);

@@ -32,7 +32,7 @@ export function portLabel(port: SerialPort): string {
   const ids = `${hex(usbVendorId)}:${hex(usbProductId)}`;
   const chips: Readonly<Record<string, string>> = USB.adapters;
   const chip = chips[ids];
-  return chip === undefined ? `USB serial ${ids}` : `${chip} USB serial adapter`;
+  return chip === undefined ? `USB serial adapter (id ${ids})` : `${chip} USB serial adapter`;
 }
 
 export function nameOf(error: unknown): string {

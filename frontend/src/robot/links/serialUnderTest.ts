@@ -24,6 +24,8 @@ export interface FakePort {
   /** Packets in the order in which the driver got them. */
   readonly written: Uint8Array[];
   isOpen(): boolean;
+  /** Its speed, since it was opened last. */
+  baud(): number;
   deliver(...bytes: readonly number[]): void;
   /** The stream that is read fails: as after a line error, and the next one is fresh. */
   disturb(error: DOMException): void;
@@ -89,6 +91,7 @@ function createPort(ids: SerialPortInfo, trip: (step: Step) => void, forget: () 
   let isDrained = true;
   let isAlive = true;
   let isOpen = false;
+  let baud = NaN;
   let source: ReadableStreamDefaultController<Uint8Array> | null = null;
   let sink: WritableStreamDefaultController | null = null;
   const lost = (): DOMException => new DOMException('The device has been lost.', 'NetworkError');
@@ -133,9 +136,10 @@ function createPort(ids: SerialPortInfo, trip: (step: Step) => void, forget: () 
     readable: null as ReadableStream<Uint8Array> | null,
     writable: null as WritableStream<Uint8Array> | null,
     getInfo: () => ids,
-    open: () =>
+    open: ({ baudRate }: SerialOptions) =>
       attempt(() => {
         trip('open');
+        baud = baudRate;
         if (isOpen) throw new DOMException('The port is already open.', 'InvalidStateError');
         if (!isAlive) throw new DOMException('Failed to open serial port.', 'NetworkError');
         isOpen = true;
@@ -159,6 +163,7 @@ function createPort(ids: SerialPortInfo, trip: (step: Step) => void, forget: () 
     whenRead: () => undefined,
     written,
     isOpen: () => isOpen,
+    baud: () => baud,
     deliver: (...bytes) => source?.enqueue(Uint8Array.from(bytes)),
     disturb(error) {
       const disturbed = source;

@@ -1,28 +1,13 @@
-// A device that one tab of this browser has at a time, as a byte channel: claims it, lets go of it for the tab that asks, opens
-// and closes one after the other. Knows no kind of device and no packets.
+// A device that one tab of this browser has at a time, as a byte channel: takes the device's Web Lock, lets go of it for the tab that asks,
+// opens and closes one after the other. Knows no kind of device and no packets.
 
 import { sleep } from '#shared/clock.ts';
-import type { ByteChannel, ChannelEvents, OpenOptions } from '#shared/robot/byteChannel.ts';
+import type { ByteChannel, OpenOptions } from '#shared/robot/byteChannel.ts';
 import { LinkError } from '#shared/robot/linkError.ts';
 import { browserClock } from './browserClock.ts';
-import { createPortLock } from './portLock.ts';
+import type { Connection, ConnectionEvents } from './connection.ts';
 
-export interface ConnectionEvents extends Pick<ChannelEvents, 'received' | 'unread'> {
-  /** At most once, never after `close`. */
-  lost(error: LinkError): void;
-}
-
-/** An open device, from opening to closing. */
-export interface Connection {
-  /** Resolves when the packet's last bit has left the wire. Any failure ends the connection. */
-  send(packet: Uint8Array): Promise<void>;
-  /** Hands the packet over before it returns, behind what is leaving. Resolves when it has left, or never will. */
-  sendAtOnce(packet: Uint8Array): Promise<void>;
-  /** Never rejects and never hangs. */
-  close(): Promise<void>;
-}
-
-export interface TabDevice extends Pick<ByteChannel, 'label' | 'longestPacket'> {
+interface TabDevice extends Pick<ByteChannel, 'label' | 'longestPacket'> {
   /** The same in all tabs. */
   readonly lockName: string;
   /** Rejects with a LinkError, in bounded time. */
@@ -142,4 +127,58 @@ export function createTabChannel(device: TabDevice): ByteChannel {
 function createQueue(): (work: () => Promise<void>) => Promise<void> {
   let last: Promise<void> = Promise.resolve();
   return (work) => (last = last.then(work, work));
+}
+
+interface PortLock {
+  /** `asked` is called when another tab wants it. Rejects with `heldElsewhere`. */
+  take(asked: () => void): Promise<void>;
+  /** Harmless when it is not held. */
+  release(): void;
+  /** Has the tab that holds it let go, and waits for that. Rejects with `heldElsewhere` when it does not. */
+  askForIt(): Promise<void>;
+}
+
+/** A page that is being reloaded or has crashed, and a port that is being closed, let go a moment after the next one asks. */
+const GRANT_WITHIN_MS = 1500;
+/** The other tab stops the robot and closes the port first: 2,000 and 1,250 ms at worst. */
+const YIELD_WITHIN_MS = 3500;
+
+function createPortLock(name: string): PortLock {
+  let release = (): void => undefined;
+
+  return {
+    async take(asked) {
+      const free = await hold(name, GRANT_WITHIN_MS);
+      const channel = new BroadcastChannel(name);
+      channel.onmessage = asked;
+      release = () => {
+        channel.close();
+        free();
+      };
+    },
+    release: () => release(),
+    async askForIt() {
+      const channel = new BroadcastChannel(name);
+      channel.postMessage('let go');
+      const free = await hold(name, YIELD_WITHIN_MS);
+      channel.close();
+      free();
+    },
+  };
+}
+
+/** Resolves, once the lock is ours, with what frees it. */
+function hold(name: string, withinMs: number): Promise<() => void> {
+  const patience = new AbortController();
+  const calm = browserClock.after(withinMs, () => patience.abort());
+  return new Promise((resolve, reject) => {
+    const untilFreed = (): Promise<void> =>
+      new Promise((free) => {
+        calm();
+        resolve(() => free());
+      });
+    navigator.locks.request(name, { signal: patience.signal }, untilFreed).catch((error: unknown) => {
+      reject(new LinkError('heldElsewhere', 'another tab holds the port', { cause: error }));
+    });
+  });
 }

@@ -1,4 +1,4 @@
-// The worker of timersAside.ts: each message is answered with its number, so much later.
+// The worker of browserClock.ts: each message is answered with its number, so much later.
 
 export interface Alarm {
   readonly id: number;

@@ -7,7 +7,16 @@ import { createDecoder, type DecoderEvent } from '#shared/codec/decoder.ts';
 import { fromHex, wireMs } from '#shared/codec/packet.ts';
 import type { LinkErrorCode } from '#shared/robot/linkError.ts';
 import reports from '../../../../shared/protocol/vectors/reports.json' with { type: 'json' };
-import { chooseCharacteristics, chunksOf, createGatherer, type Offered } from './bluetoothConnection.ts';
+import {
+  chooseCharacteristics,
+  chunksOf,
+  createGatherer,
+  type Offered,
+  chooseModule,
+  createWebBluetoothChannel,
+  lookForBluetooth,
+  moduleLabel,
+} from './webBluetooth.ts';
 import { createModule, FFF0, STEPS, type FakeModule, type Step } from './bluetoothUnderTest.ts';
 import {
   BATTERY_REPORT,
@@ -18,7 +27,6 @@ import {
   pass,
   type Tab,
 } from './tabUnderTest.ts';
-import { chooseModule, createWebBluetoothChannel, lookForBluetooth, moduleLabel } from './webBluetooth.ts';
 
 const NAMES = [
   'NetworkError',

@@ -1,17 +1,22 @@
-// A board on its own USB cable, through the browser's WebHID: whether the browser can, which devices a person has chosen, and a channel
-// over one. Knows no packets.
+// A board on its own USB cable, through the browser's WebHID: which devices a person has chosen, and a channel over one: one packet a
+// report, one report at a time, no closer than the UART behind it or 20 ms. Knows no packet beyond its length.
 
 import type { ByteChannel } from '#shared/robot/byteChannel.ts';
-import { REPORT_BYTES } from '#shared/robot/hidReports.ts';
+import { REPORT_BYTES, reportOf, splitReport } from '#shared/robot/hidReports.ts';
 import { LinkError, type LinkErrorCode } from '#shared/robot/linkError.ts';
+import USB from '../../../../shared/protocol/usb.json' with { type: 'json' };
 import type { Withheld } from '#shared/robot/state.ts';
+import { sleep } from '#shared/clock.ts';
+import { wireMs } from '#shared/codec/packet.ts';
 import { createDeviceFinder } from './deviceFinder.ts';
-import { openBoard } from './hidConnection.ts';
 import { nameOf } from './serialPorts.ts';
 import { createTabChannel } from './tabChannel.ts';
+import { browserClock } from './browserClock.ts';
+import { createConnection, settled, within, type Connection, type ConnectionEvents } from './connection.ts';
+import timings from '../../../../shared/protocol/timings.json' with { type: 'json' };
 
 /** Why WebHID cannot be used here. An insecure address hides it in every browser. */
-export type HidObstacle = Extract<LinkErrorCode, 'insecureAddress' | 'unsupported'>;
+type HidObstacle = Extract<LinkErrorCode, 'insecureAddress' | 'unsupported'>;
 
 export interface GrantedBoard {
   readonly board: HIDDevice;
@@ -25,9 +30,7 @@ export interface HidHere {
   readonly granted: readonly GrantedBoard[];
 }
 
-/** Unrelated devices share the numbers; boards bear one of the names. */
-const BOARD = { vendorId: 0x0483, productId: 0x5750 } as const;
-const NAMES = ['lobot', 'hiwonder'];
+const { vendorId, productId, names: NAMES } = USB.hid;
 /** Commands of their own do these on HID, and only others' programs tell of those (docs/adr/0028). */
 export const HID_WITHHELD: readonly Withheld[] = ['download', 'erase'];
 
@@ -45,7 +48,7 @@ export async function lookForHid(): Promise<HidHere> {
  */
 export async function chooseBoard(all = false): Promise<HIDDevice> {
   try {
-    const [board] = await navigator.hid.requestDevice({ filters: all ? [] : [BOARD] });
+    const [board] = await navigator.hid.requestDevice({ filters: all ? [] : [{ vendorId, productId }] });
     if (board !== undefined) return board;
   } catch (error) {
     const code = ['NotFoundError', 'AbortError'].includes(nameOf(error)) ? 'notChosen' : 'portDenied';
@@ -83,6 +86,75 @@ const kindOf = ({ vendorId, productId, productName }: HIDDevice): string =>
 
 const hex = (id: number): string => id.toString(16).padStart(4, '0');
 
-export function boardLabel(board: HIDDevice): string {
-  return board.productName === '' ? `HID ${hex(board.vendorId)}:${hex(board.productId)}` : board.productName;
+function boardLabel(board: HIDDevice): string {
+  return board.productName === ''
+    ? `HID device (id ${hex(board.vendorId)}:${hex(board.productId)})`
+    : board.productName;
+}
+
+const { shortestMs, sendTimeoutMs } = timings.hid;
+/** The boards number no reports. */
+const REPORT_ID = 0;
+/** A device that does not let itself be closed is given up, so that another attempt can begin. */
+const CLOSE_WITHIN_MS = 250;
+
+async function openBoard(device: HIDDevice, events: ConnectionEvents): Promise<Connection> {
+  try {
+    // Since it was unplugged it says that it is open, and is not.
+    if (device.opened) await within(CLOSE_WITHIN_MS, device.close());
+    await within(sendTimeoutMs, device.open());
+  } catch (error) {
+    throw new LinkError(openFailure(error), 'the device could not be opened', { cause: error });
+  }
+  return begin(device, events);
+}
+
+function openFailure(error: unknown): LinkErrorCode {
+  const name = nameOf(error);
+  // Chromium says so whatever the reason: on Linux nearly always the rights to the device.
+  if (name === 'NotAllowedError' || name === 'SecurityError') return 'hidDenied';
+  return name === 'NotFoundError' ? 'portMissing' : 'portBusy';
+}
+
+function begin(device: HIDDevice, events: ConnectionEvents): Connection {
+  let leaving: Promise<void> = Promise.resolve();
+
+  function heard({ data }: HIDInputReportEvent): void {
+    const { packet, rest } = splitReport(new Uint8Array(data.buffer, data.byteOffset, data.byteLength));
+    if (packet.length > 0) events.received(packet, true);
+    if (rest.length > 0) events.unread(rest);
+  }
+
+  function unplugged(event: HIDConnectionEvent): void {
+    if (event.device === device) connection.lose();
+  }
+
+  device.addEventListener('inputreport', heard);
+  navigator.hid.addEventListener('disconnect', unplugged);
+
+  /** Resolves when the UART behind the cable has had the time for it, too. */
+  async function send(packet: Uint8Array): Promise<void> {
+    const startMs = browserClock.now();
+    await within(sendTimeoutMs, device.sendReport(REPORT_ID, reportOf(packet)));
+    await sleep(
+      browserClock,
+      Math.max(0, startMs + Math.max(wireMs(packet.length), shortestMs) - browserClock.now()),
+    );
+  }
+
+  const connection = createConnection(
+    {
+      writeOut: (packet) => (leaving = send(packet)),
+      sendAtOnce: (packet) => (leaving = settled(Promise.all([leaving, send(packet)]))),
+      async end(isGone) {
+        device.removeEventListener('inputreport', heard);
+        navigator.hid.removeEventListener('disconnect', unplugged);
+        // What a device was given since it went never settles.
+        if (!isGone) await settled(leaving);
+        await settled(within(CLOSE_WITHIN_MS, device.close()));
+      },
+    },
+    events,
+  );
+  return connection;
 }

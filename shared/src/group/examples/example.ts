@@ -1,4 +1,4 @@
-// What an example is made of, before there is a robot. Knows no servo's limits.
+// What an example is made of, before there is a robot, and examples for any servos in a row: small turns about home. Knows no servo's limits.
 
 import type { Easing } from '../group.ts';
 
@@ -13,3 +13,23 @@ export interface ExampleFrame {
 
 /** Servos that no frame turns stay out of it. */
 export type Example = readonly ExampleFrame[];
+
+const TURN = 0.25;
+const STEP_MS = 300;
+
+const each = (servos: readonly number[], turn: (index: number) => number): Turns =>
+  Object.fromEntries(servos.map((servo, index) => [servo, turn(index)]));
+
+export function plainExamples(servos: readonly number[]): {
+  readonly ripple: Example;
+  readonly sweep: Example;
+} {
+  const home = { durationMs: 1500, turns: each(servos, () => 0) };
+  const count = Math.min(servos.length, 8);
+  const ripple = Array.from({ length: 2 * count + 1 }, (_, step) => ({
+    durationMs: STEP_MS,
+    turns: each(servos, (index) => TURN * Math.sin(((step - (index % count)) * 2 * Math.PI) / count)),
+  }));
+  const sweep = [TURN, -TURN, 0].map((turn) => ({ durationMs: 1200, turns: each(servos, () => turn) }));
+  return { ripple: [home, ...ripple, { ...home, durationMs: 900 }], sweep: [home, ...sweep] };
+}

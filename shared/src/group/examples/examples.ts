@@ -7,11 +7,10 @@ import { emptyGroup, type ActionGroup } from '../group.ts';
 import { insertFrame } from '../groupEdits.ts';
 import { servoOf, type BodyKind, type Robot, type RobotServo } from '../../profile/robot.ts';
 import { ARM_EXAMPLES } from './arm.ts';
-import type { Example, Turns } from './example.ts';
+import { type Example, type Turns, plainExamples } from './example.ts';
 import { HAND_EXAMPLES } from './hand.ts';
 import { HEXAPOD_EXAMPLES } from './hexapod.ts';
 import { HUMANOID_EXAMPLES } from './humanoid.ts';
-import { plainExamples } from './plain.ts';
 
 export const EXAMPLE_IDS = [
   ...(['wave', 'bow', 'pickAndPlace', 'lookAround', 'fist', 'countToFive', 'point'] as const),

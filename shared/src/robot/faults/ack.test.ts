@@ -5,16 +5,16 @@ import { expect, test } from 'vitest';
 import type { Clock } from '../../clock.ts';
 import type { Frame } from '../../codec/commands.ts';
 import { family } from '../../codec/families.ts';
-import { createRandom } from '../../simulator/random.ts';
+import { createRandom } from '../../simulator/faults.ts';
 import { createSimulatedChannel } from '../../simulator/channel.ts';
 import { createVirtualClock } from '../../testing/virtualClock.ts';
 import { createLocalRobot } from '../localRobot.ts';
 import type { ByteChannel } from '../byteChannel.ts';
-import { caseOf, named, seeds } from './amount.ts';
+import { caseOf, named, seeds } from '../../testing/cases.ts';
 
 const FILE = 'ack.test.ts';
-const FATES = ['kept', 'lost', 'late', 'doubled', 'foreign'] as const;
-type Fate = (typeof FATES)[number];
+const OUTCOMES = ['kept', 'lost', 'late', 'doubled', 'foreign'] as const;
+type Outcome = (typeof OUTCOMES)[number];
 
 /** A frame of one servo takes 13.5 ms to leave. A copy that comes later than that looks like its answer. */
 const NEXT_PACKET_MS = 13;
@@ -44,22 +44,22 @@ function circumstancesOf(round: number): Circumstances {
   };
 }
 
-/** Does to each acknowledgement what its fate says; takes whole packets, so that a fate strikes one at a time. */
+/** Does to each acknowledgement what its outcome says; takes whole packets, so that a outcome strikes one at a time. */
 function withFates(
   channel: ByteChannel,
   clock: Clock,
   { lateMs, doubledAfterMs }: Circumstances,
-  nextFate: () => Fate,
+  nextOutcome: () => Outcome,
 ): ByteChannel {
   let packet: number[] = [];
 
   function strike(bytes: Uint8Array): void {
-    const fate = bytes.at(-1) === ACK_COMMAND ? nextFate() : 'kept';
+    const outcome = bytes.at(-1) === ACK_COMMAND ? nextOutcome() : 'kept';
     const pass = (): void => struck.events?.received(bytes);
-    if (fate === 'foreign') struck.events?.received(FOREIGN);
-    if (fate === 'late') clock.after(lateMs, pass);
-    else if (fate !== 'lost') pass();
-    if (fate === 'doubled') clock.after(doubledAfterMs, pass);
+    if (outcome === 'foreign') struck.events?.received(FOREIGN);
+    if (outcome === 'late') clock.after(lateMs, pass);
+    else if (outcome !== 'lost') pass();
+    if (outcome === 'doubled') clock.after(doubledAfterMs, pass);
   }
 
   const struck: ByteChannel = {
@@ -79,12 +79,12 @@ function withFates(
 }
 
 /** Gives how many acknowledgements the board sent. */
-async function storeUnder(fates: readonly Fate[], circumstances: Circumstances): Promise<number> {
+async function storeUnder(outcomes: readonly Outcome[], circumstances: Circumstances): Promise<number> {
   const { slot, frames } = circumstances;
   const clock = createVirtualClock();
   const simulated = createSimulatedChannel(clock, { onForMs: 60_000 });
   let acks = 0;
-  const channel = withFates(simulated, clock, circumstances, () => fates[acks++] ?? 'kept');
+  const channel = withFates(simulated, clock, circumstances, () => outcomes[acks++] ?? 'kept');
   const session = createLocalRobot({ channel, isNew: true, family: family('doc'), clock });
   await session.open();
   let outcome: unknown = 'hangs';
@@ -111,26 +111,28 @@ async function storeUnder(fates: readonly Fate[], circumstances: Circumstances):
 }
 
 const LENGTH = 6;
-const ORDERS = FATES.length ** LENGTH;
+const ORDERS = OUTCOMES.length ** LENGTH;
 
-/** The number written with the fates as its digits, the first one the highest. */
-function orderOf(number: number): readonly Fate[] {
+/** The number written with the outcomes as its digits, the first one the highest. */
+function orderOf(number: number): readonly Outcome[] {
   return Array.from(
     { length: LENGTH },
-    (_, at) => FATES[Math.floor(number / FATES.length ** (LENGTH - 1 - at)) % FATES.length] ?? 'kept',
+    (_, at) =>
+      OUTCOMES[Math.floor(number / OUTCOMES.length ** (LENGTH - 1 - at)) % OUTCOMES.length] ?? 'kept',
   );
 }
 
-test('what counts as stored is stored, in every order of six fates', { timeout: 300_000 }, async () => {
+test('what counts as stored is stored, in every order of six outcomes', { timeout: 300_000 }, async () => {
   // Most downloads end after fewer acknowledgements: orders that differ only afterwards are the same one.
-  let tried = { round: -1, fates: [] as readonly Fate[] };
+  let tried = { round: -1, outcomes: [] as readonly Outcome[] };
   for (const seed of seeds(ORDERS)) {
     const { at, round } = caseOf(seed, ORDERS);
-    const fates = orderOf(at);
-    if (tried.round === round && tried.fates.every((fate, index) => fate === fates[index])) continue;
-    await named(FILE, seed, fates.join(', '), async () => {
-      const used = await storeUnder(fates, circumstancesOf(round));
-      tried = { round, fates: fates.slice(0, used) };
+    const outcomes = orderOf(at);
+    if (tried.round === round && tried.outcomes.every((outcome, index) => outcome === outcomes[index]))
+      continue;
+    await named(FILE, seed, outcomes.join(', '), async () => {
+      const used = await storeUnder(outcomes, circumstancesOf(round));
+      tried = { round, outcomes: outcomes.slice(0, used) };
     });
   }
 });

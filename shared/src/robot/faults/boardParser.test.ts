@@ -5,8 +5,8 @@
 import { describe, expect, test } from 'vitest';
 import { createLearmParser } from '../../simulator/learm/engine.ts';
 import { createParser } from '../../simulator/dispatch.ts';
-import { createRandom } from '../../simulator/random.ts';
-import { named, seeds } from './amount.ts';
+import { createRandom } from '../../simulator/faults.ts';
+import { named, seeds } from '../../testing/cases.ts';
 import { belowFrom, bytesOf, commandSource, DAMAGES, packetsOf, textOf, type Random } from './streams.ts';
 
 const FILE = 'boardParser.test.ts';

@@ -4,8 +4,8 @@
 import { expect, test } from 'vitest';
 import { createDecoder } from '../../codec/decoder.ts';
 import type { ShapeRule } from '../../codec/shapes.ts';
-import { createRandom } from '../../simulator/random.ts';
-import { named, seeds } from './amount.ts';
+import { createRandom } from '../../simulator/faults.ts';
+import { named, seeds } from '../../testing/cases.ts';
 import {
   belowFrom,
   bytesOf,

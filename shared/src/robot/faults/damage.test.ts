@@ -4,8 +4,8 @@
 import { describe, expect, test } from 'vitest';
 import { createDecoder } from '../../codec/decoder.ts';
 import type { ShapeRule } from '../../codec/shapes.ts';
-import { createRandom } from '../../simulator/random.ts';
-import { named, replay, seeds } from './amount.ts';
+import { createRandom } from '../../simulator/faults.ts';
+import { named, replay, seeds } from '../../testing/cases.ts';
 import {
   belowFrom,
   bytesOf,

@@ -6,8 +6,8 @@ import { runInNewContext } from 'node:vm';
 import { expect, test } from 'vitest';
 import { createDecoder } from '../../codec/decoder.ts';
 import { COMMAND_SHAPES, REPORT_SHAPES, type ShapeRule } from '../../codec/shapes.ts';
-import { createRandom } from '../../simulator/random.ts';
-import { IS_EXHAUSTIVE, named, seeds } from './amount.ts';
+import { createRandom } from '../../simulator/faults.ts';
+import { IS_EXHAUSTIVE, named, seeds } from '../../testing/cases.ts';
 import { belowFrom, type Random } from './streams.ts';
 
 const FILE = 'garbage.test.ts';

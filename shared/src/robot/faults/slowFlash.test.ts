@@ -2,10 +2,10 @@
 
 import { expect, test } from 'vitest';
 import { createFlashChip, type FlashChip } from '../../simulator/groupStore.ts';
-import { createRandom } from '../../simulator/random.ts';
+import { createRandom } from '../../simulator/faults.ts';
 import { LinkError } from '../linkError.ts';
 import { createRig, type Rig } from '../rig.ts';
-import { caseOf, named, seeds } from './amount.ts';
+import { caseOf, named, seeds } from '../../testing/cases.ts';
 
 const FILE = 'slowFlash.test.ts';
 const SECTOR_MS = [0, 45, 400, 600, 900, 2_000, 10_000, 30_000, 1e9];

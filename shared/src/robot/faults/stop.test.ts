@@ -4,9 +4,9 @@ import { expect, test } from 'vitest';
 import type { Frame } from '../../codec/commands.ts';
 import { encodeCommand } from '../../codec/encode.ts';
 import { wireMs } from '../../codec/packet.ts';
-import { createRandom } from '../../simulator/random.ts';
+import { createRandom } from '../../simulator/faults.ts';
 import { createRig, firstMovesMs, type HeardCommand, type Rig } from '../rig.ts';
-import { named, seeds } from './amount.ts';
+import { named, seeds } from '../../testing/cases.ts';
 
 const FILE = 'stop.test.ts';
 const SLOT = 5;

@@ -2,9 +2,9 @@
 
 import { expect, test } from 'vitest';
 import { wireMs } from '../../codec/packet.ts';
-import { createRandom } from '../../simulator/random.ts';
+import { createRandom } from '../../simulator/faults.ts';
 import { createRig, firstMovesMs, type Rig } from '../rig.ts';
-import { caseOf, named, seeds } from './amount.ts';
+import { caseOf, named, seeds } from '../../testing/cases.ts';
 
 const FILE = 'truncated.test.ts';
 const SERVOS = 32;

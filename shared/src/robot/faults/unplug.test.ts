@@ -5,12 +5,12 @@ import { expect, test } from 'vitest';
 import type { Frame } from '../../codec/commands.ts';
 import { family } from '../../codec/families.ts';
 import { wireMs } from '../../codec/packet.ts';
-import { createRandom } from '../../simulator/random.ts';
+import { createRandom } from '../../simulator/faults.ts';
 import { createSimulatedChannel } from '../../simulator/channel.ts';
 import { createVirtualClock } from '../../testing/virtualClock.ts';
 import { LinkError } from '../linkError.ts';
 import { createLocalRobot } from '../localRobot.ts';
-import { caseOf, named, seeds } from './amount.ts';
+import { caseOf, named, seeds } from '../../testing/cases.ts';
 
 const FILE = 'unplug.test.ts';
 const FRAME_COUNT = 255;

@@ -1,12 +1,11 @@
-// The two LeArms as values, and what LeArm does with a command: the numbers of the other boards and its own ones (boards.md 2.3),
-// with its delays before each answer (L13). Knows no bytes on the line and no loop.
+// The two LeArms as values, what LeArm does with a command: the numbers of the other boards and its own ones (boards.md 2.3), with its delays
+// before each answer (L13), and how it plays its groups (L6-L11). Knows no bytes on the line and no loop.
 
-import { COMMAND_NUMBER } from '../../codec/commands.ts';
+import { COMMAND_NUMBER, type Frame } from '../../codec/commands.ts';
 import type { Reply } from '../dispatch.ts';
 import { type GroupStore, readUint16, uint16 } from '../groupStore.ts';
-import type { OwnTimeServos } from '../ownTimeServos.ts';
+import type { OwnTimeServos } from '../servos.ts';
 import type { Work } from '../agenda.ts';
-import type { LearmRunner } from './runner.ts';
 
 // The two LeArms as values: with PWM servos and with bus servos (boards.md chapter 4).
 
@@ -149,5 +148,96 @@ export function createLearmCommands(
   return (command, params) => {
     if (command !== COMMAND_NUMBER.run && command !== COMMAND_NUMBER.stop) runner.kill();
     return handlers.get(command)?.(params) ?? AT_ONCE;
+  };
+}
+
+interface LearmRunner {
+  readonly request: (slot: number, times: number) => void;
+  readonly stop: () => void;
+  /** Another command took the place of the run (L8). */
+  readonly kill: () => void;
+  readonly step: () => void;
+  readonly dueMs: () => number;
+  readonly runningSlot: () => number | null;
+}
+
+interface LearmRunnerParts {
+  readonly now: () => number;
+  readonly frameCount: (slot: number) => number;
+  /** Null where the frame cannot be played. */
+  readonly frame: (slot: number, frameIndex: number) => Frame | null;
+  readonly issue: (frame: Frame) => void;
+  /** Whether that frame has ended, so many polls after it began. */
+  readonly isOver: (frame: Frame, polls: number) => boolean;
+}
+
+/** About; the real one jitters (L7). */
+const POLL_MS = 110;
+/** Before the first frame only the servos can keep it waiting. */
+const STANDING: Frame = { durationMs: 0, targets: [] };
+
+export function createLearmRunner({ now, frameCount, frame, issue, isOver }: LearmRunnerParts): LearmRunner {
+  let slot: number | null = null;
+  let frameTotal = 0;
+  let frameIndex = 0;
+  let loopsLeft = 0;
+  let pollMs = Infinity;
+  let playing: Frame | null = null;
+  let polls = 0;
+  /** The next run takes the killed one's frame for its own and goes on behind it (L11). */
+  let stale = false;
+
+  function request(requestedSlot: number, times: number): void {
+    frameTotal = frameCount(requestedSlot);
+    slot = frameTotal === 0 ? null : requestedSlot;
+    // Eight bits, and 0 means once: so does 256 (L6).
+    loopsLeft = times & 0xff || 1;
+    frameIndex = stale ? 1 : 0;
+    stale = false;
+    pollMs = now();
+    playing = null;
+  }
+
+  function kill(): void {
+    stale ||= slot !== null;
+    slot = null;
+  }
+
+  function advance(runningSlot: number): void {
+    if (frameIndex >= frameTotal) {
+      frameIndex = 0;
+      loopsLeft -= 1;
+    }
+    if (loopsLeft === 0) {
+      slot = null;
+      return;
+    }
+    const next = frame(runningSlot, frameIndex);
+    frameIndex += 1;
+    // The run hangs until a stop (L10).
+    if (next === null) pollMs = Infinity;
+    else begin(next);
+  }
+
+  function begin(next: Frame): void {
+    issue(next);
+    playing = next;
+    polls = 0;
+  }
+
+  function step(): void {
+    if (slot === null || now() < pollMs) return;
+    pollMs += POLL_MS;
+    polls += 1;
+    if (playing === null ? isOver(STANDING, polls) : isOver(playing, polls)) advance(slot);
+  }
+
+  return {
+    request,
+    stop: () => void (slot = null),
+    kill,
+    step,
+    dueMs: () => (slot === null ? Infinity : pollMs),
+    runningSlot: () => slot,
   };
 }

@@ -2,15 +2,13 @@
 // together. Knows no pacing and no clock.
 
 import type { Source, Work } from '../agenda.ts';
-import type { Servos } from '../servos.ts';
+import { type Servos, createOwnTimeServos } from '../servos.ts';
 import { HEADER } from '../../codec/packet.ts';
 import type { Frame } from '../../codec/commands.ts';
 import type { Engine, EngineParts } from '../engine.ts';
 import { createGroupStore, decodeFrame } from '../groupStore.ts';
-import { createOwnTimeServos } from '../ownTimeServos.ts';
 import { createProcessor } from '../mainLoop.ts';
-import { createLearmCommands, LEARM_SERVOS, type LearmTraits } from './commands.ts';
-import { createLearmRunner } from './runner.ts';
+import { createLearmCommands, LEARM_SERVOS, type LearmTraits, createLearmRunner } from './commands.ts';
 
 // Moves LeArm's servos every 10 ms, whatever its loop is busy with. Sleeps while nothing moves.
 

@@ -2,31 +2,44 @@
 // frames first, and what begins one right below them. Edits go to the document alone; the robot moves only by Play and by loading a
 // pose.
 
-import { Fragment, useCallback } from 'react';
+import { Fragment } from 'react';
 import { totalDurationMs } from '#shared/group/group.ts';
-import { rename } from '#shared/group/groupEdits.ts';
+import { indexOfFrame, rename } from '#shared/group/groupEdits.ts';
 import { convertGroup } from '#shared/group/frameEdits.ts';
-import { useStores, useDocument, useGroupBoard, useKnownFamily } from '../../stores.ts';
+import {
+  useDevice,
+  useDocument,
+  useGroupBoard,
+  useKnownFamily,
+  useSnapshot,
+  useStores,
+  useTimeline,
+  useView,
+} from '../../stores.ts';
 import { IconButton, Button } from '../../../ui/Button.tsx';
 import { words } from '../../../i18n/whole.ts';
 import { filesText } from '../../library/files/fileText.ts';
 import { useFiles } from '../../library/files/FilesArea.tsx';
 import { ExamplesControl } from '../group/ExamplesControl.tsx';
 import { RecordControl } from '../play/RecordControl.tsx';
-import { captureFrame } from './capture.ts';
-import { CaptureButton } from './CaptureStrip.tsx';
+import { CaptureButton, captureFrame, useKnowsPose } from './CaptureButton.tsx';
 import { BodyPicture } from '../../picture/Body.tsx';
 import { EmptyState, type PanelParts } from '../../../ui/Panel.tsx';
-import { useIsPainted } from '../../../ui/useEachFrame.ts';
+import { useIsPainted } from '../../../ui/useInFrame.ts';
 import { useLayout } from '../../../ui/useLayout.ts';
 import { NameField } from '../../../ui/NameField.tsx';
-import { PlayBar, usePlayer } from '../play/PlayBar.tsx';
+import { PlayBar } from '../play/PlayBar.tsx';
 import { UndoTools } from '../../undo/UndoTools.tsx';
 import { FrameStrip } from './FrameStrip.tsx';
-import { FrameTools } from './FrameTools.tsx';
 import { Timeline } from '../timeline/Timeline.tsx';
 import captureBarStyles from './CaptureBar.module.css';
 import styles from './ActionsPanel.module.css';
+import { motionHindrance } from '../../../robot/readiness.ts';
+import { ActionButton, ActionIconButton } from '../../../ui/ActionButton.tsx';
+import { AddsSwitch } from '../timeline/TimelineTools.tsx';
+import { together, useWholeFrames } from './frameVerbs.ts';
+import { FRAME_ACTIONS, frameContextOf, type FrameContext } from './frameActions.ts';
+import toolsStyles from './FrameTools.module.css';
 
 // The way to the library, beside the name of the group that is open.
 
@@ -115,14 +128,9 @@ function Tools() {
 
 function Content() {
   const isEmpty = useDocument(({ present }) => present.frames.length === 0);
-  const player = usePlayer();
   const isPhone = useLayout() === 'phone';
   const isPainted = useIsPainted();
-  const play = useCallback(
-    (isPreview: boolean) => (isPreview ? player.togglePreview() : player.toggle()),
-    [player],
-  );
-  const timeline = <Timeline key="timeline" onPlay={play} />;
+  const timeline = <Timeline key="timeline" />;
   const capture = <CaptureBar key="capture" />;
   const tools = <FrameTools key="tools" />;
   const frames = (
@@ -191,4 +199,56 @@ function Sketch() {
       <path className={styles.stroke} d="M16 52V34l10-14M78 52V34l14-8M152 52V34l-14-10" />
     </svg>
   );
+}
+
+// What can be done with the selected frames, in words. Always in its place, so that nothing jumps when a frame is selected.
+
+const ICONS = [
+  ['before', 'after', 'earlier', 'later', 'duplicate'],
+  ['cut', 'copy', 'paste', 'remove'],
+] as const;
+
+export function FrameTools() {
+  const shown = useFrameContext();
+  const { stores, id, ids } = shown;
+  const context = (): FrameContext => frameContextOf(stores);
+  const index = useDocument(({ present }) => indexOfFrame(present, id ?? -1));
+  return (
+    <div className={toolsStyles.tools} role="group" aria-label={words.actions.tools}>
+      <span className={toolsStyles.which}>
+        {id === null
+          ? words.actions.select
+          : ids.length > 1
+            ? words.actions.several({ count: ids.length })
+            : words.actions.frame({ number: index + 1 })}
+      </span>
+      <AddsSwitch />
+      <ActionButton tone="quiet" action={FRAME_ACTIONS.load} {...{ shown, context }} />
+      <ActionButton tone="quiet" action={FRAME_ACTIONS.update} {...{ shown, context }} />
+      {ICONS.map((names) => (
+        <span key={names[0]} className={toolsStyles.icons}>
+          {names.map((name) => (
+            <ActionIconButton key={name} action={FRAME_ACTIONS[name]} {...{ shown, context }} />
+          ))}
+        </span>
+      ))}
+    </div>
+  );
+}
+
+/** Drawn again whenever something changes that the actions look at. */
+function useFrameContext(): FrameContext {
+  const stores = useStores();
+  const selected = useView((state) => state.selectedFrame);
+  const whole = useWholeFrames();
+  useKnowsPose();
+  useSnapshot(motionHindrance);
+  useDevice((state) => state.family);
+  useTimeline(({ clip }) => clip !== null);
+  useDocument(({ present }) => present.unit);
+  useDocument(({ present }) => [present.frames[0]?.id, present.frames.at(-1)?.id].join());
+  const isThere = useDocument(({ present }) => indexOfFrame(present, selected ?? -1) >= 0);
+  return isThere && selected !== null
+    ? { stores, id: selected, ids: together(whole, selected) }
+    : { stores, id: null, ids: [] };
 }

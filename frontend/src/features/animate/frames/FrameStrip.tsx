@@ -1,28 +1,22 @@
 // The frames in order, one card each, for people who think in poses. The frame that plays is marked, and those that are selected
 // in the timeline.
 
-import {
-  useEffect,
-  useEffectEvent,
-  type RefObject,
-  useState,
-  useMemo,
-  type CSSProperties,
-  type KeyboardEvent,
-} from 'react';
+import { useEffect, useEffectEvent, type RefObject, useState, useMemo, type CSSProperties } from 'react';
 import { indexOfFrame } from '#shared/group/groupEdits.ts';
 import { useStores } from '../../stores.ts';
 import { clipFromText, clipToText } from '../timeline/clipText.ts';
-import { copy, cut, paste, togetherNow, moveBy, removeFrames, createStripKeys } from './frameVerbs.ts';
+import { createStripKeys } from './frameActions.ts';
+import { copy, cut, paste, togetherNow, useWholeFrames } from './frameVerbs.ts';
 import { cardOf, useCards } from '../../../ui/cards.ts';
 import { usePlayedFrame } from '../play/usePlayedFrame.ts';
 import { showFrame } from '../timeline/inStep.ts';
-import { useWholeFrames } from '../timeline/wholeFrames.ts';
-import { useInFrame } from '../../../ui/useEachFrame.ts';
+import { useInFrame } from '../../../ui/useInFrame.ts';
 import { words } from '../../../i18n/whole.ts';
 import { FrameCard } from './FrameCard.tsx';
-import { framePoses } from './framePoses.ts';
 import styles from './FrameStrip.module.css';
+import type { Frame } from '#shared/codec/commands.ts';
+import { poseAt } from '#shared/group/group.ts';
+import { sameLook, samePose } from '../../picture/pose.ts';
 
 // Copy, cut and paste of the system while a card of the strip has the focus. The events go to wherever the browser
 // thinks text would be, so they are heard for the whole page.
@@ -122,21 +116,13 @@ export function FrameStrip() {
   const selected = useInFrame(stores.view, (state) => state.selectedFrame);
   const playing = usePlayedFrame();
   const whole = useWholeFrames();
-  const [ownKeys] = useState(() => createStripKeys(stores));
+  const [act] = useState(() => createStripKeys(stores));
   const { list, tabStop, key, focusSelected } = useCards<HTMLOListElement>({
     ...{ ids: group.frames.map(({ id }) => id), selected, attribute: ATTRIBUTE },
     select: (id) => showFrame(stores, id),
-    move: (id, to) => moveBy(stores, id, to - indexOfFrame(group, id)),
-    remove: (id) => removeFrames(stores, togetherNow(stores, id)),
+    act,
   });
   useStripClipboard(list, focusSelected);
-
-  function anyKey(event: KeyboardEvent): void {
-    const id = cardOf(event.target, ATTRIBUTE);
-    if (id === null || !ownKeys(event.nativeEvent, id)) return key(event);
-    event.preventDefault();
-    focusSelected();
-  }
 
   const { first, end, roomBeforePx, roomBehindPx } = useStripWindow(
     list,
@@ -150,7 +136,7 @@ export function FrameStrip() {
       ref={list}
       className={styles.strip}
       aria-label={words.actions.frames}
-      onKeyDown={anyKey}
+      onKeyDown={key}
       style={roomOf(roomBeforePx, roomBehindPx)}
     >
       {group.frames.slice(first, end).map((frame, index) => (
@@ -173,3 +159,46 @@ const roomOf = (beforePx: number, behindPx: number): CSSProperties => ({
 });
 
 const NO_POSE = { pose: new Map<number, number>(), changed: [] };
+
+// The pose after each of some frames that follow each other, and which servos moved to get there, in one pass. Pure.
+
+export interface FramePose {
+  readonly pose: ReadonlyMap<number, number>;
+  /** In ascending order. */
+  readonly changed: readonly number[];
+}
+
+type Pose = FramePose['pose'];
+
+interface Step {
+  readonly from: Pose;
+  readonly to: FramePose;
+}
+
+const known = new WeakMap<Frame, Step>();
+
+/** The very same ones as before as long as they say the same: an edit of one frame has nothing done for dozens of others. */
+export function framePoses(frames: readonly Frame[], first: number, end: number): readonly FramePose[] {
+  let from: Pose = poseAt(frames, first - 1);
+  return frames.slice(first, end).map((frame) => {
+    const to = stepFrom(from, frame);
+    from = to.pose;
+    return to;
+  });
+}
+
+function stepFrom(from: Pose, frame: Frame): FramePose {
+  const before = known.get(frame);
+  if (before !== undefined && samePose(before.from, from)) return before.to;
+  const made = newStep(from, frame);
+  const to = before !== undefined && sameLook(before.to, made) ? before.to : made;
+  known.set(frame, { from, to });
+  return to;
+}
+
+function newStep(from: Pose, { targets }: Frame): FramePose {
+  const pose = new Map(from);
+  for (const { servo, position } of targets) pose.set(servo, position);
+  const changed = [...pose.keys()].filter((servo) => from.get(servo) !== pose.get(servo));
+  return { pose, changed: changed.sort((one, other) => one - other) };
+}

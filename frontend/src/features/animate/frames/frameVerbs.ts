@@ -1,53 +1,19 @@
-// The verbs of the frame strip, for one frame or several: moved, duplicated, deleted, cut, copied, pasted. Each is one step of
+// What is done to one frame or several: moved, duplicated, deleted, cut, copied, pasted. Each is one step of
 // the history, and the selection goes along. Knows no panel; moves no robot.
 
 import { copyFrames, pasteFrames, type Clip } from '#shared/group/clip.ts';
-import { deleteFrames, duplicateFrames, moveFrames } from '#shared/group/groupEdits.ts';
-import type { ActionGroup } from '#shared/group/group.ts';
-import { type TimelineStores, contextOf, rangeOf, rowOf } from '../timeline/context.ts';
-import { spanFrames, showFrame, showFrames } from '../timeline/inStep.ts';
-import { chordOf } from '../timeline/keymap.ts';
-import { neighbour } from '../../../ui/cards.ts';
-import { ALL_ROW } from '../timeline/timeline.ts';
-import { wholeFrames } from '../timeline/wholeFrames.ts';
+import { deleteFrames, duplicateFrames, moveFrames, sameList } from '#shared/group/groupEdits.ts';
+import type { ActionGroup, GroupFrame } from '#shared/group/group.ts';
+import { contextOf, rangeOf, rowOf, type TimelineStores, useRows } from '../timeline/context.ts';
+import { showFrame, showFrames } from '../timeline/inStep.ts';
+import { ALL_ROW, framesByServo, type KeySet, selectedKeys } from '../timeline/timeline.ts';
 import { namesIn } from '../../../i18n/sentences.ts';
 import { notPasted } from '../timeline/clipText.ts';
 import { words } from '../../../i18n/whole.ts';
-
-// Keys of the frame strip beside those of every list of cards: Shift with an arrow selects up to there, Ctrl+A all,
-// Ctrl+D duplicates.
-
-/** Whether the key was one of these. `id`: the card that has the focus. */
-type StripKeys = (event: Pressed, id: number) => boolean;
-type Pressed = Parameters<typeof chordOf>[0];
-
-const VERBS: Readonly<Record<string, (stores: TimelineStores, id: number) => void>> = {
-  'Ctrl+a': selectAllFrames,
-  'Ctrl+d': (stores, id) => duplicate(stores, togetherNow(stores, id)),
-};
-
-export function createStripKeys(stores: TimelineStores): StripKeys {
-  /** What Shift has selected so far: it grows and shrinks at the other end. */
-  let span = { from: 0, to: 0 };
-
-  function extend(key: string, id: number): boolean {
-    const ids = stores.document.store.getState().present.frames.map((frame) => frame.id);
-    const to = neighbour(key, ids.indexOf(id), ids.length);
-    if (to === null) return false;
-    const goesOn = span.to === id && togetherNow(stores, id).includes(span.from);
-    span = { from: goesOn ? span.from : id, to: ids[to] ?? id };
-    spanFrames(stores, span.from, span.to);
-    return true;
-  }
-
-  return (event, id) => {
-    const { key, shiftKey, ctrlKey, metaKey, altKey } = event;
-    if (shiftKey && !ctrlKey && !metaKey && !altKey) return extend(key, id);
-    const verb = VERBS[chordOf(event)];
-    verb?.(stores, id);
-    return verb !== undefined;
-  };
-}
+import type { Key } from '#shared/group/tracks.ts';
+import { useStores } from '../../stores.ts';
+import { useInFrame } from '../../../ui/useInFrame.ts';
+import { type GroupTimes, timesOf } from '#shared/group/groupTimes.ts';
 
 export type FrameIds = readonly number[];
 /** As the person counts the frames, from 1. */
@@ -182,3 +148,74 @@ export function selectAllFrames(stores: TimelineStores, lead: number): void {
     lead,
   );
 }
+
+// Which frames are selected as a whole, with every key of theirs in a row that is shown, and the rests between them: what the strip
+// marks, and what is done to several frames is done to. The list is pure, and kept as long as it says the same.
+
+/** In the order of time. A frame without a key to select goes with the frames on both sides of it. */
+export function wholeFrames(
+  { frames }: Pick<GroupTimes, 'frames'>,
+  selected: KeySet,
+  shownServos: ReadonlySet<number>,
+): readonly number[] {
+  const chosen = framesByServo(selected);
+  const ids: number[] = [];
+  let isBehindWhole = false;
+  let rests: number[] = [];
+  for (const frame of frames) {
+    const state = stateOf(frame, chosen, shownServos);
+    if (state === 'rest') {
+      rests.push(frame.id);
+      continue;
+    }
+    if (state === 'whole') ids.push(...(isBehindWhole ? rests : []), frame.id);
+    isBehindWhole = state === 'whole';
+    rests = [];
+  }
+  return ids;
+}
+
+/** By its keys in rows that are shown. */
+function stateOf(
+  { id, targets }: GroupFrame,
+  chosen: ReturnType<typeof framesByServo>,
+  shownServos: ReadonlySet<number>,
+): 'whole' | 'partial' | 'rest' {
+  let state: 'whole' | 'rest' = 'rest';
+  for (const { servo } of targets) {
+    if (!shownServos.has(servo)) continue;
+    if (chosen.get(servo)?.has(id) !== true) return 'partial';
+    state = 'whole';
+  }
+  return state;
+}
+
+interface Whole {
+  readonly shown: readonly number[];
+  readonly ids: readonly number[];
+}
+
+/** By the selected keys, of which there is one list for each selection in each state of the group. */
+const known = new WeakMap<readonly Key[], Whole>();
+let latest: readonly number[] = [];
+
+/** The very same list as before where it says the same: an edit that leaves them the same has nothing drawn again. */
+function wholeNow(times: GroupTimes, selected: KeySet, shown: readonly number[]): readonly number[] {
+  const keys = selectedKeys(times, selected);
+  const before = known.get(keys);
+  if (before?.shown === shown) return before.ids;
+  latest = sameList(before?.ids ?? latest, wholeFrames(times, selected, new Set(shown)));
+  known.set(keys, { shown, ids: latest });
+  return latest;
+}
+
+/** With the next frame: what an edit of thousands of keys does to strip and tools does not keep the key that made it. */
+export function useWholeFrames(): readonly number[] {
+  const { document, timeline } = useStores();
+  const shown = useRows().find(({ kind }) => kind === 'all')?.servos ?? NO_SERVOS;
+  return useInFrame(document.store, ({ present }) =>
+    wholeNow(timesOf(present), timeline.getState().selected, shown),
+  );
+}
+
+const NO_SERVOS: readonly number[] = [];

@@ -16,13 +16,13 @@ import {
   useKnownFamily,
 } from '../../stores.ts';
 import { showKey } from '../timeline/inStep.ts';
-import { obstacles } from './compiled.ts';
-import { problemText } from './problemText.ts';
+import { obstacles } from '../../board/compile/compiled.ts';
+import { problemText } from '../../board/compile/problemText.ts';
 import { words } from '../../../i18n/whole.ts';
 import { servoName } from '../../../i18n/sentences.ts';
 import { Chip } from '../../../ui/Chip.tsx';
 import { NumberField } from '../../../ui/NumberField.tsx';
-import { useInFrame } from '../../../ui/useEachFrame.ts';
+import { useInFrame } from '../../../ui/useInFrame.ts';
 import styles from './CompileRow.module.css';
 import field from '../../../ui/Field.module.css';
 

@@ -4,6 +4,7 @@
 import { useShallow } from 'zustand/react/shallow';
 import type { SlotContent } from '#shared/group/slotBook.ts';
 import type { Player, PlaybackPhase } from './playback.ts';
+import { mayPlay, PLAY, PREVIEW } from './playActions.ts';
 import { playerOf, SPEED_PERCENT } from './player.ts';
 import {
   useStores,
@@ -20,7 +21,7 @@ import { chosenTimes } from '../../board/slots/groupPlace.ts';
 import { useSlotContents } from '../../board/slots/slotHooks.ts';
 import { motionHindrance, startHindrance } from '../../../robot/readiness.ts';
 import { isSilent } from '../../servoView.ts';
-import { timesOf } from '../timeline/groupTimes.ts';
+import { timesOf } from '#shared/group/groupTimes.ts';
 import { Button, IconButton } from '../../../ui/Button.tsx';
 import { cx } from '../../../ui/cx.ts';
 import { LiveText } from '../../../ui/LiveText.tsx';
@@ -31,12 +32,12 @@ import styles from './PlayBar.module.css';
 
 // What plays the group at hand; it is there from the first panel on that has buttons for it.
 
-export const usePlayer = (): Player => playerOf(useStores().playback);
+const usePlayer = (): Player => playerOf(useStores().playback);
 
 export function PlayBar() {
   const phase = usePlayback((state) => state.phase);
   const player = usePlayer();
-  const mayPlay = useMayPlay();
+  const whyNot = usePlayHindrance();
   const isIdle = phase === null;
   const mayStep = useDocument(({ present }) => present.frames.length > 0) && isIdle;
   return (
@@ -55,7 +56,7 @@ export function PlayBar() {
         onPress={() => player.step(1)}
       />
       <PreviewButton phase={phase} />
-      <RunOnBoard isDisabled={!mayPlay || !isIdle} />
+      <RunOnBoard isIdle={isIdle} whyNot={whyNot} />
       <div className={cx(styles.side, !isIdle && styles.busy)}>
         <Settings isDisabled={!isIdle} />
         <Phase phase={phase} />
@@ -64,24 +65,27 @@ export function PlayBar() {
   );
 }
 
-/** Something of the group can be sent now. */
-function useMayPlay(): boolean {
-  const unit = useDocument(({ present }) => present.unit);
-  const isEmpty = useDocument(({ present }) => present.frames.length === 0);
-  const isFree = useSnapshot((snapshot) => startHindrance(snapshot) === null);
-  const isSameUnit = useDevice((state) => state.family.unit === unit);
-  return isFree && isSameUnit && !isEmpty;
+/** Why nothing of the group can be sent now. */
+function usePlayHindrance(): string | undefined {
+  const stores = useStores();
+  useDocument(({ present }) => `${present.unit} ${present.frames.length === 0}`);
+  useSnapshot(startHindrance);
+  useDevice((state) => state.family);
+  const may = mayPlay(stores);
+  return may === true ? undefined : may;
 }
 
 /** One button to begin and to end: the focus is still on it when what it began is to end. */
 function PlayButton({ phase }: { readonly phase: PlaybackPhase | null }) {
   const player = usePlayer();
-  const mayPlay = useMayPlay();
+  const whyNot = usePlayHindrance();
   const ends = phase === null || phase === 'previewing' ? null : phase;
   return (
     <Button
-      icon={ends === null ? 'play' : END_ICONS[ends]}
-      isDisabled={ends === null && (!mayPlay || phase !== null)}
+      icon={ends === null ? PLAY.icon : END_ICONS[ends]}
+      keys={PLAY.keys}
+      whyNot={ends === null ? whyNot : undefined}
+      isDisabled={ends === null && (whyNot !== undefined || phase !== null)}
       onPress={() => (ends === null ? player.play() : player.pause())}
     >
       <PlayWords ends={ends} />
@@ -104,15 +108,18 @@ function endWord(phase: keyof typeof END_ICONS): string {
 
 /** As the one to play. */
 function PreviewButton({ phase }: { readonly phase: PlaybackPhase | null }) {
-  const player = usePlayer();
+  const stores = useStores();
   const isEmpty = useDocument(({ present }) => present.frames.length === 0);
   const isOn = phase === 'previewing';
+  const may = PREVIEW.enabled(stores);
   return (
     <Button
-      icon={isOn ? 'pause' : 'eye'}
+      icon={isOn ? 'pause' : PREVIEW.icon}
       hint={words.play.previewHint}
+      keys={PREVIEW.keys}
+      whyNot={may === true ? undefined : may}
       isDisabled={isEmpty || (phase !== null && !isOn)}
-      onPress={() => player.togglePreview()}
+      onPress={() => PREVIEW.run(stores)}
     >
       <span className={cx(styles.words, styles.preview)} data-longest={words.play.preview}>
         <span className={styles.now}>{isOn ? words.play.pause : words.play.preview}</span>
@@ -187,7 +194,12 @@ function Settings({ isDisabled }: { readonly isDisabled: boolean }) {
   );
 }
 
-function RunOnBoard({ isDisabled }: { readonly isDisabled: boolean }) {
+interface RunOnBoardProps {
+  readonly isIdle: boolean;
+  readonly whyNot: string | undefined;
+}
+
+function RunOnBoard({ isIdle, whyNot }: RunOnBoardProps) {
   const player = usePlayer();
   const commands = useDevice((state) => state.family.commands);
   const slot = useSlot();
@@ -196,7 +208,8 @@ function RunOnBoard({ isDisabled }: { readonly isDisabled: boolean }) {
   return (
     <Button
       icon="board"
-      isDisabled={isDisabled}
+      isDisabled={whyNot !== undefined || !isIdle}
+      whyNot={isIdle ? whyNot : undefined}
       hint={boardHint(slot, content)}
       onPress={() => player.runOnBoard()}
     >

@@ -3,27 +3,31 @@
 import { useStore } from 'zustand';
 import { recorded } from '../../servoView.ts';
 import { servoViewOf, useRobot, useServoView, useStores, type Stores } from '../../stores.ts';
+import { ActionButton } from '../../../ui/ActionButton.tsx';
 import { Button } from '../../../ui/Button.tsx';
 import { useNow } from '../../../ui/useEachFrame.ts';
 import { say } from '../../../i18n/sentences.ts';
 import { words } from '../../../i18n/whole.ts';
-import { useOffer } from './TakeThat.tsx';
+import { KEEP_LAST, offer } from './TakeDialog.tsx';
 
 export function RecordControl() {
   const stores = useStores();
   const { tape } = stores;
-  const offer = useOffer();
   const sinceMs = useStore(tape.store, (state) => state.recordingSinceMs);
   return (
     <>
       <Record
         sinceMs={sinceMs}
         onBegin={() => tape.record()}
-        onEnd={() => offer(tape.end(recorded(servoViewOf(stores), servosOf(stores)).servos))}
+        onEnd={() => offer(stores, tape.end(recorded(servoViewOf(stores), servosOf(stores)).servos))}
       />
-      <Button tone="quiet" hint={words.record.takeThatHint} onPress={() => offer(tape.takeThat())}>
-        {words.record.takeThat}
-      </Button>
+      <ActionButton
+        tone="quiet"
+        hint={words.record.takeThatHint}
+        action={KEEP_LAST}
+        shown={stores}
+        context={() => stores}
+      />
     </>
   );
 }

@@ -6,8 +6,8 @@ import type { Timeline } from '../timeline/timeline.ts';
 import { paged } from '../timeline/timeScale.ts';
 import type { Device } from '../../../robot/device.ts';
 import type { View } from '../../view.ts';
-import type { CompiledStore } from '../group/compiled.ts';
-import type { Document } from '../group/document.ts';
+import type { CompiledStore } from '../../board/compile/compiled.ts';
+import type { Document } from '../../groupDocument.ts';
 import type { Notices } from '../../../state/notices.ts';
 import type { RobotStore } from '../../profiles/robots.ts';
 import type { GroupPlace } from '../../board/slots/groupPlace.ts';
@@ -34,28 +34,6 @@ export function createPlayhead(timeline: Timeline): Playhead {
       timeline.setState(({ time, widthPx }) => ({ playheadMs, time: paged(time, playheadMs, widthPx) })),
     range: () => timeline.getState().range,
   };
-}
-
-// A run as it was chosen beside its button: bound to this page, or, for this one time, to go on without it.
-
-interface Parts {
-  readonly device: Device;
-  readonly view: View;
-}
-
-/** `settled` as for `device.run`. */
-export function runAsChosen(
-  { device, view }: Parts,
-  slot: number,
-  times: number,
-  settled: (isTaken: boolean) => void = () => undefined,
-): void {
-  const { goesOn, keepRunningMinutes } = view.getState();
-  view.setState({ goesOn: false });
-  device.run(slot, times, (isTaken) => {
-    if (isTaken && goesOn) device.letGoOn(keepRunningMinutes * 60_000);
-    settled(isTaken);
-  });
 }
 
 /** `leading`: gently on the way to the first pose. `returning`: gently back there, in a loop. `storing`: the board gets the group first. `previewing`: only on the drawing. */

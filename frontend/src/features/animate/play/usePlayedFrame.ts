@@ -1,7 +1,7 @@
 // Which frame of the group is being played, by the playhead: what is sent are other frames, as compile makes them.
 
+import { timesOf } from '#shared/group/groupTimes.ts';
 import { usePlayback, useStores, useTimeline } from '../../stores.ts';
-import { timesOf } from '../timeline/groupTimes.ts';
 
 /** As an index; null while nothing is played. */
 export function usePlayedFrame(): number | null {

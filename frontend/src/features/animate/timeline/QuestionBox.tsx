@@ -5,18 +5,17 @@
 
 import { useEffect, useRef, type KeyboardEvent } from 'react';
 import { useStores, useTimeline } from '../../stores.ts';
-import type { Ask } from './timeline.ts';
+import { type Ask, selectedKeys } from './timeline.ts';
 import { cx } from '../../../ui/cx.ts';
 import { isTouch } from '../../../ui/inputEvents.ts';
 import { words } from '../../../i18n/whole.ts';
 import { answer, ASKED } from './questions.ts';
-import { contextOf } from './context.ts';
-import { endOfFrame, selectedKeys } from './groupTimes.ts';
+import { contextOf, type ShownContext, useTimelineContext } from './context.ts';
+import { endOfFrame } from '#shared/group/groupTimes.ts';
 import { sizesNow } from './trackCanvas.ts';
 import { scaleAt } from './valueText.ts';
 import { sceneOf } from './scene.ts';
 import { xOf } from './timeScale.ts';
-import { useTimelineContext, type ShownContext } from './useTimelineContext.ts';
 import styles from './QuestionBox.module.css';
 
 export interface AskBoxProps {

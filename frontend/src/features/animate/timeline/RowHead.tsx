@@ -21,7 +21,7 @@ import { words } from '../../../i18n/whole.ts';
 import { useWords } from '../../../i18n/words.ts';
 import { rowName, scaleAt } from './valueText.ts';
 import { contextOf, rangeOf } from './context.ts';
-import { timesOf } from './groupTimes.ts';
+import { timesOf } from '#shared/group/groupTimes.ts';
 import { selectRow } from './looking.ts';
 import type { Row } from './rows.ts';
 import styles from './Rows.module.css';

@@ -8,12 +8,10 @@ import { keyName, type KeySet } from './timeline.ts';
 import { cx } from '../../../ui/cx.ts';
 import { useWords } from '../../../i18n/words.ts';
 import { nameOfKey } from './valueText.ts';
-import { keysOfFrame, timesOf, type GroupTimes } from './groupTimes.ts';
+import { keysOfFrame, timesOf, type GroupTimes } from '#shared/group/groupTimes.ts';
 import { RowHead } from './RowHead.tsx';
-import type { Row } from './rows.ts';
-import { keysInRow, within } from './rowKeys.ts';
+import { keysInRow, type Row, type Sizes, within } from './rows.ts';
 import { keyY, placedInSight } from './scene.ts';
-import type { Sizes } from './sizes.ts';
 import { seenSpan, xOf } from './timeScale.ts';
 import styles from './Rows.module.css';
 

@@ -2,19 +2,19 @@
 // playhead moves nothing but the picture of a pose.
 
 import {
-  useLayoutEffect,
-  type RefObject,
+  type ClipboardEvent,
+  type KeyboardEvent,
   memo,
+  type ReactNode,
+  type RefObject,
   useCallback,
   useEffect,
   useId,
+  useLayoutEffect,
   useRef,
   useState,
-  type ClipboardEvent,
-  type KeyboardEvent,
-  type ReactNode,
 } from 'react';
-import { useTimeline, useDocument, useStores } from '../../stores.ts';
+import { useDocument, useStores, useTimeline } from '../../stores.ts';
 import { cellId, Rows } from './Rows.tsx';
 import { MovingLabel } from '../../picture/MovingText.tsx';
 import { instantText } from './valueText.ts';
@@ -22,20 +22,21 @@ import { words } from '../../../i18n/whole.ts';
 import { AskBox } from './QuestionBox.tsx';
 import { copy, cut, paste } from './changes.ts';
 import { clipFromText, clipToText } from './clipText.ts';
-import { contextOf } from './context.ts';
+import { contextOf, useRows } from './context.ts';
 import { keepInStep } from './inStep.ts';
-import { actionOf } from './keymap.ts';
 import { bringToLife, sizesNow } from './trackCanvas.ts';
 import { Minimap } from './Minimap.tsx';
-import { PlayheadLine } from './PlayheadLine.tsx';
-import { heightOf, placedRows } from './rows.ts';
-import { topOfRows } from './sizes.ts';
+import { heightOf, placedRows, topOfRows } from './rows.ts';
 import { StatusText, type Said } from './StatusText.tsx';
+import { MENU_KEYS, pressInTimeline } from './timelineActions.ts';
 import { TimelineMenu, type OpenMenu } from './TimelineMenu.tsx';
 import { TimelineTools } from './TimelineTools.tsx';
-import { useRows } from './useTimelineContext.ts';
+import { actionOf, chordOf } from '../../../ui/action.ts';
+import { PLAY, PREVIEW } from '../play/playActions.ts';
 import { PART } from '../../../ui/focus.ts';
 import styles from './Timeline.module.css';
+import { Canvas, type Pen } from '../../picture/Canvas.tsx';
+import { xOf } from './timeScale.ts';
 
 // Which cell of the grid the keys are at, for ears. Only one that is there may be named: where the key itself is out
 // of sight it is its row, and where that is, too, none. Cells come and go with every scroll, so this looks whenever
@@ -61,8 +62,7 @@ function useActiveCell(grid: RefObject<HTMLElement | null>, id: string): void {
   }, [grid, cell, row]);
 }
 
-/** `onPlay`: the play key was pressed here, with Shift to play on the drawing alone. */
-export const Timeline = memo(function Timeline({ onPlay }: { onPlay(isPreview: boolean): void }) {
+export const Timeline = memo(function Timeline() {
   const stores = useStores();
   const id = useId();
   const [menu, setMenu] = useState<OpenMenu | null>(null);
@@ -129,12 +129,11 @@ export const Timeline = memo(function Timeline({ onPlay }: { onPlay(isPreview: b
 
   function key(event: KeyboardEvent): void {
     if (event.target !== grid.current) return;
-    const isMenuKey = event.key === 'ContextMenu' || (event.key === 'F10' && event.shiftKey);
-    const action = actionOf(event.nativeEvent);
-    if (isMenuKey) openMenu('keys', cellAtCursor());
-    else if (event.key === ' ' && !event.ctrlKey) onPlay(event.shiftKey);
-    else if (action === undefined) return;
-    else action(contextOf(stores));
+    const plays = actionOf([PLAY, PREVIEW], event);
+    if (MENU_KEYS.keys.includes(chordOf(event))) openMenu('keys', cellAtCursor());
+    // The player says what keeps it from playing.
+    else if (plays !== undefined) plays.run(stores);
+    else if (!pressInTimeline(contextOf(stores), event.nativeEvent)) return;
     event.preventDefault();
   }
 
@@ -243,4 +242,31 @@ function Corner() {
       <MovingLabel className={styles.instant} colour="ink" text={() => instantText(playhead.at())} />
     </p>
   );
+}
+
+// The line over the lanes where the playhead is. On a canvas of its own: moved as an element it would have the browser sort the
+// layers of the whole page anew in each frame of a scrub.
+
+const LINE_PX = 1.5;
+const HEAD_PX = { width: 10, height: 8 };
+
+export const PlayheadLine = memo(function PlayheadLine() {
+  const { timeline } = useStores();
+  const shown = (): readonly [number | null] => {
+    const { time, playheadMs, widthPx } = timeline.getState();
+    const x = xOf(time, playheadMs);
+    return [x < 0 || x > widthPx ? null : Math.round(x * 10) / 10];
+  };
+  return <Canvas className={styles.playhead} shown={shown} paint={paintLine} />;
+});
+
+function paintLine({ ctx, look, size }: Pen, [x]: readonly [number | null]): void {
+  if (x === null) return;
+  ctx.fillStyle = look.ink;
+  ctx.fillRect(x - LINE_PX / 2, 0, LINE_PX, size.height);
+  ctx.beginPath();
+  ctx.moveTo(x - HEAD_PX.width / 2, 0);
+  ctx.lineTo(x + HEAD_PX.width / 2, 0);
+  ctx.lineTo(x, HEAD_PX.height);
+  ctx.fill();
 }

@@ -1,4 +1,4 @@
-// The menu of the timeline, at the pointer or below its button: the verbs that fit what is selected, or what is done to a row.
+// The menu of the timeline, at the pointer or below its button: the actions that fit what is selected, or what is done to a row.
 
 import { memo } from 'react';
 import { Menu, MenuItem, MenuSection, SubmenuTrigger } from 'react-aria-components/Menu';
@@ -6,15 +6,16 @@ import { Popover } from 'react-aria-components/Popover';
 import { Separator } from 'react-aria-components/Separator';
 import { COLOURS } from '#shared/document/schema.ts';
 import { EASINGS } from '#shared/group/group.ts';
-import { toggled, type ServoView } from '../../servoView.ts';
-import { editServoView, useServoView, useStores } from '../../stores.ts';
+import { useServoView, useStores } from '../../stores.ts';
+import type { Action } from '../../../ui/action.ts';
+import { chordText } from '../../../ui/chordText.ts';
+import { hinted } from '../../../ui/hinting.ts';
 import { Icon } from '../../../ui/Icon.tsx';
 import { words } from '../../../i18n/whole.ts';
 import { colour, ease } from './changes.ts';
-import { contextOf, rowOf } from './context.ts';
-import { chordText } from './keymap.ts';
+import { contextOf, rowOf, type TimelineContext } from './context.ts';
 import type { Row } from './rows.ts';
-import { mayRun, verbName, VERBS, type VerbName } from './verbs.ts';
+import { ROW_ACTIONS, TIMELINE_ACTIONS, type TimelineActionName } from './timelineActions.ts';
 import { InLanguage } from '../../../ui/InLanguage.tsx';
 import styles from '../../../ui/Menu.module.css';
 
@@ -24,12 +25,12 @@ export interface OpenMenu {
   readonly anchor: { readonly current: Element | null };
 }
 
-const SECTIONS: readonly (readonly VerbName[])[] = [
+const SECTIONS: readonly (readonly TimelineActionName[])[] = [
   ['setKey', 'editValue', 'marker'],
   ['cut', 'copy', 'paste', 'duplicate', 'remove', 'removeTime'],
 ];
 /** Behind a word of their own: all in one list are higher than a small window. */
-const CHANGES: readonly VerbName[] = [
+const CHANGES: readonly TimelineActionName[] = [
   'reverse',
   'mirror',
   'scaleTime',
@@ -38,7 +39,13 @@ const CHANGES: readonly VerbName[] = [
   'insertTime',
   'note',
 ];
-const LOOKS: readonly VerbName[] = ['selectAll', 'selectRow', 'fitSelection', 'range', 'nextMarker'];
+const LOOKS: readonly TimelineActionName[] = [
+  'selectAll',
+  'selectRow',
+  'fitSelection',
+  'range',
+  'nextMarker',
+];
 
 export const TimelineMenu = memo(function TimelineMenu({
   menu,
@@ -65,13 +72,13 @@ export const TimelineMenu = memo(function TimelineMenu({
 function KeysMenu({ onClose }: { onClose(): void }) {
   const stores = useStores();
   const context = contextOf(stores);
-  const items = (verbs: readonly VerbName[]): React.ReactElement[] =>
-    verbs.map((verb) => <VerbItem key={verb} verb={verb} />);
+  const items = (names: readonly TimelineActionName[]): React.ReactElement[] =>
+    names.map((name) => <ActionItem key={name} action={TIMELINE_ACTIONS[name]} />);
   return (
     <Menu className={styles.menu ?? ''} aria-label={words.timeline.menu} autoFocus="first" onClose={onClose}>
-      {SECTIONS.map((verbs) => (
-        <MenuSection key={verbs[0]} aria-label={words.timeline.menu}>
-          {items(verbs)}
+      {SECTIONS.map((names) => (
+        <MenuSection key={names[0]} aria-label={words.timeline.menu}>
+          {items(names)}
           <Separator className={styles.separator ?? ''} />
         </MenuSection>
       ))}
@@ -101,9 +108,7 @@ function KeysMenu({ onClose }: { onClose(): void }) {
         ))}
       </Submenu>
       <Submenu label={words.timeline.rows.menu} isDisabled={false} onClose={onClose}>
-        {rowItems(context.servoView, rowOf(context, context.state.cursor.row), (change) =>
-          editServoView(stores, change),
-        )}
+        {rowItems(rowOf(context, context.state.cursor.row))}
       </Submenu>
       <Submenu label={words.timeline.look} isDisabled={false} onClose={onClose}>
         {items(LOOKS)}
@@ -112,23 +117,33 @@ function KeysMenu({ onClose }: { onClose(): void }) {
   );
 }
 
-function VerbItem({ verb }: { readonly verb: VerbName }) {
+function ActionItem({ action }: { readonly action: Action<TimelineContext> }) {
   const stores = useStores();
-  const { icon, keys, run } = VERBS[verb];
-  const { state } = contextOf(stores);
-  const name = verbName(verb, state);
+  const { icon, keys, label, enabled, run } = action;
+  const context = contextOf(stores);
+  const text = label(context);
+  const mayNow = enabled(context);
+  const [key] = keys;
   return (
     <MenuItem
+      {...(mayNow !== true && hinted({ whyNot: mayNow }))}
       className={styles.item ?? ''}
-      textValue={name}
-      isDisabled={!mayRun(contextOf(stores), VERBS[verb])}
+      textValue={text}
+      isDisabled={mayNow !== true}
       onAction={() => run(contextOf(stores))}
     >
       <Icon name={icon} />
-      {name}
-      <kbd className={styles.keys}>{chordText(keys)}</kbd>
+      {text}
+      {key !== undefined && <kbd className={styles.keys}>{chordText(key)}</kbd>}
     </MenuItem>
   );
+}
+
+/** Folding is for limbs alone. */
+function rowItems(row: Row | undefined): React.ReactElement[] {
+  const { folded, ...others } = ROW_ACTIONS;
+  const actions = row?.kind === 'limb' ? [...Object.values(others), folded] : Object.values(others);
+  return actions.map((action) => <ActionItem key={action.id} action={action} />);
 }
 
 function Submenu(props: {
@@ -157,7 +172,7 @@ function Submenu(props: {
 
 function RowMenu({ onClose }: { onClose(): void }) {
   const stores = useStores();
-  const view = useServoView((servoView) => servoView);
+  useServoView((servoView) => servoView);
   const context = contextOf(stores);
   return (
     <Menu
@@ -166,51 +181,7 @@ function RowMenu({ onClose }: { onClose(): void }) {
       autoFocus="first"
       onClose={onClose}
     >
-      {rowItems(view, rowOf(context, context.state.cursor.row), (change) => editServoView(stores, change))}
+      {rowItems(rowOf(context, context.state.cursor.row))}
     </Menu>
-  );
-}
-
-type ChangeView = (change: (view: ServoView) => ServoView) => void;
-
-function rowItems(view: ServoView, row: Row | undefined, change: ChangeView): React.ReactElement[] {
-  const { rows } = words.timeline;
-  const servos = row?.servos ?? [];
-  const isAll = (list: readonly number[]): boolean =>
-    servos.length > 0 && servos.every((servo) => list.includes(servo));
-  const items = [
-    { list: 'locked', icon: 'lock', label: isAll(view.locked) ? rows.unlock : rows.lock },
-    { list: 'muted', icon: 'mute', label: isAll(view.muted) ? rows.unmute : rows.mute },
-    { list: 'solo', icon: 'solo', label: isAll(view.solo) ? rows.unsolo : rows.solo },
-    { list: 'armed', icon: 'record', label: isAll(view.armed) ? rows.disarm : rows.arm },
-    { list: 'hidden', icon: 'hide', label: rows.hide },
-  ] as const;
-  const own = items.map(({ list, icon, label }) => (
-    <MenuItem
-      key={list}
-      className={styles.item ?? ''}
-      textValue={label}
-      onAction={() => change((before) => ({ ...before, [list]: toggled(before[list], servos) }))}
-    >
-      <Icon name={icon} />
-      {label}
-    </MenuItem>
-  ));
-  return row?.kind === 'limb' ? [...own, foldItem(view, row.name, change)] : own;
-}
-
-function foldItem(view: ServoView, limb: string, change: ChangeView): React.ReactElement {
-  const isFolded = view.folded.includes(limb);
-  const label = isFolded ? words.timeline.rows.unfold : words.timeline.rows.foldAway;
-  return (
-    <MenuItem
-      key="folded"
-      className={styles.item ?? ''}
-      textValue={label}
-      onAction={() => change((before) => ({ ...before, folded: toggled(before.folded, [limb]) }))}
-    >
-      <Icon name={isFolded ? 'later' : 'down'} />
-      {label}
-    </MenuItem>
   );
 }

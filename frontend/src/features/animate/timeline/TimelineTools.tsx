@@ -1,19 +1,21 @@
-// The toolbar of the timeline: its verbs for hands without a keyboard, and the switches that say how edits behave.
+// The toolbar of the timeline: its actions for hands without a keyboard, and the switches that say how edits behave.
 
 import { memo } from 'react';
+import { useShallow } from 'zustand/react/shallow';
 import { Toolbar } from 'react-aria-components/Toolbar';
 import { EASINGS, type Easing } from '#shared/group/group.ts';
 import { useStores, useView, useDocument, useTimeline } from '../../stores.ts';
-import { ToggleButton } from '../../../ui/Toggle.tsx';
+import { ToggleButton } from '../../../ui/ToggleButton.tsx';
 import { words } from '../../../i18n/whole.ts';
+import { ActionIconButton } from '../../../ui/ActionButton.tsx';
 import { IconButton } from '../../../ui/Button.tsx';
 import { Select } from '../../../ui/Select.tsx';
-import type { KeySet } from './timeline.ts';
+import { type KeySet, selectedKeys } from './timeline.ts';
 import { useWords } from '../../../i18n/words.ts';
 import { ease } from './changes.ts';
 import { contextOf } from './context.ts';
-import { selectedKeys, timesOf, type GroupTimes } from './groupTimes.ts';
-import { mayRun, verbName, VERBS, type VerbName } from './verbs.ts';
+import { type GroupTimes, timesOf } from '#shared/group/groupTimes.ts';
+import { TIMELINE_ACTIONS, type TimelineActionName } from './timelineActions.ts';
 import addsSwitchStyles from './AddsSwitch.module.css';
 import { InLanguage } from '../../../ui/InLanguage.tsx';
 import styles from './TimelineTools.module.css';
@@ -33,7 +35,7 @@ export function AddsSwitch() {
   );
 }
 
-const VERB_GROUPS: readonly (readonly VerbName[])[] = [
+const ACTION_GROUPS: readonly (readonly TimelineActionName[])[] = [
   ['setKey', 'remove', 'copy', 'paste', 'duplicate'],
   ['keyBefore', 'keyAfter', 'zoomOut', 'zoomIn', 'fitAll'],
 ];
@@ -54,10 +56,10 @@ export const TimelineTools = memo(function TimelineTools({
   return (
     <InLanguage>
       <Toolbar className={styles.tools ?? ''} aria-label={words.timeline.toolbar}>
-        {VERB_GROUPS.map((verbs) => (
-          <div key={verbs[0]} className={styles.group}>
-            {verbs.map((verb) => (
-              <VerbButton key={verb} verb={verb} />
+        {ACTION_GROUPS.map((names) => (
+          <div key={names[0]} className={styles.group}>
+            {names.map((name) => (
+              <TimelineButton key={name} name={name} />
             ))}
           </div>
         ))}
@@ -84,16 +86,14 @@ function Switch({ name, hint }: { readonly name: (typeof SWITCHES)[number][0]; r
   );
 }
 
-function VerbButton({ verb }: { readonly verb: VerbName }) {
+function TimelineButton({ name }: { readonly name: TimelineActionName }) {
   const stores = useStores();
-  const mayNow = useTimeline((state) => mayRun({ state }, VERBS[verb]));
-  const label = useTimeline((state) => verbName(verb, state));
+  const shown = useTimeline(useShallow(({ selected, marker, clip }) => ({ selected, marker, clip })));
   return (
-    <IconButton
-      icon={VERBS[verb].icon}
-      label={label}
-      isDisabled={!mayNow}
-      onPress={() => VERBS[verb].run(contextOf(stores))}
+    <ActionIconButton
+      action={TIMELINE_ACTIONS[name]}
+      shown={{ state: shown }}
+      context={() => contextOf(stores)}
     />
   );
 }

@@ -11,7 +11,7 @@ import { deleteTime } from '#shared/group/timeEdits.ts';
 import type { Label } from '#shared/document/history.ts';
 import { servoOf } from '#shared/profile/robot.ts';
 import { keysAt, positionAt, type Key, type KeyRef } from '#shared/group/tracks.ts';
-import { keySet, NO_KEYS } from './timeline.ts';
+import { keySet, NO_KEYS, selectedKeys } from './timeline.ts';
 import { isHeld } from '../../servoView.ts';
 import { namesIn, servoName } from '../../../i18n/sentences.ts';
 import { notPasted } from './clipText.ts';
@@ -27,7 +27,7 @@ import {
   whyHeld,
   type TimelineContext,
 } from './context.ts';
-import { allKeys, selectedKeys, spanOf, type GroupTimes } from './groupTimes.ts';
+import { allKeys, type GroupTimes, spanOf } from '#shared/group/groupTimes.ts';
 
 /** The servos of the cursor's row get a key where the playhead is, so that their motion stays as it is there. */
 export function setKeys(context: TimelineContext): void {

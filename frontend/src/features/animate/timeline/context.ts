@@ -1,20 +1,39 @@
-// What a verb of the timeline works with, gathered anew each time, and how it leaves the selection. Edits go to the document
+// What an action of the timeline works with, gathered anew each time, and how it leaves the selection. Edits go to the document
 // alone, as one step each.
 
 import type { ActionGroup } from '#shared/group/group.ts';
 import type { Label } from '#shared/document/history.ts';
 import type { Key, KeyRef } from '#shared/group/tracks.ts';
-import type { Robot } from '#shared/profile/robot.ts';
-import { servoOf } from '#shared/profile/robot.ts';
+import { type Robot, servoOf } from '#shared/profile/robot.ts';
 import { positionRange, type Family, type Range } from '#shared/codec/families.ts';
-import { framesByServo, keySet, type KeySet, ALL_ROW, type Cursor, type TimelineState } from './timeline.ts';
+import {
+  ALL_ROW,
+  type Cursor,
+  framesByServo,
+  type KeySet,
+  keySet,
+  selectedKeys,
+  type TimelineState,
+} from './timeline.ts';
 import { isHeld, type ServoView } from '../../servoView.ts';
 import { setChanged } from '../../../state/setChanged.ts';
-import { groupBoardOf, servoViewOf, type Stores } from '../../stores.ts';
+import {
+  groupBoardOf,
+  servoViewOf,
+  type Stores,
+  useDocument,
+  useGroupBoard,
+  useServoView,
+  useStores,
+  useTimeline,
+  useView,
+} from '../../stores.ts';
 import type { PositionsIn } from '../../view.ts';
 import { words } from '../../../i18n/whole.ts';
-import { selectedKeys, timesOf, type GroupTimes } from './groupTimes.ts';
+import { type GroupTimes, timesOf } from '#shared/group/groupTimes.ts';
 import { rowsNow, type Row } from './rows.ts';
+import { useShallow } from 'zustand/react/shallow';
+import { useInFrame } from '../../../ui/useInFrame.ts';
 
 export type TimelineStores = Pick<Stores, 'device' | 'document' | 'view' | 'notices' | 'robots' | 'timeline'>;
 
@@ -140,4 +159,31 @@ export function hasChangeable(context: TimelineContext): boolean {
   if (context.state.selected.size > 0)
     context.stores.notices.tell('warning', words.timeline.held[whyHeld(context)]);
   return false;
+}
+
+// What small parts of the timeline that show a bit of everything read, anew whenever something of it changed. The playhead is left
+// out: what follows it is drawn past React. So is what the servo panel changes all the time while it drags.
+
+// The timeline's rows as React sees them: another list only where a row came, went or changed its look.
+
+export function useRows(): readonly Row[] {
+  const { robot } = useGroupBoard();
+  const hidden = useServoView((view) => view.hidden);
+  const folded = useServoView((view) => view.folded);
+  const keyed = useDocument(({ present }) => timesOf(present).servos);
+  return rowsNow(robot, keyed, { hidden, folded });
+}
+
+export type ShownContext = Omit<TimelineContext, 'state'> & {
+  readonly state: Omit<TimelineContext['state'], 'playheadMs'>;
+};
+
+export function useTimelineContext(): ShownContext {
+  const stores = useStores();
+  useInFrame(stores.document.store, ({ present }) => present);
+  useGroupBoard();
+  useView((state) => state.positionsIn);
+  useServoView((view) => view);
+  useTimeline(useShallow(({ playheadMs: _, ...shown }) => shown));
+  return contextOf(stores);
 }

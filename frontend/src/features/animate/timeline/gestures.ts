@@ -22,10 +22,10 @@ import { hitAt, keysInBox, type Hit, type Spot } from './hit.ts';
 import { pressFrame } from './inStep.ts';
 import { keyGesture } from './keyGesture.ts';
 import { cursorAfter, stretchingOf } from './moving.ts';
-import { timesOf } from './groupTimes.ts';
+import { timesOf } from '#shared/group/groupTimes.ts';
 import { lookAt, selectFrame, setTime } from './looking.ts';
 import { sceneOf, wholeSceneOf } from './scene.ts';
-import { topOfRows } from './sizes.ts';
+import { topOfRows } from './rows.ts';
 import { msAt, panned, seenSpan, xOf } from './timeScale.ts';
 
 export function gestureOf(press: Press): Gesture {

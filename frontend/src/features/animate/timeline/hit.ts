@@ -1,12 +1,10 @@
 // What is under the pointer. Pure; the same geometry as the painting.
 
-import type { KeySet, TimelineState } from './timeline.ts';
+import { type KeySet, selectedKeys, type TimelineState } from './timeline.ts';
 import type { KeyRef } from '#shared/group/tracks.ts';
-import { keysOfFrame, selectedKeys, spanOf, type GroupTimes } from './groupTimes.ts';
-import type { PlacedRow, Row } from './rows.ts';
-import { keysInRow, within } from './rowKeys.ts';
+import { type GroupTimes, keysOfFrame, spanOf } from '#shared/group/groupTimes.ts';
+import { keysInRow, type PlacedRow, type Row, topOfRows, within } from './rows.ts';
 import { keyY, type Scene } from './scene.ts';
-import { topOfRows } from './sizes.ts';
 import { msAt, xOf, type Span } from './timeScale.ts';
 
 export type Hit =

@@ -4,11 +4,11 @@
 
 import type { KeyRef } from '#shared/group/tracks.ts';
 import { contextOf, select, type TimelineContext, type TimelineStores } from './context.ts';
-import { endOfFrame, selectedKeys, timesOf, type GroupTimes } from './groupTimes.ts';
+import { endOfFrame, type GroupTimes, timesOf } from '#shared/group/groupTimes.ts';
+import { ALL_ROW, keyName, keySet, selectedKeys, type TimelineState, withKeys } from './timeline.ts';
 import { cursorLeft, fitAll, lookAt, selectFrame, shownKeys } from './looking.ts';
 import { servoRowId } from './rows.ts';
 import { paged, xOf } from './timeScale.ts';
-import { ALL_ROW, type TimelineState, keyName, keySet, withKeys } from './timeline.ts';
 import { setChanged } from '../../../state/setChanged.ts';
 
 export function keepInStep(stores: TimelineStores): () => void {

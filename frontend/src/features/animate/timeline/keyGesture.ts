@@ -5,7 +5,7 @@ import { keySet, withKeys } from './timeline.ts';
 import { words } from '../../../i18n/whole.ts';
 import { changeable, contextOf, select, whyHeld, type TimelineContext } from './context.ts';
 import { draggedTo, edits, modeOf, nothing, type Gesture, type Held, type Press } from './gesture.ts';
-import { timesOf } from './groupTimes.ts';
+import { timesOf } from '#shared/group/groupTimes.ts';
 import { hasAll, keysBetween, type Hit, type Spot } from './hit.ts';
 import { copyOf, cursorAfter, moveOf } from './moving.ts';
 import type { Scene } from './scene.ts';

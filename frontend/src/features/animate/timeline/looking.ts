@@ -1,10 +1,10 @@
 // The verbs that change what is looked at: playhead, cursor, zoom, loop range. None of them changes the group.
 
 import type { Key } from '#shared/group/tracks.ts';
-import { type Cursor, ALL_ROW, type TimeView, withKeys, type SelectMode } from './timeline.ts';
+import { ALL_ROW, type Cursor, selectedKeys, type SelectMode, type TimeView, withKeys } from './timeline.ts';
 import { setChanged } from '../../../state/setChanged.ts';
 import { rowOf, select, type TimelineContext } from './context.ts';
-import { allKeys, endOfFrame, keysOfFrame, selectedKeys, spanOf } from './groupTimes.ts';
+import { allKeys, endOfFrame, keysOfFrame, spanOf } from '#shared/group/groupTimes.ts';
 import { instantText } from './valueText.ts';
 import { fitted, panned, showing, xOf, zoomedAt, type Span } from './timeScale.ts';
 

@@ -5,13 +5,15 @@ import { moveKeys, boundedMove, type KeyMove } from '#shared/group/keyEdits.ts';
 import { boundedFactor, stretchedMs, stretchKeys, type KeyStretch } from '#shared/group/keyRanges.ts';
 import type { TimeRange } from '#shared/group/timeEdits.ts';
 import { keysAt, type Key, type KeyRef } from '#shared/group/tracks.ts';
-import type { ActionGroup } from '#shared/group/group.ts';
+import type { ActionGroup, Marker } from '#shared/group/group.ts';
 import type { Range } from '#shared/codec/families.ts';
 import { words } from '../../../i18n/whole.ts';
 import type { Cursor } from './timeline.ts';
-import { cellName, nudgeUnits } from './valueText.ts';
+import { cellName, instantText, nudgeUnits } from './valueText.ts';
 import { apply, changeable, hasChangeable, rangeOf, rowOf, type TimelineContext } from './context.ts';
-import { timesOf, type GroupTimes } from './groupTimes.ts';
+import { timesOf, type GroupTimes } from '#shared/group/groupTimes.ts';
+import { moveMarker } from '#shared/group/frameEdits.ts';
+import { lookAt } from './looking.ts';
 
 export interface Move {
   edit(group: ActionGroup): ActionGroup;
@@ -128,4 +130,45 @@ export function nudge(context: TimelineContext, ticks: number, valueSteps: numbe
   });
   const times = timesOf(context.stores.document.store.getState().present);
   context.stores.notices.say(cellName({ ...context, times }, cursor));
+}
+
+// Markers without a pointer: from one to the next, and moved by the board's ticks. One that is selected is what the actions are about.
+
+export const selectedMarker = ({
+  group: { markers },
+  state: { marker },
+}: {
+  readonly group: Pick<TimelineContext['group'], 'markers'>;
+  readonly state: Pick<TimelineContext['state'], 'marker'>;
+}): Marker | undefined => markers.find(({ id }) => id === marker);
+
+/** Behind the selected one, else from the playhead on; behind the last one comes the first. */
+export function goToMarker(context: TimelineContext): void {
+  const markers = context.group.markers.toSorted((one, other) => one.atMs - other.atMs);
+  const selected = selectedMarker(context);
+  const next =
+    selected === undefined
+      ? markers.find(({ atMs }) => atMs >= context.state.playheadMs)
+      : markers[markers.indexOf(selected) + 1];
+  const marker = next ?? markers[0];
+  if (marker === undefined) return context.stores.notices.tell('info', words.timeline.noMarker);
+  showMarker(context, marker);
+}
+
+export function nudgeMarker(context: TimelineContext, ticks: number): void {
+  const { document } = context.stores;
+  const marker = selectedMarker(context);
+  if (marker === undefined) return;
+  const atMs = Math.max(0, marker.atMs + ticks * context.family.motion.tickMs);
+  document.edit(
+    () => words.timeline.steps.moveMarker,
+    (group) => moveMarker(group, marker.id, atMs),
+  );
+  showMarker(context, { ...marker, atMs });
+}
+
+function showMarker(context: TimelineContext, { id, atMs, text }: Marker): void {
+  context.stores.timeline.setState({ marker: id });
+  lookAt(context, atMs);
+  context.stores.notices.say(words.timeline.draggedMarker({ text, at: instantText(atMs) }));
 }

@@ -6,12 +6,10 @@ import { handleX, HANDLES, stretchOf } from './hit.ts';
 import { type Brush, paintHeads, paintMarkers } from './paintHeads.ts';
 import type { Look } from '../../picture/Canvas.tsx';
 import { changedStretch, isWithin, wholeOf, type Stretch } from './repaint.ts';
-import type { PlacedRow } from './rows.ts';
-import { keysInRow, within } from './rowKeys.ts';
+import { keysInRow, type PlacedRow, topOfRows, within } from './rows.ts';
 import { keyY, type Scene } from './scene.ts';
 import { msAt, seenSpan, xOf } from './timeScale.ts';
-import { topOfRows } from './sizes.ts';
-import { keysOfFrame } from './groupTimes.ts';
+import { keysOfFrame } from '#shared/group/groupTimes.ts';
 
 /** Keys closer than this are ticks: diamonds would be one band. */
 const CROWDED_PX = 8;

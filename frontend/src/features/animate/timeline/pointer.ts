@@ -4,7 +4,7 @@
 import type { Spot } from './hit.ts';
 import type { Gesture, Held, Press, StatusName } from './gesture.ts';
 import { boxFrom, gestureOf, panFrom } from './gestures.ts';
-import { topOfRows } from './sizes.ts';
+import { topOfRows } from './rows.ts';
 
 // Lanes that go on below what is dragged past one of their ends, the faster the farther: through time, and some
 // through the rows too.

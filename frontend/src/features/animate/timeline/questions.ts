@@ -6,7 +6,7 @@ import { scaleAmplitude, setPositions } from '#shared/group/keyEdits.ts';
 import type { KeyStretch } from '#shared/group/keyRanges.ts';
 import { insertTime } from '#shared/group/timeEdits.ts';
 import { numberIn } from '../../../ui/NumberField.tsx';
-import type { Ask } from './timeline.ts';
+import { type Ask, selectedKeys } from './timeline.ts';
 import type { Scale } from '../../drive/scale.ts';
 import { servoName } from '../../../i18n/sentences.ts';
 import { words } from '../../../i18n/whole.ts';
@@ -18,7 +18,7 @@ import {
   selectedFrames,
   type TimelineContext,
 } from './context.ts';
-import { keyOf, selectedKeys, spanOf, timesOf } from './groupTimes.ts';
+import { keyOf, spanOf, timesOf } from '#shared/group/groupTimes.ts';
 import { stretchingOf } from './moving.ts';
 import { scaleAt } from './valueText.ts';
 

@@ -2,7 +2,7 @@ import { expect, test } from 'vitest';
 import { setColour } from '#shared/group/frameEdits.ts';
 import { changedStretch } from './repaint.ts';
 import { sceneOf } from './scene.ts';
-import { sizesOf } from './sizes.ts';
+import { sizesOf } from './rows.ts';
 import { createTestTimeline } from './timelineUnderTest.ts';
 
 /** A key and its frame reach so far beside their place. */

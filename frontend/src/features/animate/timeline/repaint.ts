@@ -2,8 +2,7 @@
 
 import { isPlacedAlike, type Key } from '#shared/group/tracks.ts';
 import type { GroupFrame } from '#shared/group/group.ts';
-import type { PlacedRow } from './rows.ts';
-import { keysInRow } from './rowKeys.ts';
+import { keysInRow, type PlacedRow } from './rows.ts';
 import type { Scene } from './scene.ts';
 import { xOf } from './timeScale.ts';
 

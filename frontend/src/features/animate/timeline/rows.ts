@@ -4,6 +4,8 @@ import type { Robot, RobotServo } from '#shared/profile/robot.ts';
 import { limbsOf } from '../../picture/pose.ts';
 import type { ServoView } from '../../servoView.ts';
 import { ALL_ROW } from './timeline.ts';
+import type { Key } from '#shared/group/tracks.ts';
+import type { GroupTimes } from '#shared/group/groupTimes.ts';
 
 export interface Row {
   readonly id: string;
@@ -106,4 +108,78 @@ export function scrolledTo(
   heightPx: number,
 ): number {
   return Math.min(top, Math.max(scrollTop, top + height - heightPx));
+}
+
+// How large the parts of the timeline are: fine for a mouse, large enough for a finger. What is fixed on top is the ruler, the
+// heads of the frames and the row of all servos; the other rows scroll below.
+
+export interface Sizes extends RowHeights {
+  readonly ruler: number;
+  readonly heads: number;
+  /** How far beside a thing it is still hit. */
+  readonly reach: number;
+}
+
+const FINE: Sizes = { ruler: 22, heads: 22, summary: 26, servo: 28, reach: 8 };
+const COARSE: Sizes = { ruler: 44, heads: 44, summary: 44, servo: 44, reach: 22 };
+const TALL_PX = 104;
+
+export function sizesOf(isCoarse: boolean, isTall: boolean): Sizes {
+  const sizes = isCoarse ? COARSE : FINE;
+  return isTall ? { ...sizes, servo: TALL_PX } : sizes;
+}
+
+export const topOfAll = ({ ruler, heads }: Sizes): number => ruler + heads;
+export const topOfRows = (sizes: Sizes): number => topOfAll(sizes) + sizes.summary;
+
+// The keys of a row in the order of time, and those within a stretch of it. Pure; knows no screen.
+
+const NONE: readonly Key[] = [];
+
+/** The very same list as long as it says the same. In rows of several servos one for each frame that has a key of any. */
+export function keysInRow(row: Row, times: GroupTimes): readonly Key[] {
+  const [only] = row.servos;
+  if (row.kind === 'servo') return times.tracks.get(only ?? -1)?.keys ?? NONE;
+  return summaryKeys(row, times);
+}
+
+/** By the ends of the frames, which are the very same as long as no key came, went or moved in time. */
+const summaries = new WeakMap<GroupTimes['ends'], WeakMap<Row['servos'], readonly Key[]>>();
+
+function summaryKeys(row: Row, times: GroupTimes): readonly Key[] {
+  const known = summaries.get(times.ends) ?? new WeakMap<Row['servos'], readonly Key[]>();
+  summaries.set(times.ends, known);
+  const keys = known.get(row.servos) ?? newSummary(row, times);
+  known.set(row.servos, keys);
+  return keys;
+}
+
+function newSummary(row: Row, times: GroupTimes): readonly Key[] {
+  const servos = new Set(row.servos);
+  let atMs = 0;
+  return times.frames.flatMap(({ id: frameId, durationMs, targets, easing }) => {
+    atMs += durationMs;
+    const isIn = row.kind === 'all' || targets.some(({ servo }) => servos.has(servo));
+    return isIn ? [{ frameId, servo: -1, atMs, position: 0, easing }] : [];
+  });
+}
+
+/** First and last place in a list in the order of time that lies within, with one more on each side. */
+export function within(
+  keys: readonly { readonly atMs: number }[],
+  fromMs: number,
+  toMs: number,
+): readonly [number, number] {
+  return [Math.max(0, firstFrom(keys, fromMs) - 1), Math.min(keys.length, firstFrom(keys, toMs) + 1)];
+}
+
+function firstFrom(keys: readonly { readonly atMs: number }[], atMs: number): number {
+  let low = 0;
+  let high = keys.length;
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if ((keys[middle]?.atMs ?? Infinity) < atMs) low = middle + 1;
+    else high = middle;
+  }
+  return low;
 }

@@ -3,11 +3,10 @@
 import type { Marker } from '#shared/group/group.ts';
 import { positionRange, type Family, type Range } from '#shared/codec/families.ts';
 import { isHeld, isSilent } from '../../servoView.ts';
-import { ALL_ROW, type TimelineState } from './timeline.ts';
-import { selectedKeys, type GroupTimes } from './groupTimes.ts';
+import { ALL_ROW, selectedKeys, type TimelineState } from './timeline.ts';
+import type { GroupTimes } from '#shared/group/groupTimes.ts';
 import type { TimelineContext } from './context.ts';
-import { placedRows, seenRows, type PlacedRow, type Row } from './rows.ts';
-import { topOfAll, topOfRows, type Sizes } from './sizes.ts';
+import { type PlacedRow, placedRows, type Row, seenRows, type Sizes, topOfAll, topOfRows } from './rows.ts';
 
 export interface Scene {
   readonly state: TimelineState;

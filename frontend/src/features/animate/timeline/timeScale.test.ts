@@ -1,6 +1,6 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
-import { evenly } from '#shared/testing/evenly.ts';
+import { evenly } from '#shared/testing/cases.ts';
 import { fitted, msAt, panned, pinched, seenSpan, showing, xOf, zoomedAt } from './timeScale.ts';
 
 const view = fc.record({

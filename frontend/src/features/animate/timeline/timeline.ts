@@ -2,7 +2,8 @@
 // playhead is an instant one looks at; whoever plays may move it.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
-import type { KeyRef } from '#shared/group/tracks.ts';
+import type { GroupTimes } from '#shared/group/groupTimes.ts';
+import type { Key, KeyRef } from '#shared/group/tracks.ts';
 import type { Clip } from '#shared/group/clip.ts';
 
 // A set of keys of the action group, by their names in the document.
@@ -71,6 +72,29 @@ export function withKeys(before: KeySet, refs: readonly KeyRef[], mode: SelectMo
   if (mode === 'adds' || !areIn) return new Set([...before, ...wanted]);
   const out = new Set(wanted);
   return new Set([...before].filter((name) => !out.has(name)));
+}
+
+const selections = new WeakMap<GroupTimes, WeakMap<KeySet, readonly Key[]>>();
+
+/** Those of the set that are there, servo by servo; worked out once, however many ask. */
+export function selectedKeys(times: GroupTimes, selected: KeySet): readonly Key[] {
+  const ofTimes = selections.get(times) ?? new WeakMap<KeySet, readonly Key[]>();
+  selections.set(times, ofTimes);
+  const keys = ofTimes.get(selected) ?? keysNamed(times, selected);
+  ofTimes.set(selected, keys);
+  return keys;
+}
+
+/** Each servo's keys are read once, in the order of time, however the names come. */
+function keysNamed({ tracks }: GroupTimes, selected: KeySet): readonly Key[] {
+  const frames = framesByServo(selected);
+  const servos = [...frames.keys()].sort((one, other) => one - other);
+  const keys = servos.flatMap((servo) => {
+    const wanted = frames.get(servo);
+    return tracks.get(servo)?.keys.filter(({ frameId }) => wanted?.has(frameId)) ?? [];
+  });
+  if (keys.length === selected.size) isMadeOf(selected, keys);
+  return keys;
 }
 
 /** The instant at the left end of the lanes, and how much time a pixel is. */

@@ -4,16 +4,15 @@
 import { insertFrame } from '#shared/group/groupEdits.ts';
 import { emptyGroup, type ActionGroup } from '#shared/group/group.ts';
 import { createTestPage } from '../../pageUnderTest.ts';
-import { createDocument } from '../group/document.ts';
-import { keySet, createTimeline } from './timeline.ts';
+import { createDocument } from '../../groupDocument.ts';
+import { createTimeline, keySet, selectedKeys } from './timeline.ts';
 import { createView } from '../../view.ts';
 import { contextOf, select } from './context.ts';
 import type { Held } from './gesture.ts';
 import { gestureOf } from './gestures.ts';
-import { selectedKeys } from './groupTimes.ts';
-import { actionOf } from './keymap.ts';
 import { keyY, sceneOf } from './scene.ts';
-import { sizesOf } from './sizes.ts';
+import { sizesOf } from './rows.ts';
+import { pressInTimeline } from './timelineActions.ts';
 import { xOf } from './timeScale.ts';
 
 const at = (...positions: readonly (number | null)[]) =>
@@ -30,6 +29,8 @@ export function smallGroup(): ActionGroup {
 
 const SIZES = sizesOf(false, false);
 const NOTHING_HELD: Held = { ctrl: false, shift: false, alt: false };
+
+const NO_KEY_HELD = { ctrlKey: false, metaKey: false, shiftKey: false, altKey: false };
 
 export async function createTestTimeline() {
   const { device, notices, robots, noticeTexts } = await createTestPage();
@@ -89,7 +90,7 @@ export async function createTestTimeline() {
     },
     click: (spot: { x: number; y: number }, held: Partial<Held> = {}) => press(spot, held).end(true),
     key: (key: string, held: { ctrlKey?: boolean; shiftKey?: boolean } = {}) =>
-      actionOf({ key, ctrlKey: false, metaKey: false, shiftKey: false, altKey: false, ...held })?.(context()),
+      pressInTimeline(context(), { ...NO_KEY_HELD, key, ...held }),
     steps: () => document.store.getState().past.length - 1,
     /** Times and positions of a servo's keys. */
     keys: (servo: number) =>

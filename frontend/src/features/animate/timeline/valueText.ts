@@ -1,12 +1,12 @@
 // What is dragged, in words: where it is by now. Read while the hand is still on it; changes nothing.
 
 import { servoOf } from '#shared/profile/robot.ts';
-import { secondsText } from '../../../i18n/numbers.ts';
+import { secondsText } from '../../../i18n/instants.ts';
 import { words } from '../../../i18n/whole.ts';
 import { inUnits, scaleOf, type Scale } from '../../drive/scale.ts';
 import { rangeOf, type TimelineContext, contextOf, type TimelineStores } from './context.ts';
 import type { Cursor } from './timeline.ts';
-import { keysOfFrame, endOfFrame } from './groupTimes.ts';
+import { keysOfFrame, endOfFrame } from '#shared/group/groupTimes.ts';
 import type { Row } from './rows.ts';
 
 // An instant of a group with its unit, as it stands in sentences.

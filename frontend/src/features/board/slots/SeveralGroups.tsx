@@ -12,8 +12,8 @@ import { cx } from '../../../ui/cx.ts';
 import { NumberField } from '../../../ui/NumberField.tsx';
 import { words } from '../../../i18n/whole.ts';
 import styles from './Slots.module.css';
-import { obstacles, type CompiledGroup } from '../../animate/group/compiled.ts';
-import { problemText } from '../../animate/group/problemText.ts';
+import { obstacles, type CompiledGroup } from '../compile/compiled.ts';
+import { problemText } from '../compile/problemText.ts';
 import type { SlotDownload } from './slots.ts';
 
 interface Pick {
@@ -262,7 +262,9 @@ export function thoseThatCan(
   placeOf: (own: number | null, taken: readonly number[]) => number,
 ): { readonly can: readonly Wanted[]; readonly cannot: readonly Wanted[] } {
   const [can, cannot]: [Wanted[], Wanted[]] = [[], []];
-  for (const { own, ...one } of requested.toSorted((a, b) => Number(a.own === null) - Number(b.own === null))) {
+  for (const { own, ...one } of requested.toSorted(
+    (a, b) => Number(a.own === null) - Number(b.own === null),
+  )) {
     const before = [...wanted, ...can];
     const taken = before.map(({ slot }) => slot);
     const placed = { ...one, slot: placeOf(own, taken) };

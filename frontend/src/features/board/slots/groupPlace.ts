@@ -5,7 +5,7 @@ import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { ActionGroup } from '#shared/group/group.ts';
 import { ownSlot, slotFor, type KnownSlots } from '#shared/group/slotPlaces.ts';
 import type { Device } from '../../../robot/device.ts';
-import type { SavedDocument } from '../../../state/undoable.ts';
+import type { Document } from '../../groupDocument.ts';
 import type { View, ViewState } from '../../view.ts';
 import type { Slots } from './slots.ts';
 
@@ -20,7 +20,7 @@ export interface GroupPlace {
 }
 
 export interface GroupPlaceOptions {
-  readonly document: SavedDocument<ActionGroup>;
+  readonly document: Document;
   /** The id of the open document in the library. */
   readonly opened: Pick<StoreApi<{ readonly openId: string }>, 'getState' | 'subscribe'>;
   readonly view: View;

@@ -6,7 +6,7 @@ import type { DocumentStore } from '#shared/files/documentStore.ts';
 import { recordOf } from '#shared/group/slotBook.ts';
 import type { StoredGroup } from '#shared/robot/state.ts';
 import type { Device } from '../../../robot/device.ts';
-import type { CompiledStore } from '../../animate/group/compiled.ts';
+import type { CompiledStore } from '../compile/compiled.ts';
 import type { Library } from '../../library/library.ts';
 import type { RobotStore } from '../../profiles/robots.ts';
 import type { Slots } from './slots.ts';

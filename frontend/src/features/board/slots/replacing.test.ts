@@ -1,7 +1,7 @@
 import fc from 'fast-check';
 import { expect, test } from 'vitest';
 import { isLiveSlot } from '#shared/codec/families.ts';
-import { TIMES } from '#shared/robot/faults/amount.ts';
+import { TIMES } from '#shared/testing/cases.ts';
 import { createTestPage } from '../../pageUnderTest.ts';
 import type { ReplaceAnswer } from './replacing.ts';
 

@@ -1,14 +1,16 @@
 // The board at hand: the name the person gave it, what it is taken for and why, and the way to say otherwise.
 
+import { useState } from 'react';
 import { useStore } from 'zustand';
 import type { Evidence } from '#shared/robot/identity.ts';
 import { Mark, type Truth } from '../../../ui/Chip.tsx';
+import { heardIn } from '../doctor.ts';
 import { answerText, offsetsText } from './answerText.ts';
 import { words } from '../../../i18n/whole.ts';
 import { mayAsk } from '../../../robot/readiness.ts';
 import { useDevice, useSnapshot, useStores } from '../../stores.ts';
 import { Button } from '../../../ui/Button.tsx';
-import { nameOf, NICKNAME_LENGTH } from '../../../robot/boards.ts';
+import { nameOf, NICKNAME_LENGTH } from '../../../robot/remembered.ts';
 import { boardName } from '../../../i18n/sentences.ts';
 import whichBoardStyles from './WhichBoard.module.css';
 import field from '../../../ui/Field.module.css';
@@ -61,6 +63,7 @@ export function ThisBoard() {
   const way = useDevice((state) => state.way);
   const family = useDevice((state) => state.family);
   const evidence = useSnapshot((snapshot) => snapshot.identity.evidence);
+  const [{ answeredMs }] = useState(() => heardIn(device.traffic));
   const known = useStore(boards.store, (all) => (way === null ? undefined : all[nameOf(way)]));
   if (way === null || way.isSimulated || known === undefined) return null;
   return (
@@ -84,6 +87,7 @@ export function ThisBoard() {
       <div className={styles.family}>
         <p>{words.identity.takenFor({ name: boardName(family) })}</p>
         <EvidenceList evidence={evidence} />
+        {answeredMs !== null && <p>{words.identity.answeredIn({ ms: Math.round(answeredMs) })}</p>}
         <BoardDetails />
         {family.certainAnswers.length === 0 && <p className={styles.dim}>{words.identity.unproven}</p>}
       </div>

@@ -7,6 +7,7 @@ import { useDevice, useSnapshot, useStores } from '../../stores.ts';
 import { Button } from '../../../ui/Button.tsx';
 import { Panel } from '../../../ui/Panel.tsx';
 import { summaryText, familyText } from './answerText.ts';
+import { isBoardsOwnCable } from '../../../robot/readiness.ts';
 import { boardName } from '../../../i18n/sentences.ts';
 import { words } from '../../../i18n/whole.ts';
 import { EvidenceList } from './ThisBoard.tsx';
@@ -55,6 +56,7 @@ function Unasked() {
 function Answered() {
   const { device } = useStores();
   const { evidence } = useSnapshot((snapshot) => snapshot.identity);
+  const isOwnCable = useSnapshot(({ withheld }) => isBoardsOwnCable(withheld));
   const families = Object.values(FAMILIES);
   const fitting = (fit: Fit): readonly Family[] =>
     families.filter((family) => fitOf(family, evidence) === fit);
@@ -62,7 +64,7 @@ function Answered() {
   const ruledOut = fitting('contradicts');
   return (
     <>
-      <p className={styles.lead}>{summaryText(evidence)}</p>
+      <p className={styles.lead}>{summaryText(evidence, isOwnCable)}</p>
       <EvidenceList evidence={evidence} />
       {likely.length > 0 && (
         <section className={styles.choice} aria-label={words.identity.likely}>

@@ -45,13 +45,14 @@ function reportText(report: Extract<Evidence, { kind: 'answered' }>['report']): 
   }
 }
 
-/** The whole in a sentence that says what to do. */
-export function summaryText(evidence: readonly Evidence[]): string {
+/** The whole in a sentence that says what to do. `isOwnCable`: the board's own, on which every board answers. */
+export function summaryText(evidence: readonly Evidence[], isOwnCable: boolean): string {
   const { summaries } = words.identity;
   const has = (kind: Evidence['kind']): boolean => evidence.some((one) => one.kind === kind);
   if (has('echoed')) return summaries.echoed;
   if (has('answered')) return summaries.answered;
-  return has('noise') ? summaries.noise : summaries.silent;
+  if (has('noise')) return summaries.noise;
+  return isOwnCable ? summaries.silentOnOwnCable : summaries.silent;
 }
 
 /** A family in one line. */

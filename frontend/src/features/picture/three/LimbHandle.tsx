@@ -9,7 +9,7 @@ import { words } from '../../../i18n/words.ts';
 import { NumberField } from '../../../ui/NumberField.tsx';
 import { freeOf, isLocked } from '../../servoView.ts';
 import { guessNow, useStores, type Stores } from '../../stores.ts';
-import { useMotions } from '../motion.ts';
+import { useMotions } from '../useMotions.ts';
 import { inMm, type Leading, type Led, leadTo, poseOfLimb, takeLimb } from './leading.ts';
 import type { LedLimb } from './limbs.ts';
 import type { Model } from './model.ts';

@@ -5,6 +5,7 @@ import {
   type KeyboardEvent,
   type PointerEvent,
   useEffect,
+  useDeferredValue,
   useEffectEvent,
   useMemo,
   useRef,
@@ -18,17 +19,28 @@ import { EmptyState } from '../../../ui/Panel.tsx';
 import { Toggle } from '../../../ui/Toggle.tsx';
 import { useFollow } from '../../../ui/useEachFrame.ts';
 import { select } from '../../servoView.ts';
-import { editServoView, useRobot, useServoView, useSnapshot, useStores } from '../../stores.ts';
+import {
+  editServoView,
+  useGroup,
+  useKnownFamily,
+  useRobot,
+  useServoView,
+  useSnapshot,
+  useStores,
+  useView,
+} from '../../stores.ts';
 import { lookOf } from '../Canvas.tsx';
-import { motionsInFrame, useMotions } from '../motion.ts';
+import { motionsInFrame } from '../motion.ts';
+import { useMotions } from '../useMotions.ts';
 import type { Pose } from '../pose.ts';
 import { UnknownNote } from '../UnknownNote.tsx';
 import { usePreview } from '../../preview.ts';
 import { parseUrdf } from './figure.ts';
 import { JointKnob, placeKnob } from './JointKnob.tsx';
 import { LimbHandle, placeHandles, PlaceFields } from './LimbHandle.tsx';
-import { limbsOfModel } from './limbs.ts';
+import { type LedLimb, limbsOfModel } from './limbs.ts';
 import { createModel, type Model } from './model.ts';
+import { belowFloorAtMs, pathOf, type PathPoint } from './path.ts';
 import { createStage, type Stage } from './stage.ts';
 import { urdfOf } from './urdf.ts';
 import styles from './RobotView.module.css';
@@ -81,7 +93,9 @@ export function RobotView() {
     };
   }, [urdf, robot]);
 
+  const paths = usePaths(limbs);
   useEffect(() => shown.current?.select(selected), [selected, urdf, robot]);
+  useEffect(() => shown.current?.showPaths(paths), [paths, urdf, robot]);
   useMotions(servos, () => shown.current?.stage.draw());
   useFollow({
     read: () => (canvas.current === null ? null : lookOf(canvas.current)),
@@ -161,6 +175,7 @@ export function RobotView() {
         </div>
       </div>
       <UnknownNote />
+      <FloorNote {...{ paths }} />
       {limbs.length === 1 && limbs[0] !== undefined && (
         <div className={styles.foot}>
           <PlaceFields limb={limbs[0]} {...{ isLevel, isBlocked }} />
@@ -168,6 +183,31 @@ export function RobotView() {
         </div>
       )}
     </div>
+  );
+}
+
+/** Of the group at hand, while it is what is worked on; after an edit when there is time. */
+function usePaths(limbs: readonly LedLimb[]): readonly (readonly PathPoint[])[] {
+  const robot = useRobot();
+  const group = useDeferredValue(useGroup());
+  const { unit } = useKnownFamily();
+  const isShown = useView(({ authoring }) => authoring === 'group');
+  return useMemo(
+    () =>
+      isShown ? limbs.map((limb) => pathOf(limb, robot, group, unit)).filter((path) => path.length > 0) : [],
+    [isShown, limbs, robot, group, unit],
+  );
+}
+
+/** Only where the base stands on the floor: a body on legs lowers itself. */
+function FloorNote({ paths }: { readonly paths: readonly (readonly PathPoint[])[] }) {
+  const { body } = useRobot();
+  const atMs = body === 'arm' ? paths.map(belowFloorAtMs).find((found) => found !== null) : undefined;
+  if (atMs === undefined) return null;
+  return (
+    <p className={styles.warning} role="status">
+      {words.robot3d.belowFloor({ seconds: words.numbers.formatSeconds(atMs) })}
+    </p>
   );
 }
 

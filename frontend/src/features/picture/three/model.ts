@@ -8,6 +8,7 @@ import type { Look } from '../Canvas.tsx';
 import type { Pose } from '../pose.ts';
 import { createFigure, type Angles, type Figure } from './figure.ts';
 import { radiansOf } from './leading.ts';
+import { createPathLine, type PathLine, type PathPoint } from './path.ts';
 import { createRing, type Ring } from './ring.ts';
 import { sizeOf, type Stage } from './stage.ts';
 import { jointName, TIP } from './urdf.ts';
@@ -26,6 +27,8 @@ export interface Model {
   ring(): Ring | null;
   draw(motion: Motions, preview: Pose | null, look: Look): void;
   select(servo: number | null): void;
+  /** The ways of its limbs through the group at hand. */
+  showPaths(paths: readonly (readonly PathPoint[])[]): void;
   dispose(): void;
 }
 
@@ -39,6 +42,17 @@ export function createModel(stage: Stage, urdf: string, robot: Robot): Model {
   stage.frame(reachM * ROOM, heightM);
   let selected: number | null = null;
   let ring: Ring | null = null;
+  let lines: readonly PathLine[] = [];
+
+  function showPaths(paths: readonly (readonly PathPoint[])[]): void {
+    for (const { line, dispose } of lines) {
+      line.removeFromParent();
+      dispose();
+    }
+    lines = paths.map(createPathLine);
+    for (const { line } of lines) outline.robot.parent?.add(line);
+    stage.draw();
+  }
 
   function select(servo: number | null): void {
     if (servo === selected) return;
@@ -52,6 +66,7 @@ export function createModel(stage: Stage, urdf: string, robot: Robot): Model {
   return {
     stage,
     select,
+    showPaths,
     liftM: () => body.robot.position.z,
     servoAt: (x, y) => body.servoAt(stage.rayAt(x, y)),
     ring: () => ring,
@@ -72,6 +87,7 @@ export function createModel(stage: Stage, urdf: string, robot: Robot): Model {
     },
     dispose() {
       ring?.dispose();
+      showPaths([]);
       body.dispose();
       outline.dispose();
     },
@@ -90,6 +106,7 @@ export function createModel(stage: Stage, urdf: string, robot: Robot): Model {
     body.paint({ body: plainColour(look.raised), edge: estimated, reported, ...common });
     outline.paint({ body: commanded, edge: commanded, reported: commanded, ...common });
     ring?.paint(commanded);
+    for (const line of lines) line.paint(commanded, plainColour(look.warning));
   }
 }
 

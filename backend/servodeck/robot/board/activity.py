@@ -1,0 +1,207 @@
+"""What the board may be doing: the estimate of its motion, the group that may run or is played from here, and
+the run that may go on without its driver; whether it is silent, and whether it has heard the stops.
+
+Knows packets, reports and time; no wire and no client, and not how a run is stopped.
+"""
+
+import asyncio
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+from servodeck.protocol.families import Family
+from servodeck.protocol.packets import CommandPacket, encoded
+from servodeck.protocol.timings import HEARTBEAT
+from servodeck.protocol.values import Command, Move, Report, Run
+from servodeck.robot.board.estimate import Estimate
+from servodeck.robot.board.playing import Playing, Plays
+from servodeck.robot.board.resync import StopAgain
+from servodeck.robot.board.rules import STOP, is_harmless
+from servodeck.robot.hub import Session
+from servodeck.snapshots import UnattendedRun
+from servodeck.value import value
+
+
+class Activity:
+    def __init__(
+        self,
+        family: Family,
+        plays: Plays,
+        unattended: "Unattended",
+        now: Callable[[], float],
+        stop_again: Callable[[], object],
+        run_ended: Callable[[], None],
+    ) -> None:
+        """`stop_again`: what moves may not have heard the stops."""
+        self.unattended = unattended
+        self._plays = plays
+        self._now = now
+        self._run_ended = run_ended
+        self._motion = Estimate(family)
+        self._silence = Silence()
+        self._stop_again = StopAgain(
+            now, lambda: self._motion.deaf_until_s, lambda: self._is_moving() and stop_again()
+        )
+        self._followed: Run | Playing | None = None
+
+    @property
+    def motion(self) -> Estimate:
+        """A board that is silent may come back after its servos were turned by hand."""
+        if self._silence.is_silent(self._now()):
+            self._motion.silent(self._now())
+        return self._motion
+
+    @property
+    def run(self) -> Run | Playing | None:
+        """What may go on without its driver, if anything: the group that may run, or that a script has the
+        gateway play.
+        """
+        play = self._plays.present
+        return play if play and play.as_run else self.motion.run
+
+    def may_move(self) -> bool:
+        return self._plays.present is not None or self._is_moving()
+
+    def may_still_move(self) -> bool:
+        """Also with the last frame of a group that its driver has ended."""
+        return self.may_move() or self.motion.last_frame_may_move(self._now())
+
+    def left(self, packet: CommandPacket, command: Command, at_s: float, *, is_halting: bool) -> None:
+        """The last bit of that packet leaves then. `is_halting`: it is part of a stop sequence."""
+        self.motion.left(command, at_s)
+        if packet.number == STOP:
+            self._stop_again.stopped(at_s)
+        elif is_harmless(packet):
+            self._silence.asked(packet.number, at_s)
+        elif not is_halting:
+            self._stop_again.void()
+        self.follow_run()
+
+    def heard(self, report: Report, number: int) -> None:
+        """`number`: of its packet."""
+        self.motion.heard(report, self._now())
+        self._stop_again.heard()
+        self._silence.heard(number)  # behind the estimate: what was forgotten in the silence stays so
+        self.follow_run()
+
+    def follow_run(self) -> None:
+        """A run may have begun or ended."""
+        run, before = self.run, self._followed
+        self._followed = run
+        self.unattended.follow(run)
+        if before and not run:
+            self._run_ended()
+
+    def hold(self, held: Sequence[CommandPacket], family: Family) -> CommandPacket | None:
+        """As the robot stands when it leaves. The servos of the packets that are `held` are held already: a
+        port may carry none that holds all of them.
+        """
+        hold = self.motion.hold(self._now())
+        if hold is None:
+            return None
+        moves = [packet.command for packet in held if isinstance(packet.command, Move)]
+        servos = {target.servo for move in moves for target in move.targets}
+        others = [target for target in hold.targets if target.servo not in servos]
+        if not others:
+            return None
+        return encoded(replace(hold, targets=tuple(others[: family.servos_per_move])), family)
+
+    def opened(self) -> None:
+        """A port that was not lost before: its last owner may have set something in motion."""
+        self._motion.opened(self._now())
+
+    def lose(self, cut: Command | None = None) -> None:
+        """The link is gone, and `cut` the command that it broke off."""
+        self._motion.lost(self._now(), cut)
+        self._silence = Silence()
+        self._stop_again.void()
+        self.unattended.follow(None)
+
+    def forget(self, family: Family) -> None:
+        """It may be another board, and its last owner may have set something in motion."""
+        self._motion = Estimate(family)
+        self.opened()
+        self.lose()
+
+    def _is_moving(self) -> bool:
+        return self.motion.group_may_run(self._now()) or self.motion.is_moving(self._now())
+
+
+ANSWER_S = 0.5  # the longest answer, that for six positions, takes 450 ms (X7)
+
+
+class Silence:
+    def __init__(self) -> None:
+        self._answered: set[int] = set()
+        self._asked_s: float | None = None
+        self._misses = 0
+
+    def asked(self, command: int, at_s: float) -> None:
+        """That question leaves the wire then."""
+        is_due = self._is_due(at_s)
+        if command in self._answered and (self._asked_s is None or is_due):
+            self._misses += is_due
+            self._asked_s = at_s
+
+    def heard(self, command: int) -> None:
+        self._answered.add(command)
+        self._asked_s, self._misses = None, 0
+
+    def is_silent(self, now: float) -> bool:
+        return self._misses + self._is_due(now) >= HEARTBEAT.misses
+
+    def _is_due(self, now: float) -> bool:
+        return self._asked_s is not None and now - self._asked_s >= ANSWER_S
+
+
+@value
+class AllowedRun:
+    run: Run | Playing
+    by: Session
+    until_s: float
+
+
+class Unattended:
+    def __init__(
+        self, now: Callable[[], float], over: Callable[[], None], changed: Callable[[], None]
+    ) -> None:
+        """`over`: its time is. `changed`: so is what clients see of it."""
+        self._now = now
+        self._over = over
+        self._changed = changed
+        self._present: AllowedRun | None = None
+        self._timer: asyncio.TimerHandle | None = None
+
+    @property
+    def by(self) -> Session | None:
+        return self._present.by if self._present else None
+
+    def snapshot(self) -> UnattendedRun | None:
+        if self._present is None:
+            return None
+        run, left_s = self._present.run, max(0.0, self._present.until_s - self._now())
+        slot = run.slot if isinstance(run, Run) else None
+        return UnattendedRun(
+            slot=slot, times=run.times, by=self._present.by.caller.name, ends_in_ms=round(left_s * 1000)
+        )
+
+    def allow(self, run: Run | Playing, by: Session, for_s: float) -> None:
+        self._show(AllowedRun(run, by, self._now() + for_s))
+
+    def end(self) -> None:
+        """It has no owner any more, or is watched again."""
+        if self._present:
+            self._show(None)
+
+    def follow(self, run: Run | Playing | None) -> None:
+        """That one runs now, so far as anybody knows: another one has not been allowed anything."""
+        if self._present and self._present.run is not run:
+            self._show(None)
+
+    def _show(self, allowed: AllowedRun | None) -> None:
+        if self._timer:
+            self._timer.cancel()
+        self._present, self._timer = allowed, None
+        if allowed:
+            delay_s = allowed.until_s - self._now()
+            self._timer = asyncio.get_running_loop().call_later(delay_s, self._over)
+        self._changed()

@@ -1,0 +1,60 @@
+// Puts a pose into the group as a frame, beside another one or at the end: one that is given, or that which the robot was asked for or
+// its board has said. The button that captures it says why it cannot while none is known. Moves nothing.
+
+import { tellsPositions } from '../../../robot/readiness.ts';
+import { type Stores, useDevice, useKnownFamily } from '../../stores.ts';
+import { Button, type ButtonProps } from '../../../ui/Button.tsx';
+import { words } from '../../../i18n/words.ts';
+import styles from './CaptureButton.module.css';
+import { insertFrame } from '#shared/group/groupEdits.ts';
+import type { ActionGroup } from '#shared/group/group.ts';
+import type { ServoTarget } from '#shared/codec/commands.ts';
+
+interface CaptureButtonProps extends Required<Pick<ButtonProps, 'hint' | 'onPress'>> {
+  readonly label: string;
+}
+
+export function CaptureButton({ label, hint, onPress }: CaptureButtonProps) {
+  const isKnown = useKnowsPose();
+  const unknown = useUnknownText();
+  return (
+    <>
+      <Button tone="primary" icon="plus" hint={hint} isDisabled={!isKnown} onPress={onPress}>
+        {label}
+      </Button>
+      {!isKnown && <p className={styles.hint}>{unknown}</p>}
+    </>
+  );
+}
+
+/** What makes a pose known. */
+export const useUnknownText = (): string =>
+  tellsPositions(useKnownFamily()) ? words.actions.nothingKnownOrRead : words.actions.nothingKnown;
+
+export const useKnowsPose = (): boolean => useDevice(({ known }) => known.length > 0);
+
+const USUAL_FRAME_MS = 1000;
+
+type Side = 'before' | 'after' | 'end';
+type Group = Pick<Stores, 'document' | 'view'>;
+
+export function captureFrame({ device, ...group }: Group & Pick<Stores, 'device'>, side: Side): void {
+  const pose = { targets: device.pose(), unit: device.store.getState().family.unit };
+  putFrame(group, side, pose, () => words.actions.steps.capture);
+}
+
+/** As long as the frame it stands behind. Beside means beside the selected frame; without one it comes to the end. */
+export function putFrame(
+  { document, view }: Group,
+  side: Side,
+  { targets, unit }: { readonly targets: readonly ServoTarget[]; readonly unit: ActionGroup['unit'] },
+  step: () => string,
+): void {
+  const { nextId, frames } = document.store.getState().present;
+  const { selectedFrame } = view.getState();
+  const selected = side === 'end' ? -1 : frames.findIndex(({ id }) => id === selectedFrame);
+  const index = selected < 0 ? frames.length : selected + (side === 'after' ? 1 : 0);
+  const durationMs = (frames[index - 1] ?? frames[0])?.durationMs ?? USUAL_FRAME_MS;
+  document.edit(step, (group) => insertFrame(group, index, { durationMs, targets }, unit));
+  view.setState({ selectedFrame: nextId });
+}

@@ -1,0 +1,135 @@
+// The group at hand as the board would get it, with what does not fit: worked out when nobody is in the middle of a gesture, or at
+// once for whoever is about to send it. Moves nothing.
+
+import { createStore, type StoreApi } from 'zustand/vanilla';
+import type { CompileProblem } from '#shared/group/compileReport.ts';
+import { type ActionGroup, maxErrorOf } from '#shared/group/group.ts';
+import type { Clock } from '#shared/clock.ts';
+import type { Device } from '../../../robot/device.ts';
+import type { Document } from '../../groupDocument.ts';
+import { knownFamily } from '../../groupBoard.ts';
+import type { RobotStore } from '../../profiles/robots.ts';
+import { setChanged } from '../../../state/setChanged.ts';
+import { compileSource, type Source, type CompileResult } from './compileSource.ts';
+
+export interface CompiledGroup extends CompileResult {
+  readonly source: Source;
+}
+
+export interface CompiledState {
+  readonly latest: CompiledGroup;
+  /** False while the group is being changed: the latest is of an earlier one. */
+  readonly isFresh: boolean;
+}
+
+export interface CompiledStore {
+  readonly store: StoreApi<CompiledState>;
+  /** Of the group as it is now. */
+  now(): CompiledGroup;
+  /** Of another group; one that was asked for before is not worked out again. */
+  of(group: ActionGroup, on: Pick<Source, 'family' | 'robot'>): CompiledGroup;
+}
+
+/** After the last change: a typing hand is faster. */
+const QUIET_MS = 250;
+
+export interface CompiledOptions {
+  readonly document: Document;
+  readonly device: Device;
+  readonly robots: RobotStore;
+  readonly clock: Clock;
+  /** Works a group out while the page goes on; left out: the page does it. */
+  compileElsewhere?(source: Source): Promise<CompileResult>;
+}
+
+export function createCompiled({
+  document,
+  device,
+  robots,
+  clock,
+  compileElsewhere,
+}: CompiledOptions): CompiledStore {
+  let cancelTimer = (): void => undefined;
+  let isBusy = false;
+  const others = new WeakMap<ActionGroup, CompiledGroup>();
+
+  function wanted(): Source {
+    const { robot } = robots.current();
+    const family = knownFamily(device.store.getState().family, robot);
+    return sourceOf(document.store.getState().present, { family, robot });
+  }
+  const store = createStore<CompiledState>(() => ({ latest: compiled(wanted()), isFresh: true }));
+
+  const isLatest = (source: Source): boolean => isSame(source, store.getState().latest.source);
+
+  function now(): CompiledGroup {
+    cancelTimer();
+    const source = wanted();
+    if (!isLatest(source)) store.setState({ latest: compiled(source), isFresh: true });
+    else setChanged(store, { isFresh: true });
+    return store.getState().latest;
+  }
+
+  /** One at a time; what has changed meanwhile is worked out next. */
+  async function workOut(): Promise<void> {
+    if (compileElsewhere === undefined) return void now();
+    if (isBusy) return;
+    isBusy = true;
+    const source = wanted();
+    const result = await compileElsewhere(source).catch(() => compileSource(source));
+    isBusy = false;
+    if (isSame(source, wanted()) && !isLatest(source))
+      store.setState({ latest: { source, ...result }, isFresh: true });
+    else touched();
+  }
+
+  function of(group: ActionGroup, on: Pick<Source, 'family' | 'robot'>): CompiledGroup {
+    const source = sourceOf(group, on);
+    const before = others.get(group);
+    if (before !== undefined && isSame(source, before.source)) return before;
+    const made = compiled(source);
+    others.set(group, made);
+    return made;
+  }
+
+  function touched(): void {
+    const isFresh = isLatest(wanted());
+    if (isFresh && store.getState().isFresh) return;
+    cancelTimer();
+    setChanged(store, { isFresh });
+    if (!isFresh && document.store.getState().gesture === null)
+      cancelTimer = clock.after(QUIET_MS, () => void workOut());
+  }
+
+  document.store.subscribe(touched);
+  robots.store.subscribe(touched);
+  device.store.subscribe(({ family }, before) => {
+    if (family !== before.family) touched();
+  });
+
+  return { store, now, of };
+}
+
+const sourceOf = (group: ActionGroup, { family, robot }: Pick<Source, 'family' | 'robot'>): Source => ({
+  ...{ group, family, robot, maxErrorUnits: maxErrorOf(group, family) },
+});
+
+const compiled = (source: Source): CompiledGroup => ({ source, ...compileSource(source) });
+
+const isSame = (one: Source, other: Source): boolean =>
+  (Object.keys(one) as (keyof Source)[]).every((key) => one[key] === other[key]);
+
+/** What the person hears of and may take: the servo comes later than it is told. */
+const REMARKS: readonly CompileProblem['kind'][] = ['tooFast'];
+/** The page sends as much as there is, in as many packets as it takes. */
+const BOARD_ONLY: readonly CompileProblem['kind'][] = ['tooManyFrames', 'tooManyServos'];
+
+/** What keeps the group from being played: from the page, or by the board. */
+export function obstacles(
+  { problems }: CompiledGroup['report'],
+  by: 'page' | 'board',
+): readonly CompileProblem[] {
+  return problems.filter(
+    ({ kind }) => !REMARKS.includes(kind) && (by === 'board' || !BOARD_ONLY.includes(kind)),
+  );
+}

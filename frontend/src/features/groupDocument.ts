@@ -1,0 +1,74 @@
+// The action group being written: undoable, saved in the browser's storage soon after each edit. Text that cannot be read is
+// never thrown away: it is set aside under another key and the person is told. Never moves the robot.
+
+import { emptyGroup, type ActionGroup, groupFromText, groupToText } from '#shared/group/group.ts';
+import type { History } from '#shared/document/history.ts';
+import type { Clock } from '#shared/clock.ts';
+import { words } from '../i18n/words.ts';
+import type { Notices } from '../state/notices.ts';
+import { createThrottle, type TextStorage } from '../state/storage.ts';
+import { createUndoable, type SavedDocument } from '../state/undoable.ts';
+
+export type DocumentState = History<ActionGroup>;
+
+export type Document = SavedDocument<ActionGroup>;
+
+const KEY = 'servodeck.group';
+const REPLACED_KEY = 'servodeck.group.unreadable';
+/** Once the edit is drawn: to write a large group takes longer than the edit. */
+const SAVED_AFTER_MS = 16;
+
+export function createDocument(storage: TextStorage, notices: Notices, clock: Clock): Document {
+  let savingFailed = false;
+  let settled = load(storage, notices);
+  const listeners: ((text: string) => void)[] = [];
+
+  function save(): void {
+    const text = groupToText(settled);
+    write(text);
+    for (const listener of listeners) listener(text);
+  }
+
+  function write(text: string): void {
+    try {
+      storage.setItem(KEY, text);
+      if (savingFailed) notices.takeBack(words.actions.notSaved);
+      savingFailed = false;
+    } catch {
+      if (!savingFailed) notices.tell('warning', words.actions.notSaved);
+      savingFailed = true;
+    }
+  }
+
+  const saving = createThrottle(clock, SAVED_AFTER_MS, save);
+  function saveSoon(group: ActionGroup): void {
+    settled = group;
+    saving.request();
+  }
+
+  const document = createUndoable(settled, saveSoon);
+  return {
+    ...document,
+    take(history) {
+      document.store.setState(history, true);
+      saveSoon(history.present);
+    },
+    flush: saving.flush,
+    onSave: (listener) => void listeners.push(listener),
+  };
+}
+
+function load(storage: TextStorage, notices: Notices): ActionGroup {
+  const fresh = emptyGroup(words.actions.defaultName, 'us');
+  try {
+    const text = storage.getItem(KEY);
+    if (text === null) return fresh;
+    const read = groupFromText(text);
+    if ('value' in read) return read.value;
+    storage.setItem(REPLACED_KEY, text);
+    notices.tell('warning', words.actions.broken);
+  } catch {
+    notices.tell('warning', words.actions.notSaved);
+  }
+  return fresh;
+}

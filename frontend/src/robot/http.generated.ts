@@ -1,0 +1,2828 @@
+// Made from the gateway's models by `npm run messages`; a check fails when the two differ. Change the routes of backend/servodeck/api instead.
+
+export interface paths {
+  '/api/battery': {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    /** Asks the board now */
+    get: operations['gatewayBattery'];
+    put?: never;
+    post?: never;
+    delete?: never;
+    options?: never;
+    head?: never;
+    patch?: never;
+    trace?: never;
+  };
+  '/api/board': {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    get?: never;
+    /** Says of which family the board is */
+    put: operations['gatewayNameBoard'];
+    post?: never;
+    delete?: never;
+    options?: never;
+    head?: never;
+    patch?: never;
+    trace?: never;
+  };
+  '/api/download': {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    get?: never;
+    put?: never;
+    /** Stores groups in slots of the board, one after the other, as one job, also where they come in several requests */
+    post: operations['jobsDownload'];
+    delete?: never;
+    options?: never;
+    head?: never;
+    patch?: never;
+    trace?: never;
+  };
+  '/api/driver': {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    get?: never;
+    /** Hands the robot to somebody who is here with a page and may drive, unasked */
+    put: operations['motionGive'];
+    post?: never;
+    delete?: never;
+    options?: never;
+    head?: never;
+    patch?: never;
+    trace?: never;
+  };
+  '/api/erase': {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    get?: never;
+    put?: never;
+    /** Erases every slot of the board, for good */
+    post: operations['motionErase'];
+    delete?: never;
+    options?: never;
+    head?: never;
+    patch?: never;
+    trace?: never;
+  };
+  '/api/events': {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    /** What happens, from now on, as server-sent events with an id: each is one message as `/ws` tells it to pages */
+    get: operations['eventsEvents'];
+    put?: never;
+    post?: never;
+    delete?: never;
+    options?: never;
+    head?: never;
+    patch?: never;
+    trace?: never;
+  };
+  '/api/health': {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    /** Always 200 while the gateway runs: `status` tells whether it is well, `troubles` what ails it */
+    get: operations['healthHealth'];
+    put?: never;
+    post?: never;
+    delete?: never;
+    options?: never;
+    head?: never;
+    patch?: never;
+    trace?: never;
+  };
+  '/api/invites': {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    get?: never;
+    put?: never;
+    /** A link and a code for one device, for two minutes */
+    post: operations['peopleInvite'];
+    delete?: never;
+    options?: never;
+    head?: never;
+    patch?: never;
+    trace?: never;
+  };
+  '/api/invites/{invitation}': {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    get?: never;
+    put?: never;
+    post?: never;
+    /** Ends an invitation that was not used */
+    delete: operations['peopleWithdraw'];
+    options?: never;
+    head?: never;
+    patch?: never;
+    trace?: never;
+  };
+  '/api/jobs/{job}': {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    /** How far it is, or how it ended */
+    get: operations['jobsJobState'];
+    put?: never;
+    post?: never;
+    /** Calls it off behind its frame in progress, with the groups behind it */
+    delete: operations['jobsCancel'];
+    options?: never;
+    head?: never;
+    patch?: never;
+    trace?: never;
+  };
+  '/api/lease': {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    get?: never;
+    put?: never;
+    /** Who drives */
+    post: operations['motionLease'];
+    delete?: never;
+    options?: never;
+    head?: never;
+    patch?: never;
+    trace?: never;
+  };
+  '/api/library': {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    /** Every document, those in the trash too */
+    get: operations['libraryListDocuments'];
+    put?: never;
+    post?: never;
+    delete?: never;
+    options?: never;
+    head?: never;
+    patch?: never;
+    trace?: never;
+  };
+  '/api/library/{document}': {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    /** The text of a document, also of one in the trash */
+    get: operations['libraryRead'];
+    /** Keeps a text */
+    put: operations['libraryWrite'];
+    post?: never;
+    delete?: never;
+    options?: never;
+    head?: never;
+    patch?: never;
+    trace?: never;
+  };
+  '/api/library/{document}/versions': {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    /** Its named versions, oldest first */
+    get: operations['libraryListVersions'];
+    put?: never;
+    post?: never;
+    delete?: never;
+    options?: never;
+    head?: never;
+    patch?: never;
+    trace?: never;
+  };
+  '/api/library/{document}/versions/{version}': {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    /** The text that was saved under that version's name */
+    get: operations['libraryReadVersion'];
+    /** Keeps a text beside the document under a name */
+    put: operations['libraryKeepVersion'];
+    post?: never;
+    /** That version goes for good */
+    delete: operations['libraryRemoveVersion'];
+    options?: never;
+    head?: never;
+    patch?: never;
+    trace?: never;
+  };
+  '/api/library/remove': {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    get?: never;
+    put?: never;
+    /** Puts them into the trash for 30 days: all or none */
+    post: operations['libraryRemove'];
+    delete?: never;
+    options?: never;
+    head?: never;
+    patch?: never;
+    trace?: never;
+  };
+  '/api/library/restore': {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    get?: never;
+    put?: never;
+    /** Takes them out of the trash: all or none */
+    post: operations['libraryRestore'];
+    delete?: never;
+    options?: never;
+    head?: never;
+    patch?: never;
+    trace?: never;
+  };
+  '/api/me': {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    /** Who this gateway takes you for */
+    get: operations['peopleMe'];
+    put?: never;
+    post?: never;
+    delete?: never;
+    options?: never;
+    head?: never;
+    /** What others call you from now on */
+    patch: operations['peopleRenameMe'];
+    trace?: never;
+  };
+  '/api/move': {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    get?: never;
+    put?: never;
+    /** Moves servos together */
+    post: operations['motionMove'];
+    delete?: never;
+    options?: never;
+    head?: never;
+    patch?: never;
+    trace?: never;
+  };
+  '/api/pair': {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    get?: never;
+    put?: never;
+    /** Comes in by a link, a code or a stop-only link, for a cookie */
+    post: operations['peoplePair'];
+    delete?: never;
+    options?: never;
+    head?: never;
+    patch?: never;
+    trace?: never;
+  };
+  '/api/people': {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    /** Everybody who may come in, and which invitations are open */
+    get: operations['peoplePeople'];
+    put?: never;
+    post?: never;
+    delete?: never;
+    options?: never;
+    head?: never;
+    patch?: never;
+    trace?: never;
+  };
+  '/api/people/{person}': {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    get?: never;
+    put?: never;
+    post?: never;
+    /** May not come in any more */
+    delete: operations['peopleRevoke'];
+    options?: never;
+    head?: never;
+    /** Another name or role */
+    patch: operations['peopleChange'];
+    trace?: never;
+  };
+  '/api/play': {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    get?: never;
+    put?: never;
+    /** Plays frames by the gateway's clock, gently to the first one */
+    post: operations['playPlay'];
+    /** Ends it with its frame in progress, whichever client began it */
+    delete: operations['playStopPlaying'];
+    options?: never;
+    head?: never;
+    patch?: never;
+    trace?: never;
+  };
+  '/api/port': {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    get?: never;
+    /** Opens that port instead of the present one */
+    put: operations['gatewayUsePort'];
+    post?: never;
+    /** Closes the port and leaves it closed, also after the next start */
+    delete: operations['gatewayClosePort'];
+    options?: never;
+    head?: never;
+    patch?: never;
+    trace?: never;
+  };
+  '/api/ports': {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    /** The ports of this computer, serial and HID, and the one in use, the likely ones first */
+    get: operations['gatewayPorts'];
+    put?: never;
+    post?: never;
+    delete?: never;
+    options?: never;
+    head?: never;
+    patch?: never;
+    trace?: never;
+  };
+  '/api/poses': {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    /** The poses of the robot on the board, with its name */
+    get: operations['posesListPoses'];
+    put?: never;
+    post?: never;
+    delete?: never;
+    options?: never;
+    head?: never;
+    patch?: never;
+    trace?: never;
+  };
+  '/api/poses/{pose}/apply': {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    get?: never;
+    put?: never;
+    /** Goes to the pose of that number or name */
+    post: operations['posesApply'];
+    delete?: never;
+    options?: never;
+    head?: never;
+    patch?: never;
+    trace?: never;
+  };
+  '/api/resume': {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    get?: never;
+    put?: never;
+    /** Allows motion again */
+    post: operations['gatewayResume'];
+    delete?: never;
+    options?: never;
+    head?: never;
+    patch?: never;
+    trace?: never;
+  };
+  '/api/robot': {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    get?: never;
+    /** That robot of the library stands on this board, for everybody and from now on */
+    put: operations['robotsPutOnBoard'];
+    post?: never;
+    delete?: never;
+    options?: never;
+    head?: never;
+    patch?: never;
+    trace?: never;
+  };
+  '/api/slots/{slot}/run': {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    get?: never;
+    put?: never;
+    /** Runs the group in that slot */
+    post: operations['motionRun'];
+    delete?: never;
+    options?: never;
+    head?: never;
+    patch?: never;
+    trace?: never;
+  };
+  '/api/status': {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    /** How everything stands now */
+    get: operations['gatewayStatus'];
+    put?: never;
+    post?: never;
+    delete?: never;
+    options?: never;
+    head?: never;
+    patch?: never;
+    trace?: never;
+  };
+  '/api/stop': {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    get?: never;
+    put?: never;
+    /** STOP: drops all that waits, sends stop three times, holds each servo whose place is known, and refuses motion until resume */
+    post: operations['gatewayStop'];
+    delete?: never;
+    options?: never;
+    head?: never;
+    patch?: never;
+    trace?: never;
+  };
+  '/api/stop-links': {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    get?: never;
+    put?: never;
+    /** A link that can stop the robot and do nothing else, to stick on it */
+    post: operations['peopleMakeStopLink'];
+    delete?: never;
+    options?: never;
+    head?: never;
+    patch?: never;
+    trace?: never;
+  };
+  '/api/tokens': {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    get?: never;
+    put?: never;
+    /** A token for a script: `Authorization: Bearer TOKEN` */
+    post: operations['peopleMakeToken'];
+    delete?: never;
+    options?: never;
+    head?: never;
+    patch?: never;
+    trace?: never;
+  };
+}
+export type webhooks = Record<string, never>;
+export interface components {
+  schemas: {
+    /**
+     * AnsweredEvidence
+     * @description The board answered that question when it was asked who it is.
+     */
+    AnsweredEvidence: {
+      /**
+       * @description discriminator enum property added by openapi-typescript
+       * @enum {string}
+       */
+      kind: 'answered';
+      /**
+       * Question
+       * @enum {string}
+       */
+      question: 'readBattery' | 'readVersion' | 'readPositions';
+      /** Report */
+      report:
+        | components['schemas']['BatteryReport']
+        | components['schemas']['VersionReport']
+        | components['schemas']['PositionsReport'];
+    };
+    /** ApplyWish */
+    ApplyWish: {
+      /**
+       * Take
+       * @description An owner's: without asking the driver.
+       * @default false
+       */
+      take?: boolean;
+      /**
+       * Timems
+       * @default 1500
+       */
+      timeMs?: number;
+    };
+    /** Battery */
+    Battery: {
+      /** Batterymv */
+      batteryMv: number;
+    };
+    /** BatteryAge */
+    BatteryAge: {
+      /** Agems */
+      ageMs: number;
+      /** Batterymv */
+      batteryMv: number;
+    };
+    /** BatteryReport */
+    BatteryReport: {
+      /** Batterymv */
+      batteryMv: number;
+      /**
+       * @description discriminator enum property added by openapi-typescript
+       * @enum {string}
+       */
+      kind: 'battery';
+    };
+    /**
+     * BoardChoice
+     * @description A family of boards; `unknown`: ask it again.
+     */
+    BoardChoice: {
+      /** Board */
+      board: string;
+    };
+    /**
+     * Candidate
+     * @description Somebody who is here and may drive.
+     */
+    Candidate: {
+      /** Id */
+      id: string;
+      /** Name */
+      name: string;
+    };
+    /**
+     * Device
+     * @description A serial port of this computer. `likely`: its USB chip is one that these boards and cables bear.
+     *     `lasting`: a name that leads to it after every start and replug, where the system keeps one. `inUse`: it
+     *     is the gateway's present one, open or waited for.
+     */
+    Device: {
+      /** Description */
+      description: string;
+      /** Device */
+      device: string;
+      /** Inuse */
+      inUse: boolean;
+      /** Lasting */
+      lasting: string | null;
+      /** Likely */
+      likely: boolean;
+    };
+    /** DocumentIds */
+    DocumentIds: {
+      /** Ids */
+      ids: string[];
+    };
+    /**
+     * DocumentWrite
+     * @description `expected` is the revision it was read at, 0 for a new one. With `isRemoved` it goes to the trash at
+     *     once: several that shall appear together are written so and then restored together.
+     */
+    DocumentWrite: {
+      /** Expected */
+      expected: number;
+      /** Facts */
+      facts: components['schemas']['GroupFacts'] | components['schemas']['RobotFacts'];
+      /** Isremoved */
+      isRemoved: boolean;
+      /**
+       * Text
+       * @description The document as JSON; only the page knows what it means.
+       */
+      text: string;
+    };
+    /** DocumentWritten */
+    DocumentWritten: {
+      /** Revision */
+      revision: number;
+    };
+    /**
+     * DownloadWish
+     * @description `groups` in the order in which they are stored, each to a slot of its own. `behind`: the download under
+     *     way that they belong to; more than one request takes goes in several, one right after the other. `nonce`:
+     *     of the page that drives. A program needs none; `take` as with every motion.
+     */
+    DownloadWish: {
+      /** Behind */
+      behind?: string | null;
+      /** Groups */
+      groups: components['schemas']['GroupBody'][];
+      /** Nonce */
+      nonce?: string | null;
+      /**
+       * Take
+       * @description An owner's: without asking the driver.
+       * @default false
+       */
+      take?: boolean;
+    };
+    /**
+     * DriverWish
+     * @description As `GET /api/people` and the lease's `candidates` name them.
+     */
+    DriverWish: {
+      /** Id */
+      id: string;
+    };
+    /**
+     * EchoedEvidence
+     * @description The request itself came back.
+     */
+    EchoedEvidence: {
+      /**
+       * @description discriminator enum property added by openapi-typescript
+       * @enum {string}
+       */
+      kind: 'echoed';
+    };
+    /** Erased */
+    Erased: {
+      /** Erased */
+      erased: boolean;
+    };
+    /** EraseWish */
+    EraseWish: {
+      /**
+       * Take
+       * @description An owner's: without asking the driver.
+       * @default false
+       */
+      take?: boolean;
+    };
+    /**
+     * FrameBody
+     * @description Positions by servo number, in the board's unit, reached after `durationMs`.
+     */
+    FrameBody: {
+      /** Durationms */
+      durationMs: number;
+      /** Positions */
+      positions: {
+        [key: string]: number;
+      };
+    };
+    /**
+     * GroupBody
+     * @description `version` tells it from other groups: a text of one's own, or the gateway makes one up. `replaces`: the
+     *     version that was seen in its slot, an empty text for none; where another one is there now, it is refused.
+     *     `document`: which one of the library it is of.
+     */
+    GroupBody: {
+      /** Document */
+      document?: string | null;
+      /** Frames */
+      frames: components['schemas']['FrameBody'][];
+      /**
+       * Name
+       * @default
+       */
+      name?: string;
+      /** Replaces */
+      replaces?: string | null;
+      /** Slot */
+      slot: number;
+      /**
+       * Version
+       * @default
+       */
+      version?: string;
+    };
+    /**
+     * GroupFacts
+     * @description What a list says of an action group without reading it; `pose` is its picture.
+     */
+    GroupFacts: {
+      /** Durationms */
+      durationMs: number;
+      /** Frames */
+      frames: number;
+      /**
+       * @description discriminator enum property added by openapi-typescript
+       * @enum {string}
+       */
+      kind: 'group';
+      /** Name */
+      name: string;
+      /** Pose */
+      pose: components['schemas']['PoseTarget'][];
+      /** Robot */
+      robot: string;
+      /** Tags */
+      tags: string[];
+      /**
+       * Unit
+       * @enum {string}
+       */
+      unit: 'us' | 'steps';
+      /** Updatedatms */
+      updatedAtMs: number;
+    };
+    /**
+     * Health
+     * @description `degraded`: it answers and stops the robot, and one part of it does not do its work.
+     */
+    Health: {
+      /**
+       * Status
+       * @enum {string}
+       */
+      status: 'ready' | 'degraded';
+      /** Troubles */
+      troubles: components['schemas']['Trouble'][];
+      /** Version */
+      version: string;
+    };
+    /**
+     * IdentityState
+     * @description What the board answered when it was asked who it is, and the families that answer like that.
+     */
+    IdentityState: {
+      /** Candidates */
+      candidates: string[];
+      /** Evidence */
+      evidence: (
+        | components['schemas']['AnsweredEvidence']
+        | components['schemas']['SilentEvidence']
+        | components['schemas']['EchoedEvidence']
+        | components['schemas']['NoiseEvidence']
+      )[];
+    };
+    /**
+     * Invitation
+     * @description `picture` is the link as a QR code: the address of an SVG image that holds itself.
+     */
+    Invitation: {
+      /** Code */
+      code: string | null;
+      /** Expiresinms */
+      expiresInMs: number;
+      /** Id */
+      id: string;
+      /** Link */
+      link: string;
+      /** Picture */
+      picture: string;
+    };
+    /** InviteWish */
+    InviteWish: {
+      /**
+       * Name
+       * @default
+       */
+      name?: string;
+      /**
+       * Role
+       * @enum {string}
+       */
+      role: 'viewer' | 'driver' | 'owner';
+    };
+    /**
+     * JobState
+     * @description A download and how far it is. `slots`: where its groups go, in this order; `slot` and `name`: of the
+     *     one that is being stored, or was last; frames and bytes are of all of them. `by`: who began it. `code` and
+     *     `detail` say why it failed or was cancelled.
+     */
+    JobState: {
+      /** By */
+      by: string;
+      /** Bytessent */
+      bytesSent: number;
+      /** Bytestotal */
+      bytesTotal: number;
+      /** Code */
+      code:
+        | (
+            | 'closed'
+            | 'lost'
+            | 'portMissing'
+            | 'portBusy'
+            | 'portDenied'
+            | 'hidDenied'
+            | 'otherDevice'
+            | 'boardUnknown'
+            | 'wrongBoard'
+            | 'echo'
+            | 'boardSilent'
+            | 'noAnswer'
+            | 'notSupported'
+            | 'notOnThisCable'
+            | 'latched'
+            | 'notDriving'
+            | 'expired'
+            | 'busy'
+            | 'slotBroken'
+            | 'slotChanged'
+            | 'cancelled'
+            | 'outOfRange'
+            | 'malformed'
+            | 'forbidden'
+            | 'notPaired'
+            | 'pairingFailed'
+            | 'pairingLocked'
+            | 'wrongType'
+            | 'notFound'
+            | 'methodNotAllowed'
+            | 'conflict'
+            | 'tooLarge'
+            | 'tooMany'
+            | 'storageFull'
+            | 'storageBusy'
+            | 'storageFailed'
+            | 'damaged'
+            | 'internal'
+          )
+        | null;
+      /** Detail */
+      detail: string | null;
+      /** Framecount */
+      frameCount: number;
+      /** Framesstored */
+      framesStored: number;
+      /** Groupsstored */
+      groupsStored: number;
+      /** Id */
+      id: string;
+      /** Name */
+      name: string;
+      /** Remainingms */
+      remainingMs: number;
+      /** Slot */
+      slot: number;
+      /** Slots */
+      slots: number[];
+      /**
+       * Status
+       * @enum {string}
+       */
+      status: 'running' | 'done' | 'failed' | 'cancelled';
+    };
+    /**
+     * LeaseState
+     * @description The lease, by name: who drives, and who has requested it. `drives` and `hasRequested`: this client
+     *     does or has. `grantedInMs`: until then the driver may refuse the request. `grantedBy`: the driver or owner
+     *     who granted it to this client, which drives. `candidates`: the clients to which this one may grant it.
+     *     `you`: this client's own name; several windows of one browser share it.
+     */
+    LeaseState: {
+      /** Candidates */
+      candidates: components['schemas']['Candidate'][];
+      /** Driver */
+      driver: string | null;
+      /** Drives */
+      drives: boolean;
+      /** Grantedby */
+      grantedBy: string | null;
+      /** Grantedinms */
+      grantedInMs: number | null;
+      /** Hasrequested */
+      hasRequested: boolean;
+      /** Maydrive */
+      mayDrive: boolean;
+      /** Maytake */
+      mayTake: boolean;
+      /** Requestedby */
+      requestedBy: string | null;
+      /** You */
+      you: string;
+    };
+    /**
+     * LeaseWish
+     * @description `heartbeat`: what this script has begun may go on. The others as in a page: `request`, `take`,
+     *     `release`.
+     */
+    LeaseWish: {
+      /**
+       * Action
+       * @enum {string}
+       */
+      action: 'request' | 'take' | 'release' | 'heartbeat';
+    };
+    /**
+     * LibraryListing
+     * @description `damagedFile` names a damaged file that was found and set apart; `changesLost`: the last changes before
+     *     the gateway's start may be missing.
+     */
+    LibraryListing: {
+      /** Changeslost */
+      changesLost: boolean;
+      /** Damagedfile */
+      damagedFile: string | null;
+      /** Documents */
+      documents: components['schemas']['ListedDocument'][];
+    };
+    /**
+     * LinkState
+     * @description The way to the board, and the board: `identifying` while it is asked who it is, `stale` while it does
+     *     not answer what such a board always answers, `refused` until a person says which board it is. `code` and
+     *     `detail` say why it is not ready.
+     */
+    LinkState: {
+      /** Code */
+      code:
+        | (
+            | 'closed'
+            | 'lost'
+            | 'portMissing'
+            | 'portBusy'
+            | 'portDenied'
+            | 'hidDenied'
+            | 'otherDevice'
+            | 'boardUnknown'
+            | 'wrongBoard'
+            | 'echo'
+            | 'boardSilent'
+            | 'noAnswer'
+            | 'notSupported'
+            | 'notOnThisCable'
+            | 'latched'
+            | 'notDriving'
+            | 'expired'
+            | 'busy'
+            | 'slotBroken'
+            | 'slotChanged'
+            | 'cancelled'
+            | 'outOfRange'
+            | 'malformed'
+            | 'forbidden'
+            | 'notPaired'
+            | 'pairingFailed'
+            | 'pairingLocked'
+            | 'wrongType'
+            | 'notFound'
+            | 'methodNotAllowed'
+            | 'conflict'
+            | 'tooLarge'
+            | 'tooMany'
+            | 'storageFull'
+            | 'storageBusy'
+            | 'storageFailed'
+            | 'damaged'
+            | 'internal'
+          )
+        | null;
+      /** Detail */
+      detail: string | null;
+      /**
+       * Status
+       * @enum {string}
+       */
+      status: 'closed' | 'opening' | 'identifying' | 'ready' | 'stale' | 'refused' | 'lost';
+    };
+    /** ListedDocument */
+    ListedDocument: {
+      /** Facts */
+      facts: components['schemas']['GroupFacts'] | components['schemas']['RobotFacts'];
+      /** Id */
+      id: string;
+      /** Isremoved */
+      isRemoved: boolean;
+      /** Revision */
+      revision: number;
+    };
+    /** ListedVersion */
+    ListedVersion: {
+      /** Atms */
+      atMs: number;
+      /** Id */
+      id: string;
+      /** Name */
+      name: string;
+    };
+    /**
+     * Me
+     * @description `you` is null for an unauthenticated caller. `overheard`: what is said here can be read by others on
+     *     the network.
+     */
+    Me: {
+      /**
+       * Mode
+       * @enum {string}
+       */
+      mode: 'local' | 'lan' | 'proxy';
+      /** Overheard */
+      overheard: boolean;
+      you: components['schemas']['You'] | null;
+    };
+    /**
+     * MoveBegun
+     * @description `firstMoves`: these servos stood at an unknown place, so they started one after another.
+     */
+    MoveBegun: {
+      /** Firstmoves */
+      firstMoves: number[];
+      /** Overinms */
+      overInMs: number;
+      /** Packets */
+      packets: number;
+    };
+    /**
+     * MoveWish
+     * @description `positions` by servo number, in the board's unit; all of them at once.
+     */
+    MoveWish: {
+      /** Positions */
+      positions: {
+        [key: string]: number;
+      };
+      /**
+       * Take
+       * @description An owner's: without asking the driver.
+       * @default false
+       */
+      take?: boolean;
+      /** Timems */
+      timeMs: number;
+    };
+    /**
+     * NamedPose
+     * @description `id` stays when it is named anew. `targets` are some of the robot's servos, as its board counts.
+     */
+    NamedPose: {
+      /** Id */
+      id: number;
+      /** Name */
+      name: string;
+      /** Targets */
+      targets: components['schemas']['PoseTarget'][];
+      /**
+       * Unit
+       * @enum {string}
+       */
+      unit: 'us' | 'steps';
+    };
+    /**
+     * NoiseEvidence
+     * @description Bytes came that are no packets.
+     */
+    NoiseEvidence: {
+      /** Bytecount */
+      byteCount: number;
+      /**
+       * @description discriminator enum property added by openapi-typescript
+       * @enum {string}
+       */
+      kind: 'noise';
+    };
+    /** OwnName */
+    OwnName: {
+      /** Name */
+      name: string;
+    };
+    /**
+     * PairWish
+     * @description One of the three: the secret of a link, the digits of a code, or a stop-only link.
+     */
+    PairWish: {
+      /** Code */
+      code?: string | null;
+      /**
+       * Name
+       * @default
+       */
+      name?: string;
+      /** Secret */
+      secret?: string | null;
+      /** Stop */
+      stop?: string | null;
+    };
+    /**
+     * People
+     * @description `openCodes`: the invitations whose digits still count; five wrong ones end that, not their links.
+     */
+    People: {
+      /** Opencodes */
+      openCodes: string[];
+      /** Openinvites */
+      openInvites: string[];
+      /** People */
+      people: components['schemas']['Person'][];
+    };
+    /**
+     * Person
+     * @description A paired device, a script's token or a stop-only link. `here`: it has the page open now,
+     *     and `drives` where it moves the robot. `unattendedSlot`: of the group that runs on without it.
+     */
+    Person: {
+      /** Drives */
+      drives: boolean;
+      /** Here */
+      here: boolean;
+      /** Id */
+      id: string;
+      /**
+       * Kind
+       * @enum {string}
+       */
+      kind: 'device' | 'token' | 'stopLink';
+      /** Lastseenms */
+      lastSeenMs: number | null;
+      /** Name */
+      name: string;
+      /** Pairedatms */
+      pairedAtMs: number;
+      /**
+       * Role
+       * @enum {string}
+       */
+      role: 'stopper' | 'viewer' | 'driver' | 'owner';
+      /** Unattendedslot */
+      unattendedSlot: number | null;
+    };
+    /** PersonChange */
+    PersonChange: {
+      /** Name */
+      name?: string | null;
+      /** Role */
+      role?: ('viewer' | 'driver' | 'owner') | null;
+    };
+    /**
+     * PlayState
+     * @description Frames that the gateway plays by its own clock, and how far it is. `times` 0: until stopped. `by`: who
+     *     began it. `lateFrames` began so late that those behind them were put off, by `latestMs` at most;
+     *     `skippedFrames` did not leave. `ended`: before its last frame had ended; `code` and `detail` say why.
+     */
+    PlayState: {
+      /** By */
+      by: string;
+      /** Code */
+      code:
+        | (
+            | 'closed'
+            | 'lost'
+            | 'portMissing'
+            | 'portBusy'
+            | 'portDenied'
+            | 'hidDenied'
+            | 'otherDevice'
+            | 'boardUnknown'
+            | 'wrongBoard'
+            | 'echo'
+            | 'boardSilent'
+            | 'noAnswer'
+            | 'notSupported'
+            | 'notOnThisCable'
+            | 'latched'
+            | 'notDriving'
+            | 'expired'
+            | 'busy'
+            | 'slotBroken'
+            | 'slotChanged'
+            | 'cancelled'
+            | 'outOfRange'
+            | 'malformed'
+            | 'forbidden'
+            | 'notPaired'
+            | 'pairingFailed'
+            | 'pairingLocked'
+            | 'wrongType'
+            | 'notFound'
+            | 'methodNotAllowed'
+            | 'conflict'
+            | 'tooLarge'
+            | 'tooMany'
+            | 'storageFull'
+            | 'storageBusy'
+            | 'storageFailed'
+            | 'damaged'
+            | 'internal'
+          )
+        | null;
+      /** Detail */
+      detail: string | null;
+      /** Framecount */
+      frameCount: number;
+      /** Frameindex */
+      frameIndex: number;
+      /** Id */
+      id: string;
+      /**
+       * Lateframes
+       * @default 0
+       */
+      lateFrames: number;
+      /**
+       * Latestms
+       * @default 0
+       */
+      latestMs: number;
+      /**
+       * Skippedframes
+       * @default 0
+       */
+      skippedFrames: number;
+      /**
+       * Status
+       * @enum {string}
+       */
+      status: 'playing' | 'done' | 'ended';
+      /** Times */
+      times: number;
+    };
+    /**
+     * PlayWish
+     * @description `id` and `nonce`: of the page that drives, which hears `played` with that id on its WebSocket. A
+     *     program needs neither. `continueForMs`: it goes on without a `heartbeat`, for so long at most.
+     */
+    PlayWish: {
+      /** Continueforms */
+      continueForMs?: number | null;
+      /** Frames */
+      frames: components['schemas']['FrameBody'][];
+      /** Id */
+      id?: number | null;
+      /**
+       * Loopfrom
+       * @default 0
+       */
+      loopFrom?: number;
+      /** Nonce */
+      nonce?: string | null;
+      /**
+       * Take
+       * @description An owner's: without asking the driver.
+       * @default false
+       */
+      take?: boolean;
+      /**
+       * Times
+       * @default 1
+       */
+      times?: number;
+    };
+    /** PortChoice */
+    PortChoice: {
+      /** Board */
+      board?: string | null;
+      /** Device */
+      device: string;
+    };
+    /**
+     * PortState
+     * @description How the serial port stands. `code` and `detail` say why it is lost, `retryInMs` when the next attempt
+     *     follows. `simulated` where the device was declared to be no real board. `withheld`: what this way to the
+     *     board is not to carry, although the board may know it.
+     */
+    PortState: {
+      /** Code */
+      code:
+        | (
+            | 'closed'
+            | 'lost'
+            | 'portMissing'
+            | 'portBusy'
+            | 'portDenied'
+            | 'hidDenied'
+            | 'otherDevice'
+            | 'boardUnknown'
+            | 'wrongBoard'
+            | 'echo'
+            | 'boardSilent'
+            | 'noAnswer'
+            | 'notSupported'
+            | 'notOnThisCable'
+            | 'latched'
+            | 'notDriving'
+            | 'expired'
+            | 'busy'
+            | 'slotBroken'
+            | 'slotChanged'
+            | 'cancelled'
+            | 'outOfRange'
+            | 'malformed'
+            | 'forbidden'
+            | 'notPaired'
+            | 'pairingFailed'
+            | 'pairingLocked'
+            | 'wrongType'
+            | 'notFound'
+            | 'methodNotAllowed'
+            | 'conflict'
+            | 'tooLarge'
+            | 'tooMany'
+            | 'storageFull'
+            | 'storageBusy'
+            | 'storageFailed'
+            | 'damaged'
+            | 'internal'
+          )
+        | null;
+      /** Detail */
+      detail: string | null;
+      /** Device */
+      device: string | null;
+      /** Retryinms */
+      retryInMs: number | null;
+      /**
+       * Simulated
+       * @default false
+       */
+      simulated: boolean;
+      /**
+       * Status
+       * @enum {string}
+       */
+      status: 'closed' | 'opening' | 'open' | 'lost';
+      /** Withheld */
+      withheld: ('download' | 'erase')[];
+    };
+    /**
+     * Poses
+     * @description Of the robot on the board.
+     */
+    Poses: {
+      /** Poses */
+      poses: components['schemas']['NamedPose'][];
+      /** Robot */
+      robot: string;
+    };
+    /** PoseTarget */
+    PoseTarget: {
+      /** Position */
+      position: number;
+      /** Servo */
+      servo: number;
+    };
+    /** PositionsReport */
+    PositionsReport: {
+      /**
+       * @description discriminator enum property added by openapi-typescript
+       * @enum {string}
+       */
+      kind: 'positions';
+      /** Positions */
+      positions: components['schemas']['ServoPosition'][];
+    };
+    /**
+     * Problem
+     * @description Why a request failed. `code` is for programs, `detail` for people.
+     */
+    Problem: {
+      /**
+       * Code
+       * @enum {string}
+       */
+      code:
+        | 'closed'
+        | 'lost'
+        | 'portMissing'
+        | 'portBusy'
+        | 'portDenied'
+        | 'hidDenied'
+        | 'otherDevice'
+        | 'boardUnknown'
+        | 'wrongBoard'
+        | 'echo'
+        | 'boardSilent'
+        | 'noAnswer'
+        | 'notSupported'
+        | 'notOnThisCable'
+        | 'latched'
+        | 'notDriving'
+        | 'expired'
+        | 'busy'
+        | 'slotBroken'
+        | 'slotChanged'
+        | 'cancelled'
+        | 'outOfRange'
+        | 'malformed'
+        | 'forbidden'
+        | 'notPaired'
+        | 'pairingFailed'
+        | 'pairingLocked'
+        | 'wrongType'
+        | 'notFound'
+        | 'methodNotAllowed'
+        | 'conflict'
+        | 'tooLarge'
+        | 'tooMany'
+        | 'storageFull'
+        | 'storageBusy'
+        | 'storageFailed'
+        | 'damaged'
+        | 'internal';
+      /** Detail */
+      detail: string;
+    };
+    /**
+     * RobotChoice
+     * @description `insteadOf`: the one that the caller knows to stand there.
+     */
+    RobotChoice: {
+      /** Id */
+      id: string;
+      /** Insteadof */
+      insteadOf?: string | null;
+    };
+    /**
+     * RobotFacts
+     * @description What the gateway itself needs to know of a robot: how far its servos may be turned and the poses that
+     *     programs go to, as the board counts.
+     */
+    RobotFacts: {
+      /** Board */
+      board: string;
+      /**
+       * @description discriminator enum property added by openapi-typescript
+       * @enum {string}
+       */
+      kind: 'robot';
+      /** Limits */
+      limits: components['schemas']['ServoLimits'][];
+      /** Name */
+      name: string;
+      /** Poses */
+      poses: components['schemas']['NamedPose'][];
+      /** Updatedatms */
+      updatedAtMs: number;
+    };
+    /**
+     * RunBegun
+     * @description `acknowledged`: the board has taken it, which says nothing of the slot. `silent`: it should have said
+     *     so and has not. `sent`: such a board never says.
+     */
+    RunBegun: {
+      /**
+       * Outcome
+       * @enum {string}
+       */
+      outcome: 'acknowledged' | 'silent' | 'sent';
+    };
+    /**
+     * Running
+     * @description The group that may run: it was begun, and was neither stopped nor heard to end. `endsInMs`: at
+     *     the latest; null where only the board could tell, which not every family does.
+     */
+    Running: {
+      /** Endsinms */
+      endsInMs: number | null;
+      /** Slot */
+      slot: number;
+      /** Times */
+      times: number;
+    };
+    /**
+     * RunWish
+     * @description `times` 0: until stopped. `continueForMs`: it goes on without a `heartbeat`, for so long at most.
+     */
+    RunWish: {
+      /** Continueforms */
+      continueForMs?: number | null;
+      /**
+       * Take
+       * @description An owner's: without asking the driver.
+       * @default false
+       */
+      take?: boolean;
+      /**
+       * Times
+       * @default 1
+       */
+      times?: number;
+    };
+    /**
+     * ServoLimits
+     * @description How far a servo may be turned, in its board's unit, and what people call it.
+     */
+    ServoLimits: {
+      /** Max */
+      max: number;
+      /** Min */
+      min: number;
+      /** Name */
+      name: string;
+      /** Servo */
+      servo: number;
+    };
+    /**
+     * ServoPosition
+     * @description In the board's unit.
+     */
+    ServoPosition: {
+      /** Position */
+      position: number;
+      /** Servo */
+      servo: number;
+    };
+    /**
+     * SilentEvidence
+     * @description It did not answer that question.
+     */
+    SilentEvidence: {
+      /**
+       * @description discriminator enum property added by openapi-typescript
+       * @enum {string}
+       */
+      kind: 'silent';
+      /**
+       * Question
+       * @enum {string}
+       */
+      question: 'readBattery' | 'readVersion' | 'readPositions';
+    };
+    /**
+     * Status
+     * @description `play`: what the gateway plays now, or played last.
+     */
+    Status: {
+      battery: components['schemas']['BatteryAge'] | null;
+      /** Board */
+      board: string;
+      /** Clients */
+      clients: number;
+      /** Driver */
+      driver: string | null;
+      identity: components['schemas']['IdentityState'];
+      /** Latch */
+      latch: boolean;
+      link: components['schemas']['LinkState'];
+      play: components['schemas']['PlayState'] | null;
+      port: components['schemas']['PortState'];
+      running: components['schemas']['Running'] | null;
+      unattended: components['schemas']['UnattendedRun'] | null;
+      /** Version */
+      version: string;
+    };
+    /** StopLink */
+    StopLink: {
+      /** Id */
+      id: string;
+      /** Link */
+      link: string;
+      /** Picture */
+      picture: string;
+    };
+    /** StopLinkWish */
+    StopLinkWish: {
+      /** Name */
+      name: string;
+    };
+    /**
+     * Stopped
+     * @description `halted`: the stop sequence has left the wire. `unheld`: what may go on in spite of it, since nobody
+     *     knows where to hold it; null where all is held.
+     */
+    Stopped: {
+      /** Halted */
+      halted: boolean;
+      /** Latch */
+      latch: boolean;
+      unheld: components['schemas']['UnheldServos'] | null;
+    };
+    /** StoredDocument */
+    StoredDocument: {
+      /** Revision */
+      revision: number;
+      /**
+       * Text
+       * @description The document as JSON; only the page knows what it means.
+       */
+      text: string;
+    };
+    /**
+     * Token
+     * @description Shown once: only its SHA-256 is stored.
+     */
+    Token: {
+      /** Id */
+      id: string;
+      /** Token */
+      token: string;
+    };
+    /** TokenWish */
+    TokenWish: {
+      /** Name */
+      name: string;
+      /**
+       * Role
+       * @enum {string}
+       */
+      role: 'viewer' | 'driver' | 'owner';
+    };
+    /** Trouble */
+    Trouble: {
+      /** Detail */
+      detail: string;
+      /**
+       * Part
+       * @enum {string}
+       */
+      part: 'port' | 'loop' | 'disk';
+    };
+    /**
+     * UnattendedRun
+     * @description A run that may go on without its driver `by`, for so long at most. `slot` is null where the gateway
+     *     plays.
+     */
+    UnattendedRun: {
+      /** By */
+      by: string;
+      /** Endsinms */
+      endsInMs: number;
+      /** Slot */
+      slot: number | null;
+      /** Times */
+      times: number;
+    };
+    /**
+     * UnheldServos
+     * @description What may go on in spite of a STOP: these servos, `null` where it is unknown which, for so long at most
+     *     from its press; `null` where a group may run that heard no stop.
+     */
+    UnheldServos: {
+      /** Forms */
+      forMs: number | null;
+      /** Servos */
+      servos: number[] | null;
+    };
+    /**
+     * VersionReport
+     * @description Which servos the board drives, by the unit they count in, and its firmware.
+     */
+    VersionReport: {
+      /**
+       * @description discriminator enum property added by openapi-typescript
+       * @enum {string}
+       */
+      kind: 'version';
+      /**
+       * Unit
+       * @enum {string}
+       */
+      unit: 'us' | 'steps';
+      /** Version */
+      version: number;
+    };
+    /** VersionText */
+    VersionText: {
+      /**
+       * Text
+       * @description The document as JSON; only the page knows what it means.
+       */
+      text: string;
+    };
+    /** VersionWrite */
+    VersionWrite: {
+      /** Atms */
+      atMs: number;
+      /** Name */
+      name: string;
+      /**
+       * Text
+       * @description The document as JSON; only the page knows what it means.
+       */
+      text: string;
+    };
+    /** You */
+    You: {
+      /** Id */
+      id: string;
+      /** Name */
+      name: string;
+      /**
+       * Role
+       * @enum {string}
+       */
+      role: 'stopper' | 'viewer' | 'driver' | 'owner';
+    };
+  };
+  responses: never;
+  parameters: never;
+  requestBodies: never;
+  headers: never;
+  pathItems: never;
+}
+export type AnsweredEvidence = components['schemas']['AnsweredEvidence'];
+export type ApplyWish = components['schemas']['ApplyWish'];
+export type Battery = components['schemas']['Battery'];
+export type BatteryAge = components['schemas']['BatteryAge'];
+export type BatteryReport = components['schemas']['BatteryReport'];
+export type BoardChoice = components['schemas']['BoardChoice'];
+export type Candidate = components['schemas']['Candidate'];
+export type Device = components['schemas']['Device'];
+export type DocumentIds = components['schemas']['DocumentIds'];
+export type DocumentWrite = components['schemas']['DocumentWrite'];
+export type DocumentWritten = components['schemas']['DocumentWritten'];
+export type DownloadWish = components['schemas']['DownloadWish'];
+export type DriverWish = components['schemas']['DriverWish'];
+export type EchoedEvidence = components['schemas']['EchoedEvidence'];
+export type Erased = components['schemas']['Erased'];
+export type EraseWish = components['schemas']['EraseWish'];
+export type FrameBody = components['schemas']['FrameBody'];
+export type GroupBody = components['schemas']['GroupBody'];
+export type GroupFacts = components['schemas']['GroupFacts'];
+export type Health = components['schemas']['Health'];
+export type IdentityState = components['schemas']['IdentityState'];
+export type Invitation = components['schemas']['Invitation'];
+export type InviteWish = components['schemas']['InviteWish'];
+export type JobState = components['schemas']['JobState'];
+export type LeaseState = components['schemas']['LeaseState'];
+export type LeaseWish = components['schemas']['LeaseWish'];
+export type LibraryListing = components['schemas']['LibraryListing'];
+export type LinkState = components['schemas']['LinkState'];
+export type ListedDocument = components['schemas']['ListedDocument'];
+export type ListedVersion = components['schemas']['ListedVersion'];
+export type Me = components['schemas']['Me'];
+export type MoveBegun = components['schemas']['MoveBegun'];
+export type MoveWish = components['schemas']['MoveWish'];
+export type NamedPose = components['schemas']['NamedPose'];
+export type NoiseEvidence = components['schemas']['NoiseEvidence'];
+export type OwnName = components['schemas']['OwnName'];
+export type PairWish = components['schemas']['PairWish'];
+export type People = components['schemas']['People'];
+export type Person = components['schemas']['Person'];
+export type PersonChange = components['schemas']['PersonChange'];
+export type PlayState = components['schemas']['PlayState'];
+export type PlayWish = components['schemas']['PlayWish'];
+export type PortChoice = components['schemas']['PortChoice'];
+export type PortState = components['schemas']['PortState'];
+export type Poses = components['schemas']['Poses'];
+export type PoseTarget = components['schemas']['PoseTarget'];
+export type PositionsReport = components['schemas']['PositionsReport'];
+export type Problem = components['schemas']['Problem'];
+export type RobotChoice = components['schemas']['RobotChoice'];
+export type RobotFacts = components['schemas']['RobotFacts'];
+export type RunBegun = components['schemas']['RunBegun'];
+export type Running = components['schemas']['Running'];
+export type RunWish = components['schemas']['RunWish'];
+export type ServoLimits = components['schemas']['ServoLimits'];
+export type ServoPosition = components['schemas']['ServoPosition'];
+export type SilentEvidence = components['schemas']['SilentEvidence'];
+export type Status = components['schemas']['Status'];
+export type StopLink = components['schemas']['StopLink'];
+export type StopLinkWish = components['schemas']['StopLinkWish'];
+export type Stopped = components['schemas']['Stopped'];
+export type StoredDocument = components['schemas']['StoredDocument'];
+export type Token = components['schemas']['Token'];
+export type TokenWish = components['schemas']['TokenWish'];
+export type Trouble = components['schemas']['Trouble'];
+export type UnattendedRun = components['schemas']['UnattendedRun'];
+export type UnheldServos = components['schemas']['UnheldServos'];
+export type VersionReport = components['schemas']['VersionReport'];
+export type VersionText = components['schemas']['VersionText'];
+export type VersionWrite = components['schemas']['VersionWrite'];
+export type You = components['schemas']['You'];
+export type $defs = Record<string, never>;
+export interface operations {
+  gatewayBattery: {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    requestBody?: never;
+    responses: {
+      /** @description Successful Response */
+      200: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content: {
+          'application/json': components['schemas']['Battery'];
+        };
+      };
+    };
+  };
+  gatewayNameBoard: {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    requestBody: {
+      content: {
+        'application/json': components['schemas']['BoardChoice'];
+      };
+    };
+    responses: {
+      /** @description Successful Response */
+      200: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content: {
+          'application/json': components['schemas']['Status'];
+        };
+      };
+    };
+  };
+  jobsDownload: {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    requestBody: {
+      content: {
+        'application/json': components['schemas']['DownloadWish'];
+      };
+    };
+    responses: {
+      /** @description Successful Response */
+      202: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content: {
+          'application/json': components['schemas']['JobState'];
+        };
+      };
+    };
+  };
+  motionGive: {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    requestBody: {
+      content: {
+        'application/json': components['schemas']['DriverWish'];
+      };
+    };
+    responses: {
+      /** @description Successful Response */
+      200: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content: {
+          'application/json': components['schemas']['LeaseState'];
+        };
+      };
+    };
+  };
+  motionErase: {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    requestBody?: {
+      content: {
+        'application/json': components['schemas']['EraseWish'];
+      };
+    };
+    responses: {
+      /** @description Successful Response */
+      200: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content: {
+          'application/json': components['schemas']['Erased'];
+        };
+      };
+    };
+  };
+  eventsEvents: {
+    parameters: {
+      query?: never;
+      header?: {
+        'last-event-id'?: string | null;
+      };
+      path?: never;
+      cookie?: never;
+    };
+    requestBody?: never;
+    responses: {
+      /** @description Successful Response */
+      200: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content: {
+          'text/event-stream': string;
+        };
+      };
+    };
+  };
+  healthHealth: {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    requestBody?: never;
+    responses: {
+      /** @description Successful Response */
+      200: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content: {
+          'application/json': components['schemas']['Health'];
+        };
+      };
+    };
+  };
+  peopleInvite: {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    requestBody: {
+      content: {
+        'application/json': components['schemas']['InviteWish'];
+      };
+    };
+    responses: {
+      /** @description Successful Response */
+      200: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content: {
+          'application/json': components['schemas']['Invitation'];
+        };
+      };
+    };
+  };
+  peopleWithdraw: {
+    parameters: {
+      query?: never;
+      header?: never;
+      path: {
+        invitation: string;
+      };
+      cookie?: never;
+    };
+    requestBody?: never;
+    responses: {
+      /** @description Successful Response */
+      204: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content?: never;
+      };
+    };
+  };
+  jobsJobState: {
+    parameters: {
+      query?: never;
+      header?: never;
+      path: {
+        job: string;
+      };
+      cookie?: never;
+    };
+    requestBody?: never;
+    responses: {
+      /** @description Successful Response */
+      200: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content: {
+          'application/json': components['schemas']['JobState'];
+        };
+      };
+    };
+  };
+  jobsCancel: {
+    parameters: {
+      query?: never;
+      header?: never;
+      path: {
+        job: string;
+      };
+      cookie?: never;
+    };
+    requestBody?: never;
+    responses: {
+      /** @description Successful Response */
+      200: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content: {
+          'application/json': components['schemas']['JobState'];
+        };
+      };
+    };
+  };
+  motionLease: {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    requestBody: {
+      content: {
+        'application/json': components['schemas']['LeaseWish'];
+      };
+    };
+    responses: {
+      /** @description Successful Response */
+      200: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content: {
+          'application/json': components['schemas']['LeaseState'];
+        };
+      };
+    };
+  };
+  libraryListDocuments: {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    requestBody?: never;
+    responses: {
+      /** @description Successful Response */
+      200: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content: {
+          'application/json': components['schemas']['LibraryListing'];
+        };
+      };
+    };
+  };
+  libraryRead: {
+    parameters: {
+      query?: never;
+      header?: never;
+      path: {
+        document: string;
+      };
+      cookie?: never;
+    };
+    requestBody?: never;
+    responses: {
+      /** @description Successful Response */
+      200: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content: {
+          'application/json': components['schemas']['StoredDocument'];
+        };
+      };
+    };
+  };
+  libraryWrite: {
+    parameters: {
+      query?: never;
+      header?: never;
+      path: {
+        document: string;
+      };
+      cookie?: never;
+    };
+    requestBody: {
+      content: {
+        'application/json': components['schemas']['DocumentWrite'];
+      };
+    };
+    responses: {
+      /** @description Successful Response */
+      200: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content: {
+          'application/json': components['schemas']['DocumentWritten'];
+        };
+      };
+    };
+  };
+  libraryListVersions: {
+    parameters: {
+      query?: never;
+      header?: never;
+      path: {
+        document: string;
+      };
+      cookie?: never;
+    };
+    requestBody?: never;
+    responses: {
+      /** @description Successful Response */
+      200: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content: {
+          'application/json': components['schemas']['ListedVersion'][];
+        };
+      };
+    };
+  };
+  libraryReadVersion: {
+    parameters: {
+      query?: never;
+      header?: never;
+      path: {
+        document: string;
+        version: string;
+      };
+      cookie?: never;
+    };
+    requestBody?: never;
+    responses: {
+      /** @description Successful Response */
+      200: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content: {
+          'application/json': components['schemas']['VersionText'];
+        };
+      };
+    };
+  };
+  libraryKeepVersion: {
+    parameters: {
+      query?: never;
+      header?: never;
+      path: {
+        document: string;
+        version: string;
+      };
+      cookie?: never;
+    };
+    requestBody: {
+      content: {
+        'application/json': components['schemas']['VersionWrite'];
+      };
+    };
+    responses: {
+      /** @description Successful Response */
+      204: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content?: never;
+      };
+    };
+  };
+  libraryRemoveVersion: {
+    parameters: {
+      query?: never;
+      header?: never;
+      path: {
+        document: string;
+        version: string;
+      };
+      cookie?: never;
+    };
+    requestBody?: never;
+    responses: {
+      /** @description Successful Response */
+      204: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content?: never;
+      };
+    };
+  };
+  libraryRemove: {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    requestBody: {
+      content: {
+        'application/json': components['schemas']['DocumentIds'];
+      };
+    };
+    responses: {
+      /** @description Successful Response */
+      204: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content?: never;
+      };
+    };
+  };
+  libraryRestore: {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    requestBody: {
+      content: {
+        'application/json': components['schemas']['DocumentIds'];
+      };
+    };
+    responses: {
+      /** @description Successful Response */
+      204: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content?: never;
+      };
+    };
+  };
+  peopleMe: {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    requestBody?: never;
+    responses: {
+      /** @description Successful Response */
+      200: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content: {
+          'application/json': components['schemas']['Me'];
+        };
+      };
+    };
+  };
+  peopleRenameMe: {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    requestBody: {
+      content: {
+        'application/json': components['schemas']['OwnName'];
+      };
+    };
+    responses: {
+      /** @description Successful Response */
+      200: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content: {
+          'application/json': components['schemas']['You'];
+        };
+      };
+    };
+  };
+  motionMove: {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    requestBody: {
+      content: {
+        'application/json': components['schemas']['MoveWish'];
+      };
+    };
+    responses: {
+      /** @description Successful Response */
+      200: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content: {
+          'application/json': components['schemas']['MoveBegun'];
+        };
+      };
+    };
+  };
+  peoplePair: {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    requestBody: {
+      content: {
+        'application/json': components['schemas']['PairWish'];
+      };
+    };
+    responses: {
+      /** @description Successful Response */
+      200: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content: {
+          'application/json': components['schemas']['You'];
+        };
+      };
+    };
+  };
+  peoplePeople: {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    requestBody?: never;
+    responses: {
+      /** @description Successful Response */
+      200: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content: {
+          'application/json': components['schemas']['People'];
+        };
+      };
+    };
+  };
+  peopleRevoke: {
+    parameters: {
+      query?: {
+        /** @description Whether a group that it let continue without it may go on. */
+        continues?: boolean;
+      };
+      header?: never;
+      path: {
+        person: string;
+      };
+      cookie?: never;
+    };
+    requestBody?: never;
+    responses: {
+      /** @description Successful Response */
+      204: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content?: never;
+      };
+    };
+  };
+  peopleChange: {
+    parameters: {
+      query?: never;
+      header?: never;
+      path: {
+        person: string;
+      };
+      cookie?: never;
+    };
+    requestBody: {
+      content: {
+        'application/json': components['schemas']['PersonChange'];
+      };
+    };
+    responses: {
+      /** @description Successful Response */
+      200: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content: {
+          'application/json': components['schemas']['Person'];
+        };
+      };
+    };
+  };
+  playPlay: {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    requestBody: {
+      content: {
+        'application/json': components['schemas']['PlayWish'];
+      };
+    };
+    responses: {
+      /** @description Successful Response */
+      202: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content: {
+          'application/json': components['schemas']['PlayState'];
+        };
+      };
+    };
+  };
+  playStopPlaying: {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    requestBody?: never;
+    responses: {
+      /** @description Successful Response */
+      200: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content: {
+          'application/json': components['schemas']['PlayState'] | null;
+        };
+      };
+    };
+  };
+  gatewayUsePort: {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    requestBody: {
+      content: {
+        'application/json': components['schemas']['PortChoice'];
+      };
+    };
+    responses: {
+      /** @description Successful Response */
+      200: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content: {
+          'application/json': components['schemas']['PortState'];
+        };
+      };
+    };
+  };
+  gatewayClosePort: {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    requestBody?: never;
+    responses: {
+      /** @description Successful Response */
+      200: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content: {
+          'application/json': components['schemas']['PortState'];
+        };
+      };
+    };
+  };
+  gatewayPorts: {
+    parameters: {
+      query?: {
+        bluetooth?: boolean;
+      };
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    requestBody?: never;
+    responses: {
+      /** @description Successful Response */
+      200: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content: {
+          'application/json': components['schemas']['Device'][];
+        };
+      };
+    };
+  };
+  posesListPoses: {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    requestBody?: never;
+    responses: {
+      /** @description Successful Response */
+      200: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content: {
+          'application/json': components['schemas']['Poses'];
+        };
+      };
+    };
+  };
+  posesApply: {
+    parameters: {
+      query?: never;
+      header?: never;
+      path: {
+        pose: string;
+      };
+      cookie?: never;
+    };
+    requestBody?: {
+      content: {
+        'application/json': components['schemas']['ApplyWish'];
+      };
+    };
+    responses: {
+      /** @description Successful Response */
+      200: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content: {
+          'application/json': components['schemas']['MoveBegun'];
+        };
+      };
+    };
+  };
+  gatewayResume: {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    requestBody?: never;
+    responses: {
+      /** @description Successful Response */
+      200: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content: {
+          'application/json': components['schemas']['Status'];
+        };
+      };
+    };
+  };
+  robotsPutOnBoard: {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    requestBody: {
+      content: {
+        'application/json': components['schemas']['RobotChoice'];
+      };
+    };
+    responses: {
+      /** @description Successful Response */
+      204: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content?: never;
+      };
+    };
+  };
+  motionRun: {
+    parameters: {
+      query?: never;
+      header?: never;
+      path: {
+        slot: number;
+      };
+      cookie?: never;
+    };
+    requestBody?: {
+      content: {
+        'application/json': components['schemas']['RunWish'];
+      };
+    };
+    responses: {
+      /** @description Successful Response */
+      200: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content: {
+          'application/json': components['schemas']['RunBegun'];
+        };
+      };
+    };
+  };
+  gatewayStatus: {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    requestBody?: never;
+    responses: {
+      /** @description Successful Response */
+      200: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content: {
+          'application/json': components['schemas']['Status'];
+        };
+      };
+    };
+  };
+  gatewayStop: {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    requestBody?: never;
+    responses: {
+      /** @description Successful Response */
+      200: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content: {
+          'application/json': components['schemas']['Stopped'];
+        };
+      };
+    };
+  };
+  peopleMakeStopLink: {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    requestBody: {
+      content: {
+        'application/json': components['schemas']['StopLinkWish'];
+      };
+    };
+    responses: {
+      /** @description Successful Response */
+      200: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content: {
+          'application/json': components['schemas']['StopLink'];
+        };
+      };
+    };
+  };
+  peopleMakeToken: {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    requestBody: {
+      content: {
+        'application/json': components['schemas']['TokenWish'];
+      };
+    };
+    responses: {
+      /** @description Successful Response */
+      200: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content: {
+          'application/json': components['schemas']['Token'];
+        };
+      };
+    };
+  };
+}

@@ -1,0 +1,359 @@
+// What the gateway says, as the snapshot of its robot; the drawn estimate follows what it says has left and was heard. Knows the messages;
+// asks nothing of the gateway.
+
+import type { Clock } from '#shared/clock.ts';
+import type { Command, Frame } from '#shared/codec/commands.ts';
+import { family as familyOf, UNKNOWN_BOARD, type Family } from '#shared/codec/families.ts';
+import { fromHex } from '#shared/codec/packet.ts';
+import type { Report } from '#shared/codec/reports.ts';
+import type { MotionBefore } from '#shared/motion/before.ts';
+import { createRobotEstimate, type RobotEstimate } from '#shared/robot/estimate.ts';
+import { NOTHING_HEARD } from '#shared/robot/identity.ts';
+import type { LineState } from '#shared/robot/link.ts';
+import {
+  createRunning,
+  type Running,
+  createSessionStore,
+  noteCommand,
+  noteReport,
+  NOTHING_READ,
+  type SessionStore,
+} from '#shared/robot/store.ts';
+import type { Activity, Battery, Latch, LatchReason, LinkState } from '#shared/robot/state.ts';
+import type { GatewaySlots } from './gatewaySlots.ts';
+import type { Said } from './gatewaySocket.ts';
+import {
+  batteryOf,
+  boardOf,
+  bytesForLog,
+  LATCHED_BY,
+  motionBefore,
+  reportIn,
+  type BoardAtGateway,
+} from './gatewayValues.ts';
+import type { Driving } from './lease.ts';
+import type { PlayState, StateMessage } from './messages.generated.ts';
+
+export interface GatewaySnapshotOptions {
+  readonly clock: Clock;
+  readonly driving: Pick<Driving, 'lease' | 'leaseChanged' | 'counted'>;
+  readonly slots: Pick<GatewaySlots, 'broken' | 'versions' | 'download' | 'jobChanged' | 'slotsChanged'>;
+  /** Moves that were asked for and have not left do not leave any more. */
+  dropMoves(): void;
+  /** Sends a STOP of this page that the gateway has not heard; false where there is none. */
+  sendUnheardStop(): boolean;
+}
+
+export interface GatewaySnapshot {
+  readonly store: SessionStore;
+  readonly estimate: RobotEstimate;
+  readonly running: Running;
+  /** Why the gateway refuses motion, whatever this page shows; null where it does not. */
+  readonly latchedBy: LatchReason | null;
+  /** Counts latches of this page, so that a resume does not undo one that came after it. */
+  readonly latches: number;
+  heard(message: Exclude<Said, { type: 'tick' | 'played' }>): void;
+  lineChanged(line: LineState): void;
+  /** The download or what the slots hold is another now. */
+  slotsChanged(): void;
+  latch(next: Latch): void;
+  /** `confirmed` stays, whatever is said later. */
+  changeLatch(change: Partial<Pick<Latch, 'stop' | 'unheld'>>): void;
+  stored(slot: number, frames: readonly Frame[]): void;
+}
+
+const IDLE: Activity = { kind: 'idle' };
+
+export function createGatewaySnapshot(options: GatewaySnapshotOptions): GatewaySnapshot {
+  const { clock, driving, slots } = options;
+  const store = createSessionStore({ family: UNKNOWN_BOARD, canShare: true, withheld: [] });
+  let estimate = createRobotEstimate(UNKNOWN_BOARD, clock);
+  const running = createRunning(clock, store, () => estimate);
+  let isOpen = false;
+  /** What the gateway said last, shown while the link is open. */
+  let board: BoardAtGateway | null = null;
+  let battery: Battery = { kind: 'unread' };
+  let document: string | null = null;
+  let withheld: StateMessage['port']['withheld'] = [];
+  let waitingToStart: readonly number[] = [];
+  let latchedBy: LatchReason | null = null;
+  let stoppedBy: string | null = null;
+  let play: PlayState | null = null;
+  /** Until the link is ready: from then on the estimate follows by itself. */
+  let before: MotionBefore | null = null;
+  let latches = 0;
+
+  function heard(message: Exclude<Said, { type: 'tick' | 'played' }>): void {
+    switch (message.type) {
+      case 'welcome':
+        driving.leaseChanged(message.lease);
+        document = message.robot?.id ?? null;
+        before = motionBefore(message.motion, clock.now());
+        slots.jobChanged(message.job);
+        play = message.play;
+        battery = batteryOf(message.battery, clock.now());
+        latchedBy = null;
+        stateChanged(message);
+        break;
+      case 'state':
+        stateChanged(message);
+        break;
+      case 'battery':
+        battery = batteryOf(message.battery, clock.now());
+        if (isOpen) store.update({ battery });
+        break;
+      case 'robot':
+        document = message.robot?.id ?? null;
+        if (isOpen) store.update({ robotOnBoard: { document } });
+        break;
+      case 'resumed':
+        if (isOpen) store.emit('resumed', message.by);
+        break;
+      case 'lease':
+        driving.leaseChanged(message.lease);
+        showLease();
+        break;
+      case 'left':
+        if (isOpen) message.commands.forEach(left);
+        break;
+      case 'job':
+        slots.jobChanged(message.job);
+        break;
+      case 'play':
+        play = message.play;
+        showPlay();
+        break;
+      case 'received':
+        if (isOpen) received(reportIn(message), fromHex(message.bytes));
+        break;
+      case 'noise':
+        if (isOpen)
+          store.emit('traffic', {
+            atMs: clock.now(),
+            direction: 'in',
+            bytes: fromHex(message.bytes),
+            noise: message.reason,
+          });
+        break;
+      case 'halted':
+        if (isOpen)
+          changeLatch({
+            stop: 'sent',
+            unheld: message.unheld && { ...message.unheld, forMs: message.unheld.forMs ?? Infinity },
+          });
+        break;
+    }
+  }
+
+  function stateChanged(state: Omit<StateMessage, 'type'>): void {
+    slots.slotsChanged(state.brokenSlots, state.slotVersions);
+    driving.counted(state.clients, state.unattended);
+    showLease();
+    board = boardOf(state);
+    if (isOpen && board !== null) showBoard(board);
+    ({ withheld } = state.port);
+    waitingToStart = state.waitingToStart;
+    stoppedBy = state.stoppedBy;
+    if (isOpen) {
+      store.update({ withheld });
+      if (waitingToStart.join() !== store.state.waitingToStart.join()) store.update({ waitingToStart });
+    }
+    latchChanged(state.latchedBy && LATCHED_BY[state.latchedBy]);
+  }
+
+  function lineChanged(line: LineState): void {
+    isOpen = line.status === 'open';
+    if (line.status !== 'open') {
+      if (store.state.lease !== null) store.update({ lease: null });
+      entered(line);
+      return;
+    }
+    store.update({ battery, waitingToStart, withheld, robotOnBoard: { document }, identity: NOTHING_HEARD });
+    showLease();
+    latchAsGateway();
+    if (board !== null) showBoard(board);
+    else entered({ status: 'identifying' });
+    showPlay();
+  }
+
+  /** The gateway asks the board who it is: its word counts. */
+  function showBoard({ board: id, identity, status, error }: BoardAtGateway): void {
+    drive(id === 'unknown' ? UNKNOWN_BOARD : familyOf(id));
+    store.update({ identity });
+    if (status === 'refused') entered({ status, error });
+    else entered(status === 'stale' ? { status, sinceMs: clock.now() } : { status });
+  }
+
+  /** The board is taken for something else: whatever was believed of it was about another one. */
+  function drive(next: Family): void {
+    if (next === store.state.family) return;
+    drop();
+    estimate = createRobotEstimate(next, clock);
+    store.update({
+      ...{ family: next, brokenSlots: [], storedSlots: [], lastDownload: null },
+      ...NOTHING_READ,
+    });
+  }
+
+  function entered(next: LinkState): void {
+    const previous = store.state.link.status;
+    // Its listeners find what is known of its slots and servos.
+    if (next.status === 'ready' && previous !== 'ready') becomesReady();
+    if (next.status !== 'opening') before = null;
+    store.update({ link: next });
+    if (next.status === previous) return;
+    if (previous === 'ready') unlinked(next);
+  }
+
+  function becomesReady(): void {
+    showSlotsOfBoard();
+    if (before === null) return;
+    estimate.placed(before);
+    const reported = before.reported.map(({ servo, position, atMs }) => [servo, { position, atMs }] as const);
+    store.update({ reported: Object.fromEntries(reported) });
+  }
+
+  /** The board may have moved, restarted or been changed for another before it is ready again. */
+  function unlinked(next: LinkState): void {
+    estimate.forget(null);
+    if (next.status === 'closed') estimate.groupEnded();
+    estimate.unstored();
+    store.update({ storedSlots: estimate.storedSlots(), ...NOTHING_READ });
+    if (next.status === 'lost' || next.status === 'stale')
+      latch({ reason: 'reconnected', by: null, stop: 'failed', unheld: estimate.haltPlan(null).unheld });
+    else drop();
+  }
+
+  /** What was asked for from here and has not left, or is not known to have ended. */
+  function drop(): void {
+    options.dropMoves();
+    running.forget();
+    store.update({ waitingToStart: [], activity: downloadActivity() });
+  }
+
+  function showLease(): void {
+    const { lease } = driving;
+    if (!isOpen || lease === null) return;
+    const hasLost = store.state.lease?.drives === true && !lease.drives;
+    store.update({ lease });
+    if (hasLost) drop();
+  }
+
+  function latch(next: Latch): void {
+    latches += 1;
+    store.update({ latch: next });
+    drop();
+  }
+
+  function latchElsewhere(reason: LatchReason): void {
+    latch({ reason, by: stoppedBy, stop: 'sent', unheld: estimate.haltPlan(null).unheld });
+  }
+
+  /**
+   * Of a link that has opened. What this page moved when it was lost the gateway has stopped, and others may drive since: from here only
+   * a STOP is sent that it has not heard.
+   */
+  function latchAsGateway(): void {
+    if (options.sendUnheardStop()) return;
+    if (latchedBy !== null) latchElsewhere(latchedBy);
+    else if (store.state.latch !== null) store.update({ latch: null });
+  }
+
+  /** Confirmed it stays, whatever is said later. */
+  function changeLatch(change: Partial<Pick<Latch, 'stop' | 'unheld'>>): void {
+    const { latch: current } = store.state;
+    if (current === null) return;
+    const stop = current.stop === 'confirmed' ? 'confirmed' : (change.stop ?? current.stop);
+    store.update({ latch: { ...current, ...change, stop } });
+  }
+
+  function latchChanged(next: LatchReason | null): void {
+    const isNews = next !== latchedBy;
+    latchedBy = next;
+    if (isOpen && isNews) {
+      if (next === null) store.update({ latch: null });
+      else if (store.state.latch === null) latchElsewhere(next);
+    }
+  }
+
+  /** Of a download the gateway says itself how far it is: said late, its frame would pass for one that is being stored now. */
+  function left(command: Command): void {
+    const bytes = bytesForLog(command, store.state.family);
+    if (bytes !== null) store.emit('traffic', { atMs: clock.now(), direction: 'out', bytes, command });
+    if (command.kind === 'download') return;
+    estimate.applied(command);
+    noteCommand(store, command);
+  }
+
+  function received(report: Report, bytes: Uint8Array): void {
+    store.emit('traffic', { atMs: clock.now(), direction: 'in', bytes, report });
+    estimate.heard(report);
+    if (report.kind === 'runStarted') running.began(report.slot, report.times, 'acknowledged');
+    if (report.kind === 'runFinished' || report.kind === 'runStopped') running.ended();
+    noteReport(store, report, clock.now());
+    if (report.kind === 'runStopped') changeLatch({ stop: 'confirmed' });
+  }
+
+  function showPlay(): void {
+    if (!isOpen) return;
+    if (play?.status === 'playing') {
+      const { frameIndex, frameCount } = play;
+      store.update({ activity: { kind: 'playing', frameIndex, frameCount } });
+    } else if (store.state.activity.kind === 'playing') store.update({ activity: IDLE });
+  }
+
+  function downloadActivity(): Activity {
+    const { download } = slots;
+    if (download === null || download.isOver) return IDLE;
+    const { isOver: _, ...progress } = download;
+    const slot = progress.slots[Math.min(progress.groupsStored, progress.slots.length - 1)] ?? 0;
+    return { kind: 'downloading', slot, ...progress };
+  }
+
+  function slotsChanged(): void {
+    if (store.state.link.status === 'ready') showSlotsOfBoard();
+  }
+
+  function showSlotsOfBoard(): void {
+    const { download, broken, versions } = slots;
+    if (download !== null) noteDownload(download);
+    const brokenSlots = broken.toSorted((a, b) => a - b);
+    if (brokenSlots.join() !== store.state.brokenSlots.join()) store.update({ brokenSlots });
+    if (versions !== store.state.slotVersions) store.update({ slotVersions: versions });
+    showStoredSlots();
+    const { kind } = store.state.activity;
+    if (kind === 'idle' || kind === 'downloading') store.update({ activity: downloadActivity() });
+  }
+
+  function showStoredSlots(): void {
+    const storedSlots = estimate.storedSlots();
+    if (storedSlots.join() !== store.state.storedSlots.join()) store.update({ storedSlots });
+  }
+
+  /** What its slots held before is gone, as far as it has come. */
+  function noteDownload({ slots: filled, groupsStored, isOver }: NonNullable<typeof slots.download>): void {
+    const { lastDownload } = store.state;
+    if (!isOver) for (const slot of filled.slice(0, groupsStored + 1)) estimate.unstored(slot);
+    const isNews = lastDownload?.groupsStored !== groupsStored || lastDownload.slots.join() !== filled.join();
+    if (isOver && isNews) store.update({ lastDownload: { slots: filled, groupsStored } });
+  }
+
+  return {
+    store,
+    get estimate() {
+      return estimate;
+    },
+    running,
+    get latchedBy() {
+      return latchedBy;
+    },
+    get latches() {
+      return latches;
+    },
+    ...{ heard, lineChanged, slotsChanged, latch, changeLatch },
+    stored(slot, frames) {
+      estimate.stored(slot, frames);
+      showStoredSlots();
+    },
+  };
+}

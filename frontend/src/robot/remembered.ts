@@ -1,0 +1,164 @@
+// What this browser remembers from visit to visit: which family each board is and what a person calls it, which of its slots hold half a
+// group, which way to a robot was chosen last. Knows storage; no link. Where storage is forbidden it is remembered until the page is closed.
+
+import { createStore, type StoreApi } from 'zustand/vanilla';
+import { FAMILIES, type FamilyId } from '#shared/codec/families.ts';
+import type { SlotMemory } from '#shared/robot/download.ts';
+import type { Way, WayKind } from './device.ts';
+import type { TextStorage } from '../state/storage.ts';
+
+interface KnownBoard {
+  readonly family: FamilyId;
+  /** Empty where the person gave none. */
+  readonly nickname: string;
+}
+
+export interface Boards {
+  /** By the way's name, see `nameOf`. */
+  readonly store: StoreApi<Readonly<Record<string, KnownBoard>>>;
+  recall(way: BoardWay): KnownBoard | undefined;
+  remember(way: BoardWay, family: FamilyId): void;
+  rename(way: BoardWay, nickname: string): void;
+}
+
+/** Boards have no name of their own: the device they are on is all there is to know them by. */
+type BoardWay = Pick<Way, 'kind' | 'label'>;
+
+export const NICKNAME_LENGTH = 64;
+const BOARDS_KEY = 'servodeck.boards';
+
+export const nameOf = ({ kind, label }: BoardWay): string => `${kind} ${label}`;
+
+export function createBoards(storage: TextStorage): Boards {
+  const store = createStore(() => load(storage));
+
+  function put(way: BoardWay, board: KnownBoard): void {
+    store.setState({ [nameOf(way)]: board });
+    try {
+      storage.setItem(BOARDS_KEY, JSON.stringify(store.getState()));
+    } catch {
+      // This visit still knows.
+    }
+  }
+
+  const recall = (way: BoardWay): KnownBoard | undefined => store.getState()[nameOf(way)];
+
+  return {
+    store,
+    recall,
+    remember: (way, family) => put(way, { nickname: '', ...recall(way), family }),
+    rename(way, nickname) {
+      const known = recall(way);
+      if (known !== undefined) put(way, { ...known, nickname: nickname.trim().slice(0, NICKNAME_LENGTH) });
+    },
+  };
+}
+
+/** Whatever else stands there was not written here and is passed over. */
+function load(storage: TextStorage): Readonly<Record<string, KnownBoard>> {
+  try {
+    const stored: unknown = JSON.parse(storage.getItem(BOARDS_KEY) ?? '{}');
+    const entries: readonly [string, unknown][] = Object.entries(stored ?? {});
+    return Object.fromEntries(entries.flatMap(([name, board]) => (isKnown(board) ? [[name, board]] : [])));
+  } catch {
+    return {};
+  }
+}
+
+function isKnown(board: unknown): board is KnownBoard {
+  const { family, nickname } = (board ?? {}) as Partial<Record<keyof KnownBoard, unknown>>;
+  return typeof family === 'string' && family in FAMILIES && typeof nickname === 'string';
+}
+
+const SLOTS_KEY = 'servodeck.brokenSlots';
+
+/** Outlives a session, so that reconnecting without storage forgets nothing either. */
+const thisVisit = new Map<string, string>();
+
+/**
+ * The board's name is asked at each reading, when the link is there: some links learn it only by opening, forget it
+ * when they close, and may find another board later.
+ */
+export function rememberSlots(storage: TextStorage, way: () => BoardWay): SlotMemory {
+  const keyNow = (): string => `${SLOTS_KEY} ${nameOf(way())}`;
+  let key = keyNow();
+  return {
+    read() {
+      key = keyNow();
+      return slotsIn(thisVisit.get(key) ?? stored(storage, key));
+    },
+    write(brokenSlots) {
+      const text = brokenSlots.join(' ');
+      thisVisit.set(key, text);
+      try {
+        storage.setItem(key, text);
+      } catch {
+        // This visit still knows.
+      }
+    },
+  };
+}
+
+function stored(storage: TextStorage, key: string): string {
+  try {
+    return storage.getItem(key) ?? '';
+  } catch {
+    return '';
+  }
+}
+
+/** Whatever else stands there was not written here and is passed over. */
+function slotsIn(text: string): readonly number[] {
+  return text.split(' ').flatMap((word) => (/^\d+$/.test(word) ? [Number(word)] : []));
+}
+
+interface LastWay {
+  readonly kind: WayKind;
+  readonly board: FamilyId;
+}
+
+const WAY_KEY = 'servodeck.way';
+const KINDS: readonly string[] = [
+  'webSerial',
+  'webHid',
+  'webBluetooth',
+  'gateway',
+  'simulated',
+] satisfies WayKind[];
+
+export function rememberWay(storage: TextStorage, { kind, board }: LastWay): void {
+  try {
+    storage.setItem(WAY_KEY, `${kind} ${board}`);
+  } catch {
+    // The way is chosen again next time.
+  }
+}
+
+export function recallWay(storage: TextStorage): LastWay | null {
+  try {
+    const [kind = '', board = ''] = storage.getItem(WAY_KEY)?.split(' ') ?? [];
+    if (!KINDS.includes(kind) || !(board in FAMILIES)) return null;
+    return { kind: kind as LastWay['kind'], board: board as FamilyId };
+  } catch {
+    return null;
+  }
+}
+
+const RECONNECTS_KEY = 'servodeck.reconnects';
+
+/** Links come back by themselves unless a person has said otherwise. */
+export function recallReconnects(storage: TextStorage): boolean {
+  try {
+    return storage.getItem(RECONNECTS_KEY) !== 'off';
+  } catch {
+    return true;
+  }
+}
+
+export function rememberReconnects(storage: TextStorage, reconnects: boolean): void {
+  try {
+    storage.setItem(RECONNECTS_KEY, reconnects ? 'on' : 'off');
+  } catch {
+    // It holds until the page is closed.
+  }
+}
