@@ -1,17 +1,8 @@
-// Hooks for the board's slots: the content of each compared with the open group, its name, and what Run would do.
+// Hooks for the board's slots: the content of each compared with the open group, and its name.
 
 import { recordOf, contentOf, type SlotContent } from '#shared/group/slotBook.ts';
 import { holds } from '#shared/document/history.ts';
-import {
-  useSlots,
-  useSnapshot,
-  useCompiled,
-  useDocument,
-  useLibrary,
-  useDevice,
-  useSlot,
-  useView,
-} from '../../stores.ts';
+import { useSlots, useSnapshot, useCompiled, useDocument, useLibrary } from '../../stores.ts';
 import type { Truth } from '../../../ui/Chip.tsx';
 
 /** Names from this page's downloads or from the gateway; undefined if the content is unknown or broken. */
@@ -49,21 +40,3 @@ export function useSlotContents(): (slot: number) => SlotContent {
 }
 
 const NO_VERSIONS = {};
-
-interface RunSettings {
-  readonly slot: number;
-  /** 0: until stopped. */
-  readonly times: number;
-  readonly untilStopped: boolean;
-  /** False on boards that cannot run a group until stopped. */
-  readonly canRepeat: boolean;
-}
-
-/** The choices for Run on this screen. */
-export function useRunSettings(): RunSettings {
-  const slot = useSlot();
-  const canRepeat = useDevice((state) => state.family.zeroTimes === 'endless');
-  const untilStopped = useView((state) => state.untilStopped) && canRepeat;
-  const times = useView((state) => state.times);
-  return { slot, canRepeat, untilStopped, times: untilStopped ? 0 : times };
-}
