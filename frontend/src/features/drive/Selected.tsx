@@ -9,7 +9,7 @@ import { Select } from '../../ui/Select.tsx';
 import { Choice } from '../../ui/Toggle.tsx';
 import { useLayout } from '../../ui/useLayout.ts';
 import { servosText } from '../../i18n/sentences.ts';
-import { words } from '../../i18n/words.ts';
+import { words } from '../../i18n/whole.ts';
 import { useServoMoves } from './useServoMoves.ts';
 import styles from './SelectionBar.module.css';
 

@@ -14,7 +14,7 @@ import { editServoView, useDevice, useServoView, useStores } from '../stores.ts'
 import { Icon } from '../../ui/Icon.tsx';
 import { selectHow } from '../../ui/inputEvents.ts';
 import { numberAndName } from '../../i18n/sentences.ts';
-import { words } from '../../i18n/words.ts';
+import { words } from '../../i18n/whole.ts';
 import { Dial } from './Dial.tsx';
 import { cx } from '../../ui/cx.ts';
 import styles from './Place.module.css';

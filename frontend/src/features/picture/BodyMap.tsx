@@ -7,7 +7,7 @@ import { UNDO_ACTIONS } from '../undo/undoActions.ts';
 import { useRobot, useServoView, useStores } from '../stores.ts';
 import { Toggle } from '../../ui/Toggle.tsx';
 import { UndoTools } from '../undo/UndoTools.tsx';
-import { words } from '../../i18n/words.ts';
+import { words } from '../../i18n/whole.ts';
 import { ArrangedPlace, Place, nearest } from './ArrangedPlace.tsx';
 import { LiveArm, LiveBones } from './Body.tsx';
 import { reachOf, type Reach } from './reach.ts';

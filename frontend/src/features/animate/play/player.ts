@@ -5,7 +5,7 @@ import type { StoreApi } from 'zustand/vanilla';
 import { totalDurationMs } from '#shared/group/group.ts';
 import { frameEnds } from '#shared/group/tracks.ts';
 import type { Activity } from '#shared/robot/state.ts';
-import { words } from '../../../i18n/words.ts';
+import { words } from '../../../i18n/whole.ts';
 import { createBoardRun, pageAt, previewAt, type PagePlay, type PreviewPlay } from './boardRun.ts';
 import { obstacles, type CompiledGroup } from '../../board/compile/compiled.ts';
 import { problemText } from '../../board/compile/problemText.ts';

@@ -5,7 +5,7 @@ import { type KeyboardEvent, type PointerEvent, useRef, useState } from 'react';
 import { Plane, Vector3 } from 'three';
 import type { Vec3 } from '#shared/kinematics/chain.ts';
 import { type Robot, servoOf } from '#shared/profile/robot.ts';
-import { words } from '../../../i18n/words.ts';
+import { words } from '../../../i18n/whole.ts';
 import { NumberField } from '../../../ui/NumberField.tsx';
 import { freeOf, isLocked } from '../../servoView.ts';
 import { guessNow, useStores, type Stores } from '../../stores.ts';

@@ -12,7 +12,7 @@ import {
   useState,
 } from 'react';
 import { servoOf } from '#shared/profile/robot.ts';
-import { words } from '../../../i18n/words.ts';
+import { words } from '../../../i18n/whole.ts';
 import { motionHindrance } from '../../../robot/readiness.ts';
 import { IconButton } from '../../../ui/Button.tsx';
 import { EmptyState } from '../../../ui/Panel.tsx';
