@@ -114,10 +114,19 @@ async function drag(session: Robot, servoCount: number, board: BoardOnPort): Pro
     const dueMs = fromMs + eventsMs.length * POINTER_MS;
     await sleep(realClock, dueMs - performance.timeOrigin - performance.now());
   }
-  // The final value waits for the packet before it.
-  await sleep(realClock, 500);
+  // The final value waits for the packet before it, and the board's log for the disk.
+  const isThere = (): boolean => movesOf(board, fromMs).map(eventOf).at(-1) === eventsMs.length - 1;
+  for (let tries = 0; tries < 10 && !isThere(); tries++) await sleep(realClock, 300);
   return dragIn(board, fromMs, servoCount, (event) => eventsMs[event] ?? NaN, eventsMs.length);
 }
+
+const movesOf = (board: BoardOnPort, fromMs: number): readonly BusPacket[] =>
+  packetsInto(board.readBusLog().filter(({ atMs }) => atMs >= fromMs)).filter(
+    ({ command }) => command.kind === 'move',
+  );
+
+const eventOf = ({ command }: BusPacket): number =>
+  command.kind === 'move' ? (command.targets[0]?.position ?? 0) - FIRST_POSITION : NaN;
 
 /** Throws where the last value never left, which would flatter the rest. */
 function dragIn(
@@ -127,10 +136,7 @@ function dragIn(
   eventMs: (event: number) => number,
   eventCount: number,
 ): Drag {
-  const packets = packetsInto(board.readBusLog().filter(({ atMs }) => atMs >= fromMs));
-  const moves = packets.filter(({ command }) => command.kind === 'move');
-  const eventOf = ({ command }: BusPacket): number =>
-    command.kind === 'move' ? (command.targets[0]?.position ?? 0) - FIRST_POSITION : NaN;
+  const moves = movesOf(board, fromMs);
   const last = moves.at(-1);
   if (last === undefined || eventOf(last) !== eventCount - 1)
     throw new Error(

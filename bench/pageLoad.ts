@@ -16,7 +16,7 @@ const REPEATS = amount(3, 1);
 const USABLE_LIMIT_MS = 1500;
 const NARROW = { width: 820, height: 1180 };
 /** All parts of the page have come by then. */
-const COMPLETE_MS = amount(6_000, 3_000);
+const COMPLETE_MS = amount(6_000, 2_000);
 /** A quarter of what is called a good layout shift score. */
 const SHIFT_LIMIT = 0.025;
 

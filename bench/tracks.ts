@@ -14,7 +14,7 @@ import { median } from './statistics.ts';
 
 const FRAMES = 255;
 const SERVOS = 32;
-const REPEATS = amount(5, 1);
+const REPEATS = amount(3, 1);
 const REST_MS = 300;
 const MOUNT_LIMIT_MS = 50;
 const EDIT_LIMIT_MS = 2;
