@@ -21,7 +21,7 @@ function said(work: () => number): { code: number; lines: readonly string[] } {
   return { code: work(), lines };
 }
 
-test('each step is told with its seconds and tests, and what failed or was skipped', () => {
+test('each step is listed with its seconds and tests, and what failed or was skipped', () => {
   const results = [
     result('lint', null),
     result('unit', { passed: 7, failures: ['a › b'], skipped: ['no umockdev', 'no umockdev'] }, false),
@@ -39,7 +39,7 @@ test('each step is told with its seconds and tests, and what failed or was skipp
   ]);
 });
 
-test('the ten slowest of all runs are told, the slowest first', () => {
+test('the ten slowest of all runs are listed, the slowest first', () => {
   const ofUnit = Array.from({ length: 8 }, (_, index) => ({ name: `unit ${index}`, seconds: index }));
   const ofPages = Array.from({ length: 8 }, (_, index) => ({ name: `page ${index}`, seconds: index + 0.5 }));
   const results = [

@@ -25,6 +25,6 @@ test('the menu names a key as it is written on it', () => {
   ]);
 });
 
-test('the browser is told of keys in its own words', () => {
+test('keys are given to the browser in its own words', () => {
   expect(shortcutsOf(['Ctrl+Shift+a', ' ', '+'])).toBe('Control+Shift+a Space +');
 });

@@ -3,7 +3,8 @@
 
 import { BufferAttribute, BufferGeometry, Color, Line, LineBasicMaterial, type Object3D } from 'three';
 import type { ActionGroup } from '#shared/group/group.ts';
-import { frameEnds, poseAtMs, tracksOf } from '#shared/group/tracks.ts';
+import { timesOf } from '#shared/group/groupTimes.ts';
+import { poseAtMs } from '#shared/group/tracks.ts';
 import { poseOfChain, type Vec3 } from '#shared/kinematics/chain.ts';
 import { type Robot, servoOf } from '#shared/profile/robot.ts';
 import { rescaled } from '#shared/profile/units.ts';
@@ -27,10 +28,9 @@ export function pathOf(
   group: ActionGroup,
   unit: Family['unit'],
 ): readonly PathPoint[] {
-  const ends = frameEnds(group.frames);
+  const { ends, tracks } = timesOf(group);
   const [fromMs, toMs] = [ends[0] ?? 0, ends.at(-1) ?? 0];
   if (ends.length < 2) return [];
-  const tracks = tracksOf(group);
   const count = Math.min(MOST_POINTS, Math.ceil((toMs - fromMs) / EACH_MS) + 1);
   return Array.from({ length: count }, (_, index) => {
     const atMs = fromMs + ((toMs - fromMs) * index) / (count - 1);
