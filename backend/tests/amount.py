@@ -6,13 +6,14 @@ from contextlib import contextmanager
 
 # Set by hand to repeat one failing case.
 ONLY_SEED = os.environ.get("FAULT_SEED")
-# `npm run test:all -- --long` sets it for every property, here and in TypeScript.
-TIMES = 10 if int(os.environ.get("PROPERTY_RUNS", "0")) > 0 else 1
+# What a property tries by default. `npm run test:all -- --long` sets PROPERTY_RUNS to ten times that.
+USUAL_RUNS = 100
+TIMES = max(1, int(os.environ.get("PROPERTY_RUNS", "0")) // USUAL_RUNS)
 IS_EXHAUSTIVE = os.environ.get("EXHAUSTIVE") == "1" or TIMES > 1
 
 
 def seeds(count: int, sample: int | None = None) -> Sequence[int]:
-    """`sample` of them, evenly spread, or all `count`, ten times that in a long run, or the one asked for."""
+    """`sample` of them, evenly spread, or all `count`, TIMES as many in a long run, or the one asked for."""
     if ONLY_SEED is not None:
         return (int(ONLY_SEED),)
     return range(0, count * TIMES, 1 if IS_EXHAUSTIVE or sample is None else max(1, count // sample))

@@ -1,7 +1,7 @@
 """Clients without a credential, at a process of its own whose descriptors are few: they get no memory and no
 descriptor that a stop needs, and whoever stops the robot meanwhile is heard at once.
 
-The amounts of the issue and all figures: PROPERTY_RUNS=1 .venv/bin/python -m pytest -s THIS_FILE
+The amounts of the issue and all figures: PROPERTY_RUNS=1000 .venv/bin/python -m pytest -s THIS_FILE
 """
 
 import asyncio

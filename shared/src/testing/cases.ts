@@ -8,13 +8,14 @@ const env = runner?.env ?? {};
 
 /** Set by hand to repeat one failing case. */
 const ONLY_SEED = env.FAULT_SEED;
-/** `npm run test:all` sets it, `-- --long` to more: ten times the cases are tried then. */
-export const TIMES = Number(env.PROPERTY_RUNS ?? 0) > 0 ? 10 : 1;
+/** What a property tries by default. `npm run test:all -- --long` sets PROPERTY_RUNS to ten times that. */
+const USUAL_RUNS = 100;
+export const TIMES = Math.max(1, Math.floor(Number(env.PROPERTY_RUNS ?? 0) / USUAL_RUNS));
 export const IS_EXHAUSTIVE = env.EXHAUSTIVE === '1' || TIMES > 1;
 /** What `npm test` tries of a longer table: enough to see each kind of fault, evenly spread. */
 const SAMPLE = 50;
 
-/** The seeds to try, below `count`: `sample` of them, or all, ten times that in a long run, or the one asked for. */
+/** The seeds to try, below `count`: `sample` of them, or all, TIMES as many in a long run, or the one asked for. */
 export function seeds(count: number, sample = SAMPLE): readonly number[] {
   if (ONLY_SEED !== undefined) return [Number(ONLY_SEED)];
   const all = count * TIMES;
