@@ -10,15 +10,15 @@ import { packetsInto } from './busPackets.ts';
 import type { Figure } from './figure.ts';
 import { slowest, tripsThroughPage } from './relay.ts';
 import {
-  openDashboard,
   withBluetoothBoard,
   withBoard,
+  withDashboard,
   withHidBoard,
   withPage,
   type BoardOnPort,
 } from './station.ts';
 import { percentile } from './statistics.ts';
-import { measureStopDragging } from './stop.ts';
+import { stopsWhileDragging } from './stop.ts';
 
 const TRIPS = amount(40, 12);
 const PRESSES = amount(12, 3);
@@ -48,7 +48,11 @@ export async function measureHid(): Promise<Figure[]> {
 
 async function beside(name: string, lend: typeof withBoard, note: string): Promise<Figure[]> {
   const [trips, serialTrips] = [await tripsOn(lend), await serial.trips()];
-  const [ages, serialAges] = [await agesOn(lend), await serial.ages()];
+  const { ages, stops } = await withDashboard(lend, async (page, board) => ({
+    ages: await dragged(page, board),
+    stops: await stopsWhileDragging(`${name}.stopDragging`, page, board, PRESSES),
+  }));
+  const serialAges = await serial.ages();
   return [
     ...[50, 99].map((percent) => ({
       ...{ key: `${name}.roundtripP${percent}Us`, value: slowest(trips, percent), unit: 'µs' },
@@ -60,12 +64,12 @@ async function beside(name: string, lend: typeof withBoard, note: string): Promi
       against: { what: 'serial', value: percentile(serialAges, percent) },
       note: `all sliders dragged once a frame, ${ages.length} packets; age of a value at its last byte`,
     })),
-    ...(await measureStopDragging(`${name}.stopDragging`, lend, PRESSES)),
+    ...stops,
   ];
 }
 
 /** Measured once a run, for each cable to stand beside. */
-const serial = { trips: once(() => tripsOn(withBoard)), ages: once(() => agesOn(withBoard)) };
+const serial = { trips: once(() => tripsOn(withBoard)), ages: once(() => withDashboard(withBoard, dragged)) };
 
 function once<Value>(measure: () => Promise<Value>): () => Promise<Value> {
   let measured: Promise<Value> | undefined;
@@ -78,15 +82,11 @@ function tripsOn(lend: typeof withBoard): Promise<readonly number[]> {
   );
 }
 
-function agesOn(lend: typeof withBoard): Promise<readonly number[]> {
-  return lend([], (board) =>
-    withPage(board.device, async (page, url) => {
-      await openDashboard(page, url);
-      await page.getByRole('slider').evaluateAll(dragOnce);
-      await page.waitForTimeout(FIRST_MOVES_MS);
-      return agesOf(board, await drag(page));
-    }),
-  );
+/** Ages of the values of one drag. */
+async function dragged(page: Page, board: BoardOnPort): Promise<readonly number[]> {
+  await page.getByRole('slider').evaluateAll(dragOnce);
+  await page.waitForTimeout(FIRST_MOVES_MS);
+  return agesOf(board, await drag(page));
 }
 
 /** When each position was set, by position. */

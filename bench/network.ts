@@ -34,6 +34,8 @@ const SHARE_LIMIT = 0.95;
 /** The gateway knows by then where they are, so no move is a first one. */
 const REST_MS = 1_000;
 const ECHOES = amount(20, 5);
+const RETRY_MS = 100;
+const TRIES = 30;
 const family = familyOf('doc');
 /** Event k says 500 + k: each value names the event it came from. */
 const FIRST_POSITION = family.position.min;
@@ -114,9 +116,6 @@ async function drag(session: Robot, servoCount: number, board: BoardOnPort): Pro
     const dueMs = fromMs + eventsMs.length * POINTER_MS;
     await sleep(realClock, dueMs - performance.timeOrigin - performance.now());
   }
-  // The final value waits for the packet before it, and the board's log for the disk.
-  const isThere = (): boolean => movesOf(board, fromMs).map(eventOf).at(-1) === eventsMs.length - 1;
-  for (let tries = 0; tries < 10 && !isThere(); tries++) await sleep(realClock, 300);
   return dragIn(board, fromMs, servoCount, (event) => eventsMs[event] ?? NaN, eventsMs.length);
 }
 
@@ -128,14 +127,19 @@ const movesOf = (board: BoardOnPort, fromMs: number): readonly BusPacket[] =>
 const eventOf = ({ command }: BusPacket): number =>
   command.kind === 'move' ? (command.targets[0]?.position ?? 0) - FIRST_POSITION : NaN;
 
-/** Throws where the last value never left, which would flatter the rest. */
-function dragIn(
+/**
+ * The final value waits for the packet before it, and the board's log for the disk. Throws where it never left, which would
+ * flatter the rest.
+ */
+async function dragIn(
   board: BoardOnPort,
   fromMs: number,
   servoCount: number,
   eventMs: (event: number) => number,
   eventCount: number,
-): Drag {
+): Promise<Drag> {
+  const isWhole = (): boolean => movesOf(board, fromMs).map(eventOf).at(-1) === eventCount - 1;
+  for (let tries = 0; tries < TRIES && !isWhole(); tries += 1) await sleep(realClock, RETRY_MS);
   const moves = movesOf(board, fromMs);
   const last = moves.at(-1);
   if (last === undefined || eventOf(last) !== eventCount - 1)
@@ -160,9 +164,8 @@ async function dragsOfPyserial(board: BoardOnPort): Promise<readonly Drag[]> {
     const fromMs = Number(
       await mustRun('drag with pyserial alone', python, ['bench/plain_drag.py', board.device, ...amounts]),
     );
-    drags.push(
-      dragIn(board, fromMs, servoCount, (event) => fromMs + event * POINTER_MS, DRAG_MS / POINTER_MS),
-    );
+    const eventMs = (event: number): number => fromMs + event * POINTER_MS;
+    drags.push(await dragIn(board, fromMs, servoCount, eventMs, DRAG_MS / POINTER_MS));
   }
   return drags;
 }

@@ -162,6 +162,19 @@ export async function openDashboard(page: Page, url: string): Promise<void> {
   await page.getByRole('slider').first().waitFor();
 }
 
+/** Lends `work` the dashboard of a gateway at a board that `lend` lends, e.g. `withBoard`. */
+export function withDashboard<Result>(
+  lend: typeof withBoard,
+  work: (page: Page, board: BoardOnPort) => Promise<Result>,
+): Promise<Result> {
+  return lend([], (board) =>
+    withPage(board.device, async (page, url) => {
+      await openDashboard(page, url);
+      return work(page, board);
+    }),
+  );
+}
+
 /** Its address, once it has said it, opened its port and asked the board who it is: before that nobody may name the board. */
 async function openedGateway(lines: readonly string[]): Promise<string> {
   const urlIn = (line: string): string | undefined => /http:\/\/[^\s/]+/.exec(line)?.[0];

@@ -11,7 +11,7 @@ import { amount } from './amounts.ts';
 import { packetsInto } from './busPackets.ts';
 import type { Figure } from './figure.ts';
 import { stopFigures, stopTimes, type StopTimes } from './presses.ts';
-import { openDashboard, withBoard, withPage, type BoardOnPort } from './station.ts';
+import { withBoard, withDashboard, type BoardOnPort } from './station.ts';
 
 const PRESSES = amount(18, 3);
 /** Between Resume and the next press: at any moment of the packet on the wire, whose cycle is about 36 ms. */
@@ -22,35 +22,28 @@ const STOPS_PER_PRESS = 3;
 const GAP_MS = family('doc').serviceGapMs;
 
 export function measureStopIdle(): Promise<Figure[]> {
-  return measure('stop.idle', 'in the page; nothing else on the wire', () => Promise.resolve());
-}
-
-export function measureStopDragging(
-  name = 'stop.dragging',
-  lend = withBoard,
-  presses = PRESSES,
-): Promise<Figure[]> {
-  return measure(
-    ...([name, 'in the page; all sliders dragged'] as const),
-    (page) => page.getByRole('slider').evaluateAll(dragInPage),
-    ...([lend, presses] as const),
+  return withDashboard(withBoard, async (page, board) =>
+    stopFigures(
+      'stop.idle',
+      await timesOfPresses(page, board, PRESSES),
+      'in the page; nothing else on the wire',
+    ),
   );
 }
 
-function measure(
+export function measureStopDragging(): Promise<Figure[]> {
+  return withDashboard(withBoard, (page, board) => stopsWhileDragging('stop.dragging', page, board, PRESSES));
+}
+
+/** On a page that shows the dashboard; it goes on dragging behind that. */
+export async function stopsWhileDragging(
   name: string,
-  note: string,
-  begin: (page: Page) => Promise<void>,
-  lend = withBoard,
-  presses = PRESSES,
+  page: Page,
+  board: BoardOnPort,
+  presses: number,
 ): Promise<Figure[]> {
-  return lend([], (board) =>
-    withPage(board.device, async (page, url) => {
-      await openDashboard(page, url);
-      await begin(page);
-      return stopFigures(name, await timesOfPresses(page, board, presses), note);
-    }),
-  );
+  await page.getByRole('slider').evaluateAll(dragInPage);
+  return stopFigures(name, await timesOfPresses(page, board, presses), 'in the page; all sliders dragged');
 }
 
 async function timesOfPresses(page: Page, board: BoardOnPort, presses: number): Promise<StopTimes> {
