@@ -4,7 +4,7 @@ from collections.abc import Iterable, Sequence
 
 from servodeck.callers import Caller
 from servodeck.protocol.timings import wire_s
-from servodeck.robot.board.rules import Group, made_of, packets_of
+from servodeck.robot.board.download import Group, made_of, packets_of
 from servodeck.robot.control import Control
 from servodeck.snapshots import JobState
 from tests.client import ANNA, Client

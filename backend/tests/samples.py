@@ -2,7 +2,7 @@
 
 from servodeck.protocol.packets import parse_command
 from servodeck.protocol.values import Command, Frame, Move, ServoTarget
-from servodeck.robot.board.rules import Group, packets_of
+from servodeck.robot.board.download import Group, packets_of
 
 MOVE = bytes.fromhex("5555080301e80301d007")
 MOVE_ELSEWHERE = bytes.fromhex("5555080301e80301dc05")

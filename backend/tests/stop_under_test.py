@@ -22,10 +22,9 @@ from servodeck.errors import GatewayError
 from servodeck.intents import StopMessage, client_message
 from servodeck.port.wire import Left
 from servodeck.protocol.families import FAMILIES
-from servodeck.protocol.limits import PacketError
 from servodeck.protocol.packets import encode
 from servodeck.protocol.values import Frame, ReadPositions, ServoTarget
-from servodeck.robot.board.rules import Group, made_of, packets_of
+from servodeck.robot.board.download import Group, made_of, packets_of
 from servodeck.robot.control import UNNAMED_PERSON, Control
 from servodeck.robot.latch import Cause
 from servodeck.snapshots import UnheldServos
@@ -189,7 +188,7 @@ class Driven:
 
     def download(self, slot: int, frames: Sequence[Frame]) -> None:
         group = Group(slot, "", frames)
-        with contextlib.suppress(GatewayError, PacketError):
+        with contextlib.suppress(GatewayError):
             part = made_of(group, list(packets_of(group, self.family.id)), self.family.id)
             self.control.requests.download([part], ANNA, lambda: None)
 
@@ -198,7 +197,7 @@ class Driven:
         if make := INTENTS.get(kind):
             self.say({"type": kind, **make(step)})
         elif act := ACTS.get(kind):
-            with contextlib.suppress(GatewayError, PacketError):
+            with contextlib.suppress(GatewayError):
                 act(self, step)
         # What was lost is away for that long, and something.
         pause_ms = step["ms"] if kind == "wait" else step.get("awayMs", 1500) if kind == "loss" else 0

@@ -12,7 +12,7 @@ from servodeck.intents import ReadMessage
 from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.packets import encode
 from servodeck.protocol.values import Frame, Move, Run, ServoTarget
-from servodeck.robot.board.rules import Group, made_of, packets_of
+from servodeck.robot.board.download import Group, made_of, packets_of
 from servodeck.robot.hub import Session
 from tests.client import ANNA, Client
 from tests.lockstep import Simulator

@@ -4,8 +4,8 @@ from typing import Any
 
 import pytest
 
+from servodeck.errors import MalformedError
 from servodeck.protocol.describe import describe
-from servodeck.protocol.limits import PacketError
 
 
 @pytest.mark.parametrize(
@@ -69,6 +69,6 @@ def test_a_report_in_words(packet: str, words: str) -> None:
 
 @pytest.mark.parametrize("direction", ["command", "report"])
 def test_words_need_exactly_one_packet(direction: Any) -> None:
-    with pytest.raises(PacketError) as caught:
+    with pytest.raises(MalformedError) as caught:
         describe(b"\x55\x55\x02\x07\x55", direction)
     assert caught.value.code == "malformed"

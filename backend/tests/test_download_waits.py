@@ -7,7 +7,7 @@ import pytest
 from servodeck.errors import MovingError
 from servodeck.protocol.packets import encode
 from servodeck.protocol.values import Frame, Move, ServoTarget
-from servodeck.robot.board.rules import Group, made_of, packets_of
+from servodeck.robot.board.download import Group, made_of, packets_of
 from tests.client import ANNA, driven
 from tests.virtual_time import in_virtual_time
 

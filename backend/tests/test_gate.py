@@ -8,7 +8,8 @@ from servodeck.access import addresses
 from servodeck.access.guard import judge_handshake, judge_script
 from servodeck.errors import ForbiddenError, LatchedError, MalformedError, NotSupportedError, OutOfRangeError
 from servodeck.protocol.decoder import COMMAND_AT
-from servodeck.robot.board.rules import judge_latch, judge_packet
+from servodeck.robot.latch import judge_latch
+from servodeck.robot.requests import judge_packet
 from tests.samples import BATTERY, DOWNLOAD, ERASE, MOVE, RUN, STOP
 
 PORT = 8300

@@ -7,8 +7,8 @@ import pytest
 from servodeck.errors import NotOnThisCableError
 from servodeck.protocol.packets import parse_command
 from servodeck.protocol.values import Frame, Move, ServoTarget
+from servodeck.robot.board.download import Group, made_of, packets_of
 from servodeck.robot.board.move_buffer import FIRST_MOVE_STAGGER_S
-from servodeck.robot.board.rules import Group, made_of, packets_of
 from servodeck.robot.control import Control
 from tests.client import ANNA, Client, gateway_on
 from tests.fake_port import FakeHidPort

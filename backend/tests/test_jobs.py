@@ -19,7 +19,7 @@ from servodeck.protocol import timings
 from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.packets import encode
 from servodeck.protocol.values import Frame, Run, ServoTarget
-from servodeck.robot.board.rules import Group, made_of, packets_of
+from servodeck.robot.board.download import Group, made_of, packets_of
 from servodeck.robot.control import Control
 from tests.client import Client, gateway_on
 from tests.downloading import AnsweringPort, begin, ended

@@ -6,7 +6,7 @@ import pytest
 
 from servodeck.callers import THIS_COMPUTER
 from servodeck.errors import LatchedError, PortLostError, SlotBrokenError
-from servodeck.robot.board.rules import packets_of
+from servodeck.robot.board.download import packets_of
 from tests.client import Client, gateway_on
 from tests.downloading import STORED, AnsweringPort, begin, ended
 from tests.fake_port import FakePort

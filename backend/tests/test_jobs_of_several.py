@@ -16,8 +16,7 @@ from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.packets import encode
 from servodeck.protocol.timings import wire_s
 from servodeck.protocol.values import Frame, Run, ServoTarget
-from servodeck.robot.board.download import Progress, Tally
-from servodeck.robot.board.rules import Group, made_of, packets_of, part_of
+from servodeck.robot.board.download import Group, Progress, Tally, made_of, packets_of, part_of
 from servodeck.robot.control import Control
 from tests.client import ANNA, Client, gateway_on
 from tests.downloading import AnsweringPort, begin, ended

@@ -12,7 +12,7 @@ from servodeck.api.websocket import intake_of, take_text
 from servodeck.callers import THIS_COMPUTER
 from servodeck.errors import GatewayError
 from servodeck.intents import PacketMessage, client_message
-from servodeck.robot.board.rules import judge_packet
+from servodeck.robot.requests import judge_packet
 from tests.amount import TIMES
 from tests.client import Client, gateway_on
 from tests.fake_port import FakePort

@@ -13,7 +13,7 @@ from servodeck.port.link import RETRIES_S
 from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.packets import encode
 from servodeck.protocol.values import Frame, Move, ServoTarget
-from servodeck.robot.board.rules import Group, made_of, packets_of
+from servodeck.robot.board.download import Group, made_of, packets_of
 from servodeck.robot.control import Control
 from tests.client import ANNA, Client
 from tests.fake_port import FakePort, FakePorts

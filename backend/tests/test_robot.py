@@ -10,7 +10,7 @@ from servodeck.callers import Caller
 from servodeck.errors import OutOfRangeError
 from servodeck.protocol.packets import parse_command
 from servodeck.protocol.values import Frame, ServoTarget
-from servodeck.robot.board.rules import Group
+from servodeck.robot.board.download import Group
 from servodeck.robot.control import Control
 from servodeck.robot.hub import Session
 from servodeck.snapshots import ServoLimits

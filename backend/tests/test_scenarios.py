@@ -15,8 +15,8 @@ from servodeck.port.ports import OpenPort
 from servodeck.port.whereabouts import UsbDevice
 from servodeck.protocol.packets import encode
 from servodeck.protocol.values import Frame, ReadPositions, ServoTarget
+from servodeck.robot.board.download import Group, made_of, packets_of
 from servodeck.robot.board.playing import FrameGroup
-from servodeck.robot.board.rules import Group, made_of, packets_of
 from servodeck.robot.control import Control
 from servodeck.robot.scripts import Scripts
 from servodeck.snapshots import PlayState

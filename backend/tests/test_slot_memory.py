@@ -7,7 +7,7 @@ import pytest
 
 from servodeck.errors import SlotChangedError
 from servodeck.protocol.values import Frame, ServoTarget
-from servodeck.robot.board.rules import Group
+from servodeck.robot.board.download import Group
 from servodeck.robot.board.slots import FILE, OLD_FILE, SlotMemory
 from servodeck.robot.control import Control
 from servodeck.snapshots import StoredGroup

@@ -11,7 +11,7 @@ from servodeck.callers import THIS_COMPUTER, Caller
 from servodeck.errors import GatewayError, LatchedError, PortLostError
 from servodeck.intents import StopMessage
 from servodeck.protocol.values import Frame, ServoTarget
-from servodeck.robot.board.rules import Group
+from servodeck.robot.board.download import Group
 from tests.amount import named, seeds
 from tests.client import Client, gateway_on
 from tests.downloading import AnsweringPort, begin

@@ -21,8 +21,8 @@ from servodeck.intents import ContinueMs, FrameBody, MessageId, Nonce, PersonId,
 from servodeck.protocol.families import Family
 from servodeck.protocol.limits import UNITS
 from servodeck.protocol.values import Frame
+from servodeck.robot.board.download import Group, parts_of
 from servodeck.robot.board.playing import FrameGroup
-from servodeck.robot.board.rules import Group, parts_of
 from servodeck.robot.scripts import ScriptAction, Scripts
 from servodeck.schema import Message
 from servodeck.snapshots import JobState, LeaseState, Name, NamedPose, Outcome, PlayState

@@ -26,10 +26,10 @@ from servodeck.cli.options import (
     toml_line,
 )
 from servodeck.cli.serve import new_program
+from servodeck.errors import MalformedError
 from servodeck.port.hid import UDEV_RULE, UDEV_RULE_FILE
 from servodeck.port.ports import PortInfo, list_devices
 from servodeck.protocol.describe import describe
-from servodeck.protocol.limits import PacketError
 
 # The gateway listens for modules that long before it answers, and a busy computer needs a moment more.
 SCAN_WAIT_S = 15.0
@@ -130,7 +130,7 @@ def decode(
         words = describe(packet, "report" if report else "command")
     except ValueError:
         fail("Expected hex digits, two for each byte.", USAGE)
-    except PacketError as error:
+    except MalformedError as error:
         fail(str(error))
     print(json.dumps({"packet": packet.hex(), "text": words}) if as_json else words)
 

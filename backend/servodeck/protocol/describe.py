@@ -2,8 +2,8 @@
 
 from typing import Literal, assert_never
 
+from servodeck.errors import MalformedError
 from servodeck.protocol.decoder import Packet
-from servodeck.protocol.limits import PacketError
 from servodeck.protocol.packets import (
     parse_command,
     read_offsets,
@@ -34,10 +34,10 @@ SERVOS = {1: "PWM servos", 2: "bus servos"}
 
 
 def describe(packet: bytes, direction: Literal["command", "report"]) -> str:
-    """One packet in plain English. Raises PacketError where the bytes are not exactly one packet."""
+    """One packet in plain English. Raises MalformedError where the bytes are not exactly one packet."""
     whole = whole_packet(packet)
     if whole is None:
-        raise PacketError("malformed", "The bytes are not exactly one packet: 55 55, LEN, CMD, LEN - 2 more.")
+        raise MalformedError("The bytes are not exactly one packet: 55 55, LEN, CMD, LEN - 2 more.")
     if direction == "report":
         return describe_report(whole)
     command = parse_command(packet)

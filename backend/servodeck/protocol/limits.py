@@ -4,8 +4,7 @@ Knows values and family rows, no bytes. A refusal names the field, its value and
 the words of shared/src/codec/limits.ts.
 """
 
-from typing import Literal
-
+from servodeck.errors import NotSupportedError, OutOfRangeError
 from servodeck.protocol.families import Family, Range
 from servodeck.protocol.values import (
     Command,
@@ -22,19 +21,8 @@ from servodeck.protocol.values import (
 UNITS = {"us": "µs", "steps": "steps"}
 
 
-class PacketError(Exception):
-    """`field` names the value that is out of range, as the page names it."""
-
-    def __init__(
-        self, code: Literal["outOfRange", "malformed"], detail: str, field: str | None = None
-    ) -> None:
-        super().__init__(detail)
-        self.code: Literal["outOfRange", "malformed"] = code
-        self.detail = detail
-        self.field = field
-
-
 def check(command: Command, family: Family) -> None:
+    """Raises NotSupportedError where such a board has no such command, else OutOfRangeError."""
     if command.kind not in family.commands:
         refuse("command", command.kind, ", ".join(family.commands))
     match command:
@@ -95,4 +83,5 @@ def check_range(
 def refuse(field: str, value: float | str, allowed: str, servo: int | None = None) -> None:
     """For example `position of servo 3 is 2600, allowed 500..2500 µs`: the same sentences as in the page."""
     subject = field if servo is None else f"{field} of servo {servo}"
-    raise PacketError("outOfRange", f"{subject} is {value}, allowed {allowed}", field)
+    error = NotSupportedError if field == "command" else OutOfRangeError
+    raise error(f"{subject} is {value}, allowed {allowed}")

@@ -5,11 +5,13 @@ page's affair (shared/src/codec); the gateway only has to judge what goes on the
 shared/protocol/vectors holds both codecs to each other.
 """
 
+from collections.abc import Iterator, Sequence
 from typing import Literal, assert_never
 
+from servodeck.errors import MalformedError
 from servodeck.protocol.decoder import COMMAND_AT, HEADER, Packet
 from servodeck.protocol.families import CommandKind, Family, Range
-from servodeck.protocol.limits import PacketError, check, check_range
+from servodeck.protocol.limits import check, check_range
 from servodeck.protocol.values import (
     AllPositions,
     Battery,
@@ -57,6 +59,13 @@ COMMAND_NUMBER: dict[CommandKind, int] = {
     "readAllPositions": 13,
     "readOffsets": 2,
 }
+MOVE, RUN, STOP, ERASE, DOWNLOAD = (
+    COMMAND_NUMBER[kind] for kind in ("move", "run", "stop", "erase", "download")
+)
+HARMLESS = frozenset(
+    number for kind, number in COMMAND_NUMBER.items() if kind == "stop" or kind.startswith("read")
+)
+"""They move nothing and store nothing, so they need no driver."""
 # In place of a slot: every group.
 ALL_GROUPS = 0xFF
 # What the board drives, by the number it tells with its version.
@@ -79,14 +88,18 @@ class CommandPacket:
     def number(self) -> int:
         return self.data[COMMAND_AT]
 
+    @property
+    def is_harmless(self) -> bool:
+        return self.number in HARMLESS
+
 
 def encoded(command: Command, family: Family) -> CommandPacket:
-    """Raises PacketError where a board of this family cannot take the command."""
+    """Raises what a board of this family cannot take of it."""
     return CommandPacket(command, encode(command, family))
 
 
 def encode(command: Command, family: Family) -> bytes:
-    """The whole packet. Raises PacketError where a board of this family cannot take the command."""
+    """The whole packet. Raises what a board of this family cannot take of it."""
     check(command, family)
     params = params_of(command, family)
     length = len(params) + MIN_LENGTH
@@ -123,14 +136,22 @@ def word(value: int) -> bytes:
 
 
 def check_command(packet: bytes, family: Family) -> Command:
-    """The command that `packet` is. Raises PacketError unless it is exactly one that the family can take."""
+    """The command that `packet` is. Raises MalformedError where it is not exactly one command, or what the
+    family cannot take of it.
+    """
     command = parse_command(packet)
     if command is None:
-        raise PacketError("malformed", "The bytes are not exactly one well-formed command.")
+        raise MalformedError("The bytes are not exactly one well-formed command.")
     expected = encode(command, family)  # all limits, LEN among them
     if len(expected) != len(packet):
-        raise PacketError("malformed", f"This board takes {command.kind} with LEN {expected[2]}.")
+        raise MalformedError(f"This board takes {command.kind} with LEN {expected[2]}.")
     return command
+
+
+def portions_of(servos: Sequence[int], size: int) -> Iterator[Sequence[int]]:
+    """As many at a time as a packet takes."""
+    for start in range(0, len(servos), size):
+        yield servos[start : start + size]
 
 
 def whole_packet(packet: bytes) -> Packet | None:

@@ -3,6 +3,7 @@
 The same values as shared/src/codec/commands.ts and reports.ts.
 """
 
+from collections.abc import Sequence
 from typing import ClassVar, Literal
 
 from servodeck.protocol.families import CommandKind
@@ -252,3 +253,16 @@ Report = (
     | Version
     | UnknownReport
 )
+
+
+def extremes_of(frames: Sequence[Frame]) -> list[ServoTarget]:
+    """The least and the greatest position of each servo."""
+    least: dict[int, ServoTarget] = {}
+    greatest: dict[int, ServoTarget] = {}
+    for target in (target for frame in frames for target in frame.targets):
+        servo, position = target.servo, target.position
+        if servo not in least or position < least[servo].position:
+            least[servo] = target
+        if servo not in greatest or position > greatest[servo].position:
+            greatest[servo] = target
+    return [*least.values(), *greatest.values()]

@@ -10,7 +10,8 @@ import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from servodeck.errors import CancelledError, GatewayError, NotDrivingError
+from servodeck.errors import CancelledError, GatewayError, LatchedError, NotDrivingError
+from servodeck.protocol.packets import HARMLESS
 from servodeck.robot.hub import is_of
 from servodeck.snapshots import LatchedBy
 from servodeck.value import value
@@ -66,6 +67,12 @@ class Latch:
         log.info("resumed")
         self._changed()
         return True
+
+
+def judge_latch(number: int, latch: bool) -> None:
+    """While stopped, only what moves nothing and stores nothing passes. Raises LatchedError."""
+    if latch and number not in HARMLESS:
+        raise LatchedError("Stopped: motion is refused until somebody resumes.")
 
 
 class Watch:

@@ -13,12 +13,14 @@ from typing import TYPE_CHECKING, Protocol
 from servodeck.errors import CancelledError, GatewayError, MovingError, NoAnswerError
 from servodeck.port.wire import Left
 from servodeck.protocol.families import Family
+from servodeck.protocol.limits import check
+from servodeck.protocol.packets import MOVE, portions_of
 from servodeck.protocol.timings import RUN
 from servodeck.protocol.values import Command, Erase, Erased, Release, Run, RunAccepted, RunStarted, SetSpeed
 from servodeck.robot.board.resync import repeat_stop
-from servodeck.robot.board.rules import MOVE, judge_command, judge_latch, portions_of
 from servodeck.robot.board.storing import ERASE_TIMEOUT_S
 from servodeck.robot.hub import Session
+from servodeck.robot.latch import judge_latch
 from servodeck.robot.lease import Permit
 from servodeck.snapshots import Outcome
 
@@ -122,7 +124,7 @@ class Operations:
     async def run(self, claim: Claim, slot: int, times: int) -> Outcome:
         """What moves ends first."""
         command, family = Run(slot, times), self._family()
-        judge_command(command, family)
+        check(command, family)
         async with self._one_request():
             grant = Grant(self._control, claim)
             self._control.board.plays.judge_idle()
@@ -167,7 +169,7 @@ class Operations:
         """Until the board says that it is done."""
         command = Erase()
         self._control.board.judge_carried("erase")
-        judge_command(command, self._family())
+        check(command, self._family())
         self._judge_rest()
         async with self._one_request():
             left = Grant(self._control, claim).send(command, ERASE_TIMEOUT_S)
@@ -178,7 +180,7 @@ class Operations:
     async def set_speed(self, claim: Claim, slot: int | None, percent: int) -> Outcome:
         """`slot` None: of every group."""
         command = SetSpeed(slot, percent)
-        judge_command(command, self._family())
+        check(command, self._family())
         await Grant(self._control, claim).send(command)
         return "sent"
 
@@ -187,7 +189,7 @@ class Operations:
         family = self._family()
         commands = [Release(tuple(portion)) for portion in portions_of(servos, family.servos_per_move)]
         for command in commands:
-            judge_command(command, family)
+            check(command, family)
         self._judge_rest()
         grant = Grant(self._control, claim)
         for command in commands:

@@ -8,36 +8,31 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
-from servodeck.callers import Caller
-from servodeck.errors import (
-    CancelledError,
-    MovingError,
-)
+from servodeck.callers import Caller, Role
+from servodeck.errors import CancelledError, MalformedError, MovingError, NotSupportedError
 from servodeck.port.wire import STOP_PACKET, Job, Left
-from servodeck.protocol.values import Command, Erase, Move, Run, ServoTarget
-from servodeck.robot.board.board import Board
-from servodeck.robot.board.estimate import Estimate
-from servodeck.robot.board.move_buffer import MoveRequest
-from servodeck.robot.board.playing import FrameGroup, judge_group
-from servodeck.robot.board.rules import (
+from servodeck.protocol.families import FAMILIES
+from servodeck.protocol.limits import check
+from servodeck.protocol.packets import (
     DOWNLOAD,
+    ERASE,
     HARMLESS,
     MOVE,
     RUN,
     STOP,
-    Part,
-    is_harmless,
-    judge_latch,
-    judge_packet,
-    judge_parts,
-    judge_single_packet,
-    judge_targets,
-    packet_of,
-    role_for,
+    CommandPacket,
+    check_command,
+    encoded,
 )
+from servodeck.protocol.values import Command, Erase, Move, Run, ServoTarget
+from servodeck.robot.board.board import Board
+from servodeck.robot.board.download import Part, judge_parts
+from servodeck.robot.board.estimate import Estimate
+from servodeck.robot.board.move_buffer import MoveRequest
+from servodeck.robot.board.playing import FrameGroup, judge_group
 from servodeck.robot.driving import Driving
 from servodeck.robot.hub import Session
-from servodeck.robot.latch import Latch
+from servodeck.robot.latch import Latch, judge_latch
 from servodeck.robot.lease import Permit
 from servodeck.robot.profile import RobotLimits
 from servodeck.snapshots import JobState, PlayState
@@ -63,7 +58,8 @@ class Requests:
         board, driving = self._board, self._driving
         session.caller.require("driver")
         board.judge_known()
-        judge_targets(targets, duration_ms, board.family)
+        for target in targets:
+            check(Move(duration_ms, (target,)), board.family)
         self._limits.judge(Move(duration_ms, tuple(targets)), session)
         board.link.wire()
         judge_latch(MOVE, self._latch.is_closed)
@@ -92,17 +88,20 @@ class Requests:
         session.caller.require(role_for(packet))
         self._limits.judge(command, session)
         wire = self._board.link.wire()
-        if not is_harmless(packet):
+        if not packet.is_harmless:
             self._board.judge_known()
         judge_latch(packet.number, self._latch.is_closed)
-        judge_single_packet(packet)
+        if packet.number == DOWNLOAD:  # a frame alone only breaks the slot it goes to (S33, S35)
+            raise NotSupportedError(
+                "A single frame cannot be stored: use POST /api/download for a whole group."
+            )
         if packet.number == STOP:
             return self.stop_once(session)
         self._board.jobs.judge_run(command, self._board.link.place)
         self._board.jobs.judge_idle()
         if isinstance(command, Run | Erase):
             self._board.plays.judge_idle()
-        if is_harmless(packet):
+        if packet.is_harmless:
             return wire.send(packet, session)
         permitted, moves = self._permitted(session, nonce), self._board.moves
         this_round = moves.begin_round()
@@ -117,7 +116,7 @@ class Requests:
     def put(self, session: Session, command: Command, permit: Permit) -> Left:
         """As `send`, of somebody who may have that command sent."""
         board = self._board
-        packet = packet_of(command, board.family)
+        packet = encoded(command, board.family)
         session.caller.require(role_for(packet))
         self._limits.judge(command, session)
         wire = board.link.wire()
@@ -211,6 +210,24 @@ class Requests:
     def _permitted(self, session: Session, nonce: str | None) -> Callable[[], None]:
         permit = self._driving.permit(session, nonce)
         return lambda: self._driving.judge(permit)
+
+
+def judge_packet(text: str, board: str) -> CommandPacket:
+    """The packet in `text` (hex) when it is one command that board can take. Raises what is wrong with it."""
+    try:
+        packet = bytes.fromhex(text)
+    except ValueError:
+        raise MalformedError("The packet is not in hex digits.") from None
+    return CommandPacket(check_command(packet, FAMILIES[board]), packet)
+
+
+def role_for(packet: CommandPacket) -> Role:
+    """Who may send it at least: questions do no harm, an erased board is empty for all."""
+    if packet.number == STOP:
+        return "stopper"
+    if packet.is_harmless:
+        return "viewer"
+    return "owner" if packet.number == ERASE else "driver"
 
 
 def still_moving(motion: Estimate, now: float) -> str:

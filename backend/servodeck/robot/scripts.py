@@ -13,11 +13,13 @@ from servodeck.callers import Caller, as_script
 from servodeck.errors import CancelledError, MovingError, NotPairedError, OutOfRangeError
 from servodeck.port.wire import Left
 from servodeck.protocol.families import Family
+from servodeck.protocol.limits import check
+from servodeck.protocol.packets import portions_of
 from servodeck.protocol.values import Move, ServoTarget
+from servodeck.robot.board.download import Part
 from servodeck.robot.board.estimate import Estimate
 from servodeck.robot.board.move_buffer import FIRST_MOVE_STAGGER_S, first_ms
 from servodeck.robot.board.playing import FrameGroup
-from servodeck.robot.board.rules import Part, judge_command, portions_of
 from servodeck.robot.control import Control
 from servodeck.robot.hub import Session
 from servodeck.robot.lease import Permit
@@ -285,7 +287,7 @@ def plan_move(
         for portion in portions
     ]
     for move in moves:
-        judge_command(move, family)
+        check(move, family)
     starts = len(moves) - len(new)
     waits = [FIRST_MOVE_STAGGER_S if index > starts else 0.0 for index in range(len(moves))]
     return MovePlan(tuple(map(Step, moves, waits)), new)

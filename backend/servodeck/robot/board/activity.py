@@ -9,13 +9,12 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from servodeck.protocol.families import Family
-from servodeck.protocol.packets import CommandPacket, encoded
+from servodeck.protocol.packets import STOP, CommandPacket, encoded
 from servodeck.protocol.timings import HEARTBEAT
 from servodeck.protocol.values import Command, Move, Report, Run
 from servodeck.robot.board.estimate import Estimate
 from servodeck.robot.board.playing import Playing, Plays
 from servodeck.robot.board.resync import StopAgain
-from servodeck.robot.board.rules import STOP, is_harmless
 from servodeck.robot.hub import Session
 from servodeck.snapshots import UnattendedRun
 from servodeck.value import value
@@ -70,7 +69,7 @@ class Activity:
         self.motion.left(command, at_s)
         if packet.number == STOP:
             self._stop_again.stopped(at_s)
-        elif is_harmless(packet):
+        elif packet.is_harmless:
             self._silence.asked(packet.number, at_s)
         elif not is_halting:
             self._stop_again.void()

@@ -30,10 +30,11 @@ from servodeck.port.reader import Inbox
 from servodeck.port.wire import STOP_PACKET, Job, Left, Owner, Wire
 from servodeck.protocol.decoder import DecoderEvent, NoiseEvent, PacketEvent
 from servodeck.protocol.families import FAMILIES, UNKNOWN, Family, Question, Withheld, carried
-from servodeck.protocol.packets import CommandPacket, parse_report
+from servodeck.protocol.packets import STOP, CommandPacket, encoded, parse_report
 from servodeck.protocol.timings import BATTERY, IDENTIFY, wire_s
 from servodeck.protocol.values import Battery, Command, ReadBattery, Report, RunAccepted, RunStarted
 from servodeck.robot.board.activity import Activity, Unattended
+from servodeck.robot.board.download import Part
 from servodeck.robot.board.estimate import Estimate
 from servodeck.robot.board.identification import Identification, Status
 from servodeck.robot.board.identity import QUESTIONS, identity_state
@@ -42,7 +43,6 @@ from servodeck.robot.board.playing import Plays
 from servodeck.robot.board.readings import BatteryPoll, BatteryReader, Readings, UnaskedAnswers
 from servodeck.robot.board.replies import Replies
 from servodeck.robot.board.resync import Returns
-from servodeck.robot.board.rules import STOP, Part, packet_of
 from servodeck.robot.board.slots import SlotMemory
 from servodeck.robot.board.storing import Jobs
 from servodeck.robot.motion.halt_plan import Unheld
@@ -369,7 +369,7 @@ class Board:
         wire = self.link.wire()
         if self.identification.state.status != "stale":
             self.judge_known()
-        packet = packet_of(question, self.family)
+        packet = encoded(question, self.family)
         self.jobs.judge_idle()
         return wire.send(packet, self)
 

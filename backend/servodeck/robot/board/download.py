@@ -1,24 +1,101 @@
-"""One download of one or several groups: what it stores, how far it is and how it ended.
+"""One download of one or several groups: the packets that store them, how far it is and how it ended.
 
-Stop and wait, frame by frame, because a second packet during flash work overwrites the first one's data
-(S11). Twin of shared/src/robot/download.ts. Knows packets, answers and time; not when a
-download may begin.
+The packets are made with pauses in which other tasks run, because a large group takes a while and a stop must
+not wait for it. They are sent frame by frame, each after the acknowledgement of the one before: a second
+packet during flash work overwrites the first one's data (S11). Twin of shared/src/robot/download.ts. Knows
+packets, answers and time; not when a download may begin.
 """
 
 import asyncio
 import secrets
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 
 from servodeck.callers import Caller
-from servodeck.errors import CancelledError, GatewayError, NoAnswerError
+from servodeck.errors import CancelledError, GatewayError, NoAnswerError, OutOfRangeError
 from servodeck.port.wire import Left, Wire
+from servodeck.protocol.families import FAMILIES
+from servodeck.protocol.packets import encode
 from servodeck.protocol.timings import DOWNLOAD, wire_s
-from servodeck.protocol.values import FrameStored
+from servodeck.protocol.values import Download as StoreFrame
+from servodeck.protocol.values import Frame, FrameStored, ServoTarget, extremes_of
 from servodeck.robot.board.replies import Replies
-from servodeck.robot.board.rules import Part
 from servodeck.snapshots import JobState
 from servodeck.value import value
+
+
+@value
+class Group:
+    slot: int
+    name: str
+    frames: Sequence[Frame]
+    version: str = ""
+    replaces: str | None = None
+    document: str | None = None
+
+
+@value
+class Part:
+    """One group of a download; `packets` in the order of its frames, for boards of the family `board`.
+    `extremes`: the least and the greatest position of each servo. `version`: what it is called, by the client
+    that asks, to tell it from others; `replaces`: that of what they have seen in its slot, if they have
+    looked; `document`: of the library, where it is of one.
+    """
+
+    slot: int
+    name: str
+    packets: Sequence[bytes]
+    board: str
+    extremes: Sequence[ServoTarget]
+    version: str
+    replaces: str | None
+    document: str | None
+
+
+def judge_parts(parts: Sequence[Part], board: str) -> None:
+    """Raises OutOfRangeError where a slot is wanted twice, CancelledError where they were made for another
+    family.
+    """
+    slots = [part.slot for part in parts]
+    twice = next((slot for at, slot in enumerate(slots) if slot in slots[:at]), None)
+    if twice is not None:
+        raise OutOfRangeError(f"Slot {twice} is given twice.")
+    if any(part.board != board for part in parts):
+        raise CancelledError("Another board was chosen.")
+
+
+async def parts_of(groups: Sequence[Group], board: str) -> list[Part]:
+    """Raises what such a board cannot take of them."""
+    return [await part_of(group, board) for group in groups]
+
+
+async def part_of(group: Group, board: str) -> Part:
+    packets = []
+    for packet in packets_of(group, board):
+        packets.append(packet)
+        await asyncio.sleep(0)
+    return made_of(group, packets, board)
+
+
+def made_of(group: Group, packets: Sequence[bytes], board: str) -> Part:
+    return Part(
+        group.slot,
+        group.name,
+        packets,
+        board,
+        extremes_of(group.frames),
+        group.version or secrets.token_hex(8),
+        group.replaces,
+        group.document,
+    )
+
+
+def packets_of(group: Group, board: str) -> Iterator[bytes]:
+    count = len(group.frames)
+    if count == 0:
+        raise OutOfRangeError("An action group needs at least one frame.")
+    for index, frame in enumerate(group.frames):
+        yield encode(StoreFrame(group.slot, count, index, frame), FAMILIES[board])
 
 
 @value

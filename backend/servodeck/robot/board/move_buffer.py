@@ -17,12 +17,11 @@ from servodeck.port.link import Link
 from servodeck.port.wire import CLOCK_GRAIN_S, Left, Owner, fail, settle
 from servodeck.protocol import timings
 from servodeck.protocol.families import Family
-from servodeck.protocol.packets import CommandPacket
+from servodeck.protocol.packets import MOVE, CommandPacket, encoded
 from servodeck.protocol.timings import wire_s
 from servodeck.protocol.values import Move, ServoTarget
 from servodeck.rate import SHORTEST_WAIT_S
 from servodeck.robot.board.estimate import Estimate
-from servodeck.robot.board.rules import MOVE, packet_of
 from servodeck.value import value
 
 FIRST_MOVE_MS = timings.MOVE.first_ms
@@ -154,7 +153,7 @@ class MoveBuffer:
         targets = [wish.target for wish in taken]
         swift = {wish.target.servo for wish in taken if wish.duration_ms == 0}
         duration_ms = max(wish.duration_ms for wish in taken)
-        packet = packet_of(softened(targets, duration_ms, swift, family, motion, now), family)
+        packet = encoded(softened(targets, duration_ms, swift, family, motion, now), family)
         self._plan_starts()
         self._queue_up()
         return packet

@@ -7,21 +7,24 @@ ends it.
 
 import asyncio
 import logging
+import math
 import secrets
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 from servodeck.errors import CancelledError, GatewayError, MovingError, OutOfRangeError
 from servodeck.port.wire import Left
 from servodeck.protocol.families import Family
-from servodeck.protocol.limits import PacketError, check, check_range
-from servodeck.protocol.values import Frame, Move, ServoTarget
+from servodeck.protocol.limits import check, check_range
+from servodeck.protocol.timings import MOVE, PLAY
+from servodeck.protocol.values import Frame, Move, ServoTarget, extremes_of
 from servodeck.robot.board.move_buffer import MoveBuffer, MoveRequest
-from servodeck.robot.board.player import Player
-from servodeck.robot.board.rules import extremes_of, refusal_of
 from servodeck.robot.hub import Session
 from servodeck.snapshots import PlayState
 from servodeck.value import value
 
+# An event loop's timer may come so much too early.
+CLOCK_GRAIN_MS = 0.001
 # As often as other clients hear what left.
 PUBLISH_EVERY_S = 0.05
 log = logging.getLogger("servodeck.robot")
@@ -45,13 +48,10 @@ def judge_group(group: FrameGroup, family: Family) -> Sequence[ServoTarget]:
         raise OutOfRangeError(f"loopFrom is {group.loop_from}, allowed 0..{count - 1}")
     extremes = extremes_of(group.frames)
     times_ms = [frame.duration_ms for frame in group.frames]
-    try:
-        for duration_ms in (min(times_ms), max(times_ms)):
-            check_range("durationMs", duration_ms, family.duration_ms, "ms")
-        for target in extremes:
-            check(Move(max(times_ms), (target,)), family)
-    except PacketError as error:
-        raise refusal_of(error) from error
+    for duration_ms in (min(times_ms), max(times_ms)):
+        check_range("durationMs", duration_ms, family.duration_ms, "ms")
+    for target in extremes:
+        check(Move(max(times_ms), (target,)), family)
     return extremes
 
 
@@ -60,7 +60,9 @@ Judge = Callable[[bool], None]
 
 
 class Playing:
-    """One play, the owner of its moves."""
+    """One play, the owner of its moves: each on its deadline, counted from the start so that nothing drifts.
+    The way to the first frame is gentle. A gateway that comes late plays later rather than dropping a frame.
+    """
 
     def __init__(
         self,
@@ -77,47 +79,92 @@ class Playing:
         """`as_run`: its driver need not be heard more often than of a run of the board."""
         self.by = by
         self.as_run = as_run
+        frames, loop_from, times = group.frames, group.loop_from, group.times
         self.state = PlayState(
             id=secrets.token_hex(6),
             by=by.caller.name,
             status="playing",
             frame_index=0,
-            frame_count=len(group.frames),
-            times=group.times,
+            frame_count=len(frames),
+            times=times,
         )
-        self.times = group.times
+        self.times = times
+        self._frames = frames
+        self._loop_from = loop_from
+        self._count = len(frames) + (times - 1) * (len(frames) - loop_from) if times else math.inf
         self._moves = moves
+        self._now = now
         self._judge = judge
-        self._has_begun = self._has_moved = False
         self._changed = changed
         self._over = over
-        self._player = Player(group.frames, group.times, group.loop_from, self, now, lambda: over(self, None))
+        self._has_begun = self._is_stopped = False
         self._request: MoveRequest | None = None
         """The present frame."""
-        self._lead = {target.servo for target in group.frames[0].targets}
-        """Those of them that have not begun to leave."""
+        self._lead = {target.servo for target in frames[0].targets}
+        """The servos of the first frame that have not begun to leave."""
+        self._lead_ms = max(frames[0].duration_ms, MOVE.first_ms)
+        self._deadline_ms = 0.0
+        self._earliest_ms = -math.inf
+        """Not before: the frame under way would be cut short."""
+        self._begun = 0
+        self._timer: asyncio.TimerHandle | None = None
 
     def begin(self) -> None:
-        self._player.begin()
+        self._deadline_ms = self._now_ms()
+        self._begin_next()
 
-    def end(self) -> None:
+    def end(self, error: GatewayError | None) -> None:
         """Nothing of it leaves any more."""
-        self._player.stop()
+        self._is_stopped = True
+        if self._timer:
+            self._timer.cancel()
         self._request = None
         self._moves.drop(CancelledError("The group that this frame belongs to has ended."), self)
-
-    def note_end(self, error: GatewayError | None) -> None:
         reason = {} if error is None else {"code": error.code, "detail": error.detail}
-        self._update({"status": "ended" if error else "done", **reason})
+        self._update(status="ended" if error else "done", **reason)
 
-    # What the player asks
+    def _begin_next(self) -> None:
+        if self._begun == self._count:
+            self._over(self, None)
+        elif self._may_begin():
+            self._begin_frame()
 
-    def starts_within_ms(self, first: Frame) -> float:
-        return self._moves.starts_within_s([target.servo for target in first.targets]) * 1000
+    def _begin_frame(self) -> None:
+        index, is_first = self._index_of(self._begun), self._begun == 0
+        frame = self._frames[index]
+        wait_ms: float = frame.duration_ms
+        if is_first:
+            frame = replace(frame, duration_ms=self._lead_ms)
+            servos = [target.servo for target in frame.targets]
+            wait_ms = self._lead_ms + self._moves.starts_within_s(servos) * 1000
+        self._move(frame, is_lead=is_first)
+        if self._is_stopped:
+            return
+        self._begun += 1
+        self._deadline_ms += max(1, wait_ms)
+        self._earliest_ms = self._now_ms() + wait_ms * (1 - PLAY.catch_up_share)
+        self._wake_at(self._due_ms)
+        self._update(frame_index=index)
+        self._changed(self.state)
 
-    def move(self, frame: Frame) -> None:
-        is_lead = not self._has_moved
-        self._has_moved = True
+    def _may_begin(self) -> bool:
+        """False: it is looked again."""
+        late_ms = self._now_ms() - self._due_ms
+        if late_ms < -CLOCK_GRAIN_MS:
+            self._wake_at(self._due_ms)
+            return False
+        waits = self._request is not None and self._moves.is_waiting(self._request)
+        if waits and late_ms < PLAY.give_up_ms:
+            self._wake_at(self._now_ms() + PLAY.look_ms)
+            return False
+        if waits:
+            self._count_skipped()
+        if late_ms >= PLAY.late_ms:
+            latest_ms = max(self.state.latest_ms, round(late_ms))
+            self._update(late_frames=self.state.late_frames + 1, latest_ms=latest_ms)
+        return True
+
+    def _move(self, frame: Frame, *, is_lead: bool) -> None:
         request = self._request = MoveRequest(self, self._target_leaves)
         try:
             self._moves.put(frame.targets, frame.duration_ms, request)
@@ -126,40 +173,44 @@ class Playing:
         else:
             request.left.add_done_callback(lambda left: self._left(left, is_lead=is_lead))
 
-    def is_waiting(self) -> bool:
-        return self._request is not None and self._moves.is_waiting(self._request)
-
-    def frame_began(self, index: int) -> None:
-        self._update({"frame_index": index})
-        self._changed(self.state)
-
-    # Inside
-
     def _target_leaves(self, target: ServoTarget, _starts: bool) -> None:
         self._judge(not self._has_begun)
         self._has_begun = True
         if target.servo in self._lead:
             self._lead.discard(target.servo)
-            if not self._lead:
-                self._player.lead_leaves()
+            if not self._lead:  # the way to the first frame leaves whole only now, and is not to be cut short
+                self._deadline_ms = max(self._deadline_ms, self._now_ms() + self._lead_ms)
 
     def _left(self, left: Left, *, is_lead: bool) -> None:
         """The way to the first frame is what makes the others gentle: without it none of them leaves."""
         error = None if left.cancelled() else left.exception()
         if self._request is None or not isinstance(error, GatewayError):
             return
-        self._player.refused()
+        self._count_skipped()
         if is_lead:
             self._over(self, error)
 
-    def _update(self, what: dict[str, object]) -> None:
-        played = self._player.played
-        counts = {
-            "late_frames": played.late_frames,
-            "latest_ms": played.latest_ms,
-            "skipped_frames": played.skipped_frames,
-        }
-        self.state = self.state.model_copy(update=counts | what)
+    @property
+    def _due_ms(self) -> float:
+        return max(self._deadline_ms, self._earliest_ms)
+
+    def _index_of(self, count: int) -> int:
+        beyond, length = count - len(self._frames), len(self._frames)
+        return count if beyond < 0 else self._loop_from + beyond % (length - self._loop_from)
+
+    def _now_ms(self) -> float:
+        return self._now() * 1000
+
+    def _wake_at(self, at_ms: float) -> None:
+        delay_s = max(0.0, at_ms / 1000 - self._now())
+        self._timer = asyncio.get_running_loop().call_later(delay_s, self._begin_next)
+
+    def _count_skipped(self) -> None:
+        """A frame did not leave, because the next one took its place or it was refused."""
+        self._update(skipped_frames=self.state.skipped_frames + 1)
+
+    def _update(self, **changes: object) -> None:
+        self.state = self.state.model_copy(update=changes)
 
 
 class Plays:
@@ -226,8 +277,7 @@ class Plays:
         if play is not self.present:
             return
         self.present = None
-        play.end()
-        play.note_end(error)
+        play.end(error)
         log.info("play %s", play.state.status, extra={"facts": {"code": play.state.code}})
         self.latest, ended = play.state, self._ended
         self._ended = lambda _: None

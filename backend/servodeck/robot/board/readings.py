@@ -16,6 +16,7 @@ from typing import Literal, Protocol
 from servodeck.errors import GatewayError, NoAnswerError
 from servodeck.port.wire import Left
 from servodeck.protocol.families import Family
+from servodeck.protocol.packets import portions_of
 from servodeck.protocol.timings import BATTERY, READ, wire_s
 from servodeck.protocol.values import (
     AllPositions,
@@ -32,7 +33,6 @@ from servodeck.protocol.values import (
     Version,
 )
 from servodeck.robot.board.replies import Replies
-from servodeck.robot.board.rules import portions_of
 from servodeck.snapshots import BatteryRead, BatterySilent, BatteryState, BatteryUnread
 from servodeck.value import value
 

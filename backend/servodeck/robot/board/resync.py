@@ -13,9 +13,8 @@ from collections.abc import Callable
 from servodeck.errors import GatewayError
 from servodeck.port.wire import CLOCK_GRAIN_S, STOP_PACKET, Left, Wire
 from servodeck.protocol.decoder import COMMAND_AT
-from servodeck.protocol.packets import CommandPacket
+from servodeck.protocol.packets import DOWNLOAD, RUN, CommandPacket
 from servodeck.protocol.timings import LINE, STOP, wire_s
-from servodeck.robot.board.rules import DOWNLOAD, RUN
 
 
 def filler_for(cut: bytes, filler: int) -> bytes:

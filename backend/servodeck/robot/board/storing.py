@@ -24,9 +24,8 @@ from servodeck.port.wire import Wire
 from servodeck.protocol.packets import CommandPacket, parse_command
 from servodeck.protocol.timings import ERASE
 from servodeck.protocol.values import Command, Erase, Erased, Report, Run
-from servodeck.robot.board.download import EDGE_FRAME_TIMEOUT_S, Download, Job
+from servodeck.robot.board.download import EDGE_FRAME_TIMEOUT_S, Download, Job, Part
 from servodeck.robot.board.replies import Replies
-from servodeck.robot.board.rules import Part
 from servodeck.robot.board.slots import SlotMemory
 from servodeck.snapshots import JobState, StoredGroup
 
