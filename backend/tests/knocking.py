@@ -10,8 +10,8 @@ from starlette.types import ASGIApp, Message, Scope
 
 from servodeck.access.entrance import Entrance
 from servodeck.access.guard import Guard
-from servodeck.access.roles import named_roles
 from servodeck.api.app import LaterApp, create_app
+from servodeck.api.routes import named_roles
 from servodeck.callers import Role
 from servodeck.errors import PortMissingError
 from servodeck.robot.control import Control

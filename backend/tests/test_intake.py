@@ -6,8 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from servodeck.api.intake import Intake, merged
+from servodeck.callers import Rate
 from servodeck.intents import AnyClientMessage, MoveMessage, PacketMessage, ResumeMessage, StopMessage, Target
-from servodeck.rate import Rate
 from tests.virtual_time import in_virtual_time, now
 
 STOP = StopMessage(type="stop")

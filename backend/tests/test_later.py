@@ -5,9 +5,9 @@ import time
 import pytest
 from fastapi import APIRouter
 
-from servodeck.access.roles import JudgingRoute
 from servodeck.api import app as app_module
 from servodeck.api.app import PARTS, LaterApp, Part
+from servodeck.api.routes import JudgingRoute
 from tests.fake_port import FakePort, FakePorts
 from tests.knocking import app_at, knock, scope_of
 from tests.running import PORT, http_to

@@ -7,9 +7,10 @@ from itertools import product
 import pytest
 from fastapi import FastAPI
 
-from servodeck.access import addresses, roles
+from servodeck.access import addresses
 from servodeck.access.addresses import Access, Mode
 from servodeck.access.entrance import PAGE_BURST, Entrance
+from servodeck.api import routes
 from servodeck.callers import RANKS, Role
 from tests.knocking import all_routes, app_at, knock, roles_of_routes, scope_of
 from tests.running import PORT, entrance_to
@@ -252,16 +253,16 @@ async def test_the_session_of_another_gateway_on_this_host_is_none_of_ours() -> 
 
 def test_a_route_without_a_role_keeps_the_gateway_from_starting() -> None:
     app = FastAPI(docs_url=None, redoc_url=None, openapi_url=None)
-    app.router.route_class = roles.JudgingRoute
-    app.get("/named", dependencies=[roles.ANYBODY])(lambda: None)
-    roles.require_roles(app.routes)
+    app.router.route_class = routes.JudgingRoute
+    app.get("/named", dependencies=[routes.ANYBODY])(lambda: None)
+    routes.require_roles(app.routes)
     app.get("/forgotten")(lambda: None)
     with pytest.raises(TypeError, match="/forgotten"):
-        roles.require_roles(app.routes)
+        routes.require_roles(app.routes)
 
 
 def test_a_route_that_asks_who_it_is_behind_the_body_keeps_the_gateway_from_starting() -> None:
     app = FastAPI(docs_url=None, redoc_url=None, openapi_url=None)
-    app.get("/late", dependencies=[roles.VIEWER])(lambda: None)
+    app.get("/late", dependencies=[routes.VIEWER])(lambda: None)
     with pytest.raises(TypeError, match="/late"):
-        roles.require_roles(app.routes)
+        routes.require_roles(app.routes)

@@ -2,7 +2,7 @@
 
 import pytest
 
-from servodeck.access.credentials import CODE_TRIES, MAX_OPEN, Pairing
+from servodeck.access.entrance import CODE_TRIES, MAX_OPEN, Pairing
 from servodeck.errors import BusyError, NotFoundError, PairingError, PairingLockedError
 
 

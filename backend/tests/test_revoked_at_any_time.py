@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 
 from servodeck.api.intake import Intake, merged
 from servodeck.api.websocket import take
-from servodeck.callers import THIS_COMPUTER, Caller
+from servodeck.callers import THIS_COMPUTER, Caller, Rate
 from servodeck.intents import (
     AnyClientMessage,
     ContinueMessage,
@@ -33,7 +33,6 @@ from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.packets import encode, parse_command
 from servodeck.protocol.timings import MOVE, wire_s
 from servodeck.protocol.values import Command, Download, Move, Run
-from servodeck.rate import Rate
 from tests.amount import TIMES
 from tests.client import Client
 from tests.downloading import STORED

@@ -4,7 +4,7 @@ import asyncio
 from collections.abc import Callable
 
 from servodeck.access.entrance import RequestQueue
-from servodeck.rate import Rate
+from servodeck.callers import Rate
 from tests.virtual_time import in_virtual_time, now
 
 

@@ -1,11 +1,15 @@
 """Who may come in: paired devices, script tokens and stop-only links, held in memory and written to a SQLite
 file of its own behind the answer.
 
-Knows no request and no invitation. Of a secret only its SHA-256 is stored. A look-up waits for no disk. The
+Knows no request and no invitation. How a secret is made and compared is here, too; only its SHA-256 is
+stored. A look-up waits for no disk. The
 file is written as a whole: it is short and seldom changes.
 """
 
+import hashlib
+import hmac
 import itertools
+import secrets
 import sqlite3
 import threading
 from collections.abc import Callable
@@ -14,7 +18,6 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Literal, Protocol
 
-from servodeck.access.credentials import digest_of, make_id, make_secret, matches
 from servodeck.callers import LOCAL_NAMES, Caller, Role
 from servodeck.errors import ForbiddenError, NotFoundError, OutOfRangeError, StorageError
 from servodeck.files import storage_error
@@ -24,6 +27,7 @@ from servodeck.value import value
 Kind = Literal["device", "token", "stopLink"]
 MAX_DEVICES = 500
 MAX_NAME = 64
+SECRET_BYTES = 24
 
 
 @value
@@ -217,3 +221,24 @@ def write(db: sqlite3.Connection, devices: list[Device]) -> None:
     finally:
         if db.in_transaction:
             db.execute("ROLLBACK")
+
+
+def make_secret() -> str:
+    return secrets.token_urlsafe(SECRET_BYTES)
+
+
+def make_id() -> str:
+    return secrets.token_hex(8)
+
+
+def digest_of(secret: str) -> bytes:
+    """What is stored of a secret. A fast hash will do: the secret is random and too long to be guessed."""
+    return hashlib.sha256(secret.encode()).digest()
+
+
+def matches(secret: str, digest: bytes) -> bool:
+    return hmac.compare_digest(digest_of(secret), digest)
+
+
+def same(one: str, other: str) -> bool:
+    return hmac.compare_digest(one.encode(), other.encode())

@@ -1,22 +1,151 @@
-"""Who is at the door, and how fast they may ask over HTTP: joins where the gateway answers, who is paired and
-who is invited. Local mode knows everybody.
+"""Who sends a request, whom an invitation lets in, and how often each caller may ask over HTTP. In local mode
+every caller is this computer.
 
-Each paired device and each token has its rate (docs/adr/0013); unauthenticated callers share one and wait in
-a queue, in which those who leave give up their place at once. This computer's own page and scripts share one
-name and are never counted: a script that runs away would shut the page out. Knows headers and time; no route,
-no board and no page.
+Knows headers and time; no route, no board and no page.
 """
 
 import asyncio
+import secrets
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Protocol
 
 from servodeck.access.addresses import Access
-from servodeck.access.credentials import Invite, Pairing, credential_of
-from servodeck.access.devices import MAX_DEVICES, Device, Devices
-from servodeck.callers import THIS_COMPUTER, Caller, Role
-from servodeck.errors import NotPairedError, PairingError, TooManyError
-from servodeck.rate import Rate
+from servodeck.access.devices import MAX_DEVICES, Device, Devices, make_id, make_secret, same
+from servodeck.callers import THIS_COMPUTER, Caller, Rate, Role
+from servodeck.errors import (
+    BusyError,
+    ForbiddenError,
+    NotFoundError,
+    NotPairedError,
+    PairingError,
+    PairingLockedError,
+    TooManyError,
+)
+from servodeck.value import value
+
+PAGE_HEADER = b"x-servodeck-page"
+BEARER = b"bearer "
+MAX_LENGTH = 200
+
+
+def credential_of(headers: list[tuple[bytes, bytes]], cookie: str) -> str | None:
+    """ID.SECRET, not yet compared. Raises ForbiddenError for a header that came twice.
+
+    A cookie counts only for our own page: with its Origin, which a browser adds to every request that may
+    change something, or with the page's own header, which no other page can add to a GET without leave.
+    Programs send a token.
+    """
+    origin, page = only(headers, b"origin"), only(headers, PAGE_HEADER)
+    authorization, cookies = only(headers, b"authorization"), only(headers, b"cookie")
+    if origin is None and authorization is not None:
+        is_bearer = authorization[: len(BEARER)].lower() == BEARER
+        return text_of(authorization[len(BEARER) :]) if is_bearer else None
+    if origin is not None or page is not None:
+        return cookie_of(cookies or b"", cookie.encode())
+    return None
+
+
+def cookie_of(cookies: bytes, name: bytes) -> str | None:
+    """None also where it came twice: which one is ours is unknown."""
+    found = [
+        value
+        for key, _, value in (part.strip().partition(b"=") for part in cookies.split(b";"))
+        if key == name
+    ]
+    return text_of(found[0]) if len(found) == 1 else None
+
+
+def text_of(value: bytes) -> str | None:
+    return value.decode() if value.isascii() and 0 < len(value) <= MAX_LENGTH else None
+
+
+def only(headers: list[tuple[bytes, bytes]], name: bytes) -> bytes | None:
+    """The header's one value. Raises ForbiddenError for several, because it is unknown which one counts."""
+    values = [value for key, value in headers if key == name]
+    if len(values) > 1:
+        raise ForbiddenError(f"The header {name.decode('ascii')} came more than once.")
+    return values[0] if values else None
+
+
+INVITE_S = 120.0
+CODE_DIGITS = 8
+CODE_TRIES = 5
+MAX_OPEN = 8
+
+
+@value
+class Invite:
+    """`code` is None once codes are spent. `name` may be empty: the device that comes says its own."""
+
+    id: str
+    role: Role
+    name: str
+    secret: str
+    code: str | None
+    until_s: float
+
+
+class Pairing:
+    """Invitations: a secret for a link and eight digits for a keyboard, valid once and for two minutes. Five
+    wrong codes, from whichever devices, void all open codes; links, which cannot be guessed, stay valid.
+    """
+
+    def __init__(self, now: Callable[[], float]) -> None:
+        self._now = now
+        self._invites: dict[str, Invite] = {}
+        self._wrong_codes = 0
+
+    def invite(self, role: Role, name: str) -> Invite:
+        """Raises BusyError where too many are open."""
+        if len(self.open) >= MAX_OPEN:
+            raise BusyError("Too many invitations are open. Each expires after two minutes: try again then.")
+        if not any(invite.code for invite in self.open):
+            self._wrong_codes = 0
+        code = "".join(secrets.choice("0123456789") for _ in range(CODE_DIGITS))
+        made = Invite(make_id(), role, name, make_secret(), code, self._now() + INVITE_S)
+        self._invites[made.id] = made
+        return made
+
+    @property
+    def open(self) -> list[Invite]:
+        """Those that still hold."""
+        now = self._now()
+        self._invites = {one.id: one for one in self._invites.values() if one.until_s > now}
+        return list(self._invites.values())
+
+    def seconds_left(self, invite: Invite) -> float:
+        return max(0.0, invite.until_s - self._now())
+
+    def withdraw(self, invite: str) -> None:
+        if self._invites.pop(invite, None) is None:
+            raise NotFoundError("That invitation has expired.")
+
+    def find_by_link(self, secret: str) -> Invite:
+        """The open invitation of that link; `withdraw` uses it up. Raises PairingError."""
+        found = [one for one in self.open if same(one.secret, secret)]
+        if not found:
+            raise PairingError("This link was used already or is older than two minutes. Ask for a new one.")
+        return found[0]
+
+    def find_by_code(self, code: str) -> Invite:
+        """Raises PairingError, and PairingLockedError where codes are spent."""
+        if self._wrong_codes >= CODE_TRIES:
+            raise locked()
+        found = [one for one in self.open if one.code and same(one.code, code)]
+        if found:
+            return found[0]
+        self._wrong_codes += 1
+        if self._wrong_codes >= CODE_TRIES:
+            self._invites = {one.id: replace(one, code=None) for one in self._invites.values()}
+            raise locked()
+        raise PairingError("That code is wrong or older than two minutes.")
+
+
+def locked() -> PairingLockedError:
+    return PairingLockedError(
+        "Five wrong codes: all open codes are void. Ask for a new code, or scan the link."
+    )
 
 
 class Entrance:
@@ -80,6 +209,8 @@ class Connection(Protocol):
 
 
 class RequestQueue:
+    """Requests of unauthenticated callers, which share one rate. A caller who leaves gives up its place."""
+
     def __init__(self, rate: Rate) -> None:
         self._rate = rate
         # The one that came first comes first.
@@ -119,6 +250,10 @@ PAGE_BURST = 200
 
 
 class Rates:
+    """A rate for each paired device and each token (docs/adr/0013). This computer is never counted: its page
+    and its scripts share one name, and a script that runs away would shut the page out.
+    """
+
     def __init__(self, now: Callable[[], float]) -> None:
         self._now = now
         self._rates: dict[tuple[str, Role], Rate] = {}

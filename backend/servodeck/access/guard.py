@@ -18,8 +18,8 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from servodeck.access.addresses import Access
 from servodeck.access.connections import connection_of
-from servodeck.access.credentials import only
-from servodeck.access.entrance import Entrance, RequestQueue
+from servodeck.access.entrance import Entrance, RequestQueue, only
+from servodeck.callers import Rate
 from servodeck.errors import (
     ForbiddenError,
     GatewayError,
@@ -27,7 +27,6 @@ from servodeck.errors import (
     TooLargeError,
     WrongTypeError,
 )
-from servodeck.rate import Rate
 
 LOGGER = "servodeck.access"
 # Of what somebody unknown has written.

@@ -24,9 +24,9 @@ from starlette.types import Receive, Scope, Send
 from servodeck import __version__, metrics
 from servodeck.access.entrance import Entrance
 from servodeck.access.guard import Guard, log_refusal
-from servodeck.access.roles import ANYBODY, JudgingRoute, named_roles, require_roles
 from servodeck.api.health import Pulse, health_api, sign_of_life
 from servodeck.api.page import STATIC, page
+from servodeck.api.routes import ANYBODY, JudgingRoute, named_roles, require_roles
 from servodeck.errors import ErrorCode, GatewayError, MalformedError
 from servodeck.files import Disk
 from servodeck.library.library import Library

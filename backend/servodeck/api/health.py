@@ -18,8 +18,7 @@ from fastapi import Depends, Response
 from starlette.requests import HTTPConnection
 
 from servodeck import __version__
-from servodeck.access.roles import ANYBODY, VIEWER
-from servodeck.api.routes import Controlled, routes
+from servodeck.api.routes import ANYBODY, VIEWER, Controlled, routes
 from servodeck.files import Disk
 from servodeck.schema import Message
 from servodeck.snapshots import PortState

@@ -7,9 +7,8 @@ Knows time and order, no socket and nothing of what a message asks.
 import asyncio
 from collections.abc import Callable
 
-from servodeck.callers import Caller
+from servodeck.callers import Caller, Rate
 from servodeck.intents import AnyClientMessage, MoveMessage
-from servodeck.rate import Rate
 
 # Messages a second, and at once. A page hands over the newest values every 8 ms while somebody drags: what
 # waits longer at the page would be older when the wire is free.

@@ -11,8 +11,7 @@ from pydantic import Field, TypeAdapter
 from starlette.concurrency import run_in_threadpool
 from starlette.requests import HTTPConnection
 
-from servodeck.access.roles import DRIVER, OWNER, VIEWER
-from servodeck.api.routes import Controlled, routes
+from servodeck.api.routes import DRIVER, OWNER, VIEWER, Controlled, routes
 from servodeck.callers import Caller
 from servodeck.errors import MalformedError, NotDrivingError
 from servodeck.library.library import Library, Version

@@ -12,8 +12,7 @@ from fastapi import Depends, Path, Request
 from pydantic import Field
 from starlette.requests import HTTPConnection
 
-from servodeck.access.roles import DRIVER, OWNER, VIEWER
-from servodeck.api.routes import Controlled, routes
+from servodeck.api.routes import DRIVER, OWNER, VIEWER, Controlled, routes
 from servodeck.api.websocket import play as play_for_page
 from servodeck.callers import Caller
 from servodeck.errors import CancelledError, MalformedError, NotFoundError, OutOfRangeError

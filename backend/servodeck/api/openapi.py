@@ -14,8 +14,8 @@ from fastapi import FastAPI
 from fastapi.openapi.utils import get_openapi
 from fastapi.routing import APIRoute
 
-from servodeck.access.roles import named_roles
 from servodeck.api.examples import EXAMPLES, PROBLEMS, Example
+from servodeck.api.routes import named_roles
 from servodeck.callers import Role
 from servodeck.errors import ErrorCode, GatewayError
 from servodeck.schema import Message

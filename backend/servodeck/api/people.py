@@ -13,9 +13,8 @@ from starlette.requests import HTTPConnection
 from servodeck.access.addresses import Mode, link_base, pair_link, picture_of, stop_link
 from servodeck.access.devices import Device, Kind
 from servodeck.access.entrance import Entrance
-from servodeck.access.roles import ANYBODY, OWNER, VIEWER, entrance_of
 from servodeck.api.motion import Scripted
-from servodeck.api.routes import Controlled, routes
+from servodeck.api.routes import ANYBODY, OWNER, VIEWER, Controlled, entrance_of, routes
 from servodeck.callers import Caller, Role
 from servodeck.errors import ForbiddenError, MalformedError, StorageError
 from servodeck.robot.control import Control

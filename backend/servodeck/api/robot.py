@@ -21,8 +21,7 @@ from starlette.types import Receive, Scope, Send
 
 from servodeck import __version__
 from servodeck.access.connections import connection_of
-from servodeck.access.roles import DRIVER, OWNER, STOPPER, VIEWER
-from servodeck.api.routes import Controlled, routes
+from servodeck.api.routes import DRIVER, OWNER, STOPPER, VIEWER, Controlled, routes
 from servodeck.api.websocket import serve_client
 from servodeck.callers import Caller, as_script
 from servodeck.errors import BusyError, OutOfRangeError

@@ -1,15 +1,95 @@
-"""How routes of the HTTP interface are made, and what they are given. Knows no route."""
+"""How routes of the HTTP interface are made: each names the role that it takes, or that none is needed; one
+that names nothing is not served. Role and rate are judged on the head, before a body is read.
 
-from typing import Annotated
+Knows the entrance and how a framework's routes are built; no route of ours.
+"""
 
-from fastapi import APIRouter, Depends, Request
+import json
+from collections.abc import Callable, Coroutine, Iterator, Sequence
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Depends
+from fastapi.dependencies.models import Dependant
 from fastapi.routing import APIRoute
 from pydantic.alias_generators import to_camel
-from starlette.requests import HTTPConnection
+from starlette.exceptions import HTTPException
+from starlette.requests import HTTPConnection, Request
+from starlette.responses import Response
+from starlette.routing import BaseRoute, Mount
 
+from servodeck.access.connections import connection_of
+from servodeck.access.entrance import Entrance
 from servodeck.access.guard import judge_script
-from servodeck.access.roles import JudgingRoute
+from servodeck.callers import Caller, Role
 from servodeck.robot.control import Control
+from servodeck.schema import has_more_values
+from servodeck.threads import in_thread
+
+# Reading as much takes a millisecond or, of a hostile text, ten.
+LARGE_BYTES = 64 * 1024
+# More than the largest download has. Objects of so many take ten milliseconds, in which a stop waits.
+MOST_VALUES = 64_000
+
+
+class Needs:
+    """A dependency: who asks, where they may. Anybody may where `role` is None."""
+
+    def __init__(self, role: Role | None) -> None:
+        self.role = role
+
+    async def __call__(self, connection: HTTPConnection) -> Caller | None:
+        if connection.scope["type"] == "websocket":
+            return self.judge(connection)
+        caller: Caller | None = connection.state.caller  # JudgingRoute has judged the head
+        return caller
+
+    def judge(self, connection: HTTPConnection) -> Caller | None:
+        entrance = entrance_in(connection)
+        headers = connection.scope["headers"]
+        caller = entrance.find(headers) if self.role is None else entrance.judge(headers, self.role)
+        if caller and (known := connection_of(connection.scope)):
+            known.know()
+        if caller and self.role not in (None, "stopper") and connection.scope["type"] == "http":
+            entrance.count(caller)  # a stop is never one too many, and messages have their own rates
+        return caller
+
+
+class BodyRequest(Request):
+    """Reads a large body in a thread, because a stop would have to wait for it."""
+
+    async def json(self) -> Any:
+        body = await self.body()
+        return await in_thread(lambda: parse_large(body)) if len(body) > LARGE_BYTES else json.loads(body)
+
+
+def parse_large(body: bytes) -> Any:
+    """Raises JSONDecodeError, or HTTPException where so much would be made of it that a stop waits."""
+    text = body.decode()
+    try:
+        is_too_much = has_more_values(text, MOST_VALUES)
+    except ValueError as error:
+        raise json.JSONDecodeError(str(error), "", 0) from error
+    if is_too_much:
+        raise HTTPException(413, f"The request holds more than {MOST_VALUES} values.")
+    return json.loads(text)
+
+
+class JudgingRoute(APIRoute):
+    """The framework itself reads the body first and asks who sent it then."""
+
+    def get_route_handler(self) -> Callable[[Request], Coroutine[Any, Any, Response]]:
+        handle = super().get_route_handler()
+
+        async def judge_and_handle(request: Request) -> Response:
+            self.judge(request)
+            return await handle(BodyRequest(request.scope, request.receive))
+
+        return judge_and_handle
+
+    def judge(self, request: Request) -> None:
+        """Raises a GatewayError for a caller who may not request this."""
+        for needs in needs_of(self.dependant):
+            request.state.caller = needs.judge(request)
 
 
 class ApiRoute(JudgingRoute):
@@ -18,6 +98,48 @@ class ApiRoute(JudgingRoute):
     def judge(self, request: Request) -> None:
         judge_script(request.scope["headers"])
         super().judge(request)
+
+
+def entrance_in(connection: HTTPConnection) -> Entrance:
+    entrance = connection.app.state.entrance
+    assert isinstance(entrance, Entrance)
+    return entrance
+
+
+async def entrance_of(connection: HTTPConnection) -> Entrance:
+    return entrance_in(connection)
+
+
+ANYBODY = Depends(Needs(None))
+STOPPER = Depends(Needs("stopper"))
+VIEWER = Depends(Needs("viewer"))
+DRIVER = Depends(Needs("driver"))
+OWNER = Depends(Needs("owner"))
+
+
+def named_roles(routes: Sequence[BaseRoute]) -> Iterator[tuple[BaseRoute, list[Role | None]]]:
+    """Every route with the roles it names. What is mounted serves the page, which is no secret."""
+    for route in routes:
+        included = getattr(route, "original_router", None)
+        if included:
+            yield from named_roles(included.routes)
+        elif not isinstance(route, Mount):
+            yield route, [each.role for each in needs_of(getattr(route, "dependant", None))]
+
+
+def needs_of(dependant: Dependant | None) -> Iterator[Needs]:
+    for each in dependant.dependencies if dependant else ():
+        if isinstance(each.call, Needs):
+            yield each.call
+
+
+def require_roles(routes: Sequence[BaseRoute]) -> None:
+    """Denies by default: a route that was added without a role fails before it can be used."""
+    for route, roles in named_roles(routes):
+        if len(roles) != 1:
+            raise TypeError(f"{route} has to name one role")
+        if isinstance(route, APIRoute) and not isinstance(route, JudgingRoute):
+            raise TypeError(f"{route} has to be a JudgingRoute")
 
 
 # Dependencies are coroutines even where they wait for nothing: a plain function would go through a thread,

@@ -18,8 +18,8 @@ from servodeck.access.addresses import Access, drawn_for_terminal, pair_link
 from servodeck.access.devices import is_owners
 from servodeck.access.entrance import Entrance
 from servodeck.access.guard import LOGGER as REFUSALS
+from servodeck.callers import Rate
 from servodeck.cli.options import Form, Level
-from servodeck.rate import Rate
 
 STDERR = 2
 LINES_WAITING = 1000

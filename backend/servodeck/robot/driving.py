@@ -11,12 +11,11 @@ import contextlib
 from collections.abc import Callable
 from pathlib import Path
 
-from servodeck.callers import Caller
+from servodeck.callers import SHORTEST_WAIT_S, Caller
 from servodeck.errors import CancelledError, NotDrivingError, NotFoundError
 from servodeck.events import LeaseStateMessage, TickMessage, encode
 from servodeck.files import write_whole
 from servodeck.intents import LeaseAction
-from servodeck.rate import SHORTEST_WAIT_S
 from servodeck.robot.hub import Hub, Session
 from servodeck.robot.lease import BEAT_S, GONE_S, Lease, LeaseEvents, Permit
 from servodeck.snapshots import Candidate, LeaseState

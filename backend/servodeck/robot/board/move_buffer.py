@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from math import inf
 from typing import Protocol
 
+from servodeck.callers import SHORTEST_WAIT_S
 from servodeck.errors import GatewayError
 from servodeck.port.link import Link
 from servodeck.port.wire import CLOCK_GRAIN_S, Left, Owner, fail, settle
@@ -20,7 +21,6 @@ from servodeck.protocol.families import Family
 from servodeck.protocol.packets import MOVE, CommandPacket, encoded
 from servodeck.protocol.timings import wire_s
 from servodeck.protocol.values import Move, ServoTarget
-from servodeck.rate import SHORTEST_WAIT_S
 from servodeck.robot.board.estimate import Estimate
 from servodeck.value import value
 
