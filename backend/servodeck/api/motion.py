@@ -201,7 +201,7 @@ async def apply(
     wish: ApplyWish = GENTLY,
 ) -> MoveBegun:
     """Goes to the pose of that number or name; as `move` otherwise."""
-    control.board.judge_known()
+    control.board.identification.judge_known()
     found = find((await list_poses(control)).poses, pose)
     judge_unit(found, control.board.family)
     positions = {target.servo: target.position for target in found.targets}
@@ -284,7 +284,7 @@ async def download(
     the slot of the group in progress is broken: it cannot be run before another download to it has ended
     well.
     """
-    control.board.judge_known()
+    control.board.identification.judge_known()
     groups = [await body.group() for body in wish.groups]
     parts = await parts_of(groups, control.board.family_id)
     nonce = wish.nonce

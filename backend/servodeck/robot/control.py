@@ -128,7 +128,7 @@ class Control:
         self.hub.join(session)
         self._broadcast.welcome(session)
         self._broadcast.state(but=session)
-        self.board.looked_at()
+        self.board.battery.client_joined()
         self.driving.presence_changed(session)
 
     def leave(self, session: Session) -> None:
@@ -172,7 +172,7 @@ class Control:
         """
         self._latch.close(cause, self.now())
         self.board.jobs.end(LatchedError("STOP ended the download before it was complete."))
-        left = self.board.halt(LatchedError("STOP was pressed before this was sent."))
+        left = self.board.halts.halt(LatchedError("STOP was pressed before this was sent."))
         if left is not self._halting:
             self._halting, self._pressed_s = left, self.now()
             left.add_done_callback(self._halted)
@@ -293,7 +293,7 @@ class Control:
 
     def may_have_missed_stops(self) -> None:
         if self.latch:
-            self.board.halt_again()
+            self.board.halts.halt_again()
 
     def leaving(self, owner: Owner, command: Command, at_s: float) -> None:
         self._relay.leaving(owner, command, at_s)
@@ -316,5 +316,5 @@ class Control:
             self._publish_unheld(self._pressed_s)
 
     def _publish_unheld(self, since_s: float) -> None:
-        self._unheld = self.board.unheld_since(since_s)
+        self._unheld = self.board.halts.unheld_since(since_s)
         self._broadcast.everybody(HaltedMessage(unheld=self.unheld))

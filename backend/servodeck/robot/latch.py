@@ -127,7 +127,7 @@ class Watch:
     def end_quietly(self, reason: GatewayError) -> None:
         """Without the latch: somebody is there, or it was said beforehand."""
         with contextlib.suppress(GatewayError):
-            self._control.board.halt(reason)
+            self._control.board.halts.halt(reason)
 
     def _stop_unwatched(self) -> None:
         """STOP because no driver watches over what moves: a person has to look before it goes on. Not twice:

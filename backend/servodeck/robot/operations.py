@@ -17,7 +17,7 @@ from servodeck.protocol.limits import check
 from servodeck.protocol.packets import MOVE, portions_of
 from servodeck.protocol.timings import RUN
 from servodeck.protocol.values import Command, Erase, Erased, Release, Run, RunAccepted, RunStarted, SetSpeed
-from servodeck.robot.board.resync import repeat_stop
+from servodeck.robot.board.halt import repeat_stop
 from servodeck.robot.board.storing import ERASE_TIMEOUT_S
 from servodeck.robot.hub import Session
 from servodeck.robot.latch import judge_latch
@@ -93,7 +93,7 @@ class Grant:
 
     async def end_what_moves(self) -> None:
         self._judge()
-        ended = self._control.board.end_motion()
+        ended = self._control.board.halts.end_motion()
         self._mark = self._present()  # now: whatever else stops the robot meanwhile ends this turn, too
         if ended:
             await asyncio.shield(ended)  # others may wait for it
@@ -108,7 +108,7 @@ class Grant:
         return left
 
     def _present(self) -> tuple[int, int]:
-        return self._control.driving.epoch, self._control.board.halts
+        return self._control.driving.epoch, self._control.board.halts.count
 
     def _judge(self) -> None:
         if self._mark != self._present():
@@ -129,7 +129,7 @@ class Operations:
             grant = Grant(self._control, claim)
             self._control.board.plays.judge_idle()
             # One that left between the repeats of a stop would be ended by the last one.
-            for stops in (self._ending, self._control.board.returns.stops):
+            for stops in (self._ending, self._control.board.halts.at_return):
                 if stops:
                     await asyncio.shield(stops)
                     claim.renew()
@@ -197,7 +197,7 @@ class Operations:
         return "sent"
 
     def _family(self) -> Family:
-        self._control.board.judge_known()
+        self._control.board.identification.judge_known()
         return self._control.board.family
 
     def _judge_rest(self) -> None:

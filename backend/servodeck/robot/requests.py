@@ -57,7 +57,7 @@ class Requests:
         """
         board, driving = self._board, self._driving
         session.caller.require("driver")
-        board.judge_known()
+        board.identification.judge_known()
         for target in targets:
             check(Move(duration_ms, (target,)), board.family)
         self._limits.judge(Move(duration_ms, tuple(targets)), session)
@@ -70,7 +70,7 @@ class Requests:
 
         def judge(target: ServoTarget, starts: bool) -> None:
             driving.judge(waiting if starts else permit)
-            board.judge_known()
+            board.identification.judge_known()
             judge_latch(MOVE, self._latch.is_closed)
             self._limits.judge(Move(duration_ms, (target,)), session)
 
@@ -89,7 +89,7 @@ class Requests:
         self._limits.judge(command, session)
         wire = self._board.link.wire()
         if not packet.is_harmless:
-            self._board.judge_known()
+            self._board.identification.judge_known()
         judge_latch(packet.number, self._latch.is_closed)
         if packet.number == DOWNLOAD:  # a frame alone only breaks the slot it goes to (S33, S35)
             raise NotSupportedError(
@@ -120,7 +120,7 @@ class Requests:
         session.caller.require(role_for(packet))
         self._limits.judge(command, session)
         wire = board.link.wire()
-        board.judge_known()
+        board.identification.judge_known()
         judge_latch(packet.number, self._latch.is_closed)
         board.jobs.judge_run(command, board.link.place)
         board.jobs.judge_idle()
@@ -155,7 +155,7 @@ class Requests:
         """
         board = self._board
         session.caller.require("driver")
-        board.judge_known()
+        board.identification.judge_known()
         self._limits.judge_targets(judge_group(group, board.family))
         wire = board.link.wire()
         judge_latch(MOVE, self._latch.is_closed)
@@ -197,7 +197,7 @@ class Requests:
             claim()
             return board.jobs.add(behind, parts, by)
         wire = board.link.wire()
-        board.judge_known()
+        board.identification.judge_known()
         judge_latch(DOWNLOAD, self._latch.is_closed)
         board.jobs.judge_idle()
         board.plays.judge_idle()

@@ -239,7 +239,7 @@ class Scripts:
             await own.end_pending()
 
     def _family(self) -> Family:
-        self._control.board.judge_known()
+        self._control.board.identification.judge_known()
         return self._control.board.family
 
     def _session_of(self, caller: Caller) -> ScriptSession:

@@ -14,7 +14,6 @@ from servodeck.protocol.timings import HEARTBEAT
 from servodeck.protocol.values import Command, Move, Report, Run
 from servodeck.robot.board.estimate import Estimate
 from servodeck.robot.board.playing import Playing, Plays
-from servodeck.robot.board.resync import StopAgain
 from servodeck.robot.hub import Session
 from servodeck.snapshots import UnattendedRun
 from servodeck.value import value
@@ -150,6 +149,47 @@ class Silence:
 
     def _is_due(self, now: float) -> bool:
         return self._asked_s is not None and now - self._asked_s >= ANSWER_S
+
+
+class StopAgain:
+    """One more stop behind flash work, in which a board keeps one packet and drops the others (S9, S41,
+    S53): a group could begin behind three stops.
+    """
+
+    def __init__(
+        self, now: Callable[[], float], deaf_until_s: Callable[[], float], stop: Callable[[], object]
+    ) -> None:
+        self._now = now
+        self._deaf_until_s = deaf_until_s
+        self._stop = stop
+        self._timer: asyncio.TimerHandle | None = None
+
+    def stopped(self, at_s: float) -> None:
+        """A stop leaves; its last bit then."""
+        if at_s < self._deaf_until_s():
+            self._plan()
+        else:
+            self.void()
+
+    def heard(self) -> None:
+        """The board has said something: it may hear from now on."""
+        if self._timer:
+            self._plan()
+
+    def void(self) -> None:
+        """Something else has begun since, or the board is another one."""
+        if self._timer:
+            self._timer.cancel()
+            self._timer = None
+
+    def _plan(self) -> None:
+        self.void()
+        delay_s = max(0.0, self._deaf_until_s() - self._now())
+        self._timer = asyncio.get_running_loop().call_later(delay_s, self._due)
+
+    def _due(self) -> None:
+        self._timer = None
+        self._stop()
 
 
 @value

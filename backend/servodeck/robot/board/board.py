@@ -6,20 +6,15 @@ Knows packets and the link. Must not know clients, nor who may ask for what.
 
 import asyncio
 import contextlib
-import logging
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import Protocol
 
 from servodeck import metrics
 from servodeck.errors import (
     BoardSilentError,
-    BoardUnknownError,
     CancelledError,
     ClosedError,
     GatewayError,
-    LatchedError,
-    MovingError,
-    NoAnswerError,
     NotOnThisCableError,
     PortLostError,
 )
@@ -27,29 +22,26 @@ from servodeck.port.hid_reports import ReportInbox
 from servodeck.port.link import Link, Ports
 from servodeck.port.ports import OpenPort
 from servodeck.port.reader import Inbox
-from servodeck.port.wire import STOP_PACKET, Job, Left, Owner, Wire
+from servodeck.port.wire import Job, Left, Owner, Wire
 from servodeck.protocol.decoder import DecoderEvent, NoiseEvent, PacketEvent
-from servodeck.protocol.families import FAMILIES, UNKNOWN, Family, Question, Withheld, carried
+from servodeck.protocol.families import FAMILIES, Family, Withheld, carried
 from servodeck.protocol.packets import STOP, CommandPacket, encoded, parse_report
-from servodeck.protocol.timings import BATTERY, IDENTIFY, wire_s
-from servodeck.protocol.values import Battery, Command, ReadBattery, Report, RunAccepted, RunStarted
+from servodeck.protocol.values import Command, ReadBattery, Report, RunAccepted, RunStarted
 from servodeck.robot.board.activity import Activity, Unattended
 from servodeck.robot.board.download import Part
 from servodeck.robot.board.estimate import Estimate
+from servodeck.robot.board.halt import Halts
 from servodeck.robot.board.identification import Identification, Status
-from servodeck.robot.board.identity import QUESTIONS, identity_state
+from servodeck.robot.board.identity import identity_state
 from servodeck.robot.board.move_buffer import MoveBuffer
 from servodeck.robot.board.playing import Plays
-from servodeck.robot.board.readings import BatteryPoll, BatteryReader, Readings, UnaskedAnswers
+from servodeck.robot.board.readings import BatteryReader, Readings
 from servodeck.robot.board.replies import Replies
-from servodeck.robot.board.resync import Returns
 from servodeck.robot.board.slots import SlotMemory
 from servodeck.robot.board.storing import Jobs
-from servodeck.robot.motion.halt_plan import Unheld
 from servodeck.snapshots import IdentityState, JobState, LinkState, PlayState, PortState, StoredGroup
 
 DRAIN_S = 0.5
-log = logging.getLogger("servodeck.robot")
 
 
 class BoardEvents(Protocol):
@@ -111,29 +103,26 @@ class Board:
         port is no real board.
         """
         self.family_id = family_id
-        self.identification = Identification(self, FAMILIES[family_id], identifies=identifies)
-        self._polls_battery = polls_battery
         self._simulated_device = simulated_device
         self._events = events
         self._now = now
         self.link = Link(ports, self._make_wire, self, now)
         self.replies = Replies()
-        self.battery = BatteryReader(self, self.replies, now)
-        self.readings = Readings(self, self.replies)
-        self._battery_poll = BatteryPoll(self._may_poll_battery, self.battery.read)
+        self.battery = BatteryReader(self, self.replies, now, polls=polls_battery)
+        self.readings = Readings(self, self.replies, self.battery, now)
+        self.identification = Identification(
+            self, self.readings.answer_to, FAMILIES[family_id], identifies=identifies
+        )
         self.jobs = Jobs(self, self.replies, now, slot_memory)
         self.moves = MoveBuffer(self, now, events.board_changed)
         self.plays = Plays(self.moves, self._play_changed, now)
-        self._unasked = UnaskedAnswers()
         self.unattended = Unattended(now, events.unattended_time_over, events.board_changed)
+        self.halts = Halts(self, now, events.stopped_at_return)
         self.activity = Activity(
             *(FAMILIES[family_id], self.plays, self.unattended, now),
-            stop_again=self.halt_again,
-            run_ended=self._battery_poll.has_ended,
+            stop_again=self.halts.halt_again,
+            run_ended=self.battery.motion_ended,
         )
-        self.returns = Returns(now, lambda wire: wire.send(STOP_PACKET, self, urgent=True))
-        self.halts = 0
-        """How often what was under way has been ended."""
 
     @property
     def family(self) -> Family:
@@ -175,29 +164,11 @@ class Board:
         port = self.link.state
         if port.status != "open":
             return LinkState(status=port.status, code=port.code, detail=port.detail)
-        status, error = self.identification.state.status, self.identification.state.error
-        assert status != "closed"
-        return LinkState(
-            status=status, code=error.code if error else None, detail=error.detail if error else None
-        )
+        return self.identification.link_state
 
     @property
     def identity(self) -> IdentityState:
         return identity_state(self.identification.evidence)
-
-    def judge_known(self) -> None:
-        """Raises what keeps commands that move or store from it: it is unknown which board it is,
-        or whether it is there. Without a port nothing can be said but that.
-        """
-        state = self.identification.state
-        if state.error:
-            raise state.error
-        if state.status == "identifying":
-            raise MovingError("The board is being identified: try again in a moment.")
-        if self.identification.claim is UNKNOWN:
-            raise BoardUnknownError(
-                "The board is unknown and no port is open to identify it. Open a port, or choose the board."
-            )
 
     def choose_family(self, family: str) -> None:
         """A person has said so; `unknown` has it asked again. Raises MovingError while it stores."""
@@ -222,41 +193,14 @@ class Board:
         with contextlib.suppress(GatewayError):
             self.link.wire().purge(lambda job: job.owner is owner, reason)
 
-    def halt(self, reason: GatewayError) -> Left:
-        """Resolves when the stop sequence has left; raises when there is no port to stop."""
-        self.halts += 1
-        self.plays.end(reason)
-        self.moves.drop(reason)
-        return self.link.wire().halt(self._hold, reason)
-
-    def unheld_since(self, pressed_s: float) -> Unheld | None:
-        """What may go on in spite of a stop pressed then, whose last packet left just now."""
-        return self.motion.unheld_since(pressed_s, self._now())
-
-    def halt_again(self) -> Left | None:
-        """As `halt`; None where there is no port to stop."""
-        with contextlib.suppress(GatewayError):
-            return self.halt(
-                CancelledError("The board was stopped again, because it may have missed the first stop.")
-            )
-        return None
-
-    def end_motion(self) -> Left | None:
-        """Without the latch: what moves ends, because its driver begins something else. As `halt`; None where
-        nothing moves.
-        """
-        if not self.activity.may_move():
-            return None
-        return self.halt(CancelledError("The driver began something else."))
-
     async def quiet(self) -> None:
         """Before the port is given up: ends what only this gateway could still stop."""
         self.jobs.end(ClosedError("The port was closed before the download was complete."))
         self.plays.end(ClosedError("The port was closed."))
-        self.returns.was_lost = False
+        self.halts.was_lost = False
         if self.motion.group_may_run(self._now()):
             with contextlib.suppress(GatewayError):
-                await self.halt(CancelledError("The port is being closed."))
+                await self.halts.halt(CancelledError("The port is being closed."))
         self.activity.forget(FAMILIES[self.family_id])
 
     async def shut_down(self) -> None:
@@ -264,38 +208,24 @@ class Board:
         ending = CancelledError("The gateway is shutting down.")
         self.jobs.end(ending)
         with contextlib.suppress(GatewayError, TimeoutError):
-            await asyncio.wait_for(asyncio.shield(self.halt(ending)), DRAIN_S)
+            await asyncio.wait_for(asyncio.shield(self.halts.halt(ending)), DRAIN_S)
         await self.link.close()
 
     # What the link tells
 
     def port_opened(self, wire: Wire) -> None:
         metrics.totals.port_openings += 1
-        self._unasked = UnaskedAnswers()
+        self.battery.port_opened()
         self._events.port_opened()
         self.activity.lose()
-        if self.returns.was_lost:
-            self.returns.stop(wire, lambda: self.halts, self._events.stopped_at_return)
-        else:
+        if not self.halts.was_lost:
             self.activity.opened()
-            wire.send(STOP_PACKET, self, urgent=True)
-        self.returns.was_lost = False
+        self.halts.port_opened(wire)
         self.identification.begin()
-
-    def _stop_as_it_answers(self) -> None:
-        """It may have moved or restarted behind our back."""
-        answers_s, stops = self._now(), self.halt_again()
-
-        def left(stops: Left) -> None:
-            if not stops.cancelled() and stops.exception() is None:
-                self._events.stopped_at_return(answers_s)
-
-        if stops:
-            stops.add_done_callback(left)
 
     def port_lost(self, unfinished: CommandPacket | None) -> None:
         metrics.totals.port_losses += 1
-        self.returns.lost(self.link.place, unfinished)
+        self.halts.lost(self.link.place, unfinished)
         self._events.board_lost()
         self.jobs.end(PortLostError("The serial port was lost before the download was complete."))
         self.plays.end(PortLostError("The serial port was lost."))
@@ -308,24 +238,7 @@ class Board:
             self.activity.lose()  # also what left with the last breath of the port
         self._events.board_changed()
 
-    # What its identification asks and tells
-
-    async def ask(self, question: Question) -> Report | None:
-        if question == "readBattery" and self.identification.state.status != "identifying":
-            try:
-                return Battery(await self.battery.read())  # shared with others that ask at the same time
-            except NoAnswerError:
-                return None
-        packet, answer = QUESTIONS[question].packet, QUESTIONS[question].answer
-        async with self.replies.asking:
-            # No board answers what has not reached it yet.
-            earliest_s = self._now() + wire_s(len(packet.data))
-            try:
-                left = self.link.wire().send(packet, self)
-                timeout_s = IDENTIFY.timeout_ms / 1000
-                return await self.replies.to(left, timeout_s, answer, not_before_s=earliest_s)
-            except (LatchedError, CancelledError):
-                return None  # a stop empties the queue; it does not answer the question
+    # What its identification asks and reports
 
     def may_ask(self) -> bool:
         return self._events.is_watched() and self.is_idle()
@@ -347,11 +260,9 @@ class Board:
         if before == "ready" and status not in ("ready", "closed"):
             self._no_longer_ready(status)
         if before == "stale" and status not in ("stale", "closed"):
-            self._stop_as_it_answers()
-        if self._polls_battery and status == "ready" and before != "ready":
-            self._battery_poll.begin()
-        elif status != "ready":
-            self._battery_poll.end()
+            self.halts.board_answers()
+        if "ready" in (before, status) and before != status:
+            self.battery.board_ready(is_ready=status == "ready")
         if self.link.state.status == "open":
             self._events.board_changed()
 
@@ -368,7 +279,7 @@ class Board:
     def put_question(self, question: Command) -> Left:
         wire = self.link.wire()
         if self.identification.state.status != "stale":
-            self.judge_known()
+            self.identification.judge_known()
         packet = encoded(question, self.family)
         self.jobs.judge_idle()
         return wire.send(packet, self)
@@ -376,21 +287,11 @@ class Board:
     def battery_changed(self) -> None:
         self._events.battery_changed()
 
-    def looked_at(self) -> None:
-        """A client has joined: what was not read for a while is read now."""
-        newest = self.battery.newest
-        if newest is None or self._now() - newest.at_s > BATTERY.every_ms / 1000:
-            self._battery_poll.looked_at()
-
-    def _may_poll_battery(self) -> bool:
-        is_answered = "readBattery" in self.family.answers and not self.battery.is_silent
-        return is_answered and self.identification.state.status == "ready" and self.may_ask()
-
     # What a download tells
 
     def job_changed(self, state: JobState) -> None:
         if state.status != "running":
-            self._battery_poll.has_ended()
+            self.battery.motion_ended()
         self._events.job_changed(state)
 
     def slots_changed(self) -> None:
@@ -404,14 +305,8 @@ class Board:
     def _play_changed(self, state: PlayState) -> None:
         self.activity.follow_run()
         if self.plays.present is None:
-            self._battery_poll.has_ended()
+            self.battery.motion_ended()
         self._events.play_changed(state)
-
-    def _hold(self, held: Sequence[CommandPacket]) -> CommandPacket | None:
-        """Of a board that is unknown nothing is held; where the port carries whole packets, one holds all."""
-        is_known = self.identification.state.status in ("ready", "stale")
-        is_whole = self.family is FAMILIES[self.family_id]
-        return self.activity.hold(held, self.family) if is_known and not (held and is_whole) else None
 
     def _make_wire(self, port: OpenPort) -> Wire:
         gap_s = self.family.service_gap_ms / 1000
@@ -422,7 +317,7 @@ class Board:
             now=self._now,
             received=inbox.push,
             leaving=self._leaving,
-            first=self.returns.filler(self.link.place, self.family.resync_filler),
+            first=self.halts.filler(self.link.place, self.family.resync_filler),
         )
 
     def _leaving(self, owner: Owner, packet: CommandPacket, at_s: float) -> None:
@@ -431,7 +326,7 @@ class Board:
             return
         self.activity.left(packet, command, at_s, is_halting=self.link.wire().is_halting)
         if isinstance(command, ReadBattery):
-            self._unasked.asked(at_s)
+            self.battery.asked(at_s)
         self.jobs.left(command, at_s, self.link.place)
         is_opening = packet.number == STOP and owner is self
         if not is_opening:  # which ends nothing that anybody began
@@ -451,9 +346,6 @@ class Board:
         may_have_swallowed = self.motion.may_swallow
         self.activity.heard(report, event.packet.command)
         self.battery.heard(report)
-        if isinstance(report, Battery) and self._unasked.answered(self._now()):
-            facts = {"device": self.link.place}
-            log.warning("the board answers another program, too; close it", extra={"facts": facts})
         self.jobs.heard(report, self.link.place)
         self.replies.heard(report, self._now())
         hears_again = may_have_swallowed and not self.motion.may_swallow

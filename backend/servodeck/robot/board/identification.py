@@ -21,7 +21,16 @@ from servodeck.errors import (
 from servodeck.protocol.families import UNKNOWN, Family, Question
 from servodeck.protocol.timings import HEARTBEAT
 from servodeck.protocol.values import Report, UnknownReport
-from servodeck.robot.board.identity import Echoed, Evidence, candidates_of, fit_of, identify, is_echo
+from servodeck.robot.board.identity import (
+    Echoed,
+    Evidence,
+    SendQuestion,
+    candidates_of,
+    fit_of,
+    identify,
+    is_echo,
+)
+from servodeck.snapshots import LinkState
 from servodeck.value import value
 
 Status = Literal["closed", "identifying", "ready", "stale", "refused"]
@@ -36,11 +45,8 @@ class BoardStatus:
 
 
 class IdentifiedBoard(Protocol):
-    async def ask(self, question: Question) -> Report | None:
-        """Once. None where no answer came; raises what keeps it from being asked."""
-
     def may_ask(self) -> bool:
-        """Somebody looks, and nothing moves: time for questions."""
+        """A client is connected, and nothing moves: time for questions."""
 
     def is_idle(self) -> bool:
         """Nothing moves, runs or is being stored."""
@@ -53,7 +59,7 @@ class IdentifiedBoard(Protocol):
 
 
 class Identification:
-    def __init__(self, board: IdentifiedBoard, claim: Family, *, identifies: bool) -> None:
+    def __init__(self, board: IdentifiedBoard, ask: SendQuestion, claim: Family, *, identifies: bool) -> None:
         """`claim`: the family that the board is driven as until a person names another. `identifies`: that is
         checked by harmless questions at each opening, and the board is watched afterwards.
         """
@@ -61,6 +67,7 @@ class Identification:
         self.evidence: Sequence[Evidence] = ()
         self.state = BoardStatus("closed")
         self._board = board
+        self._ask = ask
         self._identifies = identifies
         self._noise_bytes = 0
         self._echoes = 0
@@ -76,6 +83,28 @@ class Identification:
     def heard_as(self) -> Family | None:
         """What a report is read as; None: as of the board that is driven."""
         return UNKNOWN if self.state.status == "identifying" else None
+
+    @property
+    def link_state(self) -> LinkState:
+        """Of an open line, for clients."""
+        status, error = self.state.status, self.state.error
+        assert status != "closed"
+        return LinkState(
+            status=status, code=error.code if error else None, detail=error.detail if error else None
+        )
+
+    def judge_known(self) -> None:
+        """Raises what keeps commands that move or store from the board: it is unknown which board it is, or
+        whether it is there. Without a port only the former can be said.
+        """
+        if self.state.error:
+            raise self.state.error
+        if self.state.status == "identifying":
+            raise MovingError("The board is being identified: try again in a moment.")
+        if self.claim is UNKNOWN:
+            raise BoardUnknownError(
+                "The board is unknown and no port is open to identify it. Open a port, or choose the board."
+            )
 
     def begin(self) -> None:
         """The line is open."""
@@ -136,7 +165,7 @@ class Identification:
 
     async def _ask_all(self) -> None:
         try:
-            self.evidence = await identify(self._board.ask, lambda: self._noise_bytes, lambda: self._echoes)
+            self.evidence = await identify(self._ask, lambda: self._noise_bytes, lambda: self._echoes)
         except GatewayError as error:
             # Where the line went while questions were out, its state says so already.
             if self.state.status == "identifying":
@@ -190,7 +219,7 @@ class Identification:
 
     async def _is_answered(self, question: Question) -> bool | None:
         try:
-            return await self._board.ask(question) is not None
+            return await self._ask(question) is not None
         except GatewayError:
             return None
 

@@ -9,15 +9,17 @@ and not how a packet leaves.
 
 import asyncio
 import contextlib
+import logging
 import math
-from collections.abc import Awaitable, Callable, Sequence
+from collections.abc import Callable, Sequence
 from typing import Literal, Protocol
 
-from servodeck.errors import GatewayError, NoAnswerError
+from servodeck.errors import CancelledError, GatewayError, LatchedError, NoAnswerError
+from servodeck.port.link import Link
 from servodeck.port.wire import Left
-from servodeck.protocol.families import Family
+from servodeck.protocol.families import Family, Question
 from servodeck.protocol.packets import portions_of
-from servodeck.protocol.timings import BATTERY, READ, wire_s
+from servodeck.protocol.timings import BATTERY, IDENTIFY, READ, wire_s
 from servodeck.protocol.values import (
     AllPositions,
     Battery,
@@ -32,15 +34,24 @@ from servodeck.protocol.values import (
     Report,
     Version,
 )
+from servodeck.robot.board.identification import Identification
+from servodeck.robot.board.identity import QUESTIONS
 from servodeck.robot.board.replies import Replies
 from servodeck.snapshots import BatteryRead, BatterySilent, BatteryState, BatteryUnread
 from servodeck.value import value
 
 Reading = Literal["positions", "version", "offsets"]
+log = logging.getLogger("servodeck.robot")
 Key = tuple[Reading, tuple[int, ...]]
 
 
 class ReadableBoard(Protocol):
+    @property
+    def link(self) -> Link: ...
+
+    @property
+    def identification(self) -> Identification: ...
+
     @property
     def family(self) -> Family: ...
 
@@ -49,9 +60,17 @@ class ReadableBoard(Protocol):
 
 
 class Readings:
-    def __init__(self, board: ReadableBoard, replies: Replies) -> None:
+    def __init__(
+        self,
+        board: ReadableBoard,
+        replies: Replies,
+        battery: "BatteryReader",
+        now: Callable[[], float],
+    ) -> None:
         self._board = board
         self._replies = replies
+        self._battery = battery
+        self._now = now
         self._under_way: dict[Key, asyncio.Task[None]] = {}
 
     async def read(self, what: Reading, servos: Sequence[int] = ()) -> None:
@@ -63,6 +82,26 @@ class Readings:
             self._under_way[key] = asyncio.create_task(self._read(*key))
             self._under_way[key].add_done_callback(lambda reading: self._ended(key, reading))
         await asyncio.shield(self._under_way[key])
+
+    async def answer_to(self, question: Question) -> Report | None:
+        """Asks once, to learn which board it is or whether it is still there. None where no answer came;
+        raises what keeps it from being asked.
+        """
+        if question == "readBattery" and self._board.identification.state.status != "identifying":
+            try:
+                return Battery(await self._battery.read())  # shared with others that ask at the same time
+            except NoAnswerError:
+                return None
+        packet, answer = QUESTIONS[question].packet, QUESTIONS[question].answer
+        async with self._replies.asking:
+            # No board answers what has not reached it yet.
+            earliest_s = self._now() + wire_s(len(packet.data))
+            try:
+                left = self._board.link.wire().send(packet, self._board)
+                timeout_s = IDENTIFY.timeout_ms / 1000
+                return await self._replies.to(left, timeout_s, answer, not_before_s=earliest_s)
+            except (LatchedError, CancelledError):
+                return None  # a stop empties the queue; it does not answer the question
 
     async def _read(self, what: Reading, servos: tuple[int, ...]) -> None:
         detail_s = READ.detail_timeout_ms / 1000
@@ -102,18 +141,18 @@ class BatteryReading:
     at_s: float
 
 
-class PoweredBoard(Protocol):
-    @property
-    def family(self) -> Family: ...
-
-    def put_question(self, question: Command) -> Left:
-        """Puts it on the wire. Raises what keeps it from being asked."""
+class PoweredBoard(ReadableBoard, Protocol):
+    def may_ask(self) -> bool:
+        """A client is connected, and nothing moves: time for questions."""
 
     def battery_changed(self) -> None: ...
 
 
 class BatteryReader:
-    def __init__(self, board: PoweredBoard, replies: Replies, now: Callable[[], float]) -> None:
+    def __init__(
+        self, board: PoweredBoard, replies: Replies, now: Callable[[], float], *, polls: bool
+    ) -> None:
+        """`polls`: the battery is read by itself while the board is ready."""
         self.newest: BatteryReading | None = None
         self.is_silent = False
         """So many questions in a row stayed unanswered that such a board is taken to have no answer."""
@@ -121,13 +160,27 @@ class BatteryReader:
         self._replies = replies
         self._now = now
         self._silences = 0
+        self._unasked = UnaskedAnswers()
+        self._polls = polls
+        self._timer: asyncio.TimerHandle | None = None
+        self._poll: asyncio.Task[None] | None = None
         self._question: asyncio.Task[int] | None = None
+
+    def port_opened(self) -> None:
+        self._unasked = UnaskedAnswers()
+
+    def asked(self, at_s: float) -> None:
+        """The last bit of the question leaves then."""
+        self._unasked.asked(at_s)
 
     def heard(self, report: Report) -> None:
         if isinstance(report, Battery):
             self.newest = BatteryReading(report.battery_mv, self._now())
             self._silences, self.is_silent = 0, False
             self._board.battery_changed()
+            if self._unasked.answered(self._now()):
+                facts = {"device": self._board.link.place}
+                log.warning("the board answers another program, too; close it", extra={"facts": facts})
 
     def forget(self) -> None:
         """It is another board now."""
@@ -174,45 +227,42 @@ class BatteryReader:
         if not question.cancelled():
             question.exception()  # callers have it; none may be left to take it
 
+    def board_ready(self, *, is_ready: bool) -> None:
+        """It is ready now, or not any more."""
+        if is_ready and self._polls:
+            self._tick()
+        else:
+            self._stop_timer()
 
-class BatteryPoll:
-    def __init__(self, may_ask: Callable[[], bool], ask: Callable[[], Awaitable[object]]) -> None:
-        self._may_ask = may_ask
-        self._ask = ask
-        self._timer: asyncio.TimerHandle | None = None
-        self._asking: asyncio.Task[None] | None = None
+    def client_joined(self) -> None:
+        """What was not read for a while is read now."""
+        newest = self.newest
+        if self._timer and (newest is None or self._now() - newest.at_s > BATTERY.every_ms / 1000):
+            self._tick()
 
-    def begin(self) -> None:
-        """A board is ready."""
-        self._tick()
+    def motion_ended(self) -> None:
+        """A move, a run or a download."""
+        if self._timer:
+            self._poll_in(BATTERY.after_run_ms)
 
-    def end(self) -> None:
+    def _poll_in(self, ms: float) -> None:
+        self._stop_timer()
+        self._timer = asyncio.get_running_loop().call_later(ms / 1000, self._tick)
+
+    def _stop_timer(self) -> None:
         if self._timer:
             self._timer.cancel()
         self._timer = None
 
-    def looked_at(self) -> None:
-        """Somebody begins to look on."""
-        if self._timer:
-            self._tick()
-
-    def has_ended(self) -> None:
-        """Something that moved or was being stored."""
-        if self._timer:
-            self._ask_in(BATTERY.after_run_ms)
-
-    def _ask_in(self, ms: float) -> None:
-        self.end()
-        self._timer = asyncio.get_running_loop().call_later(ms / 1000, self._tick)
-
     def _tick(self) -> None:
-        self._ask_in(BATTERY.every_ms)
-        if self._may_ask():
-            self._asking = asyncio.create_task(self._read())
+        self._poll_in(BATTERY.every_ms)
+        is_answered = "readBattery" in self._board.family.answers and not self.is_silent
+        if is_answered and self._board.may_ask():
+            self._poll = asyncio.create_task(self._poll_once())
 
-    async def _read(self) -> None:
-        with contextlib.suppress(GatewayError):  # what the board did not say is counted where it is asked
-            await self._ask()
+    async def _poll_once(self) -> None:
+        with contextlib.suppress(GatewayError):  # a silence is counted where it is asked
+            await self.read()
 
 
 class UnaskedAnswers:
