@@ -1,7 +1,7 @@
 """Packets in USB HID reports: one packet a report, zero-padded; of a report from the board the packet at its
 beginning.
 
-Pure: knows bytes and the decoder, no device. Twin of shared/src/robot/hidReports.ts;
+Pure: knows bytes and the decoder, no device. Twin of frontend/src/robot/links/webHid.ts;
 shared/protocol/vectors/hid.json holds both.
 """
 

@@ -1,7 +1,7 @@
 """What a board of a family can take, checked before a command goes anywhere.
 
 Knows values and family rows, no bytes. A refusal names the field, its value and what is allowed, in
-the words of shared/src/codec/limits.ts.
+the words of shared/src/codec/encode.ts.
 """
 
 from servodeck.errors import NotSupportedError, OutOfRangeError

@@ -3,7 +3,7 @@
 
 import { useEffect, useRef } from 'react';
 import { useStores, useView } from '../features/stores.ts';
-import { ActionIconButton } from '../ui/ActionButton.tsx';
+import { ActionIconButton } from '../ui/Button.tsx';
 import { Dialog } from '../ui/Dialog.tsx';
 import { laterComponent } from '../ui/later.tsx';
 import { words } from '../i18n/words.ts';

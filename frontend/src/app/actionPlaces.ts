@@ -14,7 +14,7 @@ import { MACRO_ACTIONS, macroContextOf } from '../features/buttons/macroActions.
 import { POSE_ACTIONS, poseContextOf } from '../features/poses/poseActions.ts';
 import type { Stores } from '../features/stores.ts';
 import type { Action, KeyUse } from '../ui/action.ts';
-import { walkKeys } from '../ui/cardActions.ts';
+import { walkKeys } from '../ui/cards.ts';
 import { words, type Words } from '../i18n/whole.ts';
 import { PAGE_ACTIONS } from './pageActions.ts';
 

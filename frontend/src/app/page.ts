@@ -12,14 +12,12 @@ import { createDevice } from '../robot/device.ts';
 import { createDocument } from '../features/groupDocument.ts';
 import type { TextStorage } from '../state/storage.ts';
 import type { DocumentStore } from '#shared/files/documentStore.ts';
-import { watchInputs } from '../features/inputs/watchInputs.ts';
 import { followLanguage } from './language.ts';
 import { createLibrary } from '../features/library/library.ts';
 import { createLastPoses } from '../robot/lastPoses.ts';
 import { createMacroRun, createMacros } from '../features/buttons/macroRun.ts';
-import { createMappings, createPad } from '../features/inputs/pad.ts';
+import { createMappings, createPad, watchInputs } from '../features/inputs/pad.ts';
 import { tellHandedOver } from '../features/people/leaseText.ts';
-import { lookAfresh, bringSelectionBack } from '../features/animate/timeline/selectionBack.ts';
 import { createGroupPlace } from '../features/board/slots/groupPlace.ts';
 import { createMotionTape } from '../features/animate/play/motionTape.ts';
 import { createNotices } from '../state/notices.ts';
@@ -35,7 +33,11 @@ import { findOthersGroups } from '../features/board/slots/othersGroups.ts';
 import { createReplacing } from '../features/board/slots/replacing.ts';
 import { createSlots } from '../features/board/slots/slots.ts';
 import type { Stores } from '../features/stores.ts';
-import { createTimeline } from '../features/animate/timeline/timeline.ts';
+import {
+  createTimeline,
+  resetForOpenedGroup,
+  restoreSelection,
+} from '../features/animate/timeline/timeline.ts';
 import { createView } from '../features/view.ts';
 import { browserClock } from '../robot/links/browserClock.ts';
 import { hasGateway, putOnBoard } from '../robot/gatewayApi.ts';
@@ -145,8 +147,8 @@ export async function openPage({ me, problem }: Arrival): Promise<Page> {
   applyBatteryPolicy({ device, battery, robots, poses, notices });
   watchInputs(window, pad);
   tellHandedOver(device.store, notices);
-  lookAfresh({ library, view, timeline });
-  bringSelectionBack({ document: written, timeline, view });
+  resetForOpenedGroup({ library, view, timeline });
+  restoreSelection({ document: written, timeline, view });
   findOthersGroups({ device, robots, slots, compiled, library, documentStore });
   stores.view.subscribe(({ tab, kiosk }) => {
     if (tab === 'buttons' || kiosk === 'on') pad.drive(null);

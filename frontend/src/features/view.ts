@@ -9,7 +9,7 @@ import {
 } from '#shared/profile/calibration.ts';
 import { LANGUAGE_CODES, type Language } from '../i18n/words.ts';
 import type { TextStorage } from '../state/storage.ts';
-import { GENTLE_MOVE_MS, type MoveTime } from '../robot/moveTime.ts';
+import { GENTLE_MOVE_MS, type MoveTime } from '../robot/moves.ts';
 import { INITIAL_SERVO_VIEW, type ServoView } from './servoView.ts';
 
 /** On a wide screen all tabs except the buttons are side by side. */

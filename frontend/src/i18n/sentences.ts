@@ -5,7 +5,7 @@ import type { ReadyRobotId, RobotNames } from '#shared/profile/readyRobots.ts';
 import type { SlotContent } from '#shared/group/slotBook.ts';
 import type { LibraryErrorCode } from '#shared/files/documentStore.ts';
 import type { TextFlaw } from '#shared/document/schema.ts';
-import type { RangeRefusal } from '#shared/codec/limits.ts';
+import type { RangeRefusal } from '#shared/codec/encode.ts';
 import type { LinkErrorCode } from '#shared/robot/linkError.ts';
 import { words } from './words.ts';
 import { NAME_LENGTH, servoOf, type Robot } from '#shared/profile/robot.ts';

@@ -1,16 +1,16 @@
 // What is asked of the board and its link besides motion by hand: STOP, groups, readings, memory. Whatever fails becomes a
-// notice. Keeps nothing; knows no panel.
+// notice. Knows no panel.
 
 import type { Frame } from '#shared/codec/commands.ts';
 import type { Family } from '#shared/codec/families.ts';
-import { LinkError } from '#shared/robot/linkError.ts';
+import { LinkError, type LinkErrorCode } from '#shared/robot/linkError.ts';
 import type { Robot } from '#shared/robot/robot.ts';
 import type { HaltReason, SlotGroup } from '#shared/robot/state.ts';
-import { downloadedSentence, downloadCancelled } from '../i18n/sentences.ts';
+import { downloadedSentence, downloadCancelled, errorSentence } from '../i18n/sentences.ts';
 import { words } from '../i18n/words.ts';
 import type { Notices } from '../state/notices.ts';
-import type { LateNotices } from './lateNotices.ts';
-import type { LimitGate } from './limitGate.ts';
+import type { LimitGate } from './moves.ts';
+import type { Clock } from '#shared/clock.ts';
 
 export interface BoardVerbs {
   /** From now on each run and each playing asks first; `anyway` begins what was refused, once. */
@@ -157,4 +157,41 @@ export function createBoardVerbs({
 
 function speedSent(slot: number | null, percent: number): string {
   return slot === null ? words.board.speedSentToAll({ percent }) : words.board.speedSent({ slot, percent });
+}
+
+interface LateNotices {
+  report(error: unknown): void;
+  /** Something was asked for and not refused. */
+  asked(): void;
+}
+
+const LATE: readonly LinkErrorCode[] = ['expired', 'overslept'];
+/** Long enough to be read, and to hear of another refusal. */
+const WELL_MS = 3000;
+
+/** A notice that something came too late, or was slept through, stays shown until the same goes well. */
+export function createLateNotices(clock: Clock, notices: Pick<Notices, 'takeBack'>): LateNotices {
+  let texts: readonly string[] = [];
+  let cancel: (() => void) | null = null;
+
+  function wait(): void {
+    cancel?.();
+    cancel = null;
+  }
+
+  return {
+    report(error) {
+      if (!(error instanceof LinkError) || !LATE.includes(error.code)) return;
+      wait();
+      texts = [...texts, errorSentence(error.code, error.message)];
+    },
+    asked() {
+      if (texts.length === 0 || cancel !== null) return;
+      cancel = clock.after(WELL_MS, () => {
+        for (const text of texts) notices.takeBack(text);
+        texts = [];
+        cancel = null;
+      });
+    },
+  };
 }

@@ -14,14 +14,10 @@ import { INITIAL_STATE } from '#shared/robot/store.ts';
 import type { Motions, ServoMotion, SessionState } from '#shared/robot/state.ts';
 import { personName, errorSentence } from '../i18n/sentences.ts';
 import { words } from '../i18n/words.ts';
-import { createBoardVerbs, type BoardVerbs } from './boardVerbs.ts';
-import { createLateNotices } from './lateNotices.ts';
-import { createLimitGate } from './limitGate.ts';
-import { moveDurationMs, type Pace } from './moveTime.ts';
-import { createMovingWatch, createTargetBook } from './targetBook.ts';
+import { createBoardVerbs, type BoardVerbs, createLateNotices } from './boardVerbs.ts';
+import { createMovingWatch, createTargetBook, moveDurationMs, type Pace, createLimitGate } from './moves.ts';
 import type { Notices } from '../state/notices.ts';
-import { createUnaskedAnswers } from './unaskedAnswers.ts';
-import { createTrafficLog, type TrafficLog } from './traffic.ts';
+import { createTrafficLog, type TrafficLog, createUnaskedAnswers } from './traffic.ts';
 
 export type WayKind = 'webSerial' | 'webHid' | 'webBluetooth' | 'gateway' | 'simulated';
 

@@ -13,7 +13,7 @@ import type { Traffic } from '#shared/robot/state.ts';
 import { createSimulatedChannel, type SimulatedChannel } from '#shared/simulator/channel.ts';
 import { createVirtualClock, type VirtualClock } from '#shared/testing/virtualClock.ts';
 import { createGateway } from './gatewayUnderTest.ts';
-import { HAND_OVER_MS } from './links/gatewayMoves.ts';
+import { HAND_OVER_MS } from './links/driving.ts';
 import { compactHex } from './links/gatewayValues.ts';
 import type { ClientMessage, GatewayMessage } from './links/messages.generated.ts';
 

@@ -2,7 +2,7 @@
 // elsewhere. Knows neither playing nor where the pose comes from.
 
 import type { Device } from './device.ts';
-import { GENTLE_MOVE_MS } from './moveTime.ts';
+import { GENTLE_MOVE_MS } from './moves.ts';
 import { startHindrance } from './readiness.ts';
 
 export type FollowedPose = ReadonlyMap<number, number>;

@@ -20,13 +20,12 @@ import {
   requireRunnable,
 } from '#shared/robot/rules.ts';
 import type { HaltReason, SlotGroup } from '#shared/robot/state.ts';
-import { createGatewayMoves } from './links/gatewayMoves.ts';
+import { createGatewayMoves, createDriving } from './links/driving.ts';
 import type { GatewayPlayer } from './links/gatewayPlayer.ts';
 import { createGatewaySlots } from './links/gatewaySlots.ts';
 import { createGatewaySnapshot } from './links/gatewaySnapshot.ts';
 import { createGatewaySocket, type Outcome, type Said } from './links/gatewaySocket.ts';
 import { compactHex, isHarmlessPacket } from './links/gatewayValues.ts';
-import { createDriving } from './links/lease.ts';
 import type { ClientMessage } from './links/messages.generated.ts';
 
 export interface GatewayRobotOptions {

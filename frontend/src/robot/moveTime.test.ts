@@ -1,6 +1,6 @@
 import { describe, expect, test } from 'vitest';
 import { FAMILIES } from '#shared/codec/families.ts';
-import { moveDurationMs } from './moveTime.ts';
+import { moveDurationMs } from './moves.ts';
 
 const at = (estimated: number | null) => () => ({ target: estimated, estimated });
 const to = (position: number) => [{ servo: 1, position }];

@@ -1,5 +1,5 @@
-// The log of the visit: packets and what became of the link, the newest 20,000, each with a number of its own. Knows what a
-// session tells; what it means to a person is said elsewhere.
+// The log of the visit: packets and changes of the link, the newest 20,000, each with a number of its own; and battery answers that this
+// page did not ask for. Knows what a session reports; what it means to a person is said elsewhere.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { BoardId } from '#shared/codec/families.ts';
@@ -11,6 +11,7 @@ import {
   type TapeEntry,
 } from '#shared/files/recorder.ts';
 import type { SessionState, Traffic } from '#shared/robot/state.ts';
+import timings from '../../../shared/protocol/timings.json' with { type: 'json' };
 
 export type LogEntry = TapeEntry;
 
@@ -53,5 +54,29 @@ export function createTrafficLog(): TrafficLog {
       tape.clear();
       store.setState(bounds());
     },
+  };
+}
+
+const { unaskedAfterMs, unaskedLimit } = timings.battery;
+
+export type UnaskedAnswers = (traffic: Traffic) => void;
+
+/**
+ * Notices battery answers that were not asked for here: then another program uses the same board, which neither a HID cable nor Bluetooth
+ * forbids. For one link; `found` is called once. Its twin is UnaskedAnswers of robot/board/readings.py.
+ */
+export function createUnaskedAnswers(found: () => void): UnaskedAnswers {
+  let askedAtMs = -Infinity;
+  let count = 0;
+
+  return (traffic) => {
+    if (traffic.direction === 'out') {
+      if (traffic.command?.kind === 'readBattery') askedAtMs = traffic.atMs;
+      return;
+    }
+    if (!('report' in traffic) || traffic.report.kind !== 'battery') return;
+    if (traffic.atMs - askedAtMs <= unaskedAfterMs) return;
+    count += 1;
+    if (count === unaskedLimit) found();
   };
 }

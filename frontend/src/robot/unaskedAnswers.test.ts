@@ -1,6 +1,6 @@
 import { expect, test, vi } from 'vitest';
 import type { Traffic } from '#shared/robot/state.ts';
-import { createUnaskedAnswers } from './unaskedAnswers.ts';
+import { createUnaskedAnswers } from './traffic.ts';
 
 const BYTES = new Uint8Array();
 const asked = (atMs: number): Traffic => ({

@@ -1,5 +1,5 @@
 import { describe, expect, test } from 'vitest';
-import { RangeRefusal } from '#shared/codec/limits.ts';
+import { RangeRefusal } from '#shared/codec/encode.ts';
 import { LinkError } from '#shared/robot/linkError.ts';
 import { createVirtualClock } from '#shared/testing/virtualClock.ts';
 import { errorSentence } from '../i18n/sentences.ts';

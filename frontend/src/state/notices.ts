@@ -3,7 +3,7 @@
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { Clock } from '#shared/clock.ts';
-import { RangeRefusal } from '#shared/codec/limits.ts';
+import { RangeRefusal } from '#shared/codec/encode.ts';
 import { LinkError } from '#shared/robot/linkError.ts';
 import { errorSentence, rangeText } from '../i18n/sentences.ts';
 

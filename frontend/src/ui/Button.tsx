@@ -1,4 +1,4 @@
-// A button with text, and an icon button with a name. Neutral by default: colours mean states. Native buttons, because a panel has dozens
+// A button with text, and an icon button with a name; both can be made from an action. Neutral by default: colours mean states. Native buttons, because a panel has dozens
 // of them and one of the library's takes five times as long to mount.
 
 import type { ComponentProps, MouseEvent, ReactNode, Ref } from 'react';
@@ -7,6 +7,7 @@ import { hinted, type Hinted } from './hinting.ts';
 import { Icon, type IconName } from './Icon.tsx';
 import { pressOnce } from './inputEvents.ts';
 import styles from './Button.module.css';
+import type { Action } from './action.ts';
 
 export interface ButtonProps
   extends
@@ -81,5 +82,46 @@ export function IconButton({ icon, label, keys, whyNot, onPress, ...props }: Ico
     >
       <Icon name={icon} />
     </button>
+  );
+}
+
+interface ActionButtonProps<Context, Shown> {
+  readonly action: Action<Context, Shown>;
+  readonly shown: Shown;
+  /** What it works with when it is pressed. */
+  context(): Context;
+}
+
+/** `whyNot` as buttons take it. */
+const whyNotOf = (enabled: true | string): string | undefined => (enabled === true ? undefined : enabled);
+
+export function ActionIconButton<Context, Shown>({
+  action,
+  shown,
+  context,
+}: ActionButtonProps<Context, Shown>) {
+  const { icon, keys } = action;
+  return (
+    <IconButton
+      {...{ icon, keys, label: action.label(shown), whyNot: whyNotOf(action.enabled(shown)) }}
+      onPress={() => action.run(context())}
+    />
+  );
+}
+
+export function ActionButton<Context, Shown>({
+  action,
+  shown,
+  context,
+  ...looks
+}: ActionButtonProps<Context, Shown> & Pick<ButtonProps, 'tone' | 'hint'>) {
+  const { icon, keys } = action;
+  return (
+    <Button
+      {...{ ...looks, icon, keys, whyNot: whyNotOf(action.enabled(shown)) }}
+      onPress={() => action.run(context())}
+    >
+      {action.label(shown)}
+    </Button>
   );
 }

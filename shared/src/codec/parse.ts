@@ -1,5 +1,5 @@
 // Packets to values. Shape decides (command number and LEN), for reports the family too, never the order of arrival.
-// Judges no limits: whether a board can take a command is limits.ts.
+// Judges no limits: whether a board can take a command is encode.ts.
 
 import { ALL_GROUPS, COMMAND_NUMBER, type Command, type Frame, type ServoTarget } from './commands.ts';
 import type { Family } from './families.ts';

@@ -4,7 +4,7 @@
 
 import { COMMAND_NUMBER, type Command, type CommandKind } from './commands.ts';
 import type { Family } from './families.ts';
-import { checkCommand, RangeRefusal } from './limits.ts';
+import { checkCommand, RangeRefusal } from './encode.ts';
 import { HEADER, MIN_LENGTH } from './packet.ts';
 import { parseCommand } from './parse.ts';
 

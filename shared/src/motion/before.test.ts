@@ -1,7 +1,6 @@
 import { expect, test } from 'vitest';
 import { family } from '../codec/families.ts';
-import { takenOver, type MotionBefore, type WayBefore } from './before.ts';
-import { UNKNOWN_MOTION } from './model.ts';
+import { UNKNOWN_MOTION, takenOver, type MotionBefore, type WayBefore } from './model.ts';
 import {
   afterCommand,
   gentleMs,

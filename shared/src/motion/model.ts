@@ -4,10 +4,10 @@
 import type { Command, ServoTarget, Frame } from '../codec/commands.ts';
 import type { Family } from '../codec/families.ts';
 import type { ReportKind } from '../codec/reports.ts';
-import { doubted, type Order, type Tracks } from './tracks.ts';
+import { doubted, type Order, type Tracks, boardDurationMs, type Track } from './tracks.ts';
 
-// Where servos at rest stand by the board's own word, as long as nothing can have moved them since. It is no track:
-// nobody asked for that position, and a hold goes by the tracks.
+// Where servos at rest stand by the board's own reports, as long as nothing can have moved them since. It is no track:
+// that position was no target, and a hold goes by the tracks.
 
 export interface Reading {
   /** null: the board has not said it since. */
@@ -155,4 +155,52 @@ export const UNKNOWN_MOTION: Motion = {
 export function runningUnknown(motion: Motion, slot: number | null, endsToHear = 1): Motion {
   const readings = onlyReleased(motion.readings);
   return { ...motion, tracks: doubted(motion.tracks), readings, run: { kind: 'unknown', slot, endsToHear } };
+}
+
+/** Begun so long ago (below 0: not yet); `from` is null where nobody knows where it began. */
+export interface WayBefore {
+  readonly servo: number;
+  readonly from: number | null;
+  readonly to: number;
+  readonly begunMsAgo: number;
+  readonly durationMs: number;
+}
+
+/** Where the board said that a servo stood; `isCurrent`: as far as anybody can tell it stands there still. */
+export interface PositionBefore {
+  readonly servo: number;
+  readonly position: number;
+  readonly atMs: number;
+  readonly isCurrent: boolean;
+}
+
+/** `runSlot`: the group that may run, whose frames nobody told. `released`: without torque, hands may have turned them. */
+export interface MotionBefore {
+  readonly ways: readonly WayBefore[];
+  readonly runSlot: number | null;
+  readonly released: readonly number[];
+  readonly reported: readonly PositionBefore[];
+}
+
+/**
+ * An estimate taken over from the gateway, which has seen the packets that moved the robot. A servo that is not named has an unknown
+ * position.
+ */
+export function takenOver(motion: Motion, before: MotionBefore, nowMs: number, family: Family): Motion {
+  const released = afterOrder(motion.readings, { kind: 'release', servos: before.released }, true);
+  const readings = afterPositions(
+    released,
+    before.reported.filter(({ isCurrent }) => isCurrent),
+  );
+  if (before.runSlot !== null) return runningUnknown({ ...motion, readings }, before.runSlot);
+  const tracks = before.ways.map((way) => [way.servo, trackOf(way, nowMs, family)] as const);
+  return { ...motion, readings, tracks: new Map(tracks), run: null };
+}
+
+function trackOf({ from, to, begunMsAgo, durationMs }: WayBefore, nowMs: number, family: Family): Track {
+  const startMs = nowMs - begunMsAgo;
+  return {
+    ...{ from, to, startMs, durationMs: boardDurationMs(durationMs, family) },
+    ...{ fromLeeway: 0, toLeeway: 0 },
+  };
 }

@@ -2,7 +2,7 @@
 // and how slow a servo's first move must be. Knows the clock; no link, no queue.
 
 import type { Clock } from '../clock.ts';
-import { takenOver, type MotionBefore } from '../motion/before.ts';
+import { takenOver, type MotionBefore } from '../motion/model.ts';
 import { afterCut, afterEnd, afterReport } from '../motion/reports.ts';
 import { haltPlan, holdBehindStop, unheldSince, type HaltPlan, type Unheld } from '../motion/haltPlan.ts';
 import {

@@ -2,9 +2,8 @@
 // link: a robot on its own channel and a robot at the gateway refuse by the same rules.
 
 import type { Command, FrameCommand } from '../codec/commands.ts';
-import { encodeCommand, RangeRefusal } from '../codec/encode.ts';
+import { encodeCommand, RangeRefusal, checkCommand } from '../codec/encode.ts';
 import type { Family } from '../codec/families.ts';
-import { checkCommand } from '../codec/limits.ts';
 import { isWatching, notDriving } from './lease.ts';
 import { LinkError } from './linkError.ts';
 import type { LinkState, SessionState, SlotGroup, Withheld } from './state.ts';

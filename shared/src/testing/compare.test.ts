@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest';
 import { fromHex } from '../codec/packet.ts';
-import { compare, tally } from './compare.ts';
+import { compare, tally } from './replay.ts';
 import type { PacketEntry } from '../files/recorder.ts';
 
 const STORED = '55 55 02 19';

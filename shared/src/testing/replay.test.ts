@@ -1,11 +1,31 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import type { Robot } from '../robot/robot.ts';
-import { compare, tally, type Row } from './compare.ts';
-import { entryOf, type PacketEntry } from '../files/recorder.ts';
+import { compare, tally, type Row } from './replay.ts';
 import type { Entry } from '../files/recording.ts';
-import { createRecordingRig } from './recordingRig.ts';
+import { entryOf, type PacketEntry, createHappeningsReader } from '../files/recorder.ts';
 import { replayToBoard, replayToSession } from './replaySession.ts';
+import { createRig, type Rig } from '../robot/rig.ts';
+
+/** The log begins with the link that is open already. */
+export async function createRecordingRig(
+  ...options: Parameters<typeof createRig>
+): Promise<{ readonly rig: Rig; readonly entries: readonly Entry[] }> {
+  const rig = await createRig(...options);
+  const entries: Entry[] = [];
+  const happenings = createHappeningsReader();
+  const atMs = (): number => Math.round(rig.clock.now());
+  function note(): void {
+    for (const happening of happenings(rig.session.state))
+      entries.push({ atMs: atMs(), mark: 'link', happening });
+  }
+  note();
+  rig.session.subscribe({
+    state: note,
+    traffic: (traffic) => entries.push({ ...entryOf(traffic), atMs: atMs() }),
+  });
+  return { rig, entries };
+}
 
 const frames = (count: number) =>
   Array.from({ length: count }, (_, index) => ({

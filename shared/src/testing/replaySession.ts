@@ -12,10 +12,10 @@ import { family, type BoardId, FAMILIES } from '../codec/families.ts';
 import type { SessionState, Traffic } from '../robot/state.ts';
 import { createVirtualClock } from './virtualClock.ts';
 import type { Entry, Happening } from '../files/recording.ts';
+import type { PacketEntry } from '../files/recorder.ts';
 import { createReceiver } from '../robot/channelLink.ts';
 import { createBoard, type BoardOptions } from '../simulator/board.ts';
 import type { ProfileName } from '../simulator/profileNames.ts';
-import type { PacketEntry } from '../files/recorder.ts';
 
 // Asks a session for what the host of a recording wanted.
 

@@ -268,7 +268,7 @@ class BatteryReader:
 class UnaskedAnswers:
     """Notices battery answers that were not asked for here, for one opening of the port: then another program
     uses the same board, which neither a HID cable nor Bluetooth forbids. Twin of
-    frontend/src/robot/unaskedAnswers.ts.
+    frontend/src/robot/traffic.ts.
     """
 
     def __init__(self) -> None:

@@ -9,7 +9,7 @@ import { wasCommanded } from '#shared/robot/state.ts';
 import { words } from '../../i18n/words.ts';
 import type { BatteryStore } from './battery.ts';
 import type { Device, RobotProfiles } from '../../robot/device.ts';
-import { limitRefusal } from '../../robot/limitGate.ts';
+import { limitRefusal } from '../../robot/moves.ts';
 import type { Poses } from '../poses/poses.ts';
 import type { Notices } from '../../state/notices.ts';
 import { motionHindrance } from '../../robot/readiness.ts';

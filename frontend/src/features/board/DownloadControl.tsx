@@ -5,8 +5,7 @@ import { useSnapshot, useStores, useCompiled, useDevice, useDocument, useSlot } 
 import { Button } from '../../ui/Button.tsx';
 import { ProgressBar } from '../../ui/ProgressBar.tsx';
 import { words } from '../../i18n/words.ts';
-import { obstacles } from './compile/compiled.ts';
-import { problemText } from './compile/problemText.ts';
+import { obstacles, problemText } from './compile/compiled.ts';
 import { startHindrance } from '../../robot/readiness.ts';
 import styles from './DownloadProgress.module.css';
 

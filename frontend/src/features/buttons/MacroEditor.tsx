@@ -1,20 +1,30 @@
-// The editor of the selected button: its name, colour, key and steps.
+// The editor of the selected button: its name, colour, key and steps, each with its own fields.
 
 import { useId, useState, type KeyboardEvent } from 'react';
-import { type Macro, type MacroStep, type MacroPage, macroOf } from '#shared/profile/macro.ts';
+import {
+  type Macro,
+  type MacroStep,
+  type MacroPage,
+  macroOf,
+  SLOT,
+  SLOT_TIMES,
+  WAIT_MS,
+} from '#shared/profile/macro.ts';
 import { addStep, moveStep, removeStep, setStep, changeMacro } from '#shared/profile/macroEdits.ts';
 import { COLOURS } from '#shared/document/schema.ts';
-import { GENTLE_MOVE_MS } from '../../robot/moveTime.ts';
+import { GENTLE_MOVE_MS } from '../../robot/moves.ts';
 import { useStores, useMacros, useView } from '../stores.ts';
-import { ActionIconButton } from '../../ui/ActionButton.tsx';
-import { Button, IconButton } from '../../ui/Button.tsx';
+import { Button, IconButton, ActionIconButton } from '../../ui/Button.tsx';
 import { words } from '../../i18n/whole.ts';
-import { StepFields } from './StepFields.tsx';
 import { NameField } from '../../ui/NameField.tsx';
 import { Panel } from '../../ui/Panel.tsx';
 import { MACRO_ACTIONS, macroContextOf, type MacroContext } from './macroActions.ts';
 import { macroKey } from './MacroGrid.tsx';
 import styles from './MacroEditor.module.css';
+import { POSE_MS } from '#shared/profile/pose.ts';
+import type { Range } from '#shared/codec/families.ts';
+import { PoseSelect } from '../poses/PoseSelect.tsx';
+import { NumberField } from '../../ui/NumberField.tsx';
 
 const NEW_STEPS = {
   addPose: { kind: 'pose', pose: 'home', durationMs: GENTLE_MOVE_MS },
@@ -188,5 +198,97 @@ function KeyField({ macro: { id, name, key } }: MacroProps) {
       </Button>
       {key !== null && <IconButton icon="close" label={words.macros.noKey} onPress={() => setKey(null)} />}
     </div>
+  );
+}
+
+export interface StepFieldsProps<Step extends MacroStep = MacroStep> {
+  readonly step: Step;
+  readonly number: number;
+  onChange(step: MacroStep): void;
+}
+
+type FieldsOf<Kind extends MacroStep['kind']> = StepFieldsProps<Extract<MacroStep, { kind: Kind }>>;
+
+export function StepFields({ step, ...rest }: StepFieldsProps) {
+  if (step.kind === 'pose') return <PoseFields step={step} {...rest} />;
+  if (step.kind === 'slot') return <SlotFields step={step} {...rest} />;
+  return <WaitFields step={step} {...rest} />;
+}
+
+function PoseFields({ step, number, onChange }: FieldsOf<'pose'>) {
+  return (
+    <>
+      <PoseSelect
+        label={words.macros.stepPose({ number })}
+        value={step.pose}
+        onChange={(pose) => onChange({ ...step, pose })}
+      />
+      <Field
+        label={words.macros.stepMs({ number })}
+        value={step.durationMs}
+        range={POSE_MS}
+        step={100}
+        unit={words.servos.ms}
+        onChange={(durationMs) => onChange({ ...step, durationMs })}
+      />
+    </>
+  );
+}
+
+function SlotFields({ step, number, onChange }: FieldsOf<'slot'>) {
+  return (
+    <>
+      <span className={styles.pair}>
+        <span aria-hidden="true">{words.board.slot}</span>
+        <Field
+          label={words.macros.stepSlot({ number })}
+          value={step.slot}
+          range={SLOT}
+          onChange={(slot) => onChange({ ...step, slot })}
+        />
+      </span>
+      <Field
+        label={words.macros.stepTimes({ number })}
+        value={step.times}
+        range={SLOT_TIMES}
+        unit={words.macros.times}
+        onChange={(times) => onChange({ ...step, times })}
+      />
+    </>
+  );
+}
+
+function WaitFields({ step, number, onChange }: FieldsOf<'wait'>) {
+  return (
+    <>
+      <span>{words.macros.addWait}</span>
+      <Field
+        label={words.macros.stepMs({ number })}
+        value={step.waitMs}
+        range={WAIT_MS}
+        step={100}
+        unit={words.servos.ms}
+        onChange={(waitMs) => onChange({ ...step, waitMs })}
+      />
+    </>
+  );
+}
+
+interface FieldProps {
+  readonly label: string;
+  readonly value: number;
+  readonly range: Range;
+  readonly step?: number;
+  readonly unit?: string;
+  onChange(value: number): void;
+}
+
+function Field({ range: { min, max }, ...field }: FieldProps) {
+  const { notices } = useStores();
+  return (
+    <NumberField
+      {...{ min, max, ...field }}
+      onRefused={(value) => notices.refuse(words.refused({ name: field.label, value, min, max }))}
+    />
   );
 }

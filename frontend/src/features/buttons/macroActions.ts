@@ -3,7 +3,7 @@
 import { moveMacro, removeMacro } from '#shared/profile/macroEdits.ts';
 import type { Macro } from '#shared/profile/macro.ts';
 import type { Stores } from '../stores.ts';
-import { cardActions, placeAt } from '../../ui/cardActions.ts';
+import { cardActions, placeAt } from '../../ui/cards.ts';
 import { words } from '../../i18n/whole.ts';
 
 export interface MacroContext {

@@ -21,8 +21,7 @@ import type { Notices } from '../../state/notices.ts';
 import { createRobotDocument, type RobotDocument } from '../profiles/robotDocument.ts';
 import type { RobotStore } from '../profiles/robots.ts';
 import type { Device } from '../../robot/device.ts';
-import { limitRefusal } from '../../robot/limitGate.ts';
-import { GENTLE_MOVE_MS } from '../../robot/moveTime.ts';
+import { GENTLE_MOVE_MS, limitRefusal } from '../../robot/moves.ts';
 import type { Poses } from '../poses/poses.ts';
 import { endsMotion, startHindrance } from '../../robot/readiness.ts';
 

@@ -1,25 +1,36 @@
 // The row of one servo: dial, name, slider, value. Target and estimate are drawn without React, so that dozens can move in each frame.
 
-import { memo, useRef } from 'react';
+import { memo, useRef, type Ref } from 'react';
 import { fromBoard, servoOf, type RobotServo } from '#shared/profile/robot.ts';
-import { useRobot, useSnapshot, useStores, useDevice, useGuess, useServoView, useView } from '../stores.ts';
+import {
+  useRobot,
+  useSnapshot,
+  useStores,
+  useDevice,
+  useGuess,
+  useServoView,
+  useView,
+  editServoView,
+} from '../stores.ts';
 import { Chip } from '../../ui/Chip.tsx';
 import { useNow } from '../../ui/useEachFrame.ts';
 import { words, useWords } from '../../i18n/words.ts';
 import { type Scale, scaleOf, stepped } from './scale.ts';
 import { MovingText } from '../picture/MovingText.tsx';
 import { mayBrush, motionHindrance, tellsPositions } from '../../robot/readiness.ts';
-import { isHeld } from '../servoView.ts';
+import { isHeld, selectByClick } from '../servoView.ts';
 import { cx } from '../../ui/cx.ts';
 import { Sight, useSight } from '../../ui/sight.ts';
 import { NumberField } from '../../ui/NumberField.tsx';
-import { servoLabel } from '../../i18n/sentences.ts';
+import { servoLabel, numberAndName } from '../../i18n/sentences.ts';
 import { Estimate, PositionSlider } from './PositionSlider.tsx';
-import { ServoName } from './ServoName.tsx';
 import { useServoMoves } from './useServoMoves.ts';
 import { targetOf } from '../picture/motion.ts';
 import { useWheelSteps } from './useDrag.ts';
 import styles from './ServoRow.module.css';
+import { Dial } from '../picture/Dial.tsx';
+import { Icon } from '../../ui/Icon.tsx';
+import { selectHow } from '../../ui/inputEvents.ts';
 
 const AGE_REFRESH_MS = 1000;
 
@@ -236,4 +247,47 @@ function refusal(servo: RobotServo, shown: number, { min, max, unit }: Scale) {
     min: text(min),
     max: text(max),
   });
+}
+
+interface ServoNameProps {
+  readonly ref: Ref<HTMLButtonElement>;
+  readonly servo: RobotServo;
+  readonly order: readonly number[];
+}
+
+/** The dial and the name as one button that selects the servo: alone, added with Ctrl or by touch, as a range with Shift. */
+function ServoName({ ref, servo: own, order }: ServoNameProps) {
+  const { servo, name: joint, isReversed } = own;
+  const stores = useStores();
+  const family = useDevice((state) => state.family);
+  const isSelected = useServoView(({ selected }) => selected.includes(servo));
+  const isLocked = useServoView((view) => isHeld(view, servo));
+  const name = words.servos.name({ servo });
+
+  const said = [
+    ...(isReversed ? [words.servoPanel.marks.reversed] : []),
+    ...(isLocked ? [words.servoPanel.marks.locked] : []),
+  ];
+  return (
+    <button
+      ref={ref}
+      type="button"
+      className={styles.name}
+      aria-pressed={isSelected}
+      aria-label={[numberAndName(servo, joint), ...said].join(words.comma)}
+      onClick={(event) =>
+        editServoView(stores, (view) => selectByClick(view, servo, selectHow(event), order))
+      }
+    >
+      <Dial servo={servo} family={family} />
+      <span className={styles.texts}>
+        <span className={styles.joint}>{joint || name}</span>
+        <span className={styles.number}>
+          {isReversed && <Icon name="reverse" />}
+          {isLocked && <Icon name="lock" />}
+          {joint && joint !== name && name}
+        </span>
+      </span>
+    </button>
+  );
 }

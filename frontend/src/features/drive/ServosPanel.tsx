@@ -28,7 +28,7 @@ import { laterComponent } from '../../ui/later.tsx';
 import { NumberField } from '../../ui/NumberField.tsx';
 import { Body, RobotView } from '../picture/Body.tsx';
 import type { ServoLayout } from '../view.ts';
-import { GENTLE_MOVE_MS } from '../../robot/moveTime.ts';
+import { GENTLE_MOVE_MS } from '../../robot/moves.ts';
 import { cx } from '../../ui/cx.ts';
 import { Panel } from '../../ui/Panel.tsx';
 import { useLayout } from '../../ui/useLayout.ts';

@@ -8,8 +8,7 @@ import type { Robot } from '#shared/profile/robot.ts';
 import { servoLabel } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/words.ts';
 import type { Device, DeviceState, RobotProfiles } from '../../robot/device.ts';
-import { limitRefusal } from '../../robot/limitGate.ts';
-import { GENTLE_MOVE_MS } from '../../robot/moveTime.ts';
+import { GENTLE_MOVE_MS, limitRefusal } from '../../robot/moves.ts';
 import { endsMotion, startHindrance, tellsPositions } from '../../robot/readiness.ts';
 import type { Notices } from '../../state/notices.ts';
 

@@ -4,7 +4,7 @@ import { degreesOf, positionOf, type RobotServo, servoOf } from '#shared/profile
 import type { ServoTarget } from '#shared/codec/commands.ts';
 import type { Positions } from '../../robot/lastPoses.ts';
 import { type Together, isHeld, type ServoView, freeOf } from '../servoView.ts';
-import type { Pace } from '../../robot/moveTime.ts';
+import type { Pace } from '../../robot/moves.ts';
 import { guessNow, servoViewOf, useStores, type Stores } from '../stores.ts';
 
 /** Where the selected servos stood when they began to move together, and the last targets sent. */

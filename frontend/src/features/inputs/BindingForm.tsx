@@ -10,7 +10,7 @@ import {
 } from '#shared/profile/mapping.ts';
 import { type PoseRef, POSE_MS } from '#shared/profile/pose.ts';
 import type { Robot } from '#shared/profile/robot.ts';
-import { GENTLE_MOVE_MS } from '../../robot/moveTime.ts';
+import { GENTLE_MOVE_MS } from '../../robot/moves.ts';
 import { PoseSelect } from '../poses/PoseSelect.tsx';
 import { useDevice, useRobot, useStores } from '../stores.ts';
 import { Button } from '../../ui/Button.tsx';

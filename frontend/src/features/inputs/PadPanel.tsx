@@ -19,7 +19,7 @@ import { Mark } from '../../ui/Chip.tsx';
 import { inputName, rowTitle, servoTitle } from './rows.ts';
 import { words } from '../../i18n/whole.ts';
 import { useEachFrame } from '../../ui/useEachFrame.ts';
-import { GENTLE_MOVE_MS } from '../../robot/moveTime.ts';
+import { GENTLE_MOVE_MS } from '../../robot/moves.ts';
 import { motionHindrance } from '../../robot/readiness.ts';
 import { isHeld } from '../servoView.ts';
 import { Button } from '../../ui/Button.tsx';

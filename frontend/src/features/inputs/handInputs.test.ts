@@ -9,7 +9,7 @@ import { homeTargets } from '#shared/profile/poseShapes.ts';
 import { FAMILIES } from '#shared/codec/families.ts';
 import { RANGE_MS } from '#shared/robot/timings.ts';
 import { createTestPage } from '../pageUnderTest.ts';
-import { GENTLE_MOVE_MS } from '../../robot/moveTime.ts';
+import { GENTLE_MOVE_MS } from '../../robot/moves.ts';
 import { createMappings, createPad } from './pad.ts';
 import { createFollower } from '../../robot/follower.ts';
 

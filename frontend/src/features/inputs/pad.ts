@@ -1,6 +1,5 @@
 // Driving by pad and keys: reads the inputs once a frame and sends moves by the robot's mapping. Off until a person switches it on, and
-// off again after STOP or when link, pad or robot change. The code that maps inputs to moves is loaded with the panel. Knows no panel and
-// no browser event.
+// off again after STOP or when link, pad or robot change. The code that maps inputs to moves is loaded with the panel. Knows no panel.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { Clock } from '#shared/clock.ts';
@@ -29,6 +28,7 @@ import type { RobotStore } from '../profiles/robots.ts';
 import type { Undoable } from '../../state/undoable.ts';
 import type { TextStorage } from '../../state/storage.ts';
 import { createRobotDocument, type RobotDocument } from '../profiles/robotDocument.ts';
+import { isTextField } from '../../ui/inputEvents.ts';
 
 /** The part of the browser's `Gamepad` in use. */
 export interface Gamepadlike {
@@ -269,5 +269,28 @@ export function createMappings(
       unreadable: (flaw) => words.pad.unreadable({ flaw: flawSentence(flaw) }),
     },
     ...{ fresh: readyMapping, toText: mappingToText, fromText: mappingFromText },
+  });
+}
+
+type Listener = Pick<Pad, 'keyDown' | 'keyUp' | 'leave' | 'comeBack'>;
+
+export function watchInputs(page: Pick<Window, 'addEventListener' | 'document'>, pad: Listener): void {
+  const { document } = page;
+  page.addEventListener(
+    'keydown',
+    (event) => {
+      const isForOthers = event.ctrlKey || event.metaKey || event.altKey || isTextField(event.target);
+      if (isForOthers || !pad.keyDown(event.code, event.repeat)) return;
+      event.preventDefault();
+      event.stopPropagation();
+    },
+    { capture: true },
+  );
+  page.addEventListener('keyup', () => pad.keyUp(), { capture: true });
+  page.addEventListener('blur', () => pad.leave());
+  page.addEventListener('focus', () => pad.comeBack());
+  document.addEventListener('visibilitychange', () => {
+    if (document.visibilityState === 'hidden') pad.leave();
+    else if (document.hasFocus()) pad.comeBack();
   });
 }

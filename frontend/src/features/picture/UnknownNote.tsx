@@ -4,7 +4,7 @@
 import type { Robot } from '#shared/profile/robot.ts';
 import type { ServoTarget } from '#shared/codec/commands.ts';
 import type { DeviceState } from '../../robot/device.ts';
-import { GENTLE_MOVE_MS } from '../../robot/moveTime.ts';
+import { GENTLE_MOVE_MS } from '../../robot/moves.ts';
 import { motionHindrance } from '../../robot/readiness.ts';
 import { freeOf } from '../servoView.ts';
 import {

@@ -1,7 +1,7 @@
 import { beforeEach, describe, expect, test, vi } from 'vitest';
 import type { Pen } from './Canvas.tsx';
 import { recordingPen } from './penUnderTest.ts';
-import { coverOf, createPainting, createSheet, type Placed } from './sheet.ts';
+import { coverOf, createPainting, createSheet, type Placed } from './SharedSheet.tsx';
 
 const LIST = elementAt({ left: 10, top: 100, width: 500, height: 2_000 });
 

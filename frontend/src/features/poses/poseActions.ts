@@ -4,7 +4,7 @@ import { duplicatePose, movePose, poseOf, removePose, type Pose } from '#shared/
 import { longerName } from '../../i18n/sentences.ts';
 import type { Stores } from '../stores.ts';
 import type { Action } from '../../ui/action.ts';
-import { cardActions, placeAt } from '../../ui/cardActions.ts';
+import { cardActions, placeAt } from '../../ui/cards.ts';
 import { words } from '../../i18n/whole.ts';
 
 export interface PoseContext {

@@ -18,7 +18,7 @@ import type { ServoTarget } from '#shared/codec/commands.ts';
 import { flawSentence } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/words.ts';
 import type { Device } from '../../robot/device.ts';
-import { limitRefusal } from '../../robot/limitGate.ts';
+import { limitRefusal } from '../../robot/moves.ts';
 import { freeOf, stayingOf } from '../servoView.ts';
 import type { Notices } from '../../state/notices.ts';
 import { createRobotDocument, type RobotDocument } from '../profiles/robotDocument.ts';

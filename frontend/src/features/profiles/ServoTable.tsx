@@ -1,20 +1,81 @@
-// The table of the current robot's servos. An invalid change is explained below its row and not applied.
+// The table of the current robot's servos: how each column shows its value, and the robot that results from a typed text. An invalid
+// change is explained below its row and not applied.
 
 import type { Label } from '#shared/document/history.ts';
 import { useId, useState, type KeyboardEvent } from 'react';
 import { flawOf, type Robot, type RobotServo } from '#shared/profile/robot.ts';
-import { changeServo, pair, reachOf, removeServo } from '#shared/profile/robotEdits.ts';
+import { changeServo, pair, reachOf, removeServo, renumber } from '#shared/profile/robotEdits.ts';
 import { FAMILIES } from '#shared/codec/families.ts';
 import { useRobot, useStores } from '../stores.ts';
 import { IconButton } from '../../ui/Button.tsx';
 import { robotFlawSentence } from '../../i18n/robotFlaws.ts';
 import { servoLabel } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/whole.ts';
-import { COLUMNS, type Column, type ColumnId, type Edited } from './columns.ts';
 import { ReachBar } from './RobotPicture.tsx';
 import styles from './ServoTable.module.css';
 import { actionOf } from '../../ui/action.ts';
 import { UNDO_ACTIONS } from '../undo/undoActions.ts';
+
+export type ColumnId = 'servo' | 'name' | 'group' | 'min' | 'home' | 'max' | 'trim' | 'degreesPerUnit';
+
+export type Edited = { readonly robot: Robot } | { readonly problem: string };
+
+export interface Column {
+  readonly id: ColumnId;
+  readonly isNumber: boolean;
+  show(servo: RobotServo): string;
+  edit(robot: Robot, servo: RobotServo, text: string): Edited;
+}
+
+const whole =
+  (take: (robot: Robot, servo: number, value: number) => Robot): Column['edit'] =>
+  (robot, { servo }, text) => {
+    const value = Number(text);
+    if (text.trim() === '' || !Number.isInteger(value))
+      return { problem: words.robotEditor.notWhole({ text }) };
+    return { robot: take(robot, servo, value) };
+  };
+
+const figure = (id: 'min' | 'home' | 'max' | 'trim'): Column => ({
+  id,
+  isNumber: true,
+  show: (servo) => String(servo[id]),
+  edit: whole((robot, servo, value) => changeServo(robot, servo, { [id]: value })),
+});
+
+export const COLUMNS: readonly Column[] = [
+  { id: 'servo', isNumber: true, show: ({ servo }) => String(servo), edit: whole(renumber) },
+  {
+    id: 'name',
+    isNumber: false,
+    show: ({ name }) => name,
+    edit: (robot, { servo }, text) =>
+      text.trim() === ''
+        ? { problem: words.robotEditor.noName }
+        : { robot: changeServo(robot, servo, { name: text.trim() }) },
+  },
+  {
+    id: 'group',
+    isNumber: false,
+    show: ({ group }) => group,
+    edit: (robot, { servo }, text) => ({ robot: changeServo(robot, servo, { group: text.trim() }) }),
+  },
+  figure('min'),
+  figure('home'),
+  figure('max'),
+  figure('trim'),
+  {
+    id: 'degreesPerUnit',
+    isNumber: true,
+    show: ({ degreesPerUnit }) => String(degreesPerUnit),
+    edit(robot, { servo }, text) {
+      const degreesPerUnit = Number(text.replace(',', '.'));
+      if (text.trim() === '' || Number.isNaN(degreesPerUnit))
+        return { problem: words.robotEditor.notNumber({ text }) };
+      return { robot: changeServo(robot, servo, { degreesPerUnit }) };
+    },
+  },
+];
 
 export function ServoTable() {
   const { servos, board } = useRobot();

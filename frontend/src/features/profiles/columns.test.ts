@@ -1,7 +1,7 @@
 import { describe, expect, test } from 'vitest';
 import { flawOf, type Robot } from '#shared/profile/robot.ts';
 import { freshRobot } from './robots.ts';
-import { COLUMNS, type ColumnId } from './columns.ts';
+import { COLUMNS, type ColumnId } from './ServoTable.tsx';
 
 const HUMANOID = freshRobot('humanoid16', 'lsc-32');
 

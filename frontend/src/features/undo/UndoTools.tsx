@@ -1,7 +1,7 @@
 // Buttons for undo and redo of a history, each named after its step. Knows no particular history.
 
 import { redoLabel, undoLabel } from '#shared/document/history.ts';
-import { ActionIconButton } from '../../ui/ActionButton.tsx';
+import { ActionIconButton } from '../../ui/Button.tsx';
 import { useInFrame } from '../../ui/useInFrame.ts';
 import { UNDO_ACTIONS, type Written } from './undoActions.ts';
 

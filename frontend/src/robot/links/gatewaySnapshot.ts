@@ -6,7 +6,7 @@ import type { Command, Frame } from '#shared/codec/commands.ts';
 import { family as familyOf, UNKNOWN_BOARD, type Family } from '#shared/codec/families.ts';
 import { fromHex } from '#shared/codec/packet.ts';
 import type { Report } from '#shared/codec/reports.ts';
-import type { MotionBefore } from '#shared/motion/before.ts';
+import type { MotionBefore } from '#shared/motion/model.ts';
 import { createRobotEstimate, type RobotEstimate } from '#shared/robot/estimate.ts';
 import { NOTHING_HEARD } from '#shared/robot/identity.ts';
 import type { LineState } from '#shared/robot/link.ts';
@@ -31,7 +31,7 @@ import {
   reportIn,
   type BoardAtGateway,
 } from './gatewayValues.ts';
-import type { Driving } from './lease.ts';
+import type { Driving } from './driving.ts';
 import type { PlayState, StateMessage } from './messages.generated.ts';
 
 export interface GatewaySnapshotOptions {

@@ -1,6 +1,6 @@
 // Values of the gateway's messages as the snapshot has them, and the other way round. Pure: knows no socket.
 
-import type { MotionBefore } from '#shared/motion/before.ts';
+import type { MotionBefore } from '#shared/motion/model.ts';
 import { isHarmless, type Command, type Frame } from '#shared/codec/commands.ts';
 import { encodeCommand } from '#shared/codec/encode.ts';
 import { FAMILIES, type BoardId, type Family } from '#shared/codec/families.ts';

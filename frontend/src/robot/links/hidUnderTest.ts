@@ -1,7 +1,7 @@
 // A browser's HID devices for tests, below the channel: granted devices, reports, and what Chromium does with a device that went:
 // it stays `opened`, and what it is given never settles.
 
-import { splitReport } from '#shared/robot/hidReports.ts';
+import { splitReport } from './webHid.ts';
 
 export interface FakeBoard {
   readonly device: HIDDevice;

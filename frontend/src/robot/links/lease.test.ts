@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest';
 import type { ClientMessage, LeaseState } from './messages.generated.ts';
-import { createDriving, type Driving } from './lease.ts';
+import { createDriving, type Driving } from './driving.ts';
 
 const FREE: LeaseState = {
   ...{ driver: null, drives: false, requestedBy: null, hasRequested: false, grantedInMs: null },

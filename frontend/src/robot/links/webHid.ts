@@ -2,18 +2,52 @@
 // report, one report at a time, no closer than the UART behind it or 20 ms. Knows no packet beyond its length.
 
 import type { ByteChannel } from '#shared/robot/byteChannel.ts';
-import { REPORT_BYTES, reportOf, splitReport } from '#shared/robot/hidReports.ts';
 import { LinkError, type LinkErrorCode } from '#shared/robot/linkError.ts';
 import USB from '../../../../shared/protocol/usb.json' with { type: 'json' };
 import type { Withheld } from '#shared/robot/state.ts';
 import { sleep } from '#shared/clock.ts';
-import { wireMs } from '#shared/codec/packet.ts';
+import { wireMs, HEADER, MIN_LENGTH } from '#shared/codec/packet.ts';
 import { createDeviceFinder } from './deviceFinder.ts';
 import { nameOf } from './serialPorts.ts';
 import { createTabChannel } from './tabChannel.ts';
 import { browserClock } from './browserClock.ts';
 import { createConnection, settled, within, type Connection, type ConnectionEvents } from './connection.ts';
 import timings from '../../../../shared/protocol/timings.json' with { type: 'json' };
+
+export const REPORT_BYTES = timings.hid.reportBytes;
+
+/**
+ * The report that carries the packet, padded with zeros. Throws RangeError where it does not fit. Its twin is
+ * backend/servodeck/port/hid_reports.py; shared/protocol/vectors/hid.json holds both.
+ */
+export function reportOf(packet: Uint8Array): Uint8Array<ArrayBuffer> {
+  if (packet.length > REPORT_BYTES)
+    throw new RangeError(`${packet.length} bytes do not fit into a report of ${REPORT_BYTES}`);
+  const report = new Uint8Array(REPORT_BYTES);
+  report.set(packet);
+  return report;
+}
+
+interface SplitReport {
+  /** At the beginning; empty where none is. */
+  readonly packet: Uint8Array;
+  /** What else is in it, without its padding. */
+  readonly rest: Uint8Array;
+}
+
+/** A second packet in the same report is not believed: it may be left over from the report before. */
+export function splitReport(report: Uint8Array): SplitReport {
+  const [first, second, length = 0] = report;
+  const size = length + 2;
+  const isWhole =
+    first === HEADER &&
+    second === HEADER &&
+    length >= MIN_LENGTH &&
+    size <= Math.min(report.length, REPORT_BYTES);
+  const end = isWhole ? size : 0;
+  const stop = report.findLastIndex((byte) => byte !== 0) + 1;
+  return { packet: report.subarray(0, end), rest: report.subarray(end, Math.max(end, stop)) };
+}
 
 /** Why WebHID cannot be used here. An insecure address hides it in every browser. */
 type HidObstacle = Extract<LinkErrorCode, 'insecureAddress' | 'unsupported'>;

@@ -16,7 +16,7 @@ import {
   useTimeline,
   useView,
 } from '../../stores.ts';
-import { IconButton, Button } from '../../../ui/Button.tsx';
+import { IconButton, Button, ActionButton, ActionIconButton } from '../../../ui/Button.tsx';
 import { words } from '../../../i18n/whole.ts';
 import { filesText } from '../../library/files/fileText.ts';
 import { useFiles } from '../../library/files/FilesArea.tsx';
@@ -35,7 +35,6 @@ import { Timeline } from '../timeline/Timeline.tsx';
 import captureBarStyles from './CaptureBar.module.css';
 import styles from './ActionsPanel.module.css';
 import { motionHindrance } from '../../../robot/readiness.ts';
-import { ActionButton, ActionIconButton } from '../../../ui/ActionButton.tsx';
 import { AddsSwitch } from '../timeline/TimelineTools.tsx';
 import { together, useWholeFrames } from './frameVerbs.ts';
 import { FRAME_ACTIONS, frameContextOf, type FrameContext } from './frameActions.ts';

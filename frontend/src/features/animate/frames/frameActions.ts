@@ -3,11 +3,10 @@
 import { indexOfFrame, setTargets } from '#shared/group/groupEdits.ts';
 import { freeOf, stayingOf } from '../../servoView.ts';
 import { motionHindrance, tellsPositions } from '../../../robot/readiness.ts';
-import { GENTLE_MOVE_MS } from '../../../robot/moveTime.ts';
+import { GENTLE_MOVE_MS } from '../../../robot/moves.ts';
 import { knownFamily } from '../../groupBoard.ts';
 import { runByKey, type Action, type KeyUse, type Pressed } from '../../../ui/action.ts';
-import { cardActions, walkKeys } from '../../../ui/cardActions.ts';
-import { neighbour } from '../../../ui/cards.ts';
+import { neighbour, cardActions, walkKeys } from '../../../ui/cards.ts';
 import type { TimelineStores } from '../timeline/context.ts';
 import { spanFrames } from '../timeline/inStep.ts';
 import { words } from '../../../i18n/whole.ts';

@@ -1,7 +1,6 @@
 import { describe, expect, test } from 'vitest';
 import { insertFrame } from '#shared/group/groupEdits.ts';
 import { keepInStep, pressFrame } from '../timeline/inStep.ts';
-import { bringSelectionBack } from '../timeline/selectionBack.ts';
 import { createTestTimeline } from '../timeline/timelineUnderTest.ts';
 import { words } from '../../../i18n/whole.ts';
 import {
@@ -15,7 +14,7 @@ import {
   selectAllFrames,
   wholeFrames,
 } from './frameVerbs.ts';
-import { keySet } from '../timeline/timeline.ts';
+import { keySet, restoreSelection } from '../timeline/timeline.ts';
 
 /** Frames 1 to 5 of 500 ms, the first three with keys of several servos. */
 async function createStrip() {
@@ -26,7 +25,7 @@ async function createStrip() {
       () => 'more',
       (before) => insertFrame(before, 9, { durationMs: 500, targets: [{ servo: 1, position }] }),
     );
-  bringSelectionBack(stores);
+  restoreSelection(stores);
   keepInStep(stores);
   return {
     ...{ ...context, stores },

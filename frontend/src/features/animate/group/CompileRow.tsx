@@ -16,8 +16,7 @@ import {
   useKnownFamily,
 } from '../../stores.ts';
 import { showKey } from '../timeline/inStep.ts';
-import { obstacles } from '../../board/compile/compiled.ts';
-import { problemText } from '../../board/compile/problemText.ts';
+import { obstacles, problemText } from '../../board/compile/compiled.ts';
 import { words } from '../../../i18n/whole.ts';
 import { servoName } from '../../../i18n/sentences.ts';
 import { Chip } from '../../../ui/Chip.tsx';

@@ -3,8 +3,7 @@
 import { useStore } from 'zustand';
 import { recorded } from '../../servoView.ts';
 import { servoViewOf, useRobot, useServoView, useStores, type Stores } from '../../stores.ts';
-import { ActionButton } from '../../../ui/ActionButton.tsx';
-import { Button } from '../../../ui/Button.tsx';
+import { Button, ActionButton } from '../../../ui/Button.tsx';
 import { useNow } from '../../../ui/useEachFrame.ts';
 import { say } from '../../../i18n/sentences.ts';
 import { words } from '../../../i18n/whole.ts';

@@ -5,7 +5,7 @@ import { useMemo, useState } from 'react';
 import type { ActionGroup } from '#shared/group/group.ts';
 import { insertFrame } from '#shared/group/groupEdits.ts';
 import { simplify, type Sample } from '#shared/group/simplify.ts';
-import { GENTLE_MOVE_MS } from '../../../robot/moveTime.ts';
+import { GENTLE_MOVE_MS } from '../../../robot/moves.ts';
 import { useDevice, useStores } from '../../stores.ts';
 import { Button } from '../../../ui/Button.tsx';
 import { NumberField } from '../../../ui/NumberField.tsx';

@@ -1,14 +1,12 @@
 // The toolbar of the timeline: its actions for hands without a keyboard, and the switches that say how edits behave.
 
-import { memo } from 'react';
+import { memo, type ReactNode } from 'react';
 import { useShallow } from 'zustand/react/shallow';
 import { Toolbar } from 'react-aria-components/Toolbar';
 import { EASINGS, type Easing } from '#shared/group/group.ts';
 import { useStores, useView, useDocument, useTimeline } from '../../stores.ts';
-import { ToggleButton } from '../../../ui/ToggleButton.tsx';
 import { words } from '../../../i18n/whole.ts';
-import { ActionIconButton } from '../../../ui/ActionButton.tsx';
-import { IconButton } from '../../../ui/Button.tsx';
+import { IconButton, ActionIconButton } from '../../../ui/Button.tsx';
 import { Select } from '../../../ui/Select.tsx';
 import { type KeySet, selectedKeys } from './timeline.ts';
 import { useWords } from '../../../i18n/words.ts';
@@ -19,10 +17,10 @@ import { TIMELINE_ACTIONS, type TimelineActionName } from './timelineActions.ts'
 import addsSwitchStyles from './AddsSwitch.module.css';
 import { InLanguage } from '../../../ui/InLanguage.tsx';
 import styles from './TimelineTools.module.css';
+import { hinted } from '../../../ui/hinting.ts';
+import { pressOnce } from '../../../ui/inputEvents.ts';
 
-// For hands without a Ctrl key: what is pressed in the timeline or the strip goes beside what is selected. Stands
-// with the tools of both; seen only where fingers are.
-
+/** For touch, where there is no Ctrl key: a press in the timeline or the strip adds to the selection. Shown only on touch screens. */
 export function AddsSwitch() {
   const { view } = useStores();
   const isOn = useView((state) => state.addsToSelection);
@@ -121,4 +119,28 @@ function commonEasing(times: GroupTimes, selected: KeySet): Easing | '' {
   const keys = selectedKeys(times, selected);
   const easing = keys[0]?.easing ?? '';
   return keys.every((key) => key.easing === easing) ? easing : '';
+}
+
+interface ToggleButtonProps {
+  readonly isOn: boolean;
+  /** More than the label says. */
+  readonly hint?: string;
+  readonly children: ReactNode;
+  onChange(isOn: boolean): void;
+}
+
+/** A button that stays pressed. */
+function ToggleButton({ isOn, hint, children, onChange }: ToggleButtonProps) {
+  return (
+    <button
+      {...hinted({ hint })}
+      type="button"
+      className={styles.toggle}
+      aria-pressed={isOn}
+      onClick={() => onChange(!isOn)}
+      onKeyDown={pressOnce}
+    >
+      {children}
+    </button>
+  );
 }

@@ -2,7 +2,7 @@
 
 import { type Look, colourOf } from '../../picture/Canvas.tsx';
 import type { Scene } from './scene.ts';
-import { markText } from '../../../i18n/instants.ts';
+import { markText } from './valueText.ts';
 import { words } from '../../../i18n/whole.ts';
 import { hasAll } from './hit.ts';
 import { seenSpan, xOf } from './timeScale.ts';

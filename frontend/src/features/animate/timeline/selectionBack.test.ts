@@ -3,17 +3,16 @@ import { emptyGroup } from '#shared/group/group.ts';
 import { startHistory } from '#shared/document/history.ts';
 import { keepInStep } from './inStep.ts';
 import { servoRowId } from './rows.ts';
-import { bringSelectionBack, lookAfresh } from './selectionBack.ts';
 import { createTestTimeline } from './timelineUnderTest.ts';
 import { createVirtualClock } from '#shared/testing/virtualClock.ts';
 import { createMemoryStore } from '../../library/memoryStore.ts';
 import { createVisit } from '../../library/libraryUnderTest.ts';
-import { keySet, createTimeline } from './timeline.ts';
+import { keySet, createTimeline, restoreSelection, resetForOpenedGroup } from './timeline.ts';
 
 /** As on the page: it hears of an edit before whoever forgets what is gone. */
 async function createStoredPage() {
   const page = await createTestTimeline();
-  bringSelectionBack(page.stores);
+  restoreSelection(page.stores);
   keepInStep(page.stores);
   const { document, timeline, view } = page.stores;
   return {
@@ -87,7 +86,7 @@ test('a group that is opened again is looked at afresh', async () => {
 test('what was selected and looked at in one group is not in another, whose frames have the same ids', async () => {
   const timeline = createTimeline();
   const visit = createVisit(createMemoryStore(), createVirtualClock());
-  lookAfresh({ ...visit, timeline });
+  resetForOpenedGroup({ ...visit, timeline });
   await visit.later();
   visit.capture(1000);
   const [frame] = visit.document.store.getState().present.frames;

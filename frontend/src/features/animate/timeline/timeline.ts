@@ -1,10 +1,16 @@
-// What the timeline shows and has selected on this screen: nothing of it is the document's, none of it moves the robot. The
-// playhead is an instant one looks at; whoever plays may move it.
+// What the timeline shows and has selected on this screen, and how undo, redo and another group change that. Nothing of it is the
+// document's, none of it moves the robot. The playhead is the time that is shown; the player may move it.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { GroupTimes } from '#shared/group/groupTimes.ts';
 import type { Key, KeyRef } from '#shared/group/tracks.ts';
 import type { Clip } from '#shared/group/clip.ts';
+import type { ActionGroup } from '#shared/group/group.ts';
+import type { History } from '#shared/document/history.ts';
+import type { Library } from '../../library/library.ts';
+import type { View } from '../../view.ts';
+import { setChanged } from '../../../state/setChanged.ts';
+import type { Document } from '../../groupDocument.ts';
 
 // A set of keys of the action group, by their names in the document.
 
@@ -154,7 +160,7 @@ export const ALL_ROW = 'all';
 
 export function createTimeline(): Timeline {
   return createStore<TimelineState>(() => ({
-    ...afresh(),
+    ...initialSelection(),
     time: { fromMs: 0, msPerPx: 10 },
     widthPx: 0,
     heightPx: 0,
@@ -167,8 +173,8 @@ export function createTimeline(): Timeline {
   }));
 }
 
-/** What is about one group and means nothing in another. */
-export function afresh() {
+/** The part of the state that belongs to one group. */
+export function initialSelection() {
   return {
     selected: NO_KEYS,
     cursor: { row: ALL_ROW, frameId: null },
@@ -179,4 +185,54 @@ export function afresh() {
     typed: '',
     marker: null,
   } satisfies Partial<TimelineState>;
+}
+
+/**
+ * When another group is opened, nothing of it is selected yet, all of it is in sight, and the playhead is at its beginning: frames of two
+ * groups may have the same ids.
+ */
+export function resetForOpenedGroup(stores: {
+  readonly library: Pick<Library, 'store'>;
+  readonly view: View;
+  readonly timeline: Timeline;
+}): void {
+  stores.library.store.subscribe(({ openId }, before) => {
+    if (openId === before.openId) return;
+    stores.view.setState({ selectedFrame: null });
+    stores.timeline.setState(initialSelection());
+  });
+}
+
+interface SelectionStores {
+  readonly document: Document;
+  readonly timeline: Timeline;
+  readonly view: View;
+}
+
+/** Undo, redo and a cancelled gesture bring back the selection and the cursor that the group was left with. */
+export function restoreSelection({ document, timeline, view }: SelectionStores): void {
+  const left = new WeakMap<ActionGroup, ReturnType<typeof looks>>();
+
+  function looks() {
+    const { selected, cursor, marker } = timeline.getState();
+    return { keys: { selected, cursor, marker }, selectedFrame: view.getState().selectedFrame };
+  }
+
+  document.store.subscribe((next, before) => {
+    if (next.present === before.present) return;
+    left.set(before.present, looks());
+    const back = isStep(before, next) || isCalledOff(before, next) ? left.get(next.present) : undefined;
+    if (back === undefined) return;
+    setChanged(timeline, back.keys);
+    setChanged(view, { selectedFrame: back.selectedFrame });
+  });
+}
+
+/** Back or forth in the history, and no edit. */
+function isStep(before: History<ActionGroup>, next: History<ActionGroup>): boolean {
+  return next.future.at(-1)?.value === before.present || before.future.at(-1)?.value === next.present;
+}
+
+function isCalledOff({ gesture }: History<ActionGroup>, next: History<ActionGroup>): boolean {
+  return gesture !== null && next.gesture === null && next.present === gesture.value;
 }

@@ -1,13 +1,34 @@
-// What is dragged, in words: where it is by now. Read while the hand is still on it; changes nothing.
+// Times and values on the timeline as text, also those of what is dragged. Changes nothing.
 
 import { servoOf } from '#shared/profile/robot.ts';
-import { secondsText } from '../../../i18n/instants.ts';
 import { words } from '../../../i18n/whole.ts';
 import { inUnits, scaleOf, type Scale } from '../../drive/scale.ts';
 import { rangeOf, type TimelineContext, contextOf, type TimelineStores } from './context.ts';
 import type { Cursor } from './timeline.ts';
 import { keysOfFrame, endOfFrame } from '#shared/group/groupTimes.ts';
 import type { Row } from './rows.ts';
+
+const formats = [0, 1, 2, 3].map(
+  (decimals) =>
+    new Intl.NumberFormat('en', {
+      useGrouping: false,
+      minimumFractionDigits: decimals,
+      maximumFractionDigits: decimals,
+    }),
+);
+
+const fixed = (value: number, decimals: number): string => formats[decimals]?.format(value) ?? '';
+
+/** `1.50`, or with three decimals where hundredths would hide something. */
+export const secondsText = (atMs: number): string => fixed(atMs / 1000, atMs % 10 === 0 ? 2 : 3);
+
+/** With as many decimals as the ruler's step has; from a minute on as `1:05`. */
+export function markText(atMs: number, stepMs: number): string {
+  const decimals = [1000, 100, 10, 1].findIndex((part) => stepMs % part === 0);
+  if (atMs < 60_000) return fixed(atMs / 1000, decimals);
+  const seconds = fixed((atMs % 60_000) / 1000, decimals);
+  return `${Math.floor(atMs / 60_000)}:${atMs % 60_000 < 10_000 ? '0' : ''}${seconds}`;
+}
 
 // An instant of a group with its unit, as it stands in sentences.
 

@@ -12,8 +12,7 @@ import { cx } from '../../../ui/cx.ts';
 import { NumberField } from '../../../ui/NumberField.tsx';
 import { words } from '../../../i18n/whole.ts';
 import styles from './Slots.module.css';
-import { obstacles, type CompiledGroup } from '../compile/compiled.ts';
-import { problemText } from '../compile/problemText.ts';
+import { obstacles, type CompiledGroup, problemText } from '../compile/compiled.ts';
 import type { SlotDownload } from './slots.ts';
 
 interface Pick {

@@ -5,7 +5,7 @@ import { type PointerEvent, useRef } from 'react';
 import { positionOf, type RobotServo } from '#shared/profile/robot.ts';
 import { freeOf } from '../../servoView.ts';
 import { useStores } from '../../stores.ts';
-import { radiansOf } from './leading.ts';
+import { radiansOf } from './limbs.ts';
 import type { Model } from './model.ts';
 import { turnedBy } from './ring.ts';
 import styles from './RobotView.module.css';

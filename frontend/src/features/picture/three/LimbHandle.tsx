@@ -10,8 +10,7 @@ import { NumberField } from '../../../ui/NumberField.tsx';
 import { freeOf, isLocked } from '../../servoView.ts';
 import { guessNow, useStores, type Stores } from '../../stores.ts';
 import { useMotions } from '../useMotions.ts';
-import { inMm, type Leading, type Led, leadTo, poseOfLimb, takeLimb } from './leading.ts';
-import type { LedLimb } from './limbs.ts';
+import { type LedLimb, inMm, type Leading, type Led, leadTo, poseOfLimb, takeLimb } from './limbs.ts';
 import type { Model } from './model.ts';
 import styles from './RobotView.module.css';
 

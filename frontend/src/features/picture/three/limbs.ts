@@ -1,10 +1,21 @@
-// The limbs of a model that may be led by their ends: the chain of joints from the ground to each tip, and the servo of each joint.
+// The limbs of a model that may be led by their ends: the chain of joints from the ground to each tip, and the targets of its servos for
+// a place in space, within their limits and past locked ones. Moves nothing. Millimetres are the page's, metres the model's.
 
 import { type Matrix4, type Object3D, Quaternion, Vector3 } from 'three';
 import type { URDFRobot } from 'urdf-loader';
-import { type Chain, type ChainJoint, type Rotation, type Vec3 } from '#shared/kinematics/chain.ts';
+import {
+  type Chain,
+  type ChainJoint,
+  type Rotation,
+  type Vec3,
+  poseOfChain,
+  type ChainPose,
+} from '#shared/kinematics/chain.ts';
 import { carriersOf, isJoint } from './figure.ts';
 import { jointName, TIP } from './urdf.ts';
+import type { ServoTarget } from '#shared/codec/commands.ts';
+import { follow, reach, type Solution, type Wish } from '#shared/kinematics/inverse.ts';
+import { degreesOf, positionOf, type Robot, type RobotServo, servoOf } from '#shared/profile/robot.ts';
 
 export interface LedLimb {
   /** The link at its end. */
@@ -64,3 +75,71 @@ function between(from: Matrix4, to: Matrix4): { readonly at: Vec3; readonly rota
 }
 
 export const triple = ({ x, y, z }: Vector3): Vec3 => [x, y, z];
+
+/** Positions in board units; null: not known. */
+export type Positions = (servo: RobotServo) => number | null;
+
+export interface Leading {
+  readonly limb: LedLimb;
+  /** Radians, in the order of the chain. */
+  readonly angles: readonly number[];
+}
+
+const RADIANS = Math.PI / 180;
+
+export const radiansOf = (servo: RobotServo, position: number): number =>
+  degreesOf(servo, position) * RADIANS;
+
+/** Where the limb is as its servos stand; null where one of them stands somewhere unknown. */
+export function takeLimb(limb: LedLimb, robot: Robot, positions: Positions): Leading | null {
+  const angles: number[] = [];
+  for (const number of limb.servos) {
+    const servo = servoOf(robot, number);
+    const position = servo === undefined ? null : positions(servo);
+    if (servo === undefined || position === null) return null;
+    angles.push(radiansOf(servo, position));
+  }
+  return { limb, angles };
+}
+
+export const poseOfLimb = ({ limb, angles }: Leading): ChainPose => poseOfChain(limb.chain, angles);
+
+interface Lead extends Wish {
+  /** `follow`: the nearest way, for a drag. `reach`: any elbow, for a place that was typed. */
+  readonly how: 'follow' | 'reach';
+  isLocked(servo: number): boolean;
+}
+
+export interface Led {
+  readonly leading: Leading;
+  readonly targets: readonly ServoTarget[];
+  readonly missM: number;
+}
+
+export function leadTo(leading: Leading, robot: Robot, { how, isLocked, ...wish }: Lead): Led {
+  const { limb, angles } = leading;
+  const chain = withLocks(limb, angles, isLocked);
+  const { angles: found, missM }: Solution = (how === 'follow' ? follow : reach)(chain, angles, wish);
+  const targets = limb.servos.flatMap((number, index): readonly ServoTarget[] => {
+    const servo = servoOf(robot, number);
+    if (servo === undefined || isLocked(number)) return [];
+    const wanted = positionOf(servo, (found[index] ?? 0) / RADIANS);
+    return [{ servo: number, position: Math.min(servo.max, Math.max(servo.min, wanted)) }];
+  });
+  return { leading: { limb, angles: found }, targets, missM };
+}
+
+/** A locked joint is one whose limits are where it stands. */
+function withLocks({ chain, servos }: LedLimb, angles: readonly number[], isLocked: Lead['isLocked']): Chain {
+  const joints = chain.joints.map((joint, index) => {
+    const angle = angles[index] ?? 0;
+    return isLocked(servos[index] ?? 0) ? { ...joint, min: angle, max: angle } : joint;
+  });
+  return { ...chain, joints };
+}
+
+export const inMm = ([x, y, z]: Vec3): Vec3 => [
+  Math.round(x * 1000),
+  Math.round(y * 1000),
+  Math.round(z * 1000),
+];

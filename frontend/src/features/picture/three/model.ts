@@ -7,7 +7,7 @@ import type { Motions } from '#shared/robot/state.ts';
 import type { Look } from '../Canvas.tsx';
 import type { Pose } from '../pose.ts';
 import { createFigure, type Angles, type Figure } from './figure.ts';
-import { radiansOf } from './leading.ts';
+import { radiansOf } from './limbs.ts';
 import { createPathLine, type PathLine, type PathPoint } from './path.ts';
 import { createRing, type Ring } from './ring.ts';
 import { sizeOf, type Stage } from './stage.ts';

@@ -9,8 +9,7 @@ import { poseOfChain, type Vec3 } from '#shared/kinematics/chain.ts';
 import { type Robot, servoOf } from '#shared/profile/robot.ts';
 import { rescaled } from '#shared/profile/units.ts';
 import type { Family } from '#shared/codec/families.ts';
-import { radiansOf } from './leading.ts';
-import type { LedLimb } from './limbs.ts';
+import { type LedLimb, radiansOf } from './limbs.ts';
 
 export interface PathPoint {
   readonly atMs: number;

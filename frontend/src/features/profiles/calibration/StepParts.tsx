@@ -1,18 +1,59 @@
-// Shown before every step that moves a servo: says why it may not move now and offers a remedy, and moves servos with an unknown position
-// to their middle or home, slowly and only on request.
+// What the steps of the calibration share: the question, its answers, and what is shown before a servo may move.
 
-import type { ReactNode } from 'react';
+import { type ReactNode, useLayoutEffect, useRef, useState, type MouseEvent } from 'react';
 import type { Robot, RobotServo } from '#shared/profile/robot.ts';
 import { reachOf } from '#shared/profile/robotEdits.ts';
 import { isWatching, mayResume, type Lease } from '#shared/robot/lease.ts';
 import { FAMILIES } from '#shared/codec/families.ts';
-import { GENTLE_MOVE_MS } from '../../../robot/moveTime.ts';
+import { GENTLE_MOVE_MS } from '../../../robot/moves.ts';
 import { motionHindrance } from '../../../robot/readiness.ts';
 import { useDevice, useSnapshot, useStores } from '../../stores.ts';
 import { leaseTextOf } from '../../people/leaseText.ts';
 import { mayResumeText } from '../../../i18n/sentences.ts';
 import { words } from '../../../i18n/whole.ts';
-import { Answer, Ask } from './Answer.tsx';
+import { Button, type ButtonProps } from '../../../ui/Button.tsx';
+import styles from './CalibrationWizard.module.css';
+
+/** The current question. It takes the focus when a step ends and its buttons disappear, so that the focus is not on a button that moves. */
+export function Ask({ children }: { readonly children: ReactNode }) {
+  const asked = useRef<HTMLParagraphElement>(null);
+  useLayoutEffect(() => {
+    if (document.activeElement?.contains(asked.current)) asked.current?.focus();
+  }, []);
+  return (
+    <p ref={asked} className={styles.ask} tabIndex={-1}>
+      {children}
+    </p>
+  );
+}
+
+/** The usual limit of systems for a double press. */
+const READ_MS = 500;
+
+interface AnswerProps extends Omit<ButtonProps, 'onPress'> {
+  onPress(): void;
+}
+
+export function Answer({ onPress, ...rest }: AnswerProps) {
+  const { clock } = useStores().device;
+  const [shownMs] = useState(clock.now);
+
+  function isEcho({ detail, nativeEvent }: MouseEvent): boolean {
+    const isFinger = nativeEvent instanceof PointerEvent && nativeEvent.pointerType === 'touch';
+    return isFinger ? clock.now() - shownMs < READ_MS : detail > 1;
+  }
+
+  return (
+    <span className={styles.answer}>
+      <Button
+        {...rest}
+        onPress={(press) => {
+          if (!isEcho(press)) onPress();
+        }}
+      />
+    </span>
+  );
+}
 
 export interface MotionGateProps {
   readonly robot: Robot;

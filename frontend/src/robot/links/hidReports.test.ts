@@ -2,11 +2,11 @@
 
 import fc from 'fast-check';
 import { expect, test } from 'vitest';
-import cases from '../../protocol/vectors/hid.json' with { type: 'json' };
-import vectors from '../../protocol/vectors/reports.json' with { type: 'json' };
-import { createDecoder, type DecoderEvent } from '../codec/decoder.ts';
-import { fromHex } from '../codec/packet.ts';
-import { REPORT_BYTES, reportOf, splitReport } from './hidReports.ts';
+import cases from '../../../../shared/protocol/vectors/hid.json' with { type: 'json' };
+import vectors from '../../../../shared/protocol/vectors/reports.json' with { type: 'json' };
+import { createDecoder, type DecoderEvent } from '#shared/codec/decoder.ts';
+import { fromHex } from '#shared/codec/packet.ts';
+import { REPORT_BYTES, reportOf, splitReport } from './webHid.ts';
 
 const PACKETS = vectors.map(({ hex }) => fromHex(hex)).filter(({ length }) => length <= REPORT_BYTES);
 
