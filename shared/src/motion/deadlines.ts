@@ -39,7 +39,7 @@ function begin(
   const total = board.playedFrames(slot)?.length;
   const ends = endsToHear + (owesEnd(motion, atMs, board) ? 1 : 0);
   if (total === undefined) return runningUnknown(motion, slot, ends);
-  const at = { nextAtMs: atMs, passAtMs: atMs };
+  const at = { askedAtMs: atMs, nextAtMs: atMs, passAtMs: atMs };
   return {
     ...motion,
     untoldEndMs: -Infinity,
@@ -89,7 +89,7 @@ function beginFrame(motion: Motion, run: DeadlineRun, board: KnownBoard): Motion
   return {
     ...motion,
     recent,
-    tracks: contested(tracks, recent),
+    tracks: contested(tracks, recent, family, run.askedAtMs),
     ...(isPause ? {} : unrestBehind(motion, durationMs, run.nextAtMs, family)),
     // The raw time, not the one the servos were given (S43).
     run: { ...run, next: run.next + 1, nextAtMs: run.nextAtMs + durationMs },

@@ -58,6 +58,8 @@ interface UnknownRun {
 export interface DeadlineRun {
   readonly kind: 'deadlines';
   readonly slot: number;
+  /** What the board heard before is taken up already. */
+  readonly askedAtMs: number;
   readonly total: number;
   readonly next: number;
   readonly nextAtMs: number;

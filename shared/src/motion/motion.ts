@@ -31,6 +31,7 @@ import {
   endMs,
   lastEndMs,
   leewayOf,
+  lengthened,
   LONGEST_MOVE_MS,
   only,
   ordered,
@@ -42,7 +43,6 @@ import {
   startingAt,
   stoppedBefore,
   torn,
-  type Track,
   type Tracks,
   unrestBehind,
 } from './tracks.ts';
@@ -155,7 +155,7 @@ function moved(
   return {
     ...motion,
     recent,
-    tracks: contested(tracks, recent),
+    tracks: contested(tracks, recent, family),
     ...unrestBehind(motion, durationMs, atMs, family),
   };
 }
@@ -190,13 +190,8 @@ function deafened(motion: Motion, kind: Command['kind'], atMs: number): Motion {
 
 /** Those under way arrive, but nobody knows from where and when: by then at the latest. */
 function heldUp(tracks: Tracks, atMs: number, untilMs: number): Tracks {
-  const lengthened = (track: Track): Track => ({
-    ...track,
-    from: null,
-    durationMs: Math.max(endMs(track), untilMs) - track.startMs,
-  });
   return new Map(
-    [...tracks].map(([servo, track]) => [servo, stands(track, atMs) ? track : lengthened(track)]),
+    [...tracks].map(([servo, track]) => [servo, stands(track, atMs) ? track : lengthened(track, untilMs)]),
   );
 }
 

@@ -133,26 +133,46 @@ export function ordered(
   return [...near, { ...order, endMs: order.atMs + boardDurationMs(requestedMs, family) }];
 }
 
-/** Somewhere on its way to one of two places, until the later of two times. */
-export function torn(track: Track, untilMs: number): Track {
-  const durationMs = Math.max(untilMs, endMs(track)) - track.startMs;
-  return { ...track, from: null, durationMs, fromLeeway: Infinity, toLeeway: Infinity };
+/** It arrives, but from where and when is unknown: by then at the latest. */
+export function lengthened(track: Track, untilMs: number): Track {
+  return { ...track, from: null, durationMs: Math.max(endMs(track), untilMs) - track.startMs };
 }
 
-/** After the last of `recent`: a servo that a move and a frame near each other send to different places goes to one of them. */
-export function contested(tracks: Tracks, recent: readonly Order[]): Tracks {
+/** Somewhere on its way to one of two places, until the later of two times. */
+export function torn(track: Track, untilMs: number): Track {
+  return { ...lengthened(track, untilMs), fromLeeway: Infinity, toLeeway: Infinity };
+}
+
+/**
+ * After the last of `recent`, where moves and frames are near it that the board may take up behind it: a servo that they send elsewhere
+ * goes to one of two places, and where each re-times every servo (S26) whatever is under way may arrive when they end. What the board
+ * heard before `sinceMs` is ahead of it for sure.
+ */
+export function contested(
+  tracks: Tracks,
+  recent: readonly Order[],
+  family: Family,
+  sinceMs = -Infinity,
+): Tracks {
   const latest = recent.at(-1);
-  const rivals = recent.filter(({ by }) => by !== latest?.by);
+  if (latest === undefined || latest.targets.length === 0) return tracks;
+  const rivals = recent.filter(({ by, targets }) => by !== latest.by && targets.length > 0);
+  const retimers = family.motion.timing === 'shared' ? rivals.filter(({ atMs }) => atMs >= sinceMs) : [];
   const next = new Map(tracks);
-  for (const { servo, position } of latest?.targets ?? []) {
-    const track = tracks.get(servo);
-    const against = rivals.filter(({ targets }) =>
-      targets.some((other) => other.servo === servo && other.position !== position),
-    );
-    if (track && against.length > 0)
-      next.set(servo, torn(track, Math.max(...against.map((order) => order.endMs))));
+  for (const [servo, track] of tracks) {
+    const against = rivals.filter((rival) => contests(rival, latest, servo));
+    const behind = [...against, ...retimers].map((rival) => rival.endMs);
+    if (against.length > 0) next.set(servo, torn(track, Math.max(...behind)));
+    else if (!stands(track, latest.atMs) && behind.some((untilMs) => untilMs !== endMs(track)))
+      next.set(servo, lengthened(track, Math.max(...behind)));
   }
   return next;
+}
+
+/** Both send it, and to different places. */
+function contests(one: Order, other: Order, servo: number): boolean {
+  const sent = [...one.targets, ...other.targets].filter((target) => target.servo === servo);
+  return new Set(sent.map(({ position }) => position)).size > 1;
 }
 
 /** After a stop at `atMs`: frames that began just before it may not have begun, and what was under way goes on. */

@@ -3,8 +3,10 @@
 
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
+import stops from '../../protocol/vectors/stops.json' with { type: 'json' };
 import { LONGEST_DEAFNESS_MS } from '../motion/motion.ts';
 import { SIMULATED } from './estimateUnderTest.ts';
+import type { ProfileName } from '../simulator/profileNames.ts';
 import { TIMES } from '../testing/cases.ts';
 import { SERVOS, somePlainHistory, someStopHistory, type StopHistory } from './historiesUnderTest.ts';
 import { SELDOM_MS, stopped, type StopOutcome } from './stopUnderTest.ts';
@@ -440,5 +442,13 @@ describe('what longer runs found', () => {
       const outcome = await stopped(profile, { ...history, steps });
       expect([...broken(outcome), ...brokenHolds(outcome)], JSON.stringify(outcome)).toEqual([]);
     }
+  });
+});
+
+/** What the gateway's runs found; it replays them at each of its doors (backend/tests/test_stop_says.py). */
+describe.each(stops)('$name', ({ boards, history }) => {
+  test.each(boards as readonly ProfileName[])('on %s', async (profile) => {
+    const outcome = await stopped(profile, history as StopHistory);
+    expect([...broken(outcome), ...brokenHolds(outcome)], JSON.stringify(outcome)).toEqual([]);
   });
 });

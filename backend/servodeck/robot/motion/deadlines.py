@@ -74,7 +74,7 @@ def begin(motion: Motion, wanted: Run, at_ms: float, board: KnownBoard, ends_to_
     ends = ends_to_hear + (1 if owes_end(motion, at_ms, board.family) else 0)
     if frames is None:
         return running_unknown(motion, wanted.slot, ends, at_ms + longest_ms(wanted, board.family))
-    run = DeadlineRun(wanted.slot, len(frames), 0, at_ms, at_ms, wanted.times, 0, ends)
+    run = DeadlineRun(wanted.slot, at_ms, len(frames), 0, at_ms, at_ms, wanted.times, 0, ends)
     return replace(motion, untold_end_ms=-inf, run=run)
 
 
@@ -113,7 +113,7 @@ def begin_frame(motion: Motion, run: DeadlineRun, board: KnownBoard) -> Motion:
     return replace(
         motion,
         recent=recent,
-        tracks=contested(tracks, recent),
+        tracks=contested(tracks, recent, family, run.asked_at_ms),
         restless_until_ms=unrest[0],
         inherited_until_ms=unrest[1],
         # The raw time, not the one the servos were given (S43).

@@ -89,10 +89,11 @@ class UnknownRun:
 @value
 class DeadlineRun:
     """`next` is the frame that begins at `next_at_ms`; `total` what the board takes for the group's length
-    (S46). `times` 0: until stopped.
+    (S46). `times` 0: until stopped. What the board heard before `asked_at_ms` is taken up already.
     """
 
     slot: int
+    asked_at_ms: float
     total: int
     next: int
     next_at_ms: float

@@ -189,7 +189,7 @@ def moved(motion: Motion, move: Move, at_ms: float, board: KnownBoard) -> Motion
     return replace(
         motion,
         recent=recent,
-        tracks=contested(tracks, recent),
+        tracks=contested(tracks, recent, board.family),
         restless_until_ms=unrest_after(motion.restless_until_ms, move.duration_ms, at_ms, board.family),
         inherited_until_ms=unrest_after(motion.inherited_until_ms, move.duration_ms, at_ms, board.family),
     )

@@ -141,24 +141,32 @@ def torn(track: Track, until_ms: float) -> Track:
     return replace(lengthened(track, until_ms), start_leeway=inf, to_leeway=inf)
 
 
-def contested(tracks: Tracks, recent: Sequence[Order]) -> Tracks:
-    """After the last of `recent`: a servo that a move and a frame near each other send to different places
-    goes to one of them.
+def contested(tracks: Tracks, recent: Sequence[Order], family: Family, since_ms: float = -inf) -> Tracks:
+    """After the last of `recent`, where moves and frames are near it that the board may take up behind it: a
+    servo that they send elsewhere goes to one of two places, and where each re-times every servo (S26)
+    whatever is under way may arrive when they end. What the board heard before `since_ms` is ahead of it for
+    sure.
     """
     latest = recent[-1]
+    if not latest.targets:
+        return tracks
+    rivals = [order for order in recent if order.by != latest.by and order.targets]
+    is_shared = family.motion.timing == "shared"
+    retimers = [rival for rival in rivals if is_shared and rival.at_ms >= since_ms]
     changed = dict(tracks)
-    for target in latest.targets:
-        against = [
-            rival.end_ms
-            for rival in recent
-            if rival.by != latest.by
-            and any(
-                other.servo == target.servo and other.position != target.position for other in rival.targets
-            )
-        ]
-        if target.servo in tracks and against:
-            changed[target.servo] = torn(tracks[target.servo], max(against))
+    for servo, track in tracks.items():
+        against = [rival for rival in rivals if contests(rival, latest, servo)]
+        behind_ms = [rival.end_ms for rival in (*against, *retimers)]
+        if against:
+            changed[servo] = torn(track, max(behind_ms))
+        elif not stands(track, latest.at_ms) and any(until_ms != end_ms(track) for until_ms in behind_ms):
+            changed[servo] = lengthened(track, max(behind_ms))
     return changed
+
+
+def contests(one: Order, other: Order, servo: int) -> bool:
+    """Both send it, and to different places."""
+    return len({target.position for target in (*one.targets, *other.targets) if target.servo == servo}) > 1
 
 
 def stopped_before(tracks: Tracks, recent: Sequence[Order], at_ms: float, family: Family) -> dict[int, Track]:
