@@ -6,8 +6,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from servodeck.port.hid_reports import REPORT_BYTES, ReportInbox, report_of, split_report
+from servodeck.port.hid import ReportInbox, report_of, split_report
 from servodeck.protocol.decoder import Decoder, DecoderEvent, PacketEvent
+from servodeck.protocol.timings import HID
 from tests.vectors import load_vectors
 
 CASES = [pytest.param(case, id=case["name"]) for case in load_vectors("hid")]
@@ -40,7 +41,7 @@ def heard(reports: list[bytes]) -> list[DecoderEvent]:
     return events
 
 
-@given(st.lists(st.sampled_from(PACKETS).filter(lambda packet: len(packet) <= REPORT_BYTES)), st.data())
+@given(st.lists(st.sampled_from(PACKETS).filter(lambda packet: len(packet) <= HID.report_bytes)), st.data())
 def test_any_padding_gives_the_packets_that_a_serial_line_gives(
     packets: list[bytes], data: st.DataObject
 ) -> None:
@@ -53,12 +54,14 @@ def test_any_padding_gives_the_packets_that_a_serial_line_gives(
             decoder.push(line[:size])
             line = line[size:]
         decoder.idle()
-    padded = [packet.ljust(data.draw(st.integers(len(packet), REPORT_BYTES)), b"\0") for packet in packets]
+    padded = [
+        packet.ljust(data.draw(st.integers(len(packet), HID.report_bytes)), b"\0") for packet in packets
+    ]
     assert heard(padded) == serial
     assert all(isinstance(event, PacketEvent) for event in serial)
 
 
-@given(st.lists(st.binary(max_size=REPORT_BYTES)))
+@given(st.lists(st.binary(max_size=HID.report_bytes)))
 def test_no_report_is_an_error_and_none_gives_two_packets(reports: list[bytes]) -> None:
     for report in reports:
         events = heard([report])

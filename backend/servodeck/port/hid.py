@@ -1,7 +1,8 @@
 """Boards on their own USB cable, which is HID: which there are, how they are called, one of them as a port.
 
-`hid:SERIAL` names a board for good, `hid` the only one that is there. Knows one packet a report; no packet's
-meaning. hid_devices.py knows the systems.
+`hid:SERIAL` names a board for good, `hid` the only one that is there. A report carries one packet, padded
+with zeros; twin of frontend/src/robot/links/webHid.ts, and shared/protocol/vectors/hid.json holds both. Knows
+no packet's meaning; hid_devices.py knows the systems.
 """
 
 import errno
@@ -21,10 +22,9 @@ from servodeck.errors import (
 )
 from servodeck.port import hid_devices
 from servodeck.port.hid_devices import HidDevice, OpenDevice
-from servodeck.port.hid_reports import report_of
-from servodeck.port.holders import busy
-from servodeck.port.whereabouts import SHARED_NUMBERS, UsbDevice
+from servodeck.port.whereabouts import SHARED_NUMBERS, UsbDevice, busy
 from servodeck.protocol import load_shared
+from servodeck.protocol.decoder import HEAD_SIZE, HEADER, LENGTH_AT, Decoder, DecoderEvent, NoiseEvent
 from servodeck.protocol.families import Withheld
 from servodeck.protocol.timings import HID
 from servodeck.value import value
@@ -167,3 +167,39 @@ class HidPort:
 
     def _lost(self) -> PortLostError:
         return PortLostError(f"The connection to {self._name} broke off. Is the cable still plugged in?")
+
+
+def report_of(packet: bytes) -> bytes:
+    """The report that carries it. Raises ValueError where it does not fit."""
+    if len(packet) > HidPort.longest_packet:
+        raise ValueError(f"{len(packet)} bytes do not fit into a report of {HidPort.longest_packet}")
+    return packet.ljust(HidPort.longest_packet, b"\0")
+
+
+def split_report(report: bytes) -> tuple[bytes, bytes]:
+    """The packet at the beginning, empty where none is, and what else is in it, without its padding.
+
+    A second packet in the same report is not believed: it may be left over from the report before.
+    """
+    size = report[LENGTH_AT] + 2 if report[:2] == bytes((HEADER, HEADER)) and len(report) > LENGTH_AT else 0
+    is_whole = HEAD_SIZE <= size <= min(len(report), HidPort.longest_packet)
+    end = size if is_whole else 0
+    return report[:end], report[end:].rstrip(b"\0")
+
+
+class ReportInbox:
+    """Reports in, packets and noise out: each report is complete, so nothing waits for time to pass."""
+
+    def __init__(self, emit: Callable[[DecoderEvent], None]) -> None:
+        self._emit = emit
+        self._decoder = Decoder(emit)
+
+    def push(self, report: bytes) -> None:
+        packet, rest = split_report(report)
+        self._decoder.push(packet)
+        self._decoder.idle()
+        if rest:
+            self._emit(NoiseEvent("garbage", rest))
+
+    def close(self) -> None:
+        """Nothing is under way."""

@@ -18,8 +18,7 @@ from serial.tools import list_ports
 
 from servodeck.errors import PortBusyError, PortDeniedError, PortError, PortLostError, PortMissingError
 from servodeck.port import hid
-from servodeck.port.holders import busy
-from servodeck.port.whereabouts import SHARED_NUMBERS, UsbDevice
+from servodeck.port.whereabouts import SHARED_NUMBERS, UsbDevice, busy
 from servodeck.protocol import load_shared
 from servodeck.protocol.decoder import LONGEST_PACKET
 from servodeck.protocol.families import Withheld

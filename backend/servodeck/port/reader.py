@@ -1,8 +1,8 @@
-"""From an open port to packets: gets bytes onto the event loop on the way that suits the platform, and tells
-the decoder when the line has been silent.
+"""From an open port to packets: reads on the event loop, in the way that suits the platform, and notifies the
+decoder when the line has been silent.
 
-Two ways behind one call: watch the descriptor (POSIX: half the CPU of a thread) or a thread that waits in
-`read` (everywhere). Knows a port, a loop and the decoder, no client.
+Either the descriptor is watched (POSIX: half the CPU of a thread) or a thread waits in `read` (everywhere).
+Knows a port, a loop and the decoder, no client.
 """
 
 import asyncio
@@ -12,6 +12,7 @@ from collections.abc import Callable
 from functools import partial
 
 from servodeck.errors import PortLostError
+from servodeck.port.hid import ReportInbox
 from servodeck.port.ports import OpenPort
 from servodeck.protocol.decoder import Decoder, DecoderEvent
 from servodeck.protocol.timings import LINE
@@ -95,3 +96,7 @@ class Inbox:
     def close(self) -> None:
         for timer in self._timers:
             timer.cancel()
+
+
+def inbox_of(port: OpenPort, emit: Callable[[DecoderEvent], None]) -> Inbox | ReportInbox:
+    return ReportInbox(emit) if port.in_reports else Inbox(emit)

@@ -1,15 +1,18 @@
-"""Where the device is that a person chose by its name: names of ports move from one device to another.
+"""What the system knows of a device: where the one is that a person chose by its name, because names of ports
+move from one device to another, and which programs have it open.
 
-Knows what the USB bus tells of devices, at most; no port that is open and no time. What the bus does not tell
-apart (a pty, a socket, a port of the mainboard) goes by its name alone.
+Knows the USB bus and, on Linux, /proc; opens nothing. Devices that the bus does not distinguish (a pty, a
+socket, a port of the mainboard) go by their name alone.
 """
 
 import os
 from collections.abc import Iterable
+from pathlib import Path
 
 from servodeck.errors import OtherDeviceError, PortMissingError
 from servodeck.value import value
 
+PROCESSES = Path("/proc")
 # The name of the only board on a HID cable; the names of single ones begin with it.
 HID = "hid"
 # None, and what adapters bear as they come from the factory.
@@ -119,3 +122,39 @@ def only_hid(path: str, devices: Iterable[UsbDevice]) -> UsbDevice | None:
 
 def names(devices: Iterable[UsbDevice]) -> str:
     return " or ".join(sorted(device.path for device in devices))
+
+
+def holders_of(device: str) -> list[str]:
+    """ "name (process number)" of each program but this one. Linux lists those of this account, or all for
+    root; empty on other systems.
+    """
+    real = os.path.realpath(device)
+    return [
+        f"{name_of(process)} ({process.name})"
+        for process in PROCESSES.glob("[0-9]*")
+        if process.name != str(os.getpid()) and has_open(process, real)
+    ]
+
+
+def busy(name: str, device: str, likely: str) -> str:
+    """The sentence about a device that another program has; `likely`: what that may be where the system
+    does not say.
+    """
+    holders = holders_of(device)
+    if holders:
+        return f"{name} is open in {', '.join(holders)}. Close it there."
+    return f"Another program uses {name}. Close it: {likely}."
+
+
+def has_open(process: Path, real: str) -> bool:
+    try:
+        return any(os.path.realpath(link) == real for link in (process / "fd").iterdir())
+    except OSError:  # another account's, or gone by now
+        return False
+
+
+def name_of(process: Path) -> str:
+    try:
+        return (process / "comm").read_text().strip()
+    except OSError:
+        return "a program"

@@ -18,10 +18,9 @@ from servodeck.errors import (
     NotOnThisCableError,
     PortLostError,
 )
-from servodeck.port.hid_reports import ReportInbox
 from servodeck.port.link import Link, Ports
 from servodeck.port.ports import OpenPort
-from servodeck.port.reader import Inbox
+from servodeck.port.reader import inbox_of
 from servodeck.port.wire import Job, Left, Owner, Wire
 from servodeck.protocol.decoder import DecoderEvent, NoiseEvent, PacketEvent
 from servodeck.protocol.families import FAMILIES, Family, Withheld, carried
@@ -310,12 +309,11 @@ class Board:
 
     def _make_wire(self, port: OpenPort) -> Wire:
         gap_s = self.family.service_gap_ms / 1000
-        inbox = ReportInbox(self._take) if port.in_reports else Inbox(self._take)
         return Wire(
             port,
             gap_s=gap_s,
             now=self._now,
-            received=inbox.push,
+            received=inbox_of(port, self._take).push,
             leaving=self._leaving,
             first=self.halts.filler(self.link.place, self.family.resync_filler),
         )
