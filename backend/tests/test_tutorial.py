@@ -64,10 +64,9 @@ def variables(url: str, folder: Path) -> dict[str, str]:
 
 
 async def at_rest(gateway: Running) -> None:
-    """As for a reader: first moves last longer than the commands that began them."""
-    control = gateway.control
-    async with asyncio.timeout(10):
-        while control.board.motion.is_moving(control.now()):  # noqa: ASYNC110 (nothing announces it)
+    """As for a reader: first moves and groups last longer than the commands that began them."""
+    async with asyncio.timeout(20):
+        while not gateway.control.board.is_idle():  # noqa: ASYNC110 (nothing announces it)
             await asyncio.sleep(0.02)
 
 
