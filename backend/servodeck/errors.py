@@ -1,7 +1,6 @@
-"""Everything that can go wrong, as one tree: each class carries its code on the wire and its HTTP status.
+"""All errors as one tree: each class has its code on the wire and its HTTP status.
 
-Knows no message and no sentence of its own; the caller that raises says what happened and what to do about
-it.
+Has no sentences of its own; the code that raises says what happened and what to do about it.
 """
 
 import math
@@ -259,7 +258,7 @@ class PairingLockedError(PairingError):
 
 
 class TooLargeError(GatewayError):
-    """More than anybody may send there."""
+    """The request is larger than its route allows."""
 
     code: ClassVar[ErrorCode] = "tooLarge"
     status: ClassVar[int] = 413
@@ -278,7 +277,7 @@ class NotFoundError(GatewayError):
 
 
 class ConflictError(GatewayError):
-    """Somebody else has changed it since it was read."""
+    """Another client has changed it since it was read."""
 
     code: ClassVar[ErrorCode] = "conflict"
     status: ClassVar[int] = 412

@@ -1,4 +1,4 @@
-"""What blocks, done off the event loop: in threads that never keep the process from ending."""
+"""Runs blocking calls in threads, off the event loop, that never keep the process from ending."""
 
 import asyncio
 import contextlib
@@ -13,7 +13,9 @@ NAME = "in the background"
 
 
 async def in_thread(action: Callable[[], T], undo: Callable[[T], None] | None = None) -> T:
-    """What `action`, which may block, gives or raises; `undo` gets the result where the caller has gone."""
+    """Runs `action`, which may block, and returns its result or raises its error. `undo` gets the result of a
+    caller that has gone.
+    """
     loop = asyncio.get_running_loop()
     outcome: asyncio.Future[T] = loop.create_future()
 
@@ -30,7 +32,7 @@ async def in_thread(action: Callable[[], T], undo: Callable[[T], None] | None = 
     def run() -> None:
         try:
             deliver_outcome = partial(deliver, action())
-        except Exception as error:  # noqa: BLE001 (whatever it is, somebody waits for it)
+        except Exception as error:  # noqa: BLE001 (every error goes to the caller)
             deliver_outcome = partial(refuse, error)
         with contextlib.suppress(RuntimeError):  # the loop is closed: the process is ending
             loop.call_soon_threadsafe(deliver_outcome)

@@ -1,6 +1,6 @@
-"""The whole state, which clients hear when they join and when something of it has changed.
+"""Sends clients the whole state when they join and whenever it changes.
 
-Knows seats, messages and the parts they are about; changes none of them.
+Knows sessions, messages and the parts of the state; changes none of them.
 """
 
 from collections.abc import Callable
@@ -48,10 +48,10 @@ class Broadcast:
         session.put(encode(welcome))
 
     def state(self, but: Session | None = None) -> None:
-        if self._hub.sessions:  # what a message is made of is built with the first one, behind the start
-            self.everybody(StateMessage(**self._state_fields()), but)
+        if self._hub.sessions:  # the message classes are built with the first message, after the start
+            self.send_all(StateMessage(**self._state_fields()), but)
 
-    def everybody(self, message: Message, but: Session | None = None) -> None:
+    def send_all(self, message: Message, but: Session | None = None) -> None:
         self._hub.send_all(encode(message), but)
 
     def _state_fields(self) -> dict[str, Any]:

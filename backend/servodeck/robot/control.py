@@ -188,7 +188,7 @@ class Control:
             raise PortLostError(port.detail or "The serial port is lost.")
         if self._latch.open():
             self.board.motion.resumed(self.now())
-            self._broadcast.everybody(ResumedMessage(by=caller.name), but=session)
+            self._broadcast.send_all(ResumedMessage(by=caller.name), but=session)
 
     async def until_identified(self) -> None:
         """Returns when it is known which board is there, or that it cannot be known now: whoever asks is
@@ -272,24 +272,24 @@ class Control:
         self._see_robot()
 
     def battery_changed(self) -> None:
-        self._broadcast.everybody(BatteryMessage(battery=self.board.battery.snapshot()))
+        self._broadcast.send_all(BatteryMessage(battery=self.board.battery.snapshot()))
 
     def job_changed(self, state: JobState) -> None:
-        self._broadcast.everybody(JobMessage(job=state))
+        self._broadcast.send_all(JobMessage(job=state))
 
     def play_changed(self, state: PlayState) -> None:
-        self._broadcast.everybody(PlayStateMessage(play=state))
+        self._broadcast.send_all(PlayStateMessage(play=state))
 
     def unattended_time_over(self) -> None:
         self._watch.end_quietly(CancelledError("The time allowed without a driver is over."))
 
     def heard(self, report: Report, packet: bytes) -> None:
         self._relay.send_left()  # a question before its answer
-        self._broadcast.everybody(ReceivedMessage(report=report_model(report), bytes=packet.hex()))
+        self._broadcast.send_all(ReceivedMessage(report=report_model(report), bytes=packet.hex()))
 
     def heard_noise(self, noise: NoiseEvent) -> None:
         self._relay.send_left()
-        self._broadcast.everybody(NoiseMessage(reason=noise.reason, bytes=noise.bytes.hex()))
+        self._broadcast.send_all(NoiseMessage(reason=noise.reason, bytes=noise.bytes.hex()))
 
     def may_have_missed_stops(self) -> None:
         if self.latch:
@@ -309,7 +309,7 @@ class Control:
         self._broadcast.state()
 
     def _robot_changed(self) -> None:
-        self._broadcast.everybody(RobotMessage(robot=self.robot.snapshot()))
+        self._broadcast.send_all(RobotMessage(robot=self.robot.snapshot()))
 
     def _halted(self, left: Left) -> None:
         if not left.cancelled() and left.exception() is None:
@@ -317,4 +317,4 @@ class Control:
 
     def _publish_unheld(self, since_s: float) -> None:
         self._unheld = self.board.halts.unheld_since(since_s)
-        self._broadcast.everybody(HaltedMessage(unheld=self.unheld))
+        self._broadcast.send_all(HaltedMessage(unheld=self.unheld))

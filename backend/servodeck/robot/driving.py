@@ -1,9 +1,9 @@
-"""The lease of connected clients: who drives, who asks to, and who may hand over; sends each client its view
-of it and the driver its nonces. Counts the starts of the gateway on disk, so that no lease of an earlier
-start is valid.
+"""The lease of connected clients: the driver, the client that requests to drive, and those that may hand
+over. Sends each client its view of the lease, and the driver its nonces. Counts the starts of the gateway on
+disk, so that no lease of an earlier start is valid.
 
-Knows sessions, timers and one small file, no packet and no port; what must stop when a driver is lost is
-decided in latch.py.
+Knows sessions, timers and one small file, no packet and no port; latch.py decides what stops when a driver is
+lost.
 """
 
 import asyncio
@@ -20,8 +20,8 @@ from servodeck.robot.hub import Hub, Session
 from servodeck.robot.lease import BEAT_S, GONE_S, Lease, LeaseEvents, Permit
 from servodeck.snapshots import Candidate, LeaseState
 
-# A timer so late means that this process was held up. What the driver said meanwhile waits to be read, and a
-# tick that was not sent could not be answered: before a silence is judged, one is sent, and so long waited.
+# A timer this late means that the process was held up: messages of the driver wait to be read, and a tick
+# that was not sent could not be answered. So a tick is sent and its answer awaited before a silence counts.
 HELD_UP_S = 0.1
 CATCH_UP_S = 0.1
 
@@ -46,7 +46,9 @@ class Driving:
         return self._lease.epoch
 
     def act(self, session: Session, action: LeaseAction) -> None:
-        """Raises ForbiddenError, BusyError, NotDrivingError, or CancelledError for a seat that has ended."""
+        """Raises ForbiddenError, BusyError, NotDrivingError, or CancelledError for a session that has
+        ended.
+        """
         require_present(session)
         now = self._now()
         match action:
@@ -63,8 +65,8 @@ class Driving:
         self._plan()
 
     def give(self, giver: Session, to: str) -> None:
-        """Hands it to somebody who is here and may drive. Raises ForbiddenError, NotDrivingError for one who
-        does not drive and is no owner, or NotFoundError.
+        """Hands the lease to a connected client that may drive. Raises ForbiddenError, NotDrivingError for a
+        client that neither drives nor is an owner, or NotFoundError.
         """
         require_present(giver)
         giver.caller.require("driver")
@@ -75,7 +77,7 @@ class Driving:
         self._plan()
 
     def _candidate(self, caller_id: str) -> Session:
-        """Of several windows the one that asks, else the latest."""
+        """Of several windows the one that requests the lease, else the latest."""
         found = [
             session
             for session in self._hub.sessions
@@ -91,7 +93,7 @@ class Driving:
         self._plan()
 
     def presence_changed(self, session: Session) -> None:
-        """It came or went: those who may hand the robot on hear who is there."""
+        """It came or went: sends the list of candidates to the clients that may hand over."""
         if not could_drive(session):
             return
         for one in self._hub.sessions:
@@ -102,7 +104,7 @@ class Driving:
         return session is self._lease.driver or session.caller.may("owner")
 
     def _candidates(self, giver: Session) -> list[Candidate]:
-        """Each once, whatever windows they have open."""
+        """Each person once, also with several windows."""
         if not self._may_give(giver):
             return []
         driver = self._lease.driver
@@ -129,7 +131,9 @@ class Driving:
         return self._lease.issue(self._now())
 
     def vouch(self, session: Session, for_s: float) -> None:
-        """What that program asked lasts for so long from now. One that was sent away cannot."""
+        """The motion that the program requested lasts for so long from now; ignored for a session that has
+        ended.
+        """
         if not session.ended.is_set():
             self._lease.vouch(session, self._now() + for_s)
             self._plan()
@@ -158,7 +162,7 @@ class Driving:
         """The page that drives, for what it asks beside its WebSocket. Raises NotDrivingError."""
         driver = self._lease.driver
         if driver is None or driver.caller.id != caller.id:
-            raise NotDrivingError(f"{driver.caller.name if driver else 'Nobody'} drives.")
+            raise NotDrivingError(f"{driver.caller.name if driver else 'No client'} drives.")
         return driver
 
     def may_rule(self, caller: Caller) -> bool:
@@ -233,7 +237,7 @@ class Driving:
 
 
 def require_present(session: Session) -> None:
-    """A client that was sent away gets nothing by what it still asks."""
+    """Requests of a session that has ended are refused."""
     if session.ended.is_set():
         raise CancelledError("The client disconnected.")
 
@@ -250,7 +254,9 @@ GRANTS_PER_START = 2**32
 
 
 def first_epoch(folder: Path) -> int:
-    """What the leases of this start count on from. Where nothing can be written it goes on all the same."""
+    """The epoch from which the leases of this start are counted. A folder that cannot be written is no
+    error.
+    """
     file = folder / "epoch"
     start = read_start(file) + 1
     with contextlib.suppress(OSError):

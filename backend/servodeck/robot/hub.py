@@ -1,7 +1,7 @@
-"""The clients on the WebSocket: a seat each, with a bounded outbox, so that one who does not read stalls no
-other; and the commands that have left the wire, which all of them hear.
+"""The sessions of connected clients, each with a bounded outbox, so that a client that does not read stalls
+no other; and the commands that have left the wire, which are sent to all of them.
 
-Knows seats, who sits there, text and commands; no socket, no other message's meaning, no port.
+Knows sessions, callers, texts and commands; no socket, no other message's meaning, no port.
 """
 
 import asyncio
@@ -20,10 +20,10 @@ from servodeck.value import value
 # Enough for a second of a busy board (960 bytes) and the answers to a full queue; far more means that
 # it does not read.
 OUTBOX_MESSAGES = 256
-# So many may sit when somebody of that role comes: viewers never take the seats of those who drive, nor these
-# the seats of owners, who let others in.
+# Sessions up to which a caller of that role may connect: viewers never take the places of drivers, nor
+# drivers those of owners, who can revoke others.
 SESSIONS_AT_MOST: dict[Role, int] = {"stopper": 200, "viewer": 200, "driver": 208, "owner": 216}
-# More windows are not needed; a single phone shall not take every seat.
+# More windows are not needed; a single phone must not take every place.
 SESSIONS_EACH = 8
 TRY_AGAIN_LATER, AGAINST_THE_RULES, GOING_AWAY = 1013, 1008, 1012
 
@@ -55,7 +55,7 @@ class Session:
         self._put(text)
 
     def put_later(self, text: Callable[[], str]) -> None:
-        """What is asked for its words only when its turn has come: they shall be the newest then."""
+        """`text` is called only when the message is sent, so that it has the newest state then."""
         self._put(text)
 
     def _put(self, text: str | Callable[[], str]) -> None:
@@ -71,14 +71,14 @@ class Session:
         self.ended.set()
 
     def begin(self, work: Coroutine[Any, Any, T]) -> asyncio.Task[T]:
-        """What it has asked for and is not done at once; it ends with the seat."""
+        """Work that it requested and that takes a while; it ends with the session."""
         task = asyncio.create_task(work)
         self._pending.add(task)
         task.add_done_callback(self._pending.discard)
         return task
 
     def drop_pending(self) -> Collection[asyncio.Task[Any]]:
-        """They end where they wait now."""
+        """Cancels its work."""
         pending = tuple(self._pending)
         for task in pending:
             task.cancel()
@@ -119,13 +119,13 @@ class Hub:
         return any(session.caller.id == caller_id for session in self._sessions)
 
     def rename(self, caller_id: str, name: str) -> None:
-        """They stay where they sit."""
+        """Their sessions stay connected."""
         for session in self._sessions:
             if session.caller.id == caller_id:
                 session.caller = replace(session.caller, name=name)
 
     def close(self) -> None:
-        """All clients have to go."""
+        """Ends all sessions."""
         for session in self._sessions:
             session.end(GOING_AWAY, "The gateway is shutting down.")
 
@@ -148,7 +148,7 @@ Commands = tuple[Command, ...]
 
 @value
 class Leaving:
-    """`known_to` heard of it apart."""
+    """It was sent to `known_to` separately."""
 
     command: Command
     at_s: float
@@ -165,7 +165,9 @@ class Relay:
         self._timer: asyncio.TimerHandle | None = None
 
     def leaving(self, owner: Owner, command: Command, at_s: float) -> None:
-        """Its last bit leaves then; clients hear of it then: its `owner` and the driver at once."""
+        """Its last bit leaves at `at_s`. Then it is sent to clients, to its `owner` and the driver without
+        delay.
+        """
         driver = self._driver()
         known_to = [session for session in self._hub.sessions if session is owner or session is driver]
         for session in known_to:
@@ -176,7 +178,7 @@ class Relay:
             self._plan()
 
     def send_left(self) -> None:
-        """What has left by now is sent before what follows from it."""
+        """Sends the commands that have left by now, before a message that follows from them."""
         if self._timer:
             self._timer.cancel()
             self._flush()
@@ -213,13 +215,13 @@ class Relay:
 
 @lru_cache(maxsize=16)
 def text_of(commands: Commands) -> str:
-    """The same for most seats, and then made once."""
+    """Most sessions get the same text, which is made once."""
     return encode(LeftMessage(commands=[command_model(command) for command in commands]))
 
 
 @lru_cache(maxsize=16)
 def newest(commands: Commands) -> Commands:
-    """Without the moves whose every servo was sent elsewhere right after."""
+    """Without moves whose servos all got a later target."""
     latest: list[Command] = []
     moved: set[int] = set()
     for command in reversed(commands):

@@ -1,7 +1,7 @@
-"""The latch: whether motion is refused, why, and by whose hand; and what happens to a moving robot when its
-driver falls silent, leaves or changes (docs/adr/0012).
+"""The latch: whether motion is refused, for which cause and by whom; and what happens to a moving robot when
+its driver falls silent, leaves or changes (docs/adr/0012).
 
-Knows what the lease says and how to stop; not who may drive or resume.
+Knows the events of the lease and how to stop; not who may drive or resume.
 """
 
 import contextlib
@@ -36,11 +36,11 @@ class Latch:
         self._changed = changed
         self.cause: Cause | None = None
         self.stopped_s = -math.inf
-        """When STOP was pressed last."""
+        """Time of the latest STOP."""
 
     @property
     def is_closed(self) -> bool:
-        """Motion is refused until somebody resumes."""
+        """Motion is refused until a person resumes."""
         return self.cause is not None
 
     @property
@@ -52,7 +52,7 @@ class Latch:
         return self.cause.name if self.cause else None
 
     def close(self, cause: Cause, now: float) -> None:
-        """The first cause stays the one that is shown."""
+        """While it is closed, the first cause stays."""
         self.stopped_s = now
         if self.cause is None:
             self.cause = cause
@@ -72,7 +72,7 @@ class Latch:
 def judge_latch(number: int, latch: bool) -> None:
     """While stopped, only what moves nothing and stores nothing passes. Raises LatchedError."""
     if latch and number not in HARMLESS:
-        raise LatchedError("Stopped: motion is refused until somebody resumes.")
+        raise LatchedError("Stopped: motion is refused until a person resumes.")
 
 
 class Watch:
@@ -97,7 +97,7 @@ class Watch:
         self.driver_silent()
 
     def driver_changed(self) -> None:
-        """What one driver began does not go on under the next; it needs no resume."""
+        """The motion of one driver does not continue under the next; no resume is needed."""
         board = self._control.board
         is_unattended = board.unattended.by and self._control.driving.driver is None
         if board.activity.may_move() and not is_unattended:
@@ -110,8 +110,8 @@ class Watch:
         driving.send_states()
 
     def disconnected(self, caller_id: str, by: str, *, run_continues: bool) -> None:
-        """`by` has revoked them: STOP for what they move, and for the group that they let go on unless it
-        may. A revoked client answers for nothing that moves.
+        """`by` has revoked that caller: STOP for its motion, and for its unattended group unless that may
+        continue.
         """
         board, driver = self._control.board, self._control.driving.driver
         if is_of(board.unattended.by, caller_id):
@@ -125,13 +125,13 @@ class Watch:
                 self._control.stop(Cause("person", by))
 
     def end_quietly(self, reason: GatewayError) -> None:
-        """Without the latch: somebody is there, or it was said beforehand."""
+        """Without the latch: a person is watching, or the end was announced."""
         with contextlib.suppress(GatewayError):
             self._control.board.halts.halt(reason)
 
     def _stop_unwatched(self) -> None:
-        """STOP because no driver watches over what moves: a person has to look before it goes on. Not twice:
-        a second hold would end later than was said of the first.
+        """STOP because no driver watches over what moves: a person has to look before motion resumes. Not
+        twice: a second hold would end later than was announced for the first.
         """
         if self._control.latch:
             return

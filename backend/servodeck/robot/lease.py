@@ -1,7 +1,7 @@
-"""Who may move the robot: one driver at a time, who shows again and again that somebody is there.
+"""The right to move the robot: one driver at a time, whose heartbeat shows that a person is present.
 
 Pure: time comes in, no socket, port or disk. Must not know what a packet means; the owner of the port acts on
-what `LeaseEvents` tells.
+`LeaseEvents`.
 """
 
 from typing import Generic, Literal, Protocol, TypeVar
@@ -25,25 +25,25 @@ H = TypeVar("H")
 
 class LeaseEvents(Protocol):
     def driver_quiet(self) -> None:
-        """Nothing was heard for so long that what moves without end must end."""
+        """Nothing was heard for so long that endless motion must end."""
 
     def driver_silent(self) -> None:
-        """Still nothing: what the board does by itself must end too."""
+        """Still nothing: groups that the board runs must end, too."""
 
     def driver_lost(self) -> None:
         """The driver is gone unasked; `driver_changed` follows."""
 
     def driver_changed(self) -> None:
-        """Who drove does not any more: what that one began must end."""
+        """The driver before does not drive any more: its motion must end."""
 
     def lease_changed(self) -> None:
-        """What clients see of it is another now."""
+        """The state for clients has changed."""
 
 
 @value
 class Permit:
-    """One command's leave to move the robot: under that epoch, from when its words were new until that
-    time.
+    """The permission of one command to move the robot: in that epoch, from the issue of its nonce until
+    `until_s`.
     """
 
     epoch: int
@@ -53,11 +53,11 @@ class Permit:
 
 class Lease(Generic[H]):
     def __init__(self, epoch: int, events: LeaseEvents) -> None:
-        """Every grant and every loss counts on from `epoch`: a permit holds for one driver's one time."""
+        """Every grant and every loss increments `epoch`, so that a permit is valid for one grant only."""
         self.epoch = epoch
         self.driver: H | None = None
         self.requester: H | None = None
-        # Who handed it to the driver; None where it was not handed over.
+        # The client that handed it to the driver; None where it was not handed over.
         self.giver: H | None = None
         self.silence: Silence = "none"
         self._events = events
@@ -70,7 +70,7 @@ class Lease(Generic[H]):
 
     def request(self, who: H, now: float) -> None:
         """Gets a free lease at once, another one when its driver has let `ANSWER_S` pass. Raises BusyError
-        where somebody asks already.
+        where another client has requested it already.
         """
         if who in (self.driver, self.requester):
             return
@@ -88,7 +88,7 @@ class Lease(Generic[H]):
         self._forget_requester()
 
     def release(self, who: H, now: float) -> None:
-        """To the client that requested it, or to none. That client may take its request back."""
+        """To the client that requested it, or to none. A client may withdraw its own request."""
         if who is self.requester:
             self._forget_requester()
         elif who is self.driver:
@@ -100,12 +100,12 @@ class Lease(Generic[H]):
             self._grant(who, now)
 
     def give(self, giver: H, to: H, now: float) -> None:
-        """Without asking `to`, and past a request. Who may is not judged here."""
+        """Without asking `to`, and before a pending request. The caller judges who may."""
         if to is not self.driver:
             self._grant(to, now, giver)
 
     def leave(self, who: H, now: float) -> None:
-        """It is not there any more."""
+        """The client has disconnected."""
         self._programs.discard(who)
         if who is self.driver:
             self._events.driver_lost()
@@ -114,8 +114,8 @@ class Lease(Generic[H]):
             self._forget_requester()
 
     def issue(self, now: float) -> str:
-        """A nonce for the driver, who shows with it how old at most is what it says: its own clock counts
-        nowhere.
+        """A nonce for the driver, which shows the greatest age of a message with it; no clock of the client
+        is used.
         """
         self._count += 1
         nonce = f"{self.epoch}-{self._count}"
@@ -130,8 +130,8 @@ class Lease(Generic[H]):
             self._heard_s, self.silence = issued_s, "none"
 
     def vouch(self, who: H, until_s: float) -> None:
-        """What a program asked lasts until then, which is as good as hearing it then: it has no heartbeat.
-        Nor is it waited for as long as a person.
+        """The motion of a program lasts until then, which counts as a heartbeat at that time, because
+        programs send none. A silent program loses the lease sooner than a person.
         """
         self._programs.add(who)
         if who is self.driver:
@@ -143,7 +143,7 @@ class Lease(Generic[H]):
         """For one command. Raises NotDrivingError or ExpiredError."""
         if who is not self.driver:
             raise NotDrivingError(
-                "Another client drives." if self.driver else "Nobody drives: request the lease first."
+                "Another client drives." if self.driver else "No client drives: request the lease first."
             )
         issued_s = None if nonce is None else self._issued.get(nonce)
         if nonce is None or issued_s is None or now - issued_s > within_s:
@@ -152,8 +152,8 @@ class Lease(Generic[H]):
         return Permit(self.epoch, issued_s, issued_s + within_s)
 
     def renewed_permit(self, who: H, now: float) -> Permit:
-        """For what that driver has asked for already, and what had to end first has ended. Raises
-        NotDrivingError, or ExpiredError where nothing was heard for so long that nothing may begin.
+        """For a request whose preceding motion has ended by now. Raises NotDrivingError, or ExpiredError
+        where nothing was heard for so long that nothing may begin.
         """
         permit = Permit(self.epoch, self._heard_s, self._heard_s + QUIET_S)
         if who is not self.driver:
@@ -162,7 +162,7 @@ class Lease(Generic[H]):
         return permit
 
     def judge(self, permit: Permit, now: float) -> None:
-        """Asked when the command is about to leave. Raises NotDrivingError or ExpiredError."""
+        """Called when the command is about to leave. Raises NotDrivingError or ExpiredError."""
         if permit.epoch != self.epoch:
             raise NotDrivingError("Another client drives now.")
         if now > permit.until_s:

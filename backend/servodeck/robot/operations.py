@@ -1,8 +1,8 @@
-"""What a driver has the board do besides moves: run, end and erase groups, set their speed, let servos go.
-For pages and for scripts alike; each is sent once, and its outcome is reported (docs/adr/0014, class C).
+"""Operations of a driver besides moves: run, end and erase groups, set their speed, release servos. The same
+for pages and scripts; each is sent once, and its outcome is reported (docs/adr/0014, class C).
 
-Knows what is asked and in which order it leaves. How somebody shows that they drive is a `Claim`'s affair,
-what may leave `control`'s.
+Knows the operations and the order of their packets. A `Claim` proves that the caller drives; requests.py
+judges each packet.
 """
 
 import asyncio
@@ -32,26 +32,26 @@ RUN_WAIT_S = RUN.timeout_ms / 1000
 
 
 class Claim(Protocol):
-    """How somebody shows that they may have it done."""
+    """Proves that its session drives."""
 
     @property
     def session(self) -> Session: ...
 
     def claim(self) -> None:
-        """Raises what keeps them from driving."""
+        """Raises what prevents it from driving."""
 
     def permit(self) -> Permit:
         """For one packet that leaves now."""
 
     def renew(self) -> None:
-        """What had to end first has ended. Raises where they do not drive any more."""
+        """The motion before has ended. Raises where the session does not drive any more."""
 
     def lasts(self, left: Left, for_s: float) -> None:
         """That packet sets something in motion for so long."""
 
 
 class PageClaim:
-    """Of a page, whose heartbeat goes on by itself: the nonce of what it said."""
+    """Of a page, by the nonce of its message; its heartbeat continues independently."""
 
     def __init__(self, control: "Control", session: Session, nonce: str | None) -> None:
         self.session = session
@@ -74,7 +74,9 @@ class PageClaim:
 
 
 class Grant:
-    """One request's leave to move the robot. It ends with the next stop, and with another driver."""
+    """The permission of one request to move the robot. It ends with the next stop, and with another
+    driver.
+    """
 
     def __init__(self, control: "Control", claim: Claim) -> None:
         """Raises what keeps its first packet from leaving."""
@@ -86,7 +88,7 @@ class Grant:
         self._mark = self._present()
 
     async def after_the_stop(self) -> None:
-        """Where what another driver began is being stopped."""
+        """Waits where the motion of another driver is being stopped."""
         self._judge()
         if self._control.board.link.wire().is_halting:
             await self.end_what_moves()
@@ -94,7 +96,7 @@ class Grant:
     async def end_what_moves(self) -> None:
         self._judge()
         ended = self._control.board.halts.end_motion()
-        self._mark = self._present()  # now: whatever else stops the robot meanwhile ends this turn, too
+        self._mark = self._present()  # now: any other stop meanwhile ends this grant, too
         if ended:
             await asyncio.shield(ended)  # others may wait for it
             self._judge()
@@ -122,7 +124,7 @@ class Operations:
         self._ending: asyncio.Task[None] | None = None
 
     async def run(self, claim: Claim, slot: int, times: int) -> Outcome:
-        """What moves ends first."""
+        """Ends the present motion first."""
         command, family = Run(slot, times), self._family()
         check(command, family)
         async with self._one_request():
@@ -143,7 +145,7 @@ class Operations:
             return "silent" if taken is None else "acknowledged"
 
     async def end_group(self, session: Session) -> Outcome:
-        """Behind its frame in progress; everything else is free to move. Said three times (S54), also where
+        """Behind its frame in progress; everything else is free to move. Sent three times (S54), also where
         the caller has gone meanwhile.
         """
         left = self._control.requests.stop_once(session)
@@ -207,7 +209,7 @@ class Operations:
 
     @contextlib.asynccontextmanager
     async def _one_request(self) -> AsyncIterator[None]:
-        """One at a time: the board's answers do not say to whom."""
+        """One at a time, because the board's answers do not name the request."""
         if self._has_request:
             raise MovingError("Another request to the board is in progress: try again in a moment.")
         self._has_request = True

@@ -1,4 +1,4 @@
-"""The robot on the board, the same for everybody: its family and its profile from the library, as they were
+"""The robot on the board, the same for all clients: its family and its profile from the library, as they were
 last chosen for this board, and with the profile its limits and poses.
 
 Knows what the library says of robots, no text of one; no client, and not who may change what.
@@ -129,7 +129,7 @@ class RobotOfBoard:
         self._forget()
 
     async def put(self, document: str, instead_of: str | None) -> None:
-        """For everybody, and remembered. Raises a ConflictError where a third one stands there,
+        """For all clients, and remembered. Raises a ConflictError where a third one is on the board,
         NotFoundError, or OutOfRangeError for one that is built on another board.
         """
         board = self._board
@@ -208,8 +208,8 @@ class RecalledBoard:
             board.recall(known)
 
     def said(self, board: Board) -> None:
-        """Somebody has. What the board's answers contradict is not stored; a simulated one is what its
-        starter says, each time anew.
+        """A person has chosen it. What the board's answers contradict is not stored; a simulated one is what
+        its starter says, each time anew.
         """
         family, status = board.identification.claim, board.identification.state.status
         is_contradicted = status == "refused" and family is not UNKNOWN

@@ -1,7 +1,6 @@
-"""What clients and scripts ask of the robot: each request is judged by limits, latch, lease and what is under
-way, and then handed to the board.
-
-Knows what may be done now. Must not know how a client is connected, nor how a byte reaches the port.
+"""Requests of clients and scripts: each is checked against limits, latch, lease and the motion and downloads
+in progress, and then passed to the board. Must not know how a client is connected, nor how a byte reaches the
+port.
 """
 
 import math
@@ -114,7 +113,7 @@ class Requests:
         return wire.send(packet, session, judge=judge)
 
     def put(self, session: Session, command: Command, permit: Permit) -> Left:
-        """As `send`, of somebody who may have that command sent."""
+        """As `send`, with a permit."""
         board = self._board
         packet = encoded(command, board.family)
         session.caller.require(role_for(packet))
@@ -150,8 +149,7 @@ class Requests:
         as_run: bool = False,
     ) -> PlayState:
         """Begins to play it; raises what keeps it from that before anything leaves. `ended` hears how it
-        ended. `as_run`: it ends with the silence that ends a run of the board, not with the one that ends
-        what is driven by hand.
+        ended. `as_run`: a silent driver ends it as late as a run of the board, not as soon as moves by hand.
         """
         board = self._board
         session.caller.require("driver")
@@ -177,7 +175,7 @@ class Requests:
         return board.plays.begin(group, session, judge, ended, as_run=as_run)
 
     def stop_playing(self) -> None:
-        """What the gateway plays ends with its frame in progress."""
+        """The play of the gateway ends with its frame in progress."""
         self._board.plays.end(CancelledError("The group was stopped."))
 
     def download(

@@ -1,5 +1,5 @@
-"""What scripts ask over HTTP: each request takes the lease by itself, for as long as the motion that it
-starts lasts (docs/adr/0014).
+"""Requests of scripts over HTTP: each takes the lease by itself, for as long as the motion that it starts
+lasts (docs/adr/0014).
 
 Knows requests and the order in which their packets leave; no HTTP. `driving` decides who may drive,
 requests.py what may leave.
@@ -38,7 +38,7 @@ class ScriptSession(Session):
         """Unread."""
 
     async def do(self, work: Coroutine[Any, Any, T]) -> T:
-        """What `work` gives or raises; CancelledError where this seat ended before."""
+        """Returns or raises what `work` does; CancelledError where this session ended before."""
         try:
             return await self.begin(work)
         except asyncio.CancelledError:
@@ -47,7 +47,7 @@ class ScriptSession(Session):
             raise
 
     async def end_pending(self) -> None:
-        """Returns when nothing of it is under way any more."""
+        """Returns when none of its tasks is running any more."""
         if pending := self.drop_pending():
             await asyncio.wait(pending)
 
@@ -64,8 +64,8 @@ class Moved:
 
 
 class ScriptClaim:
-    """Of a program, which asks for one thing at a time and has no heartbeat: the lease is asked for with it,
-    and kept for as long as what it asked lasts.
+    """Of a program, which asks for one thing at a time and has no heartbeat: it requests the lease with each
+    request, and holds it for as long as the motion lasts.
     """
 
     def __init__(self, control: Control, session: Session, *, take: bool) -> None:
@@ -88,7 +88,7 @@ class ScriptClaim:
 
 
 class ScriptGrant(Grant):
-    """That may play a group, too."""
+    """A grant that also allows to play a group."""
 
     def __init__(self, control: Control, claim: ScriptClaim) -> None:
         super().__init__(control, claim)
@@ -103,7 +103,7 @@ class ScriptGrant(Grant):
         return state
 
     def _played(self, state: PlayState) -> None:
-        """The frame in progress goes on where somebody has ended it by hand."""
+        """After a person has ended the play, its frame in progress continues."""
         if state.code in (None, "cancelled"):
             motion, now = self._control.board.motion, self._control.now()
             self._control.driving.vouch(self._session, motion.moves_for_s(now))
@@ -213,7 +213,7 @@ class Scripts:
         return driving.state_for(session)
 
     def give(self, caller: Caller, to: str) -> LeaseState:
-        """To somebody who is here with a page."""
+        """To a person with an open page."""
         session = self._session_of(caller)
         self._control.driving.give(session, to)
         return self._control.driving.state_for(session)
@@ -246,7 +246,7 @@ class Scripts:
         if not self._still_lets_in(caller):
             raise NotPairedError("This device is no longer paired, or its role has changed.")
         session = self._sessions.setdefault(caller.id, ScriptSession(caller))
-        session.caller = as_script(caller)  # an owner may call it otherwise by now
+        session.caller = as_script(caller)  # an owner may have renamed it
         return session
 
 
@@ -274,8 +274,8 @@ def plan_move(
     now: float,
     name_of: Callable[[int], str],
 ) -> MovePlan:
-    """In exactly that time, as a script asks for it. Raises what the board cannot take, and where a first
-    move would be too fast: nothing is made slower unsaid.
+    """In exactly that time, as a script asks for it. Raises what the board cannot take, and a first move that
+    would be too fast: it is refused, not silently made slower.
     """
     new = tuple(servo for servo in sorted(positions) if motion.is_unknown(servo, now))
     known = tuple(servo for servo in sorted(positions) if servo not in new)
@@ -299,7 +299,7 @@ def judge_time(
     if duration_ms >= needs_ms:
         return
     why = (
-        f"nobody knows where {', '.join(map(name_of, new))} stands before its first move"
+        f"the position of {', '.join(map(name_of, new))} is unknown before the first move"
         if new
         else "a servo is still in its first move"
     )

@@ -1,5 +1,6 @@
-"""What the board may be doing: the estimate of its motion, the group that may run or is played from here, and
-the run that may go on without its driver; whether it is silent, and whether it has heard the stops.
+"""What the board may be doing: the estimate of its motion, the group that may run or that the gateway plays,
+and the run that may continue without its driver; whether the board is silent, and whether it has received the
+stops.
 
 Knows packets, reports and time; no wire and no client, and not how a run is stopped.
 """
@@ -29,7 +30,7 @@ class Activity:
         stop_again: Callable[[], object],
         run_ended: Callable[[], None],
     ) -> None:
-        """`stop_again`: what moves may not have heard the stops."""
+        """`stop_again` is called where the board may have missed the stops."""
         self.unattended = unattended
         self._plays = plays
         self._now = now
@@ -50,8 +51,8 @@ class Activity:
 
     @property
     def run(self) -> Run | Playing | None:
-        """What may go on without its driver, if anything: the group that may run, or that a script has the
-        gateway play.
+        """The motion that may continue without its driver: the group that may run, or that the gateway plays
+        for a script.
         """
         play = self._plays.present
         return play if play and play.as_run else self.motion.run
@@ -78,7 +79,7 @@ class Activity:
         """`number`: of its packet."""
         self.motion.heard(report, self._now())
         self._stop_again.heard()
-        self._silence.heard(number)  # behind the estimate: what was forgotten in the silence stays so
+        self._silence.heard(number)  # after the estimate, which forgot positions in the silence
         self.follow_run()
 
     def follow_run(self) -> None:
@@ -104,7 +105,7 @@ class Activity:
         return encoded(replace(hold, targets=tuple(others[: family.servos_per_move])), family)
 
     def opened(self) -> None:
-        """A port that was not lost before: its last owner may have set something in motion."""
+        """A port that was not lost before: its last owner may have begun a motion."""
         self._motion.opened(self._now())
 
     def lose(self, cut: Command | None = None) -> None:
@@ -115,7 +116,7 @@ class Activity:
         self.unattended.follow(None)
 
     def forget(self, family: Family) -> None:
-        """It may be another board, and its last owner may have set something in motion."""
+        """It may be another board, and its last owner may have begun a motion."""
         self._motion = Estimate(family)
         self.opened()
         self.lose()
@@ -172,12 +173,12 @@ class StopAgain:
             self.void()
 
     def heard(self) -> None:
-        """The board has said something: it may hear from now on."""
+        """The board has sent something, so it may receive packets from now on."""
         if self._timer:
             self._plan()
 
     def void(self) -> None:
-        """Something else has begun since, or the board is another one."""
+        """Another motion has begun since, or the board has changed."""
         if self._timer:
             self._timer.cancel()
             self._timer = None
@@ -203,7 +204,7 @@ class Unattended:
     def __init__(
         self, now: Callable[[], float], over: Callable[[], None], changed: Callable[[], None]
     ) -> None:
-        """`over`: its time is. `changed`: so is what clients see of it."""
+        """`over` is called when its time has passed, `changed` when its state for clients has changed."""
         self._now = now
         self._over = over
         self._changed = changed
@@ -227,12 +228,12 @@ class Unattended:
         self._show(AllowedRun(run, by, self._now() + for_s))
 
     def end(self) -> None:
-        """It has no owner any more, or is watched again."""
+        """It has no owner any more, or its driver is back."""
         if self._present:
             self._show(None)
 
     def follow(self, run: Run | Playing | None) -> None:
-        """That one runs now, so far as anybody knows: another one has not been allowed anything."""
+        """`run` is the present run as far as is known; the permission was for one run alone."""
         if self._present and self._present.run is not run:
             self._show(None)
 

@@ -1,7 +1,7 @@
-"""The board behind the port: what it is taken for, what left for it and what it said, and so what it may be
-doing.
+"""The board behind the port: joins its link, identification, estimate, moves, downloads, plays and readings.
 
-Knows packets and the link. Must not know clients, nor who may ask for what.
+Passes each packet that leaves and each report that comes to the parts that need it. Must not know clients,
+nor who may request what.
 """
 
 import asyncio
@@ -45,21 +45,21 @@ DRAIN_S = 0.5
 
 class BoardEvents(Protocol):
     def port_opened(self) -> None:
-        """Nothing was sent on it; `board_changed` follows."""
+        """Before the first packet; `board_changed` follows."""
 
     def board_lost(self) -> None:
-        """Its port was open and is gone, unasked, or it has fallen silent; `board_changed` follows."""
+        """An open port was lost, or the board has fallen silent; `board_changed` follows."""
 
     def stopped_at_return(self, since_s: float) -> None:
-        """The stops have left that a port gets which has come back, or a board which answers again; that was
-        then.
+        """The stops have left that are sent when a port comes back or a board answers again, which was at
+        `since_s`.
         """
 
     def board_changed(self) -> None:
-        """The link, the board, a slot, what goes on alone or what waits to start is another now."""
+        """The state of link, board, slots, unattended run or waiting servos has changed."""
 
     def is_watched(self) -> bool:
-        """Somebody would see what the board says unasked."""
+        """A client is connected."""
 
     def battery_changed(self) -> None: ...
 
@@ -68,7 +68,7 @@ class BoardEvents(Protocol):
     def play_changed(self, state: PlayState) -> None: ...
 
     def unattended_time_over(self) -> None:
-        """The run that was let go on may not any more."""
+        """The time of the unattended run has passed."""
 
     def heard(self, report: Report, packet: bytes) -> None: ...
 
@@ -81,7 +81,7 @@ class BoardEvents(Protocol):
         """
 
     def leaving(self, owner: Owner, command: Command, at_s: float) -> None:
-        """It moves, ends or stores something, and its last bit leaves then."""
+        """The command moves, ends or stores something; its last bit leaves at `at_s`."""
 
 
 class Board:
@@ -97,9 +97,9 @@ class Board:
         identifies: bool = False,
         polls_battery: bool = False,
     ) -> None:
-        """`family_id` is a family's name; `identifies` has that checked at each opening, and watched.
-        `polls_battery`: it is asked for its battery now and then. `simulated_device`: what is behind that
-        port is no real board.
+        """`identifies`: the family `family_id` is checked at each opening, and the board is watched
+        afterwards. `polls_battery`: the battery is read regularly. `simulated_device`: the port of a
+        simulated board.
         """
         self.family_id = family_id
         self._simulated_device = simulated_device
@@ -125,11 +125,11 @@ class Board:
 
     @property
     def family(self) -> Family:
-        """As far as the port carries what it takes."""
+        """With the limits of the port: it may carry shorter packets than the board takes."""
         return carried(self.family_id, self.link.longest_packet)
 
     def judge_carried(self, kind: Withheld) -> None:
-        """Raises where no hardware has confirmed how such a cable carries it."""
+        """Raises NotOnThisCableError where no hardware has confirmed how the cable carries it."""
         if kind in self.link.withheld:
             raise NotOnThisCableError(
                 f"The board's own USB cable carries no {kind} yet: no hardware has confirmed how. "
@@ -142,7 +142,7 @@ class Board:
 
     @property
     def port(self) -> PortState:
-        """How the port stands, for clients."""
+        """The state of the port, for clients."""
         state = self.link.state
         is_simulated = state.device is not None and state.device == self._simulated_device
         withheld = sorted(self.link.withheld)
@@ -170,30 +170,32 @@ class Board:
         return identity_state(self.identification.evidence)
 
     def choose_family(self, family: str) -> None:
-        """A person has said so; `unknown` has it asked again. Raises MovingError while it stores."""
+        """A person has chosen it; `unknown` has the board identified again. Raises MovingError while it
+        stores.
+        """
         self.jobs.judge_idle()
         self.identification.choose(FAMILIES[family])
 
     def recall(self, family: str) -> None:
-        """What is connected next is taken for that until somebody says otherwise."""
+        """The next board is taken for that family until a person chooses another."""
         self.identification.claim = FAMILIES[family]
         self.family_id = family
 
     def _drop_all(self, reason: GatewayError) -> None:
-        """What waits for the wire does not leave any more, but stops."""
+        """Packets that wait for the wire are dropped, except stops."""
         self.plays.end(reason)
         self.moves.drop(reason)
         with contextlib.suppress(GatewayError):
             self.link.wire().purge(is_no_stop, reason)
 
     def drop(self, owner: Owner, reason: GatewayError) -> None:
-        """What that one asked for and waits for the wire does not leave any more."""
+        """Drops the packets of `owner` that wait for the wire."""
         self.moves.drop(reason, owner)
         with contextlib.suppress(GatewayError):
             self.link.wire().purge(lambda job: job.owner is owner, reason)
 
     async def quiet(self) -> None:
-        """Before the port is given up: ends what only this gateway could still stop."""
+        """Before the port is closed: ends all motion that only this gateway can still stop."""
         self.jobs.end(ClosedError("The port was closed before the download was complete."))
         self.plays.end(ClosedError("The port was closed."))
         self.halts.was_lost = False
@@ -203,14 +205,14 @@ class Board:
         self.activity.forget(FAMILIES[self.family_id])
 
     async def shut_down(self) -> None:
-        """Stops whatever it does, waits for the stops to leave, lets go of the port. Twice is harmless."""
+        """Stops the board, waits for the stops to leave, closes the port. May be called twice."""
         ending = CancelledError("The gateway is shutting down.")
         self.jobs.end(ending)
         with contextlib.suppress(GatewayError, TimeoutError):
             await asyncio.wait_for(asyncio.shield(self.halts.halt(ending)), DRAIN_S)
         await self.link.close()
 
-    # What the link tells
+    # Events of the link
 
     def port_opened(self, wire: Wire) -> None:
         metrics.totals.port_openings += 1
@@ -234,10 +236,10 @@ class Board:
         if self.link.state.status != "open":
             self.identification.ended()
             self.moves.drop(PortLostError("The serial port is no longer open."))
-            self.activity.lose()  # also what left with the last breath of the port
+            self.activity.lose()  # also for packets that left just before
         self._events.board_changed()
 
-    # What its identification asks and reports
+    # Events and questions of the identification
 
     def may_ask(self) -> bool:
         return self._events.is_watched() and self.is_idle()
@@ -246,7 +248,7 @@ class Board:
         return not (self.jobs.is_busy() or self.activity.may_still_move())
 
     def drive(self, family: Family) -> None:
-        """What was asked of the one it was taken for does not leave."""
+        """Packets for the family before are dropped."""
         if family.id == self.family_id:
             return
         self.family_id = family.id
@@ -266,14 +268,14 @@ class Board:
             self._events.board_changed()
 
     def _no_longer_ready(self, status: Status) -> None:
-        """It may have moved, restarted or been changed for another before it is ready again."""
+        """Before it is ready again, it may have moved, restarted or been exchanged."""
         self.activity.lose()
         self.jobs.end(BoardSilentError("The board stopped answering before the download was complete."))
         self._drop_all(BoardSilentError("The board stopped answering before this was sent."))
         if status == "stale":
             self._events.board_lost()
 
-    # What its battery and its readings ask and tell
+    # Questions of its battery and its readings
 
     def put_question(self, question: Command) -> Left:
         wire = self.link.wire()
@@ -286,7 +288,7 @@ class Board:
     def battery_changed(self) -> None:
         self._events.battery_changed()
 
-    # What a download tells
+    # Events of a download
 
     def job_changed(self, state: JobState) -> None:
         if state.status != "running":
@@ -327,7 +329,7 @@ class Board:
             self.battery.asked(at_s)
         self.jobs.left(command, at_s, self.link.place)
         is_opening = packet.number == STOP and owner is self
-        if not is_opening:  # which ends nothing that anybody began
+        if not is_opening:  # which ends no motion of a client
             self._events.leaving(owner, command, at_s)
 
     def _take(self, event: DecoderEvent) -> None:

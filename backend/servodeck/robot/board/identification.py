@@ -1,5 +1,6 @@
-"""Which board is at the other end, through a link's whole life: asked at each opening, weighed against what
-it is taken for, named by a person, watched while idle. Twin of shared/src/robot/identification.ts.
+"""Identifies the board for the whole life of a link: asks it at each opening, compares the answers with the
+family that it is taken for, takes the choice of a person, and watches it while idle. Twin of
+shared/src/robot/identification.ts.
 
 Decides when a board is ready, and after how many questions it is gone; the questions and their meaning are
 identity.py. Knows no port.
@@ -52,10 +53,10 @@ class IdentifiedBoard(Protocol):
         """Nothing moves, runs or is being stored."""
 
     def drive(self, family: Family) -> None:
-        """From now on it is spoken to as such a board."""
+        """From now on it is driven as a board of that family."""
 
     def entered(self, before: Status) -> None:
-        """`status` is another one now."""
+        """`status` has changed."""
 
 
 class Identification:
@@ -76,12 +77,12 @@ class Identification:
 
     @property
     def candidates(self) -> list[str]:
-        """Families that answer like it; none where it was not asked."""
+        """Families that answer like it; none where no question was sent."""
         return candidates_of(self.evidence)
 
     @property
     def heard_as(self) -> Family | None:
-        """What a report is read as; None: as of the board that is driven."""
+        """The family by which a report is parsed; None: the one that is driven."""
         return UNKNOWN if self.state.status == "identifying" else None
 
     @property
@@ -121,8 +122,8 @@ class Identification:
         self._enter(BoardStatus("closed"))
 
     def choose(self, family: Family) -> None:
-        """A person has said so; `UNKNOWN` has it asked again. Raises MovingError where a question might end
-        what moves.
+        """A person has chosen it; `UNKNOWN` has the board identified again. Raises MovingError where a
+        question might end a motion.
         """
         status = self.state.status
         if family is UNKNOWN and status != "closed" and not self._board.is_idle():
@@ -130,7 +131,7 @@ class Identification:
         self.claim = family
         if family is UNKNOWN or status == "closed":
             self._board.drive(family)
-        # What a board that is silent answered once says nothing of what is there now.
+        # Earlier answers of a board that is silent now may be of another board.
         if self._identifies and (family is UNKNOWN or status == "stale") and status != "closed":
             self._begin_check()
         elif status not in ("closed", "identifying"):
@@ -191,7 +192,7 @@ class Identification:
     def _name_it(self) -> str:
         like = f"It answers like: {', '.join(self.candidates)}. " if self.candidates else ""
         return (
-            "Nobody has said which board is connected, so nothing goes to it that moves or stores. "
+            "The board has not been named, so no command that moves or stores is sent to it. "
             f"{like}Name it: servodeck board FAMILY, on the page, or servodeck serve --board FAMILY. "
             "It is remembered for the port."
         )
@@ -268,7 +269,7 @@ class Heartbeat:
             self._beating.cancel()
 
     def heard(self) -> None:
-        """The board said something: no need to ask for a while."""
+        """The board sent a report: it need not be asked for a while."""
         self._misses = 0
         if self._runs:
             self._wait()

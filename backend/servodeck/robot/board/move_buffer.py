@@ -1,8 +1,8 @@
 """Moves that wait for the wire: the newest value of each servo, merged, as many in a packet as it takes, made
 when the wire is free. Servos of unknown place start slowly and one after another (safety.md section 2).
 
-Knows targets, time and the wire. The caller judges who may move a servo, when it is asked and when it leaves.
-Twin of shared/src/robot/moveBuffer.ts, and of `softened` in shared/src/robot/estimate.ts.
+Knows targets, time and the wire. The caller judges who may move a servo, at the request and again when the
+packet leaves. Twin of shared/src/robot/moveBuffer.ts, and of `softened` in shared/src/robot/estimate.ts.
 """
 
 import asyncio
@@ -61,12 +61,12 @@ class Wish:
     duration_ms: int
     request: MoveRequest
     round: int
-    """It leaves behind what waited when that round began."""
+    """It leaves behind the moves that waited when that round began."""
 
 
 class MoveBuffer:
     def __init__(self, board: MovedBoard, now: Callable[[], float], changed: Callable[[], None]) -> None:
-        """`changed` hears that others wait to start."""
+        """`changed` is called when other servos wait to start."""
         self._board = board
         self._now = now
         self._changed = changed
@@ -76,7 +76,7 @@ class MoveBuffer:
         self._next_start_s = -inf
         self._timer: asyncio.TimerHandle | None = None
         self.waiting_to_start: list[int] = []
-        """Asked to move from an unknown place: they start in this order."""
+        """Servos that start from an unknown position, in the order of their starts."""
 
     @property
     def is_empty(self) -> bool:
@@ -105,7 +105,7 @@ class MoveBuffer:
         return request.left
 
     def begin_round(self) -> int:
-        """What is asked from now on leaves behind what waits for the wire."""
+        """Later moves leave behind the packets that wait for the wire now."""
         self._round += 1
         self._queued = None
         return self._round
@@ -136,7 +136,7 @@ class MoveBuffer:
         self._queued = left
 
     def _make(self, taken: list[Wish], this_round: int) -> CommandPacket | None:
-        """The next move, as its turn has come."""
+        """The next move; the wire is free for it."""
         if this_round == self._round:
             self._queued = None
         now, family, motion = self._now(), self._board.family, self._board.motion
@@ -159,7 +159,7 @@ class MoveBuffer:
         return packet
 
     def _next_servos(self) -> list[int]:
-        """Whose turn has come: one that starts, else all whose place is known."""
+        """The servos that may leave now: one that starts, else all whose position is known."""
         unknown = self._unknown()
         if unknown and self._start_due():
             return unknown[:1]
@@ -191,7 +191,7 @@ class MoveBuffer:
         fail(self._wishes.pop(servo).request.left, reason)
 
     def _plan_starts(self) -> None:
-        """Says who waits to start, and comes back when the next one may."""
+        """Publishes the servos that wait to start, and sets a timer for the next one."""
         if self._timer:
             self._timer.cancel()
             self._timer = None
@@ -205,7 +205,7 @@ class MoveBuffer:
 
 
 def settle_all(taken: Sequence[Wish], left: Left) -> None:
-    """Whatever became of the packet became of what it said."""
+    """The outcome of a packet is that of each target in it."""
     error = None if left.cancelled() else left.exception()
     for wish in taken:
         if isinstance(error, GatewayError):

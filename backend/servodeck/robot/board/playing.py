@@ -1,8 +1,7 @@
 """Frames that the gateway plays by its own clock: how far they are and how they ended. One play at a time.
 Twin of shared/src/robot/playing.ts.
 
-Knows frames, the moves that wait for the wire, and time; not who may begin a play, and not when somebody else
-ends it.
+Knows frames, the moves that wait for the wire, and time; not who may begin or end a play.
 """
 
 import asyncio
@@ -264,7 +263,7 @@ class Plays:
             )
 
     def _changed(self, state: PlayState) -> None:
-        """At once, and not more often than anybody can see."""
+        """At once, but not more often than a person can see."""
         self.latest = state
         if self._publish_timer is None:
             delay_s = max(0.0, self._published_s + PUBLISH_EVERY_S - self._now())

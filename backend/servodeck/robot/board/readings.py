@@ -1,5 +1,5 @@
-"""Asks the board what it can say of itself: its battery, where its servos stand, its firmware, its trims.
-Everybody who asks while a question is under way shares its answer. Twin of shared/src/robot/readings.ts.
+"""Reads the board: its battery, the positions of its servos, its firmware, its trims. Callers that ask while
+a question is under way share its answer. Twin of shared/src/robot/readings.ts.
 
 The battery is read when a board becomes ready, soon after something has ended, and every few seconds while
 nothing moves: on some boards any packet disturbs what runs, and under load the voltage sags anyway. A board
@@ -74,8 +74,8 @@ class Readings:
         self._under_way: dict[Key, asyncio.Task[None]] = {}
 
     async def read(self, what: Reading, servos: Sequence[int] = ()) -> None:
-        """Until the board has said it, to everybody. A second caller that asks the same meanwhile shares the
-        answer. Raises what keeps it from being asked, and NoAnswerError.
+        """Returns when the board has answered; the report goes to every client. A second caller that asks the
+        same meanwhile shares the answer. Raises NoAnswerError, and whatever prevents the question.
         """
         key = (what, tuple(servos))
         if key not in self._under_way:
@@ -123,7 +123,7 @@ class Readings:
     def _ended(self, key: Key, reading: asyncio.Task[None]) -> None:
         del self._under_way[key]
         if not reading.cancelled():
-            reading.exception()  # callers have it; none may be left to take it
+            reading.exception()  # callers have it; they may all be gone
 
 
 def positions_s(servo_count: int) -> float:
@@ -155,7 +155,7 @@ class BatteryReader:
         """`polls`: the battery is read by itself while the board is ready."""
         self.newest: BatteryReading | None = None
         self.is_silent = False
-        """So many questions in a row stayed unanswered that such a board is taken to have no answer."""
+        """So many questions in a row stayed unanswered that the board is taken to report no voltage."""
         self._board = board
         self._replies = replies
         self._now = now
@@ -183,7 +183,7 @@ class BatteryReader:
                 log.warning("the board answers another program, too; close it", extra={"facts": facts})
 
     def forget(self) -> None:
-        """It is another board now."""
+        """The board has changed."""
         was_known = self.newest or self.is_silent
         self.newest, self._silences, self.is_silent = None, 0, False
         if was_known:

@@ -1,7 +1,6 @@
 """Downloads as jobs of the gateway: they go on when their client has left. One at a time; while it lasts
-nothing else goes to the board. Keeps account of what they leave behind in the slots.
-
-Knows packets and a wire. Must not know HTTP, nor who may begin one and when.
+nothing else goes to the board. Records what they leave in the slots. Knows packets and a wire. Must not know
+HTTP, nor who may begin one and when.
 """
 
 import asyncio
@@ -30,7 +29,7 @@ from servodeck.robot.board.slots import SlotMemory
 from servodeck.snapshots import JobState, StoredGroup
 
 REMEMBERED = 16
-# Often enough for a bar that moves, seldom enough for 200 who look on.
+# Often enough for a progress bar, seldom enough for 200 clients.
 PUBLISH_EVERY_S = 0.1
 # Count table only: 46 ms typical, 403 ms worst (boards.md section 3, flash times).
 ERASE_TIMEOUT_S = ERASE.timeout_ms / 1000
@@ -105,7 +104,7 @@ class Jobs:
         return job.state
 
     def end(self, error: GatewayError) -> None:
-        """At once, whatever of a frame is on the board by now."""
+        """At once, also within a frame."""
         if job := self._current:
             job.wire.purge(lambda waiting: waiting.owner is job, error)
             job.task.cancel()
@@ -170,7 +169,7 @@ class Jobs:
         except GatewayError as error:
             self._finish(job, error)
         finally:
-            if self._current is job:  # a defect of ours, and the robot is not to wait for it
+            if self._current is job:  # after a defect of ours, so that the robot can be used again
                 self._finish(
                     job,
                     GatewayError(

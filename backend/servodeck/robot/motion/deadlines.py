@@ -85,7 +85,9 @@ def is_empty(slot: int, board: KnownBoard) -> bool:
 
 
 def request_during(motion: Motion, run: DeadlineRun, wanted: Run, at_ms: float, board: KnownBoard) -> Motion:
-    """While another group runs: its length is overwritten, whatever comes of the request (S45, S46)."""
+    """While another group runs: its length is overwritten, whether or not the request takes effect (S45,
+    S46).
+    """
     frames = board.played_frames(wanted.slot)
     if frames is None:
         longest = max(longest_ms(wanted, board.family), longest_ms(Run(run.slot, run.times), board.family))

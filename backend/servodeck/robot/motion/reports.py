@@ -1,5 +1,5 @@
-"""What the board's reports say about the motion: answers, positions, the start and the end of groups. Knows
-reports; what a command does is motion.py. Twin of shared/src/motion/reports.ts.
+"""Effects of the board's reports on the motion: answers, positions, the start and the end of groups. Knows
+reports; motion.py has the effects of commands. Twin of shared/src/motion/reports.ts.
 """
 
 from collections.abc import Sequence
@@ -62,8 +62,8 @@ def after_answer(motion: Motion, report: type[Report], at_ms: float, board: Know
 
 
 def after_start(motion: Motion, report: RunStarted, at_ms: float, board: KnownBoard) -> Motion:
-    """By our own command a moment ago; or somebody started it at the board, and how long ago is not known
-    to the tick.
+    """By our own command a moment ago, or by a person at the board; then its time is not known to the
+    tick.
     """
     run, slot = motion.run, report.slot
     if isinstance(run, DeadlineRun) and run.slot == slot and run.next <= 1 and run.loops_done == 0:
@@ -94,7 +94,7 @@ def last_frame_ms(motion: Motion, at_ms: float, board: KnownBoard) -> float:
 
 
 def after_cut(motion: Motion, at_ms: float, board: KnownBoard) -> Motion:
-    """After somebody has stopped the group, or it is taken to have ended: its frame in progress goes on
+    """After the group was stopped, or is taken to have ended: its frame in progress goes on
     (S50).
     """
     current = advance(motion, at_ms, board)
