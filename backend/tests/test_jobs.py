@@ -191,7 +191,7 @@ async def test_a_page_shows_by_its_nonce_that_it_drives() -> None:
     async with gateway_on() as control:
         anna = Client(control, PUPIL)
         judge = control.driving.judge_request
-        with pytest.raises(NotDrivingError, match="Nobody"):
+        with pytest.raises(NotDrivingError, match="No client"):
             judge(PUPIL, "1-1")
         control.driving.act(anna, "request")
         assert anna.nonce
