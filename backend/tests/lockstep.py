@@ -70,6 +70,8 @@ class SteppedBoard:
         self.ports: list[BoardPort] = []
         self.is_plugged = True
         self.last_byte_s = 0.0
+        self.runs = 0
+        """So many have begun to leave."""
         self.moved_s: Sequence[float] = [0.0 for _ in SERVOS]
         loop = asyncio.get_running_loop()
         assert isinstance(loop, VirtualTimeLoop)
@@ -93,6 +95,7 @@ class SteppedBoard:
 
     def take(self, data: bytes) -> None:
         self._note(data.hex())
+        self.runs += data[COMMAND_AT] == RUN
         if data[COMMAND_AT] not in (STOP, MOVE):
             # A run may be told of at any time from then on.
             lasts_s = inf if data[COMMAND_AT] == RUN else ANSWERS_WITHIN_S

@@ -71,6 +71,8 @@ class Outcome:
     moved_s: Sequence[float]
     due_s: float
     was_latched: bool
+    answered: Said | None
+    """What the STOP said behind which a person resumed: they answer for that (docs/adr/0012)."""
 
     @property
     def moved_on(self) -> bool:
@@ -83,7 +85,7 @@ class Outcome:
             return [
                 f"servo {servo} moved for {1000 * (moved_s - self.due_s):.1f} ms, and no stop came"
                 for servo, moved_s in zip(SERVOS, self.moved_s, strict=True)
-                if moved_s > self.due_s + HELD_WITHIN_S
+                if moved_s > max(self.due_s + HELD_WITHIN_S, self._answered_until_s(servo))
             ]
         return [
             f"servo {servo} moved for {1000 * (moved_s - said.pressed_s):.1f} ms, limit "
@@ -92,6 +94,9 @@ class Outcome:
             for servo, moved_s in zip(SERVOS, self.moved_s, strict=True)
             if moved_s > (limit_s := said_of(said, servo)) + GRAIN_S
         ]
+
+    def _answered_until_s(self, servo: int) -> float:
+        return said_of(self.answered, servo) + GRAIN_S if self.answered else -inf
 
 
 def said_of(said: Said, servo: int) -> float:
@@ -173,6 +178,28 @@ class Driven:
         self.board = board
         self.control = Watched(board, family)
         self.page: Client
+        self._moves = 0
+        self._resumed_s = -inf
+        self._begun_before_resume = (0, 0)
+
+    @property
+    def answered(self) -> Said | None:
+        """What was said by the STOP behind which a person resumed, where nothing was begun since."""
+        if self._begun() != self._begun_before_resume:
+            return None
+        return next(
+            (one for one in reversed(self.control.said) if one.pressed_s <= self._resumed_s),
+            None,
+        )
+
+    def _begun(self) -> tuple[int, int]:
+        return self.board.runs, self._moves
+
+    def resume(self) -> None:
+        was_latched = self.control.latch
+        self.control.resume(OLGA)
+        if was_latched:
+            self._resumed_s, self._begun_before_resume = now(), self._begun()
 
     def say(self, message: dict[str, Any]) -> None:
         """As its page would; what cannot be said is not."""
@@ -194,6 +221,7 @@ class Driven:
 
     async def take(self, step: Step) -> None:
         kind = step["kind"]
+        self._moves += kind == "move"
         if make := INTENTS.get(kind):
             self.say({"type": kind, **make(step)})
         elif act := ACTS.get(kind):
@@ -244,7 +272,7 @@ ACTS: dict[str, Callable[[Driven, Step], None]] = {
         {"type": "setSpeed", "slot": step["slot"], "percent": step["percent"]}
     ),
     "halt": lambda here, _step: here.control.stop().add_done_callback(taken),
-    "resume": lambda here, _step: here.control.resume(OLGA),
+    "resume": lambda here, _step: here.resume(),
     "download": lambda here, step: here.download(step.get("slot", KNOWN_SLOT), frames_of(step["frames"])),
     "cancel": lambda here, _step: here.cancel(),
     "loss": lambda here, _step: here.board.lose(LOST_FOR_S),
@@ -283,7 +311,7 @@ async def outcome_of(simulator: Simulator, family: str, history: History, door: 
     # Pressed again while it stops it joins the STOP under way.
     pressed_s = min(control.pressed_s[pressed_before:], default=inf)
     said = [one for one in control.said if one.left_s >= pressed_s]
-    outcome = Outcome(said, board.moved_s, due_s, was_latched)
+    outcome = Outcome(said, board.moved_s, due_s, was_latched, here.answered)
     await control.board.link.close()
     return outcome
 
