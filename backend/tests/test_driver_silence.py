@@ -6,9 +6,14 @@ import pytest
 
 from servodeck.callers import THIS_COMPUTER
 from servodeck.errors import CancelledError, ExpiredError, NotDrivingError
-from tests.client import Client, driven
+from servodeck.protocol.values import Frame, ServoTarget
+from servodeck.robot.board.download import Group
+from tests.client import Client, driven, gateway_on
+from tests.downloading import AnsweringPort, begin, ended
 from tests.samples import BATTERY, MOVE, MOVE_ELSEWHERE, MOVE_S, RUN, STOP, STOPS, is_held_ahead
 from tests.virtual_time import hold_up, in_virtual_time, now
+
+TWO_FRAMES = Group(4, "Wave", [Frame(500, (ServoTarget(1, position),)) for position in (1500, 1600)])
 
 
 @in_virtual_time
@@ -135,6 +140,45 @@ async def test_a_driver_who_leaves_while_the_last_frame_of_an_unknown_group_may_
             await asyncio.sleep(1)
             assert port.packets() == [STOP, RUN, STOP, *(STOPS if is_stopped else [])]
             assert control.latch is is_stopped
+
+
+@in_virtual_time
+@pytest.mark.parametrize("how", ["falls silent", "leaves"])
+@pytest.mark.parametrize("last_frame_ms", [46, 2_400])
+async def test_a_download_behind_an_unknown_group_puts_off_the_stop_for_its_last_frame_to_its_own_end(
+    how: str, last_frame_ms: float
+) -> None:
+    port = AnsweringPort([[], [180], [last_frame_ms]])
+    async with gateway_on(port) as control:
+        anna = Client(control)
+        await anna.send(RUN)
+        await anna.send(STOP)
+        job = begin(control, TWO_FRAMES)
+        if how == "leaves":
+            control.leave(anna)
+        anna.beats = False
+        stored = await ended(control, job)
+        assert (stored.status, control.board.jobs.broken(control.board.link.place)) == ("done", [])
+        await asyncio.sleep(2.1)
+        assert port.packets()[:2] == [STOP, RUN]
+        assert port.packets()[-3:] == STOPS
+        assert (control.latch, len(port.packets())) == (True, 8)
+
+
+@in_virtual_time
+async def test_behind_a_download_nothing_is_stopped_for_a_driver_who_is_back() -> None:
+    port = AnsweringPort([[], [180], [2_400]])
+    async with gateway_on(port) as control:
+        anna = Client(control)
+        await anna.send(RUN)
+        await anna.send(STOP)
+        job = begin(control, TWO_FRAMES)
+        anna.beats = False
+        await asyncio.sleep(2.2)
+        anna.beats = True
+        assert (await ended(control, job)).status == "done"
+        await asyncio.sleep(1)
+        assert (control.latch, len(port.packets())) == (False, 5)
 
 
 @in_virtual_time

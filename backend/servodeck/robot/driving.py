@@ -41,6 +41,11 @@ class Driving:
         return self._lease.driver
 
     @property
+    def is_watched(self) -> bool:
+        """Whoever drives has not been silent for so long that what moves must end."""
+        return self._lease.driver is not None and self._lease.silence != "silent"
+
+    @property
     def epoch(self) -> int:
         """Another one with each driver, and while there is none."""
         return self._lease.epoch

@@ -31,6 +31,9 @@ class Cause:
     name: str | None = None
 
 
+SILENCE = Cause("silence")
+
+
 class Latch:
     def __init__(self, changed: Callable[[], None]) -> None:
         self._changed = changed
@@ -78,6 +81,8 @@ def judge_latch(number: int, latch: bool) -> None:
 class Watch:
     def __init__(self, control: "Control") -> None:
         self._control = control
+        self._owed: Cause | None = None
+        """Of the STOP that waits for the end of a download."""
 
     def driver_quiet(self) -> None:
         control = self._control
@@ -90,8 +95,14 @@ class Watch:
             self._stop_unwatched()
 
     def driver_silent(self) -> None:
-        if self._control.board.activity.may_still_move() and not self._control.board.unattended.by:
+        if not self._control.board.unattended.by and self._may_stop_now(SILENCE):
             self._stop_unwatched()
+
+    def download_ended(self) -> None:
+        """The STOP that waited for it comes now, unless somebody watches again."""
+        owed, self._owed = self._owed, None
+        if owed and not self._control.driving.is_watched and self._may_stop_now(owed):
+            self._stop_unwatched(owed)
 
     def driver_lost(self) -> None:
         self.driver_silent()
@@ -120,20 +131,31 @@ class Watch:
             board.unattended.end()
         elif not is_of(driver, caller_id):
             return
-        if board.activity.may_still_move():
+        cause = Cause("person", by)
+        if self._may_stop_now(cause):
             with contextlib.suppress(GatewayError):
-                self._control.stop(Cause("person", by))
+                self._control.stop(cause)
 
     def end_quietly(self, reason: GatewayError) -> None:
         """Without the latch: a person is watching, or the end was announced."""
         with contextlib.suppress(GatewayError):
             self._control.board.halts.halt(reason)
 
-    def _stop_unwatched(self) -> None:
+    def _may_stop_now(self, cause: Cause) -> bool:
+        """Whether there is something to stop. If it is only the last frame of a group after which its driver
+        began a download, the STOP waits for the end of the download, because it would break a slot for a
+        frame that was allowed to finish.
+        """
+        board = self._control.board
+        waits = board.jobs.is_storing and not board.activity.may_move()
+        self._owed = cause if waits else None
+        return board.activity.may_still_move() and not waits
+
+    def _stop_unwatched(self, cause: Cause = SILENCE) -> None:
         """STOP because no driver watches over what moves: a person has to look before motion resumes. Not
         twice: a second hold would end later than was announced for the first.
         """
         if self._control.latch:
             return
         with contextlib.suppress(GatewayError):
-            self._control.stop(Cause("silence"))
+            self._control.stop(cause)

@@ -105,9 +105,6 @@ class Estimate:
         is_ended = isinstance(ran, UnknownRun) and self._motion.run is None
         if is_ended and self._run_at_ms > self._resumed_at_ms:
             self._last_frame_until_ms = self._motion.restless_until_ms
-        if isinstance(command, Download):
-            # A stop would break its slot, for what its driver let go on.
-            self._last_frame_until_ms = -inf
         if isinstance(command, Run) and self._motion.run:
             self._run = self._asked = command
             self._run_at_ms, self._over_ms = at_ms, -inf
