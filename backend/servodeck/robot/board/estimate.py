@@ -112,7 +112,8 @@ class Estimate:
             self._over_ms = -inf
         elif isinstance(command, Move) and not is_heard:
             duration_ms = max(command.duration_ms, self.family.shortest_move_ms)
-            self._unheard_until_ms = self._motion.deaf_until_ms + duration_ms
+            # Deaf no more, it may still take the move for the rest of a packet that was cut, or not.
+            self._unheard_until_ms = max(at_ms, self._motion.deaf_until_ms) + duration_ms
 
     def heard(self, report: Report, at_s: float) -> None:
         at_ms = self._advance(at_s)
