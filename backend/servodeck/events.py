@@ -1,7 +1,7 @@
 """The messages of the gateway to its clients on the WebSocket and in the event stream.
 
 `python -m servodeck.events` prints the JSON schema of these messages and of the clients' (intents.py), from
-which the page's types are generated. Knows no socket, and no rule about who may say what.
+which the page's types are generated. Knows no socket and no role.
 """
 
 import json
@@ -36,12 +36,11 @@ PROTOCOL = 9
 
 
 class GatewayState(Message):
-    """How the gateway stands, for everybody alike. `board` is the family that it is driven as.
-    `brokenSlots` hold half a group: they cannot be run.
-    `slotVersions` tell what was stored in each slot last, as far as the gateway knows. `stoppedBy` is what
-    people call the person who pressed STOP, or whose page did it for the battery, where that is known.
-    `waitingToStart`: servos that were asked to move from an unknown place, so they start one
-    after another, in this order.
+    """The state of the gateway, the same for every client. `board` is the family by which the board is
+    driven. `brokenSlots` hold half a group: they cannot be run. `slotVersions` are the groups that the
+    gateway last stored in each slot. `stoppedBy` is the name of the person who pressed STOP, or whose page
+    did so for the battery, if known. `waitingToStart`: servos that were asked to move from an unknown place,
+    so they start one after another, in this order.
     """
 
     board: str
@@ -72,14 +71,14 @@ class WelcomeMessage(GatewayState):
 
 
 class BatteryMessage(Message):
-    """The board has reported its battery, which is read now and then, or stays silent about it."""
+    """The board has reported its battery, or has stopped answering about it."""
 
     type: Literal["battery"] = "battery"
     battery: Annotated[BatteryState, Field(discriminator="kind")]
 
 
 class DoneMessage(Message):
-    """What was asked with that `id` is done. `outcome`: of a command for the board."""
+    """The request with that `id` is done. `outcome`: of a command for the board."""
 
     type: Literal["done"] = "done"
     id: MessageId
@@ -96,7 +95,7 @@ class RefusedMessage(Message):
 
 
 class ReceivedMessage(Message):
-    """What the board said; `bytes` are its packet, for logs."""
+    """A report of the board; `bytes` are its packet, for logs."""
 
     type: Literal["received"] = "received"
     report: ReportModel
@@ -112,34 +111,34 @@ class NoiseMessage(Message):
 
 
 class HaltedMessage(Message):
-    """The stop sequence has left the wire. `unheld`: what may go on in spite of it, if anything."""
+    """The stop sequence has left the wire. `unheld`: servos that may go on moving, if any."""
 
     type: Literal["halted"] = "halted"
     unheld: UnheldServos | None
 
 
 class ResumedMessage(Message):
-    """Motion is allowed again, by somebody else's word."""
+    """Another client has resumed: motion is allowed again."""
 
     type: Literal["resumed"] = "resumed"
     by: str
 
 
 class StateMessage(GatewayState):
-    """Something of this changed."""
+    """Some part of the state has changed."""
 
     type: Literal["state"] = "state"
 
 
 class JobMessage(Message):
-    """A download began, came further or ended; the latest one of all clients."""
+    """A download began, progressed or ended; the latest one of all clients."""
 
     type: Literal["job"] = "job"
     job: JobState
 
 
 class PlayStateMessage(Message):
-    """What the gateway plays began, came further or ended; the latest play of all clients."""
+    """A play of the gateway began, progressed or ended; the latest one of all clients."""
 
     type: Literal["play"] = "play"
     play: PlayState
@@ -154,21 +153,21 @@ class PlayedMessage(Message):
 
 
 class RobotMessage(Message):
-    """Another robot stands on the board now, or any robot of the library has changed: look there."""
+    """Another robot is on the board now, or a robot of the library has changed."""
 
     type: Literal["robot"] = "robot"
     robot: RobotState | None
 
 
 class LeaseStateMessage(Message):
-    """Something of the lease changed."""
+    """The lease has changed."""
 
     type: Literal["lease"] = "lease"
     lease: LeaseState
 
 
 class LeftMessage(Message):
-    """What has left the wire since the last of these, for all clients."""
+    """The commands that have left the wire since the last such message, for all clients."""
 
     type: Literal["left"] = "left"
     commands: list[CommandModel]

@@ -1,5 +1,5 @@
-"""Small files of the data folder, written whole or not at all; what the gateway remembers in one of them; and
-whether the disk takes files now.
+"""Small files of the data folder, written whole or not at all; the memory of the gateway in one of them; and
+a check whether the disk can be written.
 
 Knows no document and no database. Blocking calls run in threads and never longer than a moment: a disk that
 hangs must not make its caller hang.
@@ -39,7 +39,7 @@ def write_whole(file: Path, text: str) -> None:
 
 
 class BackgroundFile:
-    """What is held in memory, written behind: a disk that takes nothing hinders no caller."""
+    """A value in memory that is written later: a full or slow disk delays no caller."""
 
     def __init__(self, file: Path | None, text: Callable[[], str]) -> None:
         """`text` is asked for in a thread. Without a file it is forgotten with the gateway."""
@@ -49,7 +49,7 @@ class BackgroundFile:
         self._keeping: set[asyncio.Task[None]] = set()
 
     async def saved(self) -> None:
-        """When the disk has it as it is now, or does not take it."""
+        """Waits until the present state is written, or has failed to be."""
         if self._file is None:
             return
         with suppress(TimeoutError):
@@ -135,14 +135,14 @@ class Remembered:
 
     @property
     def port(self) -> str | None:
-        """The one that somebody chose, by a name that lasts where the system keeps one."""
+        """The one that a person chose, by its lasting name where the system has one."""
         return self._memory.port
 
     def remember_port(self, device: str | None) -> None:
         self._memory = self._memory.model_copy(update={"port": device})
 
     def board_at(self, place: str) -> str | None:
-        """The family that somebody said."""
+        """The family that a person chose."""
         return self._memory.boards.get(place)
 
     def remember_board(self, place: str, family: str | None) -> None:
@@ -170,7 +170,7 @@ def with_entry(entries: Mapping[str, str], key: str, value: str | None) -> dict[
 
 
 def read(file: Path) -> Memory:
-    """What cannot be read was not written here."""
+    """Unreadable content counts as empty."""
     try:
         return Memory.model_validate_json(file.read_text("utf-8"))
     except (OSError, ValueError, ValidationError):

@@ -1,6 +1,7 @@
-"""What is asked of the robot, in the same words at every door: WebSocket, HTTP and command line.
+"""Requests to the robot, the same for WebSocket, HTTP and command line.
 
-Knows shapes. Who may ask is judged elsewhere, and so is what this robot can do.
+Knows shapes. Roles and the robot's limits are judged elsewhere.
+
 """
 
 from typing import Annotated, Literal
@@ -61,10 +62,9 @@ class Target(Message):
 
 
 class MoveMessage(Message):
-    """Move servos. Of each the newest value counts; what waits for the wire leaves together, servos of
-    unknown place slowly and one after another. `durationMs` 0: as fast as the servos and the link allow.
-    `nonce` shows that the driver says it, and now. Answered only where it is refused: `left` tells what has
-    left.
+    """Move servos. Of each the newest value counts; waiting values leave together, servos of unknown position
+    slowly and one after another. `durationMs` 0: as fast as the servos and the link allow. `nonce` proves
+    that the driver sent it just now. Answered only where it is refused: `left` has the commands that left.
     """
 
     type: Literal["move"]
@@ -75,7 +75,7 @@ class MoveMessage(Message):
 
 
 class RunMessage(Message):
-    """Run the group in `slot`; `times` 0: until it is stopped. What moves ends first."""
+    """Run the group in `slot`; `times` 0: until it is stopped. A motion in progress ends first."""
 
     type: Literal["run"]
     id: MessageId
@@ -128,8 +128,8 @@ class PacketMessage(Message):
 
 
 class StopMessage(Message):
-    """STOP: drop all that waits, send stop three times, hold the robot where it is, and latch. Whatever else
-    it says, it is a stop.
+    """STOP: drop all that waits, send stop three times, hold the robot where it is, and latch. Unknown fields
+    are ignored.
     """
 
     model_config = ConfigDict(extra="ignore")
@@ -145,7 +145,7 @@ class ResumeMessage(Message):
 
 
 class BoardMessage(Message):
-    """Which family the board is of, as a person has said; `unknown`: ask it again."""
+    """The family of the board, as a person has chosen it; `unknown`: identify it again."""
 
     type: Literal["board"]
     id: MessageId
@@ -153,7 +153,7 @@ class BoardMessage(Message):
 
 
 class ReadMessage(Message):
-    """Ask the board now; every client hears what it says, and `done` once it has. Needs no lease. `servos`:
+    """Ask the board now; every client gets its report, and this one `done`. Needs no lease. `servos`:
     whose positions; some boards report all of them, whichever are named.
     """
 
@@ -164,7 +164,7 @@ class ReadMessage(Message):
 
 
 class CalibrateMessage(Message):
-    """This client looks for the limits of `servo` and may pass the present ones with it, until `null` or the
+    """This client calibrates `servo` and may move it beyond its present limits, until `null` or the
     end of its connection.
     """
 
@@ -222,7 +222,7 @@ class PlayMessage(PlayIntent):
 
 
 class StopPlayingMessage(Message):
-    """The driver's: what the gateway plays ends with its frame in progress."""
+    """The driver ends the play of the gateway with its frame in progress."""
 
     type: Literal["stopPlaying"]
 

@@ -1,5 +1,5 @@
-"""What has been counted since the start, as plain numbers: the library that shows them to Prometheus is
-loaded when somebody asks (api/prometheus.py). Knows names and numbers, nothing of what they count.
+"""Counters since the start, as plain numbers; the library for Prometheus is loaded with the first request
+(api/prometheus.py). Knows names and numbers.
 
 One set for the process: each module counts here in one line.
 """

@@ -1,5 +1,5 @@
 """Strict models (unknown fields are refused), the JSON schemas from which the page's types are generated, and
-a look into large JSON before Python makes objects of it.
+checks of large JSON before Python makes objects of it.
 
 Large JSON is parsed by SQLite: Python's own parser keeps every other thread waiting until it is through (3 MB
 of empty lists: 0.6 s, in which a stop waits); SQLite's does not. Knows no message.
@@ -70,7 +70,7 @@ def is_object(text: str) -> bool:
 
 
 def has_more_values(text: str, most: int) -> bool:
-    """Than that, whatever is in whatever. Raises ValueError where it is no JSON."""
+    """Whether it has more values than `most`, at all depths. Raises ValueError where it is no JSON."""
     try:
         return int(answer_to("SELECT count(*) FROM json_tree(?)", text)) > most
     except sqlite3.OperationalError as error:

@@ -18,7 +18,7 @@ LinkStatus = Literal["closed", "opening", "identifying", "ready", "stale", "refu
 
 
 class Candidate(Message):
-    """Somebody who is here and may drive."""
+    """A connected client that may drive."""
 
     id: str
     name: str
@@ -44,9 +44,9 @@ class LeaseState(Message):
 
 
 class PortState(Message):
-    """How the serial port stands. `code` and `detail` say why it is lost, `retryInMs` when the next attempt
-    follows. `simulated` where the device was declared to be no real board. `withheld`: what this way to the
-    board is not to carry, although the board may know it.
+    """The state of the serial port. `code` and `detail` say why it is lost, `retryInMs` when the next attempt
+    follows. `simulated`: it leads to a simulated board. `withheld`: commands that this cable does not carry,
+    although the board may know them.
     """
 
     device: str | None
@@ -59,8 +59,8 @@ class PortState(Message):
 
 
 class LinkState(Message):
-    """The way to the board, and the board: `identifying` while it is asked who it is, `stale` while it does
-    not answer what such a board always answers, `refused` until a person says which board it is. `code` and
+    """The link to the board: `identifying` while the board is asked, `stale` while it does not answer a
+    question that such a board always answers, `refused` until a person says which board it is. `code` and
     `detail` say why it is not ready.
     """
 
@@ -70,7 +70,7 @@ class LinkState(Message):
 
 
 class AnsweredEvidence(Message):
-    """The board answered that question when it was asked who it is."""
+    """The board answered that question of its identification."""
 
     kind: Literal["answered"] = "answered"
     question: Question
@@ -101,7 +101,7 @@ EvidenceState = AnsweredEvidence | SilentEvidence | EchoedEvidence | NoiseEviden
 
 
 class IdentityState(Message):
-    """What the board answered when it was asked who it is, and the families that answer like that."""
+    """The answers of the board to its identification, and the families that answer like that."""
 
     evidence: list[Annotated[EvidenceState, Field(discriminator="kind")]]
     candidates: list[str]
@@ -118,7 +118,7 @@ class BatteryRead(Message):
 
 
 class BatterySilent(Message):
-    """Several questions in a row stayed unanswered; `lastMv` is what it said before."""
+    """Several questions in a row stayed unanswered; `lastMv` is its last report."""
 
     kind: Literal["silent"] = "silent"
     last_mv: int | None
@@ -128,8 +128,8 @@ BatteryState = BatteryUnread | BatteryRead | BatterySilent
 
 
 class UnattendedRun(Message):
-    """A run that may go on without its driver `by`, for so long at most. `slot` is null where the gateway
-    plays.
+    """A run that may continue without its driver `by`, for `endsInMs` at most. `slot` is null where the
+    gateway plays.
     """
 
     slot: int | None
@@ -139,8 +139,8 @@ class UnattendedRun(Message):
 
 
 class StoredGroup(Message):
-    """What a slot was given last: which version, called what, of which document of the library where one is
-    named, by whom, and when, in milliseconds since 1970; null where that was not noted.
+    """The group that was last stored in a slot: its version, name, document in the library, author and time
+    in milliseconds since 1970; null where unknown.
     """
 
     version: str
@@ -151,8 +151,8 @@ class StoredGroup(Message):
 
 
 class ServoWay(Message):
-    """A servo on its way, or there already: begun so long ago (below 0: not yet), and taking so long. `start`
-    is null where it is unknown where it began.
+    """A move of a servo, in progress or ended: the time since its start (below 0: not started yet), and its
+    duration. `start` is null where its position at the start is unknown.
     """
 
     servo: int
@@ -163,8 +163,8 @@ class ServoWay(Message):
 
 
 class ReportedPosition(Message):
-    """Where the board said that a servo stood, so long ago. `isCurrent`: as far as the gateway can tell it
-    stands there still.
+    """The position that the board reported for a servo, with its age. `isCurrent`: as far as the gateway
+    knows, the servo has not moved since.
     """
 
     servo: int
@@ -174,9 +174,9 @@ class ReportedPosition(Message):
 
 
 class MotionState(Message):
-    """Where packets have taken the servos since the port opened, and what the board has reported of them; of
-    one that is not named the place is unknown. `runSlot`: the group that may run. `released`: they have no
-    torque, so hands may have turned them.
+    """The moves of the servos since the port opened, and their reported positions; the position of a servo
+    without either is unknown. `runSlot`: the group that may run. `released`: they have no torque, so a person
+    may have turned them.
     """
 
     servos: list[ServoWay]
@@ -189,9 +189,9 @@ JobStatus = Literal["running", "done", "failed", "cancelled"]
 
 
 class JobState(Message):
-    """A download and how far it is. `slots`: where its groups go, in this order; `slot` and `name`: of the
-    one that is being stored, or was last; frames and bytes are of all of them. `by`: who began it. `code` and
-    `detail` say why it failed or was cancelled.
+    """A download and its progress. `slots`: of its groups, in this order; `slot` and `name`: of the one that
+    is being stored, or was last; frames and bytes are of all of them. `by`: the client that began it. `code`
+    and `detail` say why it failed or was cancelled.
     """
 
     id: str
@@ -214,8 +214,8 @@ PlayStatus = Literal["playing", "done", "ended"]
 
 
 class PlayState(Message):
-    """Frames that the gateway plays by its own clock, and how far it is. `times` 0: until stopped. `by`: who
-    began it. `lateFrames` began so late that those behind them were put off, by `latestMs` at most;
+    """A play of the gateway by its own clock, and its progress. `times` 0: until stopped. `by`: the client
+    that began it. `lateFrames` began so late that later frames were delayed, by `latestMs` at most;
     `skippedFrames` did not leave. `ended`: before its last frame had ended; `code` and `detail` say why.
     """
 
@@ -236,7 +236,7 @@ ServoNumber = Annotated[int, Field(ge=1, le=253)]
 
 
 class ServoLimits(Message):
-    """How far a servo may be turned, in its board's unit, and what people call it."""
+    """The limits of a servo, in its board's unit, and its name."""
 
     servo: ServoNumber
     name: Annotated[str, Field(min_length=1, max_length=64)]
@@ -252,8 +252,8 @@ class RobotState(Message):
 
 
 class UnheldServos(Message):
-    """What may go on in spite of a STOP: these servos, `null` where it is unknown which, for so long at most
-    from its press; `null` where a group may run that heard no stop.
+    """Motion that a STOP could not hold: `servos`, `null` where unknown, that may move for `forMs` after the
+    press at most; `null` where the board may not have received the stop.
     """
 
     servos: list[int] | None
@@ -266,7 +266,7 @@ a board never says.
 """
 
 StopFor = Literal["person", "battery"]
-"""Somebody pressed STOP; the policy for a low battery, on the driver's page."""
+"""A person pressed STOP; the driver's page did so for a low battery."""
 
 LatchedBy = Literal[StopFor, "silence", "loss"]
 """Besides these: a driver was not heard while the robot moved; the port went away."""
@@ -282,7 +282,7 @@ class PoseTarget(Message):
 
 
 class NamedPose(Message):
-    """`id` stays when it is named anew. `targets` are some of the robot's servos, as its board counts."""
+    """`id` stays when it is named anew. `targets` are some of the robot's servos, in its board's unit."""
 
     id: Whole
     name: Annotated[str, Field(min_length=1, max_length=64)]
@@ -291,8 +291,8 @@ class NamedPose(Message):
 
 
 class RobotFacts(Message):
-    """What the gateway itself needs to know of a robot: how far its servos may be turned and the poses that
-    programs go to, as the board counts.
+    """The facts of a robot that the gateway needs: the limits of its servos and the poses for programs, in
+    the board's unit.
     """
 
     kind: Literal["robot"]

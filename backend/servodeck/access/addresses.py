@@ -1,10 +1,9 @@
-"""Where the gateway answers and under which names, as one value from the command line; the addresses that let
-somebody in, as text and as QR codes; and how the local network hears of it, by mDNS (`servodeck.local`).
+"""The addresses and names of the gateway, as one value from the command line; addresses with invitations, as
+text and as QR codes; and the announcement on the local network, by mDNS (`servodeck.local`).
 
-A secret stands behind #, which no server and no log gets to see. The announcement runs in a thread of its own
-and fails alone: no network, a changed network or a fault of the library is a line in the log and another try
-later. Knows names and addresses; no request, no person, and makes no secret. A request is never trusted for
-its address.
+A secret stands behind #, which no server and no log receives. The announcement runs in a thread of its own; a
+missing network or a fault of the library is logged and tried again later. Knows names and addresses; no
+request, no person, and makes no secret. A request is never trusted for its address.
 """
 
 import io
@@ -76,12 +75,12 @@ class Access:
 
 
 def local(port: int) -> Access:
-    """This computer only; everybody at it is its owner."""
+    """This computer only; every caller on it is an owner."""
     return Access("local", "http", port, LOOPBACK)
 
 
 def lan(port: int, host_name: str | None = None, *, listens_at: str = "0.0.0.0") -> Access:
-    """This computer's own names and whatever address of its own a connection came in at."""
+    """This computer's own names, and the own address at which a connection came in."""
     name = (host_name or socket.gethostname()).lower()
     own = {name, f"{name.partition('.')[0]}.local", MDNS_NAME}
     return Access("lan", "http", port, LOOPBACK | {one for one in own if is_name(one)}, listens_at)
@@ -191,7 +190,7 @@ class Announcement:
         addresses: Callable[[], list[str]] = lan_addresses,
         look_again_s: float = LOOK_AGAIN_S,
     ) -> None:
-        """`addresses` tells on which of this computer's networks it shall be heard now, maybe on none."""
+        """`addresses` returns the addresses to announce now, possibly none."""
         self._port = port
         self._host_name = (host_name or socket.gethostname()).partition(".")[0][:NAME_BYTES]
         self._addresses = addresses
@@ -203,7 +202,7 @@ class Announcement:
         self._thread.start()
 
     def end(self) -> None:
-        """Takes it back where that is quick; others forget it by themselves after a while."""
+        """Withdraws the announcement if that is quick; others forget it after a while."""
         self._ended.set()
         self._thread.join(GOODBYE_S)
 
@@ -213,7 +212,7 @@ class Announcement:
                 if addresses := self._addresses():
                     self._announce(addresses)
                     continue  # the addresses are others now
-            except Exception:  # no network, or whatever a library raises, which cannot be named here
+            except Exception:  # no network, or any error of the library
                 log.warning("this computer cannot be announced", exc_info=True)
             self._ended.wait(self._look_again_s)
 

@@ -1,7 +1,7 @@
-"""Connections that cannot be held open by saying little, nor fill memory by saying much: a request comes soon
-and whole, with a head of sane size; its body is read only where somebody waits for it; a WebSocket answers a
-ping; else the connection ends. Of those that have not proved who they are only few stay: STOP needs the
-descriptors.
+"""Limits of connections, against clients that hold them open by sending little, or fill memory by sending
+much: a request must come soon and whole, with a head of limited size; its body is read only when the route
+needs it; a WebSocket must answer pings. Only few unauthenticated connections stay open, because STOP needs
+the descriptors.
 
 Knows time, bytes and addresses, no request's meaning.
 """
@@ -43,12 +43,12 @@ class Unauthenticated:
             self._end(next(iter(self._sources)))
 
     def use(self, connection: Closable) -> None:
-        """Something was asked or answered on it."""
+        """A request or an answer passed on it."""
         if connection in self._sources:
             self._sources[connection] = self._sources.pop(connection)
 
     def remove(self, connection: Closable) -> None:
-        """Somebody has proved who they are, or it was closed."""
+        """Its caller was authenticated, or it was closed."""
         self._sources.pop(connection, None)
 
     def _end(self, connection: Closable) -> None:
@@ -83,16 +83,16 @@ HEAD_REFUSED = b"""{"code":"tooLarge","detail":"The head of a request is at most
 
 
 class Connection(Protocol):
-    """What a request may say of the connection that it came on."""
+    """The connection of a request."""
 
     def know(self) -> None:
-        """Somebody has proved who they are."""
+        """Its caller was authenticated."""
 
     def when_lost(self, lost: Callable[[], None]) -> None:
-        """The client does not hear an answer any more: once, and at once where it is so already."""
+        """Calls `lost` once when the client has gone, at once if it has already."""
 
     def abort(self) -> None:
-        """Cuts it, also where its other end does not read."""
+        """Cuts it, also where the client does not read."""
 
 
 def connection_of(scope: Scope) -> Connection | None:
@@ -115,7 +115,7 @@ class State(ServerState):
 
 
 class Losable:
-    """Tells one who asked that the connection is gone."""
+    """Notifies a listener when the connection is lost."""
 
     _is_lost = False
     _lost: Callable[[], None] | None = None
@@ -220,7 +220,7 @@ class ImpatientProtocol(Losable, HttpToolsProtocol):
         super().on_headers_complete()
         if not (self.parser.should_upgrade() and self._upgrades):
             self.scope["extensions"] = {EXTENSION: {"connection": self}}
-            self.flow.pause_reading()  # until somebody asks for the body
+            self.flow.pause_reading()  # until the route needs the body
 
     def on_message_complete(self) -> None:
         self._in_body = False
@@ -278,7 +278,9 @@ def shared(state: ServerState) -> State:
 
 
 class ImpatientSocket(Losable, WebSocketsSansIOProtocol):
-    """To close is not enough: what was written and is not read would keep the connection for good."""
+    """Closing is not enough: written bytes that the client does not read would hold the connection for
+    good.
+    """
 
     _end: asyncio.TimerHandle | None = None
 

@@ -1,9 +1,9 @@
-"""Who may come in: paired devices, script tokens and stop-only links, held in memory and written to a SQLite
-file of its own behind the answer.
+"""Paired devices, script tokens and stop-only links, in memory and in a SQLite file of their own, which is
+written after the answer. Makes and compares their secrets, of which only the SHA-256 is stored.
 
-Knows no request and no invitation. How a secret is made and compared is here, too; only its SHA-256 is
-stored. A look-up waits for no disk. The
-file is written as a whole: it is short and seldom changes.
+A look-up waits for no disk. The file is written as a whole, because it is short and seldom changes. Knows no
+request and no invitation.
+
 """
 
 import hashlib
@@ -32,7 +32,7 @@ SECRET_BYTES = 24
 
 @value
 class Device:
-    """`last_seen_ms` is None until it came once."""
+    """`last_seen_ms` is None until its first request."""
 
     id: str
     kind: Kind
@@ -66,7 +66,7 @@ class NoDeviceStore:
 
 class Devices:
     def __init__(self, store: DeviceStore, now_ms: Callable[[], int]) -> None:
-        """Raises a StorageError where the file cannot be read: no device shall come in by an old list."""
+        """Raises a StorageError where the file cannot be read: an old list must admit no device."""
         self._store = store
         self._now_ms = now_ms
         self._devices = {one.id: one for one in store.load()}
@@ -85,7 +85,7 @@ class Devices:
         return device, f"{device.id}.{secret}"
 
     def find(self, credential: str) -> Device | None:
-        """Whose credential that is; it was seen now."""
+        """The device of that credential, which counts as seen now."""
         name, _, secret = credential.partition(".")
         device = self._devices.get(name)
         if device is None or not matches(secret, device.digest):
@@ -111,7 +111,7 @@ class Devices:
         self._devices = {one.id: one for one in self.all if one.id != device}
 
     async def keep(self) -> None:
-        """Writes what holds now. Raises a StorageError; in memory it holds all the same."""
+        """Writes the present state. Raises a StorageError; the change in memory stays."""
         await in_thread(lambda: self._store.save(lambda: self.all))
 
     def close(self) -> None:
@@ -130,8 +130,8 @@ class Devices:
         return found.role if found else None
 
     def _unique_name(self, name: str, but: Device | None = None) -> str:
-        """With a number behind it where somebody else is called so: a class has more than one Android. Who
-        comes in is never called as the person at the gateway's computer.
+        """With a number behind it where the name is taken: a class has more than one Android. The name of the
+        gateway's own computer is always taken.
         """
         taken = {one.name for one in self.all if one is not but} | LOCAL_NAMES
         names = (name if count == 1 else f"{name[: MAX_NAME - 4]} {count}" for count in itertools.count(1))
@@ -232,7 +232,7 @@ def make_id() -> str:
 
 
 def digest_of(secret: str) -> bytes:
-    """What is stored of a secret. A fast hash will do: the secret is random and too long to be guessed."""
+    """The stored form of a secret. A fast hash is enough, because the secret is random and long."""
     return hashlib.sha256(secret.encode()).digest()
 
 

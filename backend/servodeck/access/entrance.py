@@ -1,5 +1,5 @@
-"""Who sends a request, whom an invitation lets in, and how often each caller may ask over HTTP. In local mode
-every caller is this computer.
+"""Finds the caller of a request, pairs devices by invitation, and limits the rate of each caller over HTTP.
+In local mode every caller is this computer.
 
 Knows headers and time; no route, no board and no page.
 """
@@ -76,7 +76,7 @@ MAX_OPEN = 8
 
 @value
 class Invite:
-    """`code` is None once codes are spent. `name` may be empty: the device that comes says its own."""
+    """`code` is None once codes are void. `name` may be empty: then the device sends its own."""
 
     id: str
     role: Role
@@ -109,7 +109,7 @@ class Pairing:
 
     @property
     def open(self) -> list[Invite]:
-        """Those that still hold."""
+        """Those that are still valid."""
         now = self._now()
         self._invites = {one.id: one for one in self._invites.values() if one.until_s > now}
         return list(self._invites.values())
@@ -156,7 +156,7 @@ class Entrance:
         self._rates = Rates(now)
 
     def find(self, headers: list[tuple[bytes, bytes]]) -> Caller | None:
-        """The caller, where they have proved who they are; else None."""
+        """The authenticated caller, else None."""
         if not self.access.needs_pairing:
             return THIS_COMPUTER
         credential = credential_of(headers, self.access.cookie)
@@ -172,31 +172,30 @@ class Entrance:
         return caller
 
     def still_lets_in(self, caller: Caller) -> bool:
-        """A caller who was let in a moment ago may have been revoked since, or have another role."""
+        """A caller that was authenticated a moment ago may have been revoked since, or have another role."""
         return not self.access.needs_pairing or self.devices.role_of(caller.id) == caller.role
 
     def count(self, caller: Caller) -> None:
-        """One more request of theirs. Raises TooManyError."""
+        """Counts one more request. Raises TooManyError."""
         if caller is not THIS_COMPUTER:
             self._rates.take(self.devices.get(caller.id))
 
     def accept_invite(self, invite: Invite, name: str, present: Caller | None) -> tuple[Caller, str | None]:
-        """Uses the invitation up: who they are from now on, and their new credential. A caller who may do as
-        much already stays who they are, and the invitation stays open for somebody else; one who may do less
-        keeps their name.
+        """Uses the invitation and returns the caller with its new credential. A caller that has at least the
+        role stays as it is, and the invitation stays open; a caller with a lesser role keeps its name.
         """
         if present and present.may(invite.role):
             return present, None
         before = present if present and present.role != "stopper" else None
         if before:
             self.devices.revoke(before.id)
-        called = invite.name or (before.name if before else name) or "Somebody"
+        called = invite.name or (before.name if before else name) or "Device"
         device, credential = self.devices.admit("device", called, invite.role)
         self.pairing.withdraw(invite.id)
         return device.caller, credential
 
     def stop_link(self, credential: str) -> Device:
-        """The stop-only link that this is. Raises PairingError."""
+        """The stop-only link of that credential. Raises PairingError."""
         device = self.devices.find(credential)
         if device is None or device.kind != "stopLink":
             raise PairingError("This stop-only link is no longer valid. Ask for a new one.")

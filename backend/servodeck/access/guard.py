@@ -29,7 +29,7 @@ from servodeck.errors import (
 )
 
 LOGGER = "servodeck.access"
-# Of what somebody unknown has written.
+# Of a text from an unknown client.
 MAX_CHARACTERS = 100
 log = logging.getLogger(LOGGER)
 
@@ -110,7 +110,7 @@ class Guard:
         return await self.app(scope, limited, with_headers(send, socket))
 
     def may_upgrade(self, headers: list[tuple[bytes, bytes]], own_address: str | None) -> bool:
-        """Whether somebody known asks for a socket, before there is one. Its role is judged by its route."""
+        """Whether a known caller requests the upgrade. The route judges the role."""
         try:
             judge_handshake(headers, self._access, own_address)
             return self._entrance.find(headers) is not None
@@ -118,7 +118,7 @@ class Guard:
             return False
 
     async def _wait_of_unknown(self, scope: Scope) -> bool:
-        """False where the client does not hear an answer any more."""
+        """False where the client has gone."""
         connection = connection_of(scope)
         return connection is None or await self._queue_of_unknown.wait(connection)
 
@@ -136,7 +136,7 @@ def with_headers(send: Send, socket: str) -> Send:
 
 
 def body_bytes(path: str) -> int:
-    """Nothing that anybody may send there is larger than that."""
+    """The largest body that this address takes."""
     return next((size for shape, size in LARGER_BODIES if shape.fullmatch(path)), BODY_BYTES)
 
 
@@ -205,7 +205,7 @@ def judge_body_type(method: str, headers: Headers) -> None:
 
 
 def judge_body_size(headers: Headers, limit: int) -> None:
-    """What is announced; what comes without being announced is counted as it comes. Raises TooLargeError."""
+    """Judges the announced size; other bodies are counted while they arrive. Raises TooLargeError."""
     announced = only(list(headers), b"content-length")
     if announced is not None and int(announced) > limit:  # a number: the server has read it
         raise TooLargeError(f"The request is larger than {limit} bytes.")
@@ -228,6 +228,6 @@ def judge_site(headers: list[tuple[bytes, bytes]]) -> None:
 
 
 def judge_script(headers: Headers) -> None:
-    """For routes that act: not even a link of another site may lead here."""
+    """For routes that act: not even a link on another site may lead to them."""
     if only(list(headers), b"sec-fetch-site") not in (None, b"same-origin", b"none"):
         raise ForbiddenError("Requests from other sites are refused: a link on another site led here.")

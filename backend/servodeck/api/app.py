@@ -1,4 +1,4 @@
-"""Puts the gateway together: guard, routes, page, and one shape for every error. Holds no rule of its own.
+"""Puts the gateway together: guard, routes, page, and one shape for every error. Has no rule of its own.
 
 A start does not wait for most routes: each part is loaded with the first request for an address of its own,
 all of them soon after the gateway serves. `python -m servodeck.api.app` prints the description of all routes,
@@ -50,7 +50,7 @@ DETAILS = {
 }
 
 
-# Between two parts a STOP gets its turn; loading one takes some 10 ms.
+# Between two parts a STOP can be served; loading one takes some 10 ms.
 PAUSE_S = 0.05
 
 
@@ -128,7 +128,9 @@ class LaterApp(FastAPI):
 
 
 def add_routes(app: FastAPI, *routers: APIRouter) -> None:
-    """Before those that are mounted. As they are: where a router is included the framework makes all anew."""
+    """Before mounted routes. Not by including the router, for which the framework creates each route
+    again.
+    """
     count = len(app.router.routes)
     at = next((index for index in range(count) if isinstance(app.router.routes[index], Mount)), count)
     app.router.routes[at:at] = [route for router in routers for route in router.routes]
@@ -148,7 +150,7 @@ def create_app(control: Control, library: Library, entrance: Entrance, static: P
 
 
 def app_without_state() -> LaterApp:
-    """Its routes, as they can be described."""
+    """The app with its routes, enough to describe them."""
     app = LaterApp(
         title="Servodeck gateway",
         description="Drives a servo controller on a serial port. An error is a code and a sentence.",
@@ -156,7 +158,7 @@ def app_without_state() -> LaterApp:
         docs_url=None,
         redoc_url=None,
         openapi_url=None,
-        # Whatever the environment says: nothing of what goes on here goes anywhere else.
+        # Also where the environment asks for it: no data of this gateway is sent elsewhere.
         telemetry={"auto_configure": False, "tracing": False, "metrics": False, "logs": False},
         lifespan=lifespan,
     )
@@ -180,7 +182,7 @@ async def lifespan(app: LaterApp) -> AsyncIterator[None]:
 
 
 def add_docs(app: LaterApp) -> None:
-    """Of functions that hold no app: the framework keeps those of the routes in a cache of the process."""
+    """By functions that hold no app, because the framework caches the functions of routes for the process."""
     app.state.describing = asyncio.Lock()
     answers: dict[str, Callable[..., Awaitable[Response]]] = {
         "/docs": docs,
@@ -192,7 +194,7 @@ def add_docs(app: LaterApp) -> None:
 
 
 async def description(app: LaterApp) -> dict[str, Any]:
-    """Making it takes so long that a stop would have to wait."""
+    """Made in a thread, because it takes long and a stop would wait."""
     from servodeck.api.openapi import described
 
     app.load_all()
@@ -250,7 +252,7 @@ def add_errors(app: LaterApp) -> None:
 
 
 def methods_at(app: LaterApp, path: str) -> list[str]:
-    """Of all routes of that address; the framework tells those of one."""
+    """Of all routes of that address; the framework names those of one route."""
     app.load_all()
     found: set[str] = set()
     for route, _ in named_roles(app.routes):

@@ -1,6 +1,7 @@
-"""One example for each route of the HTTP interface: what is asked, what is answered, and its own errors.
+"""One example for each route of the HTTP interface: request, response, and its own errors.
 
-Data only. A test holds each to the models, and finds the route that has none.
+Data only. A test checks each against the models, and that no route is missing.
+
 """
 
 from typing import Any, NamedTuple
@@ -286,14 +287,14 @@ EXAMPLES: dict[tuple[str, str], Example] = {
 
 PROBLEMS: dict[ErrorCode, str] = {
     "boardSilent": "The board does not answer. Is it switched on? The gateway keeps trying.",
-    "boardUnknown": "Nobody has said which board is connected. It answers like: bus-ctrl, xarm.",
+    "boardUnknown": "The board has not been named. It answers like: bus-ctrl, xarm.",
     "busy": "A group runs for up to 4.2 s more: wait, or release the lease to end it.",
     "cancelled": "The robot was stopped or taken over before all packets were sent.",
     "closed": "No serial port is open.",
     "conflict": "Another client has changed this document since it was read.",
     "echo": "The line returns what is sent: RX and TX may be connected to each other.",
     "forbidden": "Dance is a viewer; this needs the role driver.",
-    "latched": "Stopped: motion is refused until somebody resumes.",
+    "latched": "Stopped: motion is refused until a person resumes.",
     "lost": "The serial port is lost.",
     "malformed": "body.timeMs: Input should be a valid integer",
     "noAnswer": "The board did not report its battery voltage. Not every board can.",

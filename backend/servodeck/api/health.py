@@ -1,4 +1,4 @@
-"""How the gateway itself is: how late its event loop is, its descriptors, what systemd hears of it;
+"""The health of the gateway itself: the delay of its event loop, its descriptors, its messages to systemd;
 `/api/health` for people and supervisors, `/metrics` for Prometheus.
 
 Everything waits for the event loop, STOP too, so its delay is the gateway's own health. systemd's datagrams
@@ -34,7 +34,7 @@ class Pulse:
 
     @property
     def worst_s(self) -> float:
-        """The longest that something due waited for the loop, of the last quarter of a minute."""
+        """The longest delay of the loop in the last quarter of a minute."""
         return max(self._delays_s, default=0.0)
 
     async def run(self) -> None:
@@ -60,7 +60,7 @@ def notify_systemd(state: str) -> None:
 
 
 def sign_of_life() -> Callable[[], None]:
-    """To be called at each beat of the event loop: systemd starts us anew when it stays away."""
+    """To be called at each beat of the event loop: without it systemd restarts the gateway."""
     is_awaited = os.environ.get("WATCHDOG_PID", str(os.getpid())) == str(os.getpid())
     if "WATCHDOG_USEC" in os.environ and is_awaited:
         return lambda: notify_systemd("WATCHDOG=1")
@@ -92,7 +92,7 @@ class Trouble(Message):
 
 
 class Health(Message):
-    """`degraded`: it answers and stops the robot, and one part of it does not do its work."""
+    """`degraded`: it answers and can stop the robot, but one part of it does not work."""
 
     status: Literal["ready", "degraded"]
     version: str
@@ -118,7 +118,7 @@ health_api = routes("", "health")
 
 @health_api.get("/api/health", dependencies=[ANYBODY])
 async def health(control: Controlled, pulse: Beating, disk: Stored) -> Health:
-    """Always 200 while the gateway runs: `status` tells whether it is well, `troubles` what ails it."""
+    """Always 200 while the gateway runs; `troubles` lists the parts that do not work."""
     troubles = [
         *port_troubles(control.board.port),
         *loop_troubles(pulse.worst_s),

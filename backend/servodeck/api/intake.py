@@ -1,7 +1,8 @@
-"""How fast one client's messages are acted on: at its rate; above it the newest waits and takes the place of
-older ones; far above it the client has to go. Stops wait for nothing.
+"""The rate at which one client's messages are acted on: above it the newest message waits and replaces older
+ones; far above it the session ends. Stops are taken at once.
 
-Knows time and order, no socket and nothing of what a message asks.
+Knows time and order; no socket, and no meaning of a message.
+
 """
 
 import asyncio
@@ -10,8 +11,8 @@ from collections.abc import Callable
 from servodeck.callers import Caller, Rate
 from servodeck.intents import AnyClientMessage, MoveMessage
 
-# Messages a second, and at once. A page hands over the newest values every 8 ms while somebody drags: what
-# waits longer at the page would be older when the wire is free.
+# Messages a second, and at once. A page sends the newest values every 8 ms during a drag: values that wait
+# longer in the page would be older when the wire is free.
 DRIVER_RATE = (150.0, 300)
 VIEWER_RATE = (2.0, 10)
 
@@ -25,9 +26,7 @@ class Intake:
         replaced: Callable[[AnyClientMessage], None],
         overrun: Callable[[], None],
     ) -> None:
-        """`merged` gives what an older and a newer message say together, None where the newer one makes the
-        older one void.
-        """
+        """`merged` joins an older and a newer message; None where the newer one replaces the older one."""
         self._rate = rate
         self._take = take
         self._merged = merged
@@ -38,7 +37,7 @@ class Intake:
         self._timer: asyncio.TimerHandle | None = None
 
     def take_at_once(self, message: AnyClientMessage) -> None:
-        """What waits was for a robot that moves: it is dropped."""
+        """The waiting message is dropped."""
         self._replace(None)
         self._take(message)
 
@@ -54,7 +53,7 @@ class Intake:
         self._replace(message)
 
     def count(self) -> bool:
-        """Whether the rate takes one more of which nothing is left to wait."""
+        """Whether the rate allows one more message, which does not wait."""
         if self._may_take():
             return True
         self._exceed()
@@ -66,7 +65,7 @@ class Intake:
         self._waiting = self._timer = None
 
     def _may_take(self) -> bool:
-        """Each one that the rate takes makes up for one that was too many."""
+        """Each message within the rate makes up for one above it."""
         if not self._rate.take():
             return False
         self._excess = max(0, self._excess - 1)
@@ -103,9 +102,7 @@ def rate_of(caller: Caller, now: Callable[[], float]) -> Rate:
 
 
 def merged(before: AnyClientMessage, message: AnyClientMessage) -> AnyClientMessage | None:
-    """Both in one, where nothing of the older one may be lost: the value of a servo that the newer one does
-    not name.
-    """
+    """Two moves as one, so that the value of a servo that the newer one does not name is not lost."""
     if not (isinstance(before, MoveMessage) and isinstance(message, MoveMessage)):
         return None
     if before.duration_ms != message.duration_ms:

@@ -1,4 +1,4 @@
-"""The library over HTTP, and which of its robots stands on the board.
+"""The library over HTTP, and the choice of the robot on the board.
 
 Translates between messages, `library` and `control`; decides only what text is a document. The library waits
 for a disk: in threads, where STOP does not wait for it.
@@ -29,7 +29,7 @@ Text = Annotated[
 
 
 class GroupFacts(Message):
-    """What a list says of an action group without reading it; `pose` is its picture."""
+    """The entry of an action group in a list, known without reading its text; `pose` is its picture."""
 
     kind: Literal["group"]
     name: Name
@@ -47,7 +47,9 @@ facts_of: TypeAdapter[GroupFacts | RobotFacts] = TypeAdapter(Facts)
 
 
 def unknown_facts(document: str, kind: str) -> Facts:
-    """Of a document whose own are damaged: it stays in the list, can be opened, and is written anew then."""
+    """Stands in for damaged facts of a document: it stays in the list, can be opened, and is rewritten
+    then.
+    """
     facts: dict[str, Any] = {"kind": kind, "name": f"Damaged: {document}"[:64], "updatedAtMs": 0}
     if kind == "robot":
         return facts_of.validate_python(facts | {"board": "", "limits": [], "poses": []})
@@ -78,8 +80,9 @@ class StoredDocument(Message):
 
 
 class DocumentWrite(Message):
-    """`expected` is the revision it was read at, 0 for a new one. With `isRemoved` it goes to the trash at
-    once: several that shall appear together are written so and then restored together.
+    """`expected` is the revision at which it was read, 0 for a new one. `isRemoved` writes it to the trash:
+    several documents that are to appear together are written so, and then restored together.
+
     """
 
     text: Text
@@ -119,7 +122,7 @@ async def library_of(connection: HTTPConnection) -> Library:
 
 
 def robots_in(library: Library) -> ReadFacts:
-    """What the robot on the board is read by."""
+    """Reads the facts of robots, for the robot on the board."""
 
     def read(document: str) -> tuple[RobotFacts, int]:
         facts, revision = library.facts_of(document, "robot")
@@ -135,7 +138,7 @@ library_api = routes("/api/library", "library")
 
 @library_api.get("", dependencies=[VIEWER])
 def list_documents(library: OfLibrary) -> LibraryListing:
-    """Every document, those in the trash too."""
+    """Every document, also those in the trash."""
     documents = [
         ListedDocument(
             id=one.id,
@@ -178,8 +181,9 @@ async def write(
     control: Controlled,
     caller: Annotated[Caller, DRIVER],
 ) -> DocumentWritten:
-    """Keeps a text; 412, and nothing changed, where the document is at another revision with another text.
-    While somebody drives only they and owners change the limits of the robot on the board.
+    """Stores a text. 412, without a change, where the document has another revision and another text. While a
+    client drives, only that client and owners may change the limits of the robot on the board.
+
     """
     judge_limits(document, wanted, control, caller)
     revision = await run_in_threadpool(keep, document, wanted, library, caller)
@@ -225,14 +229,14 @@ def read_version(document: IdInPath, version: IdInPath, library: OfLibrary) -> V
 
 @library_api.put("/{document}/versions/{version}", status_code=204, dependencies=[DRIVER])
 def keep_version(document: IdInPath, version: IdInPath, wanted: VersionWrite, library: OfLibrary) -> None:
-    """Keeps a text beside the document under a name."""
+    """Saves a text as a named version of the document."""
     check_document(wanted.text)
     library.keep_version(document, Version(version, wanted.name, wanted.at_ms), wanted.text)
 
 
 @library_api.delete("/{document}/versions/{version}", status_code=204, dependencies=[DRIVER])
 def remove_version(document: IdInPath, version: IdInPath, library: OfLibrary) -> None:
-    """That version goes for good; the document and its other versions stay."""
+    """Deletes that version for good; the document and its other versions stay."""
     library.remove_version(document, version)
 
 
@@ -242,7 +246,7 @@ def check_document(text: str) -> None:
 
 
 class RobotChoice(Message):
-    """`insteadOf`: the one that the caller knows to stand there."""
+    """`insteadOf`: the robot that the caller expects there."""
 
     id: Id
     instead_of: Id | None = None
@@ -253,9 +257,7 @@ robots_api = routes("/api", "robots")
 
 @robots_api.put("/robot", status_code=204)
 async def put_on_board(choice: RobotChoice, control: Controlled, caller: Annotated[Caller, DRIVER]) -> None:
-    """That robot of the library stands on this board, for everybody and from now on. 412 where another one
-    stands there than either.
-    """
+    """Puts that robot of the library on this board, for all clients. 412 where a third robot is there."""
     if not control.driving.may_rule(caller):
         raise NotDrivingError("Another client drives: only the driver or an owner may change the robot.")
     await control.robot.put(choice.id, choice.instead_of)

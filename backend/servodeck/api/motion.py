@@ -1,7 +1,8 @@
-"""The HTTP interface that moves the robot: moves, poses, runs, and the lease of those who use it; whole
-groups, to be downloaded to the board or played by the gateway.
+"""The HTTP interface that moves the robot: moves, poses, runs, the lease, and whole groups, to be downloaded
+to the board or played by the gateway.
 
-Translates for `scripts` and the robot profile; decides which pose a name means.
+Translates requests for `scripts` and the robot profile; decides which pose a name means.
+
 """
 
 import asyncio
@@ -40,7 +41,7 @@ class MoveWish(Message):
 
 
 class MoveBegun(Message):
-    """`firstMoves`: these servos stood at an unknown place, so they started one after another."""
+    """`firstMoves`: these servos started from an unknown position, so they started one after another."""
 
     packets: int
     over_in_ms: int
@@ -48,7 +49,7 @@ class MoveBegun(Message):
 
 
 class RunWish(Message):
-    """`times` 0: until stopped. `continueForMs`: it goes on without a `heartbeat`, for so long at most."""
+    """`times` 0: until stopped. `continueForMs`: how long the run may continue without a `heartbeat`."""
 
     times: Annotated[int, Field(ge=0, le=0xFFFF)] = 1
     continue_for_ms: ContinueMs | None = None
@@ -56,8 +57,8 @@ class RunWish(Message):
 
 
 class RunBegun(Message):
-    """`acknowledged`: the board has taken it, which says nothing of the slot. `silent`: it should have said
-    so and has not. `sent`: such a board never says.
+    """`acknowledged`: the board has accepted the command, which says nothing about the slot. `silent`: the
+    acknowledgement is missing. `sent`: such a board sends none.
     """
 
     outcome: Outcome
@@ -72,9 +73,7 @@ class Erased(Message):
 
 
 class LeaseWish(Message):
-    """`heartbeat`: what this script has begun may go on. The others as in a page: `request`, `take`,
-    `release`.
-    """
+    """`heartbeat`: the motion of this script may continue. `request`, `take` and `release` as on a page."""
 
     action: ScriptAction
 
@@ -100,8 +99,8 @@ motion_api = routes("/api", "motion")
 
 
 async def once_identified(request: Request, control: Controlled) -> None:
-    """A script may begin with the gateway: what it asks waits until the port is open and the board has
-    answered.
+    """A script may start together with the gateway: its request waits until the port is open and the board is
+    identified.
     """
     await control.until_identified()
     if await request.is_disconnected():
@@ -113,8 +112,9 @@ ONCE_IDENTIFIED = [Depends(once_identified)]
 
 @motion_api.post("/move", dependencies=ONCE_IDENTIFIED)
 async def move(wish: MoveWish, request: Request, caller: Driving, scripts: Scripted) -> MoveBegun:
-    """Moves servos together. Answers when the last packet has left the wire; `overInMs` later they are there.
-    Servos of unknown place take 1500 ms at least and start one after another.
+    """Moves servos together. Answers when the last packet has left the wire; `overInMs` later the servos have
+    arrived. Servos of unknown position take at least 1500 ms and start one after another.
+
     """
     positions = {int(servo): position for servo, position in wish.positions.items()}
     return await begin_move(request, caller, scripts, wish.time_ms, positions, take=wish.take)
@@ -140,8 +140,8 @@ async def begin_move(
 async def run(
     slot: Annotated[int, Path(ge=0, le=255)], caller: Driving, scripts: Scripted, wish: RunWish = ONCE
 ) -> RunBegun:
-    """Runs the group in that slot; what moves ends first. It is stopped 2 s after the last `heartbeat`,
-    unless it may continue.
+    """Runs the group in that slot; a motion in progress ends first. It is stopped 2 s after the last
+    `heartbeat`, unless it may continue.
     """
     outcome = await scripts.run(caller, slot, wish.times, take=wish.take, continue_ms=wish.continue_for_ms)
     return RunBegun(outcome=outcome)
@@ -156,14 +156,16 @@ async def erase(caller: Annotated[Caller, OWNER], scripts: Scripted, wish: Erase
 
 @motion_api.post("/lease")
 async def lease(wish: LeaseWish, caller: Driving, scripts: Scripted) -> LeaseState:
-    """Who drives. Requested by itself with each motion, and held 2 s longer than that lasts."""
+    """Requests, takes, holds or releases the lease. Each motion requests it by itself and holds it until 2 s
+    after its end.
+    """
     return scripts.act(caller, wish.action)
 
 
 @motion_api.put("/driver")
 async def give(wish: DriverWish, caller: Driving, scripts: Scripted) -> LeaseState:
-    """Hands the robot to somebody who is here with a page and may drive, unasked; what moves is stopped
-    first. The driver may, and owners.
+    """Hands the lease to a connected client that may drive, without a request; motion is stopped first. For
+    the driver and owners.
     """
     return scripts.give(caller, wish.id)
 
@@ -200,7 +202,7 @@ async def apply(
     control: Controlled,
     wish: ApplyWish = GENTLY,
 ) -> MoveBegun:
-    """Goes to the pose of that number or name; as `move` otherwise."""
+    """Moves the robot to the pose of that number or name, in the same way as `move`."""
     control.board.identification.judge_known()
     found = find((await list_poses(control)).poses, pose)
     judge_unit(found, control.board.family)
@@ -231,9 +233,10 @@ Version = Annotated[str, Field(max_length=64)]
 
 
 class GroupBody(Message):
-    """`version` tells it from other groups: a text of one's own, or the gateway makes one up. `replaces`: the
-    version that was seen in its slot, an empty text for none; where another one is there now, it is refused.
-    `document`: which one of the library it is of.
+    """`version` is any text that distinguishes it from other groups; by default the gateway makes one.
+    `replaces`: the version that the caller expects in the slot, an empty text for none; another one there is
+    a conflict. `document`: its document in the library.
+
     """
 
     slot: Annotated[int, Field(ge=0, le=255)]
@@ -249,7 +252,7 @@ class GroupBody(Message):
 
 
 async def frames_of(bodies: Sequence[FrameBody]) -> list[Frame]:
-    """As `parts` does: others go on between two frames."""
+    """Other tasks run between two frames, as in `parts_of`."""
     frames = []
     for body in bodies:
         frames.append(body.frame())
@@ -258,9 +261,10 @@ async def frames_of(bodies: Sequence[FrameBody]) -> list[Frame]:
 
 
 class DownloadWish(Message):
-    """`groups` in the order in which they are stored, each to a slot of its own. `behind`: the download under
-    way that they belong to; more than one request takes goes in several, one right after the other. `nonce`:
-    of the page that drives. A program needs none; `take` as with every motion.
+    """`groups` are stored in this order, each in a slot of its own. `behind`: the download in progress to
+    which they are added, because a request holds a limited number. `nonce`: of the page that drives; a
+    program needs none. `take` as with every motion.
+
     """
 
     groups: Annotated[list[GroupBody], Field(min_length=1, max_length=256)]
@@ -279,10 +283,10 @@ async def download(
     control: Controlled,
     scripts: Scripted,
 ) -> JobState:
-    """Stores groups in slots of the board, one after the other, as one job, also where they come in several
-    requests. Goes on when its client has left. STOP ends it, and so does the loss of the right to drive; then
-    the slot of the group in progress is broken: it cannot be run before another download to it has ended
-    well.
+    """Stores groups in slots of the board, one after the other, as one job, also from several requests. It
+    continues when its client has left. STOP ends it, and so does the loss of the right to drive; then the
+    slot of the group in progress is broken: it cannot be run until another download to it has succeeded.
+
     """
     control.board.identification.judge_known()
     groups = [await body.group() for body in wish.groups]
@@ -299,21 +303,22 @@ async def download(
 
 @jobs_api.get("/jobs/{job}", dependencies=[VIEWER])
 async def job_state(job: str, control: Controlled) -> JobState:
-    """How far it is, or how it ended. The last few are remembered until the gateway ends."""
+    """Its progress or result. The last few downloads are remembered until the gateway ends."""
     return control.board.jobs.find(job)
 
 
 @jobs_api.delete("/jobs/{job}", dependencies=[DRIVER])
 async def cancel(job: str, control: Controlled) -> JobState:
-    """Calls it off behind its frame in progress, with the groups behind it; one that has ended stays what it
-    is.
+    """Cancels it after its frame in progress, with the groups behind it. One that has ended stays
+    unchanged.
     """
     return control.board.jobs.cancel(job)
 
 
 class PlayWish(PlayIntent):
-    """`id` and `nonce`: of the page that drives, which hears `played` with that id on its WebSocket. A
-    program needs neither. `continueForMs`: it goes on without a `heartbeat`, for so long at most.
+    """`id` and `nonce`: of the page that drives, which gets `played` with that id on its WebSocket. A program
+    needs neither. `continueForMs`: how long it may continue without a `heartbeat`.
+
     """
 
     id: MessageId | None = None
@@ -342,6 +347,6 @@ async def play(
 
 @play_api.delete("/play", dependencies=[DRIVER])
 async def stop_playing(control: Controlled) -> PlayState | None:
-    """Ends it with its frame in progress, whichever client began it; how the latest one ended."""
+    """Ends the play with its frame in progress, whichever client began it. Answers how it ended."""
     control.requests.stop_playing()
     return control.board.plays.latest

@@ -95,7 +95,7 @@ def complete(operation: dict[str, Any], example: Example, role: Role | None) -> 
 
 
 def who(role: Role | None) -> str:
-    return "For anybody." if role is None else f"Takes the role {role}."
+    return "For every caller." if role is None else f"Takes the role {role}."
 
 
 def problems(operation: dict[str, Any], example: Example, role: Role | None) -> dict[str, Any]:
@@ -134,7 +134,7 @@ def classes_below(root: type[GatewayError]) -> Iterator[type[GatewayError]]:
 
 STATUS_OF: dict[ErrorCode, int] = {each.code: each.status for each in classes_below(GatewayError)}
 
-# More than anybody wants to read in the middle of a line.
+# Longer ones are hard to read within a line.
 MANY = 8
 METHODS = ("get", "put", "post", "patch", "delete")
 

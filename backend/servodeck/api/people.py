@@ -1,6 +1,7 @@
-"""Pairing over HTTP: who am I, come in, and for owners who else may.
+"""Pairing over HTTP: the identity of the caller, pairing, and for owners the list of devices.
 
-Decides no role and makes no secret. A change holds at once; it is written down before the answer.
+Decides no role and makes no secret. A change takes effect at once and is stored before the answer.
+
 """
 
 import contextlib
@@ -33,8 +34,8 @@ class You(Message):
 
 
 class Me(Message):
-    """`you` is null for an unauthenticated caller. `overheard`: what is said here can be read by others on
-    the network.
+    """`you` is null for an unauthenticated caller. `overheard`: others on the network can read the
+    traffic.
     """
 
     mode: Mode
@@ -56,8 +57,9 @@ class OwnName(Message):
 
 
 class Person(Message):
-    """A paired device, a script's token or a stop-only link. `here`: it has the page open now,
-    and `drives` where it moves the robot. `unattendedSlot`: of the group that runs on without it.
+    """A paired device, a script's token or a stop-only link. `here`: it has the page open now; `drives`: it
+    has the lease. `unattendedSlot`: of its group that runs unattended.
+
     """
 
     id: str
@@ -72,7 +74,9 @@ class Person(Message):
 
 
 class People(Message):
-    """`openCodes`: the invitations whose digits still count; five wrong ones end that, not their links."""
+    """`openCodes`: the invitations whose digits are still valid; five wrong codes void the digits, not the
+    links.
+    """
 
     people: list[Person]
     open_invites: list[str]
@@ -90,7 +94,7 @@ class InviteWish(Message):
 
 
 class Invitation(Message):
-    """`picture` is the link as a QR code: the address of an SVG image that holds itself."""
+    """`picture` is the link as a QR code: an SVG image as a data address."""
 
     id: str
     link: str
@@ -138,7 +142,7 @@ Base = Annotated[str, Depends(base_of)]
 
 @people_api.get("/me")
 async def me(entrance: Entered, caller: Annotated[Caller | None, ANYBODY]) -> Me:
-    """Who this gateway takes you for."""
+    """The caller as this gateway knows it."""
     access = entrance.access
     overheard = access.needs_pairing and not access.is_secure
     return Me(mode=access.mode, overheard=overheard, you=you_of(caller) if caller else None)
@@ -157,7 +161,7 @@ def you_of(caller: Caller) -> You:
 async def rename_me(
     wanted: OwnName, entrance: Entered, control: Controlled, caller: Annotated[Caller, VIEWER]
 ) -> You:
-    """What others call you from now on; a number follows where somebody is called so already."""
+    """Changes the name of the caller; a number is added where the name is taken."""
     changed = entrance.devices.change(caller.id, wanted.name, None)
     spread_name(changed, control)
     await entrance.devices.keep()
@@ -165,7 +169,7 @@ async def rename_me(
 
 
 def spread_name(device: Device, control: Control) -> None:
-    """Nothing of theirs ends by it: a driver goes on under the new one."""
+    """Nothing ends by it: a driver continues under the new name."""
     control.hub.rename(device.id, device.name)
     control.driving.send_states()
 
@@ -178,8 +182,8 @@ async def pair(
     present: Annotated[Caller | None, ANYBODY],
     scripts: Scripted,
 ) -> You:
-    """Comes in by a link, a code or a stop-only link, for a cookie; a device that may do as much keeps its
-    own.
+    """Pairs by a link, a code or a stop-only link, and sets a cookie; a device with at least that role keeps
+    its own.
     """
     caller, credential = accept_invite(wish, entrance, present)
     if present and not entrance.still_lets_in(present):
@@ -214,7 +218,7 @@ def accept_invite(wish: PairWish, entrance: Entrance, present: Caller | None) ->
 
 @people_api.get("/people", dependencies=[OWNER])
 async def people(entrance: Entered, control: Controlled) -> People:
-    """Everybody who may come in, and which invitations are open."""
+    """All devices, tokens and links, and the open invitations."""
     return People(
         people=[person_of(one, control) for one in entrance.devices.all],
         open_invites=[invite.id for invite in entrance.pairing.open],
@@ -247,8 +251,9 @@ async def change(
     scripts: Scripted,
     by: Annotated[Caller, OWNER],
 ) -> Person:
-    """Another name or role. What was open under the old role is closed and may come back; a group that it let
-    go on is stopped, and its download ends, where it may not drive any more.
+    """Changes name or role. Connections under the old role are closed and may be opened again; if the new
+    role may not drive, an unattended group is stopped and a download ends.
+
     """
     before = entrance.devices.get(person).role
     changed = entrance.devices.change(person, wanted.name, wanted.role)
@@ -269,8 +274,9 @@ async def revoke(
     by: Annotated[Caller, OWNER],
     continues: Continues = False,
 ) -> None:
-    """May not come in any more; what it has open is closed at once, what it moves is stopped, and nothing
-    that it asked for leaves the gateway behind the answer.
+    """Revokes it: its connections are closed at once, its motion is stopped, and none of its commands leaves
+    the gateway after the answer.
+
     """
     entrance.devices.revoke(person)
     reason = "This device is not paired any more."
@@ -305,7 +311,7 @@ async def make_token(wish: TokenWish, entrance: Entered) -> Token:
 
 @people_api.post("/stop-links", dependencies=[OWNER])
 async def make_stop_link(wish: StopLinkWish, entrance: Entered, base: Base) -> StopLink:
-    """A link that can stop the robot and do nothing else, to stick on it; good until it is revoked."""
+    """A link that can stop the robot and do nothing else, for a sticker; valid until it is revoked."""
     device, credential = entrance.devices.admit("stopLink", wish.name, "stopper")
     await entrance.devices.keep()
     link = stop_link(base, credential)

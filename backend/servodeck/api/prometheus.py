@@ -1,5 +1,5 @@
-"""The gateway's numbers in Prometheus's text format: what has been counted, and how it stands. Looks at what
-is known anyway.
+"""The gateway's counters and state in Prometheus's text format. Reads state, and sends nothing to the
+board.
 """
 
 from collections.abc import Iterator, Mapping
@@ -39,7 +39,7 @@ class Numbers(Collector):
         )
         yield counts("servodeck_refused", "What was asked for and refused", "code", metrics.refused)
         yield waits()
-        yield CounterMetricFamily("servodeck_stops", "Halts begun, of whatever cause", totals.stops)
+        yield CounterMetricFamily("servodeck_stops", "Halts begun, for any cause", totals.stops)
         yield CounterMetricFamily(
             "servodeck_port_losses", "An open port went away unasked", totals.port_losses
         )

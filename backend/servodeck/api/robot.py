@@ -43,8 +43,9 @@ class BatteryAge(Message):
 
 
 class Running(Message):
-    """The group that may run: it was begun, and was neither stopped nor heard to end. `endsInMs`: at
-    the latest; null where only the board could tell, which not every family does.
+    """The group that may run: it was begun, and neither stopped nor reported as ended. `endsInMs`: at the
+    latest; null where only the board knows, which not every family reports.
+
     """
 
     slot: int
@@ -88,7 +89,7 @@ class PortChoice(Message):
 
 
 class BoardChoice(Message):
-    """A family of boards; `unknown`: ask it again."""
+    """A family of boards; `unknown`: identify it again."""
 
     board: Annotated[str, Field(max_length=64)]
 
@@ -98,8 +99,9 @@ class Battery(Message):
 
 
 class Stopped(Message):
-    """`halted`: the stop sequence has left the wire. `unheld`: what may go on in spite of it, since nobody
-    knows where to hold it; null where all is held.
+    """`halted`: the stop sequence has left the wire. `unheld`: servos that may go on moving, because their
+    position is unknown; null where all are held.
+
     """
 
     latch: bool
@@ -118,7 +120,7 @@ async def ws(websocket: WebSocket, caller: Annotated[Caller, VIEWER], control: C
 
 @api.get("/status", dependencies=[VIEWER])
 async def status(control: Controlled) -> Status:
-    """How everything stands now."""
+    """The state of gateway, port, board and robot."""
     return Status(
         version=__version__,
         board=control.board.family_id,
@@ -219,7 +221,7 @@ async def stop(request: Request, control: Controlled, caller: Annotated[Caller, 
 
 @api.post("/resume")
 async def resume(request: Request, control: Controlled, caller: Annotated[Caller, DRIVER]) -> Status:
-    """Allows motion again. Moves nothing. While somebody drives, only they or an owner may."""
+    """Allows motion again. Moves nothing. While a client drives, only that client or an owner may."""
     control.resume(named(request, caller))
     return await status(control)
 
@@ -295,7 +297,7 @@ async def until_gone(receive: Receive) -> None:
 
 
 async def end(scope: Scope, send: Send) -> None:
-    """Politely where it reads."""
+    """With a last message where the client reads."""
     try:
         async with asyncio.timeout(CLOSE_WAIT_S):
             await send({"type": "http.response.body", "body": b"", "more_body": False})

@@ -32,7 +32,7 @@ MOST_VALUES = 64_000
 
 
 class Needs:
-    """A dependency: who asks, where they may. Anybody may where `role` is None."""
+    """A dependency: the caller, who must have `role`; None: every caller may."""
 
     def __init__(self, role: Role | None) -> None:
         self.role = role
@@ -156,7 +156,7 @@ def operation_id(route: APIRoute) -> str:
 
 
 def routes(prefix: str, about: str) -> APIRouter:
-    """For our own page and for scripts; whatever they refuse for is a Problem, as openapi.py says of each."""
+    """For our own page and for scripts; every refusal is a Problem, as openapi.py describes."""
     return APIRouter(
         prefix=prefix,
         tags=[about],

@@ -33,8 +33,7 @@ from servodeck.errors import PortError
 from servodeck.protocol.timings import PLAY
 from servodeck.robot.control import Control
 
-# Connections that are open then are cut off. Later, uvicorn would cancel what they asked and call that an
-# error.
+# Connections that are open then are cut off. Later, uvicorn would cancel their requests and log an error.
 LEAVE_S = 1.0
 CANCEL_S = 2
 END_S = 2.5
@@ -44,7 +43,7 @@ SIGNALS = (signal.SIGINT, signal.SIGTERM)
 
 
 class Server(uvicorn.Server):
-    """Calls `ready` when it answers; stops the robot before it says goodbye to anybody."""
+    """Calls `ready` when it answers; at the end stops the robot before it disconnects clients."""
 
     def __init__(self, app: Guard, control: Control, device: str | None, ready: Callable[[], None]) -> None:
         super().__init__(
@@ -90,7 +89,7 @@ class Server(uvicorn.Server):
             self._ready()
 
     async def main_loop(self) -> None:
-        # uvicorn looks for the end ten times a second only; the robot shall not run on that long.
+        # uvicorn looks for the end ten times a second only; the robot must not move on that long.
         ticking = asyncio.create_task(super().main_loop())
         leaving = asyncio.create_task(self._leave.wait())
         await asyncio.wait({ticking, leaving}, return_when=asyncio.FIRST_COMPLETED)
@@ -129,14 +128,14 @@ class Server(uvicorn.Server):
                 signal.signal(number, handler)
 
     def _on_signal(self, _number: int, _frame: FrameType | None) -> None:
-        """Asked twice, or by the end of stdin before, it ends as it does anyway: soon, and in order."""
+        """A second signal, or one after the end of stdin, changes nothing: it ends soon, and in order."""
         end_for_sure()
         self.leave()
 
 
 def end_for_sure() -> None:
-    """Ends the process a while later, whatever holds it up by then. The robot is stopped long before, and
-    what the library called saved survives.
+    """Ends the process a while later, even if something blocks it. The robot is stopped long before, and
+    saved documents survive.
     """
     last_resort = threading.Timer(END_S, os._exit, (FORCED,))
     last_resort.daemon = True

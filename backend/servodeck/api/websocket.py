@@ -1,8 +1,8 @@
-"""Serves one WebSocket client: its messages to `control`, its outbox to the socket. Knows no port and no
-packet.
+"""Serves one WebSocket client: passes its messages to `control`, and its outbox to the socket.
 
-Closes a client that sends what is no text or does not read; what cannot be understood is refused, never
-fatal.
+Closes a client that sends bytes or does not read. A message that cannot be parsed is refused, never fatal.
+Knows no port and no packet.
+
 """
 
 import asyncio
@@ -52,8 +52,7 @@ from servodeck.snapshots import Outcome, PlayState
 
 UNSUPPORTED_DATA, OUTDATED_PAGE = 1003, 4001
 CLOSE_WAIT_S = 0.1
-# What each message takes at least; one that is not named here only an owner may send. A packet is judged by
-# what it does.
+# The least role for each message; others need an owner. A packet is judged by its command.
 ROLES: dict[type[AnyClientMessage], Role] = {
     MoveMessage: "driver",
     PlayMessage: "driver",
@@ -100,12 +99,14 @@ async def serve_client(socket: WebSocket, caller: Caller, control: Control) -> N
 
 
 def is_outdated(socket: WebSocket) -> bool:
-    """A page that was loaded before the gateway became another; programs have no Origin, and load nothing."""
+    """A page that was loaded from another version of the gateway; programs have no Origin, and load no
+    page.
+    """
     return "origin" in socket.headers and socket.query_params.get("protocol") != str(PROTOCOL)
 
 
 async def serve_session(socket: WebSocket, session: Session, control: Control) -> None:
-    """Until the client leaves, breaks the rules, is sent away or stops reading."""
+    """Until the client leaves, breaks the rules, is disconnected or stops reading."""
     tasks = [
         asyncio.create_task(read_all(socket, session, control)),
         asyncio.create_task(write_all(socket, session)),
@@ -131,7 +132,7 @@ async def read_all(socket: WebSocket, session: Session, control: Control) -> Non
                 await socket.close(UNSUPPORTED_DATA, "Only text messages are accepted.")
                 return
             take_text(text, session, intake)
-            # What has come already is given without a pause: others' turn, a STOP may be among theirs.
+            # `receive` returns messages that have come already without a pause; others may have sent a STOP.
             await asyncio.sleep(0)
     finally:
         intake.close()
@@ -150,7 +151,7 @@ def intake_of(session: Session, control: Control) -> Intake:
 
 
 def take_text(text: str, session: Session, intake: Intake) -> None:
-    """Whatever it says, the worst outcomes are a `refused` and, for too many, the end."""
+    """Any text is answered by a `refused` at worst, and too many by the end of the session."""
     try:
         message = client_message.validate_json(text)
     except ValidationError as error:
@@ -164,7 +165,7 @@ def take_text(text: str, session: Session, intake: Intake) -> None:
 
 
 def id_of(message: AnyClientMessage) -> int | None:
-    """Of a message that asks for something; the others are about the lease, or a stop."""
+    """Of a request; messages about the lease and stops have none."""
     number = getattr(message, "id", None)
     return number if isinstance(number, int) else None
 
@@ -176,7 +177,7 @@ async def write_all(socket: WebSocket, session: Session) -> None:
 
 
 def take(message: AnyClientMessage, session: Session, control: Control) -> None:
-    """Acts on one message of somebody who is here and may send it. A stop is never too late."""
+    """Acts on one message, if its session is connected and has the role for it. A stop is always taken."""
     if session.ended.is_set() and not isinstance(message, StopMessage):
         return
     with refusing(session, id_of(message)):
@@ -195,7 +196,7 @@ def targets_of(targets: Sequence[Target]) -> list[ServoTarget]:
 
 
 def answer_move(session: Session, message_id: int, left: Left) -> None:
-    """`left` tells what has left."""
+    """Clients see in `left` what has left."""
     with refusing(session, message_id):
         left.result()
 
@@ -208,7 +209,7 @@ def take_play(message: PlayMessage, session: Session, control: Control) -> None:
 
 
 def play(group: FrameGroup, message_id: int, nonce: str, session: Session, control: Control) -> PlayState:
-    """Raises what keeps it from beginning. The client hears how it ended."""
+    """Raises what prevents it from beginning. The client is notified of its end."""
     return control.requests.play(
         session, group, nonce, lambda state: session.put(encode(PlayedMessage(id=message_id, play=state)))
     )
@@ -249,7 +250,7 @@ def perform(session: Session, message_id: int, work: Coroutine[Any, Any, Outcome
 
 @contextlib.contextmanager
 def answering_with_lease(session: Session, control: Control) -> Iterator[None]:
-    """How the lease stands says why not; a `refused` without an id is a stop's."""
+    """The state of the lease says why it was refused; a `refused` without an id belongs to a stop."""
     try:
         yield
     except GatewayError:
@@ -262,7 +263,7 @@ def take_stop(message: StopMessage, session: Session, control: Control) -> None:
 
 
 def allow_unattended(message: ContinueMessage, session: Session, control: Control) -> None:
-    with contextlib.suppress(GatewayError):  # how it stands says so: a `refused` without id is a stop's
+    with contextlib.suppress(GatewayError):  # the state says so: a `refused` without id belongs to a stop
         control.allow_unattended(session, message.for_ms)
 
 
@@ -325,7 +326,7 @@ def answer(session: Session, message_id: int, left: Left) -> None:
 
 @contextlib.contextmanager
 def refusing(session: Session, message_id: int | None) -> Iterator[None]:
-    """Turns a GatewayError into a `refused` for that seat."""
+    """Turns a GatewayError into a `refused` for that session."""
     try:
         yield
     except GatewayError as error:

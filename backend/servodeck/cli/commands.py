@@ -55,7 +55,7 @@ def status_words(state: dict[str, Any]) -> str:
         f"port     {port['status']} {port['device'] or ''} {port['detail'] or ''}".rstrip(),
         board_words(state),
         f"motion   {'stopped, waits for resume' if state['latch'] else 'allowed'}",
-        f"driver   {state['driver'] or 'nobody'}",
+        f"driver   {state['driver'] or 'none'}",
     ]
     if run:
         lines.append(f"running  slot {run['slot']}, {run['times'] or 'endless'} times, as far as is known")

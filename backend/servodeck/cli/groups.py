@@ -160,7 +160,7 @@ def watched(remote: Remote, state: dict[str, Any]) -> dict[str, Any]:
         while state["status"] == "playing":
             time.sleep(LOOK_S)
             latest = asked(remote, "GET", "/api/status")["play"]
-            if latest["id"] != state["id"]:  # it ended, and somebody plays something else
+            if latest["id"] != state["id"]:  # it ended, and another play has begun
                 return state | {"status": "ended", "code": "cancelled", "detail": "Another one is played."}
             state = latest
             if state["status"] == "playing" and time.monotonic() - beaten_s >= BEAT_S:

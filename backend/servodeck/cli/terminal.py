@@ -1,8 +1,9 @@
-"""What the terminal says while the gateway runs: who may come in and how (addresses, the first owner's link),
-and log lines, readable or as JSON, of this program and of the libraries alike.
+"""Terminal output while the gateway runs: the addresses, the link for the first owner, and log lines, as text
+or JSON, of this program and of its libraries.
 
-Knows words, levels and lines. The writer of a log line never waits: a reader who stopped reading costs lines,
-not time, and STOP runs on the same loop. Lines that anybody on the network can cause are few.
+The writer of a log line never waits: a terminal that is not read costs lines, not time, because STOP runs on
+the same loop. Lines that any client on the network can cause are limited.
+
 """
 
 import json
@@ -59,7 +60,7 @@ class PatientHandler(logging.Handler):
 
 
 class SparseFilter(logging.Filter):
-    """Lets few of the same sentence pass, of the loggers whose lines anybody can cause; each that passes
+    """Lets few of the same sentence pass, of the loggers whose lines any client can cause; each that passes
     says how many did not.
     """
 

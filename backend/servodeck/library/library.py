@@ -1,4 +1,4 @@
-"""The library: documents as opaque texts with a revision, what a list says of each, named versions, a trash.
+"""The library: documents as opaque texts with a revision, facts for lists, named versions, a trash.
 
 Knows no HTTP and nothing of what a text means. Its file is opened when it is first needed and again after a
 failure, so that driving a robot never waits for a disk. May be called from any thread; blocks.
@@ -87,7 +87,7 @@ class Library:
             return text, revision
 
     def facts_of(self, document: str, kind: str) -> tuple[str, int]:
-        """What a list says of one of that kind outside the trash, and its revision."""
+        """The facts of one of that kind outside the trash, and its revision."""
         with self._transaction("BEGIN") as db:
             query = (
                 f"SELECT facts, revision, facts_sum = {FACTS_SUM} FROM document "
@@ -218,7 +218,7 @@ class Library:
         if changes_lost:
             log.warning("library's journal damaged: its last changes may be missing")
         past_ms = self._now_ms() - TRASH_MS
-        # Whatever is damaged stays.
+        # A damaged one stays.
         db.execute(f"DELETE FROM document WHERE removed_at_ms < ? AND facts_sum = {FACTS_SUM}", (past_ms,))
         return db
 
@@ -236,14 +236,14 @@ def found(rows: sqlite3.Cursor) -> tuple[Any, ...]:
 
 
 def name_in(db: sqlite3.Connection, document: str) -> str:
-    """What a list calls it, where that can be read."""
+    """Its name for lists, if it can be read."""
     query = "SELECT json_extract(facts, '$.name') FROM document WHERE id = ? AND json_valid(facts)"
     row = db.execute(query, (document,)).fetchone()
     return str(row[0]) if row and row[0] else document
 
 
 def whole_versions(db: sqlite3.Connection, document: str) -> str:
-    """For a person who looks for a way back, the newest first."""
+    """Versions that are intact, the newest first."""
     query = (
         f"SELECT name FROM version WHERE document = ? AND text_sum = {VERSION_SUM} ORDER BY at_ms DESC, id"
     )

@@ -1,8 +1,8 @@
-"""Keeps one serial port open: opens it, waits for its loss, tries again with growing pauses, says how it
-stands.
+"""Keeps one serial port open: opens it, waits for its loss, tries again with growing pauses, publishes its
+state.
 
-Knows ports and time, no packet and no client. It never changes the device by itself: it follows the one that
-a person chose to another name, and leaves another one that took its name alone.
+Knows ports and time, no packet and no client. It never changes the device by itself: it follows the chosen
+device to another name, and never opens another device under the old name.
 """
 
 import asyncio
@@ -48,7 +48,7 @@ class LinkEvents(Protocol):
         """It was open and is gone, unasked; that packet was on its way."""
 
     def port_changed(self) -> None:
-        """`state` is another one now."""
+        """`state` has changed."""
 
 
 @dataclass(slots=True)
@@ -87,7 +87,7 @@ class Link:
 
     @property
     def place(self) -> str:
-        """What the board on it is remembered by."""
+        """The key under which the board on it is remembered."""
         return self._whereabouts.lasting if self._whereabouts else ""
 
     @property
@@ -97,11 +97,11 @@ class Link:
 
     @property
     def withheld(self) -> frozenset[Withheld]:
-        """What the port that is open is not to carry."""
+        """Commands that the open port does not carry."""
         return self._wire.withheld if self._wire else frozenset()
 
     def wire(self) -> Wire:
-        """The open wire. Raises what keeps it from being open."""
+        """The open wire. Raises the reason why there is none."""
         if self._wire:
             return self._wire
         if self.state.status == "lost":
@@ -169,7 +169,9 @@ class Link:
             await self._ports.close(port)
 
     async def _open(self, whereabouts: Whereabouts) -> OpenPort:
-        """The device itself, whatever it is called by now; nothing is sent to it before that is sure."""
+        """Opens the device, also under a new name; nothing is sent before it is certain to be the same
+        one.
+        """
         path = whereabouts.find(await self._ports.list_usb() if whereabouts.is_known else ())
         port = await self._ports.open(path)
         try:
@@ -195,7 +197,7 @@ class Link:
 
 
 def log_change(before: PortState, now: PortState) -> None:
-    """The same failure again is no news."""
+    """A repeated failure is logged for debugging only."""
     is_change = (now.status, now.code) != (before.status, before.code)
     level = (logging.WARNING if now.status == "lost" else logging.INFO) if is_change else logging.DEBUG
     facts = {"device": now.device or before.device, "code": now.code, "detail": now.detail}

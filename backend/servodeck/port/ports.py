@@ -1,4 +1,5 @@
-"""Ports of this computer, serial or HID: list them, open one, and say in a sentence why it cannot be had.
+"""Ports of this computer, serial or HID: lists them, opens one, and explains in a sentence why one cannot be
+opened.
 
 The only module that imports pyserial, so that another library can take its place. Knows no packet and no
 event loop: every call here may block for a moment.
@@ -81,7 +82,7 @@ class PortInfo:
 
 
 class SerialPort:
-    """pyserial with its zoo of exceptions reduced to one."""
+    """pyserial, with one exception in place of its many."""
 
     longest_packet = LONGEST_PACKET
     shortest_s = 0.0
@@ -126,8 +127,8 @@ class SerialPort:
 
 
 def write_all(descriptor: int, data: bytes) -> None:
-    """pyserial's own takes a pause of this process, on a busy computer or asleep, for a port that takes
-    nothing more.
+    """Unlike pyserial's own, does not take a pause of this process, on a busy or sleeping computer, for a
+    full port.
     """
     while data:
         _, ready, _ = select.select((), (descriptor,), (), WRITE_WAIT_S)
@@ -209,7 +210,7 @@ def list_devices(*also: str | None) -> list[PortInfo]:
 
 
 def is_same_port(one: str, other: str) -> bool:
-    """By whichever of its names, as far as the system keeps several."""
+    """Under any of its names."""
     if hid.is_hid(one) or hid.is_hid(other):
         return one == other or (hid.ANY in (one, other) and hid.is_hid(one) and hid.is_hid(other))
     return one == other or os.path.realpath(one) == os.path.realpath(other)
@@ -250,20 +251,20 @@ def kind_of(port: Any) -> str:
 
 
 def describe_hid(board: hid.HidBoard) -> PortInfo:
-    """Its name is one that lasts."""
+    """Its name is a lasting one."""
     product = board.device.product or "HID device"
     return PortInfo(board.name, f"{product}, USB cable of the board", likely=board.is_likely)
 
 
 def lasting_of(device: str, found: Iterable[PortInfo]) -> str:
-    """What leads there after the next start, too, as far as the system keeps such a name."""
+    """A name that leads there after the next start, too, where the system has one."""
     real = os.path.realpath(device)
     return next((port.lasting for port in found if port.device == real and port.lasting), device)
 
 
 def lasting_name(device: str, *, has_number: bool) -> str | None:
-    """By its serial number, which goes with it into another socket; without one by its socket, because two
-    such adapters share what stands there instead of a number.
+    """By its serial number, which goes with it into another socket; without one by its socket, because such
+    adapters share a placeholder.
     """
     kinds = ("by-id", "by-path") if has_number else ("by-path",)
     links = (link for kind in kinds for link in links_in(LASTING / kind))

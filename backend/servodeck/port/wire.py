@@ -1,8 +1,7 @@
 """The only code that touches the open port: puts packets on the wire one at a time, stops first.
 
-Knows bytes, time and order. Must not know what a packet means, who may send it, or why: `gate` and `control`
-judge that. Never more than one packet is in the operating system's hands, so a stop has at most one packet to
-wait for.
+Knows bytes, time and order. Must not know the meaning of a packet, nor who may send it: requests.py judges
+that. The operating system never has more than one packet, so a stop waits for at most one.
 """
 
 import asyncio
@@ -34,7 +33,7 @@ def no_hold(_held: Sequence[CommandPacket]) -> None:
 
 
 def always() -> None:
-    """Nothing keeps it from leaving."""
+    """No condition: it may leave."""
 
 
 Left = asyncio.Future[None]
@@ -42,8 +41,8 @@ Left = asyncio.Future[None]
 
 @dataclass(eq=False, slots=True)
 class Job:
-    """A packet that waits for its turn; `left` resolves when its last bit has left the wire. `make` gives it
-    as its turn has come, None where there is nothing to say any more; it raises what keeps it from leaving.
+    """A packet in the queue; `left` resolves when its last bit has left the wire. `make` returns it when the
+    wire is free, None where it is not needed any more; it raises what prevents it from leaving.
     """
 
     number: int
@@ -83,8 +82,8 @@ class Wire:
         leaving: Callable[[Owner, CommandPacket, float], None] = lambda _owner, _packet, _at_s: None,
         first: CommandPacket | None = None,
     ) -> None:
-        """`leaving` hears whose packet begins to leave and when it will have. `first` leaves before all
-        else.
+        """`leaving` is called with the owner of a packet that begins to leave, and the time of its end.
+        `first` leaves before all others.
         """
         self.unfinished: CommandPacket | None = first
         """What has not left for sure, if the port were lost now."""
@@ -114,7 +113,7 @@ class Wire:
         judge: Callable[[], None] = always,
     ) -> Left:
         """Queues a packet, an urgent one before all others. Raises BusyError when this owner has too many
-        waiting. `judge` is asked when its turn has come, and raises what keeps it from leaving.
+        waiting. `judge` is called when the wire is free, and raises what prevents it from leaving.
         """
         if len(packet.data) > self._port.longest_packet:
             raise OutOfRangeError(
@@ -133,7 +132,7 @@ class Wire:
         return self._queue_up(queue, packet.number, make, owner)
 
     def send_made(self, number: int, make: Callable[[], CommandPacket | None], owner: Owner) -> Left:
-        """Queues a packet of that command number that is made when its turn has come."""
+        """Queues a packet of that command number that is made when the wire is free."""
         return self._queue_up(self._queue, number, make, owner)
 
     def _queue_up(
@@ -307,7 +306,7 @@ def settle(future: Left) -> None:
 
 
 def fail(future: Left, error: GatewayError) -> None:
-    """Fails it without the loop's complaint where no caller waits any more."""
+    """Fails it; a future without a waiting caller causes no warning."""
     if not future.done():
         future.set_exception(error)
         future.exception()

@@ -1,4 +1,4 @@
-"""Bytes in, packets and noise out, whatever pieces the bytes come in and however damaged they are.
+"""Turns bytes into packets and noise, in pieces of any size and with any damage.
 
 Bounded memory, never raises. Knows no meaning, no family and no time: the caller says with `pause` and `idle`
 that the line has been silent. The rules of shared/src/codec/decoder.ts;

@@ -1,4 +1,4 @@
-"""Packets in plain English, for `servodeck decode`. Knows what the bytes mean, on whatever board."""
+"""Packets in plain English, for `servodeck decode`. Knows the meaning of the bytes on every board."""
 
 from typing import Literal, assert_never
 

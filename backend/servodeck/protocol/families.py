@@ -95,7 +95,7 @@ class Family:
     answers: tuple[CommandKind, ...]
     # Harmless questions that every such board answers, the cheapest first.
     certain_answers: tuple[Question, ...]
-    # 6 and 8 with LEN 5 name slot and times, whatever began the run; otherwise they are empty.
+    # 6 and 8 with LEN 5 name slot and times, for every source of the run; otherwise they are empty.
     run_reports_name_slot: bool
     # What an empty packet 7 says: opposite things per family.
     empty_seven: Literal["runFinished", "runStopped", "unknown"]

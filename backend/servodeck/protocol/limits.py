@@ -1,4 +1,4 @@
-"""What a board of a family can take, checked before a command goes anywhere.
+"""Checks whether a board of a family can take a command, before it is encoded.
 
 Knows values and family rows, no bytes. A refusal names the field, its value and what is allowed, in
 the words of shared/src/codec/encode.ts.

@@ -1,8 +1,7 @@
 """Packets to values and back, and what a board of a family can take: the gateway's door to the protocol.
 
-Knows no port, no time and no client, and no words for people (describe.py). What the packets are for is the
-page's affair (shared/src/codec); the gateway only has to judge what goes on the wire.
-shared/protocol/vectors holds both codecs to each other.
+Knows no port, no time and no client, and no words for people (describe.py). The gateway needs less of it than
+the page (shared/src/codec). shared/protocol/vectors holds both codecs to each other.
 """
 
 from collections.abc import Iterator, Sequence
@@ -155,7 +154,7 @@ def portions_of(servos: Sequence[int], size: int) -> Iterator[Sequence[int]]:
 
 
 def whole_packet(packet: bytes) -> Packet | None:
-    """The packet, if these bytes are exactly one, of whatever command."""
+    """The packet, if these bytes are exactly one; its command may be unknown."""
     if len(packet) < MIN_LENGTH + 2 or packet[:2] != bytes((HEADER, HEADER)):
         return None
     return Packet(packet[3], packet[4:]) if packet[2] + 2 == len(packet) else None

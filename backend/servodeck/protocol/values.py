@@ -1,4 +1,4 @@
-"""What a host can ask and what a board can say, as values. Knows no bytes and no limits.
+"""Commands of a host and reports of a board, as values. Knows no bytes and no limits.
 
 The same values as shared/src/codec/commands.ts and reports.ts.
 """
@@ -59,7 +59,7 @@ class Stop:
 
 @value
 class Erase:
-    """Erases every slot, whatever its parameter byte says (S19)."""
+    """Erases every slot; its parameter byte has no effect (S19)."""
 
     kind: ClassVar[CommandKind] = "erase"
 

@@ -1,6 +1,6 @@
 """Joins the parts: clients, lease, latch, board and robot profile; stops and resumes the robot.
 
-What else clients ask is judged in requests.py. Must not know HTTP, WebSockets or how a byte reaches the port.
+requests.py judges all other requests. Must not know HTTP, WebSockets or how a byte reaches the port.
 """
 
 import asyncio
@@ -68,12 +68,12 @@ class Control:
         read_robot: ReadFacts = no_robot,
     ) -> None:
         """`named_device` is the port named at the start: always offered, even where the system does not list
-        it. `simulated`: what is behind it is no real board. `epoch`: leases are counted on from there.
-        Without `slot_memory` and `remembered` these are forgotten at the end.
-        `recalls_board`: where no person has said of which family the board is, it is as it was last.
-        `identifies_board`: who it is, at each opening and before anything moves, and then whether it is still
-        there; otherwise it is what it is taken for. `polls_battery`: the battery is read for everybody.
-        `read_robot` asks the library.
+        it. `simulated`: it leads to a simulated board. `epoch`: the first epoch of the leases. `slot_memory`
+        and `remembered` outlive the process; without them nothing does. `recalls_board`: the family is the
+        one chosen last for the port. `identifies_board`: the board is identified at each opening, before
+        anything moves, and watched afterwards; otherwise it is taken for the given family. `polls_battery`:
+        the battery is read for all clients. `read_robot` reads the library.
+
         """
         self.named_device = named_device
         self.now = now
@@ -107,12 +107,12 @@ class Control:
 
     @property
     def latch(self) -> bool:
-        """Motion is refused until somebody resumes."""
+        """Motion is refused until a person resumes."""
         return self._latch.is_closed
 
     @property
     def unheld(self) -> UnheldServos | None:
-        """What may go on in spite of the latest STOP."""
+        """Motion that the latest STOP could not hold."""
         unheld = self._unheld
         if unheld is None:
             return None
@@ -121,7 +121,7 @@ class Control:
             servos=servos, for_ms=None if unheld.for_ms == math.inf else math.ceil(unheld.for_ms)
         )
 
-    # What clients ask
+    # Requests of clients
 
     def join(self, session: Session) -> None:
         """The welcome is the first message of the session."""
@@ -132,7 +132,7 @@ class Control:
         self.driving.presence_changed(session)
 
     def leave(self, session: Session) -> None:
-        """What waits of it does not leave, and what it still says is not heard. Twice is harmless."""
+        """Its waiting packets are dropped, and its later messages ignored. May be called twice."""
         session.ended.set()
         session.drop_pending()
         self.board.drop(session, CancelledError("The client disconnected."))
@@ -153,9 +153,10 @@ class Control:
         run_continues: bool = False,
         also: Sequence[Session] = (),
     ) -> None:
-        """What they move stops, what they still say is not heard, and nothing that they asked for leaves any
-        more but stops. `still_drives`: they may come back and drive, so their download goes on, and the group
-        that they let go on. `also`: sessions of theirs that are not connected clients.
+        """Stops the motion of that caller, ignores its later messages, and drops its packets, except stops.
+        `still_drives`: it may connect again and drive, so its download and its unattended group continue.
+        `also`: its sessions that are not connected clients.
+
         """
         self._watch.disconnected(caller_id, by, run_continues=run_continues or still_drives)
         if not still_drives:
@@ -168,7 +169,7 @@ class Control:
 
     def stop(self, cause: Cause = UNNAMED_PERSON) -> Left:
         """Latches in any case. Resolves when the stop sequence has left; raises when there is no port to
-        stop. What may go on in spite of it `unheld` says.
+        stop. `unheld` has the motion that could not be held.
         """
         self._latch.close(cause, self.now())
         self.board.jobs.end(LatchedError("STOP ended the download before it was complete."))
@@ -179,8 +180,9 @@ class Control:
         return left
 
     def resume(self, caller: Caller, session: Session | None = None) -> None:
-        """Everybody but `session` hears whose word it was. Raises NotDrivingError while somebody else drives.
-        Refused while the port is lost: the person who resumes shall see the robot's answer.
+        """All clients but `session` are notified. Raises NotDrivingError while another client drives. Refused
+        while the port is lost, because the person who resumes must see the robot react.
+
         """
         self.driving.judge_resume(caller)
         port = self.board.link.state
@@ -191,8 +193,8 @@ class Control:
             self._broadcast.send_all(ResumedMessage(by=caller.name), but=session)
 
     async def until_identified(self) -> None:
-        """Returns when it is known which board is there, or that it cannot be known now: whoever asks is
-        refused with the reason then. Raises CancelledError where STOP was pressed meanwhile.
+        """Returns when the board is identified, or cannot be now: then the request is refused with the
+        reason. Raises CancelledError where STOP was pressed meanwhile.
         """
         stopped_s = self._latch.stopped_s
         with contextlib.suppress(TimeoutError):
@@ -203,14 +205,14 @@ class Control:
             raise CancelledError("STOP was pressed after this was requested.")
 
     def name_board(self, caller: Caller, board: str) -> None:
-        """Raises NotDrivingError where somebody else drives whatever else it was."""
+        """Raises NotDrivingError where another client drives another family."""
         if board != self.board.family_id and not self.driving.may_rule(caller):
             raise NotDrivingError("Another client drives: only the driver or an owner may choose the board.")
         self.choose_family(board)
 
     def choose_family(self, board: str) -> None:
-        """What every later packet is judged by, where its answers do not contradict; `unknown` has it asked
-        again, and lets only harmless questions pass.
+        """The family by which packets are judged, unless the board's answers contradict it; `unknown` has it
+        identified again, and lets only harmless questions pass.
         """
         if board not in FAMILIES:
             raise OutOfRangeError(f"board is {board}, allowed: {', '.join(FAMILIES)}")
@@ -219,7 +221,7 @@ class Control:
         self._see_robot()
 
     def allow_unattended(self, session: Session, for_ms: int | None) -> None:
-        """The run under way, without its driver; None: not any more."""
+        """Allows the present run to continue without its driver; None: not any more."""
         if self.driving.driver is not session:
             raise NotDrivingError("Only the driver may let a run continue.")
         if for_ms is None:
@@ -246,18 +248,18 @@ class Control:
         await self.board.link.close()
 
     async def shut_down(self) -> None:
-        """Stops the robot whatever it does and lets go of the port. Twice is harmless."""
+        """Stops the robot and closes the port. May be called twice."""
         self._latch.cause = UNNAMED_PERSON  # so that it is not started again behind the stops
         await self.board.shut_down()
         self.hub.close()
 
-    # What the board tells
+    # Events of the board
 
     def port_opened(self) -> None:
         self._recalled_board.port_opened(self.board)
 
     def board_lost(self) -> None:
-        self._latch.cause = Cause("loss")  # the change of the link's state follows and tells both
+        self._latch.cause = Cause("loss")  # the change of the link's state follows and publishes both
 
     def stopped_at_return(self, since_s: float) -> None:
         self._publish_unheld(since_s)

@@ -1,7 +1,7 @@
 """The robot on the board, the same for all clients: its family and its profile from the library, as they were
 last chosen for this board, and with the profile its limits and poses.
 
-Knows what the library says of robots, no text of one; no client, and not who may change what.
+Knows the facts of robots in the library, no document; no client and no role.
 """
 
 import asyncio
@@ -25,11 +25,11 @@ class RobotLimits:
         self._are_awaited = False
 
     def await_them(self) -> None:
-        """There are some, and they are not known yet: until `set` or `clear` nothing moves."""
+        """The limits are being read: until `set` or `clear` nothing moves."""
         self._are_awaited = True
 
     def set(self, servos: Iterable[ServoLimits]) -> None:
-        """In place of all that was set before."""
+        """Replaces all limits."""
         self._limits = {limits.servo: limits for limits in servos}
         self._are_awaited = False
 
@@ -39,9 +39,7 @@ class RobotLimits:
         return f"{limits.name} (servo {servo})" if limits else f"servo {servo}"
 
     def calibrate(self, owner: Owner, servo: int | None) -> None:
-        """A client that looks for the limits of a servo may pass the old ones, with that servo alone and
-        until `forget`.
-        """
+        """A client that calibrates a servo may move it beyond its limits, until `forget`."""
         if servo is None:
             self.forget(owner)
         else:
@@ -51,7 +49,7 @@ class RobotLimits:
         self._calibrating.pop(owner, None)
 
     def clear(self) -> None:
-        """This one has no description."""
+        """The robot has no limits."""
         self._limits.clear()
         self._calibrating.clear()
         self._are_awaited = False
@@ -91,7 +89,7 @@ class RobotOfBoard:
     def __init__(
         self, limits: RobotLimits, read: ReadFacts, remembered: Remembered, changed: Callable[[], None]
     ) -> None:
-        """`changed`: it is another one now, or any robot of the library is."""
+        """`changed` is called when the robot on the board or any robot of the library has changed."""
         self._limits = limits
         self._read = read
         self._remembered = remembered
@@ -107,8 +105,8 @@ class RobotOfBoard:
         return RobotState(id=self._document, revision=self._revision) if self._document else None
 
     def use_board(self, family: str, place: str) -> None:
-        """That board is at hand: what was remembered of it holds from now on. Until the library has told its
-        limits nothing moves.
+        """That board is connected: its remembered robot is on it from now on. Nothing moves until its limits
+        are read.
         """
         if (family, place) == self._board:
             return
@@ -122,7 +120,7 @@ class RobotOfBoard:
             self._publish()
 
     def leave(self) -> None:
-        """No board is at hand. Clients hear that from the port."""
+        """No board is connected. The state of the port tells clients."""
         if self._reading:
             self._reading.cancel()
         self._board = self._reading = None
@@ -145,12 +143,12 @@ class RobotOfBoard:
         await self._remembered.saved()
 
     def changes_limits(self, document: str, facts: RobotFacts) -> bool:
-        """Whether moves would be judged otherwise."""
+        """Whether it has other limits than the robot on the board."""
         known = self.facts
         return document == self._document and (known is None or known.limits != facts.limits)
 
     def written(self, document: str, revision: int, facts: RobotFacts) -> None:
-        """Answers may come in another order than the writing was done."""
+        """Answers may come in another order than the writes."""
         if document == self._document and revision > self._revision:
             self._hold(document, revision, facts)
         else:

@@ -44,7 +44,7 @@ export interface paths {
     };
     get?: never;
     put?: never;
-    /** Stores groups in slots of the board, one after the other, as one job, also where they come in several requests */
+    /** Stores groups in slots of the board, one after the other, as one job, also from several requests */
     post: operations['jobsDownload'];
     delete?: never;
     options?: never;
@@ -60,7 +60,7 @@ export interface paths {
       cookie?: never;
     };
     get?: never;
-    /** Hands the robot to somebody who is here with a page and may drive, unasked */
+    /** Hands the lease to a connected client that may drive, without a request */
     put: operations['motionGive'];
     post?: never;
     delete?: never;
@@ -110,7 +110,7 @@ export interface paths {
       path?: never;
       cookie?: never;
     };
-    /** Always 200 while the gateway runs: `status` tells whether it is well, `troubles` what ails it */
+    /** Always 200 while the gateway runs */
     get: operations['healthHealth'];
     put?: never;
     post?: never;
@@ -161,11 +161,11 @@ export interface paths {
       path?: never;
       cookie?: never;
     };
-    /** How far it is, or how it ended */
+    /** Its progress or result */
     get: operations['jobsJobState'];
     put?: never;
     post?: never;
-    /** Calls it off behind its frame in progress, with the groups behind it */
+    /** Cancels it after its frame in progress, with the groups behind it */
     delete: operations['jobsCancel'];
     options?: never;
     head?: never;
@@ -181,7 +181,7 @@ export interface paths {
     };
     get?: never;
     put?: never;
-    /** Who drives */
+    /** Requests, takes, holds or releases the lease */
     post: operations['motionLease'];
     delete?: never;
     options?: never;
@@ -196,7 +196,7 @@ export interface paths {
       path?: never;
       cookie?: never;
     };
-    /** Every document, those in the trash too */
+    /** Every document, also those in the trash */
     get: operations['libraryListDocuments'];
     put?: never;
     post?: never;
@@ -215,7 +215,7 @@ export interface paths {
     };
     /** The text of a document, also of one in the trash */
     get: operations['libraryRead'];
-    /** Keeps a text */
+    /** Stores a text */
     put: operations['libraryWrite'];
     post?: never;
     delete?: never;
@@ -250,10 +250,10 @@ export interface paths {
     };
     /** The text that was saved under that version's name */
     get: operations['libraryReadVersion'];
-    /** Keeps a text beside the document under a name */
+    /** Saves a text as a named version of the document */
     put: operations['libraryKeepVersion'];
     post?: never;
-    /** That version goes for good */
+    /** Deletes that version for good */
     delete: operations['libraryRemoveVersion'];
     options?: never;
     head?: never;
@@ -301,14 +301,14 @@ export interface paths {
       path?: never;
       cookie?: never;
     };
-    /** Who this gateway takes you for */
+    /** The caller as this gateway knows it */
     get: operations['peopleMe'];
     put?: never;
     post?: never;
     delete?: never;
     options?: never;
     head?: never;
-    /** What others call you from now on */
+    /** Changes the name of the caller */
     patch: operations['peopleRenameMe'];
     trace?: never;
   };
@@ -338,7 +338,7 @@ export interface paths {
     };
     get?: never;
     put?: never;
-    /** Comes in by a link, a code or a stop-only link, for a cookie */
+    /** Pairs by a link, a code or a stop-only link, and sets a cookie */
     post: operations['peoplePair'];
     delete?: never;
     options?: never;
@@ -353,7 +353,7 @@ export interface paths {
       path?: never;
       cookie?: never;
     };
-    /** Everybody who may come in, and which invitations are open */
+    /** All devices, tokens and links, and the open invitations */
     get: operations['peoplePeople'];
     put?: never;
     post?: never;
@@ -373,11 +373,11 @@ export interface paths {
     get?: never;
     put?: never;
     post?: never;
-    /** May not come in any more */
+    /** Revokes it: its connections are closed at once, its motion is stopped, and none of its commands leaves the gateway after the answer */
     delete: operations['peopleRevoke'];
     options?: never;
     head?: never;
-    /** Another name or role */
+    /** Changes name or role */
     patch: operations['peopleChange'];
     trace?: never;
   };
@@ -392,7 +392,7 @@ export interface paths {
     put?: never;
     /** Plays frames by the gateway's clock, gently to the first one */
     post: operations['playPlay'];
-    /** Ends it with its frame in progress, whichever client began it */
+    /** Ends the play with its frame in progress, whichever client began it */
     delete: operations['playStopPlaying'];
     options?: never;
     head?: never;
@@ -460,7 +460,7 @@ export interface paths {
     };
     get?: never;
     put?: never;
-    /** Goes to the pose of that number or name */
+    /** Moves the robot to the pose of that number or name, in the same way as `move` */
     post: operations['posesApply'];
     delete?: never;
     options?: never;
@@ -493,7 +493,7 @@ export interface paths {
       cookie?: never;
     };
     get?: never;
-    /** That robot of the library stands on this board, for everybody and from now on */
+    /** Puts that robot of the library on this board, for all clients */
     put: operations['robotsPutOnBoard'];
     post?: never;
     delete?: never;
@@ -526,7 +526,7 @@ export interface paths {
       path?: never;
       cookie?: never;
     };
-    /** How everything stands now */
+    /** The state of gateway, port, board and robot */
     get: operations['gatewayStatus'];
     put?: never;
     post?: never;
@@ -562,7 +562,7 @@ export interface paths {
     };
     get?: never;
     put?: never;
-    /** A link that can stop the robot and do nothing else, to stick on it */
+    /** A link that can stop the robot and do nothing else, for a sticker */
     post: operations['peopleMakeStopLink'];
     delete?: never;
     options?: never;
@@ -593,7 +593,7 @@ export interface components {
   schemas: {
     /**
      * AnsweredEvidence
-     * @description The board answered that question when it was asked who it is.
+     * @description The board answered that question of its identification.
      */
     AnsweredEvidence: {
       /**
@@ -650,7 +650,7 @@ export interface components {
     };
     /**
      * BoardChoice
-     * @description A family of boards; `unknown`: ask it again.
+     * @description A family of boards; `unknown`: identify it again.
      */
     BoardChoice: {
       /** Board */
@@ -658,7 +658,7 @@ export interface components {
     };
     /**
      * Candidate
-     * @description Somebody who is here and may drive.
+     * @description A connected client that may drive.
      */
     Candidate: {
       /** Id */
@@ -691,8 +691,8 @@ export interface components {
     };
     /**
      * DocumentWrite
-     * @description `expected` is the revision it was read at, 0 for a new one. With `isRemoved` it goes to the trash at
-     *     once: several that shall appear together are written so and then restored together.
+     * @description `expected` is the revision at which it was read, 0 for a new one. `isRemoved` writes it to the trash:
+     *     several documents that are to appear together are written so, and then restored together.
      */
     DocumentWrite: {
       /** Expected */
@@ -714,9 +714,9 @@ export interface components {
     };
     /**
      * DownloadWish
-     * @description `groups` in the order in which they are stored, each to a slot of its own. `behind`: the download under
-     *     way that they belong to; more than one request takes goes in several, one right after the other. `nonce`:
-     *     of the page that drives. A program needs none; `take` as with every motion.
+     * @description `groups` are stored in this order, each in a slot of its own. `behind`: the download in progress to
+     *     which they are added, because a request holds a limited number. `nonce`: of the page that drives; a
+     *     program needs none. `take` as with every motion.
      */
     DownloadWish: {
       /** Behind */
@@ -779,9 +779,9 @@ export interface components {
     };
     /**
      * GroupBody
-     * @description `version` tells it from other groups: a text of one's own, or the gateway makes one up. `replaces`: the
-     *     version that was seen in its slot, an empty text for none; where another one is there now, it is refused.
-     *     `document`: which one of the library it is of.
+     * @description `version` is any text that distinguishes it from other groups; by default the gateway makes one.
+     *     `replaces`: the version that the caller expects in the slot, an empty text for none; another one there is
+     *     a conflict. `document`: its document in the library.
      */
     GroupBody: {
       /** Document */
@@ -805,7 +805,7 @@ export interface components {
     };
     /**
      * GroupFacts
-     * @description What a list says of an action group without reading it; `pose` is its picture.
+     * @description The entry of an action group in a list, known without reading its text; `pose` is its picture.
      */
     GroupFacts: {
       /** Durationms */
@@ -835,7 +835,7 @@ export interface components {
     };
     /**
      * Health
-     * @description `degraded`: it answers and stops the robot, and one part of it does not do its work.
+     * @description `degraded`: it answers and can stop the robot, but one part of it does not work.
      */
     Health: {
       /**
@@ -850,7 +850,7 @@ export interface components {
     };
     /**
      * IdentityState
-     * @description What the board answered when it was asked who it is, and the families that answer like that.
+     * @description The answers of the board to its identification, and the families that answer like that.
      */
     IdentityState: {
       /** Candidates */
@@ -865,7 +865,7 @@ export interface components {
     };
     /**
      * Invitation
-     * @description `picture` is the link as a QR code: the address of an SVG image that holds itself.
+     * @description `picture` is the link as a QR code: an SVG image as a data address.
      */
     Invitation: {
       /** Code */
@@ -894,9 +894,9 @@ export interface components {
     };
     /**
      * JobState
-     * @description A download and how far it is. `slots`: where its groups go, in this order; `slot` and `name`: of the
-     *     one that is being stored, or was last; frames and bytes are of all of them. `by`: who began it. `code` and
-     *     `detail` say why it failed or was cancelled.
+     * @description A download and its progress. `slots`: of its groups, in this order; `slot` and `name`: of the one that
+     *     is being stored, or was last; frames and bytes are of all of them. `by`: the client that began it. `code`
+     *     and `detail` say why it failed or was cancelled.
      */
     JobState: {
       /** By */
@@ -1003,8 +1003,7 @@ export interface components {
     };
     /**
      * LeaseWish
-     * @description `heartbeat`: what this script has begun may go on. The others as in a page: `request`, `take`,
-     *     `release`.
+     * @description `heartbeat`: the motion of this script may continue. `request`, `take` and `release` as on a page.
      */
     LeaseWish: {
       /**
@@ -1028,8 +1027,8 @@ export interface components {
     };
     /**
      * LinkState
-     * @description The way to the board, and the board: `identifying` while it is asked who it is, `stale` while it does
-     *     not answer what such a board always answers, `refused` until a person says which board it is. `code` and
+     * @description The link to the board: `identifying` while the board is asked, `stale` while it does not answer a
+     *     question that such a board always answers, `refused` until a person says which board it is. `code` and
      *     `detail` say why it is not ready.
      */
     LinkState: {
@@ -1106,8 +1105,8 @@ export interface components {
     };
     /**
      * Me
-     * @description `you` is null for an unauthenticated caller. `overheard`: what is said here can be read by others on
-     *     the network.
+     * @description `you` is null for an unauthenticated caller. `overheard`: others on the network can read the
+     *     traffic.
      */
     Me: {
       /**
@@ -1121,7 +1120,7 @@ export interface components {
     };
     /**
      * MoveBegun
-     * @description `firstMoves`: these servos stood at an unknown place, so they started one after another.
+     * @description `firstMoves`: these servos started from an unknown position, so they started one after another.
      */
     MoveBegun: {
       /** Firstmoves */
@@ -1151,7 +1150,7 @@ export interface components {
     };
     /**
      * NamedPose
-     * @description `id` stays when it is named anew. `targets` are some of the robot's servos, as its board counts.
+     * @description `id` stays when it is named anew. `targets` are some of the robot's servos, in its board's unit.
      */
     NamedPose: {
       /** Id */
@@ -1203,7 +1202,8 @@ export interface components {
     };
     /**
      * People
-     * @description `openCodes`: the invitations whose digits still count; five wrong ones end that, not their links.
+     * @description `openCodes`: the invitations whose digits are still valid; five wrong codes void the digits, not the
+     *     links.
      */
     People: {
       /** Opencodes */
@@ -1215,8 +1215,8 @@ export interface components {
     };
     /**
      * Person
-     * @description A paired device, a script's token or a stop-only link. `here`: it has the page open now,
-     *     and `drives` where it moves the robot. `unattendedSlot`: of the group that runs on without it.
+     * @description A paired device, a script's token or a stop-only link. `here`: it has the page open now; `drives`: it
+     *     has the lease. `unattendedSlot`: of its group that runs unattended.
      */
     Person: {
       /** Drives */
@@ -1253,8 +1253,8 @@ export interface components {
     };
     /**
      * PlayState
-     * @description Frames that the gateway plays by its own clock, and how far it is. `times` 0: until stopped. `by`: who
-     *     began it. `lateFrames` began so late that those behind them were put off, by `latestMs` at most;
+     * @description A play of the gateway by its own clock, and its progress. `times` 0: until stopped. `by`: the client
+     *     that began it. `lateFrames` began so late that later frames were delayed, by `latestMs` at most;
      *     `skippedFrames` did not leave. `ended`: before its last frame had ended; `code` and `detail` say why.
      */
     PlayState: {
@@ -1336,8 +1336,8 @@ export interface components {
     };
     /**
      * PlayWish
-     * @description `id` and `nonce`: of the page that drives, which hears `played` with that id on its WebSocket. A
-     *     program needs neither. `continueForMs`: it goes on without a `heartbeat`, for so long at most.
+     * @description `id` and `nonce`: of the page that drives, which gets `played` with that id on its WebSocket. A program
+     *     needs neither. `continueForMs`: how long it may continue without a `heartbeat`.
      */
     PlayWish: {
       /** Continueforms */
@@ -1374,9 +1374,9 @@ export interface components {
     };
     /**
      * PortState
-     * @description How the serial port stands. `code` and `detail` say why it is lost, `retryInMs` when the next attempt
-     *     follows. `simulated` where the device was declared to be no real board. `withheld`: what this way to the
-     *     board is not to carry, although the board may know it.
+     * @description The state of the serial port. `code` and `detail` say why it is lost, `retryInMs` when the next attempt
+     *     follows. `simulated`: it leads to a simulated board. `withheld`: commands that this cable does not carry,
+     *     although the board may know them.
      */
     PortState: {
       /** Code */
@@ -1521,7 +1521,7 @@ export interface components {
     };
     /**
      * RobotChoice
-     * @description `insteadOf`: the one that the caller knows to stand there.
+     * @description `insteadOf`: the robot that the caller expects there.
      */
     RobotChoice: {
       /** Id */
@@ -1531,8 +1531,8 @@ export interface components {
     };
     /**
      * RobotFacts
-     * @description What the gateway itself needs to know of a robot: how far its servos may be turned and the poses that
-     *     programs go to, as the board counts.
+     * @description The facts of a robot that the gateway needs: the limits of its servos and the poses for programs, in
+     *     the board's unit.
      */
     RobotFacts: {
       /** Board */
@@ -1553,8 +1553,8 @@ export interface components {
     };
     /**
      * RunBegun
-     * @description `acknowledged`: the board has taken it, which says nothing of the slot. `silent`: it should have said
-     *     so and has not. `sent`: such a board never says.
+     * @description `acknowledged`: the board has accepted the command, which says nothing about the slot. `silent`: the
+     *     acknowledgement is missing. `sent`: such a board sends none.
      */
     RunBegun: {
       /**
@@ -1565,8 +1565,8 @@ export interface components {
     };
     /**
      * Running
-     * @description The group that may run: it was begun, and was neither stopped nor heard to end. `endsInMs`: at
-     *     the latest; null where only the board could tell, which not every family does.
+     * @description The group that may run: it was begun, and neither stopped nor reported as ended. `endsInMs`: at the
+     *     latest; null where only the board knows, which not every family reports.
      */
     Running: {
       /** Endsinms */
@@ -1578,7 +1578,7 @@ export interface components {
     };
     /**
      * RunWish
-     * @description `times` 0: until stopped. `continueForMs`: it goes on without a `heartbeat`, for so long at most.
+     * @description `times` 0: until stopped. `continueForMs`: how long the run may continue without a `heartbeat`.
      */
     RunWish: {
       /** Continueforms */
@@ -1597,7 +1597,7 @@ export interface components {
     };
     /**
      * ServoLimits
-     * @description How far a servo may be turned, in its board's unit, and what people call it.
+     * @description The limits of a servo, in its board's unit, and its name.
      */
     ServoLimits: {
       /** Max */
@@ -1674,8 +1674,8 @@ export interface components {
     };
     /**
      * Stopped
-     * @description `halted`: the stop sequence has left the wire. `unheld`: what may go on in spite of it, since nobody
-     *     knows where to hold it; null where all is held.
+     * @description `halted`: the stop sequence has left the wire. `unheld`: servos that may go on moving, because their
+     *     position is unknown; null where all are held.
      */
     Stopped: {
       /** Halted */
@@ -1726,8 +1726,8 @@ export interface components {
     };
     /**
      * UnattendedRun
-     * @description A run that may go on without its driver `by`, for so long at most. `slot` is null where the gateway
-     *     plays.
+     * @description A run that may continue without its driver `by`, for `endsInMs` at most. `slot` is null where the
+     *     gateway plays.
      */
     UnattendedRun: {
       /** By */
@@ -1741,8 +1741,8 @@ export interface components {
     };
     /**
      * UnheldServos
-     * @description What may go on in spite of a STOP: these servos, `null` where it is unknown which, for so long at most
-     *     from its press; `null` where a group may run that heard no stop.
+     * @description Motion that a STOP could not hold: `servos`, `null` where unknown, that may move for `forMs` after the
+     *     press at most; `null` where the board may not have received the stop.
      */
     UnheldServos: {
       /** Forms */

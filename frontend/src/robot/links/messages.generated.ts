@@ -39,10 +39,9 @@ export type GatewayMessage =
   | PlayedMessage;
 
 /**
- * Move servos. Of each the newest value counts; what waits for the wire leaves together, servos of
- * unknown place slowly and one after another. `durationMs` 0: as fast as the servos and the link allow.
- * `nonce` shows that the driver says it, and now. Answered only where it is refused: `left` tells what has
- * left.
+ * Move servos. Of each the newest value counts; waiting values leave together, servos of unknown position
+ * slowly and one after another. `durationMs` 0: as fast as the servos and the link allow. `nonce` proves
+ * that the driver sent it just now. Answered only where it is refused: `left` has the commands that left.
  */
 export interface MoveMessage {
   type: 'move';
@@ -101,13 +100,13 @@ export interface FrameBody {
   };
 }
 /**
- * The driver's: what the gateway plays ends with its frame in progress.
+ * The driver ends the play of the gateway with its frame in progress.
  */
 export interface StopPlayingMessage {
   type: 'stopPlaying';
 }
 /**
- * Run the group in `slot`; `times` 0: until it is stopped. What moves ends first.
+ * Run the group in `slot`; `times` 0: until it is stopped. A motion in progress ends first.
  */
 export interface RunMessage {
   type: 'run';
@@ -185,8 +184,8 @@ export interface PacketMessage {
   nonce: string | null;
 }
 /**
- * STOP: drop all that waits, send stop three times, hold the robot where it is, and latch. Whatever else
- * it says, it is a stop.
+ * STOP: drop all that waits, send stop three times, hold the robot where it is, and latch. Unknown fields
+ * are ignored.
  */
 export interface StopMessage {
   type: 'stop';
@@ -199,7 +198,7 @@ export interface ResumeMessage {
   type: 'resume';
 }
 /**
- * Which family the board is of, as a person has said; `unknown`: ask it again.
+ * The family of the board, as a person has chosen it; `unknown`: identify it again.
  */
 export interface BoardMessage {
   type: 'board';
@@ -210,7 +209,7 @@ export interface BoardMessage {
   board: string;
 }
 /**
- * Ask the board now; every client hears what it says, and `done` once it has. Needs no lease. `servos`:
+ * Ask the board now; every client gets its report, and this one `done`. Needs no lease. `servos`:
  * whose positions; some boards report all of them, whichever are named.
  */
 export interface ReadMessage {
@@ -226,7 +225,7 @@ export interface ReadMessage {
   servos: number[];
 }
 /**
- * This client looks for the limits of `servo` and may pass the present ones with it, until `null` or the
+ * This client calibrates `servo` and may move it beyond its present limits, until `null` or the
  * end of its connection.
  */
 export interface CalibrateMessage {
@@ -294,9 +293,9 @@ export interface WelcomeMessage {
   battery: BatteryUnread | BatteryRead | BatterySilent;
 }
 /**
- * How the serial port stands. `code` and `detail` say why it is lost, `retryInMs` when the next attempt
- * follows. `simulated` where the device was declared to be no real board. `withheld`: what this way to the
- * board is not to carry, although the board may know it.
+ * The state of the serial port. `code` and `detail` say why it is lost, `retryInMs` when the next attempt
+ * follows. `simulated`: it leads to a simulated board. `withheld`: commands that this cable does not carry,
+ * although the board may know them.
  */
 export interface PortState {
   device: string | null;
@@ -349,8 +348,8 @@ export interface PortState {
   retryInMs: number | null;
 }
 /**
- * The way to the board, and the board: `identifying` while it is asked who it is, `stale` while it does
- * not answer what such a board always answers, `refused` until a person says which board it is. `code` and
+ * The link to the board: `identifying` while the board is asked, `stale` while it does not answer a
+ * question that such a board always answers, `refused` until a person says which board it is. `code` and
  * `detail` say why it is not ready.
  */
 export interface LinkState {
@@ -400,14 +399,14 @@ export interface LinkState {
   detail: string | null;
 }
 /**
- * What the board answered when it was asked who it is, and the families that answer like that.
+ * The answers of the board to its identification, and the families that answer like that.
  */
 export interface IdentityState {
   evidence: (AnsweredEvidence | SilentEvidence | EchoedEvidence | NoiseEvidence)[];
   candidates: string[];
 }
 /**
- * The board answered that question when it was asked who it is.
+ * The board answered that question of its identification.
  */
 export interface AnsweredEvidence {
   kind: 'answered';
@@ -458,8 +457,8 @@ export interface NoiseEvidence {
   byteCount: number;
 }
 /**
- * A run that may go on without its driver `by`, for so long at most. `slot` is null where the gateway
- * plays.
+ * A run that may continue without its driver `by`, for `endsInMs` at most. `slot` is null where the
+ * gateway plays.
  */
 export interface UnattendedRun {
   slot: number | null;
@@ -468,8 +467,8 @@ export interface UnattendedRun {
   endsInMs: number;
 }
 /**
- * What a slot was given last: which version, called what, of which document of the library where one is
- * named, by whom, and when, in milliseconds since 1970; null where that was not noted.
+ * The group that was last stored in a slot: its version, name, document in the library, author and time
+ * in milliseconds since 1970; null where unknown.
  */
 export interface StoredGroup {
   version: string;
@@ -504,16 +503,16 @@ export interface LeaseState {
   candidates: Candidate[];
 }
 /**
- * Somebody who is here and may drive.
+ * A connected client that may drive.
  */
 export interface Candidate {
   id: string;
   name: string;
 }
 /**
- * A download and how far it is. `slots`: where its groups go, in this order; `slot` and `name`: of the
- * one that is being stored, or was last; frames and bytes are of all of them. `by`: who began it. `code` and
- * `detail` say why it failed or was cancelled.
+ * A download and its progress. `slots`: of its groups, in this order; `slot` and `name`: of the one that
+ * is being stored, or was last; frames and bytes are of all of them. `by`: the client that began it. `code`
+ * and `detail` say why it failed or was cancelled.
  */
 export interface JobState {
   id: string;
@@ -573,8 +572,8 @@ export interface JobState {
   detail: string | null;
 }
 /**
- * Frames that the gateway plays by its own clock, and how far it is. `times` 0: until stopped. `by`: who
- * began it. `lateFrames` began so late that those behind them were put off, by `latestMs` at most;
+ * A play of the gateway by its own clock, and its progress. `times` 0: until stopped. `by`: the client
+ * that began it. `lateFrames` began so late that later frames were delayed, by `latestMs` at most;
  * `skippedFrames` did not leave. `ended`: before its last frame had ended; `code` and `detail` say why.
  */
 export interface PlayState {
@@ -632,9 +631,9 @@ export interface PlayState {
   detail: string | null;
 }
 /**
- * Where packets have taken the servos since the port opened, and what the board has reported of them; of
- * one that is not named the place is unknown. `runSlot`: the group that may run. `released`: they have no
- * torque, so hands may have turned them.
+ * The moves of the servos since the port opened, and their reported positions; the position of a servo
+ * without either is unknown. `runSlot`: the group that may run. `released`: they have no torque, so a person
+ * may have turned them.
  */
 export interface MotionState {
   servos: ServoWay[];
@@ -643,8 +642,8 @@ export interface MotionState {
   reported: ReportedPosition[];
 }
 /**
- * A servo on its way, or there already: begun so long ago (below 0: not yet), and taking so long. `start`
- * is null where it is unknown where it began.
+ * A move of a servo, in progress or ended: the time since its start (below 0: not started yet), and its
+ * duration. `start` is null where its position at the start is unknown.
  */
 export interface ServoWay {
   servo: number;
@@ -654,8 +653,8 @@ export interface ServoWay {
   durationMs: number;
 }
 /**
- * Where the board said that a servo stood, so long ago. `isCurrent`: as far as the gateway can tell it
- * stands there still.
+ * The position that the board reported for a servo, with its age. `isCurrent`: as far as the gateway
+ * knows, the servo has not moved since.
  */
 export interface ReportedPosition {
   servo: number;
@@ -672,21 +671,21 @@ export interface BatteryRead {
   ageMs: number;
 }
 /**
- * Several questions in a row stayed unanswered; `lastMv` is what it said before.
+ * Several questions in a row stayed unanswered; `lastMv` is its last report.
  */
 export interface BatterySilent {
   kind: 'silent';
   lastMv: number | null;
 }
 /**
- * The board has reported its battery, which is read now and then, or stays silent about it.
+ * The board has reported its battery, or has stopped answering about it.
  */
 export interface BatteryMessage {
   type: 'battery';
   battery: BatteryUnread | BatteryRead | BatterySilent;
 }
 /**
- * What was asked with that `id` is done. `outcome`: of a command for the board.
+ * The request with that `id` is done. `outcome`: of a command for the board.
  */
 export interface DoneMessage {
   type: 'done';
@@ -744,7 +743,7 @@ export interface RefusedMessage {
   detail: string;
 }
 /**
- * What the board said; `bytes` are its packet, for logs.
+ * A report of the board; `bytes` are its packet, for logs.
  */
 export interface ReceivedMessage {
   type: 'received';
@@ -806,29 +805,29 @@ export interface NoiseMessage {
   bytes: string;
 }
 /**
- * The stop sequence has left the wire. `unheld`: what may go on in spite of it, if anything.
+ * The stop sequence has left the wire. `unheld`: servos that may go on moving, if any.
  */
 export interface HaltedMessage {
   type: 'halted';
   unheld: UnheldServos | null;
 }
 /**
- * What may go on in spite of a STOP: these servos, `null` where it is unknown which, for so long at most
- * from its press; `null` where a group may run that heard no stop.
+ * Motion that a STOP could not hold: `servos`, `null` where unknown, that may move for `forMs` after the
+ * press at most; `null` where the board may not have received the stop.
  */
 export interface UnheldServos {
   servos: number[] | null;
   forMs: number | null;
 }
 /**
- * Motion is allowed again, by somebody else's word.
+ * Another client has resumed: motion is allowed again.
  */
 export interface ResumedMessage {
   type: 'resumed';
   by: string;
 }
 /**
- * Something of this changed.
+ * Some part of the state has changed.
  */
 export interface StateMessage {
   board: string;
@@ -848,14 +847,14 @@ export interface StateMessage {
   type: 'state';
 }
 /**
- * Another robot stands on the board now, or any robot of the library has changed: look there.
+ * Another robot is on the board now, or a robot of the library has changed.
  */
 export interface RobotMessage {
   type: 'robot';
   robot: RobotState | null;
 }
 /**
- * Something of the lease changed.
+ * The lease has changed.
  */
 export interface LeaseStateMessage {
   type: 'lease';
@@ -870,7 +869,7 @@ export interface TickMessage {
   nonce: string;
 }
 /**
- * What has left the wire since the last of these, for all clients.
+ * The commands that have left the wire since the last such message, for all clients.
  */
 export interface LeftMessage {
   type: 'left';
@@ -925,14 +924,14 @@ export interface PlainCommand {
   kind: 'stop' | 'erase' | 'readBattery' | 'readVersion' | 'readAllPositions' | 'readOffsets';
 }
 /**
- * A download began, came further or ended; the latest one of all clients.
+ * A download began, progressed or ended; the latest one of all clients.
  */
 export interface JobMessage {
   type: 'job';
   job: JobState;
 }
 /**
- * What the gateway plays began, came further or ended; the latest play of all clients.
+ * A play of the gateway began, progressed or ended; the latest one of all clients.
  */
 export interface PlayStateMessage {
   type: 'play';
