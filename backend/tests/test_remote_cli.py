@@ -38,7 +38,7 @@ def test_status_is_told_for_people_and_for_programs(served: Served) -> None:
     told = run("status", "--url", served.url)
     assert told.exit_code == 0
     assert f"port     open {served.pty.device}" in told.stdout
-    assert "driver   nobody" in told.stdout
+    assert "driver   none" in told.stdout
     assert json.loads(run("status", "--url", served.url, "--json").stdout)["board"] == "doc"
 
 
