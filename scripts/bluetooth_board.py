@@ -128,7 +128,7 @@ class Module:
             self._tree.change(self.path, DEVICE_1, Connected=Variant("b", False))
 
     def notify(self, data: bytes) -> None:
-        """What the board says while nobody listens is gone."""
+        """Reports of the board without a listener are lost."""
         size = MTU_BYTES - 3
         if self._tree.value(self.notifier, CHARACTERISTIC_1, "Notifying"):
             for at in range(0, len(data), size):

@@ -81,7 +81,7 @@ class ReportsFromProgram(Relay):
 
 
 def relay_until_end(to_program: Relay, from_program: Relay, parent: int) -> None:
-    """Pass bytes both ways until the program closes its side or whoever started us is gone."""
+    """Pass bytes both ways until the program closes its side or the parent process is gone."""
     relays = (to_program, from_program)
     while os.getppid() == parent:
         readers = [relay.source for relay in relays if not relay.pending]
@@ -95,7 +95,7 @@ def relay_until_end(to_program: Relay, from_program: Relay, parent: int) -> None
 
 
 def point_link_at(link: Path, target: str) -> None:
-    """Make or move the link in one step, so that nobody ever finds it missing or half made."""
+    """Make or move the link in one step, so that it is never missing or half made."""
     link.parent.mkdir(parents=True, exist_ok=True)
     fresh = link.with_name(f".{link.name}.{os.getpid()}")
     fresh.symlink_to(target)
@@ -132,7 +132,7 @@ def own_terminal(slave: int) -> None:
 
 def serve(link: Path, command: list[str], *, hid: bool = False) -> int:
     parent = os.getppid()
-    # Our own hold on the slave side keeps bytes and the port alive while nobody else has it open.
+    # Our own hold on the slave side keeps bytes and the port alive while no other program has it open.
     master, slave = os.openpty()
     tty.setraw(slave)
     if hid:

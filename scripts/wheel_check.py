@@ -101,7 +101,7 @@ def use(commands: Path, folder: Path) -> None:
 def served(commands: Path, folder: Path, board: socket.socket) -> Iterator["subprocess.Popen[str]"]:
     serve = [str(commands / "servodeck"), "serve", "--listen", "127.0.0.1:0", "--no-open"]
     more = ["--serial", f"socket://127.0.0.1:{board.getsockname()[1]}", "--data", str(folder / "data")]
-    # No Node, no source and no settings of whoever runs this.
+    # No Node, no source and no settings of the present account.
     variables = {"PATH": str(commands), "HOME": str(folder)}
     process = subprocess.Popen([*serve, *more], stdout=subprocess.PIPE, text=True, env=variables, cwd=folder)
     try:

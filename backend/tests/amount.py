@@ -25,7 +25,7 @@ def replay(file: str, seed: int) -> str:
 
 @contextmanager
 def named(file: str, seed: int, what: str) -> Iterator[None]:
-    """Puts the way to repeat the case in front of whatever it raises."""
+    """Puts the command that repeats the case in front of any error."""
     try:
         yield
     except Exception as error:

@@ -54,7 +54,7 @@ class Bus:
                 data = os.read(self._pty.board, 4096)
             except BlockingIOError:
                 time.sleep(0.002)
-            except OSError:  # between two openings of the port nobody is at its other end
+            except OSError:  # between two openings of the port its other end is closed
                 time.sleep(0.005)
             else:
                 self._taken.append((time.monotonic(), data))
@@ -75,14 +75,16 @@ def serving(pty: Pty, folder: Path) -> Iterator[Served]:
     begun_s = time.monotonic()
     served = Served("--board", "doc", "--data", str(folder), pty=pty)
     try:
-        assert time.monotonic() - begun_s - kept_waiting_s(served.process.pid) <= READY_S
+        assert time.monotonic() - begun_s - held_back_s(served.process.pid) <= READY_S
         yield served
     finally:
         served.process.kill()
         sys.stderr.write(served.process.communicate()[1])  # its log, beside what failed
 
 
-def kept_waiting_s(pid: int) -> float:
-    """How long others had the processor while that process wanted it; a guess where nobody tells."""
+def held_back_s(pid: int) -> float:
+    """How long others had the processor while that process wanted it; a guess where the system does not
+    say.
+    """
     stat = Path(f"/proc/{pid}/schedstat")
     return int(stat.read_text().split()[1]) / 1e9 if stat.exists() else MARGIN_S

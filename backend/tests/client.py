@@ -1,4 +1,4 @@
-"""A client at the gateway's table: hears what it is told and, as a page does, answers each tick."""
+"""A client of the gateway: records its messages and, as a page does, answers each tick."""
 
 import asyncio
 import json
@@ -38,7 +38,7 @@ ANNA = Caller("anna", "Anna", "driver")
 
 
 class Client(Session):
-    """`lease` is what it was told last; `beats` False is a tab that froze."""
+    """`lease` is the latest one that it got; `beats` False is a tab that froze."""
 
     def __init__(self, control: Control, caller: Caller = THIS_COMPUTER) -> None:
         super().__init__(caller)
@@ -59,7 +59,7 @@ class Client(Session):
             super().put(text)
 
     def send(self, packet: bytes) -> Left:
-        """As a page: a lease that nobody has is requested first."""
+        """As a page: a free lease is requested first."""
         if self.control.driving.driver is None:
             self.control.driving.act(self, "request")
         return self.control.requests.send(self, packet.hex(), self.nonce)
@@ -142,7 +142,7 @@ async def driven(*sent: bytes) -> AsyncIterator[tuple[Control, FakePort, Client]
 
 
 def lease_of(connection: ClientConnection) -> str:
-    """Over a real socket: gets a lease that nobody has; the nonce holds for half a second."""
+    """Over a real socket: gets a free lease; the nonce holds for half a second."""
     connection.send('{"type": "lease", "action": "request"}')
     while (message := json.loads(connection.recv(5)))["type"] != "tick":
         pass

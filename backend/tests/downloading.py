@@ -17,7 +17,7 @@ GUEST = Caller("guest", "Bert", "viewer")
 
 
 class AnsweringPort(FakePort):
-    """Says "stored" as it is told: a list for each packet, of times after the packet's last bit."""
+    """Acknowledges frames at the given times: a list for each packet, after the packet's last bit."""
 
     def __init__(self, answers_ms: Iterable[Sequence[float]] = ()) -> None:
         super().__init__()
@@ -31,7 +31,7 @@ class AnsweringPort(FakePort):
 
 
 async def ended(control: Control, job: JobState) -> JobState:
-    """When it has; somebody looks on."""
+    """Its state once it has ended; a viewer is connected."""
     bert = Client(control, GUEST)
     while (state := control.board.jobs.find(job.id)).status == "running":
         await bert.next()
@@ -40,7 +40,7 @@ async def ended(control: Control, job: JobState) -> JobState:
 
 
 def begin(control: Control, *groups: Group) -> JobState:
-    """By somebody who may."""
+    """By a caller that may."""
     board = control.board.family_id
     parts = [made_of(group, list(packets_of(group, board)), board) for group in groups]
     return control.requests.download(parts, ANNA, lambda: None)

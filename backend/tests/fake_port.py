@@ -1,4 +1,6 @@
-"""A serial port whose other end is the test: notes what was written and when, speaks and goes when told."""
+"""A serial port whose other end is the test: records what was written and when; the test has it send bytes or
+get lost.
+"""
 
 import asyncio
 import socket
@@ -92,7 +94,7 @@ class FakeHidPort(FakePort):
 
 
 class FakePorts:
-    """Opens what it was told, one outcome after the other; the last one stays."""
+    """Opens with the given outcomes, one after the other; the last one repeats."""
 
     def __init__(self, *outcomes: PortError | FakePort) -> None:
         self._outcomes = list(outcomes)

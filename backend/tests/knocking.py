@@ -36,7 +36,7 @@ def roles_of_routes() -> Iterator[tuple[str, str, list[Role | None]]]:
 
 
 def all_routes() -> Iterator[tuple[str, str, str]]:
-    """Type, method and path of everything that answers, and of what nobody knows."""
+    """Type, method and path of every route, and of unknown addresses."""
     for method, path, _ in roles_of_routes():
         yield ("websocket", "GET", path) if method == "WS" else ("http", method, path)
     yield from (("http", "GET", path) for path in ("/", "/unknown", "/api/unknown"))

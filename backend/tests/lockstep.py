@@ -97,7 +97,7 @@ class SteppedBoard:
         self._note(data.hex())
         self.runs += data[COMMAND_AT] == RUN
         if data[COMMAND_AT] not in (STOP, MOVE):
-            # A run may be told of at any time from then on.
+            # A run may be reported at any time from then on.
             lasts_s = inf if data[COMMAND_AT] == RUN else ANSWERS_WITHIN_S
             self._talks_until_s = max(self._talks_until_s, now() + lasts_s)
 

@@ -27,12 +27,12 @@ from servodeck.robot.control import Control
 
 PORT = 8300
 DEVICE = "/dev/board"
-# Below a device, where no folder can be: whoever keeps something without asking for a library fails.
+# Below a device, where no folder can be: code that stores without a library fails.
 NO_LIBRARY = Library(Path(os.devnull) / "none")
 
 
 def entrance_to(where: Access | None = None, now: Callable[[], float] = time.monotonic) -> Entrance:
-    """One that forgets everybody at the end; local where nothing is said."""
+    """One that stores no device; local by default."""
     return Entrance(where or addresses.local(PORT), Devices(NoDeviceStore(), wall_clock_ms), now)
 
 

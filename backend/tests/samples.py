@@ -14,7 +14,7 @@ STOPS = [STOP, STOP, STOP]
 ERASE = bytes.fromhex("5555030800")
 BATTERY = bytes.fromhex("5555020f")
 BATTERY_REPORT = bytes.fromhex("5555040f4c1d")
-# As clients are told of it.
+# Its message to clients.
 BATTERY_HEARD = {
     "type": "received",
     "report": {"kind": "battery", "batteryMv": 7500},

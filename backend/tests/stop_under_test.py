@@ -41,7 +41,7 @@ OLGA = Caller("olga", "Olga", "owner")
 GUEST = Caller("guest", "Bert", "viewer")
 PASSER_BY = Caller("link", "Stop link", "stopper")
 KNOWN_SLOT = 5
-# Whoever had the port before may have set something in motion: all of that has ended.
+# The owner of the port before may have begun a motion: by then it has ended.
 OPENED_LONG_AGO_S = 31.0
 # What moves no longer than that needs no stop.
 SILENCE_S = {"silent driver": 2.0}

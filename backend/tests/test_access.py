@@ -69,7 +69,7 @@ def test_addresses_as_a_host_header_has_them() -> None:
 
 
 @pytest.mark.parametrize(
-    ("host", "told"),
+    ("host", "expected"),
     [
         ("0.0.0.0", ["192.168.1.5", "10.0.0.2"]),
         ("::", ["192.168.1.5", "10.0.0.2"]),
@@ -78,8 +78,8 @@ def test_addresses_as_a_host_header_has_them() -> None:
         ("::1", []),
     ],
 )
-def test_only_addresses_that_answer_are_named_to_others(host: str, told: list[str]) -> None:
-    assert addresses.answered_at(host, ["192.168.1.5", "10.0.0.2"]) == told
+def test_only_addresses_that_answer_are_named_to_others(host: str, expected: list[str]) -> None:
+    assert addresses.answered_at(host, ["192.168.1.5", "10.0.0.2"]) == expected
 
 
 @pytest.mark.parametrize(

@@ -28,8 +28,8 @@ def hears_itself() -> bool:
         server=f"probe-{os.getpid()}.local.",
     )
     try:
-        with Zeroconf(interfaces=[HERE]) as asking, Zeroconf(interfaces=[HERE]) as told:
-            told.register_service(service)
+        with Zeroconf(interfaces=[HERE]) as asking, Zeroconf(interfaces=[HERE]) as announcing:
+            announcing.register_service(service)
             return asking.get_service_info(service.type, service.name, 3000) is not None
     except OSError:
         return False

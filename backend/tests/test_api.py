@@ -62,7 +62,7 @@ async def test_stop_answers_when_the_stops_have_left_and_resume_moves_nothing() 
         assert (await client.post("/api/stop")).json() == {
             "latch": True,
             "halted": True,
-            # Whatever moved before the port was opened.
+            # Motion from before the port was opened.
             "unheld": {"servos": None, "forMs": 29_000},
         }
         assert port.packets() == [STOP] * 4
@@ -73,16 +73,16 @@ async def test_stop_answers_when_the_stops_have_left_and_resume_moves_nothing() 
 
 
 @in_virtual_time
-async def test_who_stopped_and_resumed_is_told_a_page_from_a_script() -> None:
+async def test_a_page_gets_the_name_of_a_script_that_stopped_and_resumed() -> None:
     async with http_to(FakePorts(FakePort()), now) as (client, control):
         anna = Client(control)
         page = {"origin": str(client.base_url).rstrip("/")}
         for headers, name in (({}, "A script on this computer"), (page, "This computer")):
             await client.post("/api/stop", headers=headers)
             await client.post("/api/resume", headers=headers)
-            told = [(one.get("stoppedBy"), one.get("by")) for one in await anna.heard()]
-            assert [stopped for stopped, _ in told if stopped] == [name]
-            assert [by for _, by in told if by] == [name]
+            names = [(one.get("stoppedBy"), one.get("by")) for one in await anna.heard()]
+            assert [stopped for stopped, _ in names if stopped] == [name]
+            assert [by for _, by in names if by] == [name]
 
 
 async def test_a_port_is_chosen_and_closed() -> None:

@@ -39,7 +39,7 @@ async def test_a_link_of_another_site_reaches_no_route_that_acts(method: str, pa
     assert await knock(app, scope_of("http", "GET", "/docs", headers)) == 200
 
 
-def test_a_gateway_that_nobody_uses_any_more_is_forgotten() -> None:
+def test_a_gateway_without_references_is_freed() -> None:
     control = Control(NOWHERE, time.monotonic, "doc")
     create_app(control, NO_LIBRARY, entrance_to())
     gone = weakref.ref(control)
@@ -116,16 +116,16 @@ async def test_every_error_has_one_shape(
         ("POST", "/index.html", "GET, HEAD"),
     ],
 )
-async def test_a_refused_method_is_told_all_others(method: str, path: str, allowed: str) -> None:
+async def test_a_refused_method_gets_all_allowed_ones(method: str, path: str, allowed: str) -> None:
     async with http_to(NOWHERE, time.monotonic, device=None) as (client, _):
         answer = await client.request(method, path)
         assert (answer.status_code, answer.headers["allow"]) == (405, allowed)
 
 
-async def test_nothing_is_measured_for_anybody_else_whatever_the_environment_says(
+async def test_no_telemetry_leaves_even_if_the_environment_asks_for_it(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """The framework would send what it measures to whoever a variable names."""
+    """The framework would send its measurements to the address in a variable."""
     monkeypatch.setenv("FASTAPI_OTEL_AUTO_CONFIGURE", "true")
     monkeypatch.setenv("OTEL_EXPORTER_OTLP_ENDPOINT", "http://127.0.0.1:9")
     measured = []
@@ -153,7 +153,7 @@ def built(tmp_path: Path) -> Path:
     return tmp_path
 
 
-async def test_the_page_is_asked_for_again_and_hashed_files_are_kept(built: Path) -> None:
+async def test_the_page_is_revalidated_and_hashed_files_are_cached(built: Path) -> None:
     async with http_to(NOWHERE, time.monotonic, device=None, static=built) as (client, _):
         page = await client.get("/")
         assert page.text.startswith("<!doctype html>")

@@ -1,4 +1,4 @@
-"""The battery that the gateway asks for once for everybody: when, and what clients are told of it. Real
+"""The battery, which the gateway reads once for all clients: when, and the messages that they get. Real
 simulated boards, virtual time; the page does the same on a link of its own:
 frontend/src/features/battery/batteryPoll.test.ts.
 """
@@ -27,7 +27,7 @@ READY_S = 2.0
 SERVO = 1
 
 
-def told(messages: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
+def batteries_in(messages: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
     return [message["battery"] for message in messages if message["type"] == "battery"]
 
 
@@ -39,7 +39,7 @@ async def batteries(here: Here, for_s: float) -> int:
 
 
 @in_virtual_time
-async def test_it_is_asked_at_once_and_every_5_s_and_all_are_told(simulator: Simulator) -> None:
+async def test_it_is_read_at_once_and_every_5_s_and_all_clients_get_it(simulator: Simulator) -> None:
     async with asked(simulator, "lsc-6", "lsc-6", polls_battery=True) as here:
         anna, bert = Client(here.control), Client(here.control)
         await asyncio.sleep(READY_S)
@@ -48,7 +48,7 @@ async def test_it_is_asked_at_once_and_every_5_s_and_all_are_told(simulator: Sim
         assert await batteries(here, 20) == 4
         for session in (anna, bert):
             heard = await session.heard()
-            assert [one["batteryMv"] for one in told(heard)] == [7500] * 4
+            assert [one["batteryMv"] for one in batteries_in(heard)] == [7500] * 4
             assert BATTERY in session.followed
         late = await Client(here.control).heard()
         assert late[0]["battery"]["kind"] == "read"
@@ -56,7 +56,7 @@ async def test_it_is_asked_at_once_and_every_5_s_and_all_are_told(simulator: Sim
 
 
 @in_virtual_time
-async def test_a_question_is_told_before_its_answer(simulator: Simulator) -> None:
+async def test_a_question_is_sent_to_clients_before_its_answer(simulator: Simulator) -> None:
     async with asked(simulator, "lsc-6", "lsc-6", polls_battery=True) as here:
         await asyncio.sleep(READY_S)
         anna = Client(here.control)
@@ -69,7 +69,7 @@ async def test_a_question_is_told_before_its_answer(simulator: Simulator) -> Non
 
 
 @in_virtual_time
-async def test_nothing_is_asked_while_nobody_looks_and_at_once_when_somebody_does(
+async def test_nothing_is_asked_without_clients_and_at_once_when_one_joins(
     simulator: Simulator,
 ) -> None:
     async with asked(simulator, "lsc-6", "lsc-6", polls_battery=True) as here:
@@ -120,7 +120,7 @@ async def test_a_board_that_stays_silent_is_asked_again_only_by_a_person(simulat
     async with asked(simulator, "openarm-new", "doc", polls_battery=True) as here:
         anna = Client(here.control)
         await asyncio.sleep(READY_S + 20)
-        assert told(await anna.heard())[-1] == {"kind": "silent", "lastMv": None}
+        assert batteries_in(await anna.heard())[-1] == {"kind": "silent", "lastMv": None}
         assert await batteries(here, 30) == 0
         take(ReadMessage(type="read", id=7, what="battery", servos=[]), anna, here.control)
         assert await batteries(here, 1) == 1
@@ -128,7 +128,7 @@ async def test_a_board_that_stays_silent_is_asked_again_only_by_a_person(simulat
 
 
 @in_virtual_time
-async def test_a_person_asks_for_everybody(simulator: Simulator) -> None:
+async def test_a_reading_on_request_goes_to_every_client(simulator: Simulator) -> None:
     async with asked(simulator, "lsc-6", "lsc-6", polls_battery=True) as here:
         anna, bert = Client(here.control), Client(here.control)
         await asyncio.sleep(READY_S + 1)

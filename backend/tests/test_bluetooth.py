@@ -1,4 +1,4 @@
-"""Bluetooth modules as ports: which characteristics, which pieces, what a person is told; and bleak itself on
+"""Bluetooth modules as ports: characteristics, pieces, and sentences for a person; and bleak itself on
 a stand-in for BlueZ, with the simulated board behind its module.
 """
 
@@ -161,13 +161,13 @@ def decoded(heard: list[tuple[float, bytes]]) -> list[DecoderEvent]:
         (BleakError("odd"), PortError, "odd"),
     ],
 )
-def test_what_fails_is_told_with_what_to_do(error: Exception, expected: type[PortError], words: str) -> None:
+def test_a_failure_is_reported_with_a_remedy(error: Exception, expected: type[PortError], words: str) -> None:
     explained = explain("ble:X", error)
     assert isinstance(explained, expected)
     assert words in explained.detail
 
 
-def test_without_the_extra_a_person_is_told_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_the_extra_the_sentence_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "bleak", None)
     with pytest.raises(PortMissingError, match=r"servodeck\[ble\]"):
         Bluetooth().open("ble:Hiwonder")
@@ -230,7 +230,7 @@ async def test_moves_and_stop_reach_the_board_and_its_answers_come_back(
 @needs_bluez
 @pytest.mark.exhaustive
 @pytest.mark.parametrize("events", [("drop",), ("off", "on"), ("adapter off", "adapter on")])
-async def test_a_link_that_breaks_is_told_and_comes_back(
+async def test_a_broken_link_is_reported_and_comes_back(
     board: BluetoothBoard, gateway: Running, events: tuple[str, ...]
 ) -> None:
     async with connect(gateway.ws) as client:
@@ -271,7 +271,7 @@ def test_a_module_that_was_left_connected_is_opened_again(board: BluetoothBoard)
 
 @needs_bluez
 @pytest.mark.exhaustive
-def test_a_switched_off_adapter_is_told(board: BluetoothBoard) -> None:
+def test_a_switched_off_adapter_is_reported(board: BluetoothBoard) -> None:
     port = Bluetooth().open("ble:Hiwonder")
     board.say("adapter off")
     with pytest.raises(PortLostError):

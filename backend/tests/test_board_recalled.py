@@ -45,7 +45,7 @@ async def say(remembered: Remembered, *boards: str, simulated: bool = False) -> 
 
 
 @in_virtual_time
-async def test_what_somebody_said_of_a_board_holds_after_the_next_start_and_at_that_place_alone() -> None:
+async def test_a_chosen_family_is_remembered_after_a_restart_for_that_port_alone() -> None:
     remembered = Remembered()
     await say(remembered, "lsc-6")
     assert await family_after_a_start(remembered) == "lsc-6"
@@ -70,7 +70,7 @@ async def test_an_option_goes_before_it_also_one_that_wants_the_board_asked() ->
 
 
 @in_virtual_time
-async def test_what_was_said_with_the_choice_of_a_port_is_kept_too() -> None:
+async def test_a_family_chosen_with_the_port_is_remembered_too() -> None:
     remembered = Remembered()
     control = await start(remembered, "unknown", PLACE, FakePort())
     await control.use_port("/dev/other", "xarm")

@@ -33,9 +33,9 @@ def run(*arguments: str) -> Result:
     return CliRunner().invoke(app, list(arguments))
 
 
-def test_the_version_is_told() -> None:
-    told = run("--version")
-    assert (told.exit_code, told.stdout) == (0, f"servodeck {__version__}\n")
+def test_the_version_is_printed() -> None:
+    result = run("--version")
+    assert (result.exit_code, result.stdout) == (0, f"servodeck {__version__}\n")
 
 
 class Served:
@@ -51,7 +51,7 @@ class Served:
         is_named: bool = True,
         identifies_board: bool = False,
     ) -> None:
-        """On a pty of its own; whoever brings one reads it. Not `is_named`: nobody says which port. Unless it
+        """On a pty of its own; a test that passes one reads it. Not `is_named`: without `--serial`. Unless it
         `identifies_board`, nothing but what a test says reaches the board.
         """
         self.pty = pty or Pty()
@@ -86,7 +86,7 @@ class Served:
         until = time.monotonic() + 20
         while received.count(STOP) < count:
             assert time.monotonic() < until, received
-            # Between two openings of the port nobody is at its other end.
+            # Between two openings of the port its other end is closed.
             with suppress(OSError):
                 received += os.read(self.pty.board, 100)
         return received
@@ -248,14 +248,14 @@ def test_a_lan_start_on_loopback_names_only_an_address_that_answers(tmp_path: Pa
     served.end()
 
 
-def test_a_taken_address_is_told() -> None:
+def test_a_taken_address_is_reported() -> None:
     with socket.create_server(("127.0.0.1", 0)) as taken:
         result = run("serve", "--listen", f"127.0.0.1:{taken.getsockname()[1]}")
     assert result.exit_code == 1
     assert "Another Servodeck" in result.stderr or "another Servodeck" in result.stderr
 
 
-def test_an_unknown_board_is_told() -> None:
+def test_an_unknown_board_is_reported() -> None:
     result = run("serve", "--board", "toaster")
     assert result.exit_code == 2
     assert "doc" in result.stderr

@@ -88,7 +88,7 @@ async def test_a_conversation_from_welcome_to_resume(port: FakePort, gateway: Ru
         assert (await hear(client))["battery"]["batteryMv"] == 7500
         await say(client, type="packet", id=3, bytes="55550203")
         assert (await hear(client))["code"] == "malformed"
-        await say(client, type="stop", hold=RUN.hex())  # a page of before: whatever it says, it is a stop
+        await say(client, type="stop", hold=RUN.hex())  # an older page: unknown fields are ignored
         assert (await hear(client))["latch"] is True
         assert (await hear_until(client, "halted"))["unheld"]["servos"] is None
         await say(client, type="packet", id=4, bytes=MOVE.hex(), nonce=nonce)
@@ -127,7 +127,7 @@ async def test_another_page_gets_no_connection_but_a_reason(
 
 
 @pytest.mark.parametrize("query", ["", "?protocol=1", "?protocol=", f"?protocol={PROTOCOL}0"])
-async def test_a_page_of_another_version_is_told_to_reload(gateway: Running, query: str) -> None:
+async def test_a_page_of_another_version_is_asked_to_reload(gateway: Running, query: str) -> None:
     async with connect(f"{gateway.ws}{query}", origin=Origin(f"http://{gateway.host}")) as client:
         with pytest.raises(ConnectionClosed):
             await client.recv()
@@ -183,7 +183,7 @@ async def test_when_the_last_window_closes_a_running_group_is_stopped(
     assert port.packets() == [STOP, RUN, STOP, STOP, STOP]
 
 
-async def test_at_the_end_the_robot_is_stopped_and_clients_are_told(port: FakePort) -> None:
+async def test_at_the_end_the_robot_is_stopped_and_clients_are_notified(port: FakePort) -> None:
     async with server_on(FakePorts(port)) as running:
         client = await connect(running.ws)
         nonce = await drive(client)
@@ -205,7 +205,7 @@ class Pouring:
         return {"type": "websocket.receive", "text": '{"type":"calibrate","servo":null}'}
 
 
-async def test_whoever_has_much_to_say_lets_others_speak_in_between() -> None:
+async def test_a_busy_client_does_not_delay_others() -> None:
     pouring, control = Pouring(), Control(FakePorts(PortMissingError("")), time.monotonic, "doc")
     session = Session(THIS_COMPUTER)
     reading = asyncio.create_task(read_all(cast("WebSocket", pouring), session, control))

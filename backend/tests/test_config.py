@@ -18,7 +18,7 @@ NOWHERE = Path("/nowhere")
 
 @pytest.fixture(autouse=True)
 def no_files(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    """Whoever runs the tests may have settings of their own."""
+    """The account that runs the tests may have settings."""
     monkeypatch.setattr(options, "SYSTEM_FILE", tmp_path / "etc" / options.FILE)
     monkeypatch.setattr(options, "config_folder", lambda: tmp_path / "home")
 
@@ -78,7 +78,7 @@ def test_a_variable_may_name_the_file(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("command", ["config", "serve"])
 @pytest.mark.parametrize(
-    ("text", "told"),
+    ("text", "message"),
     [
         ("lisen = 'x'", "lisen is no option. Did you mean listen?"),
         ("config = 'x'", "config is no option."),
@@ -89,12 +89,12 @@ def test_a_variable_may_name_the_file(tmp_path: Path) -> None:
     ],
 )
 def test_what_a_file_cannot_say_is_an_error_that_names_it(
-    command: str, text: str, told: str, tmp_path: Path
+    command: str, text: str, message: str, tmp_path: Path
 ) -> None:
     file = write(tmp_path / "some.toml", text)
     result = CliRunner().invoke(app, [command, "--config", file])
     assert result.exit_code == 2
-    assert told in result.stderr
+    assert message in result.stderr
 
 
 def test_a_variable_that_is_no_option_is_an_error_that_names_it() -> None:
@@ -109,7 +109,7 @@ def test_a_file_that_is_named_has_to_be_there() -> None:
     assert "cannot be read" in result.stderr
 
 
-def test_what_is_shown_can_be_kept_as_a_file(tmp_path: Path) -> None:
+def test_the_output_can_be_saved_as_a_file(tmp_path: Path) -> None:
     shown = show("--serial", "/dev/ttyUSB1", "--open").stdout
     file = write(tmp_path / "kept.toml", shown)
     again = show("--config", file).stdout

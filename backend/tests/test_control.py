@@ -58,9 +58,9 @@ async def test_stop_latches_for_everyone_until_resume() -> None:
         hold = hold_at(2000)
         assert port.packets() == [STOP, MOVE, STOP, hold, STOP, STOP, hold]
         for session in (anna, bert):
-            told = await session.heard()
-            assert [message["type"] for message in told] == ["state", "halted"]
-            assert told[0]["latch"] is True
+            messages = await session.heard()
+            assert [message["type"] for message in messages] == ["state", "halted"]
+            assert messages[0]["latch"] is True
         for packet in (MOVE, RUN, DOWNLOAD, ERASE):
             with pytest.raises(LatchedError):
                 anna.send(packet)
@@ -106,7 +106,7 @@ async def test_what_waits_for_one_board_does_not_go_to_another() -> None:
 
 
 @in_virtual_time
-async def test_stop_and_stop_again_are_told_once() -> None:
+async def test_stop_and_stop_again_are_published_once() -> None:
     async with gateway_on() as control:
         anna = Client(control)
         await anna.heard()
@@ -184,8 +184,8 @@ async def test_every_client_hears_every_packet_and_the_noise_between() -> None:
         port.say(b"\x00\x01" + BATTERY_REPORT + b"\x55\x55\x04\x0f")
         await asyncio.sleep(1)
         for session in (anna, bert):
-            told = await session.heard()
-            assert [message for message in told if message["type"] != "battery"] == [
+            messages = await session.heard()
+            assert [message for message in messages if message["type"] != "battery"] == [
                 {"type": "noise", "reason": "garbage", "bytes": "0001"},
                 BATTERY_HEARD,
                 {"type": "noise", "reason": "truncated", "bytes": "5555040f"},
@@ -216,7 +216,7 @@ async def test_a_board_that_does_not_tell_its_battery_gets_half_a_second() -> No
 
 
 @in_virtual_time
-async def test_changing_the_port_first_ends_a_group_that_nobody_could_stop_afterwards() -> None:
+async def test_changing_the_port_first_ends_a_group_that_could_not_be_stopped_afterwards() -> None:
     first, second = FakePort(), FakePort()
     async with gateway_on(first, second) as control:
         anna = Client(control)

@@ -1,5 +1,5 @@
 """A class in front of one robot, at a process of its own: more knock than there are seats, some never read
-(F10, F11). Whoever reads sees where the driver's hand ended, and any of them stops the robot.
+(F10, F11). Each client that reads gets the last value of a drag, and any of them stops the robot.
 
 How soon is measured by `npm run bench -- --only crowd`.
 """
@@ -28,7 +28,7 @@ from tests.test_flood import rss_kib
 
 pytestmark = [
     pytest.mark.exhaustive,
-    pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="memory is told by /proc"),
+    pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="memory is read from /proc"),
 ]
 
 FULL = TIMES > 1
@@ -42,7 +42,7 @@ JOIN_AT_ONCE = 20
 
 
 class Reader:
-    """Somebody who looks on: remembers the last packet that left, and whether the robot is stopped."""
+    """A viewer: records the last packet that left, and whether the robot is stopped."""
 
     def __init__(self, client: ClientConnection) -> None:
         self.client = client
@@ -140,7 +140,7 @@ class Crowd:
 
 async def until(is_so: Callable[[], object]) -> None:
     async with asyncio.timeout(PATIENCE_S):
-        while not is_so():  # noqa: ASYNC110 (told by other tasks)
+        while not is_so():  # noqa: ASYNC110 (other tasks set it)
             await asyncio.sleep(0.01)
 
 
@@ -171,7 +171,7 @@ async def test_a_class_with_some_who_never_read(tmp_path: Path) -> None:
 
 
 async def stop_by(reader: Reader, crowd: Crowd, bus: Bus) -> None:
-    """Amid the drive: three stops, no move behind them, and everybody knows."""
+    """During a drag: three stops, no move behind them, and all clients get the state."""
     pressed_s, refused = time.monotonic(), crowd.hand.refused
     await reader.client.send('{"type":"stop"}')
     await crowd.hand.drive(0.5)

@@ -38,9 +38,9 @@ PACKETS_PER_STREAM = 5
 VARIETY = 2_000
 DAMAGED_AND_NEIGHBOUR = 2
 MOST_WRONG_SHARE = 0.01
-# No multiple of what noise is told in.
+# No multiple of the size in which noise is reported.
 CHUNK_BYTES = 64 * 1024 - 1
-MOST_UNTOLD_BYTES = 512
+MOST_PENDING_BYTES = 512
 MOST_WORK_PER_BYTE = 2
 
 Speaker = Callable[[Random], bytes]
@@ -141,7 +141,7 @@ def arrived(sent: Sequence[bytes], got: Sequence[bytes]) -> int:
 def cost_of(
     packets: Sequence[bytes], shapes: Shapes, damage: Callable[[bytes, int, Random], bytes], seed: int
 ) -> tuple[int, int]:
-    """Packets lost, the damaged one included, and packets believed that nobody sent."""
+    """Packets lost, the damaged one included, and packets believed that were not sent."""
     random = Random(seed)
     sent = random.choices(packets, k=PACKETS_PER_STREAM)
     stream = b"".join(sent)
@@ -187,12 +187,12 @@ def test_a_stream_says_the_same_however_it_is_cut(shapes: Shapes, packets: Seque
 
 
 class Ear:
-    """Counts the bytes it is told of."""
+    """Counts the bytes of its events."""
 
-    told = 0
+    bytes_heard = 0
 
     def hear(self, event: DecoderEvent) -> None:
-        self.told += len(event.bytes)
+        self.bytes_heard += len(event.bytes)
 
 
 class CountedShapes(Shapes):
@@ -227,7 +227,7 @@ GARBAGE = {
 
 @pytest.mark.parametrize("known", [REPORT_SHAPES, COMMAND_SHAPES], ids=["reports", "commands"])
 @pytest.mark.parametrize(("chunks", "chunk"), GARBAGE.values(), ids=GARBAGE)
-def test_garbage_is_told_again_and_none_of_it_is_kept(
+def test_garbage_is_reported_again_and_none_of_it_is_stored(
     known: Shapes, chunks: int, chunk: Callable[[Random], bytes]
 ) -> None:
     for seed in seeds(1):
@@ -239,7 +239,7 @@ def test_garbage_is_told_again_and_none_of_it_is_kept(
                 garbage = chunk(random)
                 decoder.push(garbage)
                 fed += len(garbage)
-                assert fed - ear.told <= MOST_UNTOLD_BYTES
+                assert fed - ear.bytes_heard <= MOST_PENDING_BYTES
             decoder.idle()
-            assert ear.told == fed
+            assert ear.bytes_heard == fed
             assert shapes.looked_up <= MOST_WORK_PER_BYTE * fed

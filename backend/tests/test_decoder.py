@@ -73,7 +73,7 @@ def in_one_piece(feed: Iterable[Piece]) -> Iterator[Piece]:
     yield gathered
 
 
-def told(events: Iterable[DecoderEvent]) -> list[dict[str, str]]:
+def as_json(events: Iterable[DecoderEvent]) -> list[dict[str, str]]:
     """Events as the vectors write them."""
     return [
         {"kind": "noise", "reason": event.reason, "bytes": event.bytes.hex(" ").upper()}
@@ -86,11 +86,11 @@ def told(events: Iterable[DecoderEvent]) -> list[dict[str, str]]:
 @pytest.mark.parametrize("vector", streams())
 def test_shared_streams_however_they_are_cut_and_behind_noise(vector: Any) -> None:
     feed, shapes, expected = pieces(vector["feed"]), SHAPES[vector["direction"]], vector["events"]
-    assert told(decode(feed, shapes)) == expected
-    assert told(decode(in_one_piece(feed), shapes)) == expected
-    assert told(decode(bytewise(feed), shapes)) == expected
+    assert as_json(decode(feed, shapes)) == expected
+    assert as_json(decode(in_one_piece(feed), shapes)) == expected
+    assert as_json(decode(bytewise(feed), shapes)) == expected
     noise = bytes(range(64))  # exactly one noise event, so what follows is as it was
-    assert told(decode([noise, *feed], shapes)) == [*told([NoiseEvent("garbage", noise)]), *expected]
+    assert as_json(decode([noise, *feed], shapes)) == [*as_json([NoiseEvent("garbage", noise)]), *expected]
 
 
 PACKETS = [
@@ -129,7 +129,7 @@ def test_the_events_do_not_depend_on_how_the_bytes_are_cut(shapes: Shapes, feed:
 
 @both
 @given(feed=feeds)
-def test_every_byte_is_told_once_in_order_and_few_are_kept(shapes: Shapes, feed: list[Piece]) -> None:
+def test_every_byte_is_emitted_once_in_order_and_few_are_buffered(shapes: Shapes, feed: list[Piece]) -> None:
     fed, heard = b"", bytearray()
     decoder = Decoder(lambda event: heard.extend(event.bytes), shapes)
     for piece in [*feed, IDLE]:
@@ -149,11 +149,11 @@ def test_a_packet_after_garbage_and_silence_is_found(shapes: Shapes, garbage: by
     assert decode([garbage, IDLE, stop], shapes)[-1] == PacketEvent(Packet(7, b""), stop)
 
 
-def test_reset_forgets_a_half_packet_and_untold_noise() -> None:
+def test_reset_forgets_a_half_packet_and_pending_noise() -> None:
     events: list[DecoderEvent] = []
     decoder = Decoder(events.append)
     decoder.push(bytes.fromhex("01 02 55 55 04 0F"))
     decoder.reset()
     decoder.push(bytes.fromhex("55 55 02 19"))
     decoder.idle()
-    assert told(events) == [{"kind": "packet", "bytes": "55 55 02 19"}]
+    assert as_json(events) == [{"kind": "packet", "bytes": "55 55 02 19"}]

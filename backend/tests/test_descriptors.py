@@ -34,7 +34,7 @@ def test_it_takes_as_many_as_it_wants_or_may(limits: str, allowed: int) -> None:
     assert int(soft) == allowed
 
 
-@pytest.mark.skipif(not Path("/proc/self/limits").exists(), reason="the limits are told by /proc")
+@pytest.mark.skipif(not Path("/proc/self/limits").exists(), reason="the limits are read from /proc")
 def test_the_gateway_takes_them_before_it_serves() -> None:
     served = Served("--board", "doc", before=("sh", "-c", 'ulimit -Sn 64; exec "$@"', "sh"))
     try:

@@ -40,7 +40,7 @@ def test_only_the_whole_credential_counts(change: object) -> None:
     assert found.last_seen_ms == 7
 
 
-async def test_whoever_is_revoked_stays_out_after_a_restart(tmp_path: Path) -> None:
+async def test_a_revoked_device_stays_out_after_a_restart(tmp_path: Path) -> None:
     devices = devices_in(tmp_path)
     devices.admit("device", "Anna", "owner")
     ben, credential = devices.admit("device", "Ben", "driver")
@@ -82,7 +82,7 @@ def test_there_is_an_end_to_how_many() -> None:
         devices.admit("device", "one more", "viewer")
 
 
-async def test_a_disk_in_trouble_keeps_nobody_out_that_is_in_memory(tmp_path: Path) -> None:
+async def test_a_disk_in_trouble_keeps_no_device_out_that_is_in_memory(tmp_path: Path) -> None:
     folder = tmp_path / "folder"
     devices = devices_in(folder)
     _, credential = devices.admit("device", "Anna", "owner")
@@ -93,7 +93,7 @@ async def test_a_disk_in_trouble_keeps_nobody_out_that_is_in_memory(tmp_path: Pa
 
 
 @pytest.mark.parametrize("trouble", ["damaged", "newer"])
-def test_a_file_that_cannot_be_read_lets_nobody_in_and_is_left_alone(tmp_path: Path, trouble: str) -> None:
+def test_an_unreadable_file_admits_no_device_and_is_left_alone(tmp_path: Path, trouble: str) -> None:
     path = tmp_path / FILE
     if trouble == "damaged":
         path.write_bytes(b"no database" * 500)
@@ -106,7 +106,7 @@ def test_a_file_that_cannot_be_read_lets_nobody_in_and_is_left_alone(tmp_path: P
     assert path.read_bytes() == before
 
 
-def test_whoever_is_called_like_another_gets_a_number() -> None:
+def test_a_taken_name_gets_a_number() -> None:
     devices = Devices(NoDeviceStore(), lambda: 7)
     long = "x" * 64
     names = [devices.admit("device", name, "viewer")[0].name for name in ("Android", "Android", long, long)]
@@ -117,7 +117,7 @@ def test_whoever_is_called_like_another_gets_a_number() -> None:
     assert devices.change(first.id, "Ben", None).name == "Ben 2"
 
 
-def test_nobody_is_called_as_whoever_sits_at_the_robot() -> None:
+def test_no_device_gets_the_name_of_the_gateways_computer() -> None:
     devices = Devices(NoDeviceStore(), lambda: 7)
     local = (THIS_COMPUTER.name, as_script(THIS_COMPUTER).name)
     assert [devices.admit("device", name, "viewer")[0].name for name in local] == [

@@ -39,7 +39,7 @@ pytestmark = pytest.mark.exhaustive
 @pytest.fixture(scope="module", autouse=True)
 def _mounts() -> None:
     if not mounts():
-        pytest.skip("this system lets nobody mount a disk of his own")
+        pytest.skip("this system does not allow to mount a disk")
 
 
 @contextmanager
@@ -62,7 +62,7 @@ def read(served: Served, name: str) -> object:
     return httpx2.get(f"{served.url}/api/library/{name}", timeout=10).json()
 
 
-def assert_control_goes_on(served: Served) -> None:
+def assert_control_works(served: Served) -> None:
     with connect(f"ws{served.url.removeprefix('http')}/ws", close_timeout=0) as client:
         client.send(json.dumps({"type": "board", "id": 1, "board": "doc"}))
         nonce = lease_of(client)
@@ -84,12 +84,12 @@ def test_a_full_disk_refuses_what_is_new_and_keeps_what_is_old(tmp_path: Path) -
         assert write(served, "a", SMALL) == (200, None)
         assert write(served, "a", LARGE, 1) == (507, "storageFull")
         assert read(served, "a") == {"text": SMALL, "revision": 1}
-        assert_control_goes_on(served)
+        assert_control_works(served)
         assert "disk" in troubles(served)  # and perhaps a computer that is busy with other tests
         assert write(served, "a", json.dumps({"x": 2}), 1) == (200, None)
 
 
-def test_a_disk_that_cannot_be_written_is_told_and_changes_nothing(tmp_path: Path) -> None:
+def test_a_disk_that_cannot_be_written_is_reported_and_changes_nothing(tmp_path: Path) -> None:
     library = Library(tmp_path)
     library.write("a", SMALL, json.dumps(body()["facts"]), 0)
     library.close()
@@ -97,13 +97,13 @@ def test_a_disk_that_cannot_be_written_is_told_and_changes_nothing(tmp_path: Pat
     with served_on(tmp_path, read_only) as served:
         status, code = write(served, "a", LARGE, 1)
         assert (status, code) == (503, "storageFailed")
-        assert_control_goes_on(served)
+        assert_control_works(served)
         assert "disk" in troubles(served)
     assert Library(tmp_path).read("a") == (SMALL, 1)
 
 
 @pytest.mark.parametrize("sql", FILES, ids=lambda sql: sql.stem)
-def test_a_file_that_cannot_be_written_is_told_and_opened_once_it_can(sql: Path, tmp_path: Path) -> None:
+def test_a_file_that_cannot_be_written_is_reported_and_opened_once_it_can(sql: Path, tmp_path: Path) -> None:
     """Of an old version, too: it is brought up to date then."""
     file = lay_down(sql, tmp_path)
     before = content_of(file)
@@ -115,18 +115,18 @@ def test_a_file_that_cannot_be_written_is_told_and_opened_once_it_can(sql: Path,
         ):
             assert (answer.status_code, answer.json()["code"]) == (503, "storageFailed")
             assert answer.json()["detail"].startswith("library.sqlite in the data folder cannot be written")
-        assert_control_goes_on(served)
+        assert_control_works(served)
     assert content_of(file) == before
     with served_on(tmp_path, "true") as served:
         assert read(served, "wave") == {"text": '{"frames":[1]}', "revision": 2}
         assert write(served, "wave", SMALL, 2) == (200, None)
 
 
-def test_an_error_of_the_disk_is_told_and_changes_nothing(tmp_path: Path) -> None:
+def test_an_error_of_the_disk_is_reported_and_changes_nothing(tmp_path: Path) -> None:
     # A limit on the size of files: each write beyond it fails, and SQLite tells that as it tells EIO.
     with served_on(tmp_path, "ulimit -f 192") as served:
         assert write(served, "a", SMALL) == (200, None)
         assert write(served, "a", LARGE, 1) == (503, "storageFailed")
         assert read(served, "a") == {"text": SMALL, "revision": 1}
-        assert_control_goes_on(served)
+        assert_control_works(served)
         assert write(served, "a", json.dumps({"x": 2}), 1) == (200, None)

@@ -32,7 +32,7 @@ def pty() -> Iterator[Pty]:
 
 def diagnosed(pty: Pty, answer: bytes) -> tuple[int, str]:
     """With a board that sends `answer` once it has been asked for its battery."""
-    # Without anybody at the other end there is nothing to read from.
+    # Nothing can be read while the other end is closed.
     cable = os.open(pty.device, os.O_RDWR | os.O_NOCTTY)
     board = threading.Thread(target=lambda: os.read(pty.board, 100) and os.write(pty.board, answer))
     board.start()
@@ -112,9 +112,7 @@ def test_without_a_gateway_it_says_how_to_start_one(pty: Pty) -> None:
         pytest.param(b"rst:0x1 (POWERON_RESET)", "At 115200 baud text arrives", marks=pytest.mark.exhaustive),
     ],
 )
-def test_a_board_at_another_speed_is_heard_where_a_person_asks_for_it(
-    pty: Pty, said: bytes, advice: str
-) -> None:
+def test_a_board_at_another_speed_is_found_on_request(pty: Pty, said: bytes, advice: str) -> None:
     cable = os.open(pty.device, os.O_RDWR | os.O_NOCTTY)
     is_done = threading.Event()
 

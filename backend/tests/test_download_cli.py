@@ -84,8 +84,8 @@ def test_several_files_go_to_their_slots(served: Served, board: Board, tmp_path:
     ]
     assert board.stored == [(5, 0), (5, 1), (7, 0)]
     assert run("download", f"7={bow}", "--url", served.url).stdout.endswith("\n1 of 1 group is stored.\n")
-    told = json.loads(run("download", f"5={wave}", "--url", served.url, "--json").stdout)
-    assert (told["status"], told["name"]) == ("done", "wave")
+    job = json.loads(run("download", f"5={wave}", "--url", served.url, "--json").stdout)
+    assert (job["status"], job["name"]) == ("done", "wave")
 
 
 @pytest.mark.exhaustive
@@ -111,13 +111,15 @@ def test_what_one_request_does_not_take_goes_in_several_as_one_job(
     files = [f"{slot}={long}" for slot in slots]
     begun = run("download", *files, "--no-wait", "--url", served.url, "--json")
     assert (begun.exit_code, begun.stderr) == (0, "")
-    told = json.loads(begun.stdout)
-    assert (told["slots"], told["frameCount"]) == (list(slots), 5 * 255)
+    job = json.loads(begun.stdout)
+    assert (job["slots"], job["frameCount"]) == (list(slots), 5 * 255)
     assert run("stop", "--url", served.url).exit_code == 0
 
 
 @pytest.mark.exhaustive
-def test_what_ends_it_early_is_told_with_what_is_stored(served: Served, board: Board, tmp_path: Path) -> None:
+def test_an_early_end_is_reported_with_the_stored_groups(
+    served: Served, board: Board, tmp_path: Path
+) -> None:
     wave = file_in(tmp_path, "wave.json", {"frames": FRAMES})
     board.silent_after = 3
     stopping = threading.Thread(target=lambda: httpx2.post(f"{served.url}/api/stop", json={}))
@@ -140,7 +142,7 @@ def test_what_ends_it_early_is_told_with_what_is_stored(served: Served, board: B
         ("5=wave.json", '{"format": "servodeck-group", "frames": []}'),
     ],
 )
-def test_what_is_no_group_is_explained_before_anybody_is_asked(
+def test_an_invalid_group_is_explained_before_any_request(
     argument: str, text: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)

@@ -68,7 +68,7 @@ async def test_a_driver_who_falls_silent_in_a_move_is_stopped_and_held_in_time()
 
 
 @in_virtual_time
-async def test_a_gateway_that_was_held_up_itself_asks_whether_its_driver_is_there() -> None:
+async def test_a_gateway_that_was_held_up_itself_first_sends_its_driver_a_tick() -> None:
     for is_there in (True, False):
         async with driven(RUN) as (control, port, anna):
             anna.beats = is_there

@@ -61,15 +61,17 @@ async def test_the_first_who_wants_to_move_drives_and_everybody_hears_it() -> No
 
 
 @in_virtual_time
-async def test_the_driver_hands_it_to_somebody_present_who_reads_from_whom_and_what_moves_stops() -> None:
+async def test_the_driver_hands_it_to_a_connected_client_which_gets_the_givers_name_and_motion_stops() -> (
+    None
+):
     port = FakePort()
     async with gateway_on(port) as control:
         anna, carl, bert = Client(control, PUPIL), Client(control, CARL), Client(control, GUEST)
         await anna.send(MOVE)
         assert anna.lease["candidates"] == [{"id": "carl", "name": "Carl"}]
         assert carl.lease["candidates"] == bert.lease["candidates"] == []
-        for nobody in ("bert", "guest", "elsewhere"):
-            take(GrantMessage(type="grant", to=nobody), anna, control)
+        for unfit in ("bert", "guest", "elsewhere"):
+            take(GrantMessage(type="grant", to=unfit), anna, control)
             assert anna.lease["drives"] is True
         take(GrantMessage(type="grant", to="carl"), anna, control)
         assert (carl.lease["drives"], carl.lease["grantedBy"]) == (True, "Anna")
@@ -87,7 +89,7 @@ async def test_the_driver_hands_it_to_somebody_present_who_reads_from_whom_and_w
 
 
 @in_virtual_time
-async def test_an_owner_hands_it_over_too_and_nobody_else() -> None:
+async def test_an_owner_hands_it_over_too_and_no_other() -> None:
     async with gateway_on() as control:
         anna, carl, owner = Client(control, PUPIL), Client(control, CARL), Client(control)
         control.driving.act(anna, "request")
@@ -106,7 +108,7 @@ async def test_an_owner_hands_it_over_too_and_nobody_else() -> None:
 
 
 @in_virtual_time
-async def test_whoever_may_hand_it_on_hears_who_comes_and_goes_and_listeners_do_not_count() -> None:
+async def test_clients_that_may_hand_it_over_get_the_candidates_without_listeners() -> None:
     async with gateway_on() as control:
         anna = Client(control, PUPIL)
         control.driving.act(anna, "request")
@@ -143,7 +145,7 @@ async def test_a_viewer_may_stop_and_ask_questions_and_nothing_more() -> None:
 
 
 @in_virtual_time
-async def test_a_stop_for_the_battery_is_told_as_such_with_whose_page_it_was() -> None:
+async def test_a_stop_for_the_battery_names_its_reason_and_the_page() -> None:
     async with gateway_on() as control:
         anna, bert = Client(control, PUPIL), Client(control, GUEST)
         await anna.send(MOVE)
@@ -154,15 +156,15 @@ async def test_a_stop_for_the_battery_is_told_as_such_with_whose_page_it_was() -
 
 
 @in_virtual_time
-async def test_while_somebody_drives_only_they_or_an_owner_resume_and_everybody_hears_it() -> None:
+async def test_while_a_client_drives_only_it_or_an_owner_resumes_and_all_clients_hear_it() -> None:
     async with gateway_on() as control:
         anna, carl, bert = Client(control, PUPIL), Client(control, CARL), Client(control, GUEST)
         teacher = Client(control)
-        everybody = (anna, bert, carl, teacher)
+        clients = (anna, bert, carl, teacher)
         for by, others in ((anna, (bert, carl, teacher)), (teacher, (anna, bert, carl))):
             await anna.send(MOVE)
             take(StopMessage(type="stop"), bert, control)
-            for one in everybody:
+            for one in clients:
                 stopped = [message for message in await one.heard() if message["type"] == "state"]
                 assert [state["stoppedBy"] for state in stopped][-1:] == ["Bert"]
             take(ResumeMessage(type="resume"), carl, control)
@@ -173,7 +175,7 @@ async def test_while_somebody_drives_only_they_or_an_owner_resume_and_everybody_
             )
             assert control.latch is True
             await asyncio.sleep(0.3)
-            for one in everybody:
+            for one in clients:
                 await one.heard()
             take(ResumeMessage(type="resume"), by, control)
             assert control.latch is False
@@ -185,7 +187,7 @@ async def test_while_somebody_drives_only_they_or_an_owner_resume_and_everybody_
 
 
 @in_virtual_time
-async def test_while_nobody_drives_whoever_may_drive_resumes() -> None:
+async def test_without_a_driver_any_client_that_may_drive_resumes() -> None:
     async with gateway_on() as control:
         Client(control, PUPIL)
         carl = Client(control, CARL)
@@ -306,5 +308,5 @@ async def test_who_leaves_behind_a_closed_port_latches_nothing() -> None:
 
 
 def taken(left: Left) -> None:
-    """Whatever became of it."""
+    """With any outcome."""
     left.exception()

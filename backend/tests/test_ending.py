@@ -1,4 +1,4 @@
-"""The end of the real process, whatever its clients, its disk, its port and its supervisor do meanwhile."""
+"""The end of the real process, for all states of its clients, disk, port and supervisor."""
 
 import contextlib
 import json
@@ -141,7 +141,7 @@ def test_what_hangs_for_ever_does_not_put_it_off(hang: str, code: int) -> None:
 
 
 @pytest.mark.parametrize("again", ["SIGTERM", "SIGINT", "end of stdin"])
-def test_whoever_asks_twice_gets_the_same_end_and_nothing_goes_wrong(tmp_path: Path, again: str) -> None:
+def test_a_second_request_to_end_changes_nothing(tmp_path: Path, again: str) -> None:
     served = Served("--data", str(tmp_path), "--exit-with-stdin", "--log-level", "warning")
     assert served.process.stdin
     with raw(served, UPGRADE):

@@ -20,5 +20,5 @@ def test_a_damaged_count_begins_anew(tmp_path: Path, text: str) -> None:
     assert first_epoch(tmp_path) == GRANTS_PER_START
 
 
-def test_where_nothing_can_be_written_control_goes_on() -> None:
+def test_an_unwritable_folder_is_no_error() -> None:
     assert first_epoch(Path(os.devnull) / "none") == GRANTS_PER_START

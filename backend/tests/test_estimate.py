@@ -38,7 +38,7 @@ def held(motion: Estimate, now: float) -> Command | None:
     return motion.halt_plan(now).hold
 
 
-def told(*packets: tuple[float, Command], family: str = "doc") -> Estimate:
+def estimate_after(*packets: tuple[float, Command], family: str = "doc") -> Estimate:
     motion = Estimate(FAMILIES[family])
     for at_s, command in packets:
         motion.left(command, at_s)
@@ -46,11 +46,11 @@ def told(*packets: tuple[float, Command], family: str = "doc") -> Estimate:
 
 
 def test_nothing_was_moved_so_nothing_is_held() -> None:
-    assert held(told(), 1.0) is None
+    assert held(estimate_after(), 1.0) is None
 
 
 def test_a_first_move_is_held_only_once_it_has_ended() -> None:
-    motion = told((0.0, move(1000, s1=2000)))
+    motion = estimate_after((0.0, move(1000, s1=2000)))
     assert motion.is_moving(0.5)
     assert held(motion, 0.5) is None
     assert held(motion, 1.0) == move(20, s1=2000)
@@ -60,19 +60,19 @@ def test_a_first_move_is_held_only_once_it_has_ended() -> None:
 def test_a_new_target_takes_the_others_with_it_where_boards_share_the_time_and_only_there() -> None:
     ways = ((0.0, move(0, s1=1000, s2=1000)), (1.0, move(1000, s1=2000)), (1.5, move(1000, s2=2000)))
     anew = (2, 1000, 2000, 500, 1000)
-    assert told_ways(told(*ways), 2.0) == [(1, 1500, 2000, 500, 1000), anew]
-    assert told_ways(told(*ways, family="lsc-6"), 2.0) == [(1, 1000, 2000, 1000, 1000), anew]
+    assert reported_ways(estimate_after(*ways), 2.0) == [(1, 1500, 2000, 500, 1000), anew]
+    assert reported_ways(estimate_after(*ways, family="lsc-6"), 2.0) == [(1, 1000, 2000, 1000, 1000), anew]
 
 
 def test_what_others_may_have_moved_before_the_port_was_opened_makes_no_hold_slow() -> None:
     steps = [(2.0 + number / 5, move(200, s1=1000 + 100 * number)) for number in range(5)]
     ways = ((1.0, move(1000, s1=1000)), *steps)
-    motion = told()
+    motion = estimate_after()
     motion.opened(0.0)
     assert motion.halt_plan(0.0).unheld is not None
     for at_s, command in ways:
         motion.left(command, at_s)
-    assert held_after(motion, 2.91) == held_after(told(*ways), 2.91)
+    assert held_after(motion, 2.91) == held_after(estimate_after(*ways), 2.91)
 
 
 def held_after(motion: Estimate, now: float) -> int:
@@ -82,12 +82,12 @@ def held_after(motion: Estimate, now: float) -> int:
 
 
 def test_a_servo_let_go_is_not_held() -> None:
-    motion = told((0.0, move(0, s1=500, s2=600)), (1.0, Release((1,))), family="bus-ctrl")
+    motion = estimate_after((0.0, move(0, s1=500, s2=600)), (1.0, Release((1,))), family="bus-ctrl")
     assert held(motion, 2.0) == move(20, s2=600)
 
 
 def test_a_group_is_over_when_the_board_says_so_but_not_by_the_word_about_the_one_before() -> None:
-    motion = told()
+    motion = estimate_after()
     motion.left(command_in(RUN), 1.0)
     motion.heard(RunFinished(None), 1.4)
     assert motion.group_may_run(1000.0)
@@ -98,16 +98,16 @@ def test_a_group_is_over_when_the_board_says_so_but_not_by_the_word_about_the_on
 
 
 def test_what_was_moved_is_known_and_a_first_move_counts_down() -> None:
-    motion = told((0.0, move(2000, s1=1000)))
+    motion = estimate_after((0.0, move(2000, s1=1000)))
     assert (motion.is_unknown(1, 1.0), motion.is_unknown(2, 1.0)) == (False, True)
     assert motion.first_moves_ms([1], 0.5) == motion.first_moves_ms([2], 0.5) == 1500
     assert motion.first_moves_ms([1], 2.0) == 0
-    own_time = told((0.0, move(2000, s1=1000)), family="lsc-6")
+    own_time = estimate_after((0.0, move(2000, s1=1000)), family="lsc-6")
     assert (own_time.first_moves_ms([1], 0.5), own_time.first_moves_ms([2], 0.5)) == (1500, 0)
 
 
 def test_a_group_may_move_anything_until_it_is_stopped() -> None:
-    motion = told((0.0, move(0, s1=1000)))
+    motion = estimate_after((0.0, move(0, s1=1000)))
     motion.left(command_in(RUN), 1.0)
     assert motion.group_may_run(2.0)
     assert held(motion, 2.0) is None
@@ -119,25 +119,25 @@ def test_a_group_may_move_anything_until_it_is_stopped() -> None:
     assert held(motion, 8.0) == move(20, s1=1500)
 
 
-def told_ways(motion: Estimate, now: float) -> list[tuple[int, float | None, int, float, float]]:
-    """As whoever comes now is told of them."""
+def reported_ways(motion: Estimate, now: float) -> list[tuple[int, float | None, int, float, float]]:
+    """As a client gets them that joins now."""
     return [
         (way.servo, way.start, way.target, way.begun_ms_ago, way.duration_ms)
         for way in motion.snapshot(now).servos
     ]
 
 
-def test_whoever_comes_is_told_each_way_and_since_when() -> None:
-    motion = told(
+def test_a_new_client_gets_each_move_with_its_start() -> None:
+    motion = estimate_after(
         (0.0, move(0, s1=1000)), (1.0, move(1000, s1=2000)), (1.5, move(1500, s2=500)), family="lsc-6"
     )
-    assert told_ways(motion, 1.25) == [(1, 1000, 2000, 250, 1000), (2, None, 500, -250, 1500)]
+    assert reported_ways(motion, 1.25) == [(1, 1000, 2000, 250, 1000), (2, None, 500, -250, 1500)]
     assert motion.snapshot(1.25).run_slot is None
-    assert told_ways(motion, 60.0) == [(1, 1000, 2000, 59_000, 1000), (2, None, 500, 58_500, 1500)]
+    assert reported_ways(motion, 60.0) == [(1, 1000, 2000, 59_000, 1000), (2, None, 500, 58_500, 1500)]
 
 
-def test_whoever_comes_is_told_which_servos_hands_may_turn() -> None:
-    motion = told((0.0, move(0, s1=500, s2=600)), (1.0, Release((1,))), family="bus-ctrl")
+def test_a_new_client_gets_the_released_servos() -> None:
+    motion = estimate_after((0.0, move(0, s1=500, s2=600)), (1.0, Release((1,))), family="bus-ctrl")
     motion.heard(Positions((ServoTarget(1, 400),)), 2.0)
     assert motion.snapshot(2.0).released == [1]
     motion.left(command_in(RUN), 3.0)
@@ -147,14 +147,14 @@ def test_whoever_comes_is_told_which_servos_hands_may_turn() -> None:
     assert motion.snapshot(60.0).released == []
 
 
-def test_while_a_group_may_run_no_place_is_told_but_that_it_may() -> None:
+def test_while_a_group_may_run_clients_get_no_position_but_the_run() -> None:
     motion = running((0.0, Run(8, 1)))
-    assert (told_ways(motion, 1.0), motion.snapshot(1.0).run_slot) == ([], 8)
+    assert (reported_ways(motion, 1.0), motion.snapshot(1.0).run_slot) == ([], 8)
     assert motion.snapshot(2.0 + END_GRACE_S).run_slot is None
 
 
 def test_a_group_begun_at_the_board_makes_every_place_unknown_until_its_end() -> None:
-    motion = told((0.0, move(0, s1=1000)), family="lsc-6")
+    motion = estimate_after((0.0, move(0, s1=1000)), family="lsc-6")
     motion.heard(RunStarted(3, 1), 5.0)
     assert (motion.is_unknown(1, 6.0), motion.snapshot(6.0).run_slot) == (True, 3)
     motion.heard(RunFinished(3), 9.0)
@@ -162,7 +162,7 @@ def test_a_group_begun_at_the_board_makes_every_place_unknown_until_its_end() ->
 
 
 def test_the_word_that_our_own_group_has_begun_starts_it_no_second_time() -> None:
-    motion = told((1.0, Run(8, 1)), family="lsc-6")
+    motion = estimate_after((1.0, Run(8, 1)), family="lsc-6")
     ours = motion.run
     motion.heard(RunStarted(8, 1), 1.1)
     assert motion.run is ours
@@ -175,8 +175,12 @@ def test_the_word_that_our_own_group_has_begun_starts_it_no_second_time() -> Non
 
 def test_a_stop_ends_the_moves_of_a_learm() -> None:
     packets = (0.0, move(0, s1=1000, s2=1000)), (1.0, move(1000, s1=1400)), (1.5, Stop())
-    assert [way[2] for way in told_ways(told(*packets, family="learm-esp32"), 5.0)] == [1200, 1000]
-    assert [way[2] for way in told_ways(told(*packets, family="lsc-6"), 5.0)] == [1400, 1000]
+    ways = reported_ways(estimate_after(*packets, family="learm-esp32"), 5.0)
+    assert [way[2] for way in ways] == [
+        1200,
+        1000,
+    ]
+    assert [way[2] for way in reported_ways(estimate_after(*packets, family="lsc-6"), 5.0)] == [1400, 1000]
 
 
 def running(*runs: tuple[float, Run], stored_ms: int = 500) -> Estimate:
@@ -230,7 +234,7 @@ def test_a_hold_is_a_move_that_the_board_can_take_and_freezes_what_rests(
     for pause_s, command in pauses:
         at_s += pause_s
         timed.append((at_s, command))
-    motion = told(*timed, family=family)
+    motion = estimate_after(*timed, family=family)
     hold = held(motion, at_s + wait_s)
     if not pauses:
         assert hold is None
@@ -250,7 +254,7 @@ STAND = (0.0, move(20, s1=400, s2=400))
 
 
 def bus_board(*packets: tuple[float, Command]) -> Estimate:
-    return told(STAND, *packets, family="bus-ctrl")
+    return estimate_after(STAND, *packets, family="bus-ctrl")
 
 
 def test_a_move_that_a_bus_board_may_not_have_heard_leaves_its_servos_unknown() -> None:
@@ -297,5 +301,5 @@ def test_a_stop_or_a_run_that_it_may_not_have_heard_may_have_been_heard() -> Non
     assert not bus_board((10.0, Run(3, 1)), (10.5, ASK), (13.1, Stop())).group_may_run(14.0)
 
 
-def test_the_battery_is_told_at_once_and_makes_nobody_deaf() -> None:
+def test_a_battery_report_comes_at_once_and_makes_the_board_not_deaf() -> None:
     assert held(bus_board((10.0, ReadBattery()), (10.1, move(20, s1=600))), 11.0) == move(20, s1=600, s2=400)

@@ -93,7 +93,7 @@ async def listening(*more: tuple[bytes, bytes]) -> AsyncIterator[Stage]:
 
 
 @in_virtual_time
-async def test_a_stream_begins_with_how_everything_stands_and_goes_on_with_what_changes() -> None:
+async def test_a_stream_begins_with_the_whole_state_and_continues_with_changes() -> None:
     async with listening() as here:
         assert (here.listener.sent[0]["status"], len(here.control.hub)) == (200, 1)
         [welcome] = here.listener.heard()
@@ -101,14 +101,14 @@ async def test_a_stream_begins_with_how_everything_stands_and_goes_on_with_what_
         await here.control.stop()
         here.port.say(BATTERY_REPORT)
         await asyncio.sleep(0.1)
-        told = [message for message in here.listener.heard() if message["type"] != "left"]
-        assert [message["type"] for message in told] == ["state", "halted", "received", "battery"]
-        assert told[0]["latch"] is True
-        assert told[2]["bytes"] == BATTERY_REPORT.hex()
+        messages = [message for message in here.listener.heard() if message["type"] != "left"]
+        assert [message["type"] for message in messages] == ["state", "halted", "received", "battery"]
+        assert messages[0]["latch"] is True
+        assert messages[2]["bytes"] == BATTERY_REPORT.hex()
 
 
 @in_virtual_time
-async def test_each_event_has_an_id_and_whoever_comes_again_is_told_that_it_is_not_continued() -> None:
+async def test_each_event_has_an_id_and_a_reconnect_gets_a_gap() -> None:
     async with listening() as here:
         await here.control.stop()
         await asyncio.sleep(0.1)
@@ -125,7 +125,7 @@ async def test_each_event_has_an_id_and_whoever_comes_again_is_told_that_it_is_n
 
 
 @in_virtual_time
-async def test_where_nothing_happens_a_line_shows_that_somebody_is_there() -> None:
+async def test_an_idle_stream_gets_a_line_now_and_then() -> None:
     async with listening() as here:
         here.listener.sent.clear()
         await asyncio.sleep(2.5 * SILENCE_S)
@@ -133,7 +133,7 @@ async def test_where_nothing_happens_a_line_shows_that_somebody_is_there() -> No
 
 
 @in_virtual_time
-async def test_whoever_does_not_read_is_cut_and_the_others_lose_nothing() -> None:
+async def test_a_client_that_does_not_read_is_cut_and_the_others_lose_nothing() -> None:
     async with listening() as here:
         here.listener.reads.clear()
         for _ in range(OUTBOX_MESSAGES + 2):
@@ -146,7 +146,7 @@ async def test_whoever_does_not_read_is_cut_and_the_others_lose_nothing() -> Non
 
 
 @in_virtual_time
-async def test_whoever_is_sent_away_and_who_is_there_at_the_end_hears_the_end() -> None:
+async def test_a_disconnected_client_and_those_at_the_end_get_the_end() -> None:
     for is_revoked in (True, False):
         async with listening() as here:
             if is_revoked:

@@ -1,5 +1,5 @@
 """Clients that say or open too much, at a process of its own: they go, it stays as small as it was, and
-whoever stops the robot meanwhile is heard (F9).
+a STOP meanwhile is served (F9).
 """
 
 import asyncio
@@ -15,13 +15,13 @@ from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed, WebSocketException
 
 from tests.amount import TIMES
-from tests.bus import kept_waiting_s
+from tests.bus import held_back_s
 from tests.test_cli import Served
 from tests.test_clients import hear_until, say
 
 pytestmark = [
     pytest.mark.exhaustive,
-    pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="memory is told by /proc"),
+    pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="memory is read from /proc"),
 ]
 
 FLOODERS = 10 if TIMES > 1 else 2
@@ -82,8 +82,8 @@ class Flooders:
                 pass
 
     def _now_s(self) -> float:
-        """Without what both have waited for whatever else runs here, or for each other on a single core."""
-        return time.monotonic() - sum(kept_waiting_s(pid) for pid in self._pids)
+        """Without the time that both waited for other processes, or for each other on a single core."""
+        return time.monotonic() - sum(held_back_s(pid) for pid in self._pids)
 
 
 async def drain(client: ClientConnection) -> None:
@@ -94,7 +94,7 @@ async def drain(client: ClientConnection) -> None:
 
 @asynccontextmanager
 async def responsive(served: Served) -> AsyncIterator[None]:
-    """Meanwhile somebody stops the robot and asks how it is, again and again, and it does not grow."""
+    """Meanwhile a client stops the robot and reads its state, again and again, and memory does not grow."""
     before_kib = rss_kib(served)
     ended = asyncio.Event()
     looking = asyncio.create_task(look(served, ended))
@@ -134,7 +134,7 @@ async def test_who_says_too_much_is_sent_away(served: Served) -> None:
     assert max(lasted_s for lasted_s, _ in flooders.ends) <= CLOSED_WITHIN_S
 
 
-async def test_who_only_knocks_keeps_nobody_out(served: Served) -> None:
+async def test_refused_connections_keep_no_client_out(served: Served) -> None:
     flooders = Flooders(served)
     async with responsive(served):
         await asyncio.gather(*(for_a_while(flooders.knock) for _ in range(FLOODERS)))

@@ -1,5 +1,5 @@
 """Clients without a credential, at a process of its own whose descriptors are few: they get no memory and no
-descriptor that a stop needs, and whoever stops the robot meanwhile is heard at once.
+descriptor that a stop needs, and a STOP meanwhile is served at once.
 
 The amounts of the issue and all figures: PROPERTY_RUNS=1000 .venv/bin/python -m pytest -s THIS_FILE
 """
@@ -23,7 +23,7 @@ from websockets.asyncio.client import ClientConnection, connect
 from servodeck.access.devices import DeviceFile, Devices
 from servodeck.library.library import wall_clock_ms
 from tests.amount import TIMES
-from tests.bus import kept_waiting_s
+from tests.bus import held_back_s
 from tests.samples import STOP
 from tests.test_cli import Served
 from tests.test_clients import hear_until
@@ -33,7 +33,7 @@ from tests.test_ports import Pty
 
 pytestmark = [
     pytest.mark.exhaustive,
-    pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="memory is told by /proc"),
+    pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="memory is read from /proc"),
 ]
 
 FLOOD = Path(__file__).parents[2] / "bench" / "unauthenticated.py"
@@ -152,7 +152,7 @@ async def post(served: Served, token: str) -> None:
 
 async def stops(served: Served, wire: Wire, stop: Callable[[], Awaitable[None]]) -> list[float]:
     """How long each took from the press to its first packet at the board, without what the gateway and this
-    test have waited for whatever else runs here.
+    test have waited for other processes.
     """
     took_s = []
     for _ in range(STOPS):
@@ -167,7 +167,7 @@ async def stops(served: Served, wire: Wire, stop: Callable[[], Awaitable[None]])
 
 
 def waited_for_others_s(served: Served) -> float:
-    return kept_waiting_s(served.process.pid) + kept_waiting_s(os.getpid())
+    return held_back_s(served.process.pid) + held_back_s(os.getpid())
 
 
 def p99(took_s: list[float]) -> float:

@@ -51,7 +51,7 @@ def packets_of(slot: int) -> list[bytes]:
 
 
 @in_virtual_time
-async def test_all_of_it_is_on_the_board_though_whoever_handed_it_over_has_gone() -> None:
+async def test_a_full_board_is_downloaded_though_its_client_has_gone() -> None:
     port = AnsweringPort(repeat(STORED_MS))
     portions = portions_of([body_of(slot) for slot in SLOTS])
     async with http_to(FakePorts(port), now) as (client, control):

@@ -1,5 +1,5 @@
-"""Requests made up from the description of the HTTP interface, against a real gateway: whatever is asked, the
-answer is one that the description tells, no defect, and the robot still hears a stop.
+"""Requests generated from the description of the HTTP interface, against a real gateway: for each of them,
+the answer is one that the description tells, no defect, and the robot still hears a stop.
 """
 
 import asyncio
@@ -39,7 +39,7 @@ ANSWERS = {BATTERY: BATTERY_REPORT, ERASE: bytes.fromhex("55550208")}
 RUN_TAKEN, RUN_COMMAND = bytes.fromhex("55550206"), 6
 ENDLESS = "/api/events"
 DEFECT = 500
-# A refusal, too: what is wrong may be so large that nobody looks at it.
+# Also a refusal, if the body is too large to be read.
 TOO_LARGE = 413
 EXAMPLES = 3 * TIMES
 Operation = APIOperation[Any, Any, Any, Any]
@@ -56,7 +56,7 @@ class AnsweringPort(FakePort):
 
 
 class OnePlace:
-    """A board that can be opened again and again; whatever else is asked for is taken."""
+    """A board that can be opened again and again; every other request is taken."""
 
     def __init__(self) -> None:
         self.opened: list[AnsweringPort] = []
@@ -92,7 +92,7 @@ class Gateway:
             return json.load(answer)
 
     def settle(self) -> None:
-        """The port is open and motion allowed, whatever was asked before."""
+        """The port is open and motion allowed, after any request before."""
         if self.ask("GET", "/api/status")["port"]["status"] != "open":
             self.ask("PUT", "/api/port", {"device": DEVICE, "board": "doc"})
         self.ask("POST", "/api/resume")

@@ -45,9 +45,9 @@ def frame_of(frame: dict[str, Any]) -> Frame:
 def expected(halt: dict[str, Any]) -> HaltPlan:
     hold = parse_command(bytes.fromhex(halt["hold"])) if halt["hold"] else None
     assert isinstance(hold, Move | None)
-    told = halt["unheld"]
-    servos = told and (None if told["servos"] is None else tuple(told["servos"]))
-    return HaltPlan(hold, told and Unheld(servos, told["for_ms"]))
+    unheld = halt["unheld"]
+    servos = unheld and (None if unheld["servos"] is None else tuple(unheld["servos"]))
+    return HaltPlan(hold, unheld and Unheld(servos, unheld["for_ms"]))
 
 
 def times_of(plan: HaltPlan) -> tuple[int, float]:

@@ -53,7 +53,7 @@ async def test_a_gateway_with_an_open_port_is_ready_and_its_board_untouched(tmp_
         assert port.packets() == [STOP]  # of the opening
 
 
-async def test_a_gateway_that_nobody_gave_a_port_is_ready(tmp_path: Path) -> None:
+async def test_a_gateway_without_a_port_is_ready(tmp_path: Path) -> None:
     nowhere = FakePorts(PortMissingError("There is none."))
     async with http_to(nowhere, time.monotonic, device=None, library=Library(tmp_path)) as (client, _):
         assert await troubles_of(client) == {}
@@ -100,7 +100,7 @@ async def test_a_disk_that_hangs_does_not_make_health_hang(
         assert "Input/output" in (await troubles_of(client))["disk"]
 
 
-async def test_whatever_holds_up_the_loop_is_told() -> None:
+async def test_a_held_up_loop_is_reported() -> None:
     async with (
         server_on(BackgroundPorts(), None) as running,
         AsyncClient(base_url=f"http://{running.host}") as client,

@@ -57,7 +57,7 @@ def test_a_board_without_a_number_of_its_own_is_called_by_its_socket(hidraw: Fak
     assert names() == ["hid:1-1.2"]
 
 
-def test_boards_that_share_a_number_are_told_apart_by_their_sockets(hidraw: FakeHidraw) -> None:
+def test_boards_that_share_a_number_are_distinguished_by_their_sockets(hidraw: FakeHidraw) -> None:
     hidraw.plug("1-1")
     hidraw.plug("1-2", node="hidraw1")
     assert names() == ["hid:1-1", "hid:1-2"]
@@ -97,7 +97,7 @@ def test_a_board_that_says_nothing_is_waited_for_a_moment(hidraw: FakeHidraw) ->
     port.close()
 
 
-def test_a_second_opener_is_told_that_the_board_is_busy(hidraw: FakeHidraw) -> None:
+def test_a_second_opener_learns_that_the_board_is_busy(hidraw: FakeHidraw) -> None:
     hidraw.plug()
     port = open_board("hid")
     with pytest.raises(PortBusyError, match="Another program uses hid:497223563535"):
@@ -125,7 +125,7 @@ def test_the_program_that_has_the_board_is_named(hidraw: FakeHidraw) -> None:
         other.communicate(b"")
 
 
-async def test_an_unplugged_board_is_lost_whatever_is_done_with_it(hidraw: FakeHidraw) -> None:
+async def test_an_unplugged_board_is_lost_at_any_call(hidraw: FakeHidraw) -> None:
     board = hidraw.plug()
     port = open_board("hid")
     board.unplug()
@@ -171,7 +171,7 @@ def test_a_board_that_is_not_plugged_in_is_missing(hidraw: FakeHidraw, name: str
         open_board(name)
 
 
-def test_the_only_board_is_told_from_what_shares_its_numbers(hidraw: FakeHidraw) -> None:
+def test_the_only_board_is_distinguished_from_devices_with_its_ids(hidraw: FakeHidraw) -> None:
     hidraw.plug("1-1", product="Joystick", serial="7")
     hidraw.plug("1-2", product="Hiwonder", node="hidraw1")
     port = open_board("hid")
@@ -229,7 +229,7 @@ def test_the_only_board_is_found_again_by_its_number_under_another_node(hidraw: 
 
 
 class FakeHidapi(SimpleNamespace):
-    """The library of the extra, with one board; what it is told to fail with it fails with."""
+    """The library of the extra, with one board; it fails with the given error."""
 
     def __init__(self) -> None:
         super().__init__()

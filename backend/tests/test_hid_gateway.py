@@ -108,7 +108,7 @@ async def test_an_answer_is_believed_as_soon_as_its_report_is_there() -> None:
 
 
 @in_virtual_time
-async def test_pages_are_told_what_the_cable_is_not_to_carry() -> None:
+async def test_pages_get_the_commands_that_the_cable_does_not_carry() -> None:
     port = FakeHidPort()
     async with gateway_on(port) as control:
         assert control.board.port.withheld == ["download", "erase"]

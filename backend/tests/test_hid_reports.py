@@ -66,5 +66,5 @@ def test_no_report_is_an_error_and_none_gives_two_packets(reports: list[bytes]) 
     for report in reports:
         events = heard([report])
         assert sum(isinstance(event, PacketEvent) for event in events) <= 1
-        told = b"".join(event.bytes for event in events)
-        assert told.rstrip(b"\0") == report.rstrip(b"\0")
+        heard_bytes = b"".join(event.bytes for event in events)
+        assert heard_bytes.rstrip(b"\0") == report.rstrip(b"\0")

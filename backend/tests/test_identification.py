@@ -120,7 +120,7 @@ async def asked(
 
 @pytest.mark.parametrize("board", ANSWERS_LIKE)
 @in_virtual_time
-async def test_a_board_nobody_knows_is_asked_and_waits_for_a_person(simulator: Simulator, board: str) -> None:
+async def test_an_unknown_board_is_asked_and_waits_for_a_person(simulator: Simulator, board: str) -> None:
     async with asked(simulator, board) as here:
         assert here.link() == ("identifying", None)
         await asyncio.sleep(ASKED_S)
@@ -144,7 +144,7 @@ async def test_it_gets_nothing_but_stops_before_and_after_it_was_asked(simulator
 
 
 @in_virtual_time
-async def test_it_is_ready_as_soon_as_somebody_has_said_which_it_is_without_another_question(
+async def test_it_is_ready_as_soon_as_it_is_named_without_another_question(
     simulator: Simulator,
 ) -> None:
     async with asked(simulator, "lsc-16") as here:
@@ -217,7 +217,7 @@ async def test_a_board_that_is_known_is_ready_only_if_it_answers_so(simulator: S
 
 
 @in_virtual_time
-async def test_one_that_is_switched_off_is_waited_for_without_anybody_looking_on(
+async def test_one_that_is_switched_off_is_waited_for_without_a_client(
     simulator: Simulator,
 ) -> None:
     off = {"name": "brownOut", "afterMs": 0, "offMs": 20_000}
@@ -257,7 +257,7 @@ async def test_an_idle_board_is_asked_the_cheapest_question_every_5_s(
         await asyncio.sleep(ASKED_S)
         identified = len(here.questions())
         await asyncio.sleep(20)
-        assert len(here.questions()) == identified, "nobody looks on"
+        assert len(here.questions()) == identified, "no client is connected"
         Client(here.control)
         await asyncio.sleep(20)
         assert here.questions()[identified:] == [question] * 4
@@ -304,7 +304,7 @@ async def test_one_lost_answer_means_nothing_and_two_that_the_board_is_gone(simu
         assert here.link() == ("ready", None)
         assert here.control.latch
         [halted] = [message for message in await anna.heard() if message["type"] == "halted"]
-        assert halted["unheld"]["servos"] is None, "it may have been told to move by others meanwhile"
+        assert halted["unheld"]["servos"] is None, "other commands may have moved it meanwhile"
         assert here.kinds()[before:].count("positions") == 2, "asked anew who it is"
         assert here.kinds()[before:].count("stop") == 3
         assert here.kinds().count("move") == 1

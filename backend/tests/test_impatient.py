@@ -80,7 +80,7 @@ async def test_a_head_of_sane_size_is_answered() -> None:
         writer.close()
 
 
-async def test_a_body_that_nobody_waits_for_is_left_where_it_is() -> None:
+async def test_a_body_that_no_route_needs_is_not_read() -> None:
     """A stop goes through first; what is announced behind it stays in the system's own small buffers."""
     async with server_on(FakePorts(FakePort())) as gateway:
         reader, writer = await asyncio.open_connection(*gateway.address)
@@ -91,7 +91,7 @@ async def test_a_body_that_nobody_waits_for_is_left_where_it_is() -> None:
         writer.close()
 
 
-async def test_the_connections_of_nobody_known_are_few_and_the_least_used_end_first(
+async def test_unauthenticated_connections_are_few_and_the_least_used_end_first(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(connections, "MOST_OF_ONE", 3)
@@ -137,7 +137,7 @@ async def test_what_never_comes_is_not_waited_for(
         writer.close()
 
 
-async def test_many_slow_ones_keep_nobody_from_an_answer() -> None:
+async def test_many_slow_connections_keep_no_client_from_an_answer() -> None:
     async with server_on(FakePorts(FakePort())) as gateway:
         slow = [await asyncio.open_connection(*gateway.address) for _ in range(200)]
         for _, writer in slow:

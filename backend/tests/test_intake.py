@@ -44,7 +44,7 @@ def sent(number: int) -> PacketMessage:
 
 
 @in_virtual_time
-async def test_above_the_rate_the_newest_waits_its_turn_and_older_ones_are_told() -> None:
+async def test_above_the_rate_the_newest_waits_and_older_ones_are_refused() -> None:
     listener = Listener()
     listener.send(1, 2, 3, 4)
     assert listener.replaced == [sent(3)]
@@ -104,7 +104,7 @@ async def test_a_stop_passes_at_any_rate_and_nothing_that_waited_comes_behind_it
 
 
 @in_virtual_time
-async def test_whoever_left_is_not_heard_any_more() -> None:
+async def test_messages_of_a_client_that_left_are_ignored() -> None:
     listener = Listener()
     listener.send(1, 2, 3)
     listener.intake.close()

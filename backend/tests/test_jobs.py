@@ -1,4 +1,4 @@
-"""Downloads as jobs: who may begin one, who is told, what it forbids meanwhile."""
+"""Downloads as jobs: who may begin one, its messages, and requests that it refuses meanwhile."""
 
 import asyncio
 
@@ -43,7 +43,7 @@ def broken(control: Control) -> list[int]:
 
 
 @in_virtual_time
-async def test_it_goes_on_when_everybody_has_left() -> None:
+async def test_it_continues_when_all_clients_have_left() -> None:
     async with gateway_on(board_of()) as control:
         anna = Client(control)
         control.driving.act(anna, "request")
@@ -58,7 +58,7 @@ async def test_it_goes_on_when_everybody_has_left() -> None:
 
 
 @in_virtual_time
-async def test_everybody_hears_how_far_it_is_and_whoever_joins_later_too() -> None:
+async def test_every_client_gets_its_progress_and_later_ones_too() -> None:
     async with gateway_on(board_of()) as control:
         anna = Client(control, PUPIL)
         await anna.heard()
@@ -91,19 +91,20 @@ async def test_everybody_hears_how_far_it_is_and_whoever_joins_later_too() -> No
 
 
 @in_virtual_time
-async def test_what_was_stored_last_is_told_also_when_the_next_frame_takes_long() -> None:
+async def test_the_last_stored_frame_is_published_also_when_the_next_takes_long() -> None:
     frames = [Frame(500, (ServoTarget(1, 1500),))] * 20
     async with gateway_on(AnsweringPort([[180], *[[4]] * 18, [400]])) as control:
         anna = Client(control)
         begin(control, Group(SLOT, "Wave", frames))
         await asyncio.sleep(0.9)
-        told = [message["job"]["framesStored"] for message in await anna.heard() if message["type"] == "job"]
-        assert told[-1] == 19
-        assert len(told) < 10
+        messages = await anna.heard()
+        stored = [message["job"]["framesStored"] for message in messages if message["type"] == "job"]
+        assert stored[-1] == 19
+        assert len(stored) < 10
 
 
 @in_virtual_time
-async def test_while_it_lasts_nothing_else_goes_to_the_board_whoever_asks() -> None:
+async def test_while_it_lasts_nothing_else_goes_to_the_board_from_any_client() -> None:
     port = board_of()
     async with gateway_on(port) as control:
         anna = Client(control)

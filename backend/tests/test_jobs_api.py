@@ -41,7 +41,7 @@ async def test_a_script_begins_one_looks_at_it_and_calls_it_off() -> None:
 
 
 @in_virtual_time
-async def test_over_http_only_who_drives_begins_one_and_the_job_needs_nobody_from_then_on() -> None:
+async def test_over_http_only_the_driver_begins_one_and_the_job_needs_no_client_afterwards() -> None:
     async with http_to(FakePorts(AnsweringPort([[1500], [1500]] * 2)), now) as (client, control):
         path, body = "/api/download", wish(FRAMES * 2)
         anna = Client(control, PUPIL)

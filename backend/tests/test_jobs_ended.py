@@ -102,7 +102,7 @@ async def test_a_port_that_vanishes_at_any_byte_ends_it_and_what_comes_after_is_
 
 
 @in_virtual_time
-async def test_a_broken_slot_is_run_by_nobody_until_a_download_or_an_erase_has_ended_well() -> None:
+async def test_a_broken_slot_is_not_run_until_a_download_or_an_erase_has_succeeded() -> None:
     port = AnsweringPort([[180], [], [], *QUICK])
     async with gateway_on(port) as control:
         anna = Client(control)
@@ -126,7 +126,7 @@ async def test_an_erase_that_the_board_confirms_mends_every_slot() -> None:
         begin(control, WAVE)
         await asyncio.sleep(0.3)
         await anna.send(STOP)
-        port.say(bytes.fromhex("55550208"))  # nobody has asked for it
+        port.say(bytes.fromhex("55550208"))  # without a question
         await asyncio.sleep(0.01)
         assert broken(control) == [SLOT]
         await anna.send(ERASE)

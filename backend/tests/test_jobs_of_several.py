@@ -58,8 +58,8 @@ async def test_they_are_stored_one_after_the_other_with_one_progress_though_ever
         end = await ended(control, job)
         assert (end.status, end.groups_stored, end.frames_stored) == ("done", 3, 9)
         assert stored_by(port) == [(slot, frame) for slot in SLOTS for frame in range(3)]
-        told = [message["job"] for message in await bert.heard() if message["type"] == "job"]
-        assert [job["framesStored"] for job in told] == sorted(job["framesStored"] for job in told)
+        jobs = [message["job"] for message in await bert.heard() if message["type"] == "job"]
+        assert [job["framesStored"] for job in jobs] == sorted(job["framesStored"] for job in jobs)
         assert broken(control) == []
         await bert.send(encode(Run(BOW.slot, 1), FAMILIES["doc"]))
         assert control.board.motion.group_ends_in_s(now()) is not None
@@ -167,8 +167,8 @@ async def test_what_comes_behind_it_belongs_to_it_until_its_end() -> None:
     async with gateway_on(port) as control:
         job = begin(control, WAVE)
         await asyncio.sleep(0.1)
-        told = follow(control, job.id, BOW, NOD)
-        assert (told.id, told.slots, told.frame_count, told.bytes_total) == (
+        followed = follow(control, job.id, BOW, NOD)
+        assert (followed.id, followed.slots, followed.frame_count, followed.bytes_total) == (
             job.id,
             SLOTS,
             9,
@@ -249,9 +249,9 @@ def test_the_time_left_is_at_least_the_wires_and_nothing_at_the_end(
     for group, of_group in enumerate(sizes):
         for frame in range(1, len(of_group) + 1):
             at_s = next(clock)
-            told = tally.after(group, frame)
-            assert told.frames_stored == last.frames_stored + 1
-            assert told.remaining_s >= wire_s(total - told.bytes_sent)
-            last = told
+            progress = tally.after(group, frame)
+            assert progress.frames_stored == last.frames_stored + 1
+            assert progress.remaining_s >= wire_s(total - progress.bytes_sent)
+            last = progress
         tally.after(group + 1, 0)
     assert last == Progress(len(sizes) - 1, sum(map(len, sizes)), sum(map(len, sizes)), total, total, 0.0)

@@ -42,7 +42,7 @@ def bus_on() -> Iterator[tuple[Pty, Bus]]:
 
 
 class Driver:
-    """Moves the robot to and fro as fast as the wire takes it, until it is told to stand still."""
+    """Moves the robot to and fro as fast as the wire takes it, until it is asked to stand still."""
 
     def __init__(self, url: str) -> None:
         self._connection = contextlib.ExitStack()
@@ -143,7 +143,7 @@ def kill(served: Served, _driver: Driver, bus: Bus, _chance: random.Random) -> N
 
 
 def kill_stopped(served: Served, driver: Driver, bus: Bus, chance: random.Random) -> None:
-    """Somebody has just pressed STOP: the next process resumes nothing either."""
+    """STOP has just been pressed: the next process resumes nothing either."""
     pressed_s = time.monotonic()
     driver.press_stop()
     time.sleep(chance.uniform(0.05, 0.4))
@@ -181,7 +181,7 @@ ENDS = {"kill -9": kill, "kill -9 behind STOP": kill_stopped, "SIGTERM": termina
 
 
 @pytest.mark.parametrize("end", ENDS)
-def test_whatever_ends_it_the_next_start_moves_nothing_and_lost_nothing(
+def test_after_any_end_the_next_start_moves_nothing_and_has_lost_nothing(
     end: str, bus_on: tuple[Pty, Bus], tmp_path: Path
 ) -> None:
     pty, bus = bus_on
@@ -217,9 +217,7 @@ def live_and_end(end: str, pty: Pty, bus: Bus, folder: Path, chance: random.Rand
     return saver.acknowledged
 
 
-def test_half_a_group_that_a_kill_left_behind_is_run_by_nobody(
-    bus_on: tuple[Pty, Bus], tmp_path: Path
-) -> None:
+def test_half_a_group_that_a_kill_left_behind_is_not_run(bus_on: tuple[Pty, Bus], tmp_path: Path) -> None:
     pty, bus = bus_on
     frames = [{"durationMs": 500, "positions": {"1": 1500}}] * 3
     wish = {"groups": [{"slot": 8, "frames": frames}]}

@@ -9,8 +9,8 @@ from servodeck.robot.lease import ANSWER_S, COMMAND_S, GONE_S, QUIET_S, SILENT_S
 
 
 @dataclass
-class Told:
-    """What the owner of the port was told."""
+class Recorder:
+    """What the owner of the port was recorder."""
 
     events: list[str] = field(default_factory=list)
 
@@ -34,21 +34,21 @@ class Told:
         return taken
 
 
-def new_lease(epoch: int = 0) -> tuple[Lease[str], Told]:
-    told = Told()
-    return Lease(epoch, told), told
+def new_lease(epoch: int = 0) -> tuple[Lease[str], Recorder]:
+    recorder = Recorder()
+    return Lease(epoch, recorder), recorder
 
 
 def test_a_free_lease_is_given_at_once_with_a_new_epoch() -> None:
-    lease, told = new_lease(epoch=41)
+    lease, recorder = new_lease(epoch=41)
     lease.request("anna", 0.0)
-    assert (lease.driver, lease.epoch, told.take()) == ("anna", 42, [])
+    assert (lease.driver, lease.epoch, recorder.take()) == ("anna", 42, [])
     lease.request("anna", 1.0)
-    assert (lease.epoch, told.take()) == (42, [])
+    assert (lease.epoch, recorder.take()) == (42, [])
 
 
 def test_a_request_passes_when_the_driver_has_said_nothing_for_five_seconds() -> None:
-    lease, told = new_lease()
+    lease, recorder = new_lease()
     lease.request("anna", 0.0)
     nonce = lease.issue(0.0)
     lease.request("bert", 0.1)
@@ -60,7 +60,7 @@ def test_a_request_passes_when_the_driver_has_said_nothing_for_five_seconds() ->
     assert lease.driver == "anna"
     lease.advance(0.1 + ANSWER_S)
     assert (lease.driver, lease.requester, lease.epoch) == ("bert", None, 2)
-    assert told.take() == ["changed"]
+    assert recorder.take() == ["changed"]
     with pytest.raises(NotDrivingError):
         lease.permit("anna", nonce, 5.1)
 
@@ -79,7 +79,7 @@ def test_a_refused_request_may_be_made_again_and_only_the_driver_refuses() -> No
     assert lease.requester == "carl"
 
 
-def test_giving_it_up_is_allowing_whoever_asks() -> None:
+def test_releasing_it_grants_the_request() -> None:
     lease, _ = new_lease()
     lease.request("anna", 0.0)
     lease.request("bert", 0.0)
@@ -90,7 +90,7 @@ def test_giving_it_up_is_allowing_whoever_asks() -> None:
     assert lease.epoch == 3  # a loss counts, too: what was permitted before it does not leave behind it
 
 
-def test_whoever_asks_may_take_that_back_and_a_stranger_can_give_up_nothing() -> None:
+def test_a_request_may_be_withdrawn_and_others_release_nothing() -> None:
     lease, _ = new_lease()
     lease.request("anna", 0.0)
     lease.request("bert", 0.0)
@@ -100,19 +100,19 @@ def test_whoever_asks_may_take_that_back_and_a_stranger_can_give_up_nothing() ->
     assert (lease.driver, lease.requester) == ("anna", None)
 
 
-def test_taking_asks_nobody_and_forgets_who_asked() -> None:
-    lease, told = new_lease()
+def test_taking_needs_no_consent_and_drops_the_request() -> None:
+    lease, recorder = new_lease()
     lease.request("anna", 0.0)
     lease.request("bert", 0.0)
-    told.take()
+    recorder.take()
     lease.take("carl", 0.0)
-    assert (lease.driver, lease.requester, told.take()) == ("carl", None, ["changed"])
+    assert (lease.driver, lease.requester, recorder.take()) == ("carl", None, ["changed"])
 
 
 def test_a_silent_driver_loses_motion_then_groups_then_the_lease() -> None:
-    lease, told = new_lease()
+    lease, recorder = new_lease()
     lease.request("anna", 0.0)
-    told.take()
+    recorder.take()
     for at_s, expected in (
         (QUIET_S - 0.001, []),
         (QUIET_S, ["quiet"]),
@@ -122,30 +122,30 @@ def test_a_silent_driver_loses_motion_then_groups_then_the_lease() -> None:
         (GONE_S, ["lost", "changed"]),
     ):
         lease.advance(at_s)
-        assert told.take() == expected
+        assert recorder.take() == expected
     assert lease.driver is None
 
 
 def test_the_whole_ladder_is_climbed_even_where_the_clock_jumped_over_it() -> None:
-    lease, told = new_lease()
+    lease, recorder = new_lease()
     lease.request("anna", 0.0)
-    told.take()
+    recorder.take()
     lease.advance(1000.0)
-    assert told.take() == ["quiet", "silent", "lost", "changed"]
+    assert recorder.take() == ["quiet", "silent", "lost", "changed"]
 
 
-def test_a_driver_who_is_heard_again_in_time_goes_on_driving() -> None:
-    lease, told = new_lease()
+def test_a_driver_that_is_heard_again_in_time_continues_driving() -> None:
+    lease, recorder = new_lease()
     lease.request("anna", 0.0)
     lease.advance(3.0)
-    told.take()
+    recorder.take()
     lease.beat("anna", lease.issue(3.0))
     lease.advance(3.0 + QUIET_S)
-    assert (lease.driver, told.take()) == ("anna", ["quiet"])
+    assert (lease.driver, recorder.take()) == ("anna", ["quiet"])
 
 
 def test_a_program_is_waited_for_as_long_as_what_it_asked_lasts_and_two_seconds() -> None:
-    lease, told = new_lease()
+    lease, recorder = new_lease()
     lease.request("script", 0.0)
     lease.vouch("script", 10.0)
     lease.vouch("script", 3.0)
@@ -158,7 +158,7 @@ def test_a_program_is_waited_for_as_long_as_what_it_asked_lasts_and_two_seconds(
     ):
         assert lease.due_s() is not None
         lease.advance(at_s)
-        assert told.take() == expected
+        assert recorder.take() == expected
     lease.request("carl", 20.0)
     lease.request("script", 20.0)
     lease.release("carl", 21.0)
@@ -170,15 +170,15 @@ def test_a_program_is_waited_for_as_long_as_what_it_asked_lasts_and_two_seconds(
 
 
 def test_an_old_nonce_is_no_sign_of_life() -> None:
-    lease, told = new_lease()
+    lease, recorder = new_lease()
     lease.request("anna", 0.0)
-    told.take()
+    recorder.take()
     old = lease.issue(0.0)
     lease.beat("anna", old)
     lease.beat("anna", old)
     lease.beat("bert", lease.issue(0.5))
     lease.advance(QUIET_S)
-    assert told.take() == ["quiet"]
+    assert recorder.take() == ["quiet"]
 
 
 def test_a_command_counts_from_its_nonce_at_the_gate_and_again_at_the_port() -> None:
@@ -228,14 +228,14 @@ def test_a_nonce_of_an_earlier_epoch_is_worth_nothing() -> None:
 
 
 def test_a_driver_who_leaves_is_lost_and_a_requester_who_leaves_is_forgotten() -> None:
-    lease, told = new_lease()
+    lease, recorder = new_lease()
     lease.request("anna", 0.0)
     lease.request("bert", 0.0)
-    told.take()
+    recorder.take()
     lease.leave("bert", 0.0)
-    assert (lease.requester, told.take()) == (None, [])
+    assert (lease.requester, recorder.take()) == (None, [])
     lease.leave("anna", 0.0)
-    assert (lease.driver, told.take()) == (None, ["lost", "changed"])
+    assert (lease.driver, recorder.take()) == (None, ["lost", "changed"])
 
 
 def test_what_was_permitted_before_a_loss_is_not_permitted_by_the_next_grant_to_the_same_one() -> None:

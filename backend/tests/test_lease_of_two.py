@@ -13,12 +13,12 @@ DRIVERS = st.sampled_from(["anna", "bert"])
 
 
 class TwoDrivers(RuleBasedStateMachine):
-    """Keeps its own account of who was given the lease when, and what was told to whom and when."""
+    """Records the grants of the lease and the messages, each with its client and time."""
 
     def __init__(self) -> None:
         super().__init__()
         self.now = 0.0
-        self.lease, self.told = new_lease()
+        self.lease, self.recorder = new_lease()
         self.epochs: list[int] = []
         self.given: dict[str, list[tuple[str, float, int]]] = {"anna": [], "bert": []}
         self.waiting: list[tuple[Permit, float]] = []
@@ -62,7 +62,7 @@ class TwoDrivers(RuleBasedStateMachine):
 
     @precondition(lambda self: self.lease.driver is not None)
     @rule()
-    def driver_is_told_a_nonce(self) -> None:
+    def driver_gets_a_nonce(self) -> None:
         assert self.lease.driver
         nonce = self.lease.issue(self.now)
         self.given[self.lease.driver].append((nonce, self.now, self.lease.epoch))
@@ -113,7 +113,7 @@ class TwoDrivers(RuleBasedStateMachine):
         assert self.epochs == sorted(set(self.epochs))
 
     @invariant()
-    def a_silent_driver_is_never_kept_past_its_time(self) -> None:
+    def a_silent_driver_never_stays_past_its_time(self) -> None:
         due_s = self.lease.due_s()
         assert (due_s is None) == (self.lease.driver is None)
         if due_s is not None and due_s > self.now:

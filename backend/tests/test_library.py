@@ -55,9 +55,9 @@ def test_what_was_written_is_there_after_a_restart(library: Library, tmp_path: P
     assert again.read_version("a", "v") == "{}"
 
 
-def test_what_a_process_was_told_is_kept_survives_its_sudden_end(library: Library, tmp_path: Path) -> None:
+def test_a_confirmed_write_survives_a_sudden_end(library: Library, tmp_path: Path) -> None:
     library.write("a", "{}", "facts", 0)
-    assert reopened(tmp_path).read("a") == ("{}", 1)  # nobody has closed the first
+    assert reopened(tmp_path).read("a") == ("{}", 1)  # the first is still open
 
 
 def test_a_write_at_an_old_revision_changes_nothing(library: Library) -> None:
@@ -168,7 +168,7 @@ def test_a_file_that_another_program_holds_is_busy_and_free_again(
     assert library.write("a", "two", "f", 1) == 2
 
 
-def test_a_damaged_file_is_set_aside_and_told(library: Library, tmp_path: Path) -> None:
+def test_a_damaged_file_is_set_aside_and_reported(library: Library, tmp_path: Path) -> None:
     library.write("a", "x" * 100_000, "f", 0)
     library.close()
     damaged = (tmp_path / FILE).read_bytes()[:5000] + b"\xa5" * 40_000
@@ -197,7 +197,7 @@ def test_a_damaged_journal_takes_the_last_few_at_most(library: Library, tmp_path
 
 @given(seed=st.integers(0, 2**32), part=st.sampled_from(["", "-wal"]), ends=st.booleans())
 @settings(max_examples=20 * TIMES, deadline=None)
-def test_whatever_is_damaged_no_document_is_another_and_nothing_is_raised_but_what_can_be_told(
+def test_with_any_damage_no_document_is_another_and_only_known_errors_are_raised(
     seed: int, part: str, ends: bool
 ) -> None:
     """A page of noise, or an end in the middle."""

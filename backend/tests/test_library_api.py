@@ -43,7 +43,7 @@ async def client_of(folder: Path) -> AsyncIterator[AsyncClient]:
     library.close()
 
 
-async def test_a_document_is_kept_listed_and_read(tmp_path: Path) -> None:
+async def test_a_document_is_stored_listed_and_read(tmp_path: Path) -> None:
     async with client_of(tmp_path) as client:
         assert (await client.put("/api/library/a", json=body('{"x": "é"}'))).json() == {"revision": 1}
         listed = {"id": "a", "revision": 1, "isRemoved": False, "facts": FACTS}
@@ -170,7 +170,7 @@ async def test_sizes(tmp_path: Path) -> None:
         assert (await client.put(f"/api/library/{'i' * 65}", json=body())).status_code == 422
 
 
-async def test_a_disk_in_trouble_answers_with_a_code_and_the_rest_goes_on(tmp_path: Path) -> None:
+async def test_a_disk_in_trouble_answers_with_a_code_and_the_rest_works(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("in the way")
     async with client_of(tmp_path / "file") as client:
         refused = await client.put("/api/library/a", json=body())

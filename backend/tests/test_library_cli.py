@@ -62,12 +62,12 @@ def test_poses_are_listed_and_gone_to_by_name_or_number(served: Served) -> None:
 def test_the_library_is_listed(served: Served) -> None:
     assert run("library", "--url", served.url).stdout == "The library is empty.\n"
     describe(served)
-    told = run("library", "--url", served.url).stdout.splitlines()
-    assert sorted(told) == ["arm  Arm  (robot)", "wave  Wave  (2 frames, 0.8 s)"]
+    lines = run("library", "--url", served.url).stdout.splitlines()
+    assert sorted(lines) == ["arm  Arm  (robot)", "wave  Wave  (2 frames, 0.8 s)"]
     assert len(json.loads(run("library", "--url", served.url, "--json").stdout)["documents"]) == 2
 
 
-def test_erasing_asks_first_and_tells_what_the_board_does_not_say(served: Served) -> None:
+def test_erasing_asks_first_and_reports_a_missing_answer(served: Served) -> None:
     kept = CliRunner().invoke(app, ["erase", "--url", served.url], input="n\n")
     assert kept.exit_code == 1
     silent = run("erase", "--yes", "--url", served.url)

@@ -19,7 +19,7 @@ MISSING = PortMissingError("There is no such port.")
 
 @dataclass
 class Notes:
-    """What a link told, in order."""
+    """The events of a link, in order."""
 
     happened: list[str] = field(default_factory=list)
     states: list[PortState] = field(default_factory=list)

@@ -54,7 +54,7 @@ def test_a_start_loads_what_it_serves_with_and_no_more(tmp_path: object) -> None
     assert sorted(loaded & {*NOT_TO_SERVE, *NOT_AT_FIRST}) == []
 
 
-def test_a_start_builds_no_message_that_nobody_has_said_yet(tmp_path: object) -> None:
+def test_a_start_builds_no_message_before_it_is_used(tmp_path: object) -> None:
     built = words_of("serve", "--listen", "127.0.0.1:0", "--data", str(tmp_path), "--no-open", before=BUILT)
     assert built <= HELD_FROM_THE_START
 

@@ -1,4 +1,4 @@
-"""The log lines of the real process, and of a process whose lines nobody reads."""
+"""The log lines of the real process, and of a process whose output is not read."""
 
 import json
 import logging
@@ -66,7 +66,7 @@ def test_each_line_is_an_object_also_those_of_the_libraries(json_served: Served)
 
 
 @pytest.mark.exhaustive
-def test_whoever_is_refused_costs_few_lines_and_no_error(json_served: Served) -> None:
+def test_refusals_cost_few_log_lines_and_no_error(json_served: Served) -> None:
     ws = f"ws{json_served.url.removeprefix('http')}/ws"
     for _ in range(30):
         with pytest.raises(InvalidStatus, match="403"), connect(ws, origin=Origin("http://evil.example")):

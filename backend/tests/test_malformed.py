@@ -91,7 +91,7 @@ SPOILERS: list[Callable[[random.Random, dict[str, Any]], str]] = [
 
 
 def is_sound(text: str) -> bool:
-    """A message that somebody might mean; those say nothing here."""
+    """A message that is almost valid; it has no effect here."""
     try:
         message = client_message.validate_json(text)
         if isinstance(message, PacketMessage):
@@ -126,7 +126,7 @@ async def test_nothing_of_it_moves_or_breaks_anything() -> None:
             for _ in range(100):
                 take_text(next(texts), anna, intake)
             intake.close()
-            await asyncio.sleep(0.3)  # whatever was let through leaves
+            await asyncio.sleep(0.3)  # accepted packets leave
             answers = await anna.heard()
             refused += sum(answer["type"] == "refused" for answer in answers)
             assert {answer["type"] for answer in answers} <= {"refused", "state", "halted", "resumed"}

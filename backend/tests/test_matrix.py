@@ -95,7 +95,7 @@ HOSTS: list[str | None] = [
     f"localhost:{PORT}.evil.example",
     None,
 ]
-# {host} is whatever the Host header says.
+# {host} is the value of the Host header.
 ORIGINS: list[str | None] = [
     None,
     "http://{host}",
@@ -176,9 +176,7 @@ WITH_ROLE = [(method, path) for (method, path), role in ROLES.items() if role an
 
 
 @pytest.mark.parametrize(("method", "path"), WITH_ROLE)
-async def test_whoever_may_not_ask_is_told_so_before_a_byte_of_the_body_is_read(
-    method: str, path: str
-) -> None:
+async def test_a_refusal_comes_before_a_byte_of_the_body_is_read(method: str, path: str) -> None:
     entrance = entrance_to(MODES["lan"], lambda: 0.0)
     app, host = app_at(entrance), f"localhost:{PORT}"
     body = [(b"content-type", b"application/json"), (b"content-length", b"9")]
@@ -213,7 +211,7 @@ async def test_what_a_proxy_adds_is_refused_unless_one_was_named_and_never_belie
 
 
 @pytest.mark.parametrize("name", [b"cookie", b"authorization", b"origin", b"host"])
-async def test_a_header_that_comes_twice_lets_nobody_in(name: bytes) -> None:
+async def test_a_doubled_header_authenticates_no_caller(name: bytes) -> None:
     entrance = entrance_to(MODES["lan"])
     brought = credentials_of(entrance)
     host = f"localhost:{PORT}"
@@ -225,7 +223,7 @@ async def test_a_header_that_comes_twice_lets_nobody_in(name: bytes) -> None:
     assert await knock(app, scope_of("http", "GET", "/api/people", twice)) == 403
 
 
-async def test_a_cookie_that_comes_twice_lets_nobody_in() -> None:
+async def test_a_doubled_cookie_authenticates_no_caller() -> None:
     entrance = entrance_to(MODES["lan"])
     cookie = credentials_of(entrance)["cookie"][0][1]
     host = f"localhost:{PORT}"
@@ -261,7 +259,7 @@ def test_a_route_without_a_role_keeps_the_gateway_from_starting() -> None:
         routes.require_roles(app.routes)
 
 
-def test_a_route_that_asks_who_it_is_behind_the_body_keeps_the_gateway_from_starting() -> None:
+def test_a_route_that_judges_the_caller_after_the_body_keeps_the_gateway_from_starting() -> None:
     app = FastAPI(docs_url=None, redoc_url=None, openapi_url=None)
     app.get("/late", dependencies=[routes.VIEWER])(lambda: None)
     with pytest.raises(TypeError, match="/late"):

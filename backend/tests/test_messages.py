@@ -65,7 +65,7 @@ def test_anything_else_is_refused(text: str) -> None:
 
 def test_names_on_the_wire_are_camel_case() -> None:
     port = PortState(device="/dev/board", status="lost", code="lost", detail="Gone.", retry_in_ms=250)
-    told = StateMessage(
+    state_message = StateMessage(
         board="doc",
         port=port,
         link=LinkState(status="lost", code="lost", detail="Gone."),
@@ -79,7 +79,7 @@ def test_names_on_the_wire_are_camel_case() -> None:
         slot_versions={},
         waiting_to_start=[],
     )
-    state = json.loads(encode(told))
+    state = json.loads(encode(state_message))
     assert state["port"]["retryInMs"] == 250
     assert state["identity"]["evidence"] == [{"kind": "noise", "byteCount": 3}]
     assert json.loads(encode(DoneMessage(id=3, outcome="sent"))) == {

@@ -50,7 +50,7 @@ async def test_where_the_board_stays_unknown_it_is_refused_with_the_reason() -> 
 
 
 @in_virtual_time
-async def test_stop_ends_what_waits_for_the_board_also_where_somebody_resumes() -> None:
+async def test_stop_ends_waiting_requests_even_after_a_resume() -> None:
     async with script(identifies=True) as here:
         waiting = [
             asyncio.create_task(here.move(1500, s1=2000)),
@@ -104,7 +104,7 @@ async def test_a_script_drives_under_its_name_for_as_long_as_its_move_lasts_and_
 
 
 @in_virtual_time
-async def test_where_somebody_else_drives_it_is_refused_by_name_and_an_owner_may_take_it() -> None:
+async def test_while_another_client_drives_it_is_refused_by_name_and_an_owner_may_take_it() -> None:
     async with script() as here:
         anna = Client(here.control, ANNA)
         await anna.send(move(1500, s1=2000))
@@ -119,7 +119,7 @@ async def test_where_somebody_else_drives_it_is_refused_by_name_and_an_owner_may
 
 
 @in_virtual_time
-async def test_a_page_asks_a_script_as_it_asks_anybody_and_what_moves_is_stopped_first() -> None:
+async def test_a_page_requests_the_lease_of_a_script_and_motion_is_stopped_first() -> None:
     async with script() as here:
         anna = Client(here.control, ANNA)
         await here.move(30_000, s1=2000)
@@ -132,7 +132,7 @@ async def test_a_page_asks_a_script_as_it_asks_anybody_and_what_moves_is_stopped
 
 
 @in_virtual_time
-async def test_a_stop_ends_what_has_not_left_also_where_somebody_resumes_at_once() -> None:
+async def test_a_stop_ends_waiting_moves_even_if_a_client_resumes_at_once() -> None:
     async with script() as here:
         waiting = asyncio.create_task(here.move(1500, s1=2000, s2=2000, s3=2000))
         await asyncio.sleep(0.1)
@@ -146,7 +146,7 @@ async def test_a_stop_ends_what_has_not_left_also_where_somebody_resumes_at_once
 
 
 @in_virtual_time
-async def test_whoever_takes_over_between_two_first_moves_ends_those_that_wait() -> None:
+async def test_a_takeover_between_two_first_moves_ends_the_waiting_ones() -> None:
     async with script() as here:
         waiting = asyncio.create_task(here.move(1500, s1=2000, s2=2000))
         await asyncio.sleep(0.1)
@@ -159,7 +159,7 @@ async def test_whoever_takes_over_between_two_first_moves_ends_those_that_wait()
 
 
 @in_virtual_time
-async def test_what_nobody_waits_for_any_more_does_not_leave() -> None:
+async def test_a_request_of_a_client_that_left_is_not_sent() -> None:
     async with script() as here:
         body = json.dumps({"timeMs": 1500, "positions": {"1": 2000, "2": 2000, "3": 2000}}).encode()
         headers = [*headers_of(f"localhost:{PORT}", None), (b"content-type", b"application/json")]

@@ -53,7 +53,7 @@ def test_a_first_move_is_never_fast_and_nothing_is_made_slower_unsaid() -> None:
         plan({3: 1500}, 1499, moved(DOC), DOC, 1.0)
 
 
-def test_a_first_move_under_way_is_made_faster_by_nobody_where_boards_share_the_time() -> None:
+def test_a_first_move_in_progress_is_never_made_faster_where_boards_share_the_time() -> None:
     beginning = moved(DOC, 1, 2, duration_ms=1500)
     with pytest.raises(OutOfRangeError, match=r"allowed 1000\.\."):
         plan({2: 1500}, 999, beginning, DOC, 0.5)

@@ -77,7 +77,7 @@ def ask(
 
 
 async def driver_at_the_centre(control: Control, servos: tuple[int, ...] = SERVOS) -> Client:
-    """Who drives; those servos stand at their centre, and everybody knows it."""
+    """The driver; those servos stand at their centre, as reported."""
     client = Client(control)
     control.driving.act(client, "request")
     await client.heard()
@@ -173,7 +173,7 @@ async def test_more_servos_than_a_packet_takes_leave_in_several() -> None:
 
 
 @in_virtual_time
-async def test_first_moves_are_slow_and_one_by_one_and_everybody_is_told_who_waits() -> None:
+async def test_first_moves_are_slow_and_one_by_one_and_all_clients_get_the_waiting_servos() -> None:
     port = FakePort()
     async with gateway_on(port) as control:
         anna, bert = Client(control), Client(control)
@@ -181,9 +181,9 @@ async def test_first_moves_are_slow_and_one_by_one_and_everybody_is_told_who_wai
         await bert.heard()
         asked = ask(anna, s3=1000, s1=1200, s2=1100)
         await asyncio.sleep(0.1)
-        states = [told for told in await bert.heard() if told["type"] == "state"]
+        states = [message for message in await bert.heard() if message["type"] == "state"]
         assert states[-1]["waitingToStart"] == [1, 2]
-        for number in range(40):  # whoever has started follows the hand, as gently
+        for number in range(40):  # a servo that has started follows the pointer, as gently
             ask(anna, s3=1001 + number)
             await asyncio.sleep(0.02)
         await asked
@@ -197,7 +197,7 @@ async def test_first_moves_are_slow_and_one_by_one_and_everybody_is_told_who_wai
         assert followers
         assert all(each.duration_ms > 500 for each in followers)
         await asyncio.sleep(0.1)
-        states = [told for told in await bert.heard() if told["type"] == "state"]
+        states = [message for message in await bert.heard() if message["type"] == "state"]
         assert states[-1]["waitingToStart"] == []
 
 
@@ -301,10 +301,10 @@ async def test_only_refusals_are_answered() -> None:
             take(message, client, control)
         await asyncio.sleep(0.1)
         await bert.heard()
-        answers = [told for client in (anna, guest) for told in await client.heard()]
-        refused = [(told["id"], told["code"]) for told in answers if told["type"] == "refused"]
+        answers = [message for client in (anna, guest) for message in await client.heard()]
+        refused = [(message["id"], message["code"]) for message in answers if message["type"] == "refused"]
         assert refused == [(2, "outOfRange"), (3, "notDriving")]
-        assert not {told["type"] for told in answers} - {"refused", "welcome", "state"}
+        assert not {message["type"] for message in answers} - {"refused", "welcome", "state"}
 
 
 @in_virtual_time
@@ -330,7 +330,7 @@ async def test_who_may_move_and_how_far_is_judged_when_it_is_asked_and_when_it_l
 
 
 @in_virtual_time
-async def test_a_stop_of_anybody_drops_it_and_what_comes_behind_waits_for_resume() -> None:
+async def test_a_stop_of_any_client_drops_it_and_later_moves_wait_for_resume() -> None:
     port = FakePort()
     async with gateway_on(port) as control:
         anna = await driver_at_the_centre(control)
@@ -394,7 +394,7 @@ wishes = st.lists(
 
 @settings(max_examples=60 * TIMES)
 @given(wishes)
-def test_whatever_is_asked_each_servo_ends_where_it_was_asked_last(
+def test_each_servo_ends_at_its_last_target(
     asked: list[tuple[int, str | dict[int, int]]],
 ) -> None:
     check(sorted(asked, key=lambda each: each[0]))
@@ -427,13 +427,13 @@ async def check(asked: list[tuple[int, str | dict[int, int]]]) -> None:
                 said.append(ask(anna, positions=dict.fromkeys(what, position)))
 
         wished: list[tuple[float, bytes]] = []
-        told = control.leaving
+        send_leaving = control.leaving
 
         def leaving(owner: Owner, command: Command, at_s: float) -> None:
-            """Nobody asked for what a stop holds."""
+            """The hold of a stop was not requested."""
             if not control.board.link.wire().is_halting:
                 wished.append((now(), encode(command, control.board.family)))
-            told(owner, command, at_s)
+            send_leaving(owner, command, at_s)
 
         control.leaving = leaving  # type: ignore[method-assign]
         for number, (at_ms, what) in enumerate(asked):

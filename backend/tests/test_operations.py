@@ -61,7 +61,7 @@ def driver_on(control: Control, caller: Caller | None = None) -> Client:
 
 
 async def answers(page: Client) -> list[dict[str, Any]]:
-    return [told for told in await page.heard() if told["type"] in ("done", "refused")]
+    return [message for message in await page.heard() if message["type"] in ("done", "refused")]
 
 
 async def outcome(page: Client, message: AnyClientMessage) -> str:
@@ -106,7 +106,7 @@ async def test_what_moves_ends_before_a_run_and_is_held() -> None:
 
 
 @in_virtual_time
-async def test_ending_a_group_is_said_three_times_by_anybody_and_a_run_waits_for_the_last() -> None:
+async def test_any_client_ends_a_group_by_three_stops_and_a_run_waits_for_the_last() -> None:
     port = FakePort()
     async with gateway_on(port) as control:
         page, viewer = driver_on(control), Client(control, VIEWER)
@@ -124,7 +124,7 @@ async def test_ending_a_group_is_said_three_times_by_anybody_and_a_run_waits_for
         assert port.packets().count(RUN) == 2
         assert port.written[4][0] - begun_s < 0.16
         assert control.latch is False
-        assert [told["outcome"] for told in await answers(viewer)] == ["sent"]
+        assert [message["outcome"] for message in await answers(viewer)] == ["sent"]
 
 
 @in_virtual_time

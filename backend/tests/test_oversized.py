@@ -16,7 +16,7 @@ from tests.test_flood import rss_kib
 
 pytestmark = [
     pytest.mark.exhaustive,
-    pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="memory is told by /proc"),
+    pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="memory is read from /proc"),
 ]
 
 ENDED_WITHIN_S = 1.0
@@ -68,7 +68,7 @@ def served() -> Iterator[Served]:
 
 
 @pytest.mark.parametrize("heavy", HEAVY)
-async def test_it_is_ended_at_once_and_nothing_of_it_kept(served: Served, heavy: str) -> None:
+async def test_it_is_ended_at_once_and_nothing_of_it_stored(served: Served, heavy: str) -> None:
     host = served.url.removeprefix("http://")
     before_kib = rss_kib(served)
     reader, writer = await asyncio.open_connection(*host.split(":"))

@@ -278,6 +278,6 @@ def test_a_packet_longer_than_a_board_can_take_is_refused() -> None:
         encode(two, replace(DOC, max_length=10))
 
 
-def test_an_empty_seven_stays_unknown_where_nobody_knows_what_it_means() -> None:
+def test_an_empty_seven_stays_unknown_where_its_meaning_is() -> None:
     family = replace(DOC, empty_seven="unknown")
     assert parse_report(Packet(7, b""), family) == UnknownReport(7, b"")

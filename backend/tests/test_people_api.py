@@ -108,7 +108,7 @@ async def test_a_link_lets_one_device_in_with_role_and_name() -> None:
 
 
 @in_virtual_time
-async def test_a_code_lets_in_once_and_whoever_has_no_name_says_theirs() -> None:
+async def test_a_code_pairs_once_and_a_device_without_a_name_sends_its_own() -> None:
     async with lan() as (_, client, owner):
         made = await owner.invite("viewer")
         ben = Browser(client)
@@ -126,8 +126,8 @@ async def test_after_five_wrong_codes_the_right_one_counts_no_more() -> None:
         assert codes == ["pairingFailed"] * 4 + ["pairingLocked"]
         refused = await Browser(client).pair(code=made["code"])
         assert (refused.status_code, refused.json()["code"]) == (429, "pairingLocked")
-        told = (await owner.ask("GET", "/api/people")).json()
-        assert (told["openInvites"], told["openCodes"]) == ([made["id"]], [])
+        people = (await owner.ask("GET", "/api/people")).json()
+        assert (people["openInvites"], people["openCodes"]) == ([made["id"]], [])
         assert (await Browser(client).pair(secret=secret_of(made["link"]))).status_code == 200
 
 
@@ -136,8 +136,8 @@ async def test_an_invitation_ends_after_two_minutes_or_when_it_is_withdrawn() ->
     async with lan() as (_, client, owner):
         first, second = await owner.invite("viewer"), await owner.invite("viewer")
         assert (await owner.ask("DELETE", f"/api/invites/{second['id']}")).status_code == 204
-        told = (await owner.ask("GET", "/api/people")).json()
-        assert told["openInvites"] == told["openCodes"] == [first["id"]]
+        people = (await owner.ask("GET", "/api/people")).json()
+        assert people["openInvites"] == people["openCodes"] == [first["id"]]
         await asyncio.sleep(121)
         for made in (first, second):
             assert (await Browser(client).pair(secret=secret_of(made["link"]))).status_code == 403
@@ -222,7 +222,7 @@ async def test_a_token_has_a_fixed_role_and_is_shown_once() -> None:
 
 
 @in_virtual_time
-async def test_over_http_too_only_whoever_drives_or_an_owner_resumes() -> None:
+async def test_over_http_too_only_the_driver_or_an_owner_resumes() -> None:
     async with lan_with_control() as (_, client, owner, control):
         wish = {"name": "Grader", "role": "driver"}
         token = (await owner.ask("POST", "/api/tokens", json=wish)).json()["token"]
@@ -230,8 +230,8 @@ async def test_over_http_too_only_whoever_drives_or_an_owner_resumes() -> None:
         anna = Client(control, Caller("anna", "Anna", "driver"))
         control.driving.act(anna, "request")
         await client.post("/api/stop", headers=bearer)
-        [*_, told] = [message for message in await anna.heard() if message["type"] == "state"]
-        assert (told["latchedBy"], told["stoppedBy"]) == ("person", "Grader")
+        [*_, state] = [message for message in await anna.heard() if message["type"] == "state"]
+        assert (state["latchedBy"], state["stoppedBy"]) == ("person", "Grader")
         refused = await client.post("/api/resume", headers=bearer)
         assert (refused.status_code, refused.json()) == (
             409,

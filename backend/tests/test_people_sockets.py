@@ -1,4 +1,4 @@
-"""What a role lets whoever comes in do on the WebSocket, and how they are sent away."""
+"""Rights of the roles on the WebSocket, and how clients are disconnected."""
 
 import json
 from collections.abc import AsyncIterator
@@ -44,7 +44,7 @@ async def test_no_stranger_and_no_stopper_gets_a_connection(gateway: Running) ->
         assert json.loads(refused.value.response.body)["code"] == code
 
 
-async def test_whoever_is_revoked_is_out_at_once(gateway: Running) -> None:
+async def test_a_revoked_client_is_disconnected_at_once(gateway: Running) -> None:
     device, driver = token_for(gateway, "driver")
     _, owner = token_for(gateway, "owner")
     async with connect(gateway.ws, additional_headers=driver) as client:

@@ -72,7 +72,7 @@ async def test_it_may_go_on_without_a_beat_for_as_long_as_was_said_and_everybody
 
 
 @in_virtual_time
-async def test_whoever_drives_next_ends_one_that_goes_on_alone() -> None:
+async def test_the_next_driver_ends_an_unattended_play() -> None:
     async with script() as here:
         await here.post("play", frames=FRAMES, times=0, continueForMs=60_000)
         await asyncio.sleep(5)

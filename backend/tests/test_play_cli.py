@@ -30,7 +30,7 @@ def test_a_file_is_played_and_its_end_waited_for(served: Served, tmp_path: Path)
 
 
 @pytest.mark.exhaustive
-def test_one_that_may_go_on_returns_at_once_and_a_stop_is_told(served: Served, tmp_path: Path) -> None:
+def test_one_that_may_continue_returns_at_once_and_a_stop_is_reported(served: Served, tmp_path: Path) -> None:
     wave = file_in(tmp_path, "wave.json", {"frames": FRAMES})
     begun = run("play", wave, "--times", "0", "--continue", "60", "--json", "--url", served.url)
     assert (begun.exit_code, json.loads(begun.stdout)["status"]) == (0, "playing")

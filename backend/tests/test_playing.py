@@ -95,7 +95,7 @@ async def test_each_frame_begins_to_leave_at_its_instant_however_often_it_is_pla
 
 
 @in_virtual_time
-async def test_everybody_is_told_how_far_it_is_and_whoever_comes_later_too() -> None:
+async def test_every_client_gets_its_progress_and_later_ones_too() -> None:
     async with driven() as (control, _port, anna):
         bert = Client(control, BERT)
         control.driving.act(anna, "request")
@@ -103,23 +103,23 @@ async def test_everybody_is_told_how_far_it_is_and_whoever_comes_later_too() -> 
         await asyncio.sleep(1.6)
         await bert.heard()
         await asyncio.sleep(0.3)
-        told = (await answer(bert, "play"))["play"]
-        assert (told["status"], told["frameIndex"], told["frameCount"], told["times"]) == ("playing", 2, 3, 2)
+        play = (await answer(bert, "play"))["play"]
+        assert (play["status"], play["frameIndex"], play["frameCount"], play["times"]) == ("playing", 2, 3, 2)
         welcome = (await Client(control, BERT).heard())[0]
-        assert welcome["play"] == told
+        assert welcome["play"] == play
         await asyncio.sleep(3)
         assert (await answer(bert, "play"))["play"]["status"] == "done"
         assert await answer(bert) is None
 
 
 @in_virtual_time
-async def test_frames_of_20_ms_are_told_no_more_often_than_can_be_seen() -> None:
+async def test_frames_of_20_ms_are_published_no_more_often_than_can_be_seen() -> None:
     async with driven() as (control, port, anna):
         control.driving.act(anna, "request")
         ask(anna, [frame(20, s1=1000 + index) for index in range(100)])
         await asyncio.sleep(5)
-        told = [message for message in await anna.heard() if message["type"] == "play"]
-        assert len(told) <= 100 * 0.02 / 0.05 + 4
+        messages = [message for message in await anna.heard() if message["type"] == "play"]
+        assert len(messages) <= 100 * 0.02 / 0.05 + 4
         assert len(moves(port)) == 100
 
 
@@ -138,7 +138,7 @@ async def test_it_repeats_without_drift_until_it_is_stopped() -> None:
 
 
 @in_virtual_time
-async def test_each_pass_but_the_first_begins_where_it_was_told_to() -> None:
+async def test_each_pass_but_the_first_begins_at_loop_from() -> None:
     async with driven() as (control, port, anna):
         control.driving.act(anna, "request")
         ask(anna, times=3, loop_from=1)
@@ -320,9 +320,7 @@ INSTANTS_S = st.one_of(st.sampled_from([0.0, 1.495, 1.5, 1.505, 2.4, 3.0]), st.f
 @pytest.mark.parametrize("end", ENDS)
 @given(after_s=INSTANTS_S)
 @settings(max_examples=10 * TIMES)
-def test_whatever_ends_it_nothing_of_it_leaves_any_more_at_whichever_instant(
-    end: str, after_s: float
-) -> None:
+def test_after_any_end_at_any_instant_none_of_its_frames_leaves(end: str, after_s: float) -> None:
     end_it(end, after_s)
 
 
@@ -419,7 +417,7 @@ async def test_what_was_asked_before_a_stop_does_not_begin_behind_its_resume() -
 
 
 @in_virtual_time
-async def test_nobody_plays_without_the_lease_or_with_old_words() -> None:
+async def test_no_client_plays_without_the_lease_or_with_an_old_nonce() -> None:
     async with driven() as (control, port, anna):
         bert = Client(control, BERT)
         ask(bert)

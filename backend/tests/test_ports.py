@@ -1,4 +1,4 @@
-"""Real ports: what opens, what does not and what the person is told. A pty stands for the device."""
+"""Real ports: which open, which do not, and the sentences for the person. A pty stands for the device."""
 
 import contextlib
 import errno
@@ -61,7 +61,7 @@ def test_bytes_go_both_ways(pty: Pty) -> None:
     port.close()
 
 
-def test_a_second_opener_is_told_that_the_port_is_busy(pty: Pty) -> None:
+def test_a_second_opener_learns_that_the_port_is_busy(pty: Pty) -> None:
     port = open_port(pty.device)
     with pytest.raises(PortBusyError, match="Another program uses"):
         open_port(pty.device)
@@ -69,7 +69,7 @@ def test_a_second_opener_is_told_that_the_port_is_busy(pty: Pty) -> None:
     open_port(pty.device).close()
 
 
-def test_an_unplugged_port_is_lost_whatever_is_done_with_it(pty: Pty) -> None:
+def test_an_unplugged_port_is_lost_at_any_call(pty: Pty) -> None:
     port = open_port(pty.device)
     pty.unplug()
     with pytest.raises(PortLostError, match="cable"):
@@ -137,8 +137,8 @@ def test_a_refusal_names_the_group_to_join() -> None:
 
 
 @contextlib.contextmanager
-def as_somebody_without_rights() -> Iterator[None]:
-    """Root may open everything, so it becomes somebody else meanwhile."""
+def as_an_account_without_rights() -> Iterator[None]:
+    """Root may open everything, so it becomes another account meanwhile."""
     before = os.geteuid()
     if before == 0:
         os.seteuid(NOBODY)
@@ -150,7 +150,7 @@ def as_somebody_without_rights() -> Iterator[None]:
 
 def test_a_port_without_permission_is_denied(pty: Pty) -> None:
     Path(pty.device).chmod(0)
-    with as_somebody_without_rights(), pytest.raises(PortDeniedError):
+    with as_an_account_without_rights(), pytest.raises(PortDeniedError):
         open_port(pty.device)
 
 
@@ -168,7 +168,7 @@ def test_a_board_behind_a_socket_is_a_port_like_any_other() -> None:
         port.close()
 
 
-def test_a_socket_that_nobody_answers_is_missing() -> None:
+def test_a_socket_without_an_answer_is_missing() -> None:
     with socket.create_server(("127.0.0.1", 0)) as listener:
         device = f"socket://127.0.0.1:{listener.getsockname()[1]}"
     with pytest.raises(PortMissingError, match="Nothing answers"):
@@ -254,7 +254,7 @@ def test_an_adapter_with_a_number_of_its_own_goes_by_it_into_any_socket(dev: Fak
 
 
 @pytest.mark.parametrize("number", [None, "", "0001"])
-def test_adapters_that_cannot_be_told_apart_go_by_their_socket(dev: FakeDev, number: str | None) -> None:
+def test_indistinguishable_adapters_go_by_their_socket(dev: FakeDev, number: str | None) -> None:
     left = shown(dev.plug("ttyUSB0", TWIN, LEFT, number))
     right = shown(dev.plug("ttyUSB1", TWIN, RIGHT, number))
     assert (left, right) == tuple(str(dev.folder / "serial" / "by-path" / one) for one in (LEFT, RIGHT))
@@ -268,7 +268,7 @@ def test_adapters_that_cannot_be_told_apart_go_by_their_socket(dev: FakeDev, num
     [(("if00-port0", "if01-port0"), ("1-1:1.0", "1-1:1.1")), (("if00-port0", "if00-port1"), ("1-1", "1-1"))],
     ids=["an interface each", "one interface"],
 )
-def test_two_ports_of_one_adapter_with_a_number_are_told_apart(
+def test_two_ports_of_one_adapter_with_a_number_are_distinguished(
     dev: FakeDev, ends: tuple[str, str], locations: tuple[str, str]
 ) -> None:
     rows = [
@@ -301,7 +301,7 @@ def test_a_port_known_by_its_lasting_name_is_the_one_that_is_listed(dev: FakeDev
     assert not is_same_port(lasting, other)
 
 
-def test_where_the_system_keeps_no_lasting_names_none_is_told(dev: FakeDev) -> None:
+def test_where_the_system_has_no_lasting_names_none_is_given(dev: FakeDev) -> None:
     device = dev.plug("ttyUSB0", TWIN, LEFT)
     shutil.rmtree(dev.folder / "serial")
     assert shown(device) is None

@@ -67,7 +67,7 @@ async def test_a_script_goes_to_a_pose_by_number_or_name(tmp_path: Path) -> None
         ]
 
 
-async def test_what_cannot_be_gone_to_is_told_and_moves_nothing(tmp_path: Path) -> None:
+async def test_an_unreachable_pose_is_refused_and_moves_nothing(tmp_path: Path) -> None:
     port = FakePort()
     async with http_to(FakePorts(port), time.monotonic, library=Library(tmp_path)) as (client, _):
         await describe(client)
@@ -78,8 +78,8 @@ async def test_what_cannot_be_gone_to_is_told_and_moves_nothing(tmp_path: Path) 
             "Far": (422, "outOfRange"),
         }.items():
             assert refusal(await client.post(f"/api/poses/{name}/apply")) == expected
-        told = (await client.post("/api/poses/Rest/apply")).json()["detail"]
-        assert "2, 3" in told
+        detail = (await client.post("/api/poses/Rest/apply")).json()["detail"]
+        assert "2, 3" in detail
         assert (await client.get("/api/status")).json()["driver"] is None
         await port.until_written(1)
         assert set(port.packets()) == {STOP}  # the opening's own

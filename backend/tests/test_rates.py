@@ -31,7 +31,7 @@ def is_too_many(answer: Response) -> bool:
 
 @pytest.mark.parametrize("role", RATES)
 @in_virtual_time
-async def test_a_token_asks_so_often_and_hears_when_to_come_again(role: Role) -> None:
+async def test_a_token_has_a_rate_and_gets_a_time_to_retry(role: Role) -> None:
     per_second, burst = RATES[role]
     async with lan() as (entrance, client, _owner):
         headers, other = token_for(entrance, role), token_for(entrance, role)
@@ -46,7 +46,7 @@ async def test_a_token_asks_so_often_and_hears_when_to_come_again(role: Role) ->
 
 
 @in_virtual_time
-async def test_whoever_asks_too_often_still_stops_and_pairs_and_is_told_who_they_are() -> None:
+async def test_a_caller_above_its_rate_still_stops_and_pairs_and_gets_its_identity() -> None:
     async with lan() as (entrance, client, _owner):
         headers = token_for(entrance, "viewer")
         await statuses(client, 20, headers)

@@ -52,7 +52,7 @@ async def test_what_the_board_says_arrives(reading: tuple[Pty, Listener]) -> Non
     assert listener.data == b"\x55\x55\x02\x08\x55"
 
 
-async def test_a_pulled_cable_is_told_once(reading: tuple[Pty, Listener]) -> None:
+async def test_a_pulled_cable_is_reported_once(reading: tuple[Pty, Listener]) -> None:
     pty, listener = reading
     pty.unplug()
     await listener.wait()

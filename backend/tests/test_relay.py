@@ -1,4 +1,4 @@
-"""The driver's hand on everybody's sliders: who hears of what left the wire, when, and how much of it."""
+"""Commands that left the wire, as clients get them: which clients, when, and how many."""
 
 import asyncio
 
@@ -17,7 +17,7 @@ OTHER_SERVO = MOVE[:7] + b"\x02" + MOVE[8:]
 
 
 @in_virtual_time
-async def test_everybody_hears_what_left_whoever_asked_for_it() -> None:
+async def test_every_client_gets_the_commands_that_left_from_any_client() -> None:
     async with gateway_on() as control:
         anna, bert = Client(control), Client(control)
         for packet in (MOVE, BATTERY, RUN):
@@ -29,7 +29,7 @@ async def test_everybody_hears_what_left_whoever_asked_for_it() -> None:
 
 
 @in_virtual_time
-async def test_a_stop_is_told_to_everybody_with_the_pose_it_holds() -> None:
+async def test_every_client_gets_a_stop_with_the_pose_it_holds() -> None:
     async with gateway_on() as control:
         anna, bert = Client(control), Client(control)
         await anna.send(MOVE)
@@ -50,21 +50,21 @@ async def test_a_drag_reaches_a_viewer_twenty_times_a_second_and_ends_where_it_e
     port = FakePort()
     async with gateway_on(port) as control:
         anna, bert = Client(control), Client(control)
-        told = 0
+        count = 0
         for position in range(1000, 2000, 10):
             await anna.send(MOVE[:8] + position.to_bytes(2, "little"))
-            told += bert.waiting
+            count += bert.waiting
             await bert.heard()
         await asyncio.sleep(0.2)
         await bert.heard()
         took_s = port.written[-1][0] - port.written[1][0]
-        assert told <= took_s * 20 + 1
+        assert count <= took_s * 20 + 1
         assert bert.followed[-1] == port.packets()[-1]
         assert len(bert.followed) < 100
 
 
 @in_virtual_time
-async def test_whoever_does_not_read_has_one_message_of_it_waiting_at_most() -> None:
+async def test_a_client_that_does_not_read_has_one_such_message_waiting_at_most() -> None:
     async with gateway_on() as control:
         anna, deaf = Client(control), Client(control)
         await deaf.heard()
@@ -85,7 +85,7 @@ moves = st.builds(
 
 
 @given(st.lists(st.one_of(moves, st.sampled_from([STOP, RUN])), max_size=20))
-def test_what_is_left_out_is_void_and_what_is_kept_keeps_its_order(packets: list[bytes]) -> None:
+def test_left_out_commands_are_void_and_the_others_stay_in_order(packets: list[bytes]) -> None:
     commands = tuple(command for packet in packets if (command := parse_command(packet)))
     left = newest(commands)
     assert newest(left) == left

@@ -34,11 +34,11 @@ def served(tmp_path: Path) -> Iterator[Served]:
 
 
 @pytest.mark.exhaustive
-def test_status_is_told_for_people_and_for_programs(served: Served) -> None:
-    told = run("status", "--url", served.url)
-    assert told.exit_code == 0
-    assert f"port     open {served.pty.device}" in told.stdout
-    assert "driver   none" in told.stdout
+def test_status_is_printed_for_people_and_for_programs(served: Served) -> None:
+    result = run("status", "--url", served.url)
+    assert result.exit_code == 0
+    assert f"port     open {served.pty.device}" in result.stdout
+    assert "driver   none" in result.stdout
     assert json.loads(run("status", "--url", served.url, "--json").stdout)["board"] == "doc"
 
 
@@ -109,14 +109,14 @@ def test_a_bare_stop_that_fails_is_explained() -> None:
 
 
 @pytest.mark.exhaustive
-def test_what_is_out_of_range_is_told_in_the_gateways_words(served: Served) -> None:
+def test_an_out_of_range_value_is_refused_in_the_gateways_words(served: Served) -> None:
     refused = run("move", "1=2600", "--url", served.url)
     assert (refused.exit_code, refused.stdout) == (FAILURE, "")
     assert refused.stderr.startswith("position of servo 1 is 2600, allowed 500..2500")
 
 
 @pytest.mark.exhaustive
-def test_on_a_board_that_nobody_named_motion_says_how_to_name_it(tmp_path: Path) -> None:
+def test_on_an_unnamed_board_motion_says_how_to_name_it(tmp_path: Path) -> None:
     """Nothing answers on this port, so that the gateway cannot know either."""
     unnamed = Served("--data", str(tmp_path), *SILENT, identifies_board=True)
     try:
@@ -128,7 +128,7 @@ def test_on_a_board_that_nobody_named_motion_says_how_to_name_it(tmp_path: Path)
 
 
 @pytest.mark.exhaustive
-def test_a_silent_board_is_told_with_what_to_do(served: Served) -> None:
+def test_a_silent_board_is_reported_with_a_remedy(served: Served) -> None:
     silent = run("battery", "--url", served.url)
     assert silent.exit_code == FAILURE
     assert "switched on" in silent.stderr
@@ -141,7 +141,7 @@ def test_a_run_is_watched_over_until_ctrl_c_ends_it(served: Served) -> None:
         assert watching.stdout
         assert watching.stdout.readline() == "Slot 8: silent.\n"
         with pytest.raises(subprocess.TimeoutExpired):
-            watching.wait(2.5)  # longer than the gateway waits for somebody who does not beat
+            watching.wait(2.5)  # longer than the gateway waits for a heartbeat
         watching.send_signal(signal.SIGINT)
         assert watching.wait(5) == INTERRUPTED
         assert served.read_until_stops(3) == RUN + STOP * 3
@@ -149,7 +149,7 @@ def test_a_run_is_watched_over_until_ctrl_c_ends_it(served: Served) -> None:
 
 
 @pytest.mark.exhaustive
-def test_a_run_whose_end_nobody_hears_of_is_ended_in_time_with_a_code_of_its_own(served: Served) -> None:
+def test_a_run_without_a_reported_end_is_ended_in_time_with_a_code_of_its_own(served: Served) -> None:
     ended = run("run", "9", "--timeout", "1.2", "--url", served.url)
     assert (ended.exit_code, "within 1.2 s" in ended.stderr, "empty" in ended.stderr) == (
         TIMED_OUT,
@@ -171,9 +171,9 @@ def test_an_endless_run_says_who_ends_it_and_returns(served: Served) -> None:
     assert (begun.exit_code, begun.stdout) == (0, "Slot 8: silent.\n")
     assert begun.stderr.startswith("Slot 8 repeats until it is stopped: by `servodeck stop`")
     assert "after 3600 s, by the gateway" in begun.stderr
-    told = run("status", "--url", served.url).stdout
-    assert "running  slot 8, endless times" in told
-    assert "without A script on this computer for at most 3" in told
+    result = run("status", "--url", served.url).stdout
+    assert "running  slot 8, endless times" in result
+    assert "without A script on this computer for at most 3" in result
     assert run("stop", "--url", served.url).exit_code == 0
     assert served.read_until_stops(3) == ENDLESS + STOP * 3
 
@@ -206,7 +206,7 @@ def test_an_endless_run_ends_after_its_timeout(served: Served) -> None:
 
 
 @pytest.mark.exhaustive
-def test_a_run_that_somebody_stops_ends_its_watch(served: Served) -> None:
+def test_a_run_that_is_stopped_elsewhere_ends_its_watch(served: Served) -> None:
     with begin(served, "run", "8") as watching:
         assert watching.stdout
         watching.stdout.readline()
@@ -217,13 +217,13 @@ def test_a_run_that_somebody_stops_ends_its_watch(served: Served) -> None:
 @pytest.mark.exhaustive
 def test_a_run_may_go_on_without_the_command(served: Served) -> None:
     assert run("run", "8", "--continue", "60", "--url", served.url).exit_code == 0
-    told = run("status", "--url", served.url).stdout
-    assert "without A script on this computer for at most 60 s" in told
-    assert "running  slot 8, 1 times" in told
+    result = run("status", "--url", served.url).stdout
+    assert "without A script on this computer for at most 60 s" in result
+    assert "running  slot 8, 1 times" in result
 
 
 @pytest.mark.exhaustive
-def test_events_are_told_line_by_line(served: Served) -> None:
+def test_events_are_printed_line_by_line(served: Served) -> None:
     with begin(served, "events") as listening:
         assert listening.stdout
         assert json.loads(listening.stdout.readline())["type"] == "welcome"
@@ -234,12 +234,12 @@ def test_events_are_told_line_by_line(served: Served) -> None:
 
 
 @pytest.mark.exhaustive
-def test_ports_of_the_gateways_computer_are_told(served: Served) -> None:
+def test_ports_of_the_gateways_computer_are_listed(served: Served) -> None:
     assert served.pty.device in run("ports", "--url", served.url).stdout
 
 
 @pytest.mark.exhaustive
-def test_strangers_are_told_where_a_token_comes_from_and_with_one_they_come_in(tmp_path: Path) -> None:
+def test_an_unauthenticated_command_says_where_to_get_a_token_and_works_with_one(tmp_path: Path) -> None:
     served = Served("--lan", "--data", str(tmp_path), *SILENT)
     refused = run("status", "--url", served.url)
     assert (refused.exit_code, "--token-file" in refused.stderr) == (FAILURE, True)
@@ -261,9 +261,9 @@ def test_strangers_are_told_where_a_token_comes_from_and_with_one_they_come_in(t
         (["move"], USAGE, "Missing argument"),
     ],
 )
-def test_what_cannot_be_is_told_with_a_code_of_its_own(arguments: list[str], code: int, why: str) -> None:
-    told = run(*arguments)
-    assert (told.exit_code, why in told.stderr) == (code, True)
+def test_each_failure_has_an_exit_code_of_its_own(arguments: list[str], code: int, why: str) -> None:
+    result = run(*arguments)
+    assert (result.exit_code, why in result.stderr) == (code, True)
 
 
 def begin(served: Served, *arguments: str) -> subprocess.Popen[str]:

@@ -51,7 +51,7 @@ def begin(asked: Any) -> "asyncio.Task[Response]":
 @pytest.mark.parametrize("how", [REVOKE, DEMOTE])
 @pytest.mark.parametrize("after_ms", [30, 80, 130, 150])
 @in_virtual_time
-async def test_a_run_that_waits_for_a_moves_end_ends_with_whoever_asked(how: str, after_ms: int) -> None:
+async def test_a_run_that_waits_for_a_moves_end_ends_with_its_client(how: str, after_ms: int) -> None:
     async with script() as here:
         await here.move(3000, s1=2000)
         waiting = begin(here.post("slots/8/run"))
@@ -154,7 +154,7 @@ async def test_the_owner_may_let_that_group_go_on(after_s: float) -> None:
 
 
 @in_virtual_time
-async def test_a_group_that_nobody_let_go_on_is_stopped_whatever_the_owner_says() -> None:
+async def test_a_group_without_permission_to_continue_is_stopped_in_any_case() -> None:
     async with script() as here:
         await here.post("slots/8/run", times=2)
         await disconnect(here, REVOKE, continues=True)
@@ -163,7 +163,7 @@ async def test_a_group_that_nobody_let_go_on_is_stopped_whatever_the_owner_says(
 
 
 @in_virtual_time
-async def test_the_group_of_whoever_may_still_drive_goes_on_under_the_new_role() -> None:
+async def test_the_group_of_a_client_that_may_still_drive_continues_under_the_new_role() -> None:
     async with script() as here:
         await here.post("slots/8/run", times=2, continueForMs=60_000)
         await asyncio.sleep(5)
@@ -179,7 +179,7 @@ async def test_the_group_of_whoever_may_still_drive_goes_on_under_the_new_role()
 
 
 @in_virtual_time
-async def test_the_revocation_of_somebody_else_stops_nothing() -> None:
+async def test_the_revocation_of_another_client_stops_nothing() -> None:
     async with script() as here:
         await here.move(3000, s1=2000)
         other, _ = here.entrance.devices.admit("device", "Bert", "driver")
@@ -235,7 +235,7 @@ async def test_of_their_groups_the_stored_ones_stay_and_those_behind_are_not_beg
 
 
 @in_virtual_time
-async def test_a_download_goes_on_when_somebody_else_is_revoked_or_its_caller_may_still_drive() -> None:
+async def test_a_download_continues_when_another_is_revoked_or_its_caller_may_still_drive() -> None:
     async with script(behind=AnsweringPort(ANSWERS_MS)) as here:
         other, _ = here.entrance.devices.admit("device", "Bert", "driver")
         begun = await here.post("download", groups=[STORES])
@@ -247,7 +247,7 @@ async def test_a_download_goes_on_when_somebody_else_is_revoked_or_its_caller_ma
 
 
 @in_virtual_time
-async def test_nobody_adds_to_the_download_of_another() -> None:
+async def test_only_its_client_adds_to_a_download() -> None:
     """It would end with them."""
     async with script(behind=AnsweringPort(ANSWERS_MS * 2)) as here:
         begun = (await here.post("download", groups=[STORES])).json()
@@ -265,7 +265,7 @@ async def unattended_slot(here: Scripted) -> object:
 
 
 async def latest_state(session: Client) -> Any:
-    return next(told for told in reversed(await session.heard()) if "unattended" in told)
+    return next(message for message in reversed(await session.heard()) if "unattended" in message)
 
 
 @in_virtual_time

@@ -57,7 +57,7 @@ What = Literal[
     "page ends a group",
     "page ends a play",
     "page stops",
-    "somebody resumes",
+    "a client resumes",
     "page drops",
     "is revoked",
     "is demoted",
@@ -158,7 +158,7 @@ class History:
             self._ask(self.parties[step.who], step.what, number)
         elif step.what in ON_PAGES:
             self._say(self.parties[step.who], step.what, number)
-        elif step.what == "somebody resumes":
+        elif step.what == "a client resumes":
             self.here.control.resume(THIS_COMPUTER)
         else:
             self._lose(self.parties[step.who], step.what)
@@ -272,7 +272,7 @@ LOST = st.sampled_from([*LOSSES, "is revoked"])
 
 @st.composite
 def episodes(draw: st.DrawFn) -> list[Step]:
-    """Somebody asks for a few things and may be lost; others come between, and somebody may resume."""
+    """A client sends a few requests and may be lost; others come between, and a client may resume."""
     who = draw(st.sampled_from(NAMES))
     asked = [Step(draw(PAUSES_MS), what, who) for what in draw(st.lists(ASKED, min_size=1, max_size=3))]
     between = [
@@ -280,11 +280,11 @@ def episodes(draw: st.DrawFn) -> list[Step]:
         for what in draw(st.lists(ASKED, max_size=1))
     ]
     lost = [Step(draw(PAUSES_MS), what, who) for what in draw(st.lists(LOST, max_size=1))]
-    resumed = [Step(draw(PAUSES_MS), "somebody resumes", who)] if draw(st.booleans()) else []
+    resumed = [Step(draw(PAUSES_MS), "a client resumes", who)] if draw(st.booleans()) else []
     return asked + between + lost + resumed
 
 
 @settings(max_examples=40 * TIMES)
 @given(history=st.lists(episodes(), min_size=1, max_size=4))
-def test_nothing_of_whoever_is_gone_begins_to_leave_behind_the_answer(history: list[list[Step]]) -> None:
+def test_no_packet_of_a_revoked_client_begins_to_leave_after_the_answer(history: list[list[Step]]) -> None:
     play([step for episode in history for step in episode])

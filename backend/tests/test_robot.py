@@ -96,15 +96,15 @@ async def test_who_calibrates_a_servo_may_pass_its_limits_alone_and_until_the_en
 
 
 @in_virtual_time
-async def test_who_does_not_drive_names_no_board_for_whoever_does() -> None:
+async def test_a_client_that_does_not_drive_names_no_board_for_the_driver() -> None:
     async with gateway_on() as control:
         anna, bert = Client(control, PUPIL), Client(control, OTHER_PUPIL)
         control.driving.act(anna, "request")
         await bert.heard()
         say(control, bert, type="board", id=1, board="lsc-6")
-        told = await bert.heard()
+        messages = await bert.heard()
         assert control.board.family_id == "doc"
-        assert [message["code"] for message in told if message["type"] == "refused"] == ["notDriving"]
+        assert [message["code"] for message in messages if message["type"] == "refused"] == ["notDriving"]
         say(control, bert, type="board", id=1, board="doc")  # what it is taken for already
         assert "done" in [message["type"] for message in await bert.heard()]
         say(control, anna, type="board", id=1, board="lsc-6")

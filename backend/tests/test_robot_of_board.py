@@ -1,4 +1,4 @@
-"""One robot of the library stands on the board, with its limits: for everybody and also after a restart."""
+"""One robot of the library is on the board, with its limits: for all clients, also after a restart."""
 
 import asyncio
 import json
@@ -55,17 +55,17 @@ def gateway_at(store: DeviceStore, remembered: Remembered | None = None, *ports:
     )
 
 
-async def robots_told(client: Client) -> list[Any]:
+async def robots_sent(client: Client) -> list[Any]:
     return [message["robot"] for message in await client.heard() if message["type"] == "robot"]
 
 
-async def test_whoever_joins_is_told_the_robot_and_its_limits_hold_for_all() -> None:
+async def test_a_new_client_gets_the_robot_and_its_limits_hold_for_all() -> None:
     control = gateway_at(DeviceStore(arm=(arm(ELBOW), 3)))
     await control.use_port(PLACE)
     anna = Client(control)
     await anna.heard()
     await control.robot.put("arm", None)
-    assert await robots_told(anna) == [{"id": "arm", "revision": 3}]
+    assert await robots_sent(anna) == [{"id": "arm", "revision": 3}]
     welcome, *_ = await Client(control).heard()
     assert welcome["robot"] == {"id": "arm", "revision": 3}
     with pytest.raises(OutOfRangeError, match="Elbow"):
@@ -85,10 +85,10 @@ async def test_an_edit_counts_at_once_and_an_older_answer_does_not() -> None:
     control.robot.written("arm", 5, arm(WIDE))
     control.robot.written("arm", 4, arm(ELBOW))
     control.robot.written("hand", 9, arm(ELBOW))
-    assert await robots_told(anna) == [{"id": "arm", "revision": 5}] * 3
+    assert await robots_sent(anna) == [{"id": "arm", "revision": 5}] * 3
     await anna.send(MOVE)
     control.robot.removed(["arm"])
-    assert await robots_told(anna) == [None]
+    assert await robots_sent(anna) == [None]
     await control.board.link.close()
 
 
@@ -109,9 +109,9 @@ async def test_only_the_robot_that_is_known_to_stand_there_is_replaced_and_by_on
     control.choose_family("lsc-6")
     assert control.robot.snapshot() is None
     control.choose_family("doc")
-    told = control.robot.snapshot()
-    assert told is not None
-    assert told.id == "hand"
+    snapshot = control.robot.snapshot()
+    assert snapshot is not None
+    assert snapshot.id == "hand"
     await control.use_port("/dev/other")
     assert control.robot.snapshot() is None
     await control.close_port()
@@ -129,9 +129,9 @@ async def test_after_a_restart_it_stands_there_again_and_until_its_limits_are_re
     store.slow.clear()
     control = gateway_at(store, Remembered(tmp_path))
     await control.use_port(PLACE)
-    told = control.robot.snapshot()
-    assert told is not None
-    assert (told.id, told.revision) == ("arm", 0)
+    snapshot = control.robot.snapshot()
+    assert snapshot is not None
+    assert (snapshot.id, snapshot.revision) == ("arm", 0)
     anna = Client(control)
     for packet in (MOVE, MOVE_ELSEWHERE):
         with pytest.raises(MovingError):
@@ -144,7 +144,7 @@ async def test_after_a_restart_it_stands_there_again_and_until_its_limits_are_re
 
 
 async def next_robot(client: Client) -> Any:
-    """Told by a thread that reads the library."""
+    """Set by a thread that reads the library."""
     async with asyncio.timeout(10):
         while (message := json.loads(await client.next()))["type"] != "robot":
             pass
@@ -179,7 +179,7 @@ def test_what_is_remembered_is_there_again_and_damage_is_nothing(tmp_path: Path)
         assert Remembered(tmp_path).port is None
 
 
-async def test_while_somebody_drives_only_they_and_owners_rule() -> None:
+async def test_while_a_client_drives_only_it_and_owners_change_the_robot() -> None:
     control = gateway_at(DeviceStore())
     await control.use_port(PLACE)
     anna = Client(control, PUPIL)

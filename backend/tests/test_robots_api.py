@@ -31,7 +31,7 @@ def robot(top: int = 1800, expected: int = 0, **facts: object) -> dict[str, Any]
 MOVE = {"timeMs": 1500, "positions": {"2": 1900}}
 
 
-async def test_a_robot_is_kept_put_on_the_board_and_its_limits_hold(tmp_path: Path) -> None:
+async def test_a_robot_is_stored_put_on_the_board_and_its_limits_hold(tmp_path: Path) -> None:
     async with http_to(FakePorts(FakePort()), time.monotonic, library=Library(tmp_path)) as (client, _):
         assert refusal(await client.put("/api/robot", json={"id": "arm"})) == (404, "notFound")
         assert (await client.put("/api/library/arm", json=robot())).json() == {"revision": 1}
@@ -49,7 +49,7 @@ async def test_a_robot_is_kept_put_on_the_board_and_its_limits_hold(tmp_path: Pa
         assert (await client.post("/api/move", json=MOVE)).status_code == 200
 
 
-async def test_while_somebody_drives_others_change_no_limits_and_no_robot(tmp_path: Path) -> None:
+async def test_while_a_client_drives_others_change_no_limits_and_no_robot(tmp_path: Path) -> None:
     lan = entrance_to(addresses.lan(PORT))
     headers = {
         name: {"Authorization": f"Bearer {lan.devices.admit('token', name, 'driver')[1]}"}

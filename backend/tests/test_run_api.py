@@ -17,7 +17,7 @@ from tests.virtual_time import at, in_virtual_time, now
 
 
 @in_virtual_time
-async def test_a_run_that_nobody_watches_is_stopped_after_two_seconds() -> None:
+async def test_a_run_without_a_heartbeat_is_stopped_after_two_seconds() -> None:
     async with script() as here:
         at(now() + 0.05, lambda: here.port.say(RUN_TAKEN))
         assert (await here.post("slots/8/run", times=1)).json() == {"outcome": "acknowledged"}
@@ -57,7 +57,7 @@ async def test_another_run_ends_the_one_before_and_a_move_waits_for_its_end() ->
 
 
 @in_virtual_time
-async def test_where_only_the_board_knows_the_end_letting_go_is_enough_and_nobody_has_to_resume() -> None:
+async def test_where_only_the_board_knows_the_end_a_release_is_enough_without_a_resume() -> None:
     async with script() as here:
         await here.post("slots/8/run")
         assert (await running(here)) == {"slot": 8, "times": 1, "endsInMs": None}
@@ -112,7 +112,7 @@ async def test_who_is_not_let_in_any_more_is_stopped() -> None:
 
 
 @in_virtual_time
-async def test_while_nobody_has_said_which_board_it_is_the_way_out_is_told_and_nothing_leaves() -> None:
+async def test_an_unnamed_board_gets_nothing_and_the_refusal_says_how_to_name_it() -> None:
     async with script(board="unknown") as here:
         frame = {"durationMs": 500, "positions": {"1": 1500}}
         refused = (

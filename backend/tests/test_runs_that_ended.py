@@ -14,7 +14,7 @@ GROUP_MS = 2000
 
 
 async def watched(here: Scripted, seconds: float) -> None:
-    """Somebody watches over what the script has begun."""
+    """The script sends heartbeats for its run."""
     for _ in range(round(seconds)):
         await here.post("lease", action="heartbeat")
         await asyncio.sleep(1)
@@ -52,7 +52,7 @@ async def test_a_download_behind_a_run_of_an_erased_slot_is_not_stopped(
 
 
 @in_virtual_time
-async def test_once_every_slot_is_empty_a_run_keeps_nobody_from_moving() -> None:
+async def test_once_every_slot_is_empty_a_run_prevents_no_move() -> None:
     async with script(role="owner", board="openarm-new", behind=new_board()) as here:
         await here.download(5, duration_ms=14_000)
         await here.post("erase")
@@ -67,7 +67,7 @@ async def test_once_every_slot_is_empty_a_run_keeps_nobody_from_moving() -> None
 
 
 @in_virtual_time
-async def test_a_run_of_a_slot_that_nobody_knows_ends_with_a_stop_and_at_the_latest_by_itself() -> None:
+async def test_a_run_of_an_unknown_slot_ends_with_a_stop_and_at_the_latest_by_itself() -> None:
     async with script(board="openarm-old", behind=old_board()) as here:
         await here.post("slots/77/run")
         refused = await here.move(1500, s1=2000)

@@ -1,6 +1,7 @@
 """Every file of shared/protocol/scenarios, played at the gateway in virtual time: its inputs come at their
-times, and what leaves, what is told and how each intent ends must be as written. The page's session plays the
-same (shared/src/robot/scenarios.test.ts) and writes the files; README.md there says what an event is.
+times, and the packets that leave, the messages and the outcome of each intent must be as written. The page's
+session plays the same (shared/src/robot/scenarios.test.ts) and writes the files; README.md there says what an
+event is.
 """
 
 import asyncio
@@ -36,16 +37,16 @@ BEFORE_HEARTBEAT_S = 1.5
 
 
 class Listener(Client):
-    """Who drives; notes when each thing was told."""
+    """The driver; records its messages with their times."""
 
     def __init__(self, control: Control) -> None:
-        self.told: list[tuple[float, Event]] = []
-        self.told_something = asyncio.Event()
+        self.sent: list[tuple[float, Event]] = []
+        self.something_sent = asyncio.Event()
         super().__init__(control, ANNA)
 
     def put(self, text: str) -> None:
-        self.told.append((now(), json.loads(text)))
-        self.told_something.set()
+        self.sent.append((now(), json.loads(text)))
+        self.something_sent.set()
         super().put(text)
 
 
@@ -96,7 +97,7 @@ class Player:
                 self._tasks.append(asyncio.create_task(self._ask(intent, event.get("id"))))
 
     async def watch(self) -> None:
-        """Somebody is there as long as it is played: a group ends with whoever began it."""
+        """A client is connected while the scenario is played: a group ends with the client that began it."""
         while True:
             await asyncio.sleep(1)
             if self._control.driving.driver not in (None, self._session):
@@ -111,9 +112,9 @@ class Player:
         """Each field when it has changed."""
         known: dict[str, Any] = {}
         changes = []
-        for at_s, message in self._session.told:
-            told = fields_of(message)
-            new = {field: value for field, value in told.items() if known.get(field, ...) != value}
+        for at_s, message in self._session.sent:
+            fields = fields_of(message)
+            new = {field: value for field, value in fields.items() if known.get(field, ...) != value}
             known |= new
             if message["type"] != "welcome":
                 changes += [(self._ms(at_s), field, value) for field, value in new.items()]
@@ -178,8 +179,8 @@ class Player:
         parts = [made_of(group, list(packets_of(group, family)), family) for group in groups]
         job = self._control.requests.download(parts, ANNA, lambda: None)
         while (state := jobs.find(job.id)).status == "running":
-            self._session.told_something.clear()
-            await self._session.told_something.wait()
+            self._session.something_sent.clear()
+            await self._session.something_sent.wait()
         return str(state.code or state.status)
 
     async def _play_or_stop(self, intent: Event) -> None:
@@ -247,8 +248,8 @@ async def test_what_comes_of_it_is_what_is_written(scenario: Event) -> None:
     watching.cancel()
     is_like(player.leaves(), [(one["atMs"], one["leaves"]) for one in events if "leaves" in one])
     is_like(player.ends, [(one["atMs"], one["ends"], one["with"]) for one in events if "ends" in one])
-    told = [(one["atMs"], *change) for one in events if "tells" in one for change in one["tells"].items()]
+    changes = [(one["atMs"], *change) for one in events if "tells" in one for change in one["tells"].items()]
     tells = player.tells()
-    for field in {field for _, field, _ in (*told, *tells)}:
-        is_like([one for one in tells if one[1] == field], [one for one in told if one[1] == field])
+    for field in {field for _, field, _ in (*changes, *tells)}:
+        is_like([one for one in tells if one[1] == field], [one for one in changes if one[1] == field])
     await control.board.link.close()

@@ -23,7 +23,7 @@ def test_a_board_that_never_answered_that_question_is_not_missed() -> None:
     assert not silence(1.0, 6.0, answered=POSITIONS).is_silent(100.0)
 
 
-def test_whatever_it_says_ends_the_silence() -> None:
+def test_any_report_ends_the_silence() -> None:
     watch = silence(1.0, 6.0)
     watch.heard(POSITIONS)
     assert not watch.is_silent(100.0)

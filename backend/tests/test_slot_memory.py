@@ -92,7 +92,7 @@ def test_what_an_earlier_version_knew_to_be_broken_is_broken(tmp_path: Path) -> 
 
 
 @in_virtual_time
-async def test_everybody_is_told_which_version_a_slot_got_and_whoever_was_away_at_its_return() -> None:
+async def test_every_client_gets_the_version_of_a_slot_also_when_it_returns_later() -> None:
     async with gateway_on(AnsweringPort(QUICK * 3)) as control:
         anna = Client(control)
         await ended(control, begin(control, group("v1")))
@@ -125,7 +125,7 @@ async def test_one_that_ends_half_way_changes_no_version_and_an_erase_forgets_al
 
 
 @in_virtual_time
-async def test_nobody_overwrites_what_another_has_stored_since_they_looked() -> None:
+async def test_a_slot_that_changed_since_it_was_seen_is_not_overwritten() -> None:
     port = AnsweringPort(QUICK * 4)
     async with gateway_on(port) as control:
         await ended(control, begin(control, group("annas", "")))

@@ -63,7 +63,7 @@ async def test_a_run_that_the_board_takes_behind_it_is_stopped_however_long_it_w
 
 
 @in_virtual_time
-async def test_what_somebody_has_begun_since_is_not_stopped_by_it() -> None:
+async def test_a_motion_begun_since_is_not_stopped_by_it() -> None:
     async with driven(ERASE) as (control, port, anna):
         await run_unheard(anna)
         await control.stop()

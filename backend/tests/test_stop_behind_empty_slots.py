@@ -1,5 +1,5 @@
 """STOP of a move that began behind a run of a slot without a group: the move is held all the same, and of the
-rest is told what the gateway can know.
+rest is published as far as the gateway can know it.
 """
 
 import asyncio
@@ -27,7 +27,7 @@ OLGA = Caller("olga", "Olga", "owner")
 GUEST = Caller("guest", "Bert", "viewer")
 NEVER_STORED, SLOT = 77, 5
 START, END, MOVE_MS = 1000, 2000, 10_000
-# A hold that may meet frames nobody knows takes so long, and what it re-times with it (S26).
+# The duration of a hold that may meet unknown frames, and of the moves that it re-times (S26).
 UNSURE_HOLD_MS = 3000
 
 Unheld = dict[str, object] | None
@@ -134,7 +134,7 @@ async def test_behind_a_run_of_an_erased_slot_all_is_held(
 @given(after_s=instants)
 @settings(max_examples=2 * TIMES)
 @in_virtual_time
-async def test_behind_a_run_of_a_slot_that_nobody_knows_the_move_is_held(
+async def test_behind_a_run_of_an_unknown_slot_the_move_is_held(
     board: str, press: str, after_s: float
 ) -> None:
     async with script(role="owner", board=board, behind=BOARDS[board]()) as here:

@@ -1,4 +1,4 @@
-"""STOP of somebody who does not drive, at any instant: none is missed, nothing moves behind it (F21)."""
+"""STOP of a client that does not drive, at any instant: none is missed, nothing moves behind it (F21)."""
 
 import asyncio
 import random
@@ -88,7 +88,7 @@ async def stop_in_flood(chance: random.Random) -> None:
 
 
 async def shout(client: Client, intake: Intake, from_s: float) -> None:
-    """Questions, which anybody may ask, far more than the rate and the wire take."""
+    """Questions, which every client may send, far more than the rate and the wire take."""
     await asyncio.sleep(from_s)
     for number in range(SAID_EACH):
         take_text(f'{{"type":"packet","id":{number},"bytes":"{BATTERY.hex()}","nonce":null}}', client, intake)

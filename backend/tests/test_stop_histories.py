@@ -1,5 +1,5 @@
-"""Generated histories at the gateway's doors: a known group is held where its frames have it, whoever stops
-it and when; no download is ended but by somebody; and no run is waited for without a bound.
+"""Generated histories at the gateway's doors: a known group is held where its frames have it, for a STOP of
+any client at any time; no download ends by itself; and every wait for a run is bounded.
 """
 
 import asyncio
@@ -141,16 +141,16 @@ STEPS: dict[str, Callable[[Scripted], Awaitable[object]]] = {
 @given(boards, st.lists(st.sampled_from(sorted(STEPS)), max_size=6))
 @settings(max_examples=5 * TIMES, deadline=None)
 @in_virtual_time
-async def test_a_download_that_may_begin_is_ended_by_nobody(board: str, steps: list[str]) -> None:
+async def test_a_download_that_may_begin_is_not_ended(board: str, steps: list[str]) -> None:
     async with script(role="owner", board=board, behind=BOARDS[board]()) as here:
         for step in steps:
             await STEPS[step](here)
         await asyncio.sleep(4)
-        # A run that nobody watches over has been stopped by now, unless it ended or was let go.
+        # An unattended run has been stopped by now, unless it ended or was let go.
         await here.post("resume")
         await here.post("stop")
         await here.post("resume")
-        # The stop's own hold: of 3 s where what nobody knows may be under way.
+        # The stop's own hold: of 3 s where unknown motion may be in progress.
         await asyncio.sleep(3.5)
         job = await here.download(SLOT, OTHER_SLOT, frames=30)
         assert (job.status, job.detail, here.control.latch) == ("done", None, False)

@@ -88,8 +88,8 @@ async def test_a_later_frame_is_held_on_its_way_too() -> None:
         assert is_held_ahead(here.sent()[-1], 1600 + 100 * went, 1700)
 
 
-async def told_of(here: Scripted) -> tuple[object, object]:
-    """What a stop cannot hold, as whoever pressed it and a viewer who looks on hear it."""
+async def unheld_in(here: Scripted) -> tuple[object, object]:
+    """The servos that a stop cannot hold, as its client and a viewer get them."""
     bert = Client(here.control, GUEST)
     answer = (await here.post("stop")).json()["unheld"]
     [halted] = [message for message in await bert.heard() if message["type"] == "halted"]
@@ -97,24 +97,24 @@ async def told_of(here: Scripted) -> tuple[object, object]:
 
 
 @in_virtual_time
-async def test_everybody_is_told_what_may_go_on_and_for_how_long() -> None:
+async def test_every_client_gets_the_unheld_servos_and_their_time() -> None:
     async with script(board="openarm-old", behind=old_board()) as here:
         await asyncio.sleep(30)
-        assert await told_of(here) == (None, None)
+        assert await unheld_in(here) == (None, None)
         await here.post("resume")
         await here.move(3000, s3=2000)
         pressed_in_first_move = {"servos": [3], "forMs": pytest.approx(3026, abs=1)}
         await asyncio.sleep(0.01)
-        assert await told_of(here) == (pressed_in_first_move, pressed_in_first_move)
+        assert await unheld_in(here) == (pressed_in_first_move, pressed_in_first_move)
         await here.post("resume")
         await asyncio.sleep(3)
         await here.post("slots/77/run")
         of_a_group_nobody_knows = {"servos": None, "forMs": pytest.approx(30_010, abs=10)}
-        assert await told_of(here) == (of_a_group_nobody_knows, of_a_group_nobody_knows)
+        assert await unheld_in(here) == (of_a_group_nobody_knows, of_a_group_nobody_knows)
         await here.post("resume")
         await asyncio.sleep(1)
         again = {"servos": None, "forMs": pytest.approx(28_900, abs=100)}
-        assert await told_of(here) == (again, again)
+        assert await unheld_in(here) == (again, again)
 
 
 @in_virtual_time
@@ -122,4 +122,4 @@ async def test_of_a_group_that_it_knows_all_is_held() -> None:
     async with script(board="openarm-old", behind=old_board()) as here:
         await asyncio.sleep(30)
         await begun_long_ago(here, frames=2)
-        assert await told_of(here) == (None, None)
+        assert await unheld_in(here) == (None, None)

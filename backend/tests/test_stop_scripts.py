@@ -1,4 +1,4 @@
-"""STOP while scripts ask for anything at any time: nothing moves behind it (I2), and what nobody watches ends
+"""STOP while scripts send any request at any time: nothing moves behind it (I2), and unattended motion ends
 by itself.
 """
 
@@ -54,14 +54,14 @@ def move_time_ms(packet: bytes) -> int:
 
 
 @in_virtual_time
-async def test_whatever_scripts_ask_nothing_moves_behind_a_stop() -> None:
+async def test_for_any_requests_of_scripts_nothing_moves_after_a_stop() -> None:
     for seed in seeds(60):
         with named("test_stop_scripts.py", seed, "scripts"):
             await busy_scripts(random.Random(seed))
 
 
 @in_virtual_time
-async def test_whatever_scripts_ask_it_ends_by_itself_and_the_lease_is_free() -> None:
+async def test_any_requests_of_scripts_end_by_themselves_and_free_the_lease() -> None:
     for seed in seeds(30):
         with named("test_stop_scripts.py", seed, "scripts left alone"):
             chance = random.Random(seed)

@@ -1,4 +1,4 @@
-"""What blocks is done in a thread, and whoever waits for it hears how it ended."""
+"""Blocking calls run in a thread, and the caller gets their result or error."""
 
 import asyncio
 import threading
@@ -13,7 +13,7 @@ async def test_what_it_gives_is_heard() -> None:
 
 
 @pytest.mark.parametrize("error", [RuntimeError("a bug"), OSError("a disk"), KeyError("a key")])
-async def test_whatever_it_raises_is_heard(error: Exception) -> None:
+async def test_any_error_reaches_the_caller(error: Exception) -> None:
     def fail() -> None:
         raise error
 
@@ -22,7 +22,7 @@ async def test_whatever_it_raises_is_heard(error: Exception) -> None:
             await in_thread(fail)
 
 
-async def test_what_nobody_waits_for_any_more_is_undone() -> None:
+async def test_a_result_without_a_caller_is_undone() -> None:
     may_end, undone = threading.Event(), asyncio.Event()
     loop = asyncio.get_running_loop()
 

@@ -44,7 +44,7 @@ async def test_above_the_rate_they_wait_in_the_order_in_which_they_came() -> Non
 
 
 @in_virtual_time
-async def test_who_leaves_is_told_at_once_and_holds_nobody_up() -> None:
+async def test_a_caller_that_leaves_is_noticed_at_once_and_delays_no_other() -> None:
     turns = turns_of_two_and_one_a_second()
     callers = [Caller() for _ in range(1000)]
     waiting = [asyncio.create_task(turns.wait(caller)) for caller in callers]

@@ -1,4 +1,4 @@
-"""A run that may go on without its driver: bounded, seen by all, ended by anybody."""
+"""A run that may continue without its driver: bounded, visible to all clients, and any of them may end it."""
 
 import asyncio
 
@@ -27,7 +27,7 @@ async def begin(control: Control, for_ms: int = 60_000) -> Client:
     return anna
 
 
-async def told(session: Client) -> object:
+async def unattended_of(session: Client) -> object:
     """The newest word about it."""
     return next(
         message["unattended"] for message in reversed(await session.heard()) if "unattended" in message
@@ -41,7 +41,7 @@ async def test_it_outlives_the_silence_and_the_leaving_of_its_driver_and_everybo
         async with gateway_on(port) as control:
             bert = Client(control, BERT)
             anna = await begin(control)
-            assert await told(bert) == {"slot": 8, "times": 1, "by": "Anna", "endsInMs": 60_000}
+            assert await unattended_of(bert) == {"slot": 8, "times": 1, "by": "Anna", "endsInMs": 60_000}
             anna.beats = False
             if leaves:
                 control.leave(anna)
@@ -49,11 +49,11 @@ async def test_it_outlives_the_silence_and_the_leaving_of_its_driver_and_everybo
             assert control.driving.driver is None
             assert (port.packets(), control.latch) == ([STOP, RUN], False)
             late = Client(control, BERT)
-            assert await told(late) == {"slot": 8, "times": 1, "by": "Anna", "endsInMs": 30_000}
+            assert await unattended_of(late) == {"slot": 8, "times": 1, "by": "Anna", "endsInMs": 30_000}
 
 
 @in_virtual_time
-async def test_it_ends_when_its_time_is_over_and_nobody_has_to_resume() -> None:
+async def test_it_ends_when_its_time_is_over_without_a_need_to_resume() -> None:
     port = FakePort()
     async with gateway_on(port) as control:
         bert = Client(control, BERT)
@@ -62,11 +62,11 @@ async def test_it_ends_when_its_time_is_over_and_nobody_has_to_resume() -> None:
         await asyncio.sleep(61)
         assert port.packets() == [STOP, RUN, *STOPS]
         assert port.written[2][0] - begun_s == pytest.approx(60, abs=0.1)
-        assert (await told(bert), control.latch) == (None, False)
+        assert (await unattended_of(bert), control.latch) == (None, False)
 
 
 @in_virtual_time
-async def test_anybody_stops_it() -> None:
+async def test_any_client_stops_it() -> None:
     port = FakePort()
     async with gateway_on(port) as control:
         bert = Client(control, BERT)
@@ -74,20 +74,20 @@ async def test_anybody_stops_it() -> None:
         take(StopMessage(type="stop"), bert, control)
         await asyncio.sleep(0.5)
         assert port.packets() == [STOP, RUN, *STOPS]
-        assert (await told(bert), control.latch) == (None, True)
+        assert (await unattended_of(bert), control.latch) == (None, True)
         await asyncio.sleep(120)
         assert port.packets() == [STOP, RUN, *STOPS]
 
 
 @in_virtual_time
-async def test_whoever_drives_next_ends_it_first() -> None:
+async def test_the_next_driver_ends_it_first() -> None:
     port = FakePort()
     async with gateway_on(port) as control:
         control.leave(await begin(control))
         carl = Client(control)
         await carl.send(MOVE)
         assert port.packets() == [STOP, RUN, *STOPS, MOVE]
-        assert await told(carl) is None
+        assert await unattended_of(carl) is None
 
 
 @in_virtual_time
@@ -100,7 +100,7 @@ async def test_the_one_who_began_it_may_come_back_to_it_and_take_that_back() -> 
         await asyncio.sleep(1)
         assert port.packets() == [STOP, RUN]
         take(ContinueMessage(type="continue", for_ms=None), anna, control)
-        assert await told(anna) is None
+        assert await unattended_of(anna) is None
         control.leave(anna)
         await asyncio.sleep(1)
         assert port.packets() == [STOP, RUN, *STOPS]
@@ -114,12 +114,12 @@ async def test_the_boards_word_that_it_ended_and_another_run_end_the_leave_too()
         await asyncio.sleep(1)
         port.say(RUN_ENDED)
         await asyncio.sleep(0.1)
-        assert await told(anna) is None
+        assert await unattended_of(anna) is None
         again = await begin(control) if control.driving.driver is None else anna
         await again.send(RUN)
         take(ContinueMessage(type="continue", for_ms=60_000), again, control)
         await again.send(RUN)
-        assert await told(again) is None
+        assert await unattended_of(again) is None
         control.leave(again)
         await asyncio.sleep(1)
         assert port.packets()[-3:] == STOPS
@@ -132,7 +132,7 @@ async def test_an_endless_run_ends_when_its_time_is_over() -> None:
         anna = Client(control, ANNA)
         await anna.send(ENDLESS)
         take(ContinueMessage(type="continue", for_ms=60_000), anna, control)
-        assert await told(anna) == {"slot": 8, "times": 0, "by": "Anna", "endsInMs": 60_000}
+        assert await unattended_of(anna) == {"slot": 8, "times": 0, "by": "Anna", "endsInMs": 60_000}
         control.leave(anna)
         await asyncio.sleep(59)
         assert port.packets() == [STOP, ENDLESS]

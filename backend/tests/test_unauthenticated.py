@@ -1,4 +1,4 @@
-"""Connections of nobody known, against lists kept the plain way: how many there may be of one address and of
+"""Unauthenticated connections, compared with plain lists: how many there may be of one address and of
 all, and which one ends where there are too many.
 """
 

@@ -1,4 +1,4 @@
-"""What whoever joins is told: how everything stands, and where the servos are."""
+"""The first message of a client: the whole state, and the positions of the servos."""
 
 import asyncio
 
@@ -27,7 +27,7 @@ async def test_each_client_is_welcomed_and_the_others_hear_how_many_there_are() 
         assert [(message["type"], message["clients"]) for message in await anna.heard()] == [("state", 1)]
 
 
-# So long may go on what somebody began before this gateway opened the port.
+# The longest motion that was begun before this gateway opened the port.
 OTHERS_MOVE_S = 60
 
 
@@ -35,8 +35,8 @@ def port_status(control: Control) -> str:
     return control.board.port.status
 
 
-async def told_of_servos(control: Control) -> list[int]:
-    """Whose place somebody hears who comes now."""
+async def known_servos(control: Control) -> list[int]:
+    """The servos whose position a client gets that joins now."""
     newcomer = Client(control)
     [welcome] = await newcomer.heard()
     control.leave(newcomer)
@@ -44,12 +44,12 @@ async def told_of_servos(control: Control) -> list[int]:
 
 
 @in_virtual_time
-async def test_whoever_comes_late_is_told_where_the_servos_are() -> None:
+async def test_a_late_client_gets_the_positions_of_the_servos() -> None:
     async with gateway_on() as control:
-        assert await told_of_servos(control) == []
+        assert await known_servos(control) == []
         await Client(control).send(MOVE)
         await asyncio.sleep(2)
-        assert await told_of_servos(control) == [1]
+        assert await known_servos(control) == [1]
 
 
 @in_virtual_time
@@ -84,17 +84,17 @@ async def test_a_client_that_joins_late_gets_the_positions_that_the_board_has_re
 
 
 @in_virtual_time
-async def test_when_the_port_went_nobody_is_told_any_place_not_after_its_return_either() -> None:
+async def test_after_a_lost_port_clients_get_no_position_nor_after_its_return() -> None:
     first, second = FakePort(), FakePort()
     async with gateway_on(first, second) as control:
         await Client(control).send(MOVE)
         first.unplug()
         await asyncio.sleep(0.1)
         assert port_status(control) == "lost"
-        assert await told_of_servos(control) == []
+        assert await known_servos(control) == []
         await asyncio.sleep(1)
         assert port_status(control) == "open"
-        assert await told_of_servos(control) == []
+        assert await known_servos(control) == []
 
 
 @in_virtual_time
@@ -103,16 +103,16 @@ async def test_a_board_that_was_silent_may_stand_anywhere() -> None:
         port.say(BATTERY_REPORT)
         await anna.send(MOVE)
         for _ in range(2):
-            assert await told_of_servos(control) == [1]
+            assert await known_servos(control) == [1]
             await anna.send(BATTERY)
             await asyncio.sleep(5)
         port.say(BATTERY_REPORT)
         await asyncio.sleep(0.1)
-        assert await told_of_servos(control) == []
+        assert await known_servos(control) == []
 
 
 @in_virtual_time
-async def test_a_port_declared_as_simulated_is_told_so_and_only_that_one() -> None:
+async def test_a_port_declared_as_simulated_is_published_so_and_only_that_one() -> None:
     ports = FakePorts(FakePort(), FakePort())
     control = Control(ports, now, "doc", "/dev/board", simulated=True)
     await control.use_port("/dev/board")

@@ -22,7 +22,7 @@ from tests.test_link import link_to
 from tests.virtual_time import at, in_virtual_time
 
 USB0, USB1 = "/dev/ttyUSB0", "/dev/ttyUSB1"
-# A CH340 says nothing of itself but its type; an FTDI chip has a serial number; a CP2102 has everybody's.
+# A CH340 has no serial number, an FTDI chip has its own, all CP2102 share one.
 CH340 = UsbDevice(USB0, 0x1A86, 0x7523, location="1-1")
 FTDI = UsbDevice(USB0, 0x0403, 0x6001, serial="A50285BI", location="1-1")
 CP2102 = UsbDevice(USB0, 0x10C4, 0xEA60, serial="0001", location="1-1")
@@ -80,8 +80,8 @@ CASES = [
     Case("both ports, names swapped", FIRST_OF_TWO,
          (at_path(SECOND_OF_TWO, USB0), at_path(FIRST_OF_TWO, USB1)), at_path(FIRST_OF_TWO, USB1),
          beside=(SECOND_OF_TWO,)),
-    Case("no socket told, the same name", COM3, (COM3,), COM3),
-    Case("no socket told, another name", COM3, (replace(COM3, path="COM4"),), "otherDevice"),
+    Case("no socket, the same name", COM3, (COM3,), COM3),
+    Case("no socket, another name", COM3, (replace(COM3, path="COM4"),), "otherDevice"),
     Case("our type became another in our socket", CH340, (replace(CH340, product=0x5523),), "otherDevice"),
 ]  # fmt: skip
 
@@ -125,7 +125,7 @@ async def test_a_device_that_takes_the_name_while_it_is_opened_is_closed_again_u
 
 
 @in_virtual_time
-async def test_choosing_the_name_again_takes_whatever_has_it_now() -> None:
+async def test_choosing_the_name_again_takes_the_device_that_has_it_now() -> None:
     bus = FakeBus(CH340)
     link, _ = link_to(bus)
     await link.use(USB0)
@@ -197,7 +197,7 @@ def test_no_history_of_a_bus_leads_to_a_device_that_was_there_beside_ours(data: 
         whereabouts.find(listed)
 
 
-def test_the_bus_is_told_as_the_system_tells_it(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_bus_is_listed_as_the_system_lists_it(monkeypatch: pytest.MonkeyPatch) -> None:
     mainboard = SimpleNamespace(device="/dev/ttyS0", vid=None, pid=None, serial_number=None, location=None)
     adapter = SimpleNamespace(device=USB0, vid=0x1A86, pid=0x7523, serial_number=None, location="1-1")
     monkeypatch.setattr(list_ports, "comports", lambda: [mainboard, adapter])

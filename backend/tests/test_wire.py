@@ -215,7 +215,7 @@ async def test_what_a_client_left_behind_is_dropped_unless_it_is_on_the_wire() -
 
 
 @in_virtual_time
-async def test_a_lost_port_fails_all_that_waits_and_whatever_comes_later() -> None:
+async def test_a_lost_port_fails_waiting_and_later_packets() -> None:
     port = FakePort()
     async with open_wire(port) as wire:
         pending = [wire.send(sample(MOVE), ANNA), wire.send(sample(MOVE), ANNA)]
@@ -286,7 +286,7 @@ asks = st.lists(st.tuples(st.integers(0, 400), st.sampled_from(["move", "battery
 
 @settings(max_examples=60 * TIMES)
 @given(asks)
-def test_whatever_is_asked_and_when_packets_keep_their_distance_and_stops_purge(
+def test_in_any_order_packets_are_spaced_and_stops_purge(
     asked: list[tuple[int, str]],
 ) -> None:
     written = run_script(asked)

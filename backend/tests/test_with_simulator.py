@@ -120,7 +120,9 @@ async def test_moves_battery_and_stop_reach_the_board_in_order(board: Board, gat
 
 
 @pytest.mark.exhaustive
-async def test_a_pulled_cable_is_told_and_a_plugged_one_found_again(board: Board, gateway: Running) -> None:
+async def test_a_pulled_cable_is_reported_and_a_plugged_one_found_again(
+    board: Board, gateway: Running
+) -> None:
     async with connect(gateway.ws) as client:
         await hear_port(client, "open")
         board.pull()
@@ -200,8 +202,8 @@ async def test_a_group_that_the_gateway_stored_is_held_where_its_frame_has_the_s
         if door == "HTTP":
             assert (await ask_at_rest(client, "stop"))["unheld"] is None
         else:
-            told = await asyncio.to_thread(run, "stop", "--url", f"http://{gateway.host}")
-            assert told.stdout.startswith("Stopped. ")
+            result = await asyncio.to_thread(run, "stop", "--url", f"http://{gateway.host}")
+            assert result.stdout.startswith("Stopped. ")
     taken = await ask_until(
         board.packets_taken, lambda packets: [packet for _, packet in packets][-6:-5] == [RUN_SLOT]
     )
