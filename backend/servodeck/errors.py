@@ -4,6 +4,7 @@ Has no sentences of its own; the code that raises says what happened and what to
 """
 
 import math
+from collections.abc import Sequence
 from typing import ClassVar, Literal
 
 ErrorCode = Literal[
@@ -76,7 +77,13 @@ class PortMissingError(PortError):
 
 
 class PortBusyError(PortError):
+    """`held_by`: the programs that have it, so far as this account may see: "name (process number)"."""
+
     code: ClassVar[ErrorCode] = "portBusy"
+
+    def __init__(self, detail: str, held_by: Sequence[str] = ()) -> None:
+        super().__init__(detail)
+        self.held_by = tuple(held_by)
 
 
 class PortDeniedError(PortError):

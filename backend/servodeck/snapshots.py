@@ -44,9 +44,9 @@ class LeaseState(Message):
 
 
 class PortState(Message):
-    """The state of the serial port. `code` and `detail` say why it is lost, `retryInMs` when the next attempt
-    follows. `simulated`: it leads to a simulated board. `withheld`: commands that this cable does not carry,
-    although the board may know them.
+    """The state of the serial port. `code` and `detail` say why it is lost, `heldBy` which programs have it
+    open where the system lists them, `retryInMs` when the next attempt follows. `simulated`: it leads to a
+    simulated board. `withheld`: commands that this cable does not carry, although the board may know them.
     """
 
     device: str | None
@@ -55,6 +55,7 @@ class PortState(Message):
     withheld: list[Withheld] = Field(default_factory=list)
     code: ErrorCode | None = None
     detail: str | None = None
+    held_by: list[str] = Field(default_factory=list)
     retry_in_ms: int | None = None
 
 

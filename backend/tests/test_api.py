@@ -11,7 +11,7 @@ from tests.running import DEVICE, http_to
 from tests.samples import BATTERY, BATTERY_REPORT, MOVE, STOP
 from tests.virtual_time import at, in_virtual_time, now
 
-QUIET = {"simulated": False, "withheld": [], "code": None, "detail": None, "retryInMs": None}
+QUIET = {"simulated": False, "withheld": [], "code": None, "detail": None, "heldBy": [], "retryInMs": None}
 OPEN = {"device": DEVICE, "status": "open", **QUIET}
 CLOSED = {"device": None, "status": "closed", **QUIET}
 
@@ -101,11 +101,15 @@ async def test_a_port_is_chosen_and_closed() -> None:
 
 @in_virtual_time
 async def test_a_port_that_cannot_be_had_is_refused_with_its_reason_and_tried_again() -> None:
-    ports = FakePorts(PortBusyError("Another program uses it."), FakePort())
+    ports = FakePorts(PortBusyError("minicom (7) has it.", ["minicom (7)"]), FakePort())
     async with http_to(ports, now, device=None) as (client, control):
         refused = await client.put("/api/port", json={"device": DEVICE})
         assert refused.status_code == 503
-        assert refused.json() == {"code": "portBusy", "detail": "Another program uses it."}
+        assert refused.json() == {
+            "code": "portBusy",
+            "detail": "minicom (7) has it.",
+            "heldBy": ["minicom (7)"],
+        }
         assert control.remembered.port is None
         assert (await client.get("/api/status")).json()["port"]["retryInMs"] == 250
         await asyncio.sleep(1)

@@ -73,14 +73,15 @@ async def test_a_missing_port_is_tried_again_with_growing_pauses_up_to_five_seco
 
 @in_virtual_time
 async def test_the_state_says_why_and_when_the_next_attempt_follows() -> None:
-    link, notes = link_to(FakePorts(PortBusyError("Another program uses it."), MISSING))
+    link, notes = link_to(FakePorts(PortBusyError("minicom (7) has it.", ["minicom (7)"]), MISSING))
     with pytest.raises(PortBusyError):
         await link.use("/dev/board")
     await asyncio.sleep(0.3)
     await link.close()
     lost = [state for state in notes.states if state.status == "lost"]
     assert [(state.code, state.retry_in_ms) for state in lost] == [("portBusy", 250), ("portMissing", 500)]
-    assert lost[0].detail == "Another program uses it."
+    assert lost[0].detail == "minicom (7) has it."
+    assert [state.held_by for state in lost] == [["minicom (7)"], []]
 
 
 @in_virtual_time

@@ -23,6 +23,27 @@ test('a port that is not there at the start says what to do, and is found when i
   await poll(() => lastTarget(ptyBoard.bus, 1)).toBe(1234);
 });
 
+test('a port that another program has names the program, until that ends @exhaustive', async ({
+  page,
+  ptyBoard,
+  newGateway,
+}) => {
+  test.skip(process.platform !== 'linux', 'other systems do not tell');
+  const other = await newGateway({ serial: ptyBoard.device });
+  const gateway = await newGateway();
+  await page.goto(gateway.url);
+  const dashboard = dashboardOf(page);
+  await gateway.usePort(ptyBoard.device).catch(() => undefined);
+  const sentence = /This port is open in .*python\S* \(\d+\)\. Close it there/;
+  await expect(dashboard.status).toContainText(sentence);
+  await dashboard.link.click();
+  await dashboard.connectDialog.getByText('Something does not work?').click();
+  await expect(dashboard.connectDialog).toContainText(sentence);
+  await dashboard.button('Close').click();
+  await other.end();
+  await expect(dashboard.link).toHaveText(READY, ONCE_BACK);
+});
+
 test('a gateway without a port offers the ports it knows @exhaustive', async ({ page, newGateway }) => {
   const gateway = await newGateway();
   await page.goto(gateway.url);
@@ -43,11 +64,11 @@ test('a port in use is said to be, and not offered once more @exhaustive', async
   await expect(dashboard.link).toHaveText(READY);
   await dashboard.link.click();
   const ports = dashboard.connectDialog.getByRole('group', { name: 'Gateway' });
-  await expect(ports.getByRole('button', { name: `${ptyBoard.device} is open` })).toBeDisabled();
+  await expect(ports.getByRole('button', { name: 'Port named at the start (board) is open' })).toBeDisabled();
   await expect(ports).toContainText('In use here. Choose Disconnect below to disconnect this page');
   await dashboard.button('Disconnect').click();
   await dashboard.link.click();
-  await ports.getByRole('button', { name: `Open ${ptyBoard.device}` }).click();
+  await ports.getByRole('button', { name: 'Open Port named at the start (board)' }).click();
   await expect(dashboard.link).toHaveText(READY);
 });
 

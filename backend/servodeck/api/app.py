@@ -7,7 +7,7 @@ from which the page's types are made.
 
 import asyncio
 import contextlib
-from collections.abc import AsyncIterator, Awaitable, Callable
+from collections.abc import AsyncIterator, Awaitable, Callable, Sequence
 from http import HTTPStatus
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -27,7 +27,7 @@ from servodeck.access.guard import Guard, log_refusal
 from servodeck.api.health import Pulse, health_api, sign_of_life
 from servodeck.api.page import STATIC, page
 from servodeck.api.routes import ANYBODY, JudgingRoute, named_roles, require_roles
-from servodeck.errors import ErrorCode, GatewayError, MalformedError
+from servodeck.errors import ErrorCode, GatewayError, MalformedError, PortBusyError
 from servodeck.files import Disk
 from servodeck.library.library import Library
 from servodeck.robot.control import Control
@@ -225,7 +225,8 @@ def add_errors(app: LaterApp) -> None:
     async def gateway_error(connection: HTTPConnection, error: GatewayError) -> JSONResponse:
         if connection.scope["type"] == "websocket":
             log_refusal(connection.scope, error)
-        answer = problem(error.status, error.code, error.detail)
+        held_by = error.held_by if isinstance(error, PortBusyError) else ()
+        answer = problem(error.status, error.code, error.detail, held_by)
         answer.headers.update(error.headers)
         return answer
 
@@ -261,9 +262,10 @@ def methods_at(app: LaterApp, path: str) -> list[str]:
     return sorted(found)
 
 
-def problem(status: int, code: ErrorCode, detail: str) -> JSONResponse:
+def problem(status: int, code: ErrorCode, detail: str, held_by: Sequence[str] = ()) -> JSONResponse:
     metrics.refused[code] += 1
-    return JSONResponse({"code": code, "detail": detail}, status)
+    held = {"heldBy": held_by} if held_by else {}
+    return JSONResponse({"code": code, "detail": detail, **held}, status)
 
 
 if __name__ == "__main__":

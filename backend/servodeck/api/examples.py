@@ -23,6 +23,7 @@ PORT = {
     "simulated": False,
     "code": None,
     "detail": None,
+    "heldBy": [],
     "retryInMs": None,
 }
 PLAY = {

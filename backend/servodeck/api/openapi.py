@@ -13,6 +13,7 @@ from typing import Any
 from fastapi import FastAPI
 from fastapi.openapi.utils import get_openapi
 from fastapi.routing import APIRoute
+from pydantic import ConfigDict
 
 from servodeck.api.examples import EXAMPLES, PROBLEMS, Example
 from servodeck.api.routes import named_roles
@@ -24,10 +25,15 @@ REFERENCE = "#/components/schemas/{model}"
 
 
 class Problem(Message):
-    """Why a request failed. `code` is for programs, `detail` for people."""
+    """Why a request failed. `code` is for programs, `detail` for people. `heldBy`: with `portBusy` the
+    programs that have the port, where the system tells.
+    """
+
+    model_config = ConfigDict(json_schema_serialization_defaults_required=False)
 
     code: ErrorCode
     detail: str
+    held_by: list[str] | None = None
 
 
 PROBLEM = {"$ref": REFERENCE.format(model=Problem.__name__)}

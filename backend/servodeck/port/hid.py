@@ -15,7 +15,6 @@ from typing import Any, Final, TypeVar
 from servodeck.errors import (
     HidDeniedError,
     OtherDeviceError,
-    PortBusyError,
     PortError,
     PortLostError,
     PortMissingError,
@@ -114,7 +113,7 @@ def explain(board: HidBoard, error: Exception) -> PortError:
             f"This account may not open {name}. Allow it once, then plug the cable in again: {ALLOW_HID}"
         )
     if number in BUSY or not hid_devices.IS_LINUX:
-        return PortBusyError(busy(name, board.device.node, "another Servodeck, the maker's program"))
+        return busy(name, board.device.node, "another Servodeck, the maker's program")
     return PortMissingError(f"{name} cannot be opened. Is the cable plugged in and the board switched on?")
 
 

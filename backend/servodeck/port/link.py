@@ -12,7 +12,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Protocol
 
-from servodeck.errors import CancelledError, ClosedError, PortError, PortLostError
+from servodeck.errors import CancelledError, ClosedError, PortBusyError, PortError, PortLostError
 from servodeck.port.bluetooth import is_bluetooth, this_computer
 from servodeck.port.ports import OpenPort, list_usb, open_port
 from servodeck.port.whereabouts import UsbDevice, Whereabouts
@@ -185,7 +185,12 @@ class Link:
         retry_in_ms = round(back_off.next_s * 1000)
         self._show(
             PortState(
-                device=device, status="lost", code=error.code, detail=error.detail, retry_in_ms=retry_in_ms
+                device=device,
+                status="lost",
+                code=error.code,
+                detail=error.detail,
+                held_by=list(error.held_by) if isinstance(error, PortBusyError) else [],
+                retry_in_ms=retry_in_ms,
             )
         )
 

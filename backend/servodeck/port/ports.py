@@ -17,7 +17,7 @@ from typing import Any, Final, Protocol, TypeVar
 import serial
 from serial.tools import list_ports
 
-from servodeck.errors import PortBusyError, PortDeniedError, PortError, PortLostError, PortMissingError
+from servodeck.errors import PortDeniedError, PortError, PortLostError, PortMissingError
 from servodeck.port import hid
 from servodeck.port.whereabouts import SHARED_NUMBERS, UsbDevice, busy
 from servodeck.protocol import load_shared
@@ -179,7 +179,7 @@ def explain(device: str, error: Exception) -> PortError:
         return PortMissingError(f"Nothing answers at {device}.")
     # Windows gives no number: the name of the cause stands in the text, and "denied" means that it is in use.
     if number in BUSY or (number is None and "PermissionError" in str(error)):
-        return PortBusyError(busy(device, device, "another Servodeck, a serial monitor, a browser tab"))
+        return busy(device, device, "another Servodeck, a serial monitor, a browser tab")
     if number in DENIED:
         return PortDeniedError(
             f"This account may not open {device}. On Linux add it to the group: "

@@ -9,7 +9,7 @@ import os
 from collections.abc import Iterable
 from pathlib import Path
 
-from servodeck.errors import OtherDeviceError, PortMissingError
+from servodeck.errors import OtherDeviceError, PortBusyError, PortMissingError
 from servodeck.value import value
 
 PROCESSES = Path("/proc")
@@ -136,14 +136,12 @@ def holders_of(device: str) -> list[str]:
     ]
 
 
-def busy(name: str, device: str, likely: str) -> str:
-    """The sentence about a device that another program has; `likely`: what that may be where the system
-    does not say.
-    """
+def busy(name: str, device: str, likely: str) -> PortBusyError:
+    """Of a device that another program has; `likely`: what that may be where the system does not say."""
     holders = holders_of(device)
     if holders:
-        return f"{name} is open in {', '.join(holders)}. Close it there."
-    return f"Another program uses {name}. Close it: {likely}."
+        return PortBusyError(f"{name} is open in {', '.join(holders)}. Close it there.", holders)
+    return PortBusyError(f"Another program uses {name}. Close it: {likely}.")
 
 
 def has_open(process: Path, real: str) -> bool:

@@ -6,7 +6,7 @@ import type { SlotContent } from '#shared/group/slotBook.ts';
 import type { LibraryErrorCode } from '#shared/files/documentStore.ts';
 import type { TextFlaw } from '#shared/document/schema.ts';
 import type { RangeRefusal } from '#shared/codec/encode.ts';
-import type { LinkErrorCode } from '#shared/robot/linkError.ts';
+import type { LinkError, LinkErrorCode } from '#shared/robot/linkError.ts';
 import { words } from './words.ts';
 import { NAME_LENGTH, servoOf, type Robot } from '#shared/profile/robot.ts';
 
@@ -140,6 +140,17 @@ export function errorSentence(code: LinkErrorCode, detail = ''): string {
   return code in detailed && isForReader(code, detail)
     ? detailed[code as keyof typeof detailed]({ detail: detail.replace(/[.。]$/u, '') })
     : words.errors[code];
+}
+
+/** Of an error of a link, with the programs that have its port. */
+export function linkSentence({
+  code,
+  message,
+  heldBy,
+}: Pick<LinkError, 'code' | 'message' | 'heldBy'>): string {
+  return heldBy.length > 0
+    ? words.link.heldBy({ programs: heldBy.join(words.comma) })
+    : errorSentence(code, message);
 }
 
 /** Details of programs are in English: other languages show them only for internal errors, or if they are not plain ASCII. */

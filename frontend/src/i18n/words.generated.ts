@@ -38,6 +38,7 @@ export interface Messages {
     readonly noBoard: string;
     readonly connect: string;
     readonly disconnect: string;
+    readonly heldBy: (values: { readonly programs: string }) => string;
     readonly retryNow: string;
     readonly moveHere: string;
     readonly gatewayAnswers: string;

@@ -4,9 +4,9 @@ import { readFileSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { afterEach, describe, expect, test } from 'vitest';
 import { FAMILIES } from '#shared/codec/families.ts';
-import { LINK_ERROR_CODES } from '#shared/robot/linkError.ts';
+import { LinkError, LINK_ERROR_CODES } from '#shared/robot/linkError.ts';
 import { datesIn, words as wholeWords } from './whole.ts';
-import { boardName, errorSentence, flawSentence } from './sentences.ts';
+import { boardName, errorSentence, flawSentence, linkSentence } from './sentences.ts';
 import { LANGUAGE_CODES, preferredLanguage, speak, words } from './words.ts';
 
 afterEach(() => speak('en'));
@@ -26,6 +26,17 @@ describe('the sentences', () => {
     expect(errorSentence('outOfRange', 'slot is 256.')).toBe('This value is out of range: slot is 256.');
     expect(errorSentence('outOfRange')).toBe('This value is out of range.');
     expect(errorSentence('latched', 'the link is latched')).toBe(english.errors.latched);
+  });
+
+  test('a port that another program has names the program, in each language', async () => {
+    const busy = new LinkError('portBusy', 'minicom (7) has it.', { heldBy: ['minicom (7)', 'cat (9)'] });
+    const sentence = linkSentence(busy);
+    expect(sentence).toBe(
+      'This port is open in minicom (7), cat (9). Close it there. Servodeck keeps trying.',
+    );
+    expect(linkSentence(new LinkError('portBusy', ''))).toBe(english.errors.portBusy);
+    await speak('zh');
+    expect(linkSentence(busy)).toMatch(/minicom \(7\)，cat \(9\).*\p{Script=Han}/u);
   });
 
   test('what a program says in English is left out of another language, but for a bug report', async () => {

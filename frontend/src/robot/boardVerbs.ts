@@ -6,7 +6,7 @@ import type { Family } from '#shared/codec/families.ts';
 import { LinkError, type LinkErrorCode } from '#shared/robot/linkError.ts';
 import type { Robot } from '#shared/robot/robot.ts';
 import type { HaltReason, SlotGroup } from '#shared/robot/state.ts';
-import { downloadedSentence, downloadCancelled, errorSentence } from '../i18n/sentences.ts';
+import { downloadedSentence, downloadCancelled, linkSentence } from '../i18n/sentences.ts';
 import { words } from '../i18n/words.ts';
 import type { Notices } from '../state/notices.ts';
 import type { LimitGate } from './moves.ts';
@@ -183,7 +183,7 @@ export function createLateNotices(clock: Clock, notices: Pick<Notices, 'takeBack
     report(error) {
       if (!(error instanceof LinkError) || !LATE.includes(error.code)) return;
       wait();
-      texts = [...texts, errorSentence(error.code, error.message)];
+      texts = [...texts, linkSentence(error)];
     },
     asked() {
       if (texts.length === 0 || cancel !== null) return;

@@ -41,7 +41,7 @@ async function createTestPage(listening: (events: SessionEvents) => unknown = ()
       device.refresh();
     }
   }
-  return { ...rig, robots, device, state, targets, noticeTexts, draw };
+  return { ...rig, robots, notices, device, state, targets, noticeTexts, draw };
 }
 
 describe('what playing could not keep', () => {
@@ -384,6 +384,17 @@ describe('a device with a session', () => {
     await draw(6000);
     expect(state().snapshot.link.status).toBe('ready');
     expect(state().snapshot.latch).toMatchObject({ reason: 'reconnected' });
+  });
+
+  test('that another program had the port is not said any more once the robot is ready', async () => {
+    const { notices, noticeTexts, draw, channel } = await createTestPage();
+    channel.unplug();
+    await draw(100);
+    notices.tellError(new LinkError('portBusy', '', { heldBy: ['minicom (7)'] }));
+    notices.tellError(new LinkError('noAnswer', ''));
+    channel.plugIn();
+    await draw(6000);
+    expect(noticeTexts()).toEqual([errorSentence('noAnswer')]);
   });
 
   test('that the robot may move again is not said any more once it is stopped again', async () => {

@@ -12,7 +12,7 @@ import type { LeaseAction } from '#shared/robot/lease.ts';
 import type { Robot } from '#shared/robot/robot.ts';
 import { INITIAL_STATE } from '#shared/robot/store.ts';
 import type { Motions, ServoMotion, SessionState } from '#shared/robot/state.ts';
-import { personName, errorSentence } from '../i18n/sentences.ts';
+import { personName } from '../i18n/sentences.ts';
 import { words } from '../i18n/words.ts';
 import { createBoardVerbs, type BoardVerbs, createLateNotices } from './boardVerbs.ts';
 import { createMovingWatch, createTargetBook, moveDurationMs, type Pace, createLimitGate } from './moves.ts';
@@ -194,7 +194,7 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     store.setState({ snapshot, family: snapshot.family });
     if (snapshot.latch !== null || snapshot.link.status !== 'ready') forgetWishes();
     if (snapshot.latch !== null) notices.takeBack(saidOfResume);
-    if (becomesReady) for (const code of TRIED_ON) notices.takeBack(errorSentence(code));
+    if (becomesReady) notices.takeBackErrors(TRIED_ON);
   }
 
   function noteResumed(by: string): void {

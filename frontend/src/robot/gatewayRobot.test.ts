@@ -413,6 +413,16 @@ describe('what moved before the page came', () => {
     await expect(robot.download([{ slot: 3, frames: WAVE }])).rejects.toMatchObject({ code: 'busy' });
   });
 
+  test('which program has the port is part of why it is lost', async () => {
+    const { robot, state } = await createGateway();
+    const held = { status: 'lost', code: 'portBusy', heldBy: ['minicom (7)'] } as const;
+    state({
+      port: { ...READY.port, ...held, heldBy: [...held.heldBy] },
+      link: { ...READY.link, status: 'lost' },
+    });
+    expect(robot.state.link).toMatchObject({ error: { code: 'portBusy', heldBy: ['minicom (7)'] } });
+  });
+
   test('where the port was lost since then nothing of it is known', async () => {
     const { robot, state, clock } = await createGateway({ welcome: { motion: MOVED } });
     state({ port: { ...READY.port, status: 'lost', code: 'lost' }, link: { ...READY.link, status: 'lost' } });

@@ -28,6 +28,7 @@ export const READY: Omit<StateMessage, 'type'> = {
     withheld: [],
     code: null,
     detail: null,
+    heldBy: [],
     retryInMs: null,
   },
   link: { status: 'ready', code: null, detail: null },

@@ -1374,9 +1374,9 @@ export interface components {
     };
     /**
      * PortState
-     * @description The state of the serial port. `code` and `detail` say why it is lost, `retryInMs` when the next attempt
-     *     follows. `simulated`: it leads to a simulated board. `withheld`: commands that this cable does not carry,
-     *     although the board may know them.
+     * @description The state of the serial port. `code` and `detail` say why it is lost, `heldBy` which programs have it
+     *     open where the system lists them, `retryInMs` when the next attempt follows. `simulated`: it leads to a
+     *     simulated board. `withheld`: commands that this cable does not carry, although the board may know them.
      */
     PortState: {
       /** Code */
@@ -1426,6 +1426,8 @@ export interface components {
       detail: string | null;
       /** Device */
       device: string | null;
+      /** Heldby */
+      heldBy: string[];
       /** Retryinms */
       retryInMs: number | null;
       /**
@@ -1470,7 +1472,8 @@ export interface components {
     };
     /**
      * Problem
-     * @description Why a request failed. `code` is for programs, `detail` for people.
+     * @description Why a request failed. `code` is for programs, `detail` for people. `heldBy`: with `portBusy` the
+     *     programs that have the port, where the system tells.
      */
     Problem: {
       /**
@@ -1518,6 +1521,11 @@ export interface components {
         | 'internal';
       /** Detail */
       detail: string;
+      /**
+       * Heldby
+       * @default null
+       */
+      heldBy?: string[] | null;
     };
     /**
      * RobotChoice

@@ -42,6 +42,8 @@ export class GatewayProblem extends Error {
   constructor(
     readonly code: string | null,
     detail: string,
+    /** With `portBusy`: the programs that have the port, where its system tells. */
+    readonly heldBy: readonly string[] = [],
     options?: ErrorOptions,
   ) {
     super(detail, options);
@@ -67,13 +69,17 @@ export async function request<P extends Path, V extends Verb<P>>(
     headers: { ...OWN_PAGE, ...(body !== undefined && { 'content-type': 'application/json' }) },
     ...(body !== undefined && { body: JSON.stringify(body) }),
   }).catch((error: unknown) => {
-    throw new GatewayProblem(null, 'the gateway does not answer', { cause: error });
+    throw new GatewayProblem(null, 'the gateway does not answer', [], { cause: error });
   });
   const answer: unknown = await response.json().catch(() => null);
   if (response.ok) return answer;
-  const { code, detail } = isRecord(answer) ? answer : {};
+  const { code, detail, heldBy } = isRecord(answer) ? answer : {};
   if (typeof code !== 'string') throw new GatewayProblem(null, 'no gateway is at this address');
-  throw new GatewayProblem(code, typeof detail === 'string' ? detail : '');
+  throw new GatewayProblem(
+    code,
+    typeof detail === 'string' ? detail : '',
+    Array.isArray(heldBy) ? heldBy.map(String) : [],
+  );
 }
 
 interface Plain {

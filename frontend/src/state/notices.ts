@@ -4,8 +4,8 @@
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { Clock } from '#shared/clock.ts';
 import { RangeRefusal } from '#shared/codec/encode.ts';
-import { LinkError } from '#shared/robot/linkError.ts';
-import { errorSentence, rangeText } from '../i18n/sentences.ts';
+import { LinkError, type LinkErrorCode } from '#shared/robot/linkError.ts';
+import { linkSentence, rangeText } from '../i18n/sentences.ts';
 
 export type NoticeTone = 'info' | 'warning' | 'danger';
 
@@ -19,6 +19,8 @@ export interface Notice {
   readonly id: number;
   readonly tone: NoticeTone;
   readonly text: string;
+  /** Of an error. */
+  readonly code?: LinkErrorCode | undefined;
   readonly action?: NoticeAction | undefined;
 }
 
@@ -32,6 +34,8 @@ export interface Notices {
   refuse(text: string): () => void;
   /** Removes a message that no longer applies. */
   takeBack(text: string): void;
+  /** Removes the messages about such errors. */
+  takeBackErrors(codes: readonly LinkErrorCode[]): void;
   /** Shows an error as a sentence. A cancelled operation is no error. */
   tellError(error: unknown): void;
   dismiss(id: number): void;
@@ -45,20 +49,20 @@ export function createNotices(clock: Clock): Notices {
   const said = createStore(() => '');
   let nextId = 1;
 
-  function tell(tone: NoticeTone, text: string, action?: NoticeAction): void {
+  function show(next: Omit<Notice, 'id'>): void {
     const id = nextId++;
-    const others = store.getState().filter((notice) => notice.text !== text);
-    store.setState([...others, { id, tone, text, action }].slice(-MAX_SHOWN), true);
-    if (tone === 'info') clock.after(INFO_STAYS_MS, () => dismiss(id));
+    remove(({ text }) => text === next.text);
+    store.setState((notices) => [...notices, { id, ...next }].slice(-MAX_SHOWN), true);
+    if (next.tone === 'info') clock.after(INFO_STAYS_MS, () => dismiss(id));
   }
 
-  function dismiss(id: number): void {
-    store.setState((notices) => notices.filter((notice) => notice.id !== id), true);
+  function remove(isOld: (notice: Notice) => boolean): void {
+    store.setState((notices) => notices.filter((notice) => !isOld(notice)), true);
   }
 
-  function takeBack(text: string): void {
-    store.setState((notices) => notices.filter((notice) => notice.text !== text), true);
-  }
+  const tell: Notices['tell'] = (tone, text, action) => show({ tone, text, action });
+  const dismiss = (shown: number): void => remove(({ id }) => id === shown);
+  const takeBack = (old: string): void => remove(({ text }) => text === old);
 
   return {
     ...{ store, said, tell, takeBack },
@@ -66,17 +70,20 @@ export function createNotices(clock: Clock): Notices {
       tell('warning', text);
       return () => takeBack(text);
     },
+    takeBackErrors: (codes) => remove(({ code }) => code !== undefined && codes.includes(code)),
     say: (text) => said.setState(text, true),
     tellError(error) {
-      const { code, message, cause } = asLinkError(error);
+      const { code, message, cause, heldBy } = asLinkError(error);
       const detail = cause instanceof RangeRefusal ? rangeText(cause) : message;
-      if (code !== 'cancelled') tell(code === 'internal' ? 'danger' : 'warning', errorSentence(code, detail));
+      if (code === 'cancelled') return;
+      const text = linkSentence({ code, message: detail, heldBy });
+      show({ tone: code === 'internal' ? 'danger' : 'warning', text, code });
     },
     dismiss,
   };
 }
 
-function asLinkError(error: unknown): Pick<LinkError, 'code' | 'message' | 'cause'> {
+function asLinkError(error: unknown): LinkError {
   if (error instanceof LinkError) return error;
-  return { code: 'internal', message: error instanceof Error ? error.message : String(error) };
+  return new LinkError('internal', error instanceof Error ? error.message : String(error));
 }

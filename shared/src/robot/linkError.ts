@@ -62,11 +62,14 @@ export const asLinkError = (error: unknown): LinkError =>
 
 export class LinkError extends Error {
   override readonly name = 'LinkError';
+  /** Of `portBusy`: the programs that have the port, where the gateway's system tells. */
+  readonly heldBy: readonly string[];
   constructor(
     readonly code: LinkErrorCode,
     message: string,
-    options?: { cause?: unknown },
+    options?: { cause?: unknown; heldBy?: readonly string[] },
   ) {
     super(message, options);
+    this.heldBy = options?.heldBy ?? [];
   }
 }

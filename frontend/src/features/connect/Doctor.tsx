@@ -3,7 +3,7 @@
 import { useEffect, useState } from 'react';
 import { useDevice, useSnapshot, useStores } from '../stores.ts';
 import { Mark, type Truth } from '../../ui/Chip.tsx';
-import { errorSentence } from '../../i18n/sentences.ts';
+import { linkSentence } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/whole.ts';
 import { isBoardsOwnCable } from '../../robot/readiness.ts';
 import type { ConnectState, HeardAtRate } from '../../robot/connector.ts';
@@ -126,8 +126,7 @@ function sentenceOf(finding: Finding): string {
       return words.doctor.gateway({ answers: finding.answers });
     case 'link': {
       const { status } = finding.link;
-      const why =
-        'error' in finding.link ? errorSentence(finding.link.error.code, finding.link.error.message) : '';
+      const why = 'error' in finding.link ? linkSentence(finding.link.error) : '';
       return words.doctor.link({ way: finding.way, status: words.link.status[status], why });
     }
     case 'heardPackets':

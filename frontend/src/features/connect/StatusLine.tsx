@@ -11,7 +11,7 @@ import { Button } from '../../ui/Button.tsx';
 import { Mark, type Truth } from '../../ui/Chip.tsx';
 import { cx } from '../../ui/cx.ts';
 import { useNow } from '../../ui/useEachFrame.ts';
-import { servosText, stoppedBy, mayResumeText, errorSentence } from '../../i18n/sentences.ts';
+import { servosText, stoppedBy, mayResumeText, errorSentence, linkSentence } from '../../i18n/sentences.ts';
 import { secondsLeft } from '../../i18n/numbers.ts';
 import { words } from '../../i18n/words.ts';
 import { LeaseChip, UnattendedChip } from '../people/LeaseChip.tsx';
@@ -122,12 +122,7 @@ type DownState = Extract<LinkState, { status: 'lost' | 'refused' }>;
 function Down({ link, onMoveHere }: { readonly link: DownState; readonly onMoveHere: () => void }) {
   const { device } = useStores();
   const needsChoice = link.error.code === 'boardUnknown';
-  const said = (
-    <Said
-      truth={needsChoice ? 'warning' : 'danger'}
-      text={errorSentence(link.error.code, link.error.message)}
-    />
-  );
+  const said = <Said truth={needsChoice ? 'warning' : 'danger'} text={linkSentence(link.error)} />;
   // There is nothing to try again: the sentence says to connect, or to say which board it is.
   if (ANSWERED_ELSEWHERE.includes(link.error.code)) return said;
   const retryAtMs = link.status === 'lost' ? link.retryAtMs : null;

@@ -13,13 +13,13 @@ export async function askGateway<P extends Path, V extends Verb<P>>(
     return await request(verb, path, asked);
   } catch (error) {
     if (!(error instanceof GatewayProblem)) throw error;
-    const { code, message } = error;
+    const { code, message, heldBy } = error;
     throw code === null
       ? new LinkError('gatewayUnreachable', message, { cause: error })
-      : refusal(code, message);
+      : refusal(code, message, heldBy);
   }
 }
 
-export function refusal(code: string, detail: string): LinkError {
-  return new LinkError(isLinkErrorCode(code) ? code : 'gatewayRefused', detail);
+export function refusal(code: string, detail: string, heldBy: readonly string[] = []): LinkError {
+  return new LinkError(isLinkErrorCode(code) ? code : 'gatewayRefused', detail, { heldBy });
 }

@@ -81,7 +81,7 @@ export function frameBody({ durationMs, targets }: Frame): FrameBody {
 
 export function portError(port: PortState | null): LinkError {
   if (port === null) return new LinkError('gatewayUnreachable', 'the gateway does not answer');
-  return refusal(port.code ?? 'closed', port.detail ?? 'the port of the gateway is closed');
+  return refusal(port.code ?? 'closed', port.detail ?? 'the port of the gateway is closed', port.heldBy);
 }
 
 /** The gateway's spelling of bytes: lower case, no spaces. */

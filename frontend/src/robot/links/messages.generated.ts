@@ -293,9 +293,9 @@ export interface WelcomeMessage {
   battery: BatteryUnread | BatteryRead | BatterySilent;
 }
 /**
- * The state of the serial port. `code` and `detail` say why it is lost, `retryInMs` when the next attempt
- * follows. `simulated`: it leads to a simulated board. `withheld`: commands that this cable does not carry,
- * although the board may know them.
+ * The state of the serial port. `code` and `detail` say why it is lost, `heldBy` which programs have it
+ * open where the system lists them, `retryInMs` when the next attempt follows. `simulated`: it leads to a
+ * simulated board. `withheld`: commands that this cable does not carry, although the board may know them.
  */
 export interface PortState {
   device: string | null;
@@ -345,6 +345,7 @@ export interface PortState {
       )
     | null;
   detail: string | null;
+  heldBy: string[];
   retryInMs: number | null;
 }
 /**
