@@ -19,23 +19,29 @@ const readyLine = /^(pty|listening) /;
  */
 
 /**
- * @param {{link: string, hid?: boolean, simulatorArgs?: readonly string[], onLine: (line: string) => void, onLost: () => void}} options
- *   `link`: relative path of the device; `hid`: what it carries are HID reports, as a hidraw node does; `onLost`: the board ended though nobody pulled its cable
+ * @param {{link: string, hid?: boolean, baud?: number, program?: readonly string[], simulatorArgs?: readonly string[], onLine: (line: string) => void, onLost: () => void}} options
+ *   `link`: relative path of the device; `hid`: what it carries are HID reports, as a hidraw node does; `baud`: it is heard at that speed alone;
+ *   `program`: what speaks in place of the simulated board; `onLost`: it ended though nobody pulled its cable
  * @returns {Promise<Cable>}
  */
-export async function simulatedBoard({ link, hid = false, simulatorArgs = [], onLine, onLost }) {
+export async function simulatedBoard({
+  link,
+  hid = false,
+  baud,
+  program,
+  simulatorArgs = [],
+  onLine,
+  onLost,
+}) {
   const tcp = onWindows ? `127.0.0.1:${await freePort('127.0.0.1')}` : null;
   /** @type {import('node:child_process').ChildProcess | null} */
   let board = null;
 
   function start(/** @type {(line: string) => void} */ hear) {
     if (tcp) return startChild(process.execPath, [simulator, '--tcp', tcp, ...simulatorArgs], hear);
-    const program = [process.execPath, simulator, '--stdio', ...simulatorArgs];
-    return startChild(
-      python,
-      ['scripts/pty_board.py', ...(hid ? ['--hid'] : []), '--link', link, '--', ...program],
-      hear,
-    );
+    const speaks = program ?? [process.execPath, simulator, '--stdio', ...simulatorArgs];
+    const kind = [...(hid ? ['--hid'] : []), ...(baud === undefined ? [] : ['--baud', String(baud)])];
+    return startChild(python, ['scripts/pty_board.py', ...kind, '--link', link, '--', ...speaks], hear);
   }
 
   /** @param {import('node:child_process').ChildProcess} ended */

@@ -1,8 +1,9 @@
 """Gives a program that speaks bytes on stdin and stdout a serial port: a pty, found through a link.
 
-Knows file descriptors and, for a node of HID reports, where a packet ends. When the program ends the port
-hangs up, like a pulled cable.
-Usage: pty_board.py [--hid] --link PATH -- COMMAND [ARGUMENT...]   (POSIX; prints `pty /dev/pts/N` on stderr)
+Knows file descriptors and, for a node of HID reports, where a packet ends; for a board of another speed, how
+fast the port is. When the program ends the port hangs up, like a pulled cable.
+Usage: pty_board.py [--hid | --baud N] --link PATH -- COMMAND [ARGUMENT...]
+(POSIX; prints `pty /dev/pts/N` on stderr)
 """
 
 from __future__ import annotations
@@ -80,6 +81,20 @@ class ReportsFromProgram(Relay):
         return is_open
 
 
+class AtSpeed(Relay):
+    """What a board says that has another speed: it is heard only while the port is open at that one."""
+
+    def __init__(self, source: int, sink: int, baud: int) -> None:
+        super().__init__(source, sink)
+        self.speed = getattr(termios, f"B{baud}")
+
+    def fill(self) -> bool:
+        is_open = super().fill()
+        if termios.tcgetattr(self.sink)[5] != self.speed:
+            self.pending = b""
+        return is_open
+
+
 def relay_until_end(to_program: Relay, from_program: Relay, parent: int) -> None:
     """Pass bytes both ways until the program closes its side or the parent process is gone."""
     relays = (to_program, from_program)
@@ -130,7 +145,7 @@ def own_terminal(slave: int) -> None:
     fcntl.ioctl(slave, termios.TIOCSCTTY, 0)
 
 
-def serve(link: Path, command: list[str], *, hid: bool = False) -> int:
+def serve(link: Path, command: list[str], *, hid: bool = False, baud: int | None = None) -> int:
     parent = os.getppid()
     # Our own hold on the slave side keeps bytes and the port alive while no other program has it open.
     master, slave = os.openpty()
@@ -142,6 +157,8 @@ def serve(link: Path, command: list[str], *, hid: bool = False) -> int:
     with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, bufsize=0) as program:
         assert program.stdin
         assert program.stdout
+        voice = program.stdout.fileno()
+        said = from_program(voice, master) if baud is None else AtSpeed(voice, master, baud)
         for descriptor in (master, program.stdin.fileno(), program.stdout.fileno()):
             os.set_blocking(descriptor, False)
         point_link_at(link, name)
@@ -149,7 +166,7 @@ def serve(link: Path, command: list[str], *, hid: bool = False) -> int:
             print(f"pty {name}", file=sys.stderr, flush=True)
             relay_until_end(
                 to_program(master, program.stdin.fileno()),
-                from_program(program.stdout.fileno(), master),
+                said,
                 parent,
             )
         except BrokenPipeError:
@@ -171,11 +188,12 @@ def main() -> int:
     parser = argparse.ArgumentParser(description="Put a program behind a serial port.")
     parser.add_argument("--link", type=Path, required=True, help="path of the link to the port")
     parser.add_argument("--hid", action="store_true", help="the port carries HID reports, as a hidraw node")
+    parser.add_argument("--baud", type=int, help="the speed at which the program is heard; else at any")
     parser.add_argument("command", nargs="+", help="the program and its arguments, after --")
     arguments = parser.parse_args()
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, leave)
-    return serve(arguments.link, arguments.command, hid=arguments.hid)
+    return serve(arguments.link, arguments.command, hid=arguments.hid, baud=arguments.baud)
 
 
 if __name__ == "__main__":

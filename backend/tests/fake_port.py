@@ -7,6 +7,7 @@ import socket
 from collections.abc import Awaitable, Callable
 
 from servodeck.errors import PortError, PortLostError, PortMissingError
+from servodeck.port.diagnosis import Heard
 from servodeck.port.hid import HidPort
 from servodeck.port.ports import OpenPort
 from servodeck.port.whereabouts import UsbDevice
@@ -96,9 +97,13 @@ class FakeHidPort(FakePort):
 class FakePorts:
     """Opens with the given outcomes, one after the other; the last one repeats."""
 
+    at_other_rates: tuple[int, Heard] | PortError | None = None
+    """What listening there finds, after five seconds."""
+
     def __init__(self, *outcomes: PortError | FakePort) -> None:
         self._outcomes = list(outcomes)
         self.attempts: list[tuple[float, str]] = []
+        self.listened: list[str] = []
 
     async def open(self, device: str) -> FakePort:
         self.attempts.append((round(asyncio.get_running_loop().time(), 3), device))
@@ -112,6 +117,13 @@ class FakePorts:
 
     async def list_usb(self) -> list[UsbDevice]:
         return []
+
+    async def find_rate(self, device: str) -> tuple[int, Heard] | None:
+        self.listened.append(device)
+        await asyncio.sleep(5)
+        if isinstance(self.at_other_rates, PortError):
+            raise self.at_other_rates
+        return self.at_other_rates
 
 
 class FakeBus:
@@ -137,6 +149,9 @@ class FakeBus:
 
     async def list_usb(self) -> list[UsbDevice]:
         return list(self.plugged)
+
+    async def find_rate(self, device: str) -> None:
+        """Nothing that can be read arrives there."""
 
     def replug(self, *plugged: UsbDevice) -> None:
         """Another set of devices; the port that was open is gone."""

@@ -91,6 +91,9 @@ class SteppedBoard:
     async def list_usb(self) -> list[UsbDevice]:
         return []
 
+    async def find_rate(self, device: str) -> None:
+        """Nothing that can be read arrives there."""
+
     # What happens to it
 
     def take(self, data: bytes) -> None:

@@ -5,7 +5,8 @@ import time
 
 from servodeck import __version__
 from servodeck.errors import PortBusyError, PortMissingError
-from tests.client import Client
+from servodeck.port.diagnosis import Heard
+from tests.client import ANNA, Client
 from tests.fake_port import FakePort, FakePorts
 from tests.running import DEVICE, http_to
 from tests.samples import BATTERY, BATTERY_REPORT, MOVE, STOP
@@ -114,6 +115,27 @@ async def test_a_port_that_cannot_be_had_is_refused_with_its_reason_and_tried_ag
         assert (await client.get("/api/status")).json()["port"]["retryInMs"] == 250
         await asyncio.sleep(1)
         assert (await client.get("/api/status")).json()["port"] == OPEN
+
+
+@in_virtual_time
+async def test_a_board_at_another_speed_is_heard_where_it_is_at_rest_and_nobody_else_drives() -> None:
+    ports = FakePorts(*(FakePort() for _ in range(5)))
+    async with http_to(ports, now) as (client, control):
+        assert (await client.post("/api/port/listen")).json() == {"baud": None, "kind": None}
+        for heard, kind in ((Heard(packets=1), "packets"), (Heard(noise=bytearray(b"rst:0x1")), "text")):
+            ports.at_other_rates = (115200, heard)
+            assert (await client.post("/api/port/listen")).json() == {"baud": 115200, "kind": kind}
+        await asyncio.sleep(1)
+        anna = Client(control, ANNA)
+        await anna.send(MOVE)
+        refused = await client.post("/api/port/listen")
+        assert (refused.status_code, refused.json()["code"]) == (409, "notDriving")
+        control.driving.act(anna, "release")
+        refused = await client.post("/api/port/listen")
+        assert (refused.status_code, refused.json()["code"]) == (409, "busy")
+        assert ports.listened == [DEVICE] * 3
+        await asyncio.sleep(60)
+        assert (await client.post("/api/port/listen")).status_code == 200
 
 
 @in_virtual_time

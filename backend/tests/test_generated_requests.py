@@ -73,6 +73,9 @@ class OnePlace:
     async def list_usb(self) -> list[UsbDevice]:
         return []
 
+    async def find_rate(self, device: str) -> None:
+        """Nothing that can be read arrives there."""
+
 
 @dataclass
 class Gateway:

@@ -5,7 +5,15 @@ from dataclasses import dataclass, field
 
 import pytest
 
-from servodeck.errors import CancelledError, ClosedError, PortBusyError, PortLostError, PortMissingError
+from servodeck.errors import (
+    CancelledError,
+    ClosedError,
+    NotSupportedError,
+    PortBusyError,
+    PortLostError,
+    PortMissingError,
+)
+from servodeck.port.diagnosis import Heard
 from servodeck.port.link import Link, Ports
 from servodeck.port.ports import OpenPort
 from servodeck.port.wire import Wire
@@ -163,3 +171,56 @@ async def test_closing_while_it_is_being_tried_ends_the_attempts() -> None:
     await asyncio.sleep(10)
     assert len(ports.attempts) == 1
     assert link.state == PortState(device=None, status="closed")
+
+
+@in_virtual_time
+async def test_listening_at_other_speeds_gives_the_port_up_and_opens_it_again() -> None:
+    first, second = FakePort(), FakePort()
+    ports = FakePorts(first, second)
+    ports.at_other_rates = (115200, Heard(packets=1))
+    link, notes = link_to(ports)
+    await link.use("/dev/board")
+    at(1, lambda: notes.happened.append(f"open: {first.is_open}"))
+    assert await link.find_rate() == (115200, Heard(packets=1))
+    await asyncio.sleep(0)
+    assert link.state == PortState(device="/dev/board", status="open")
+    assert notes.happened == ["opening", "opened", "open", "opening", "open: False", "opened", "open"]
+    assert ports.attempts == [(0, "/dev/board"), (5, "/dev/board")]
+
+
+@in_virtual_time
+async def test_a_port_that_cannot_be_listened_on_is_tried_again() -> None:
+    ports = FakePorts(FakePort(), MISSING, FakePort())
+    ports.at_other_rates = PortLostError("It is gone.")
+    link, _ = link_to(ports)
+    await link.use("/dev/board")
+    with pytest.raises(PortLostError):
+        await link.find_rate()
+    await asyncio.sleep(1)
+    assert link.state.status == "open"
+
+
+@in_virtual_time
+async def test_another_port_is_chosen_while_one_is_listened_on() -> None:
+    link, _ = link_to(FakePorts(FakePort(), FakePort()))
+    await link.use("/dev/board")
+    listening = asyncio.create_task(link.find_rate())
+    await asyncio.sleep(1)
+    await link.use("/dev/other")
+    with pytest.raises(CancelledError):
+        await listening
+    await asyncio.sleep(5)
+    assert link.state == PortState(device="/dev/other", status="open")
+
+
+@pytest.mark.parametrize("device", ["hid:497223563535", "ble:BT24", "socket://127.0.0.1:9"])
+@in_virtual_time
+async def test_what_has_no_other_speeds_is_not_listened_on(device: str) -> None:
+    port = FakePort()
+    link, _ = link_to(FakePorts(port))
+    with pytest.raises(ClosedError):
+        await link.find_rate()
+    await link.use(device)
+    with pytest.raises(NotSupportedError):
+        await link.find_rate()
+    assert port.is_open

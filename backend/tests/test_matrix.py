@@ -58,6 +58,7 @@ ROLES: dict[tuple[str, str], Role | None] = {
     ("GET", "/api/ports"): "owner",
     ("PUT", "/api/port"): "owner",
     ("DELETE", "/api/port"): "owner",
+    ("POST", "/api/port/listen"): "owner",
     ("GET", "/api/people"): "owner",
     ("PATCH", "/api/people/{person}"): "owner",
     ("DELETE", "/api/people/{person}"): "owner",

@@ -69,6 +69,9 @@ class PulledPorts:
     async def list_usb(self) -> list[UsbDevice]:
         return []
 
+    async def find_rate(self, device: str) -> None:
+        """Nothing that can be read arrives there."""
+
     def plug(self, state: str) -> None:
         self.is_there = state == "back"
         if not self.is_there:

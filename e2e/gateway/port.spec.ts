@@ -3,6 +3,7 @@
 import { lastTarget } from '../fixtures/bus.ts';
 import { dashboardOf, ONCE_BACK, READY } from '../fixtures/dashboard.ts';
 import { captureGroup } from '../fixtures/group.ts';
+import { PRINTING } from '../fixtures/ptyBoard.ts';
 import { expect, poll, test } from '../fixtures/test.ts';
 
 test('a port that is not there at the start says what to do, and is found when it comes', async ({
@@ -42,6 +43,29 @@ test('a port that another program has names the program, until that ends @exhaus
   await dashboard.button('Close').click();
   await other.end();
   await expect(dashboard.link).toHaveText(READY, ONCE_BACK);
+});
+
+test.describe('a program that prints at another speed', () => {
+  test.use({ ptyOptions: { baud: 115_200, program: PRINTING } });
+
+  test('is heard at the gateway where its owner asks for it @exhaustive', async ({
+    page,
+    ptyBoard,
+    newGateway,
+  }) => {
+    const gateway = await newGateway({ serial: ptyBoard.device, board: 'unknown' });
+    await page.goto(gateway.url);
+    const dashboard = dashboardOf(page);
+    const question = page.getByRole('region', { name: 'Which board is this?' });
+    await expect(question).toContainText('Nothing answered', { timeout: 15_000 });
+    await dashboard.link.click();
+    const dialog = dashboard.connectDialog;
+    await dialog.getByText('Something does not work?').click();
+    await dashboard.button('Listen at other speeds').click();
+    await expect(dialog.getByRole('status')).toContainText('At 115200 baud text arrives');
+    await dashboard.button('Close').click();
+    await expect(dashboard.button('Ask again')).toBeVisible({ timeout: 15_000 });
+  });
 });
 
 test('a gateway without a port offers the ports it knows @exhaustive', async ({ page, newGateway }) => {

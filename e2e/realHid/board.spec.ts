@@ -4,6 +4,7 @@
 import { lastTarget, ofKind } from '../fixtures/bus.ts';
 import { dashboardOf, ONCE_BACK, READY } from '../fixtures/dashboard.ts';
 import { BOARD_LABEL, BOARD_NAME, HID_BOARD } from '../fixtures/mockBoard.ts';
+import { SILENT } from '../fixtures/ptyBoard.ts';
 import { testOn } from '../fixtures/realDevice.ts';
 import { expect, poll } from '../fixtures/test.ts';
 
@@ -26,6 +27,20 @@ test('a board on its own USB cable is driven, stopped, pulled and found again', 
   await plugIn();
   await expect(connected.link).toHaveText(READY, ONCE_BACK);
   await expect(connected.status).toContainText('The link was restored; check the robot first');
+});
+
+test.describe('a board that is switched off', () => {
+  test.use({ ptyOptions: { program: SILENT } });
+
+  test('is said at once to be silent, with what to do @exhaustive', async ({ open, page }) => {
+    const dashboard = await open(page);
+    await dashboard.button('Connect').click();
+    await dashboard.button(`Open ${BOARD_LABEL}`).click();
+    await expect(page.getByRole('region', { name: 'Which board is this?' })).toContainText('switch it on');
+    await dashboard.link.click();
+    await dashboard.connectDialog.getByText('Something does not work?').click();
+    await expect(dashboard.connectDialog).toContainText('Switch it on: the cable alone does not power it');
+  });
 });
 
 test('a board that was chosen is opened without a chooser at the next visit @exhaustive', async ({

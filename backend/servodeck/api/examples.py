@@ -236,6 +236,10 @@ EXAMPLES: dict[tuple[str, str], Example] = {
         ("outOfRange", "portMissing", "portBusy", "portDenied", "otherDevice"),
     ),
     ("DELETE", "/api/port"): Example(CLOSED),
+    ("POST", "/api/port/listen"): Example(
+        {"baud": 115200, "kind": "text"},
+        errors=("busy", "closed", "notDriving", "notSupported", "portBusy", "portMissing"),
+    ),
     ("PUT", "/api/board"): Example(STATUS, {"board": "lsc-16"}, ("busy", "notDriving", "outOfRange")),
     ("GET", "/api/library"): Example({"documents": [LISTED], "damagedFile": None, "changesLost": False}),
     ("POST", "/api/library/remove"): Example(None, {"ids": [DOCUMENT]}, ("notFound",)),
@@ -302,6 +306,7 @@ PROBLEMS: dict[ErrorCode, str] = {
     "notDriving": 'Anna drives. An owner may take over with "take": true.',
     "notFound": "The library has no such document.",
     "notPaired": "This device is not paired with the gateway.",
+    "notSupported": "Only a serial port of this computer has other speeds, not hid:497223563535.",
     "otherDevice": "Another device answers under that name now.",
     "outOfRange": "Elbow (servo 2): position is 1900, allowed 900..1800",
     "pairingFailed": "That code is wrong or too old.",

@@ -12,7 +12,7 @@ import json
 import math
 import secrets
 from dataclasses import asdict
-from typing import Annotated
+from typing import Annotated, Literal
 
 from fastapi import APIRouter, Header, Request, WebSocket
 from pydantic import Field
@@ -86,6 +86,15 @@ class Device(Message):
 class PortChoice(Message):
     device: Annotated[str, Field(min_length=1, max_length=256, pattern=r"^[^\x00-\x1f]+$")]
     board: str | None = None
+
+
+class RateFound(Message):
+    """The first other speed at which something that can be read arrives, and what; both null where there is
+    none.
+    """
+
+    baud: int | None
+    kind: Literal["packets", "text"] | None
 
 
 class BoardChoice(Message):
@@ -192,6 +201,19 @@ async def close_port(control: Controlled) -> PortState:
     control.remembered.remember_port(None)
     await control.remembered.saved()
     return control.board.port
+
+
+@api.post("/port/listen")
+async def listen(request: Request, control: Controlled, caller: Annotated[Caller, OWNER]) -> RateFound:
+    """Gives up the serial port for some seconds, listens on it at other speeds than the boards', and opens it
+    again. For a board from which nothing that can be read arrives. Sends nothing; refused while the robot may
+    move, and while somebody else drives.
+    """
+    found = await control.find_rate(named(request, caller))
+    if found is None:
+        return RateFound(baud=None, kind=None)
+    baud, heard = found
+    return RateFound(baud=baud, kind="packets" if heard.packets else "text")
 
 
 @api.put("/board")

@@ -16,13 +16,15 @@ from servodeck import __version__
 from servodeck.cli.options import FAILURE, Token, TokenFile, Url, remote_at
 from servodeck.cli.remote import HERE, RefusedError, Remote, UnreachableError
 from servodeck.errors import PortError
-from servodeck.port.diagnosis import Heard, access_to, find_rate, listen, looks_like
+from servodeck.port.diagnosis import Heard, access_to, find_rate, has_rates, listen, looks_like
 from servodeck.port.hid import ALLOW_HID, is_hid
 from servodeck.port.ports import PortInfo, is_same_port, list_devices
 from servodeck.protocol.timings import LINE
 from servodeck.value import value
 
 NOISE_SHOWN = 32
+# All other speeds, and the opening of the port each time.
+LISTENED_WITHIN_S = 20.0
 NOISE_MEANS = {
     "rate": "They look like another speed. Servodeck uses 9600 baud: set the board's port to it.",
     "text": "They are text, so a program on the board prints. On a LeArm AI press K1 once.",
@@ -76,8 +78,12 @@ def findings_of(remote: Remote, device: str, *, rates: bool) -> Iterator[Finding
     if shutil.which("brltty"):
         yield Finding("look", "brltty is installed and takes CH340 adapters away: sudo apt remove brltty")
     for port in ports:
-        is_owned = owned is not None and is_same_port(port.device, owned)
-        yield from port_findings(port, is_owned=is_owned, is_asked=bool(device) or port.likely, rates=rates)
+        if owned is None or not is_same_port(port.device, owned):
+            yield from port_findings(port, is_asked=bool(device) or port.likely, rates=rates)
+        else:
+            yield Finding("ok", f"{name_of(port)} is the gateway's.")
+            if rates and has_rates(owned):
+                yield gateway_rate_finding(remote, name_of(port))
 
 
 def gateway_findings(remote: Remote) -> Generator[Finding, None, dict[str, Any] | None]:
@@ -106,11 +112,12 @@ def gateway_findings(remote: Remote) -> Generator[Finding, None, dict[str, Any] 
     return status
 
 
-def port_findings(port: PortInfo, *, is_owned: bool, is_asked: bool, rates: bool) -> Iterator[Finding]:
-    name = f"{port.device} ({port.description})"
-    if is_owned:
-        yield Finding("ok", f"{name} is the gateway's.")
-        return
+def name_of(port: PortInfo) -> str:
+    return f"{port.device} ({port.description})"
+
+
+def port_findings(port: PortInfo, *, is_asked: bool, rates: bool) -> Iterator[Finding]:
+    name = name_of(port)
     if problem := access_problem(name, port.device):
         yield Finding("look", problem)
         return
@@ -121,7 +128,8 @@ def port_findings(port: PortInfo, *, is_owned: bool, is_asked: bool, rates: bool
         heard = listen(port.device)
         yield from heard_findings(name, heard, is_on_hid=is_hid(port.device))
         if rates and has_rates(port.device) and not heard.packets:
-            yield rate_finding(name, port.device)
+            found = find_rate(port.device)
+            yield rate_finding(name, found and (found[0], "packets" if found[1].packets else "text"))
     except PortError as error:
         yield Finding("look", error.detail)
 
@@ -141,10 +149,6 @@ def access_problem(name: str, device: str) -> str | None:
     if is_hid(device):
         return f"This account may not open {name}: {ALLOW_HID}, then plug it in again."
     return f"This account may not open {name}: sudo usermod -aG {access.group} $USER, then log in again."
-
-
-def has_rates(device: str) -> bool:
-    return not is_hid(device) and "://" not in device
 
 
 def heard_findings(name: str, heard: Heard, *, is_on_hid: bool) -> Iterator[Finding]:
@@ -177,12 +181,20 @@ def heard_findings(name: str, heard: Heard, *, is_on_hid: bool) -> Iterator[Find
         )
 
 
-def rate_finding(name: str, device: str) -> Finding:
-    found = find_rate(device)
+def gateway_rate_finding(remote: Remote, name: str) -> Finding:
+    """The gateway gives its port up for that."""
+    try:
+        found = remote.ask("POST", "/api/port/listen", wait_s=LISTENED_WITHIN_S)
+    except (RefusedError, UnreachableError) as error:
+        return Finding("look", f"The gateway does not listen at other speeds on {name}: {error}")
+    return rate_finding(name, None if found["baud"] is None else (found["baud"], found["kind"]))
+
+
+def rate_finding(name: str, found: tuple[int, str] | None) -> Finding:
     if found is None:
         rates = ", ".join(str(rate) for rate in LINE.other_rates)
         return Finding("--", f"At {rates} baud nothing that can be read arrives on {name} by itself.")
-    rate, heard = found
-    if heard.packets:
+    rate, kind = found
+    if kind == "packets":
         return Finding("look", f"At {rate} baud packets arrive on {name}: set the board's port to 9600 baud.")
     return Finding("look", f"At {rate} baud text arrives on {name}. {NOISE_MEANS['text']}")

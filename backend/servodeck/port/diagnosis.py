@@ -8,6 +8,7 @@ import time
 from collections.abc import Awaitable
 from dataclasses import dataclass, field
 
+from servodeck.port.bluetooth import is_bluetooth
 from servodeck.port.hid import ReportInbox, find_board, is_hid
 from servodeck.port.ports import OpenPort, group_of, open_port
 from servodeck.port.whereabouts import holders_of
@@ -78,6 +79,11 @@ def listen(device: str) -> Heard:
 
 async def until_left(leaving: Awaitable[None]) -> None:
     await leaving
+
+
+def has_rates(device: str) -> bool:
+    """It is a serial port of this computer."""
+    return not (is_hid(device) or is_bluetooth(device) or "://" in device)
 
 
 def find_rate(device: str) -> tuple[int, Heard] | None:

@@ -8,12 +8,20 @@ device to another name, and never opens another device under the old name.
 import asyncio
 import contextlib
 import logging
-from collections.abc import Callable
+from collections.abc import Callable, Coroutine
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Any, Protocol
 
-from servodeck.errors import CancelledError, ClosedError, PortBusyError, PortError, PortLostError
+from servodeck.errors import (
+    CancelledError,
+    ClosedError,
+    NotSupportedError,
+    PortBusyError,
+    PortError,
+    PortLostError,
+)
 from servodeck.port.bluetooth import is_bluetooth, this_computer
+from servodeck.port.diagnosis import Heard, find_rate, has_rates
 from servodeck.port.ports import OpenPort, list_usb, open_port
 from servodeck.port.whereabouts import UsbDevice, Whereabouts
 from servodeck.port.wire import Wire, fail, settle
@@ -38,6 +46,9 @@ class Ports(Protocol):
 
     async def list_usb(self) -> list[UsbDevice]:
         """What is on the bus now. Never raises."""
+
+    async def find_rate(self, device: str) -> tuple[int, Heard] | None:
+        """As in diagnosis.py."""
 
 
 class LinkEvents(Protocol):
@@ -113,13 +124,40 @@ class Link:
         same.
         """
         first: asyncio.Future[None] = asyncio.get_running_loop().create_future()
+        await self._begin(device, first, lambda: self._keep_open(Whereabouts(device), first))
+        await first
+
+    async def find_rate(self) -> tuple[int, Heard] | None:
+        """Gives up the serial port in use, listens on it at other speeds, and opens it again. Raises a
+        PortError, or ClosedError where none is in use.
+        """
+        device, whereabouts = self.state.device, self._whereabouts
+        if device is None or whereabouts is None:
+            raise ClosedError("No serial port is in use.")
+        if not has_rates(device):
+            raise NotSupportedError(f"Only a serial port of this computer has other speeds, not {device}.")
+        found: asyncio.Future[tuple[int, Heard] | None] = asyncio.get_running_loop().create_future()
+
+        async def listen() -> None:
+            try:
+                found.set_result(await self._ports.find_rate(device))
+            except PortError as error:
+                fail(found, error)
+            await self._keep_open(whereabouts, asyncio.get_running_loop().create_future())
+
+        await self._begin(device, found, listen)
+        return await found
+
+    async def _begin(
+        self, device: str, outcome: asyncio.Future[Any], work: Callable[[], Coroutine[Any, Any, None]]
+    ) -> None:
+        """`work` in place of what is done with a port so far."""
         async with self._changing:
             await self._end()
             self._show(PortState(device=device, status="opening"))
-            self._task = asyncio.create_task(self._keep_open(device, first))
+            self._task = asyncio.create_task(work())
             # Not in the task itself: one that is cancelled before its first step runs no line of its own.
-            self._task.add_done_callback(lambda _: fail(first, replaced()))
-        await first
+            self._task.add_done_callback(lambda _: fail(outcome, replaced()))
 
     async def close(self) -> None:
         """Closes the port and stays closed."""
@@ -134,9 +172,9 @@ class Link:
             with contextlib.suppress(asyncio.CancelledError):
                 await task
 
-    async def _keep_open(self, device: str, first: asyncio.Future[None]) -> None:
+    async def _keep_open(self, whereabouts: Whereabouts, first: asyncio.Future[None]) -> None:
         back_off = BackOff()
-        whereabouts = self._whereabouts = Whereabouts(device)
+        self._whereabouts = whereabouts
         while True:
             try:
                 await self._serve(whereabouts, first, back_off)
@@ -225,6 +263,9 @@ class BackgroundPorts:
 
     async def list_usb(self) -> list[UsbDevice]:
         return await in_thread(list_usb)
+
+    async def find_rate(self, device: str) -> tuple[int, Heard] | None:
+        return await in_thread(lambda: find_rate(device))
 
     async def close(self, port: OpenPort) -> None:
         # Not wait_for: Python 3.11's swallows a cancellation that meets the result, and the link lived on.

@@ -9,6 +9,7 @@ import contextlib
 from collections import deque
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 from servodeck import metrics
 from servodeck.errors import BusyError, ClosedError, GatewayError, OutOfRangeError
@@ -305,7 +306,7 @@ def settle(future: Left) -> None:
         future.set_result(None)
 
 
-def fail(future: Left, error: GatewayError) -> None:
+def fail(future: asyncio.Future[Any], error: GatewayError) -> None:
     """Fails it; a future without a waiting caller causes no warning."""
     if not future.done():
         future.set_exception(error)

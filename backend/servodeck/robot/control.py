@@ -12,6 +12,7 @@ from servodeck.callers import Caller
 from servodeck.errors import (
     CancelledError,
     LatchedError,
+    MovingError,
     NotDrivingError,
     OutOfRangeError,
     PortLostError,
@@ -28,6 +29,7 @@ from servodeck.events import (
 )
 from servodeck.files import Remembered
 from servodeck.packet_models import report_model
+from servodeck.port.diagnosis import Heard
 from servodeck.port.link import Ports
 from servodeck.port.wire import Left, Owner
 from servodeck.protocol.decoder import NoiseEvent
@@ -241,6 +243,18 @@ class Control:
         await self.board.link.use(device)
         if board:
             self._recalled_board.said(self.board)
+
+    async def find_rate(self, caller: Caller) -> tuple[int, Heard] | None:
+        """Listens on the port at other speeds, where the robot is at rest and no other client drives.
+        Meanwhile no STOP reaches it; it is stopped as the port is opened again.
+        """
+        driver = self.driving.driver
+        if driver is not None and driver.caller.id != caller.id:
+            raise NotDrivingError(f"{driver.caller.name} drives: the port cannot be given up now.")
+        if not self.board.is_idle():
+            raise MovingError("The robot is not at rest, or may not be: stop it before the port is given up.")
+        await self.board.quiet()
+        return await self.board.link.find_rate()
 
     async def close_port(self) -> None:
         await self.board.quiet()

@@ -2266,7 +2266,7 @@ export interface Messages {
     readonly listening: string;
     readonly rateFound: (values: { readonly baud: number; readonly kind: string }) => string;
     readonly rateNone: string;
-    readonly ratesAtGateway: string;
+    readonly ratesByOwner: string;
     readonly copy: string;
     readonly copied: string;
   };

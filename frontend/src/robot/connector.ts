@@ -15,15 +15,8 @@ import type { BluetoothHere, GrantedModule } from './links/webBluetooth.ts';
 import type { HeardAtRate } from './links/otherRates.ts';
 import type { GrantedBoard, HidHere } from './links/webHid.ts';
 import { words } from '../i18n/words.ts';
-import {
-  hasGateway,
-  openGatewayPort,
-  readGateway,
-  readPorts,
-  SURE_WITHIN_MS,
-  type GatewayPort,
-  type GatewayStatus,
-} from './gatewayApi.ts';
+import type { FoundRate, GatewayPort } from './gatewayPorts.ts';
+import { hasGateway, readGateway, SURE_WITHIN_MS, type GatewayStatus } from './gatewayApi.ts';
 import { createWays, loadBluetooth, loadHid, type Opening } from './ways.ts';
 
 export interface ConnectState {
@@ -43,8 +36,6 @@ export interface ConnectState {
   /** What the person has said the robot is; null: nothing. */
   readonly body: BodyKind | null;
 }
-
-export type { HeardAtRate };
 
 export interface GrantedPort {
   readonly port: SerialPort;
@@ -68,8 +59,8 @@ export interface Connector {
   useSerialPort(port: SerialPort): Promise<void>;
   /** Opens the browser's chooser. Rejects with a LinkError. */
   chooseSerialPort(): Promise<void>;
-  /** Listens at other speeds on the serial port in use, whose link ends for that and is opened again. */
-  findRate(isReadable: (heard: HeardAtRate) => boolean): Promise<HeardAtRate | null>;
+  /** Listens at other speeds on the serial port in use, here or at the gateway; its link ends for that and comes back. */
+  findRate(isReadable: (heard: HeardAtRate) => boolean): Promise<FoundRate | null>;
   useBoard(board: HIDDevice): Promise<void>;
   /** Opens the browser's chooser; `all`: with every HID device. Rejects with a LinkError. */
   chooseBoard(all: boolean): Promise<void>;
@@ -84,6 +75,8 @@ export interface Connector {
 }
 
 const GREETING_MS = 2000;
+
+const loadPorts = () => import('./gatewayPorts.ts');
 
 export interface ConnectorOptions {
   readonly device: Device;
@@ -186,12 +179,16 @@ export function createConnector(options: ConnectorOptions): Connector {
 
   async function look(withinMs?: number): Promise<void> {
     const [gateway, granted] = await Promise.all([readGateway(withinMs), grantedPorts()]);
-    const ports = gateway === null || role !== 'owner' ? [] : await readPorts(withinMs);
     store.setState({
       gateway: gateway ?? 'absent',
-      gatewayPorts: ports,
       granted: granted.map((port) => ({ port, label: portLabel(port) })),
     });
+  }
+
+  async function lookForPorts(): Promise<void> {
+    const mayChoose = role === 'owner' && typeof store.getState().gateway === 'object';
+    const ports = mayChoose ? await loadPorts().then(({ readPorts }) => readPorts()) : [];
+    store.setState({ gatewayPorts: ports });
   }
 
   /** A page that went while it was loading opens nothing any more. */
@@ -204,6 +201,7 @@ export function createConnector(options: ConnectorOptions): Connector {
     const last = recallWay(storage);
     if (last !== null) store.setState({ board: last.board });
     await look(options.isAtGateway ? SURE_WITHIN_MS : undefined);
+    void lookForPorts().catch(notices.tellError);
     const { gateway, granted, reconnects } = store.getState();
     const [port] = granted;
     const [board] = last?.kind === 'webHid' && reconnects ? await lookForBoards() : [];
@@ -242,7 +240,7 @@ export function createConnector(options: ConnectorOptions): Connector {
     store,
     start,
     async look() {
-      await Promise.all([look(), lookForBoards(), lookForModules()]);
+      await Promise.all([look().then(lookForPorts), lookForBoards(), lookForModules()]);
     },
     setBody(body) {
       store.setState({ body });
@@ -260,8 +258,10 @@ export function createConnector(options: ConnectorOptions): Connector {
     },
     useGateway: () => chosen(ways.gateway()),
     async useGatewayPort(path) {
+      const { openGatewayPort } = await loadPorts();
       await openGatewayPort(path);
       await look();
+      await lookForPorts();
       chosen(ways.gateway());
     },
     useSerialPort: takePort,
@@ -269,15 +269,12 @@ export function createConnector(options: ConnectorOptions): Connector {
       await takePort(await choosePort());
     },
     async findRate(isReadable) {
-      if (current?.way().kind !== 'webSerial') return null;
-      const port = current.port as SerialPort;
-      const { findRate } = await import('./links/otherRates.ts');
-      await device.detach();
-      try {
-        return await findRate(port, isReadable);
-      } finally {
-        chosen(await ways.webSerial(port));
-      }
+      if (current === null) return null;
+      const { findRateOf } = await import('./findRate.ts');
+      return findRateOf(current, {
+        ...{ isReadable, detach: device.detach },
+        reopen: async (port) => chosen(await ways.webSerial(port)),
+      });
     },
     useBoard: takeBoard,
     async chooseBoard(all) {

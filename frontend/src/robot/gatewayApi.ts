@@ -1,8 +1,7 @@
-// The gateway's HTTP interface as far as connecting needs it: is there one at the page's own address, which board and ports
-// does it have, open that port, put a robot on its board. Trusts no answer's shape; every failure is a LinkError.
+// The gateway's HTTP interface as far as a page that opens needs it: is there one at its own address, what is on its port, put a robot on
+// its board. Trusts no answer's shape; every failure is a LinkError.
 
 import type { Clock } from '#shared/clock.ts';
-import { LinkError } from '#shared/robot/linkError.ts';
 import { isRecord, isWithoutGateway } from './request.ts';
 import { askGateway } from './links/gatewayHttp.ts';
 
@@ -13,14 +12,7 @@ export interface GatewayStatus {
   readonly isSimulated: boolean;
 }
 
-export interface GatewayPort {
-  readonly device: string;
-  readonly description: string;
-  /** The gateway's present one, by whichever of its names. */
-  readonly inUse: boolean;
-}
-
-const ANSWER_WITHIN_MS = 2000;
+export const ANSWER_WITHIN_MS = 2000;
 /** It is read from the library first. */
 const ROBOT_WITHIN_MS = 4000;
 /** For one that has just said who is here: it is only slow, and must not be replaced by another robot for that. */
@@ -63,33 +55,11 @@ export async function hasGateway(clock: Clock): Promise<boolean> {
   }
 }
 
-/** Ports of the gateway's machine, the likely ones first. */
-export async function readPorts(withinMs = ANSWER_WITHIN_MS): Promise<readonly GatewayPort[]> {
-  const list: unknown = await askGateway('get', '/api/ports', { withinMs });
-  if (!Array.isArray(list)) throw new LinkError('internal', 'the gateway’s list of ports is no list');
-  return list.filter(isPort).map(({ device, description, inUse }) => ({ device, description, inUse }));
-}
-
-/** Whatever board is there: the gateway knows it from before, or asks it. */
-export async function openGatewayPort(device: string): Promise<void> {
-  const body = { device, board: 'unknown' };
-  await askGateway('put', '/api/port', { body, withinMs: ANSWER_WITHIN_MS });
-}
-
 /** The gateway's WebSocket beside the page. */
 export function gatewayUrl(): string {
   const url = new URL('ws', document.baseURI);
   url.protocol = url.protocol === 'https:' ? 'wss:' : 'ws:';
   return url.href;
-}
-
-function isPort(value: unknown): value is GatewayPort {
-  return (
-    isRecord(value) &&
-    typeof value.device === 'string' &&
-    typeof value.description === 'string' &&
-    typeof value.inUse === 'boolean'
-  );
 }
 
 /** Puts a robot of the library on the gateway's board, for everybody. */

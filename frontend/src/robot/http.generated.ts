@@ -417,6 +417,23 @@ export interface paths {
     patch?: never;
     trace?: never;
   };
+  '/api/port/listen': {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    get?: never;
+    put?: never;
+    /** Gives up the serial port for some seconds, listens on it at other speeds than the boards', and opens it again */
+    post: operations['gatewayListen'];
+    delete?: never;
+    options?: never;
+    head?: never;
+    patch?: never;
+    trace?: never;
+  };
   '/api/ports': {
     parameters: {
       query?: never;
@@ -1528,6 +1545,17 @@ export interface components {
       heldBy?: string[] | null;
     };
     /**
+     * RateFound
+     * @description The first other speed at which something that can be read arrives, and what; both null where there is
+     *     none.
+     */
+    RateFound: {
+      /** Baud */
+      baud: number | null;
+      /** Kind */
+      kind: ('packets' | 'text') | null;
+    };
+    /**
      * RobotChoice
      * @description `insteadOf`: the robot that the caller expects there.
      */
@@ -1863,6 +1891,7 @@ export type Poses = components['schemas']['Poses'];
 export type PoseTarget = components['schemas']['PoseTarget'];
 export type PositionsReport = components['schemas']['PositionsReport'];
 export type Problem = components['schemas']['Problem'];
+export type RateFound = components['schemas']['RateFound'];
 export type RobotChoice = components['schemas']['RobotChoice'];
 export type RobotFacts = components['schemas']['RobotFacts'];
 export type RunBegun = components['schemas']['RunBegun'];
@@ -2605,6 +2634,26 @@ export interface operations {
         };
         content: {
           'application/json': components['schemas']['PortState'];
+        };
+      };
+    };
+  };
+  gatewayListen: {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    requestBody?: never;
+    responses: {
+      /** @description Successful Response */
+      200: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content: {
+          'application/json': components['schemas']['RateFound'];
         };
       };
     };

@@ -6,7 +6,9 @@ import { Mark, type Truth } from '../../ui/Chip.tsx';
 import { linkSentence } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/whole.ts';
 import { isBoardsOwnCable } from '../../robot/readiness.ts';
-import type { ConnectState, HeardAtRate } from '../../robot/connector.ts';
+import type { ConnectState } from '../../robot/connector.ts';
+import type { Way } from '../../robot/device.ts';
+import type { FoundRate, GatewayPort } from '../../robot/gatewayPorts.ts';
 import { Button } from '../../ui/Button.tsx';
 import type { Actions } from './cables.ts';
 import { CopyButton } from './CopyButton.tsx';
@@ -29,7 +31,9 @@ export function Doctor({ state, actions }: DoctorProps) {
 }
 
 function Findings({ state, actions }: DoctorProps) {
-  const { device } = useStores();
+  const { device, notices } = useStores();
+  // The way in use is none while it listens there.
+  const [found, setFound] = useState<Listening>(null);
   const interfaces = useInterfaces();
   const link = useSnapshot((snapshot) => snapshot.link);
   const isOwnCable = useSnapshot(({ withheld }) => isBoardsOwnCable(withheld));
@@ -47,6 +51,16 @@ function Findings({ state, actions }: DoctorProps) {
     isOwnCable,
     batteryMv: battery.kind === 'read' ? battery.batteryMv : null,
   };
+  const listen = (): void => {
+    setFound('listening');
+    actions.findRate(isReadable).then(
+      (rate) => setFound(rate ?? 'none'),
+      (error: unknown) => {
+        setFound(null);
+        notices.tellError(error);
+      },
+    );
+  };
   const findings = findingsOf(facts);
   const report = [
     facts.browser,
@@ -63,41 +77,42 @@ function Findings({ state, actions }: DoctorProps) {
           </li>
         ))}
       </ul>
-      {way?.kind === 'webSerial' && facts.heard.packets === 0 && <OtherRates findRate={actions.findRate} />}
-      {way?.kind === 'gateway' && facts.heard.packets === 0 && !isOwnCable && (
-        <p className={styles.hint}>{words.doctor.ratesAtGateway}</p>
+      {(found !== null || (facts.heard.packets === 0 && hasOtherRates(way, state))) && (
+        <OtherRates found={found} onListen={listen} />
+      )}
+      {facts.heard.packets === 0 && way?.kind === 'gateway' && state.gatewayPorts.length === 0 && (
+        <p className={styles.hint}>{words.doctor.ratesByOwner}</p>
       )}
       <CopyButton text={report} label={words.doctor.copy} done={words.doctor.copied} />
     </>
   );
 }
 
+/** It is a serial port, of this computer or one that this page may have the gateway give up. */
+function hasOtherRates(way: Way | null, { gatewayPorts }: ConnectState): boolean {
+  const isUsed = ({ device, inUse }: GatewayPort): boolean => inUse && !/^(?:hid|ble)\b|:\/\//u.test(device);
+  return way?.kind === 'webSerial' || (way?.kind === 'gateway' && gatewayPorts.some(isUsed));
+}
+
+type Listening = FoundRate | 'none' | 'listening' | null;
+
+interface OtherRatesProps {
+  readonly found: Listening;
+  onListen(): void;
+}
+
 /** Nothing that can be read has arrived: the board may have another speed. */
-function OtherRates({ findRate }: Pick<Actions, 'findRate'>) {
-  const { notices } = useStores();
-  const [found, setFound] = useState<HeardAtRate | 'none' | 'listening' | null>(null);
-  const listen = (): void => {
-    setFound('listening');
-    findRate(isReadable).then(
-      (heard) => setFound(heard ?? 'none'),
-      (error: unknown) => {
-        setFound(null);
-        notices.tellError(error);
-      },
-    );
-  };
-  const result =
-    found === 'none'
-      ? words.doctor.rateNone
-      : found === null || found === 'listening'
-        ? ''
-        : words.doctor.rateFound({ baud: found.baud, kind: found.packets > 0 ? 'packets' : 'text' });
+function OtherRates({ found, onListen }: OtherRatesProps) {
+  const isListening = found === 'listening';
+  const isNews = found !== null && !isListening;
   return (
     <div className={styles.rates}>
-      <Button icon="refresh" isPending={found === 'listening'} onPress={listen}>
-        {found === 'listening' ? words.doctor.listening : words.doctor.rates}
+      <Button icon="refresh" isPending={isListening} onPress={onListen}>
+        {isListening ? words.doctor.listening : words.doctor.rates}
       </Button>
-      <p role="status">{result}</p>
+      <p role="status">
+        {isNews && (found === 'none' ? words.doctor.rateNone : words.doctor.rateFound(found))}
+      </p>
     </div>
   );
 }

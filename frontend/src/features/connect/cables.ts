@@ -6,7 +6,8 @@ import { errorSentence } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/whole.ts';
 import type { Connector, ConnectState } from '../../robot/connector.ts';
 import type { Way } from '../../robot/device.ts';
-import type { GatewayPort, GatewayStatus } from '../../robot/gatewayApi.ts';
+import type { GatewayStatus } from '../../robot/gatewayApi.ts';
+import type { GatewayPort } from '../../robot/gatewayPorts.ts';
 import { isWithoutGateway } from '../../robot/request.ts';
 import type { GuideKind } from './PortGuide.tsx';
 

@@ -1,0 +1,50 @@
+// The gateway's ports: which there are, open one, listen on it at other speeds. Trusts no answer's shape; every failure is a LinkError.
+
+import { LinkError } from '#shared/robot/linkError.ts';
+import { ANSWER_WITHIN_MS } from './gatewayApi.ts';
+import { askGateway } from './links/gatewayHttp.ts';
+import { isRecord } from './request.ts';
+
+export interface GatewayPort {
+  readonly device: string;
+  readonly description: string;
+  /** The gateway's present one, by whichever of its names. */
+  readonly inUse: boolean;
+}
+
+export interface FoundRate {
+  readonly baud: number;
+  readonly kind: 'packets' | 'text';
+}
+
+/** At all speeds, and the opening of the port each time. */
+const LISTENED_WITHIN_MS = 20_000;
+
+/** Ports of the gateway's machine, the likely ones first. */
+export async function readPorts(): Promise<readonly GatewayPort[]> {
+  const list: unknown = await askGateway('get', '/api/ports', { withinMs: ANSWER_WITHIN_MS });
+  if (!Array.isArray(list)) throw new LinkError('internal', 'the gateway’s list of ports is no list');
+  return list.filter(isPort).map(({ device, description, inUse }) => ({ device, description, inUse }));
+}
+
+/** Whatever board is there: the gateway knows it from before, or asks it. */
+export async function openGatewayPort(device: string): Promise<void> {
+  const body = { device, board: 'unknown' };
+  await askGateway('put', '/api/port', { body, withinMs: ANSWER_WITHIN_MS });
+}
+
+/** On its port, which it gives up for that and opens again; null where nothing that can be read arrives. */
+export async function findGatewayRate(): Promise<FoundRate | null> {
+  const found = await askGateway('post', '/api/port/listen', { withinMs: LISTENED_WITHIN_MS });
+  if (!isRecord(found) || typeof found.baud !== 'number') return null;
+  return { baud: found.baud, kind: found.kind === 'packets' ? 'packets' : 'text' };
+}
+
+function isPort(value: unknown): value is GatewayPort {
+  return (
+    isRecord(value) &&
+    typeof value.device === 'string' &&
+    typeof value.description === 'string' &&
+    typeof value.inUse === 'boolean'
+  );
+}
