@@ -158,7 +158,7 @@ export async function withPage<Result>(
 /** Opens the dashboard and says which board it is, which a new visitor is asked; then motion is allowed. */
 export async function openDashboard(page: Page, url: string): Promise<void> {
   await page.goto(url);
-  await page.getByRole('button', { name: /^Another board / }).click();
+  await page.getByRole('button', { name: /^LSC-compatible board / }).click();
   await page.getByRole('slider').first().waitFor();
 }
 

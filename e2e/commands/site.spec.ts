@@ -78,7 +78,7 @@ test('from a served page to the first motion of a connected board in 20 s, at fo
     () => dashboard.button('Choose a port').click(),
     // A person selects it in the browser's chooser, which the port in the page does by itself.
     () => Promise.resolve(),
-    () => dashboard.takeFor('Another board').click(),
+    () => dashboard.takeFor('LSC-compatible board').click(),
     () => dashboard.type(dashboard.target(1), 1800),
   ];
   for (const act of acts) await act();

@@ -18,11 +18,11 @@ describe('a packet that is being typed', () => {
     ['5555020f', 'Read the battery'],
     ['55 55 02 0F 00', 'Too long: 1 byte more than LEN says.'],
     ['55 55 01', 'LEN 1 is too small; it counts itself and the command, so it is 2 at least.'],
-    ['55 55 ff', 'LEN 255 is too large; Another board takes 253 at most.'],
+    ['55 55 ff', 'LEN 255 is too large; LSC-compatible board takes 253 at most.'],
     ['41', 'A packet begins with 55 55.'],
     ['55 55 02 06', '“Run” has another format; the board would use bytes of earlier packets.'],
     ['55 55 03 08', 'This writes to the board’s memory and needs its answers: use the Board panel.'],
-    ['55 55 02 63', 'Command 99 is unknown to Another board, which ignores it'],
+    ['55 55 02 63', 'Command 99 is unknown to LSC-compatible board, which ignores it'],
     ['battery', words.raw.notHex],
   ])('%j is explained', (text, explanation) => {
     expect(judge(text).explanation).toBe(explanation);
