@@ -75,7 +75,7 @@ test('whoever looks for what does not work finds what is there', async ({ page, 
   await dashboard.button('Connect').click();
   const { connectDialog } = dashboard;
   await connectDialog.getByText('Something does not work?').click();
-  await expect(connectDialog).toContainText('Serial ports: this browser can use them.');
+  await expect(connectDialog).toContainText('Serial ports: usable in this browser.');
   await expect(connectDialog).toContainText('Simulated board: Ready.');
   await expect(connectDialog).toContainText(/packets? of the board arrived/);
 });

@@ -23,8 +23,6 @@ from servodeck.protocol.timings import LINE
 from servodeck.value import value
 
 NOISE_SHOWN = 32
-# All other speeds, and the opening of the port each time.
-LISTENED_WITHIN_S = 20.0
 NOISE_MEANS = {
     "rate": "They look like another speed. Servodeck uses 9600 baud: set the board's port to it.",
     "text": "They are text, so a program on the board prints. On a LeArm AI press K1 once.",
@@ -184,7 +182,7 @@ def heard_findings(name: str, heard: Heard, *, is_on_hid: bool) -> Iterator[Find
 def gateway_rate_finding(remote: Remote, name: str) -> Finding:
     """The gateway gives its port up for that."""
     try:
-        found = remote.ask("POST", "/api/port/listen", wait_s=LISTENED_WITHIN_S)
+        found = remote.ask("POST", "/api/port/listen", wait_s=LINE.listened_within_ms / 1000)
     except (RefusedError, UnreachableError) as error:
         return Finding("look", f"The gateway does not listen at other speeds on {name}: {error}")
     return rate_finding(name, None if found["baud"] is None else (found["baud"], found["kind"]))

@@ -20,6 +20,7 @@ class Line(NamedTuple):
     filler_bytes: int
     other_rates: tuple[int, ...]
     listen_ms: int
+    listened_within_ms: int
     reconnect_ms: tuple[int, ...]
 
 

@@ -1,5 +1,6 @@
 // The gateway's ports: which there are, open one, listen on it at other speeds. Trusts no answer's shape; every failure is a LinkError.
 
+import timings from '../../../shared/protocol/timings.json' with { type: 'json' };
 import { LinkError } from '#shared/robot/linkError.ts';
 import { ANSWER_WITHIN_MS } from './gatewayApi.ts';
 import { askGateway } from './links/gatewayHttp.ts';
@@ -17,9 +18,6 @@ export interface FoundRate {
   readonly kind: 'packets' | 'text';
 }
 
-/** At all speeds, and the opening of the port each time. */
-const LISTENED_WITHIN_MS = 20_000;
-
 /** Ports of the gateway's machine, the likely ones first. */
 export async function readPorts(): Promise<readonly GatewayPort[]> {
   const list: unknown = await askGateway('get', '/api/ports', { withinMs: ANSWER_WITHIN_MS });
@@ -35,7 +33,7 @@ export async function openGatewayPort(device: string): Promise<void> {
 
 /** On its port, which it gives up for that and opens again; null where nothing that can be read arrives. */
 export async function findGatewayRate(): Promise<FoundRate | null> {
-  const found = await askGateway('post', '/api/port/listen', { withinMs: LISTENED_WITHIN_MS });
+  const found = await askGateway('post', '/api/port/listen', { withinMs: timings.line.listenedWithinMs });
   if (!isRecord(found) || typeof found.baud !== 'number') return null;
   return { baud: found.baud, kind: found.kind === 'packets' ? 'packets' : 'text' };
 }

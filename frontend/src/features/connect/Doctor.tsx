@@ -37,6 +37,9 @@ function Findings({ state, actions }: DoctorProps) {
   const interfaces = useInterfaces();
   const link = useSnapshot((snapshot) => snapshot.link);
   const isOwnCable = useSnapshot(({ withheld }) => isBoardsOwnCable(withheld));
+  const hasAnswered = useSnapshot(({ identity }) =>
+    identity.evidence.some(({ kind }) => kind === 'answered'),
+  );
   const battery = useSnapshot((snapshot) => snapshot.battery);
   const way = useDevice((known) => known.way);
   if (interfaces === null) return null;
@@ -48,6 +51,7 @@ function Findings({ state, actions }: DoctorProps) {
     gateway: typeof state.gateway === 'object' ? 'answers' : state.gateway,
     ...{ link, way: way?.label ?? null },
     heard: heardIn(device.traffic),
+    hasAnswered: hasAnswered || battery.kind === 'read',
     isOwnCable,
     batteryMv: battery.kind === 'read' ? battery.batteryMv : null,
   };
@@ -61,6 +65,7 @@ function Findings({ state, actions }: DoctorProps) {
       },
     );
   };
+  const isUnheard = facts.heard.packets === 0 && !facts.hasAnswered;
   const findings = findingsOf(facts);
   const report = [
     facts.browser,
@@ -77,13 +82,18 @@ function Findings({ state, actions }: DoctorProps) {
           </li>
         ))}
       </ul>
-      {(found !== null || (facts.heard.packets === 0 && hasOtherRates(way, state))) && (
-        <OtherRates found={found} onListen={listen} />
-      )}
-      {facts.heard.packets === 0 && way?.kind === 'gateway' && state.gatewayPorts.length === 0 && (
+      <div className={styles.acts}>
+        {(found !== null || (isUnheard && hasOtherRates(way, state))) && (
+          <Button icon="refresh" isPending={found === 'listening'} onPress={listen}>
+            {found === 'listening' ? words.doctor.listening : words.doctor.rates}
+          </Button>
+        )}
+        <CopyButton text={report} label={words.doctor.copy} done={words.doctor.copied} />
+      </div>
+      <p role="status">{foundText(found)}</p>
+      {isUnheard && way?.kind === 'gateway' && state.gatewayPorts.length === 0 && (
         <p className={styles.hint}>{words.doctor.ratesByOwner}</p>
       )}
-      <CopyButton text={report} label={words.doctor.copy} done={words.doctor.copied} />
     </>
   );
 }
@@ -96,25 +106,9 @@ function hasOtherRates(way: Way | null, { gatewayPorts }: ConnectState): boolean
 
 type Listening = FoundRate | 'none' | 'listening' | null;
 
-interface OtherRatesProps {
-  readonly found: Listening;
-  onListen(): void;
-}
-
-/** Nothing that can be read has arrived: the board may have another speed. */
-function OtherRates({ found, onListen }: OtherRatesProps) {
-  const isListening = found === 'listening';
-  const isNews = found !== null && !isListening;
-  return (
-    <div className={styles.rates}>
-      <Button icon="refresh" isPending={isListening} onPress={onListen}>
-        {isListening ? words.doctor.listening : words.doctor.rates}
-      </Button>
-      <p role="status">
-        {isNews && (found === 'none' ? words.doctor.rateNone : words.doctor.rateFound(found))}
-      </p>
-    </div>
-  );
+function foundText(found: Listening): string {
+  if (found === null || found === 'listening') return '';
+  return found === 'none' ? words.doctor.rateNone : words.doctor.rateFound(found);
 }
 
 function useInterfaces(): Facts['interfaces'] | null {
@@ -160,7 +154,8 @@ function sentenceOf(finding: Finding): string {
 function truthOf(finding: Finding): Truth {
   switch (finding.id) {
     case 'interface':
-      return finding.sight === 'seen' ? 'confirmed' : 'warning';
+      if (finding.sight === 'seen') return 'confirmed';
+      return finding.sight === 'missing' && !finding.isWanted ? 'neutral' : 'warning';
     case 'allowedPorts':
       return finding.count > 0 ? 'confirmed' : 'neutral';
     case 'gateway':

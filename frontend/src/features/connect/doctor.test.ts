@@ -13,6 +13,7 @@ const FACTS: Facts = {
   link: { status: 'ready' },
   way: 'USB serial',
   heard: { packets: 3, noise: [], answeredMs: 24 },
+  hasAnswered: true,
   isOwnCable: false,
   batteryMv: 7400,
 };
@@ -29,11 +30,14 @@ describe('findings', () => {
 
   test('no packet of an open link is a finding, of one that is not open it is none', () => {
     const heard = { packets: 0, noise: [], answeredMs: null };
-    expect(idsOf({ heard, link: { status: 'stale', sinceMs: 0 }, batteryMv: null })).toContain(
-      'heardNothing',
-    );
-    expect(idsOf({ heard, link: { status: 'opening' }, batteryMv: null })).not.toContain('heardNothing');
-    expect(idsOf({ heard, way: null, batteryMv: null })).toContain('noWay');
+    const silent = { heard, hasAnswered: false, batteryMv: null };
+    expect(idsOf({ ...silent, link: { status: 'stale', sinceMs: 0 } })).toContain('heardNothing');
+    expect(idsOf({ ...silent, link: { status: 'opening' } })).not.toContain('heardNothing');
+    expect(idsOf({ ...silent, way: null })).toContain('noWay');
+  });
+
+  test('a board that has answered the gateway is not called silent by a page that came later', () => {
+    expect(idsOf({ heard: { packets: 0, noise: [], answeredMs: null } })).not.toContain('heardNothing');
   });
 
   test('a browser without serial ports is not blamed for ports that nobody allowed', () => {

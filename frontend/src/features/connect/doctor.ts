@@ -20,6 +20,8 @@ export interface Facts {
   readonly link: LinkState;
   readonly way: string | null;
   readonly heard: Heard;
+  /** The board has answered a question, also one of the gateway's before this page was there. */
+  readonly hasAnswered: boolean;
   /** The link is the board's own USB cable. */
   readonly isOwnCable: boolean;
   readonly batteryMv: number | null;
@@ -38,7 +40,13 @@ export type NoiseKind = 'rate' | 'text' | 'other';
 
 export type Finding =
   | { readonly id: 'secure' | 'insecure' }
-  | { readonly id: 'interface'; readonly cable: keyof Facts['interfaces']; readonly sight: Sight }
+  | {
+      readonly id: 'interface';
+      readonly cable: keyof Facts['interfaces'];
+      readonly sight: Sight;
+      /** No other way is in use. */
+      readonly isWanted: boolean;
+    }
   | { readonly id: 'allowedPorts'; readonly count: number }
   | { readonly id: 'gateway'; readonly answers: boolean }
   | { readonly id: 'link'; readonly link: LinkState; readonly way: string }
@@ -49,11 +57,12 @@ export type Finding =
   | { readonly id: 'battery'; readonly batteryMv: number; readonly answeredMs: number | null };
 
 export function findingsOf(facts: Facts): readonly Finding[] {
-  const { heard, link, way } = facts;
+  const { link, way } = facts;
   return [
     { id: facts.isSecure ? 'secure' : 'insecure' },
     ...(['serial', 'hid', 'bluetooth'] as const).map(
-      (cable) => ({ id: 'interface', cable, sight: facts.interfaces[cable] }) as const,
+      (cable) =>
+        ({ id: 'interface', cable, sight: facts.interfaces[cable], isWanted: way === null }) as const,
     ),
     ...(facts.interfaces.serial === 'seen'
       ? [{ id: 'allowedPorts', count: facts.allowedPorts } as const]
@@ -62,15 +71,15 @@ export function findingsOf(facts: Facts): readonly Finding[] {
       ? []
       : [{ id: 'gateway', answers: facts.gateway === 'answers' } as const]),
     way === null ? { id: 'noWay' } : { id: 'link', link, way },
-    ...(way !== null && isLineOpen(link) ? heardFindings(heard, facts.isOwnCable) : []),
+    ...(way !== null && isLineOpen(link) ? heardFindings(facts) : []),
     ...(facts.batteryMv === null
       ? []
-      : [{ id: 'battery', batteryMv: facts.batteryMv, answeredMs: heard.answeredMs } as const]),
+      : [{ id: 'battery', batteryMv: facts.batteryMv, answeredMs: facts.heard.answeredMs } as const]),
   ];
 }
 
-function heardFindings({ packets, noise }: Heard, isOwnCable: boolean): readonly Finding[] {
-  if (packets === 0 && noise.length === 0) return [{ id: 'heardNothing', isOwnCable }];
+function heardFindings({ heard: { packets, noise }, hasAnswered, isOwnCable }: Facts): readonly Finding[] {
+  if (packets === 0 && noise.length === 0) return hasAnswered ? [] : [{ id: 'heardNothing', isOwnCable }];
   return [
     ...(packets > 0 ? [{ id: 'heardPackets', count: packets } as const] : []),
     ...(noise.length > 0
