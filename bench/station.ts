@@ -148,6 +148,8 @@ export async function withPage<Result>(
   browser ??= startBrowser();
   // Pages of this computer may always speak to it; one whose headers a measurement changed has to be allowed.
   const page = await (await browser).newPage({ permissions: ['local-network-access'] });
+  // The sliders and the timeline side by side.
+  await page.addInitScript(() => sessionStorage.setItem('servodeck.tab', 'actions'));
   try {
     return await withGateway(device, (url) => work(page, url));
   } finally {

@@ -8,11 +8,13 @@ import { findBrowser } from './browser.mjs';
 import { SetupProblem, at, main, say } from './steps.mjs';
 
 /** @typedef {import('@playwright/test').Page} Page */
-/** @typedef {{ width: number, height: number, colorScheme?: 'light', region?: string, act?: (page: Page) => Promise<unknown> }} Shot */
+/** @typedef {{ width: number, height: number, colorScheme?: 'light', workspace?: string, region?: string, act?: (page: Page) => Promise<unknown> }} Shot */
 
 const DESK = { width: 1440, height: 900 };
 /** High enough for a panel as a whole. */
-const TALL = { width: 1440, height: 1230 };
+const TALL = { width: 1440, height: 1230, workspace: 'actions' };
+/** Where sliders and timeline are side by side. */
+const ANIMATE = { ...DESK, workspace: 'actions' };
 const PHONE = { width: 390, height: 844 };
 /** A picture that is larger makes the repository heavy. */
 const LARGEST_BYTES = 200_000;
@@ -104,15 +106,15 @@ async function pack(page, warnMv) {
 
 /** @type {Readonly<Record<string, Shot>>} */
 const SHOTS = {
-  dashboard: { ...DESK, act: wave },
-  light: { ...DESK, colorScheme: 'light', act: wave },
+  dashboard: { ...ANIMATE, act: wave },
+  light: { ...ANIMATE, colorScheme: 'light', act: wave },
   phone: PHONE,
   timeline: { ...TALL, region: 'Action group', act: wave },
-  poses: { ...DESK, region: 'Poses', act: blend },
-  pad: { ...DESK, region: 'Keys and pad', act: (page) => choose(page, 'Keys and pad') },
-  battery: { ...DESK, act: (page) => pack(page, 7000) },
+  poses: { ...ANIMATE, region: 'Poses', act: blend },
+  pad: { ...ANIMATE, region: 'Keys and pad', act: (page) => choose(page, 'Keys and pad') },
+  battery: { ...ANIMATE, act: (page) => pack(page, 7000) },
   'low-battery': {
-    ...DESK,
+    ...ANIMATE,
     region: 'Battery',
     async act(page) {
       await pack(page, 7600);
@@ -120,18 +122,18 @@ const SHOTS = {
       await page.getByText(/^The battery is low/).waitFor({ timeout: 30_000 });
     },
   },
-  calibration: { ...DESK, act: calibrate },
-  slots: { ...DESK, act: slots },
+  calibration: { ...ANIMATE, act: calibrate },
+  slots: { ...ANIMATE, act: slots },
   library: {
-    ...DESK,
+    ...ANIMATE,
     async act(page) {
       await groups(page);
       await press(page, 'Library');
     },
   },
-  stopped: { ...DESK, act: (page) => press(page, /^Stop/) },
+  stopped: { ...ANIMATE, act: (page) => press(page, /^Stop/) },
   disconnected: {
-    ...DESK,
+    ...ANIMATE,
     async act(page) {
       await press(page, 'Connect');
       await press(page, 'Disconnect');
@@ -144,9 +146,10 @@ async function take(browser, url, name) {
   const shot = SHOTS[name];
   if (shot === undefined)
     throw new SetupProblem(`No picture is called ${name}: ${Object.keys(SHOTS).join(', ')}`);
-  const { width, height, colorScheme = 'dark', region, act } = shot;
+  const { width, height, colorScheme = 'dark', workspace = 'live', region, act } = shot;
   const context = await browser.newContext({ viewport: { width, height }, colorScheme, locale: 'en-GB' });
   const page = await context.newPage();
+  await page.addInitScript((tab) => sessionStorage.setItem('servodeck.tab', tab), workspace);
   await page.goto(url);
   await page.waitForTimeout(SETTLE_MS);
   await act?.(page);

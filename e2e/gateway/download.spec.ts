@@ -2,7 +2,7 @@
 
 import type { BrowserContext } from '@playwright/test';
 import { ofKind } from '../fixtures/bus.ts';
-import { dashboardOf, READY, type Dashboard } from '../fixtures/dashboard.ts';
+import { anotherBrowser, dashboardOf, READY, type Dashboard } from '../fixtures/dashboard.ts';
 import { captureGroup } from '../fixtures/group.ts';
 import { libraryOf } from '../fixtures/library.ts';
 import { SLOW_FLASH, type Robot } from '../fixtures/robot.ts';
@@ -104,7 +104,7 @@ test.describe('on a board that seems to be silent', () => {
     await dashboard.button('Download').click();
     await dashboard.board.getByRole('button', { name: 'Cancel' }).click();
     await expect(dashboard.board).toContainText('Its download did not finish.');
-    const elsewhere = await browser.newContext();
+    const elsewhere = await anotherBrowser(browser);
     const other = await joins(robot, elsewhere);
     for (const each of [dashboard, other]) {
       await each.button('Slots').click();
@@ -130,7 +130,7 @@ test.describe('on a board that seems to be silent', () => {
     robot,
     browser,
   }) => {
-    const elsewhere = await browser.newContext();
+    const elsewhere = await anotherBrowser(browser);
     const other = await joins(robot, elsewhere);
     await begins(dashboard, 23);
     await expect(other.status).toHaveText('Downloading to slot 23');

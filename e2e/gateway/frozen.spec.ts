@@ -3,7 +3,7 @@
 
 import type { CDPSession } from '@playwright/test';
 import { kindsAfter, lastTarget, ofKind } from '../fixtures/bus.ts';
-import { dashboardOf } from '../fixtures/dashboard.ts';
+import { anotherBrowser, dashboardOf } from '../fixtures/dashboard.ts';
 import { captureGroup } from '../fixtures/group.ts';
 import { expect, poll, test } from '../fixtures/test.ts';
 
@@ -23,7 +23,7 @@ test('a window that froze while it played wakes, and moves nothing @exhaustive',
   browser,
 }) => {
   await captureGroup(dashboard, [1100, 1500, 1200, 1600], FRAME_MS);
-  const elsewhere = await browser.newContext();
+  const elsewhere = await anotherBrowser(browser);
   const other = dashboardOf(await elsewhere.newPage());
   await robot.open(other.page);
   await dashboard.button('Play').click();

@@ -3,14 +3,14 @@
 
 import type { Browser } from '@playwright/test';
 import { lastTarget } from '../fixtures/bus.ts';
-import { dashboardOf, READY, type Dashboard } from '../fixtures/dashboard.ts';
+import { anotherBrowser, dashboardOf, READY, type Dashboard } from '../fixtures/dashboard.ts';
 import { robotDialogOf } from '../fixtures/robotDialog.ts';
 import type { Robot } from '../fixtures/robot.ts';
 import { expect, poll, test } from '../fixtures/test.ts';
 
 /** Of another person: nothing of the first one's browser is in it. */
 async function otherScreen(browser: Browser, robot: Robot): Promise<Dashboard> {
-  const page = await (await browser.newContext()).newPage();
+  const page = await (await anotherBrowser(browser)).newPage();
   const dashboard = dashboardOf(page);
   await robot.open(page);
   await expect(dashboard.link).toHaveText(READY);

@@ -4,7 +4,7 @@
 import type { Browser } from '@playwright/test';
 import { createBoardInTest, type BoardInTest } from '../fixtures/boardInTest.ts';
 import { ofKind } from '../fixtures/bus.ts';
-import { ready, type Dashboard } from '../fixtures/dashboard.ts';
+import { anotherBrowser, ready, type Dashboard } from '../fixtures/dashboard.ts';
 import { expect, poll, test as base } from '../fixtures/test.ts';
 
 const test = base.extend<{ arm: BoardInTest; teaching: Dashboard }>({
@@ -60,7 +60,7 @@ test('the arm is posed by hand, captured while it is read, and holds at the end'
 
 /** Another person on another computer who looks on. */
 async function onlooker(browser: Browser, page: Dashboard['page']): Promise<Dashboard> {
-  const context = await browser.newContext({ locale: 'en-GB', viewport: page.viewportSize() });
+  const context = await anotherBrowser(browser, { locale: 'en-GB', viewport: page.viewportSize() });
   const other = await context.newPage();
   await other.goto(page.url());
   return ready(other);

@@ -1,7 +1,7 @@
 // One robot, two screens: whoever looks on can stop it, and both see that it is stopped.
 
 import { ofKind } from '../fixtures/bus.ts';
-import { ready } from '../fixtures/dashboard.ts';
+import { anotherBrowser, ready } from '../fixtures/dashboard.ts';
 import { captureGroup, downloadGroup } from '../fixtures/group.ts';
 import { libraryOf } from '../fixtures/library.ts';
 import { expect, poll, test } from '../fixtures/test.ts';
@@ -36,7 +36,10 @@ test('what another browser stored in a slot is told, and whether it is the group
   await captureGroup(dashboard, [1000, 1400], 400);
   await libraryOf(dashboard.page).call('Bow of the other browser');
   await downloadGroup(dashboard, 0, 1400);
-  const elsewhere = await browser.newContext({ locale: 'en-GB', viewport: dashboard.page.viewportSize() });
+  const elsewhere = await anotherBrowser(browser, {
+    locale: 'en-GB',
+    viewport: dashboard.page.viewportSize(),
+  });
   const page = await elsewhere.newPage();
   await robot.open(page);
   const other = await ready(page);

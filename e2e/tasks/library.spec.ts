@@ -4,14 +4,14 @@
 import type { Browser, Page } from '@playwright/test';
 import { bundle } from '../fixtures/robotInPage.ts';
 import { captureGroup } from '../fixtures/group.ts';
-import { dashboardOf, READY, type Dashboard } from '../fixtures/dashboard.ts';
+import { anotherBrowser, dashboardOf, READY, type Dashboard } from '../fixtures/dashboard.ts';
 import { libraryOf } from '../fixtures/library.ts';
 import type { Robot } from '../fixtures/robot.ts';
 import { expect, poll, test } from '../fixtures/test.ts';
 
 /** In a browser of its own. */
 async function openElsewhere(browser: Browser, page: Page, robot: Robot): Promise<Dashboard> {
-  const context = await browser.newContext({ locale: 'en-GB', viewport: page.viewportSize() });
+  const context = await anotherBrowser(browser, { locale: 'en-GB', viewport: page.viewportSize() });
   const other = dashboardOf(await context.newPage());
   await robot.open(other.page);
   await expect(other.link).toHaveText(READY);

@@ -16,7 +16,8 @@ const libraryOf = here(libraries.libraryOf);
 const PHONE = { width: 390, height: 844 };
 const TABLET = { width: 820, height: 1180 };
 const DESKTOP = { width: 1440, height: 900 };
-const TABS = ['Actions', 'Board', 'Log', 'Buttons', 'Live'];
+const WORKSPACES = ['Drive', 'Board', 'Animate'];
+const TABS = ['Animate', 'Board', 'Log', 'Buttons', 'Drive'];
 
 interface Look {
   readonly page: Page;
@@ -32,21 +33,20 @@ async function opened(page: Page, url: string): Promise<Dashboard> {
 }
 
 const isPhone = (page: Page): Promise<boolean> =>
-  page.getByRole('tablist', { name: 'Parts of the dashboard' }).isVisible();
+  page.getByRole('tablist', { name: 'Workspaces' }).isVisible();
 
 async function toTab(page: Page, name: string): Promise<void> {
   if (await isPhone(page)) await page.getByRole('tab', { name }).click();
+  else await page.getByRole('radio', { name, exact: true }).check();
 }
 
-/** Where the screen has no tabs for it, the page of buttons is chosen above. */
 async function expectSoundPages({ page, isDark }: Look): Promise<void> {
-  await toTab(page, 'Actions');
+  await toTab(page, 'Animate');
   await page.getByRole('radio', { name: 'Poses' }).check();
   await expectSound('poses', { isDark });
   await page.getByRole('radio', { name: 'Keys and pad' }).check();
   await expectSound('keys and pad', { isDark });
-  if (await isPhone(page)) await toTab(page, 'Buttons');
-  else await page.getByRole('radio', { name: 'Buttons' }).check();
+  await toTab(page, 'Buttons');
   await page.getByRole('button', { name: 'Add button' }).click();
   await page.getByRole('button', { name: 'Slot' }).click();
   await expectSound('buttons being changed', { isDark });
@@ -54,9 +54,9 @@ async function expectSoundPages({ page, isDark }: Look): Promise<void> {
   await expectSound('kiosk', { isDark });
 }
 
-/** On a phone each part by itself. */
+/** Each workspace, or each tab of a phone. */
 async function expectSoundEverywhere({ page, isDark }: Look, state: string): Promise<void> {
-  for (const tab of (await isPhone(page)) ? TABS : ['']) {
+  for (const tab of (await isPhone(page)) ? TABS : WORKSPACES) {
     await toTab(page, tab);
     await expectSound(`${state} ${tab}`, { isDark });
   }
@@ -83,7 +83,7 @@ async function expectRobotsSound({ page, isDark }: Look): Promise<void> {
 
 async function expectLibrarySound({ page, isDark }: Look): Promise<void> {
   const library = libraryOf(page);
-  await toTab(page, 'Actions');
+  await toTab(page, 'Animate');
   await library.show();
   await expectSound('empty library', { isDark });
   await library.close();
@@ -145,7 +145,7 @@ for (const viewport of looks([PHONE, TABLET, DESKTOP]))
 
     test('files are accessible and fit', async ({ page, url }) => {
       const dashboard = await opened(page, url);
-      await toTab(page, 'Actions');
+      await toTab(page, 'Animate');
       const names = ['No.10 wave.xml', 'step.rob', 'secret.rob'];
       await filesDialogOf(dashboard).open(...(await Promise.all(names.map(vector))));
       await expect(page.getByText('secret.rob was not opened.')).toBeVisible();
@@ -171,7 +171,7 @@ for (const viewport of looks([PHONE, TABLET, DESKTOP]))
       await expect(robots.dialog.getByRole('heading', { name })).toBeVisible();
       await expectNoSidewaysScroll('calibration');
       await robots.button('Close').click();
-      await toTab(page, 'Actions');
+      await toTab(page, 'Animate');
       await libraryOf(page).call(name);
       await dashboard.capture.click();
       await dashboard.button('Files').click();
@@ -208,6 +208,7 @@ test('nothing has to be scrolled sideways from 390 to 1920 px, and the sliders a
   url,
 }) => {
   const dashboard = await opened(page, url);
+  await toTab(page, 'Drive');
   const widthOf = (place: Locator): Promise<number> =>
     place.evaluate((element) => element.getBoundingClientRect().width);
   for (const width of [390, 430, 600, 699, 700, 820, 1024, 1099, 1100, 1280, 1440, 1920]) {

@@ -109,14 +109,14 @@ test('on a phone arrows go from tab to tab, around both ends', async ({ page, ur
   const tab = (name: string): Locator => page.getByRole('tab', { name });
   await page.setViewportSize({ width: 390, height: 844 });
   await page.goto(url);
-  await tabTo(page, tab('Live'), 'Shift+Tab');
+  await tabTo(page, tab('Drive'), 'Shift+Tab');
   for (const [key, name] of [
-    ['ArrowRight', 'Actions'],
-    ['ArrowLeft', 'Live'],
+    ['ArrowRight', 'Animate'],
+    ['ArrowLeft', 'Drive'],
     ['ArrowLeft', 'Buttons'],
-    ['ArrowRight', 'Live'],
+    ['ArrowRight', 'Drive'],
     ['End', 'Buttons'],
-    ['Home', 'Live'],
+    ['Home', 'Drive'],
   ] as const) {
     await page.keyboard.press(key);
     await expect(tab(name)).toBeFocused();

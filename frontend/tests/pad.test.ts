@@ -214,6 +214,6 @@ test('pulling the pad while it is held ends the motion', async ({ dashboard, rob
 test('driving ends where the keys belong to buttons', async ({ dashboard, page }) => {
   await startDriving(dashboard);
   await page.getByRole('radio', { name: 'Buttons' }).check();
-  await page.getByRole('radio', { name: 'Controls' }).check();
+  await page.getByRole('radio', { name: 'Animate' }).check();
   await expect(driveSwitch(page)).not.toBeChecked();
 });

@@ -214,15 +214,15 @@ test('armed rows are recorded, each moved by itself, and no other', async ({ das
 test('on a phone a recording goes on while the sliders are in front', async ({ dashboard, page }) => {
   await page.setViewportSize({ width: 390, height: 844 });
   const tab = (name: string) => page.getByRole('tab', { name }).click();
-  await tab('Live');
+  await tab('Drive');
   await dashboard.type(dashboard.target(1), 1400);
   await expect(dashboard.estimate(1)).toHaveText('≈ 1400');
-  await tab('Actions');
+  await tab('Animate');
   await dashboard.button('Record').click();
-  await tab('Live');
+  await tab('Drive');
   await dashboard.type(dashboard.target(1), 1900);
   await expect(dashboard.estimate(1)).toHaveText('≈ 1900');
-  await tab('Actions');
+  await tab('Animate');
   await dashboard.button(/^End recording/).click();
   const dialog = page.getByRole('dialog', { name: 'Recorded motion' });
   await expect(dialog).toContainText(/positions become \d+ keys/);

@@ -18,6 +18,7 @@ function modelOf(page: Page) {
 async function openStraight({ dashboard, page }: { dashboard: Dashboard; page: Page }) {
   await page.getByRole('radio', { name: '3D' }).check();
   const model = modelOf(page);
+  await dashboard.button('Position of the gripper').click();
   await expect(model.along('Up')).toBeDisabled();
   await dashboard.button('Centre all').click();
   await advance(5000);
@@ -65,6 +66,7 @@ test('a locked servo stays where it is while the end is led', async ({ dashboard
   await dashboard.servoName(4).click();
   await dashboard.button('Lock').click();
   await page.getByRole('radio', { name: '3D' }).check();
+  await dashboard.button('Position of the gripper').click();
   await model.handle.press('Shift+ArrowRight');
   await expect(model.along('Forward')).toHaveValue('10');
   expect(await lastTarget(robot.bus, 4)).toBe(1500);

@@ -69,7 +69,7 @@ for (const viewport of SIZES) {
         dashboard.servoName(2).click({ modifiers: ['ControlOrMeta'] }),
       );
       await dashboard.button('Unbind all').click();
-      await tab('Actions');
+      await tab('Animate');
       await page.getByRole('radio', { name: 'Keys and pad' }).check();
       await expect(page.getByRole('switch', { name: 'Drive', exact: true })).toBeVisible();
       await expectSteady('a pad is gone', async () => {
@@ -78,9 +78,9 @@ for (const viewport of SIZES) {
       });
 
       const show = async (part: string): Promise<void> => {
-        await tab('Actions');
+        await tab('Animate');
         await page.getByRole('radio', { name: part }).check();
-        await tab('Live');
+        await tab('Drive');
       };
       for (const part of ['Action group', 'Poses']) {
         await show(part);
@@ -98,7 +98,7 @@ for (const viewport of SIZES) {
         });
       }
 
-      await tab('Actions');
+      await tab('Animate');
       await page.getByRole('radio', { name: 'Action group' }).check();
       const capture = dashboard.button('Capture frame');
       const placeOf = async (): Promise<number> => Math.round((await capture.boundingBox()).y);

@@ -117,6 +117,7 @@ test('a thumb stands where its servo was read, and dragged by 2 px it takes the 
 
 test('on a phone it is said in sight, wherever one has scrolled to', async ({ page, dashboard }) => {
   await page.setViewportSize({ width: 390, height: 844 });
+  await page.getByRole('tab', { name: 'Drive' }).click();
   await dashboard.button('Teach').click();
   await page.getByRole('button', { name: 'Release and teach' }).click();
   await expect(dashboard.status).toHaveText('Teaching: keep holding');

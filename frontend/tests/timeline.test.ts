@@ -493,7 +493,7 @@ test.describe('with fingers', () => {
   test.override({ screen: { hasTouch: true }, viewport: { width: 390, height: 844 } });
 
   test('a finger that rests opens the menu, two fingers zoom', async ({ dashboard: { page } }) => {
-    await page.getByRole('tab', { name: 'Actions' }).click();
+    await page.getByRole('tab', { name: 'Animate' }).click();
     const timeline = timelineOf(page);
     await expect(timeline.region).toContainText('Rest a finger for more');
     const name = 'Gripper, 1.00 s, 1200 µs, linear';
@@ -520,7 +520,7 @@ test.describe('with fingers', () => {
   });
 
   test('arrows below the lanes nudge what is selected in time and value', async ({ dashboard: { page } }) => {
-    await page.getByRole('tab', { name: 'Actions' }).click();
+    await page.getByRole('tab', { name: 'Animate' }).click();
     const timeline = timelineOf(page);
     const arrow = (name: string) =>
       timeline.region.getByRole('group', { name: 'Nudge' }).getByRole('button', { name });

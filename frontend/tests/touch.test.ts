@@ -212,7 +212,7 @@ test('the main job needs nothing but fingers', async ({ page, url }) => {
   await expect(dashboard.notices).toContainText('Frame 2 is captured.');
   await dashboard.notices.getByRole('button', { name: 'Undo' }).tap();
   await dashboard.capture.tap();
-  await tab('Actions').tap();
+  await tab('Animate').tap();
   await expectStopInReach(page, 'actions');
   await expect(dashboard.frames).toHaveCount(2);
   for (const [open, title] of [

@@ -6,7 +6,6 @@ import { useStore } from 'zustand';
 import { CaptureStrip } from './CaptureStrip.tsx';
 import { useBatteryTab } from '../features/battery/BatteryReadout.tsx';
 import { motionsInFrame } from '../features/picture/motion.ts';
-import { BoardPanel } from '../features/board/BoardPanel.tsx';
 import { ConnectDialog } from '../features/connect/ConnectDialog.tsx';
 import type { Page } from './page.ts';
 import { LogDrawer, LogPanel, Messages } from '../features/log/LogDrawer.tsx';
@@ -20,6 +19,8 @@ import { Authoring } from './Authoring.tsx';
 import { usePageKeys } from './pageActions.ts';
 import { ReplaceQuestion } from '../features/board/slots/ReplaceQuestion.tsx';
 import { LivePanel } from './LivePanel.tsx';
+import { WorkspaceSwitch } from './workspaces/WorkspaceSwitch.tsx';
+import { DriveWork } from './workspaces/DriveWork.tsx';
 import { StopButton } from '../features/drive/StopButton.tsx';
 import { StoresContext, useStores, useView } from '../features/stores.ts';
 import type { Tab as TabName, Theme } from '../features/view.ts';
@@ -37,6 +38,15 @@ import styles from './App.module.css';
 const ButtonsPage = laterComponent(
   async () => (await import('../features/buttons/ButtonsPage.tsx')).ButtonsPage,
   '100%',
+);
+const AnimateWork = laterComponent(
+  async () => (await import('./workspaces/AnimateWork.tsx')).AnimateWork,
+  '100%',
+);
+const BoardWork = laterComponent(async () => (await import('./workspaces/BoardWork.tsx')).BoardWork, '100%');
+const BoardPanel = laterComponent(
+  async () => (await import('../features/board/BoardPanel.tsx')).BoardPanel,
+  '240px',
 );
 const BatteryPanel = laterComponent(
   async () => (await import('../features/battery/BatteryPanel.tsx')).BatteryPanel,
@@ -69,7 +79,13 @@ function Dashboard({ page }: { readonly page: Page }) {
       <Unseen />
       {!isKiosk && <TopBar onMoveHere={moveHere} />}
       <StopButton />
-      {isKiosk ? <Kiosk onMoveHere={moveHere} /> : layout === 'phone' ? <PhoneWork /> : <WideWork />}
+      {isKiosk ? (
+        <Kiosk onMoveHere={moveHere} />
+      ) : layout === 'phone' ? (
+        <PhoneWork />
+      ) : (
+        <WideWork isTablet={layout === 'tablet'} />
+      )}
       <Said />
       <ConnectDialog connector={page.connector} />
       <RobotDialog />
@@ -113,39 +129,33 @@ const whenIdle = (): Promise<void> =>
     );
   });
 
-function WideWork() {
-  const isButtons = useView((state) => state.tab === 'buttons');
-  if (isButtons) {
-    return (
-      <>
-        <main className={styles.page}>
-          <ButtonsPage />
-        </main>
-        <Messages />
-      </>
-    );
-  }
+const WORKSPACES = { live: DriveWork, actions: AnimateWork, board: BoardWork, buttons: ButtonsWork };
+
+function WideWork({ isTablet }: { readonly isTablet: boolean }) {
+  const tab = useView((state) => state.tab);
+  const workspace = tab === 'log' ? 'board' : tab;
+  const Workspace = WORKSPACES[workspace];
   return (
     <>
-      <main className={styles.wide}>
-        <div className={styles.live}>
-          <LivePanel />
-        </div>
-        <div className={styles.authoring} data-column>
-          <div className={styles.work}>
-            <Authoring />
-          </div>
-          <div className={styles.boardRow}>
-            <BoardPanel isSpread fit={<CompileRow />} />
-            <BatteryPanel />
-          </div>
-        </div>
-      </main>
+      <Workspace />
       <div className={styles.foot}>
-        <LogDrawer />
+        {isTablet && (
+          <nav className={styles.switch} aria-label={words.tabList}>
+            <WorkspaceSwitch />
+          </nav>
+        )}
+        {workspace === 'actions' && <LogDrawer />}
         <Messages />
       </div>
     </>
+  );
+}
+
+function ButtonsWork() {
+  return (
+    <main className={styles.page}>
+      <ButtonsPage />
+    </main>
   );
 }
 

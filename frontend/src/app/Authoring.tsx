@@ -1,6 +1,7 @@
-// The authoring area: action group, poses, or keys and pad. It is one panel, whatever stands in it: the choice between them stays
-// under the finger, and keeps the focus of the keys, that makes it.
+// The authoring area: action group, poses, or keys and pad; and what stands below the robot in Drive, which is one of the latter two.
+// It is one panel, whatever stands in it: the choice between them stays under the finger, and keeps the focus of the keys, that makes it.
 
+import type { ReactNode } from 'react';
 import { usePad, useStores, useView } from '../features/stores.ts';
 import { Choice } from '../ui/Toggle.tsx';
 import { words } from '../i18n/words.ts';
@@ -8,11 +9,13 @@ import { FilesArea } from '../features/library/files/FilesArea.tsx';
 import type { ViewState } from '../features/view.ts';
 import { later, Missing, usePart, type Later } from '../ui/later.tsx';
 import { Panel, type PanelParts } from '../ui/Panel.tsx';
+import { Button } from '../ui/Button.tsx';
+import { cx } from '../ui/cx.ts';
+import { PART } from '../ui/focus.ts';
+import panel from '../ui/Panel.module.css';
 import styles from './Authoring.module.css';
 
-// Which of the three is worked on beside the live robot. Stands where a panel's title would; driving goes on, and is
-// said, whichever of them is open.
-
+/** Stands where a panel's title would; driving goes on, and is said, whichever of them is open. */
 function AuthoringTabs() {
   const { view } = useStores();
   const authoring = useView((state) => state.authoring);
@@ -66,12 +69,62 @@ export function Authoring() {
   return <AuthoringPanel {...(usePart(whole).part ?? until)} />;
 }
 
-export function AuthoringPanel({ title, Note, Tools, Content, className }: PanelParts) {
+/** Folded to its buttons while neither is open. */
+export function BelowRobot() {
+  const below = useView((state) => state.driveBelow);
+  return below === 'none' ? (
+    <section {...PART} className={cx(panel.panel, styles.folded)} aria-label={words.workspace.below}>
+      <BelowTabs />
+    </section>
+  ) : (
+    <OpenBelow name={below} />
+  );
+}
+
+function OpenBelow({ name }: { readonly name: 'poses' | 'pad' }) {
+  const { whole, until } = PARTS[name];
+  return <AuthoringPanel {...(usePart(whole).part ?? until)} tabs={<BelowTabs />} />;
+}
+
+/** The one that is open closes. */
+function BelowTabs() {
+  const { view } = useStores();
+  const below = useView((state) => state.driveBelow);
+  const isDriving = usePad((state) => state.isDriving);
+  const names = {
+    poses: words.authoring.poses,
+    pad: isDriving ? words.authoring.padDriving : words.authoring.pad,
+  };
+  return (
+    <div className={styles.below} role="group" aria-label={words.workspace.below}>
+      {(['poses', 'pad'] as const).map((name) => (
+        <Button
+          key={name}
+          tone={name === below ? 'plain' : 'quiet'}
+          icon={name === below ? 'down' : 'up'}
+          aria-expanded={name === below}
+          onPress={() => view.setState({ driveBelow: name === below ? 'none' : name })}
+        >
+          {names[name]}
+        </Button>
+      ))}
+    </div>
+  );
+}
+
+export function AuthoringPanel({
+  title,
+  tabs = <AuthoringTabs />,
+  Note,
+  Tools,
+  Content,
+  className,
+}: PanelParts & { readonly tabs?: ReactNode }) {
   return (
     <FilesArea>
       <Panel
         title={title()}
-        tabs={<AuthoringTabs />}
+        tabs={tabs}
         note={Note !== undefined && <Note />}
         tools={<Tools />}
         className={className}

@@ -10,6 +10,6 @@ const WhichBoard = laterComponent(
   'guards',
 );
 
-export function LivePanel() {
-  return useIsUnidentified() ? <WhichBoard /> : <ServosPanel />;
+export function LivePanel(props: Parameters<typeof ServosPanel>[0]) {
+  return useIsUnidentified() ? <WhichBoard /> : <ServosPanel {...props} />;
 }

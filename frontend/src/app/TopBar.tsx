@@ -16,7 +16,8 @@ import { StatusLine, type StatusLineProps } from '../features/connect/StatusLine
 import { ActionsButton } from './ActionsDialog.tsx';
 import { PART } from '../ui/focus.ts';
 import styles from './TopBar.module.css';
-import { Choice } from '../ui/Toggle.tsx';
+import { useLayout } from '../ui/useLayout.ts';
+import { WorkspaceSwitch } from './workspaces/WorkspaceSwitch.tsx';
 
 // Which language the page speaks. Each is called by its own name, for whoever cannot read the others.
 
@@ -45,6 +46,7 @@ function LanguageControl() {
 
 export function TopBar({ onMoveHere }: Pick<StatusLineProps, 'onMoveHere'>) {
   const isShared = useDevice(({ snapshot }) => snapshot.canShare);
+  const layout = useLayout();
   return (
     <header {...PART} className={styles.bar} data-shared={isShared} aria-label={words.regions.top}>
       <h1 className={styles.product}>
@@ -53,9 +55,11 @@ export function TopBar({ onMoveHere }: Pick<StatusLineProps, 'onMoveHere'>) {
       </h1>
       <Robot />
       <StatusLine className={styles.status} onMoveHere={onMoveHere} />
-      <div className={styles.pages}>
-        <PageSwitch />
-      </div>
+      {layout === 'desktop' && (
+        <div className={styles.pages}>
+          <WorkspaceSwitch />
+        </div>
+      )}
       <BatteryReadout />
       <div className={styles.looks}>
         <span className={styles.actions}>
@@ -116,20 +120,6 @@ function ThemeButton() {
       icon={THEME_ICONS[theme]}
       label={words.theme.now({ theme: words.theme[theme] })}
       onPress={() => view.setState({ theme: nextTheme(theme) })}
-    />
-  );
-}
-
-/** Switches between the controls and the page of buttons, on screens without tabs for it. */
-function PageSwitch() {
-  const { view } = useStores();
-  const isButtons = useView((state) => state.tab === 'buttons');
-  return (
-    <Choice
-      label={words.macros.page.label}
-      value={isButtons ? 'buttons' : 'work'}
-      options={(['work', 'buttons'] as const).map((value) => ({ value, label: words.macros.page[value] }))}
-      onChange={(page) => view.setState({ tab: page === 'buttons' ? 'buttons' : 'live' })}
     />
   );
 }

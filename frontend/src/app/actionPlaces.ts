@@ -13,6 +13,7 @@ import {
 import { MACRO_ACTIONS, macroContextOf } from '../features/buttons/macroActions.ts';
 import { POSE_ACTIONS, poseContextOf } from '../features/poses/poseActions.ts';
 import type { Stores } from '../features/stores.ts';
+import { workedOn } from '../features/view.ts';
 import type { Action, KeyUse } from '../ui/action.ts';
 import { walkKeys } from '../ui/cards.ts';
 import { words, type Words } from '../i18n/whole.ts';
@@ -49,9 +50,10 @@ function listed<Context extends Shown, Shown>(
 }
 
 function isOpen({ view }: Stores, authoring: 'group' | 'poses'): true | string {
-  const now = view.getState();
-  const isOn = now.authoring === authoring && now.tab !== 'buttons';
-  return isOn || words.actionList.elsewhere({ place: words.authoring[authoring] });
+  return (
+    workedOn(view.getState()) === authoring ||
+    words.actionList.elsewhere({ place: words.authoring[authoring] })
+  );
 }
 
 const areEdited = ({ view }: Stores): true | string => {

@@ -44,6 +44,7 @@ import { hasGateway, putOnBoard } from '../robot/gatewayApi.ts';
 import { beginAnewAsAnother, type Arrival } from './arrival.ts';
 import { peopleApi } from '../features/people/peopleApi.ts';
 import { watchLeaving } from './leaving.ts';
+import { welcome } from './welcome.ts';
 import { createConnector, type Connector } from '../robot/connector.ts';
 
 /** The page's time, for whoever is no transport. */
@@ -145,6 +146,7 @@ export async function openPage({ me, problem }: Arrival): Promise<Page> {
   };
   watchLeaving(window, { hidden: paused, left });
   applyBatteryPolicy({ device, battery, robots, poses, notices });
+  welcome({ device, robots, storage, clock: pageClock, page: window, isWatched });
   watchInputs(window, pad);
   tellHandedOver(device.store, notices);
   resetForOpenedGroup({ library, view, timeline });

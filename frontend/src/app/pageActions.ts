@@ -5,6 +5,7 @@ import { useEffect } from 'react';
 import { KEEP_LAST } from '../features/animate/play/TakeDialog.tsx';
 import { STOP } from '../features/drive/StopButton.tsx';
 import type { Stores } from '../features/stores.ts';
+import { workedOn } from '../features/view.ts';
 import { REDO, UNDO, type Written } from '../features/undo/undoActions.ts';
 import { actionOf, chordOf, type Action } from '../ui/action.ts';
 import { isTextField } from '../ui/inputEvents.ts';
@@ -20,9 +21,9 @@ interface PageAction extends Action<Stores> {
 
 /** What is written on now; null: nothing. */
 function writtenOn({ view, document: group, poses, macros, mappings }: Stores): Written | null {
-  const { kiosk, tab, authoring } = view.getState();
-  if (kiosk === 'on') return null;
-  return tab === 'buttons' ? macros : { group, poses: poses.book, pad: mappings }[authoring];
+  const state = view.getState();
+  if (state.kiosk === 'on') return null;
+  return { group, poses: poses.book, pad: mappings, buttons: macros }[workedOn(state)];
 }
 
 function onWritten({ label, enabled, run, ...action }: Action<Written>): PageAction {

@@ -12,7 +12,10 @@ import type { TextStorage } from '../state/storage.ts';
 import { GENTLE_MOVE_MS, type MoveTime } from '../robot/moves.ts';
 import { INITIAL_SERVO_VIEW, type ServoView } from './servoView.ts';
 
-/** On a wide screen all tabs except the buttons are side by side. */
+/**
+ * `live` is the workspace Drive, `actions` Animate. A wide screen has the log in the workspace of the board, and below the others; a
+ * phone has a tab for it.
+ */
 export type Tab = 'live' | 'actions' | 'board' | 'log' | 'buttons';
 export type Theme = 'system' | 'light' | 'dark';
 export type LanguageChoice = 'system' | Language;
@@ -20,6 +23,9 @@ export type LanguageChoice = 'system' | Language;
 export type PositionsIn = 'board' | 'degrees';
 /** A list, the places on the body, or the robot in three dimensions. */
 export type ServoLayout = 'list' | 'body' | 'model';
+/** The sizes that splitters set: of the sliders beside the robot, of what stands below it, of the sliders beside the timeline, of the log. */
+export const SPLITS = ['driveSide', 'driveBelow', 'animateSide', 'boardLog'] as const;
+export type Split = (typeof SPLITS)[number];
 export type LogKind = 'move' | 'group' | 'battery' | 'link' | 'noise';
 
 export interface ViewState {
@@ -29,6 +35,10 @@ export interface ViewState {
   /** Shows only buttons and STOP; remembered, so that a reload does not leave the kiosk. */
   readonly kiosk: 'on' | 'off';
   readonly authoring: 'group' | 'poses' | 'pad';
+  /** What stands below the robot in Drive. */
+  readonly driveBelow: 'none' | 'poses' | 'pad';
+  /** In pixels; a part that is absent has its usual size. */
+  readonly splits: Readonly<Partial<Record<Split, number>>>;
   readonly connectOpen: boolean;
   readonly libraryOpen: boolean;
   readonly peopleOpen: boolean;
@@ -46,6 +56,8 @@ export interface ViewState {
   readonly servos: ServoView;
   readonly positionsIn: PositionsIn;
   readonly servoLayout: ServoLayout;
+  /** The robot in Drive, on a wide screen; `auto`: the model, where the machine draws one fast. */
+  readonly picture: 'auto' | 'drawing' | 'body' | 'model';
   readonly selectedPose: number | null;
   /** The duration of a move to a pose. */
   readonly poseMs: number;
@@ -72,10 +84,13 @@ const REMEMBERED = {
   kiosk: { by: 'browser', key: 'servodeck.kiosk', values: ['on', 'off'] },
   servoLayout: { by: 'browser', key: 'servodeck.servoLayout', values: ['list', 'body', 'model'] },
   tab: { by: 'tab', key: 'servodeck.tab', values: ['live', 'actions', 'board', 'log', 'buttons'] },
+  picture: { by: 'browser', key: 'servodeck.picture', values: ['auto', 'drawing', 'body', 'model'] },
   authoring: { by: 'tab', key: 'servodeck.authoring', values: ['group', 'poses', 'pad'] },
+  driveBelow: { by: 'tab', key: 'servodeck.driveBelow', values: ['none', 'poses', 'pad'] },
 } as const satisfies { readonly [K in keyof ViewState]?: Memory<ViewState[K]> };
 
 const CALIBRATION_KEY = 'servodeck.calibration';
+const SPLITS_KEY = 'servodeck.splits';
 
 interface Memory<Value> {
   readonly by: keyof Memories;
@@ -98,6 +113,8 @@ export const INITIAL_VIEW: ViewState = {
   language: 'system',
   kiosk: 'off',
   authoring: 'group',
+  driveBelow: 'none',
+  splits: {},
   connectOpen: false,
   libraryOpen: false,
   peopleOpen: false,
@@ -111,6 +128,7 @@ export const INITIAL_VIEW: ViewState = {
   servos: INITIAL_SERVO_VIEW,
   positionsIn: 'board',
   servoLayout: 'list',
+  picture: 'auto',
   selectedPose: null,
   poseMs: GENTLE_MOVE_MS,
   selectedButton: null,
@@ -123,6 +141,16 @@ export const INITIAL_VIEW: ViewState = {
   keepRunningMinutes: 10,
 };
 
+/** What undo and the keys of lists apply to. */
+export function workedOn({
+  tab,
+  authoring,
+  driveBelow,
+}: Pick<ViewState, 'tab' | 'authoring' | 'driveBelow'>): ViewState['authoring'] | 'buttons' {
+  if (tab === 'buttons') return tab;
+  return tab === 'live' && driveBelow !== 'none' ? driveBelow : authoring;
+}
+
 export function createView(memories: Memories): View {
   const view = createStore<ViewState>(() => ({ ...INITIAL_VIEW, ...load(memories) }));
   view.subscribe((state, before) => {
@@ -130,6 +158,7 @@ export function createView(memories: Memories): View {
       const { by, key } = REMEMBERED[name];
       if (state[name] !== before[name]) save(memories[by], key, state[name]);
     }
+    if (state.splits !== before.splits) save(memories.browser, SPLITS_KEY, JSON.stringify(state.splits));
     if (state.calibration !== before.calibration)
       save(memories.tab, CALIBRATION_KEY, calibrationToText(state.calibration));
   });
@@ -144,7 +173,18 @@ function load(memories: Memories): Partial<ViewState> {
     });
     const chosen = known.filter(([name, text]) => isOneOf(REMEMBERED[name].values, text));
     const calibration = calibrationFromText(memories.tab.getItem(CALIBRATION_KEY) ?? '');
-    return { ...Object.fromEntries(chosen), calibration };
+    const splits = splitsFromText(memories.browser.getItem(SPLITS_KEY));
+    return { ...Object.fromEntries(chosen), calibration, splits };
+  } catch {
+    return {};
+  }
+}
+
+function splitsFromText(text: string | null): ViewState['splits'] {
+  try {
+    const sizes = new Map<string, unknown>(Object.entries(Object(JSON.parse(text ?? '{}')) as object));
+    const known = SPLITS.map((split) => [split, sizes.get(split)] as const);
+    return Object.fromEntries(known.filter(([, size]) => typeof size === 'number'));
   } catch {
     return {};
   }

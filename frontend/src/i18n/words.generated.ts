@@ -15,6 +15,20 @@ export interface Messages {
     readonly buttons: string;
   };
   readonly tabList: string;
+  readonly workspace: {
+    readonly robot: string;
+    readonly picture: string;
+    readonly drawing: string;
+    readonly below: string;
+    readonly splits: {
+      readonly driveSide: string;
+      readonly driveBelow: string;
+      readonly animateSide: string;
+      readonly boardLog: string;
+    };
+    readonly try: string;
+    readonly seeHow: string;
+  };
   readonly close: string;
   readonly comma: string;
   readonly truth: {
@@ -778,11 +792,6 @@ export interface Messages {
     readonly held: (values: { readonly names: string }) => string;
   };
   readonly macros: {
-    readonly page: {
-      readonly label: string;
-      readonly work: string;
-      readonly buttons: string;
-    };
     readonly notSaved: string;
     readonly empty: string;
     readonly title: string;

@@ -35,6 +35,7 @@ export type Dashboard = ReturnType<typeof dashboardOf>;
 interface Options {
   boardSettings: BoardSettings;
   expectedComplaint: RegExp | null;
+  workspace: e2e.Workspace;
   viewport: { readonly width: number; readonly height: number };
   media: Media;
   screen: Partial<Screen>;
@@ -58,13 +59,15 @@ export async function untilItHears({ link }: Dashboard): Promise<void> {
 export const test = base.extend<Fixtures>({
   boardSettings: {},
   expectedComplaint: null,
+  workspace: 'actions',
   viewport: { width: 1440, height: 900 },
   media: {},
   screen: {},
   url: ADDRESS,
 
-  page: async ({ viewport, media, screen, expectedComplaint }, use) => {
+  page: async ({ workspace, viewport, media, screen, expectedComplaint }, use) => {
     const page = createPage();
+    await page.addInitScript(e2e.beginIn, workspace);
     const complaints = listenForComplaints();
     await page.begin({ viewport, ...media, screen: { hasTouch: false, deviceScaleFactor: 1, ...screen } });
     await use(page);

@@ -8,8 +8,6 @@ import {
   useRobot,
   useServoView,
   useDevice,
-  useKnownFamily,
-  useIsGuessing,
   useView,
   editServoView,
   useIsTeaching,
@@ -19,14 +17,15 @@ import { LiveText } from '../../ui/LiveText.tsx';
 import { words } from '../../i18n/words.ts';
 import { SharedSheet } from '../picture/SharedSheet.tsx';
 import { ServoRow } from './ServoRow.tsx';
-import { tellsPositions, motionHindrance } from '../../robot/readiness.ts';
-import { Chip } from '../../ui/Chip.tsx';
+import { motionHindrance } from '../../robot/readiness.ts';
 import { Choice } from '../../ui/Toggle.tsx';
 import { select, type ServoView } from '../servoView.ts';
 import { Button } from '../../ui/Button.tsx';
 import { laterComponent } from '../../ui/later.tsx';
 import { NumberField } from '../../ui/NumberField.tsx';
 import { Body, RobotView } from '../picture/Body.tsx';
+import { BodyMap } from './RobotPanel.tsx';
+import { Legend, UnitChoice } from './Legend.tsx';
 import type { ServoLayout } from '../view.ts';
 import { GENTLE_MOVE_MS } from '../../robot/moves.ts';
 import { cx } from '../../ui/cx.ts';
@@ -81,42 +80,6 @@ function CurrentServo() {
     </div>
   );
 }
-
-/** The meaning of the marks of a position, and the unit of positions. */
-function Legend() {
-  const { view } = useStores();
-  const family = useKnownFamily();
-  const isGuessing = useIsGuessing();
-  const positionsIn = useView((state) => state.positionsIn);
-  return (
-    <div className={styles.line}>
-      <ul className={styles.legend} aria-label={words.truth.legend}>
-        {(tellsPositions(family) ? ALL : COMPUTED).map((truth) => (
-          <li key={truth}>
-            <Chip truth={truth}>{words.truth[truth]}</Chip>
-          </li>
-        ))}
-        {isGuessing && (
-          <li>
-            <Chip truth="guessed">{words.firstMoves.guess}</Chip>
-          </li>
-        )}
-      </ul>
-      <Choice
-        label={words.servoPanel.positionsIn}
-        value={positionsIn}
-        options={[
-          { value: 'board', label: words.units[family.unit] },
-          { value: 'degrees', label: words.servoPanel.degrees },
-        ]}
-        onChange={(wanted) => view.setState({ positionsIn: wanted })}
-      />
-    </div>
-  );
-}
-
-const COMPUTED = ['commanded', 'estimated', 'unknown'] as const;
-const ALL = ['commanded', 'estimated', 'confirmed', 'unknown'] as const;
 
 const Selected = laterComponent(
   async () => (await import('./Selected.tsx')).Selected,
@@ -189,27 +152,34 @@ function MoveTimeControl() {
         }))}
         onChange={(choice) => view.setState({ moveTime: choice === 'hand' ? 'hand' : lastMs })}
       />
-      <NumberField
-        label={words.servos.moveTimeField}
-        value={isTimed ? moveTime : lastMs}
-        min={min}
-        max={max}
-        step={100}
-        unit={words.servos.ms}
-        isDisabled={!isTimed}
-        onChange={setMs}
-        onRefused={(value) => notices.refuse(words.refused({ name: words.servos.moveTime, value, min, max }))}
-      />
+      <span className={isTimed ? undefined : styles.away}>
+        <NumberField
+          label={words.servos.moveTimeField}
+          value={isTimed ? moveTime : lastMs}
+          min={min}
+          max={max}
+          step={100}
+          unit={words.servos.ms}
+          onChange={setMs}
+          onRefused={(value) =>
+            notices.refuse(words.refused({ name: words.servos.moveTime, value, min, max }))
+          }
+        />
+      </span>
       <p className={styles.about}>{words.servos.moveTimeAbout[isTimed ? 'timed' : 'hand']}</p>
     </div>
   );
 }
 
-const BodyMap = laterComponent(async () => (await import('../picture/BodyMap.tsx')).BodyMap, '100%');
+interface ServosPanelProps {
+  /** The robot stands in a panel of its own beside this one. */
+  readonly isBesideRobot?: boolean;
+}
 
-export function ServosPanel() {
+export function ServosPanel({ isBesideRobot = false }: ServosPanelProps) {
   const hindrance = useSnapshot(motionHindrance);
-  const layout = useServoLayout();
+  const chosen = useServoLayout();
+  const layout = isBesideRobot ? 'list' : chosen;
   const isPhone = useLayout() === 'phone';
   const isTeaching = useIsTeaching();
   const why = hindrance === null ? '' : words.servos.blocked[hindrance];
@@ -217,20 +187,27 @@ export function ServosPanel() {
     <Panel
       title={words.servos.title}
       note={isPhone ? '' : why}
-      className={cx(styles.panel, layout === 'list' && styles.listed)}
+      className={cx(styles.panel, layout === 'list' && !isBesideRobot && styles.listed)}
       tools={
         <>
-          <LayoutChoice />
+          {isBesideRobot ? <UnitChoice /> : <LayoutChoice />}
           <CentreAll />
         </>
       }
     >
-      {layout === 'list' ? (
-        <Body />
-      ) : (
-        <div className={styles.map}>{layout === 'body' ? <BodyMap /> : <RobotView />}</div>
+      {!isBesideRobot && (
+        <>
+          {layout === 'list' ? (
+            <Body />
+          ) : (
+            <div className={styles.map}>{layout === 'body' ? <BodyMap /> : <RobotView />}</div>
+          )}
+          <div className={styles.line}>
+            <Legend />
+            <UnitChoice />
+          </div>
+        </>
       )}
-      <Legend />
       <SelectionBar
         hint={isTeaching ? words.teach.on : isPhone && why !== '' ? why : words.servoPanel.selectHint}
       />

@@ -93,7 +93,7 @@ function Shapes() {
     putFrame({ document, view }, 'after', pose, () => words.poses.steps.addToGroup({ name: pose.name }));
     notices.tell('info', words.poses.added({ name: pose.name }), {
       label: words.poses.openGroup,
-      act: () => view.setState({ authoring: 'group' }),
+      act: () => view.setState({ tab: 'actions', authoring: 'group' }),
     });
   };
 

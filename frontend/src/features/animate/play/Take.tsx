@@ -33,7 +33,7 @@ export function Take({ samples, onClose }: TakeProps) {
   const keyCount = group.frames.reduce((sum, { targets }) => sum + targets.length, 0);
   const use = (step: keyof typeof words.record.steps, edit: (before: ActionGroup) => ActionGroup): void => {
     document.edit(() => words.record.steps[step], edit);
-    view.setState({ selectedFrame: null, authoring: 'group' });
+    view.setState({ selectedFrame: null, tab: 'actions', authoring: 'group' });
     playhead.show(0);
     onClose();
   };

@@ -16,7 +16,7 @@ export function takeGroup({ document, library, view, notices }: Needed, group: A
     () => words.files.step({ name: group.name }),
     () => group,
   );
-  view.setState({ authoring: 'group', selectedFrame: null });
+  view.setState({ tab: 'actions', authoring: 'group', selectedFrame: null });
   notices.say(words.files.taken({ name: group.name, frames: group.frames.length }));
 }
 

@@ -14,7 +14,7 @@ import {
 import { servoOf } from '#shared/profile/robot.ts';
 import { words } from '../../../i18n/whole.ts';
 import { motionHindrance } from '../../../robot/readiness.ts';
-import { IconButton } from '../../../ui/Button.tsx';
+import { Button, IconButton } from '../../../ui/Button.tsx';
 import { EmptyState } from '../../../ui/Panel.tsx';
 import { Toggle } from '../../../ui/Toggle.tsx';
 import { useFollow } from '../../../ui/useEachFrame.ts';
@@ -29,6 +29,7 @@ import {
   useStores,
   useView,
 } from '../../stores.ts';
+import { workedOn } from '../../view.ts';
 import { lookOf } from '../Canvas.tsx';
 import { motionsInFrame } from '../motion.ts';
 import { useMotions } from '../useMotions.ts';
@@ -62,6 +63,7 @@ export function RobotView() {
   const handles = useRef(new Map<string, HTMLButtonElement>());
   const knob = useRef<HTMLElement>(null);
   const pressed = useRef<{ readonly x: number; readonly y: number } | null>(null);
+  const [hasPlace, setPlace] = useState(false);
   const [isLevel, setLevel] = useState(false);
   const [isMissing, setMissing] = useState(false);
   const isBlocked = useSnapshot((snapshot) => motionHindrance(snapshot) !== null);
@@ -178,8 +180,20 @@ export function RobotView() {
       <FloorNote {...{ paths }} />
       {limbs.length === 1 && limbs[0] !== undefined && (
         <div className={styles.foot}>
-          <PlaceFields limb={limbs[0]} {...{ isLevel, isBlocked }} />
-          <Toggle label={words.robot3d.level} isOn={isLevel} onChange={setLevel} />
+          <Button
+            tone="quiet"
+            icon={hasPlace ? 'down' : 'later'}
+            aria-expanded={hasPlace}
+            onPress={() => setPlace(!hasPlace)}
+          >
+            {words.robot3d.place}
+          </Button>
+          {hasPlace && (
+            <>
+              <PlaceFields limb={limbs[0]} {...{ isLevel, isBlocked }} />
+              <Toggle label={words.robot3d.level} isOn={isLevel} onChange={setLevel} />
+            </>
+          )}
         </div>
       )}
     </div>
@@ -191,7 +205,7 @@ function usePaths(limbs: readonly LedLimb[]): readonly (readonly PathPoint[])[] 
   const robot = useRobot();
   const group = useDeferredValue(useGroup());
   const { unit } = useKnownFamily();
-  const isShown = useView(({ authoring }) => authoring === 'group');
+  const isShown = useView((view) => workedOn(view) === 'group');
   return useMemo(
     () =>
       isShown ? limbs.map((limb) => pathOf(limb, robot, group, unit)).filter((path) => path.length > 0) : [],

@@ -1,0 +1,81 @@
+// The robot as the picture of the workspace Drive: as a model, a drawing, or with its servos at their places.
+
+import type { ReactNode } from 'react';
+import type { BodyKind } from '#shared/profile/robot.ts';
+import { words } from '../../i18n/words.ts';
+import { laterComponent } from '../../ui/later.tsx';
+import { Panel } from '../../ui/Panel.tsx';
+import { Choice } from '../../ui/Toggle.tsx';
+import { Body, RobotView } from '../picture/Body.tsx';
+import { useRobot, useStores, useView } from '../stores.ts';
+import type { ViewState } from '../view.ts';
+import { Legend } from './Legend.tsx';
+import styles from './RobotPanel.module.css';
+
+export const BodyMap = laterComponent(async () => (await import('../picture/BodyMap.tsx')).BodyMap, '100%');
+
+type Picture = Exclude<ViewState['picture'], 'auto'>;
+
+const PICTURES = ['model', 'drawing', 'body'] as const;
+
+/** A body that is not described has no model. */
+const picturesOf = (body: BodyKind): readonly Picture[] =>
+  PICTURES.filter((picture) => picture !== 'model' || body !== 'plain');
+
+const SOFTWARE = /swiftshader|llvmpipe|software|basic render/i;
+let isFast: boolean | undefined;
+
+/** Whether the machine draws three dimensions by its graphics processor. */
+function drawsFast(): boolean {
+  isFast ??= isByHardware(document.createElement('canvas').getContext('webgl2'));
+  return isFast;
+}
+
+function isByHardware(gl: WebGL2RenderingContext | null): boolean {
+  const info = gl?.getExtension('WEBGL_debug_renderer_info');
+  const name: unknown = gl?.getParameter(info?.UNMASKED_RENDERER_WEBGL ?? gl.RENDERER);
+  gl?.getExtension('WEBGL_lose_context')?.loseContext();
+  return typeof name === 'string' && !SOFTWARE.test(name);
+}
+
+function usePicture(): Picture {
+  const { body } = useRobot();
+  const chosen = useView(({ picture }) => picture);
+  const wanted = chosen === 'auto' ? (drawsFast() ? 'model' : 'drawing') : chosen;
+  return picturesOf(body).includes(wanted) ? wanted : 'drawing';
+}
+
+const SHOWN = { drawing: Body, body: BodyMap, model: RobotView };
+
+/** `children`: at its foot, beside the legend. */
+export function RobotPanel({ children }: { readonly children?: ReactNode }) {
+  const { view } = useStores();
+  const robot = useRobot();
+  const picture = usePicture();
+  const Shown = SHOWN[picture];
+  return (
+    <Panel
+      title={robot.name === '' ? words.workspace.robot : robot.name}
+      className={styles.panel}
+      tools={
+        <Choice
+          label={words.workspace.picture}
+          value={picture}
+          options={picturesOf(robot.body).map((value) => ({ value, label: labelOf(value) }))}
+          onChange={(chosen) => view.setState({ picture: chosen })}
+        />
+      }
+    >
+      <div className={styles.picture}>
+        <Shown />
+      </div>
+      <div className={styles.foot}>
+        {children}
+        <Legend />
+      </div>
+    </Panel>
+  );
+}
+
+const labelOf = (picture: Picture): string =>
+  picture === 'drawing' ? words.workspace.drawing : words.servoPanel.layouts[picture];
