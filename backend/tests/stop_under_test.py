@@ -119,6 +119,10 @@ class Watched(Control):
         self.pressed_s.append(now())
         return super().stop(cause)
 
+    def stopped_at_return(self, since_s: float) -> None:
+        super().stopped_at_return(since_s)
+        self.said.append(Said(since_s, now(), self.unheld))
+
     def _halted(self, left: Left) -> None:
         super()._halted(left)
         if not left.cancelled() and left.exception() is None:

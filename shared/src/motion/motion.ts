@@ -8,7 +8,7 @@
 // xArm are closed: their model is the simulated board's, a careful guess.
 
 import timings from '../../protocol/timings.json' with { type: 'json' };
-import type { Command, Frame, ServoTarget } from '../codec/commands.ts';
+import type { Command, Frame, MoveCommand, ServoTarget } from '../codec/commands.ts';
 import type { ReportKind } from '../codec/reports.ts';
 import type { Family } from '../codec/families.ts';
 import { HEADER } from '../codec/packet.ts';
@@ -122,6 +122,12 @@ export function afterCutPacket(motion: Motion, { resyncFiller, maxLength }: Fami
   // Cut in its head, it gets the first header of the next one for its LEN.
   const longestBytes = Math.max(HEADER, maxLength) + HEAD_BYTES;
   return { ...motion, maySwallow: Math.ceil(longestBytes / SHORTEST_PACKET_BYTES) };
+}
+
+/** The filler, whose last bit left at `atMs`, may have completed that move (S2): it begins only now. */
+export function afterFiller(motion: Motion, cut: MoveCommand, atMs: number, family: Family): Motion {
+  const endsMs = atMs + boardDurationMs(cut.durationMs, family) + LAST_TICKS_MS;
+  return { ...motion, restlessUntilMs: Math.max(motion.restlessUntilMs, endsMs) };
 }
 
 /** Where an unknown group has ended, its last move may go on for that long. */

@@ -9,6 +9,7 @@ import {
   advance,
   afterCommand,
   afterCutPacket,
+  afterFiller,
   eitherOf,
   farthestFrom,
   forgotten,
@@ -67,6 +68,8 @@ export interface RobotEstimate {
   forget(cut: Command | null): void;
   /** A packet of ours was cut on the way, and nothing ends it but what is sent next. */
   cut(): void;
+  /** The filler that ends the packet that was cut left the wire just now. */
+  filled(): void;
   /** The board may take what is sent next for the rest of a packet that was cut. */
   maySwallow(): boolean;
   /** It may not take up what is sent before. */
@@ -81,6 +84,8 @@ export function createRobotEstimate(family: Family, clock: Clock): RobotEstimate
   const memory = createGroupMemory();
   const board: KnownBoard = { family, playedFrames: memory.playedFrames };
   let motion = UNKNOWN_MOTION;
+  /** What a loss of the link has cut last. */
+  let latestCut: Command | null = null;
 
   const now = (): Motion => (motion = advance(motion, clock.now(), board));
 
@@ -163,10 +168,14 @@ export function createRobotEstimate(family: Family, clock: Clock): RobotEstimate
     forget(cut) {
       const nowMs = clock.now();
       const arrived = cut === null ? now() : afterCommand(now(), cut, nowMs, board);
+      latestCut = cut ?? latestCut;
       memory.forgetSpeeds();
       motion = eitherOf(forgotten(motion, nowMs), forgotten(arrived, nowMs));
     },
     cut: () => (motion = afterCutPacket(now(), family)),
+    filled() {
+      if (latestCut?.kind === 'move') motion = afterFiller(now(), latestCut, clock.now(), family);
+    },
     maySwallow: () => motion.maySwallow > 0,
     deafUntilMs: () => motion.deafUntilMs,
     opened: (atMs) => (motion = inherited(now(), atMs)),

@@ -402,6 +402,31 @@ describe('STOP', () => {
     await expect(rig.session.run(7, 1)).rejects.toMatchObject({ code: 'slotBroken' });
   });
 
+  test('counts a move that was cut from when filler has ended it, however late the link is back', async () => {
+    const rig = await createRig();
+    await knownAtRest(rig);
+    rig.session.move([{ servo: 2, position: 1_000 }], 0);
+    await rig.clock.advance(2_000);
+    const targets = [1, 2].map((servo) => ({ servo, position: 2_000 }));
+    rig.session.move(targets, 6_000);
+    // All of the first servo's, and a part of the other's.
+    await rig.clock.advance(wireMs(11.5));
+    rig.channel.unplug();
+    await rig.clock.advance(3_000);
+    rig.channel.plugIn();
+    await rig.clock.advance(5_000);
+    const { board } = rig.channel;
+    expect(board.pulse(1)).not.toBe(board.target(1));
+    const halted = rig.session.halt();
+    await rig.clock.advance(400);
+    await halted;
+    const unheld = rig.session.state.latch?.unheld;
+    expect(unheld?.servos).toBeNull();
+    const pressedMs = rig.clock.now() - 400;
+    while (board.pulse(1) !== board.target(1)) await rig.clock.advance(10);
+    expect(rig.clock.now() - pressedMs).toBeLessThanOrEqual((unheld?.forMs ?? 0) + 10);
+  });
+
   test('without a link says that it failed and stays latched', async () => {
     const rig = await createRig();
     rig.channel.unplug();

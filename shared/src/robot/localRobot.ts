@@ -87,7 +87,7 @@ export function createLocalRobot(options: LocalRobotOptions): Robot {
       if (driver.core.estimate.moving()) halt.again();
     },
   );
-  const resync = createResync(queue);
+  const resync = createResync(queue, () => driver.core.estimate.filled());
   const identification = createIdentification({
     ...{ clock, store, queue, replies, family, identifies, isWatched },
     isMoving: () => driver.core.estimate.moving(),

@@ -17,14 +17,15 @@ const COMMAND_AT = 3;
 
 /**
  * A packet that was cut by a lost link leaves the board waiting for the rest of it, for ever: it would swallow the stop that comes after the
- * return (S2). The filler ends such a packet with the least effect.
+ * return (S2). The filler ends such a packet with the least effect; `filled` hears that it has left.
  */
-export function createResync(queue: Queue): Resync {
+export function createResync(queue: Queue, filled: () => void): Resync {
   let pending: Uint8Array | null = null;
 
   async function fill(packet: Uint8Array): Promise<void> {
     await queue.stop(packet);
     pending = null;
+    filled();
   }
 
   return {

@@ -115,6 +115,10 @@ class Activity:
         self._stop_again.void()
         self.unattended.follow(None)
 
+    def filled(self, at_s: float) -> None:
+        """The last bit of the filler leaves then that ends the packet that was cut."""
+        self._motion.filled(at_s)
+
     def forget(self, family: Family) -> None:
         """It may be another board, and its last owner may have begun a motion."""
         self._motion = Estimate(family)

@@ -323,6 +323,7 @@ class Board:
     def _leaving(self, owner: Owner, packet: CommandPacket, at_s: float) -> None:
         command = packet.command
         if command is None:  # filler
+            self.activity.filled(at_s)
             return
         self.activity.left(packet, command, at_s, is_halting=self.link.wire().is_halting)
         if isinstance(command, ReadBattery):

@@ -46,6 +46,7 @@ from servodeck.robot.motion.motion import (
     advance,
     after_command,
     after_cut_packet,
+    after_filler,
     either_of,
     forgotten,
     hears,
@@ -83,6 +84,10 @@ class Estimate:
         self._last_frame_until_ms = -inf
         """The last frame of a group that was ended, and whose frames are unknown, is over by then."""
         self._resumed_at_ms = -inf
+        self._missed = UNKNOWN_MOTION
+        """As it is if the board misses the packet on the wire."""
+        self._cut: Command | None = None
+        """What a loss of the link has cut last."""
 
     def played_frames(self, slot: int) -> Sequence[Frame] | None:
         return self._memory.played_frames(slot)
@@ -99,6 +104,7 @@ class Estimate:
         if isinstance(command, Release):
             for servo in command.servos:  # it drops
                 self._reported.pop(servo, None)
+        self._missed = self._motion
         is_heard, ran = hears(self._motion, at_ms), self._motion.run
         self._change_memory(command, is_heard=is_heard)
         self._motion = after_command(self._motion, command, at_ms, self)
@@ -146,11 +152,16 @@ class Estimate:
         self._memory.clear()
         self._reported.clear()
         at_ms = self._advance(now)
-        arrived = after_command(self._motion, cut, at_ms, self) if cut else self._motion
+        missed = forgotten(self._missed, at_ms, self)
         self._forget(at_ms)
-        self._motion = either_of(self._motion, forgotten(arrived, at_ms, self))
         if cut:
-            self._motion = after_cut_packet(self._motion, self.family)
+            self._motion = after_cut_packet(either_of(self._motion, missed), self.family)
+            self._cut = cut
+
+    def filled(self, at_s: float) -> None:
+        """The last bit of the filler leaves then that ends the packet that was cut."""
+        if isinstance(self._cut, Move):
+            self._motion = after_filler(self._motion, self._cut, self._advance(at_s), self.family)
 
     def opened(self, now: float) -> None:
         """The last owner of the port may have set something in motion."""

@@ -150,6 +150,12 @@ def after_cut_packet(motion: Motion, family: Family) -> Motion:
     return replace(motion, may_swallow=math.ceil(longest_bytes / SHORTEST_PACKET_BYTES))
 
 
+def after_filler(motion: Motion, cut: Move, at_ms: float, family: Family) -> Motion:
+    """The filler, whose last bit left at `at_ms`, may have completed that move (S2): it begins only now."""
+    ends_ms = at_ms + board_duration_ms(cut.duration_ms, family) + ESTIMATE.last_ticks_ms
+    return replace(motion, restless_until_ms=max(motion.restless_until_ms, ends_ms))
+
+
 def restless(before: Motion, after: Motion, at_ms: float, for_ms: float = LONGEST_MOVE_MS) -> Motion:
     """Where an unknown group has ended, its last move may go on for that long."""
     if not isinstance(before.run, UnknownRun) or after.run is not None:
