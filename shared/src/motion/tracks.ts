@@ -175,7 +175,10 @@ function contests(one: Order, other: Order, servo: number): boolean {
   return new Set(sent.map(({ position }) => position)).size > 1;
 }
 
-/** After a stop at `atMs`: frames that began just before it may not have begun, and what was under way goes on. */
+/**
+ * After a stop at `atMs`: frames that began just before it may not have begun. Then what was under way goes on, and what stood still
+ * stands; that a hold would throw to where a frame has sent it that is too short to need one.
+ */
 export function stoppedBefore(
   tracks: Tracks,
   recent: readonly Order[],
@@ -187,8 +190,12 @@ export function stoppedBefore(
     if (frame.by === 'frame' && isNear(frame, atMs, family))
       for (const [servo, former] of frame.before) {
         const track = next.get(servo);
-        if (track && !stands(former, frame.atMs) && (former.to !== track.to || endMs(former) > endMs(track)))
-          next.set(servo, torn(track, endMs(former)));
+        if (!track) continue;
+        const isElsewhere = former.to !== track.to;
+        const isOpen = stands(former, frame.atMs)
+          ? isElsewhere && endMs(track) <= atMs + timings.stop.heldWithinMs
+          : isElsewhere || endMs(former) > endMs(track);
+        if (isOpen) next.set(servo, torn(track, endMs(former)));
       }
   return next;
 }

@@ -433,6 +433,31 @@ const FOUND: readonly {
       ],
     },
   },
+  {
+    name: 'a short frame that has not begun leaves a servo where it stood',
+    profile: 'doc',
+    history: {
+      ...{ onForMs: 60_000, hasPad: true, isSlow: false, wasErased: true },
+      unknown: [{ durationMs: 0, targets: [{ servo: 2, position: 500 }] }],
+      known: [
+        { durationMs: 20, targets: [{ servo: 6, position: 500 }] },
+        {
+          durationMs: 0,
+          targets: [
+            { servo: 1, position: 500 },
+            { servo: 6, position: 1531 },
+          ],
+        },
+        { durationMs: 0, targets: [{ servo: 1, position: 501 }] },
+      ],
+      steps: [
+        { kind: 'wait', ms: 89 },
+        { kind: 'run', slot: 5, times: 3 },
+        { kind: 'wait', ms: 70 },
+        { kind: 'run', slot: 5, times: 0 },
+      ],
+    },
+  },
 ];
 
 describe('what longer runs found', () => {

@@ -10,7 +10,7 @@ from math import inf
 from typing import Literal
 
 from servodeck.protocol.families import Family
-from servodeck.protocol.timings import MOVE
+from servodeck.protocol.timings import MOVE, STOP
 from servodeck.protocol.values import ServoTarget
 from servodeck.value import value
 
@@ -170,8 +170,9 @@ def contests(one: Order, other: Order, servo: int) -> bool:
 
 
 def stopped_before(tracks: Tracks, recent: Sequence[Order], at_ms: float, family: Family) -> dict[int, Track]:
-    """After a stop at `at_ms`: frames that began just before it may not have begun, and what was under way
-    goes on.
+    """After a stop at `at_ms`: frames that began just before it may not have begun. Then what was under way
+    goes on, and what stood still stands; that a hold would throw to where a frame has sent it that is too
+    short to need one.
     """
     changed = dict(tracks)
     for frame in recent:
@@ -179,9 +180,14 @@ def stopped_before(tracks: Tracks, recent: Sequence[Order], at_ms: float, family
             continue
         for servo, former in frame.before.items():
             track = changed.get(servo)
-            if track is None or stands(former, frame.at_ms):
+            if track is None:
                 continue
-            if former.to != track.to or end_ms(former) > end_ms(track):
+            is_elsewhere = former.to != track.to
+            if stands(former, frame.at_ms):
+                is_open = is_elsewhere and end_ms(track) <= at_ms + STOP.held_within_ms
+            else:
+                is_open = is_elsewhere or end_ms(former) > end_ms(track)
+            if is_open:
                 changed[servo] = torn(track, end_ms(former))
     return changed
 
