@@ -41,6 +41,13 @@ async function wave(page) {
   await page.mouse.move(0, 0);
 }
 
+/** In the middle of it. @param {Page} page */
+async function tryPick(page) {
+  await choose(page, '3D');
+  await press(page, 'Pick and place');
+  await page.waitForTimeout(4000);
+}
+
 /** Each example as a group of its own. @param {Page} page @param {(number: number) => Promise<unknown>} [then] */
 async function groups(page, then) {
   const LAST = 3;
@@ -106,7 +113,8 @@ async function pack(page, warnMv) {
 
 /** @type {Readonly<Record<string, Shot>>} */
 const SHOTS = {
-  dashboard: { ...ANIMATE, act: wave },
+  dashboard: { ...DESK, act: tryPick },
+  animate: { ...ANIMATE, act: wave },
   light: { ...ANIMATE, colorScheme: 'light', act: wave },
   phone: PHONE,
   timeline: { ...TALL, region: 'Action group', act: wave },
@@ -131,7 +139,7 @@ const SHOTS = {
       await press(page, 'Library');
     },
   },
-  stopped: { ...ANIMATE, act: (page) => press(page, /^Stop/) },
+  stopped: { ...DESK, act: (page) => press(page, /^Stop/) },
   disconnected: {
     ...ANIMATE,
     async act(page) {

@@ -110,6 +110,7 @@ test.describe('on the first visit', () => {
     await page.goto(url);
     await expect(dashboard.link).toHaveText(/Ready\s*Simulated/);
     const leaves = new Set<string>();
+    await expect(dashboard.bar).toContainText('7.50 V');
     for (let second = 0; second < 12; second += 1) {
       await advance(1000);
       leaves.add(await dashboard.target(6).inputValue());

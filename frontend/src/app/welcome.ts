@@ -12,8 +12,8 @@ import type { TextStorage } from '../state/storage.ts';
 
 const KEY = 'servodeck.visited';
 const BREATH_MS = 2_000;
-/** Time to ask for the battery, which is not done of a robot that moves. */
-const REST_MS = 1_500;
+/** Between two breaths: the battery of a robot that moves is not asked for. */
+const REST_MS = 3_500;
 /** Of the way to the nearer limit. */
 const DEPTH = 0.05;
 const TOUCHES = ['pointerdown', 'keydown', 'wheel'] as const;
@@ -56,7 +56,7 @@ export function welcome({ device, robots, storage, clock, page, isWatched }: Wel
 
   // A robot that is opened by hand was touched before that.
   const stopListening = device.store.subscribe(({ way, snapshot }) => {
-    if (breaths > 0 || way === null || startHindrance(snapshot) !== null) return;
+    if (way === null || startHindrance(snapshot) !== null || snapshot.battery.kind !== 'read') return;
     stopListening();
     breathe();
   });
