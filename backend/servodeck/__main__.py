@@ -1,4 +1,4 @@
-"""Where the program begins. A bare `servodeck stop` is sent before the rest of the command line is loaded,
+"""The entry of the program. A bare `servodeck stop` is sent before the rest of the command line is loaded,
 which takes longer than all else of it.
 """
 
@@ -31,7 +31,7 @@ def all_commands() -> "Typer":
 
 
 def is_stopped() -> bool:
-    """Where anything goes wrong the command line tries again, which does no harm, and explains it."""
+    """After any error the command line sends the stop again, which does no harm, and explains the error."""
     from servodeck.cli.remote import HERE, Remote, stopped_words
 
     try:

@@ -1,4 +1,4 @@
-"""Who asks, what they may do at most, and how often. Knows no socket, no credential and no rule of motion."""
+"""Callers: their name, role and rate. Knows no socket, no credential and no rule of motion."""
 
 from collections.abc import Callable
 from dataclasses import replace

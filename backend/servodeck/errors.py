@@ -116,7 +116,7 @@ class BoardError(GatewayError):
 
 
 class BoardUnknownError(BoardError):
-    """Which board it is has not been said."""
+    """The board has not been named."""
 
     code: ClassVar[ErrorCode] = "boardUnknown"
 
@@ -251,7 +251,7 @@ class NotPairedError(GatewayError):
 
 
 class PairingError(GatewayError):
-    """That link or code does not hold."""
+    """That link or code is not valid."""
 
     code: ClassVar[ErrorCode] = "pairingFailed"
     status: ClassVar[int] = 403
@@ -298,7 +298,7 @@ class StorageError(GatewayError):
 
 
 class DamagedTextError(GatewayError):
-    """What the disk gives back is not what was written to it."""
+    """The disk returns other data than was written."""
 
     code: ClassVar[ErrorCode] = "damaged"
     status: ClassVar[int] = 500

@@ -62,13 +62,13 @@ class BackgroundFile:
         task.add_done_callback(self._keeping.discard)
 
     def _write(self) -> None:
-        """What it writes is asked within the lock, so that nothing older overwrites it."""
+        """Gets the text within the lock, so that no older text overwrites it."""
         assert self._file
         with self._lock:
             try:
                 write_whole(self._file, self._text())
             except OSError as error:
-                log.warning("not kept", extra={"facts": {"file": self._file.name, "detail": str(error)}})
+                log.warning("not stored", extra={"facts": {"file": self._file.name, "detail": str(error)}})
 
 
 WAIT_S = 0.5
@@ -85,7 +85,7 @@ class Disk:
         self._asking: asyncio.Task[None] | None = None
 
     async def problem(self) -> str | None:
-        """What is wrong, for people; not asked anew within a few seconds."""
+        """The problem of the disk, for people; checked again after a few seconds."""
         if self._asking is None and self._now() - self._answered_at > GOOD_FOR_S:
             self._asking = asyncio.create_task(self._ask())
         if self._asking:

@@ -55,7 +55,7 @@ Nonce = Annotated[
 
 
 class Target(Message):
-    """Where a servo shall go, in its board's unit."""
+    """The target of a servo, in its board's unit."""
 
     servo: ServoNumber
     position: Annotated[int, Field(ge=0, le=0xFFFF)]
@@ -100,7 +100,7 @@ class EraseMessage(Message):
 
 
 class SetSpeedMessage(Message):
-    """How fast the board plays the group in `slot`, `null` every group, until it is switched off."""
+    """Set the speed of the group in `slot`, `null` for every group, until the board is switched off."""
 
     type: Literal["setSpeed"]
     id: MessageId

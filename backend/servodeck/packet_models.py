@@ -1,4 +1,4 @@
-"""What a host can ask of a board and what a board can say, as JSON: the values of protocol/values.py with the
+"""Commands of a host and reports of a board, as JSON: the values of protocol/values.py with the
 same names as shared/src/codec/commands.ts and reports.ts.
 
 Knows no bytes but those of unknown packets, and no rule.
@@ -20,7 +20,7 @@ class ServoPosition(Message):
 
 
 class ServoTrim(Message):
-    """What a board adds to the positions of a servo, in its unit."""
+    """The trim that a board adds to the positions of a servo, in its unit."""
 
     servo: int
     offset: int
@@ -66,7 +66,7 @@ class SetSpeedCommand(Message):
 
 
 class ServosCommand(Message):
-    """Takes the torque off these servos, or asks where they stand."""
+    """Releases these servos, or reads their positions."""
 
     kind: Literal["release", "readPositions"]
     servos: tuple[int, ...]
@@ -113,7 +113,7 @@ class OffsetsReport(Message):
 
 
 class VersionReport(Message):
-    """Which servos the board drives, by the unit they count in, and its firmware."""
+    """The kind of the board's servos, by the unit of their positions, and its firmware."""
 
     kind: Literal["version"] = "version"
     unit: Literal["us", "steps"]

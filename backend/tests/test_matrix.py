@@ -16,14 +16,14 @@ from tests.knocking import all_routes, app_at, knock, roles_of_routes, scope_of
 from tests.running import PORT, entrance_to
 from tests.test_gate import headers_of
 
-ANYBODY = None
+PUBLIC = None
 ROLES: dict[tuple[str, str], Role | None] = {
-    ("GET", "/docs"): ANYBODY,
-    ("GET", "/docs.css"): ANYBODY,
-    ("GET", "/openapi.json"): ANYBODY,
-    ("GET", "/api/health"): ANYBODY,
-    ("GET", "/api/me"): ANYBODY,
-    ("POST", "/api/pair"): ANYBODY,
+    ("GET", "/docs"): PUBLIC,
+    ("GET", "/docs.css"): PUBLIC,
+    ("GET", "/openapi.json"): PUBLIC,
+    ("GET", "/api/health"): PUBLIC,
+    ("GET", "/api/me"): PUBLIC,
+    ("POST", "/api/pair"): PUBLIC,
     ("PATCH", "/api/me"): "viewer",
     ("POST", "/api/stop"): "stopper",
     ("WS", "/ws"): "viewer",
@@ -118,7 +118,7 @@ def may_pass(mode: Mode, host: str | None, origin: str | None, credential: str, 
     if host not in GOOD[mode] or origin not in (None, own):
         return 403
     proved = credential == ("bearer" if origin is None else "cookie")
-    return 0 if mode == "local" or role is ANYBODY or proved else 401
+    return 0 if mode == "local" or role is PUBLIC or proved else 401
 
 
 def credentials_of(entrance: Entrance) -> dict[str, list[tuple[bytes, bytes]]]:
@@ -169,7 +169,7 @@ async def test_each_role_reaches_what_it_may_and_nothing_above(role: Role) -> No
         kind, verb = ("websocket", "GET") if method == "WS" else ("http", method)
         headers = [*headers_of(f"localhost:{PORT}", None), (b"authorization", f"Bearer {token}".encode())]
         status = await knock(app, scope_of(kind, verb, path, headers))
-        is_enough = needed is ANYBODY or RANKS[role] >= RANKS[needed]
+        is_enough = needed is PUBLIC or RANKS[role] >= RANKS[needed]
         assert (status != 403) == is_enough, (method, path, status)
 
 
@@ -253,7 +253,7 @@ async def test_the_session_of_another_gateway_on_this_host_is_none_of_ours() -> 
 def test_a_route_without_a_role_keeps_the_gateway_from_starting() -> None:
     app = FastAPI(docs_url=None, redoc_url=None, openapi_url=None)
     app.router.route_class = routes.JudgingRoute
-    app.get("/named", dependencies=[routes.ANYBODY])(lambda: None)
+    app.get("/named", dependencies=[routes.PUBLIC])(lambda: None)
     routes.require_roles(app.routes)
     app.get("/forgotten")(lambda: None)
     with pytest.raises(TypeError, match="/forgotten"):

@@ -1,1 +1,1 @@
-"""Who may come in, from where, in which role, and at which rate."""
+"""Access to the gateway: addresses, devices, roles and rates."""

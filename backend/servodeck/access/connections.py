@@ -18,7 +18,7 @@ from uvicorn.protocols.utils import ClientDisconnected
 from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIOProtocol
 from uvicorn.server import ServerState
 
-# Beside 216 seats and what files and the port take, far below the 1,024 descriptors that the process has.
+# Beside 216 sessions, files and the port, far below the 1,024 descriptors that the process has.
 MOST = 256
 # A class behind one router loads the page at once: 6 connections of each of 20 browsers.
 MOST_OF_ONE = 128
@@ -59,7 +59,7 @@ class Unauthenticated:
 # Before its first request and between two. Browsers open a connection or two ahead of need, and again later.
 IDLE_S = 2
 # Of who is known, between two requests: longer than clients keep a connection for their next request, so that
-# none of them asks on one that is just being closed.
+# none of them sends a request on one that is just being closed.
 KNOWN_IDLE_S = 20
 HEAD_S = 1.0
 # A library of 3 MiB over a poor wireless link; for who is unknown, the answer, too.
@@ -105,7 +105,7 @@ MayUpgrade = Callable[[list[tuple[bytes, bytes]], str | None], bool]
 
 
 class State(ServerState):
-    """What all connections share."""
+    """The state that all connections share."""
 
     def __init__(self, may_upgrade: MayUpgrade) -> None:
         """`may_upgrade` judges the headers of an upgrade that came in at that address of ours."""

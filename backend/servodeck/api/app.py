@@ -26,7 +26,7 @@ from servodeck.access.entrance import Entrance
 from servodeck.access.guard import Guard, log_refusal
 from servodeck.api.health import Pulse, health_api, sign_of_life
 from servodeck.api.page import STATIC, page
-from servodeck.api.routes import ANYBODY, JudgingRoute, named_roles, require_roles
+from servodeck.api.routes import PUBLIC, JudgingRoute, named_roles, require_roles
 from servodeck.errors import ErrorCode, GatewayError, MalformedError, PortBusyError
 from servodeck.files import Disk
 from servodeck.library.library import Library
@@ -190,7 +190,7 @@ def add_docs(app: LaterApp) -> None:
         "/docs.css": style,
     }
     for path, answer in answers.items():
-        app.add_api_route(path, answer, include_in_schema=False, dependencies=[ANYBODY])
+        app.add_api_route(path, answer, include_in_schema=False, dependencies=[PUBLIC])
 
 
 async def description(app: LaterApp) -> dict[str, Any]:

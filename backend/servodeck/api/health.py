@@ -18,7 +18,7 @@ from fastapi import Depends, Response
 from starlette.requests import HTTPConnection
 
 from servodeck import __version__
-from servodeck.api.routes import ANYBODY, VIEWER, Controlled, routes
+from servodeck.api.routes import PUBLIC, VIEWER, Controlled, routes
 from servodeck.files import Disk
 from servodeck.schema import Message
 from servodeck.snapshots import PortState
@@ -116,7 +116,7 @@ Stored = Annotated[Disk, Depends(disk_of)]
 health_api = routes("", "health")
 
 
-@health_api.get("/api/health", dependencies=[ANYBODY])
+@health_api.get("/api/health", dependencies=[PUBLIC])
 async def health(control: Controlled, pulse: Beating, disk: Stored) -> Health:
     """Always 200 while the gateway runs; `troubles` lists the parts that do not work."""
     troubles = [
@@ -137,7 +137,7 @@ def port_troubles(port: PortState) -> list[Trouble]:
 def loop_troubles(worst_s: float) -> list[Trouble]:
     if worst_s <= LATE_S:
         return []
-    return [Trouble(part="loop", detail=f"Something kept the gateway waiting for {worst_s * 1000:.0f} ms.")]
+    return [Trouble(part="loop", detail=f"Something blocked the gateway for {worst_s * 1000:.0f} ms.")]
 
 
 @health_api.get("/metrics", include_in_schema=False, dependencies=[VIEWER])

@@ -15,7 +15,7 @@ from servodeck.access.addresses import Mode, link_base, pair_link, picture_of, s
 from servodeck.access.devices import Device, Kind
 from servodeck.access.entrance import Entrance
 from servodeck.api.motion import Scripted
-from servodeck.api.routes import ANYBODY, OWNER, VIEWER, Controlled, entrance_of, routes
+from servodeck.api.routes import OWNER, PUBLIC, VIEWER, Controlled, entrance_of, routes
 from servodeck.callers import Caller, Role
 from servodeck.errors import ForbiddenError, MalformedError, StorageError
 from servodeck.robot.control import Control
@@ -141,7 +141,7 @@ Base = Annotated[str, Depends(base_of)]
 
 
 @people_api.get("/me")
-async def me(entrance: Entered, caller: Annotated[Caller | None, ANYBODY]) -> Me:
+async def me(entrance: Entered, caller: Annotated[Caller | None, PUBLIC]) -> Me:
     """The caller as this gateway knows it."""
     access = entrance.access
     overheard = access.needs_pairing and not access.is_secure
@@ -179,7 +179,7 @@ async def pair(
     wish: PairWish,
     response: Response,
     entrance: Entered,
-    present: Annotated[Caller | None, ANYBODY],
+    present: Annotated[Caller | None, PUBLIC],
     scripts: Scripted,
 ) -> You:
     """Pairs by a link, a code or a stop-only link, and sets a cookie; a device with at least that role keeps

@@ -326,7 +326,7 @@ async def end(scope: Scope, send: Send) -> None:
     except TimeoutError:
         if connection := connection_of(scope):
             connection.abort()
-        await asyncio.sleep(0)  # the server hears of it before this ends
+        await asyncio.sleep(0)  # so that the server notices it before this ends
 
 
 @events_api.get(
@@ -340,9 +340,10 @@ async def events(
     control: Controlled,
     last_event_id: Annotated[str | None, Header(max_length=MAX_ID)] = None,
 ) -> EventStream:
-    """What happens, from now on, as server-sent events with an id: each is one message as `/ws` tells it to
-    pages. The first is a `welcome` with everything as it stands. Nothing is repeated: with Last-Event-ID a
-    `gap` comes before it, because what happened since that event is not repeated.
+    """Messages from now on, as server-sent events with an id: the same as on `/ws`. The first is a `welcome`
+    with the whole state. With Last-Event-ID a `gap` comes before it, because the messages since that event
+    are not repeated.
+
     """
     if not control.hub.has_room_for(caller):
         raise BusyError("Too many clients are connected: close another window or event stream.")

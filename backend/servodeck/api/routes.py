@@ -75,7 +75,7 @@ def parse_large(body: bytes) -> Any:
 
 
 class JudgingRoute(APIRoute):
-    """The framework itself reads the body first and asks who sent it then."""
+    """Judges the head first; the framework reads the body before its dependencies."""
 
     def get_route_handler(self) -> Callable[[Request], Coroutine[Any, Any, Response]]:
         handle = super().get_route_handler()
@@ -110,7 +110,7 @@ async def entrance_of(connection: HTTPConnection) -> Entrance:
     return entrance_in(connection)
 
 
-ANYBODY = Depends(Needs(None))
+PUBLIC = Depends(Needs(None))
 STOPPER = Depends(Needs("stopper"))
 VIEWER = Depends(Needs("viewer"))
 DRIVER = Depends(Needs("driver"))
@@ -151,7 +151,7 @@ async def control_of(connection: HTTPConnection) -> Control:
 
 
 def operation_id(route: APIRoute) -> str:
-    """What generators of clients call it: what it is about, then what it does."""
+    """The name for client generators: the subject, then the operation."""
     return to_camel(f"{route.tags[0]}_{route.name}")
 
 

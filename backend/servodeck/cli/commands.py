@@ -33,7 +33,7 @@ from servodeck.cli.options import (
 from servodeck.cli.remote import RefusedError, Remote, UnreachableError, stopped_words
 
 BEAT_S = 1.0
-# What the gateway lets go on without its driver at most.
+# The longest time that the gateway allows without a driver.
 LONGEST_ALONE_S = 3600
 # How long the end of a group is waited for where it was not said: until its computed end and a little more,
 # or where only the board could tell.
@@ -186,7 +186,7 @@ def usual_limit_s(ends_in_ms: int | None) -> float:
 
 
 def let_go(remote: Remote) -> None:
-    """Which ends what runs, and needs no resume."""
+    """Releases the lease, which ends the run and needs no resume."""
     asked(remote, "POST", "/api/lease", {"action": "release"})
 
 

@@ -106,7 +106,7 @@ def counted(count: int, thing: str) -> str:
 
 
 def group_of(text: str) -> dict[str, Any]:
-    """What the gateway takes; ends the program with an explanation for anything else."""
+    """The group of one argument; ends the program with an explanation of an invalid one."""
     slot, separator, name = text.partition("=")
     if not separator or not slot.isascii() or not slot.isdigit():
         fail("A group is SLOT=FILE, for example 5=wave.json.", USAGE)

@@ -1,6 +1,6 @@
-"""What the commands share: options that several take, where the options of `servodeck serve` come from (flag,
-then environment, then a TOML file, then default), how a command asks the gateway for its board, and how it
-ends when it cannot do what it was asked: a sentence on stderr and an exit code.
+"""Shared parts of the commands: options that several take, where the options of `servodeck serve` come from
+(flag, then environment, then a TOML file, then default), how a command asks the gateway for its board, and
+how it ends when it cannot do what it was asked: a sentence on stderr and an exit code.
 
 Knows options by their names; not what any of them means.
 """
@@ -130,7 +130,7 @@ def board(
 
 
 def when_asked(remote: Remote) -> dict[str, Any]:
-    """How everything stands once the gateway neither opens the port nor asks the board who it is."""
+    """The state, once the gateway neither opens the port nor identifies the board."""
     until_s = time.monotonic() + IDENTIFIED_WITHIN_S
     while True:
         state: dict[str, Any] = asked(remote, "GET", "/api/status")
@@ -181,7 +181,7 @@ class Setting(NamedTuple):
 
 
 def config_folder() -> Path:
-    """Where this system wants a program to keep a user's settings."""
+    """The folder of this system for a user's settings."""
     return user_folder(("APPDATA", "AppData/Roaming"), ("XDG_CONFIG_HOME", ".config"))
 
 
@@ -218,7 +218,7 @@ def read_file(path: Path) -> dict[str, Any]:
 
 
 def settings_of(context: typer.Context) -> Iterator[Setting]:
-    """What holds in that parsed context, in the order in which the command declares it."""
+    """The settings of that parsed context, in the order in which the command declares them."""
     for key, name in names_of(context):
         if name not in FILE_KEYS_LEFT_OUT:
             source = context.get_parameter_source(key)
@@ -231,7 +231,7 @@ def settings_of(context: typer.Context) -> Iterator[Setting]:
 
 
 def toml_line(setting: Setting) -> str:
-    """That setting as a line of a file; what is not set is a comment."""
+    """The setting as a line of a file; a comment if it is not set."""
     name, value, origin = setting
     if value is None:
         return f"# {name}: not set"

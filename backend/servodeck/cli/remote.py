@@ -42,7 +42,7 @@ class Remote:
         self._headers = {"Authorization": f"Bearer {token}"} if token else {}
 
     def ask(self, method: str, path: str, body: object = None, wait_s: float = ANSWER_S) -> Any:
-        """What the answer says. Raises RefusedError or UnreachableError."""
+        """The body of the answer. Raises RefusedError or UnreachableError."""
         with self._answer_to(method, path, body, wait_s) as answer:
             return read(answer)
 

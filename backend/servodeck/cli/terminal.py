@@ -104,7 +104,7 @@ def set_up_logs(level: Level, form: Form, descriptor: int = STDERR) -> logging.H
 
 
 def facts_of(record: logging.LogRecord) -> dict[str, object]:
-    """What `extra={"facts": …}` said beside the sentence, without what there is none of."""
+    """The values of `extra={"facts": …}`, without those that are None."""
     facts: dict[str, object] = getattr(record, "facts", {})
     return {name: value for name, value in facts.items() if value is not None}
 

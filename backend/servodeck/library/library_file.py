@@ -107,8 +107,8 @@ def open_sound(path: Path, steps: Sequence[Sequence[str]]) -> sqlite3.Connection
 
 
 def announced_frames(path: Path) -> int:
-    """Up to where the journal says that something was written for good, before SQLite looks at it: that
-    stops without a word where the first frame is damaged. Frames of earlier rounds bear another salt.
+    """The last committed frame of the journal, read before SQLite opens it: SQLite stops silently at a
+    damaged first frame. Frames of earlier rounds bear another salt.
     """
     try:
         journal = path.with_name(f"{path.name}-wal").read_bytes()

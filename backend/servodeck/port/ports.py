@@ -49,7 +49,7 @@ class OpenPort(Protocol):
     shortest_s: float
     """Every packet takes at least that long."""
     in_reports: bool
-    """What it reads are HID reports, one packet in each; else bytes in pieces of any size."""
+    """It reads HID reports, with one packet in each; else bytes in pieces of any size."""
     withheld: frozenset[Withheld]
 
     def fileno(self) -> int | None:

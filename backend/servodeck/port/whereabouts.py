@@ -1,5 +1,5 @@
-"""What the system knows of a device: where the one is that a person chose by its name, because names of ports
-move from one device to another, and which programs have it open.
+"""The location of a device that a person chose by its name, because names of ports move from one device to
+another; and the programs that have it open.
 
 Knows the USB bus and, on Linux, /proc; opens nothing. Devices that the bus does not distinguish (a pty, a
 socket, a port of the mainboard) go by their name alone.
@@ -36,7 +36,7 @@ class UsbDevice:
 
     @property
     def interface(self) -> str:
-        """Which port of the device it is; empty where that has one alone."""
+        """Its port within the device; empty where there is only one."""
         return self.location.partition(":")[2]
 
     @property
@@ -53,7 +53,7 @@ class UsbDevice:
 class Whereabouts:
     def __init__(self, name: str) -> None:
         self.path = name
-        """What to call it: the name it was chosen by while that is its own, else its present one."""
+        """Its name: the chosen one while it leads to it, else its present one."""
         self._name = name
         self._ours: UsbDevice | None = None
         self._others: set[tuple[int, int, str, str]] = set()
@@ -106,7 +106,7 @@ class Whereabouts:
         self.note_others(devices)
 
     def note_others(self, listed: Iterable[UsbDevice]) -> None:
-        """What is there beside ours, or when ours has just gone, cannot be ours when it comes back."""
+        """Devices beside ours, or present when ours has just gone, cannot be ours later."""
         if self._ours:
             self._others |= {device.place for device in listed} - {self._ours.place}
 
@@ -115,7 +115,7 @@ class Whereabouts:
 
 
 def only_hid(path: str, devices: Iterable[UsbDevice]) -> UsbDevice | None:
-    """What `hid` has opened. None where that is none, or may be one of several."""
+    """The device that `hid` has opened. None where there is none or several."""
     found = [one for one in devices if path == HID and one.path.startswith(f"{HID}:")]
     return found[0] if len(found) == 1 else None
 

@@ -87,7 +87,7 @@ class Wire:
         `first` leaves before all others.
         """
         self.unfinished: CommandPacket | None = first
-        """What has not left for sure, if the port were lost now."""
+        """The packet that may not have left completely."""
         self._port = port
         self._gap_s = max(gap_s, STOP.gap_ms / 1000)
         self._now = now

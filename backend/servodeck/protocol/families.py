@@ -27,9 +27,9 @@ CommandKind = Literal[
     "readAllPositions",
     "readOffsets",
 ]
-# What a way to the board may not carry although the board knows it: no hardware has confirmed how.
+# Commands that a cable may not carry although the board knows them: no hardware has confirmed how.
 Withheld = Literal["download", "erase"]
-# What may be asked of any board: it moves nothing, stores nothing and makes nothing drop.
+# Questions for every board: they move nothing, store nothing and release no servo.
 Question = Literal["readBattery", "readVersion", "readPositions"]
 
 
@@ -46,7 +46,7 @@ class Range:
 
 @value
 class MotionTraits:
-    """How a board turns its servos and plays its groups: what the motion estimate has to know of it."""
+    """How a board turns its servos and plays its groups, as far as the motion estimate needs it."""
 
     tick_ms: int
     # The longest that its loop is busy without being deaf to us: with what it says (S21), a pad's poll (S52),

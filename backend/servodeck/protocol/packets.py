@@ -225,7 +225,7 @@ def read_uint16(data: bytes, at: int, *, signed: bool = False) -> int:
 
 
 def parse_report(packet: Packet, family: Family) -> Report:
-    """What the packet says when a board of this family sends it; unknown where none is known to."""
+    """The report of the packet from a board of this family; unknown where no such board sends it."""
     report = empty_report(packet.command, family) if not packet.params else full_report(packet, family)
     return report or UnknownReport(packet.command, packet.params)
 

@@ -199,7 +199,7 @@ class FrameStored:
 
 @value
 class Positions:
-    """Where bus servos stand."""
+    """Positions of bus servos."""
 
     positions: tuple[ServoTarget, ...]
     kind: ClassVar[ReportKind] = "positions"
@@ -207,7 +207,7 @@ class Positions:
 
 @value
 class AllPositions:
-    """Where the board has its servos, all of them (LeArm)."""
+    """Positions of all servos of the board (LeArm)."""
 
     positions: tuple[ServoTarget, ...]
     kind: ClassVar[ReportKind] = "allPositions"
@@ -215,7 +215,7 @@ class AllPositions:
 
 @value
 class Offsets:
-    """What the board adds to the positions of its servos (LeArm)."""
+    """Trims that the board adds to the positions of its servos (LeArm)."""
 
     offsets: tuple[ServoOffset, ...]
     kind: ClassVar[ReportKind] = "offsets"
@@ -223,7 +223,7 @@ class Offsets:
 
 @value
 class Version:
-    """Which servos the board drives, by the unit they count in, and its firmware."""
+    """The kind of the board's servos, by the unit of their positions, and its firmware."""
 
     unit: Literal["us", "steps"]
     version: int

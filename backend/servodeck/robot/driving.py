@@ -121,8 +121,8 @@ class Driving:
         self._lease.beat(session, nonce)
 
     def claim_for(self, session: Session, *, take: bool) -> str:
-        """For a program, which asks for one thing at a time: a nonce of now, with the lease where it is free
-        or taken. Raises ForbiddenError, CancelledError, or NotDrivingError that names who drives.
+        """For a program, which sends one request at a time: a new nonce; takes the lease where it is free, or
+        with `take`. Raises ForbiddenError, CancelledError, or NotDrivingError that names who drives.
         """
         require_present(session)
         session.caller.require("driver")
@@ -154,8 +154,8 @@ class Driving:
         return self._lease.renewed_permit(session, self._now())
 
     def judge_request(self, caller: Caller, nonce: str) -> None:
-        """For what a page asks beside its WebSocket: only the driver's has the nonce. A large request takes
-        its time. Raises NotDrivingError or ExpiredError.
+        """For requests of a page beside its WebSocket: only the driver has the nonce. A large request takes
+        longer. Raises NotDrivingError or ExpiredError.
         """
         self._lease.permit(self.driving_page(caller), nonce, self._now(), GONE_S)
 
@@ -164,7 +164,7 @@ class Driving:
         self._lease.judge(permit, self._now())
 
     def driving_page(self, caller: Caller) -> Session:
-        """The page that drives, for what it asks beside its WebSocket. Raises NotDrivingError."""
+        """The page that drives, for its requests beside its WebSocket. Raises NotDrivingError."""
         driver = self._lease.driver
         if driver is None or driver.caller.id != caller.id:
             raise NotDrivingError(f"{driver.caller.name if driver else 'No client'} drives.")

@@ -47,7 +47,7 @@ class Claim(Protocol):
         """The motion before has ended. Raises where the session does not drive any more."""
 
     def lasts(self, left: Left, for_s: float) -> None:
-        """That packet sets something in motion for so long."""
+        """The motion of that packet lasts for so long."""
 
 
 class PageClaim:

@@ -148,8 +148,8 @@ class Requests:
         *,
         as_run: bool = False,
     ) -> PlayState:
-        """Begins to play it; raises what keeps it from that before anything leaves. `ended` hears how it
-        ended. `as_run`: a silent driver ends it as late as a run of the board, not as soon as moves by hand.
+        """Begins to play it; raises what prevents it before a packet leaves. `ended` is called with its final
+        state. `as_run`: a silent driver ends it as late as a run of the board, not as soon as moves by hand.
         """
         board = self._board
         session.caller.require("driver")
@@ -220,7 +220,7 @@ def judge_packet(text: str, board: str) -> CommandPacket:
 
 
 def role_for(packet: CommandPacket) -> Role:
-    """Who may send it at least: questions do no harm, an erased board is empty for all."""
+    """The least role that may send it: questions do no harm, an erased board is empty for all clients."""
     if packet.number == STOP:
         return "stopper"
     if packet.is_harmless:

@@ -64,7 +64,7 @@ class Moved:
 
 
 class ScriptClaim:
-    """Of a program, which asks for one thing at a time and has no heartbeat: it requests the lease with each
+    """Of a program, which sends one request at a time and has no heartbeat: it requests the lease with each
     request, and holds it for as long as the motion lasts.
     """
 
@@ -80,7 +80,7 @@ class ScriptClaim:
         return self._driving.permit(self.session, self._driving.claim_for(self.session, take=False))
 
     def renew(self) -> None:
-        """Each of its packets asks anew."""
+        """Each of its packets gets a new permit."""
 
     def lasts(self, left: Left, for_s: float) -> None:
         self._driving.vouch(self.session, 0.0)
@@ -156,7 +156,7 @@ class Scripts:
     async def run(
         self, caller: Caller, slot: int, times: int, *, take: bool, continue_ms: int | None = None
     ) -> Outcome:
-        """What moves ends first."""
+        """Ends the present motion first."""
         session = self._session_of(caller)
         return await session.do(self._run(session, slot, times, take=take, continue_ms=continue_ms))
 
@@ -227,8 +227,8 @@ class Scripts:
         still_drives: bool = False,
         run_continues: bool = False,
     ) -> None:
-        """They may not come in any more, or in another role: what they asked for on pages and over HTTP has
-        ended when this returns. The group that they let go on is stopped in the name of `by`, or goes on.
+        """Revokes a caller or its role: its requests of pages and over HTTP have ended when this returns. Its
+        unattended group is stopped in the name of `by`, or continues.
         """
         own = self._sessions.pop(caller_id, None)
         also = (own,) if own else ()

@@ -93,7 +93,7 @@ export interface paths {
       path?: never;
       cookie?: never;
     };
-    /** What happens, from now on, as server-sent events with an id: each is one message as `/ws` tells it to pages */
+    /** Messages from now on, as server-sent events with an id: the same as on `/ws` */
     get: operations['eventsEvents'];
     put?: never;
     post?: never;
@@ -1788,7 +1788,7 @@ export interface components {
     };
     /**
      * VersionReport
-     * @description Which servos the board drives, by the unit they count in, and its firmware.
+     * @description The kind of the board's servos, by the unit of their positions, and its firmware.
      */
     VersionReport: {
       /**

@@ -1,4 +1,4 @@
-"""What the board may be doing: the estimate of its motion, the group that may run or that the gateway plays,
+"""The activity of the board: the estimate of its motion, the group that may run or that the gateway plays,
 and the run that may continue without its driver; whether the board is silent, and whether it has received the
 stops.
 
@@ -139,7 +139,7 @@ class Silence:
         self._misses = 0
 
     def asked(self, command: int, at_s: float) -> None:
-        """That question leaves the wire then."""
+        """The last bit of that question leaves at `at_s`."""
         is_due = self._is_due(at_s)
         if command in self._answered and (self._asked_s is None or is_due):
             self._misses += is_due

@@ -125,7 +125,7 @@ class Tally:
 
     def after(self, groups: int, frames: int) -> Progress:
         """So many groups are whole, and so many frames of the next one; none: it begins, or begins again. The
-        time left is at least the wire's; what frames really took includes the flash.
+        time left is at least the wire's; the measured time of frames includes the flash.
         """
         whole, [part] = self._sizes[:groups], self._sizes[groups : groups + 1] or [()]
         part_sent = sum(part[:frames])
@@ -159,8 +159,8 @@ class Download:
         is_cancelled: Callable[[], bool],
         stored: Callable[[int], None],
     ) -> None:
-        """`packets` in the order of their frames. `is_cancelled` is asked between two frames; `stored` hears
-        how many the board has, 0 at each beginning.
+        """`packets` in the order of their frames. `is_cancelled` is asked between two frames; `stored` is
+        called with the number of frames on the board, 0 at each beginning.
         """
         self._packets = packets
         self._send = send

@@ -1,5 +1,5 @@
-"""What the gateway believes of the robot: the motion estimate fed with what left the wire and what the board
-said, and the groups it stored itself. Twin of shared/src/robot/estimate.ts.
+"""The state of the robot as the gateway knows it: the motion estimate, fed with the commands that left the
+wire and the reports of the board said, and the groups it stored itself. Twin of shared/src/robot/estimate.ts.
 
 Pure: time comes in, in seconds. Knows commands and reports; no wire, no client.
 """
@@ -93,7 +93,7 @@ class Estimate:
         return self._memory.played_frames(slot)
 
     def stored(self, slot: int, packets: Sequence[bytes], now: float) -> None:
-        """What that slot holds now, for sure. A frame that was due was begun from what it held before."""
+        """That slot holds these packets now. A frame that was due began from its content before."""
         self._advance(now)
         self._memory.store(slot, packets)
 
@@ -216,29 +216,29 @@ class Estimate:
         return target_of(self._motion, servo) is None and position_at(self._motion, servo, now_ms) is None
 
     def first_moves_ms(self, servos: Collection[int], now: float) -> float:
-        """How long first moves still take that a move of those servos would make faster or slower."""
+        """The time left of first moves that a move of those servos would make faster or slower."""
         return gentle_ms(self._motion, servos, self._advance(now), self.family)
 
     def others_ms(self, servos: Collection[int], now: float) -> float:
-        """How long those still move that a move of `servos` does not name."""
+        """The time left of moves of other servos than `servos`."""
         now_ms = self._advance(now)
         return remaining_ms(without_servos(self._motion, servos), now_ms)
 
     def farthest_from(self, target: ServoTarget, now: float, at_s: float) -> float:
-        """How far its servo may be from there then, in board units."""
+        """The largest possible distance of the servo from `target` at that time, in board units."""
         self._advance(now)
         return farthest_from(self._motion, target.servo, target.position, at_s * 1000, self.family)
 
     def halt_plan(self, now: float) -> HaltPlan:
-        """What a STOP pressed now holds and what not."""
+        """The plan of a STOP pressed now: its hold, and the unheld motion."""
         return halt_plan(self._motion, self._advance(now), self)
 
     def hold(self, now: float) -> Move | None:
-        """What holds the robot, as a move that begins to leave now, a gap behind a stop."""
+        """The move that holds the robot, if it begins to leave now, a gap behind a stop."""
         return hold_after_stop(self._motion, self._advance(now) - self.family.service_gap_ms, self)
 
     def unheld_since(self, pressed_s: float, now: float) -> Unheld | None:
-        """What goes on in spite of a STOP pressed then, whose last packet left just now."""
+        """The unheld motion of a STOP pressed at `pressed_s`, whose last packet left just now."""
         return unheld_since(pressed_s * 1000, self._motion, self._advance(now), self)
 
     def snapshot(self, now: float) -> MotionState:

@@ -24,14 +24,16 @@ if TYPE_CHECKING:
 
 class Halts:
     def __init__(self, board: "Board", now: Callable[[], float], stopped: Callable[[float], None]) -> None:
-        """`stopped` hears that the stops at a return have left, and since when the board may have moved."""
+        """`stopped` is called when the stops at a return have left, with the time since when the board may
+        have moved.
+        """
         self._board = board
         self._now = now
         self._stopped = stopped
         self._cut: tuple[str, CommandPacket] | None = None
         """The packet that a loss has cut on its way to the board at that place, until filler has ended it."""
         self.count = 0
-        """How often what was under way has been ended."""
+        """The number of halts."""
         self.was_lost = False
         """The port went away unasked, and has not come back."""
         self.at_return: asyncio.Task[None] | None = None
@@ -61,7 +63,7 @@ class Halts:
         return self.halt(CancelledError("The driver began something else."))
 
     def unheld_since(self, pressed_s: float) -> Unheld | None:
-        """What may go on in spite of a stop pressed then, whose last packet left just now."""
+        """The unheld motion of a stop pressed at `pressed_s`, whose last packet left just now."""
         return self._board.motion.unheld_since(pressed_s, self._now())
 
     def lost(self, place: str, unfinished: CommandPacket | None) -> None:
@@ -71,15 +73,16 @@ class Halts:
             self._cut = (place, unfinished) if unfinished else None
 
     def filler(self, place: str, filler_byte: int | None) -> CommandPacket | None:
-        """What ends the packet that was cut, where this board bears it."""
+        """Filler that ends the packet that was cut, if this board bears it."""
         cut_at, packet = self._cut or ("", None)
         if packet is None or filler_byte is None or cut_at != place:
             return None
         return CommandPacket(None, filler_for(packet.data, filler_byte))
 
     def port_opened(self, wire: Wire) -> None:
-        """What moved when the port was lost may move on, so several stops leave. Otherwise one is enough: an
-        owner of the port before this gateway may have begun something.
+        """After a loss servos may still move, so several stops leave. Otherwise one is enough, for motion
+        that an owner of the port before this gateway has begun.
+
         """
         if self.was_lost:
             self.at_return = asyncio.create_task(self._stop_at_return(wire))

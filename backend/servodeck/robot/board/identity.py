@@ -1,4 +1,4 @@
-"""Which family the board is of: the questions, in the order of boards.md 2.5, and what the answers mean, by
+"""The family of the board: the questions, in the order of boards.md 2.5, and what the answers mean, by
 the family table. Twin of shared/src/robot/identify.ts and identity.ts.
 
 The questions move nothing and store nothing on any board; on a LeArm any question ends a running group (L8).
@@ -181,5 +181,5 @@ async def identify(
 
 
 def is_echo(data: bytes) -> bool:
-    """What came in holds one of our own questions."""
+    """The received bytes contain one of our own questions."""
     return any(asked.packet.data in data for asked in QUESTIONS.values())

@@ -111,7 +111,7 @@ class MoveBuffer:
         return self._round
 
     def overtaken(self, servos: Collection[int], by_round: int) -> None:
-        """What was asked for before that round and still waits to start does not leave any more."""
+        """Drops the targets of those servos from before that round."""
         for servo in servos:
             wish = self._wishes.get(servo)
             if wish and wish.round < by_round:
@@ -120,7 +120,7 @@ class MoveBuffer:
         self._plan_starts()
 
     def drop(self, reason: GatewayError, owner: Owner = None) -> None:
-        """Those of `owner`, or all: they do not leave any more."""
+        """Drops the moves of `owner`, or all."""
         for servo, wish in list(self._wishes.items()):
             if owner is None or wish.request.owner is owner:
                 self._refuse(servo, reason)
@@ -240,8 +240,9 @@ def softened(
 
 
 def first_ms(servos: Collection[int], motion: Estimate, now: float) -> float:
-    """How long a move of these takes at least because one of unknown place starts with it or is on its first
-    way still; else 0.
+    """The least duration of a move of these servos, in ms, where one of them starts from an unknown position
+    or is still in its first move; else 0.
+
     """
     if any(motion.is_unknown(servo, now) for servo in servos):
         return FIRST_MOVE_MS

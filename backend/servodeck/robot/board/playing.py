@@ -216,7 +216,7 @@ class Plays:
     def __init__(
         self, moves: MoveBuffer, events: Callable[[PlayState], None], now: Callable[[], float]
     ) -> None:
-        """`events` hears how far the latest one is."""
+        """`events` is called with the progress of the latest play."""
         self._moves = moves
         self._publish = events
         self._now = now
@@ -235,7 +235,7 @@ class Plays:
         *,
         as_run: bool,
     ) -> PlayState:
-        """Raises MovingError while another one lasts. `ended` hears how it ended, by whichever cause."""
+        """Raises MovingError while another one lasts. `ended` is called with its final state."""
         self.judge_idle()
         play = Playing(group, by, self._moves, self._now, judge, self._changed, self._finish, as_run=as_run)
         self.present, self._ended = play, ended
@@ -250,7 +250,7 @@ class Plays:
             self._finish(self.present, error)
 
     def disown(self, caller_id: str, error: GatewayError) -> None:
-        """That caller may not drive any more: ends the play that they began."""
+        """Ends the play of that caller, which may not drive any more."""
         if self.present and self.present.by.caller.id == caller_id:
             self.end(error)
 

@@ -235,7 +235,7 @@ class BatteryReader:
             self._stop_timer()
 
     def client_joined(self) -> None:
-        """What was not read for a while is read now."""
+        """Reads the battery now if the last reading is old."""
         newest = self.newest
         if self._timer and (newest is None or self._now() - newest.at_s > BATTERY.every_ms / 1000):
             self._tick()

@@ -1,6 +1,6 @@
 """Puts questions to the board one at a time, and waits for what it says. Twin of shared/src/robot/replies.ts.
 
-Boards number nothing: an answer is told apart by its kind alone. Knows kinds of reports and time; no packet
+Packets have no numbers: an answer is recognised by its kind alone. Knows kinds of reports and time; no packet
 and no port.
 """
 
@@ -48,8 +48,8 @@ class Replies:
         self, left: Left, wait_s: float, *kinds: type[Report], not_before_s: float = -inf
     ) -> Report | None:
         """The first report of those kinds from now until that long after the question `left`; None where none
-        came. Raises what kept the question from leaving. What comes before `not_before_s` is of a question
-        before.
+        came. Raises what kept the question from leaving. A report before `not_before_s` belongs to an earlier
+        question.
         """
         with self._expecting(kinds, not_before_s) as answer:
             await left

@@ -1,9 +1,9 @@
-"""What the board's slots hold: the groups that this gateway stored there since it opened the port (twin of
-`createGroupMemory` in shared/src/robot/estimate.ts), and, on disk, which version of what was stored in each
-slot last.
+"""The content of the board's slots: the groups that this gateway stored there since it opened the port (twin
+of `createGroupMemory` in shared/src/robot/estimate.ts), and, on disk, which version of what was stored in
+each slot last.
 
-Of a group only its packets are kept: a full board's frames would be 200 MB, its packets are 10. Knows slots;
-not what runs.
+Of a group only its packets are stored: a full board's frames would be 200 MB, its packets are 10. Knows
+slots; not what runs.
 """
 
 import json
@@ -124,7 +124,7 @@ class SlotMemory:
         return sorted(self._of(board).broken)
 
     def stored(self, board: str) -> Mapping[int, StoredGroup]:
-        """What was stored whole in each slot last."""
+        """The last complete group of each slot."""
         return self._of(board).stored
 
     def version(self, board: str, slot: int) -> str:
@@ -177,7 +177,7 @@ class SlotMemory:
 
 
 def read(folder: Path) -> dict[str, Slots]:
-    """What cannot be read was not written here."""
+    """Unreadable content counts as empty."""
     found = json_in(folder / FILE)
     if found is None:
         old = json_in(folder / OLD_FILE) or {}
@@ -194,7 +194,7 @@ def slots_of(found: dict[str, Any]) -> Slots:
 
 
 def group_of(found: Any) -> StoredGroup:
-    """Earlier versions kept nothing but its version."""
+    """Earlier releases stored only its version."""
     return StoredGroup(version=found) if isinstance(found, str) else StoredGroup.model_validate(found)
 
 

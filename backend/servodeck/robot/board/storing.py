@@ -111,7 +111,7 @@ class Jobs:
             self._finish(job, error)
 
     def disown(self, caller_id: str, error: GatewayError) -> None:
-        """That caller may not drive any more: ends the download that they began."""
+        """Ends the download of that caller, which may not drive any more."""
         if self._current and self._current.by.id == caller_id:
             self.end(error)
 

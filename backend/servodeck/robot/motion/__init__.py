@@ -1,1 +1,3 @@
-"""Where the servos are estimated to be, from what has left the wire: the twin of shared/src/motion."""
+"""The estimated positions of the servos, from the commands that left the wire: the twin of
+shared/src/motion.
+"""

@@ -34,7 +34,7 @@ RUN_REPORT_MS = wire_ms(7)
 
 
 def announcement_ms(family: Family) -> float:
-    """What the board says before it looks for the group (S18, X1): it sends by busy-waiting (S21)."""
+    """The report that the board sends before it looks for the group (S18, X1), by busy-waiting (S21)."""
     if family.run_reports_name_slot:
         return RUN_REPORT_MS
     return BARE_PACKET_MS if "run" in family.answers else 0
@@ -97,7 +97,7 @@ def request_during(motion: Motion, run: DeadlineRun, wanted: Run, at_ms: float, 
 
 
 def begin_frame(motion: Motion, run: DeadlineRun, board: KnownBoard) -> Motion:
-    """What stands behind the last stored frame is erased flash: the run ends there, unsaid (S35, S46)."""
+    """Behind the last stored frame is erased flash: the run ends there without a report (S35, S46)."""
     frames = board.played_frames(run.slot)
     if frames is None:
         longest = longest_ms(Run(run.slot, run.times), board.family)

@@ -1,4 +1,4 @@
-"""What STOP can do about a motion: the move that holds the robot where it is, and what goes on in spite of
+"""The effect of STOP on a motion: the move that holds the robot, and the motion that goes on in spite of
 it. Both come from one value, so that they cannot contradict each other. Knows the estimate; no clock, no
 link. Twin of shared/src/motion/haltPlan.ts.
 """
@@ -19,8 +19,8 @@ STOP_OFFSETS_MS = [STOP.repeat_every_ms * (index + 1) for index in range(STOP.re
 
 @value
 class Unheld:
-    """What a STOP cannot hold. `servos` None: it is unknown which, because a group whose frames are not known
-    may run. `for_ms`: the longest that they may still move, counted from the press of STOP.
+    """The motion that a STOP cannot hold. `servos` None: it is unknown which, because a group whose frames
+    are not known may run. `for_ms`: the longest that they may still move, counted from the press of STOP.
     """
 
     servos: tuple[int, ...] | None
@@ -46,7 +46,7 @@ class Held:
 
 
 def halt_plan(motion: Motion, now_ms: float, board: KnownBoard) -> HaltPlan:
-    """As of the press of STOP at `now_ms`: the first hold, and what goes on behind the last one."""
+    """At the press of STOP at `now_ms`: the first hold, and the motion that goes on after the last one."""
     stopped_ms = now_ms + wire_ms(4)
     stopped = after_command(advance(motion, now_ms, board), Stop(), stopped_ms, board)
     hold = hold_after_stop(stopped, stopped_ms, board)
@@ -82,7 +82,7 @@ def after_hold(motion: Motion, hold: Move | None, stopped_ms: float, board: Know
 
 
 def unheld_since(pressed_ms: float, motion: Motion, last_ms: float, board: KnownBoard) -> Unheld | None:
-    """What may go on, now that the last packet of a STOP pressed at `pressed_ms` left at `last_ms`."""
+    """The unheld motion, after the last packet of a STOP pressed at `pressed_ms` left at `last_ms`."""
     family, limit_ms = board.family, last_ms + STOP.held_within_ms
     current = advance(motion, last_ms, board)
     rests_at_ms = {servo: rests_ms(track, family) for servo, track in current.tracks.items()}

@@ -64,12 +64,12 @@ def after_order(readings: Readings, command: Command, *, is_heard: bool) -> Read
 
 
 def only_released(readings: Readings) -> dict[int, Reading]:
-    """What the board said before is no longer so."""
+    """Earlier reports of the board are not valid any more."""
     return {servo: RELEASED for servo, reading in readings.items() if reading.is_released}
 
 
 def held_at(readings: Readings, servo: int) -> int | None:
-    """Where the board said that it stands; None where it has not, or where hands may have turned it since."""
+    """Its reported position; None where there is none, or where a person may have turned it since."""
     reading = readings.get(servo)
     return None if reading is None or reading.is_released else reading.position
 
@@ -182,7 +182,7 @@ class Playback(Protocol):
         """The board says that a group has ended."""
 
     def pass_ms(self, frames: Sequence[Frame]) -> float:
-        """How long one pass of a group takes at most."""
+        """The longest duration of one pass of a group."""
 
 
 # Nothing is known: after connecting, and after anything that may have moved the robot behind our back.
@@ -223,7 +223,7 @@ def leeway_at(motion: Motion, servo: int, now_ms: float, family: Family) -> floa
 
 
 def farthest_from(motion: Motion, servo: int, to: float, now_ms: float, family: Family) -> float:
-    """How far it may be from there at most, in board units."""
+    """Its largest possible distance from there, in board units."""
     at = position_at(motion, servo, now_ms)
     if at is not None:
         return abs(to - at)
@@ -234,7 +234,7 @@ def farthest_from(motion: Motion, servo: int, to: float, now_ms: float, family: 
 
 
 def target_of(motion: Motion, servo: int) -> float | None:
-    """Where a servo was last asked to be, or None when it never was."""
+    """The last target of a servo, or None."""
     track = motion.tracks.get(servo)
     return None if track is None or track.to_leeway == inf else track.to
 
@@ -250,7 +250,7 @@ def remaining_ms(motion: Motion, now_ms: float) -> float:
 
 
 def gentle_ms(motion: Motion, servos: Collection[int], now_ms: float, family: Family) -> float:
-    """How long a move must take at least, so that no servo whose start is unknown snaps to its target."""
+    """The least duration of a move, so that no servo of unknown position snaps to its target."""
     is_shared = family.motion.timing == "shared"
     if is_shared and isinstance(motion.run, UnknownRun):
         return inf

@@ -1,6 +1,6 @@
-"""Where each servo is now, given the commands that left the wire and when. One pure value and functions over
-it: no clock, no link. How a family moves is data (`Family.motion`), how it plays groups is deadlines.py or
-polled.py.
+"""The present position of each servo, from the commands that left the wire and their times. One pure value
+and functions over it: no clock, no link. How a family moves is data (`Family.motion`), how it plays groups is
+deadlines.py or polled.py.
 
 None means that it cannot be known: before the end of a servo's first move unless the board reported where it
 stands (model.py), while a group runs whose frames are not ours, behind the first frame of LeArm's groups
@@ -127,7 +127,7 @@ def after_command(motion: Motion, command: Command, at_ms: float, board: KnownBo
 
 
 def maybe_swallowed(motion: Motion, at_ms: float) -> Motion:
-    """What it completes then may move any servo to anywhere."""
+    """The packet that is completed then may move any servo to any position."""
     if motion.may_swallow == 0:
         return motion
     return replace(
@@ -157,7 +157,7 @@ def after_filler(motion: Motion, cut: Move, at_ms: float, family: Family) -> Mot
 
 
 def restless(before: Motion, after: Motion, at_ms: float, for_ms: float = LONGEST_MOVE_MS) -> Motion:
-    """Where an unknown group has ended, its last move may go on for that long."""
+    """The last move of an unknown group may last that long after its end."""
     if not isinstance(before.run, UnknownRun) or after.run is not None:
         return after
     return replace(after, restless_until_ms=max(after.restless_until_ms, at_ms + for_ms))
@@ -315,7 +315,7 @@ def perhaps_released(tracks: Tracks, servos: Collection[int], at_ms: float) -> T
 
 
 def pass_ms(frames: Sequence[Frame], board: KnownBoard) -> float:
-    """How long one pass of a group takes at most."""
+    """The longest duration of one pass of a group."""
     return playback_of(board).pass_ms(frames)
 
 

@@ -1,4 +1,4 @@
-"""Where each servo is on its way: linear, in whole ticks of the board (S25-S27, L5). Knows targets and times;
+"""The course of each servo: linear, in whole ticks of the board (S25-S27, L5). Knows targets and times;
 no group, no command. The board's ticks cannot be seen, so a servo under way may be one tick
 off, either way. Twin of shared/src/motion/tracks.ts.
 """

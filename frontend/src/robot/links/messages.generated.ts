@@ -58,7 +58,7 @@ export interface MoveMessage {
   nonce: string | null;
 }
 /**
- * Where a servo shall go, in its board's unit.
+ * The target of a servo, in its board's unit.
  */
 export interface Target {
   servo: number;
@@ -140,7 +140,7 @@ export interface EraseMessage {
   nonce: string | null;
 }
 /**
- * How fast the board plays the group in `slot`, `null` every group, until it is switched off.
+ * Set the speed of the group in `slot`, `null` for every group, until the board is switched off.
  */
 export interface SetSpeedMessage {
   type: 'setSpeed';
@@ -419,7 +419,7 @@ export interface BatteryReport {
   batteryMv: number;
 }
 /**
- * Which servos the board drives, by the unit they count in, and its firmware.
+ * The kind of the board's servos, by the unit of their positions, and its firmware.
  */
 export interface VersionReport {
   kind: 'version';
@@ -781,7 +781,7 @@ export interface OffsetsReport {
   offsets: ServoTrim[];
 }
 /**
- * What a board adds to the positions of a servo, in its unit.
+ * The trim that a board adds to the positions of a servo, in its unit.
  */
 export interface ServoTrim {
   servo: number;
@@ -915,7 +915,7 @@ export interface SetSpeedCommand {
   percent: number;
 }
 /**
- * Takes the torque off these servos, or asks where they stand.
+ * Releases these servos, or reads their positions.
  */
 export interface ServosCommand {
   kind: 'release' | 'readPositions';
