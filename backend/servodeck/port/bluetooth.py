@@ -23,6 +23,7 @@ from servodeck.errors import (
     PortMissingError,
 )
 from servodeck.port.ports import READ_WAIT_S, PortInfo
+from servodeck.port.whereabouts import BLUETOOTH
 from servodeck.protocol import load_shared
 from servodeck.protocol.decoder import LONGEST_PACKET
 from servodeck.protocol.families import Withheld
@@ -34,7 +35,6 @@ if TYPE_CHECKING:
     from bleak.backends.device import BLEDevice
     from bleak.backends.scanner import AdvertisementData
 
-SCHEME: Final = "ble:"
 FIND_S = 5.0
 # Robots of one class often bear one name: so long is listened for another one after the first.
 NAMESAKES_S = 1.0
@@ -85,10 +85,6 @@ class Characteristic(Protocol):
 C = TypeVar("C", bound=Characteristic)
 
 
-def is_bluetooth(device: str) -> bool:
-    return device.lower().startswith(SCHEME)
-
-
 def choose(characteristics: Iterable[C]) -> tuple[C, C] | None:
     """Where the board is heard and where it is written to: by what each can do, because modules differ."""
     found = list(characteristics)
@@ -121,7 +117,7 @@ class Bluetooth:
         """`ble:ADDRESS` or `ble:NAME`. A name stands for the module that was found by it first. Raises a
         PortError with a sentence.
         """
-        name = device[len(SCHEME) :]
+        name = device[len(BLUETOOTH) :]
         if not name:
             raise PortMissingError(
                 "Name the module: ble:ADDRESS or ble:NAME. servodeck ports --bluetooth lists them."
@@ -201,7 +197,7 @@ class Bluetooth:
                 "It is not paired in the system's settings."
             )
         if len(found) > 1:
-            choice = " or ".join(f"{SCHEME}{one}" for one in sorted(found))
+            choice = " or ".join(f"{BLUETOOTH}{one}" for one in sorted(found))
             raise OtherDeviceError(f"Several modules are called {name}. Choose one by its address: {choice}.")
         (only,) = found.values()
         self._addresses[name] = only.address
@@ -213,7 +209,7 @@ class Bluetooth:
         heard = (await BleakScanner.discover(timeout=seconds, return_adv=True)).values()
         named = [(advertisement.rssi, one) for one, advertisement in heard if is_module(one, advertisement)]
         return [
-            PortInfo(f"{SCHEME}{one.address}", f"{one.name or 'without a name'}, Bluetooth", likely=True)
+            PortInfo(f"{BLUETOOTH}{one.address}", f"{one.name or 'without a name'}, Bluetooth", likely=True)
             for _, one in sorted(named, key=lambda pair: -pair[0])
         ]
 

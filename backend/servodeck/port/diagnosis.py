@@ -8,10 +8,9 @@ import time
 from collections.abc import Awaitable
 from dataclasses import dataclass, field
 
-from servodeck.port.bluetooth import is_bluetooth
 from servodeck.port.hid import ReportInbox, find_board, is_hid
 from servodeck.port.ports import OpenPort, group_of, open_port
-from servodeck.port.whereabouts import holders_of
+from servodeck.port.whereabouts import holders_of, is_bluetooth
 from servodeck.protocol.decoder import Decoder, DecoderEvent, PacketEvent
 from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.packets import encode

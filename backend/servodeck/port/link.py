@@ -20,10 +20,10 @@ from servodeck.errors import (
     PortError,
     PortLostError,
 )
-from servodeck.port.bluetooth import is_bluetooth, this_computer
+from servodeck.port.bluetooth import this_computer
 from servodeck.port.diagnosis import Heard, find_rate, has_rates
 from servodeck.port.ports import OpenPort, list_usb, open_port
-from servodeck.port.whereabouts import UsbDevice, Whereabouts
+from servodeck.port.whereabouts import UsbDevice, Whereabouts, is_bluetooth
 from servodeck.port.wire import Wire, fail, settle
 from servodeck.protocol.decoder import LONGEST_PACKET
 from servodeck.protocol.families import Withheld

@@ -15,8 +15,13 @@ from servodeck.value import value
 PROCESSES = Path("/proc")
 # The name of the only board on a HID cable; the names of single ones begin with it.
 HID = "hid"
+BLUETOOTH = "ble:"
 # None, and what adapters bear as they come from the factory.
 SHARED_NUMBERS = frozenset({"", "0", "0001"})
+
+
+def is_bluetooth(device: str) -> bool:
+    return device.lower().startswith(BLUETOOTH)
 
 
 @value
