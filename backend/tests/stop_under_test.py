@@ -72,7 +72,9 @@ class Outcome:
     due_s: float
     was_latched: bool
     answered: Said | None
-    """What the STOP said behind which a person resumed: they answer for that (docs/adr/0012)."""
+    """What the STOP said that has latched, or behind which a person resumed: they answer for that
+    (docs/adr/0012).
+    """
 
     @property
     def moved_on(self) -> bool:
@@ -81,7 +83,9 @@ class Outcome:
 
     def broken(self) -> list[str]:
         """Servos that moved longer than STOP said, or though nothing was said."""
-        if not (self.said or self.was_latched):
+        if self.was_latched and not (self.said or self.answered):
+            return []
+        if not self.said:
             return [
                 f"servo {servo} moved for {1000 * (moved_s - self.due_s):.1f} ms, and no stop came"
                 for servo, moved_s in zip(SERVOS, self.moved_s, strict=True)
@@ -188,7 +192,11 @@ class Driven:
 
     @property
     def answered(self) -> Said | None:
-        """What was said by the STOP behind which a person resumed, where nothing was begun since."""
+        """What was said by the STOP that latched, or behind which a person resumed, where nothing was begun
+        since.
+        """
+        if self.control.latch:
+            return self.control.said[-1] if self.control.said else None
         if self._begun() != self._begun_before_resume:
             return None
         return next(
