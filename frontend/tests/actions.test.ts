@@ -1,6 +1,7 @@
 // The list of all actions: every action with its keys, searched, and done from there.
 
 import { FRAME_ACTIONS, FRAME_KEYS } from '../src/features/animate/frames/frameActions.ts';
+import { PLAY_ACTIONS } from '../src/features/animate/play/playActions.ts';
 import { TIMELINE_ACTIONS, TIMELINE_KEYS } from '../src/features/animate/timeline/timelineActions.ts';
 import { PAGE_ACTIONS } from '../src/app/pageActions.ts';
 import { chordText } from '../src/ui/chordText.ts';
@@ -30,7 +31,7 @@ test('it has every action that has a key, with its keys', async ({ page, url }) 
   await expect(list.search).toBeFocused();
   for (const [name, actions] of [
     ['Everywhere', PAGE_ACTIONS],
-    ['Timeline', [...Object.values(TIMELINE_ACTIONS), ...TIMELINE_KEYS]],
+    ['Timeline', [...PLAY_ACTIONS, ...Object.values(TIMELINE_ACTIONS), ...TIMELINE_KEYS]],
     ['Frames', [...Object.values(FRAME_ACTIONS), ...FRAME_KEYS]],
   ] as const) {
     const text = await list
@@ -54,6 +55,19 @@ test('an action is searched and done by keyboard, and the field that it opens ha
   await page.keyboard.press('Enter');
   await expect(list.dialog).toBeHidden();
   await expect(page.getByRole('textbox', { name: /marker/i })).toBeFocused();
+});
+
+test('what has no key is in it too: easings and colours, running on the board, the appearance', async ({
+  page,
+  url,
+}) => {
+  const { dashboard, list } = await opened(page, url);
+  await dashboard.capture.click();
+  await page.keyboard.press('Control+k');
+  for (const name of ['Easing: linear', 'Colour: Plum', 'Run on board'])
+    await expect(list.action(name)).toBeVisible();
+  await list.action(/^Appearance/).click();
+  await expect(dashboard.bar.getByRole('button', { name: /^Appearance: (Light|Dark)/ })).toBeVisible();
 });
 
 test('what cannot be done now stays in the list and says why', async ({ page, url }) => {

@@ -4,11 +4,13 @@ import { ofKind } from '../../e2e/fixtures/bus.ts';
 import * as group from '../../e2e/fixtures/group.ts';
 import * as library from '../../e2e/fixtures/library.ts';
 import * as notes from '../../e2e/fixtures/notes.ts';
+import * as timeline from '../../e2e/fixtures/timeline.ts';
 import { expect, here, poll, test } from './harness/test.ts';
 
 const { captureGroup, downloadGroup } = here(group);
 const { libraryOf } = here(library);
 const { noteTexts } = here(notes);
+const { timelineOf } = here(timeline);
 
 test('the board gets a group before it runs it, not a second time, and in place of another one when told so', async ({
   dashboard,
@@ -249,12 +251,21 @@ test('what begins and ends moves nothing, and keeps the focus', async ({ dashboa
   }
 });
 
-test('the robot follows the playhead step by step, and no longer after STOP', async ({ dashboard, page }) => {
+test('the robot follows the playhead step by step, by button and by key, and no longer after STOP', async ({
+  dashboard,
+  page,
+  robot,
+}) => {
   await captureGroup(dashboard, [1000, 1400], 400);
   const follows = page.getByRole('switch', { name: 'Robot follows' });
   await follows.check();
   await dashboard.button('Frame back').click();
   await expect(dashboard.estimate(1)).toHaveText('≈ 1000');
+  await timelineOf(page).grid.focus();
+  await page.keyboard.press('.');
+  await expect(dashboard.estimate(1)).toHaveText('≈ 1400');
+  // Each in the time that the group has for it, and not as fast as the servo can.
+  expect(ofKind(await robot.bus(), 'move').at(-1)?.durationMs).toBe(400);
   await dashboard.type(dashboard.frameTime(1), 500);
   await page.keyboard.press('Escape');
   await expect(follows).not.toBeChecked();

@@ -14,6 +14,7 @@ import { boardName } from '../i18n/sentences.ts';
 import { LinkChip } from '../features/connect/LinkChip.tsx';
 import { StatusLine, type StatusLineProps } from '../features/connect/StatusLine.tsx';
 import { ActionsButton } from './ActionsDialog.tsx';
+import { THEME } from './pageActions.ts';
 import { PART } from '../ui/focus.ts';
 import styles from './TopBar.module.css';
 import { useLayout } from '../ui/useLayout.ts';
@@ -103,23 +104,8 @@ function Robot() {
 
 const THEME_ICONS: Readonly<Record<Theme, IconName>> = { system: 'half', light: 'sun', dark: 'moon' };
 
-/** The first press changes what is seen: away from what the system has, then to it, then back to following it. */
-function nextTheme(theme: Theme): Theme {
-  const system = matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light';
-  if (theme === system) return 'system';
-  return theme === 'system' ? OTHER[system] : system;
-}
-
-const OTHER = { light: 'dark', dark: 'light' } as const;
-
 function ThemeButton() {
-  const { view } = useStores();
-  const theme = useView((state) => state.theme);
-  return (
-    <IconButton
-      icon={THEME_ICONS[theme]}
-      label={words.theme.now({ theme: words.theme[theme] })}
-      onPress={() => view.setState({ theme: nextTheme(theme) })}
-    />
-  );
+  const stores = useStores();
+  const icon = THEME_ICONS[useView((state) => state.theme)];
+  return <IconButton icon={icon} label={THEME.label(stores)} onPress={() => THEME.run(stores)} />;
 }

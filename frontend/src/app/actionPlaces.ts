@@ -2,9 +2,11 @@
 // actions, and for the tests that hold for each of them.
 
 import { FRAME_ACTIONS, FRAME_KEYS, frameContextOf } from '../features/animate/frames/frameActions.ts';
-import { PLAY, PREVIEW } from '../features/animate/play/playActions.ts';
+import { PLAY_ACTIONS } from '../features/animate/play/playActions.ts';
 import { contextOf } from '../features/animate/timeline/context.ts';
 import {
+  COLOUR_ACTIONS,
+  EASING_ACTIONS,
   MENU_KEYS,
   ROW_ACTIONS,
   TIMELINE_ACTIONS,
@@ -69,8 +71,12 @@ export const ACTION_PLACES: readonly ActionPlace[] = [
   {
     ...{ id: 'timeline', keys: [...TIMELINE_KEYS, MENU_KEYS] },
     actions: (stores) => [
-      ...listed([PLAY, PREVIEW], () => stores, isOpen(stores, 'group')),
-      ...listed(Object.values(TIMELINE_ACTIONS), () => contextOf(stores), isOpen(stores, 'group')),
+      ...listed(PLAY_ACTIONS, () => stores, isOpen(stores, 'group')),
+      ...listed(
+        [...Object.values(TIMELINE_ACTIONS), ...EASING_ACTIONS, ...COLOUR_ACTIONS],
+        () => contextOf(stores),
+        isOpen(stores, 'group'),
+      ),
     ],
   },
   {

@@ -11,6 +11,7 @@ import { actionOf, chordOf, type Action } from '../ui/action.ts';
 import { isTextField } from '../ui/inputEvents.ts';
 import { goToPart } from '../ui/focus.ts';
 import { words } from '../i18n/words.ts';
+import type { Theme } from '../features/view.ts';
 
 /** Where its keys do something; a single sign only where it means nothing else. */
 type Reach = 'everywhere' | 'outsideDialogs' | 'outsideFields';
@@ -66,6 +67,22 @@ export const LIST_ACTIONS: PageAction = {
   run: ({ view }) => view.setState({ actionsOpen: true }),
 };
 
+/** The first press changes what is seen: away from what the system has, then to it, then back to following it. */
+function nextTheme(theme: Theme): Theme {
+  const system = matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light';
+  if (theme === system) return 'system';
+  return theme === 'system' ? OTHER_THEME[system] : system;
+}
+
+const OTHER_THEME = { light: 'dark', dark: 'light' } as const;
+
+export const THEME: Action<Stores, Pick<Stores, 'view'>> = {
+  ...{ id: 'theme', icon: 'half', keys: [] },
+  label: ({ view }) => words.theme.now({ theme: words.theme[view.getState().theme] }),
+  enabled: () => true,
+  run: ({ view }) => view.setState({ theme: nextTheme(view.getState().theme) }),
+};
+
 const OWN: readonly PageAction[] = [
   onWritten(UNDO),
   onWritten(REDO),
@@ -74,7 +91,7 @@ const OWN: readonly PageAction[] = [
   ...PARTS,
 ];
 
-export const PAGE_ACTIONS: readonly Action<Stores>[] = [STOP, ...OWN];
+export const PAGE_ACTIONS: readonly Action<Stores>[] = [STOP, ...OWN, THEME];
 
 const DIALOGS = '[role=dialog], [role=alertdialog], [role=menu]';
 

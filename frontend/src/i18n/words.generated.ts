@@ -484,6 +484,7 @@ export interface Messages {
     readonly silent: (values: { readonly names: string }) => string;
     readonly back: string;
     readonly forth: string;
+    readonly needsPause: string;
     readonly loop: string;
     readonly live: string;
     readonly speedField: string;
@@ -1928,6 +1929,8 @@ export interface Messages {
     };
     readonly colour: string;
     readonly noColour: string;
+    readonly setEasing: (values: { readonly easing: string }) => string;
+    readonly setColour: (values: { readonly colour: string }) => string;
     readonly summary: (values: { readonly row: string; readonly frame: number; readonly at: string; readonly count: number }) => string;
     readonly noKey: (values: { readonly row: string }) => string;
     readonly verbs: {
@@ -1955,8 +1958,6 @@ export interface Messages {
       readonly fitAll: string;
       readonly fitSelection: string;
       readonly range: string;
-      readonly frameBefore: string;
-      readonly frameAfter: string;
       readonly keyBefore: string;
       readonly keyAfter: string;
       readonly nextMarker: string;

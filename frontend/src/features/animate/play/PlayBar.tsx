@@ -4,7 +4,7 @@
 import { useShallow } from 'zustand/react/shallow';
 import type { SlotContent } from '#shared/group/slotBook.ts';
 import type { Player, PlaybackPhase } from './playback.ts';
-import { mayPlay, PLAY, PREVIEW } from './playActions.ts';
+import { canRunOnBoard, PLAY, PREVIEW, RUN_ON_BOARD, STEP_BACK, STEP_FORTH } from './playActions.ts';
 import { playerOf, SPEED_PERCENT } from './player.ts';
 import {
   useStores,
@@ -22,7 +22,7 @@ import { useSlotContents } from '../../board/slots/slotHooks.ts';
 import { motionHindrance, startHindrance } from '../../../robot/readiness.ts';
 import { isSilent } from '../../servoView.ts';
 import { timesOf } from '#shared/group/groupTimes.ts';
-import { Button, IconButton } from '../../../ui/Button.tsx';
+import { ActionButton, ActionIconButton, Button } from '../../../ui/Button.tsx';
 import { cx } from '../../../ui/cx.ts';
 import { LiveText } from '../../../ui/LiveText.tsx';
 import { NumberField } from '../../../ui/NumberField.tsx';
@@ -36,27 +36,16 @@ const usePlayer = (): Player => playerOf(useStores().playback);
 
 export function PlayBar() {
   const phase = usePlayback((state) => state.phase);
-  const player = usePlayer();
-  const whyNot = usePlayHindrance();
+  const stores = useStores();
+  useDocument(({ present }) => present.frames.length === 0);
   const isIdle = phase === null;
-  const mayStep = useDocument(({ present }) => present.frames.length > 0) && isIdle;
   return (
     <div className={styles.bar} role="group" aria-label={words.play.tools}>
-      <IconButton
-        icon="earlier"
-        label={words.play.back}
-        isDisabled={!mayStep}
-        onPress={() => player.step(-1)}
-      />
+      <ActionIconButton action={STEP_BACK} shown={stores} context={() => stores} />
       <PlayButton phase={phase} />
-      <IconButton
-        icon="later"
-        label={words.play.forth}
-        isDisabled={!mayStep}
-        onPress={() => player.step(1)}
-      />
+      <ActionIconButton action={STEP_FORTH} shown={stores} context={() => stores} />
       <PreviewButton phase={phase} />
-      <RunOnBoard isIdle={isIdle} whyNot={whyNot} />
+      <RunOnBoard />
       <div className={cx(styles.side, !isIdle && styles.busy)}>
         <Settings isDisabled={!isIdle} />
         <Phase phase={phase} />
@@ -65,20 +54,19 @@ export function PlayBar() {
   );
 }
 
-/** Why nothing of the group can be sent now. */
-function usePlayHindrance(): string | undefined {
-  const stores = useStores();
+/** The stores, read again with each change of what decides whether something of the group can be sent. */
+function useSendable() {
   useDocument(({ present }) => `${present.unit} ${present.frames.length === 0}`);
   useSnapshot(startHindrance);
   useDevice((state) => state.family);
-  const may = mayPlay(stores);
-  return may === true ? undefined : may;
+  return useStores();
 }
 
 /** One button to begin and to end: the focus is still on it when what it began is to end. */
 function PlayButton({ phase }: { readonly phase: PlaybackPhase | null }) {
   const player = usePlayer();
-  const whyNot = usePlayHindrance();
+  const may = PLAY.enabled(useSendable());
+  const whyNot = may === true ? undefined : may;
   const ends = phase === null || phase === 'previewing' ? null : phase;
   return (
     <Button
@@ -194,27 +182,19 @@ function Settings({ isDisabled }: { readonly isDisabled: boolean }) {
   );
 }
 
-interface RunOnBoardProps {
-  readonly isIdle: boolean;
-  readonly whyNot: string | undefined;
-}
-
-function RunOnBoard({ isIdle, whyNot }: RunOnBoardProps) {
-  const player = usePlayer();
-  const commands = useDevice((state) => state.family.commands);
+function RunOnBoard() {
+  const stores = useSendable();
+  usePlayback((state) => state.phase);
   const slot = useSlot();
   const content = useSlotContents()(slot);
-  if (!commands.includes('run') || !commands.includes('download')) return null;
+  if (!canRunOnBoard(stores)) return null;
   return (
-    <Button
-      icon="board"
-      isDisabled={whyNot !== undefined || !isIdle}
-      whyNot={isIdle ? whyNot : undefined}
+    <ActionButton
+      action={RUN_ON_BOARD}
+      shown={stores}
+      context={() => stores}
       hint={boardHint(slot, content)}
-      onPress={() => player.runOnBoard()}
-    >
-      {words.play.onBoard}
-    </Button>
+    />
   );
 }
 

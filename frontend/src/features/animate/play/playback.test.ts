@@ -8,6 +8,8 @@ import { downloadCancelled } from '../../../i18n/sentences.ts';
 import { createTestPage } from '../../pageUnderTest.ts';
 import { createSharedSlots } from '../../board/slots/sharedSlotsUnderTest.ts';
 import { INITIAL_SERVO_VIEW } from '../../servoView.ts';
+import { runByKey } from '../../../ui/action.ts';
+import { STEPS } from './playActions.ts';
 
 const frame = (durationMs: number, position: number, more: Partial<NewFrame> = {}): NewFrame => ({
   durationMs,
@@ -301,6 +303,35 @@ describe('playing from the page', () => {
       [400, 1600],
       [400, 1000],
     ]);
+  });
+});
+
+describe('a step by its key', () => {
+  const press = (key: string) => ({ key, ctrlKey: false, metaKey: false, shiftKey: false, altKey: false });
+
+  test('goes from frame to frame, with the beginning as the first stop, and the time is said', async () => {
+    const page = await pageWith(WAVE);
+    const { playhead, notices } = page;
+    const at = [];
+    for (const key of ['.', '.', ',', ',', ',']) {
+      expect(runByKey(STEPS, press(key), page)).toBe(true);
+      at.push([playhead.at(), notices.said.getState()]);
+    }
+    expect(at).toEqual([
+      [400, '0.40 s'],
+      [800, '0.80 s'],
+      [400, '0.40 s'],
+      [0, '0.00 s'],
+      [0, '0.00 s'],
+    ]);
+  });
+
+  test('does nothing while the group plays, as its button', async () => {
+    const page = await pageWith(WAVE);
+    page.playback.togglePreview();
+    runByKey(STEPS, press('.'), page);
+    expect(page.playhead.at()).toBe(0);
+    expect(STEPS.map(({ enabled }) => enabled(page))).toEqual(['Pause first.', 'Pause first.']);
   });
 });
 

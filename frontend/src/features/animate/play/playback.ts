@@ -67,7 +67,7 @@ export interface Player {
   runOnBoard(): void;
   /** Where it is; a group on the board ends after its frame in progress. */
   pause(): void;
-  /** To the end of the next frame of the group, or of the one before; the robot goes along where it follows. */
+  /** To the end of the next frame of the group, or of the one before, or to the beginning; the robot goes along where it follows. */
   step(direction: 1 | -1): void;
   /** To be called while the page is drawn: moves the playhead, and the robot where it follows. */
   frame(): void;

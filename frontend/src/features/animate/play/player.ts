@@ -6,6 +6,7 @@ import { totalDurationMs } from '#shared/group/group.ts';
 import { frameEnds } from '#shared/group/tracks.ts';
 import type { Activity } from '#shared/robot/state.ts';
 import { words } from '../../../i18n/whole.ts';
+import { instantText } from '../timeline/valueText.ts';
 import { createBoardRun, pageAt, previewAt, type PagePlay, type PreviewPlay } from './boardRun.ts';
 import { obstacles, type CompiledGroup, problemText } from '../../board/compile/compiled.ts';
 import { createFollower } from '../../../robot/follower.ts';
@@ -151,13 +152,16 @@ function createPlayer(options: PlaybackOptions, store: StoreApi<PlaybackState>):
   }
 
   function step(direction: 1 | -1): void {
-    const ends = frameEnds(document.store.getState().present.frames);
+    const stops = [0, ...frameEnds(document.store.getState().present.frames)];
     const at = playhead.at();
     const to =
-      direction === 1 ? ends.find((endMs) => endMs > at) : (ends.findLast((endMs) => endMs < at) ?? ends[0]);
-    if (to === undefined) return;
-    if (store.getState().isLive) follower.go(playedPart.poseAt(to), Math.abs(to - at), playedPart.poseAt(at));
-    playhead.show(to);
+      direction === 1 ? stops.find((stopMs) => stopMs > at) : stops.findLast((stopMs) => stopMs < at);
+    if (to !== undefined) {
+      if (store.getState().isLive)
+        follower.go(playedPart.poseAt(to), Math.abs(to - at), playedPart.poseAt(at));
+      playhead.show(to);
+    }
+    notices.say(instantText(playhead.at()));
   }
 
   return {

@@ -31,8 +31,8 @@ import { StatusText, type Said } from './StatusText.tsx';
 import { MENU_KEYS, pressInTimeline } from './timelineActions.ts';
 import { TimelineMenu, type OpenMenu } from './TimelineMenu.tsx';
 import { TimelineTools } from './TimelineTools.tsx';
-import { actionOf, chordOf } from '../../../ui/action.ts';
-import { PLAY, PREVIEW } from '../play/playActions.ts';
+import { actionOf, chordOf, runByKey } from '../../../ui/action.ts';
+import { PLAY, PREVIEW, STEPS } from '../play/playActions.ts';
 import { PART } from '../../../ui/focus.ts';
 import styles from './Timeline.module.css';
 import { Canvas, type Pen } from '../../picture/Canvas.tsx';
@@ -133,7 +133,8 @@ export const Timeline = memo(function Timeline() {
     if (MENU_KEYS.keys.includes(chordOf(event))) openMenu('keys', cellAtCursor());
     // The player says what keeps it from playing.
     else if (plays !== undefined) plays.run(stores);
-    else if (!pressInTimeline(contextOf(stores), event.nativeEvent)) return;
+    else if (!runByKey(STEPS, event, stores) && !pressInTimeline(contextOf(stores), event.nativeEvent))
+      return;
     event.preventDefault();
   }
 

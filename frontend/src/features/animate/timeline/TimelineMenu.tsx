@@ -4,18 +4,22 @@ import { memo } from 'react';
 import { Menu, MenuItem, MenuSection, SubmenuTrigger } from 'react-aria-components/Menu';
 import { Popover } from 'react-aria-components/Popover';
 import { Separator } from 'react-aria-components/Separator';
-import { COLOURS } from '#shared/document/schema.ts';
-import { EASINGS } from '#shared/group/group.ts';
 import { useServoView, useStores } from '../../stores.ts';
 import type { Action } from '../../../ui/action.ts';
 import { chordText } from '../../../ui/chordText.ts';
 import { hinted } from '../../../ui/hinting.ts';
 import { Icon } from '../../../ui/Icon.tsx';
 import { words } from '../../../i18n/whole.ts';
-import { colour, ease } from './changes.ts';
 import { contextOf, rowOf, type TimelineContext } from './context.ts';
 import type { Row } from './rows.ts';
-import { ROW_ACTIONS, TIMELINE_ACTIONS, type TimelineActionName } from './timelineActions.ts';
+import {
+  type ChoiceAction,
+  COLOUR_ACTIONS,
+  EASING_ACTIONS,
+  ROW_ACTIONS,
+  TIMELINE_ACTIONS,
+  type TimelineActionName,
+} from './timelineActions.ts';
 import { InLanguage } from '../../../ui/InLanguage.tsx';
 import styles from '../../../ui/Menu.module.css';
 
@@ -72,6 +76,12 @@ export const TimelineMenu = memo(function TimelineMenu({
 function KeysMenu({ onClose }: { onClose(): void }) {
   const stores = useStores();
   const context = contextOf(stores);
+  const choiceItems = (actions: readonly ChoiceAction<unknown>[]): React.ReactElement[] =>
+    actions.map(({ id, shortLabel, run }) => (
+      <MenuItem key={id} className={styles.item ?? ''} onAction={() => run(contextOf(stores))}>
+        {shortLabel()}
+      </MenuItem>
+    ));
   const items = (names: readonly TimelineActionName[]): React.ReactElement[] =>
     names.map((name) => <ActionItem key={name} action={TIMELINE_ACTIONS[name]} />);
   return (
@@ -86,26 +96,10 @@ function KeysMenu({ onClose }: { onClose(): void }) {
         {items(CHANGES)}
       </Submenu>
       <Submenu label={words.timeline.easing} isDisabled={context.state.selected.size === 0} onClose={onClose}>
-        {EASINGS.map((easing) => (
-          <MenuItem
-            key={easing}
-            className={styles.item ?? ''}
-            onAction={() => ease(contextOf(stores), easing)}
-          >
-            {words.timeline.easings[easing]}
-          </MenuItem>
-        ))}
+        {choiceItems(EASING_ACTIONS)}
       </Submenu>
       <Submenu label={words.timeline.colour} isDisabled={context.state.selected.size === 0} onClose={onClose}>
-        {[...COLOURS, null].map((one) => (
-          <MenuItem
-            key={one ?? ''}
-            className={styles.item ?? ''}
-            onAction={() => colour(contextOf(stores), one)}
-          >
-            {one === null ? words.timeline.noColour : words.timeline.colours[one]}
-          </MenuItem>
-        ))}
+        {choiceItems(COLOUR_ACTIONS)}
       </Submenu>
       <Submenu label={words.timeline.rows.menu} isDisabled={false} onClose={onClose}>
         {rowItems(rowOf(context, context.state.cursor.row))}

@@ -3,17 +3,16 @@
 import { memo, type ReactNode } from 'react';
 import { useShallow } from 'zustand/react/shallow';
 import { Toolbar } from 'react-aria-components/Toolbar';
-import { EASINGS, type Easing } from '#shared/group/group.ts';
+import type { Easing } from '#shared/group/group.ts';
 import { useStores, useView, useDocument, useTimeline } from '../../stores.ts';
 import { words } from '../../../i18n/whole.ts';
 import { IconButton, ActionIconButton } from '../../../ui/Button.tsx';
 import { Select } from '../../../ui/Select.tsx';
 import { type KeySet, selectedKeys } from './timeline.ts';
 import { useWords } from '../../../i18n/words.ts';
-import { ease } from './changes.ts';
 import { contextOf } from './context.ts';
 import { type GroupTimes, timesOf } from '#shared/group/groupTimes.ts';
-import { TIMELINE_ACTIONS, type TimelineActionName } from './timelineActions.ts';
+import { EASING_ACTIONS, TIMELINE_ACTIONS, type TimelineActionName } from './timelineActions.ts';
 import addsSwitchStyles from './AddsSwitch.module.css';
 import { InLanguage } from '../../../ui/InLanguage.tsx';
 import styles from './TimelineTools.module.css';
@@ -108,9 +107,9 @@ function EasingChoice() {
       isDisabled={selected.size === 0}
       options={[
         ...(value === '' ? [{ value, label: words.timeline.easing } as const] : []),
-        ...EASINGS.map((easing) => ({ value: easing, label: words.timeline.easings[easing] })),
+        ...EASING_ACTIONS.map(({ choice, shortLabel }) => ({ value: choice, label: shortLabel() })),
       ]}
-      onChange={(easing) => easing !== '' && ease(contextOf(stores), easing)}
+      onChange={(easing) => EASING_ACTIONS.find(({ choice }) => choice === easing)?.run(contextOf(stores))}
     />
   );
 }

@@ -155,12 +155,6 @@ export function goToKey(context: TimelineContext, side: -1 | 1): void {
   lookAt(context, cell.atMs);
 }
 
-/** From frame to frame, with the beginning as the first stop. */
-export function goToFrame(context: TimelineContext, side: -1 | 1): void {
-  const stops = [0, ...context.times.ends].map((atMs) => ({ atMs, frameId: 0 }));
-  stepTo(context, beside(stops, context.state.playheadMs, side)?.atMs ?? context.state.playheadMs);
-}
-
 export function selectRow(context: TimelineContext, id: string, mode: SelectMode): void {
   const keys = allKeys(context.times, rowOf(context, id)?.servos ?? []);
   select(context.stores, withKeys(context.state.selected, keys, mode), {

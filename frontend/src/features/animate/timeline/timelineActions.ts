@@ -3,10 +3,14 @@
 
 import { chordOf, runByKey, type Action, type KeyUse, type Pressed } from '../../../ui/action.ts';
 import { words, type Words } from '../../../i18n/whole.ts';
+import { COLOURS, type Colour } from '#shared/document/schema.ts';
+import { EASINGS, type Easing } from '#shared/group/group.ts';
 import {
+  colour,
   copy,
   cut,
   duplicate,
+  ease,
   mirrorFrames,
   paste,
   remove,
@@ -23,7 +27,6 @@ import type { Row } from './rows.ts';
 import {
   fitAll,
   fitSelection,
-  goToFrame,
   goToKey,
   page,
   selectRow,
@@ -97,8 +100,6 @@ const ACTIONS: Readonly<Record<TimelineActionName, Own>> = {
   fitAll: { icon: 'fit', keys: ['f'], run: fitAll },
   fitSelection: { icon: 'fit', keys: ['Shift+f'], needs: 'keys', run: fitSelection },
   range: { icon: 'refresh', keys: ['l'], run: toggleRange },
-  frameBefore: { icon: 'earlier', keys: [','], run: (context) => goToFrame(context, -1) },
-  frameAfter: { icon: 'later', keys: ['.'], run: (context) => goToFrame(context, 1) },
   keyBefore: { icon: 'earlier', keys: ['j'], run: (context) => goToKey(context, -1) },
   keyAfter: { icon: 'later', keys: ['k'], run: (context) => goToKey(context, 1) },
   toStart: { icon: 'earlier', keys: ['Home'], run: (context) => stepTo(context, 0) },
@@ -136,6 +137,38 @@ export const TIMELINE_ACTIONS = Object.fromEntries(
 ) as Readonly<Record<TimelineActionName, TimelineAction>>;
 
 const all = Object.values(TIMELINE_ACTIONS);
+
+/** What is set on the frames of the selected keys: one action for each choice, in a menu under a name of their own. */
+export interface ChoiceAction<Choice> extends Action<TimelineContext, Shown> {
+  readonly choice: Choice;
+  /** In its menu, where the label would repeat the menu's name. */
+  shortLabel(): string;
+}
+
+const needsKeys = (shown: Shown): true | string => enabled('keys', shown);
+
+const easingWord = (easing: Easing): string => words.timeline.easings[easing];
+
+const toEasing = (choice: Easing): ChoiceAction<Easing> => ({
+  ...{ id: `easing-${choice}`, icon: 'tune', keys: [], enabled: needsKeys, choice },
+  label: () => words.timeline.setEasing({ easing: easingWord(choice) }),
+  shortLabel: () => easingWord(choice),
+  run: (context) => ease(context, choice),
+});
+
+export const EASING_ACTIONS: readonly ChoiceAction<Easing>[] = EASINGS.map(toEasing);
+
+const colourWord = (one: Colour | null): string =>
+  one === null ? words.timeline.noColour : words.timeline.colours[one];
+
+const toColour = (choice: Colour | null): ChoiceAction<Colour | null> => ({
+  ...{ id: `colour-${choice ?? 'none'}`, icon: 'tune', keys: [], enabled: needsKeys, choice },
+  label: () => words.timeline.setColour({ colour: colourWord(choice) }),
+  shortLabel: () => colourWord(choice),
+  run: (context) => colour(context, choice),
+});
+
+export const COLOUR_ACTIONS: readonly ChoiceAction<Colour | null>[] = [...COLOURS, null].map(toColour);
 
 /** The rows of a list of the servo view: its icon, and its words where it is to have the row, and where it has it. */
 const ROW_LISTS = {
