@@ -47,9 +47,6 @@ export interface GatewayRobot extends Robot {
 const UNCERTAIN: readonly LinkErrorCode[] = ['noAnswer', 'lost', 'gatewayUnreachable'];
 
 export function createGatewayRobot({ url, clock, mayDrive = true }: GatewayRobotOptions): GatewayRobot {
-  let pressedMs = 0;
-  /** Of the stop under way. */
-  let stopping: Promise<unknown> = Promise.resolve();
   /** Why STOP was pressed here, where the gateway was not there to hear it. */
   let unheard: HaltReason | null = null;
   let batteryAsked: Promise<number> | null = null;
@@ -64,7 +61,7 @@ export function createGatewayRobot({ url, clock, mayDrive = true }: GatewayRobot
     ...{ clock, driving, slots, sendUnheardStop },
     dropMoves: () => moves.clear(),
   });
-  const { store, running } = snapshot;
+  const { store, running, latch } = snapshot;
   const link = createLink({ clock, open: socket.open, close: socket.close, changed: snapshot.lineChanged });
   const moves = createGatewayMoves({
     ...{ clock, begin, post: socket.post, nextId: socket.nextId },
@@ -191,23 +188,19 @@ export function createGatewayRobot({ url, clock, mayDrive = true }: GatewayRobot
 
   async function halt(why: HaltReason): Promise<void> {
     const { unheld } = snapshot.estimate.haltPlan(null);
-    snapshot.latch({ reason: why, by: null, stop: 'sending', unheld });
-    pressedMs = clock.now();
+    latch.set({ reason: why, by: null, stop: 'sending', unheld });
+    latch.press();
     unheard = why;
     stopPlaying();
-    const halted = sendHalt(why === 'battery' ? 'battery' : 'person');
-    stopping = halted.catch(() => undefined);
-    await halted;
+    await latch.follow(sendHalt(why === 'battery' ? 'battery' : 'person'));
   }
 
-  async function sendHalt(reason: 'battery' | 'person'): Promise<void> {
+  async function sendHalt(reason: 'battery' | 'person'): Promise<undefined> {
     try {
       await socket.answered({ type: 'stop', reason }, 'halted');
       unheard = null;
-      snapshot.changeLatch({ stop: 'sent' });
     } catch (error) {
       if (!(error instanceof LinkError && error.code === 'gatewayUnreachable')) unheard = null;
-      snapshot.changeLatch({ stop: 'failed', unheld: snapshot.estimate.unheldSince(pressedMs) });
       throw error;
     }
   }
@@ -233,7 +226,7 @@ export function createGatewayRobot({ url, clock, mayDrive = true }: GatewayRobot
       driving.gone();
       await link.close();
       unheard = null;
-      store.update({ latch: null });
+      latch.clear();
     },
     retryNow: link.retryNow,
     // One tab takes nothing from another: the gateway serves all of them.
@@ -263,17 +256,11 @@ export function createGatewayRobot({ url, clock, mayDrive = true }: GatewayRobot
     run,
     stopGroup,
     halt: (why = 'pressed') => halt(why),
-    async resume() {
-      requireReady(store.state);
-      const resumed = snapshot.latches;
-      await stopping;
-      if (resumed === snapshot.latches) {
+    resume: () =>
+      latch.release(async () => {
         if (snapshot.latchedBy === null) socket.post({ type: 'resume' });
         else await socket.answered({ type: 'resume' }, 'released');
-      }
-      if (resumed !== snapshot.latches) throw new LinkError('latched', 'stopped again');
-      store.update({ latch: null });
-    },
+      }),
     async erase() {
       requireRest(store.state, rest);
       requireCarried(store.state, 'erase');

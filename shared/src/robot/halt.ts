@@ -1,5 +1,5 @@
-// STOP: latch, drop what is queued, tell the board three times, hold the robot where it is estimated to be. Also notes how far the stop
-// has come. Motion waits until a person resumes.
+// STOP on a cable of this computer: latch, drop what is queued, send stop three times, hold the robot where it is estimated to be. How far
+// the stop has come is noted by latch.ts. Motion waits until a person resumes.
 
 import { sleep, type Clock } from '../clock.ts';
 import { encodeCommand } from '../codec/encode.ts';
@@ -8,8 +8,8 @@ import { wireMs } from '../codec/packet.ts';
 import type { HaltPlan, Unheld } from '../motion/haltPlan.ts';
 import { LinkError } from './linkError.ts';
 import type { Queue } from './queue.ts';
-import { requireReady } from './rules.ts';
-import type { HaltReason, Latch } from './state.ts';
+import { createMotionLatch } from './latch.ts';
+import type { HaltReason } from './state.ts';
 import type { SessionStore } from './store.ts';
 import { STOP_EVERY_MS, STOP_REPEATS } from './timings.ts';
 
@@ -57,31 +57,11 @@ export interface HaltOptions {
 export function createHalt(options: HaltOptions): Halt {
   const { clock, store, queue, dropAll } = options;
 
-  let underWay: Promise<void> = Promise.resolve();
   let sequence: Sequence | null = null;
-  let latches = 0;
-  /** What goes on is counted from then, also where a stop is sent once more. */
-  let pressedMs = 0;
-
-  function latch(value: Latch): void {
-    latches += 1;
-    store.update({ latch: value });
-    dropAll(new LinkError('latched', 'stopped'));
-  }
-
-  function note(stop: Latch['stop'], unheld?: Unheld | null): void {
-    const { latch: current } = store.state;
-    if (current === null) return;
-    const isConfirmed = current.stop === 'confirmed';
-    if (isConfirmed && unheld === undefined) return;
-    store.update({
-      latch: {
-        ...current,
-        stop: isConfirmed ? 'confirmed' : stop,
-        unheld: unheld === undefined ? current.unheld : unheld,
-      },
-    });
-  }
+  const latch = createMotionLatch({
+    ...{ clock, store, unheldSince: options.unheldSince },
+    drop: () => dropAll(new LinkError('latched', 'stopped')),
+  });
 
   /**
    * Others may have pressed STOP, too: it is built when it leaves, behind their stops. Where the link carries no packet that holds
@@ -136,7 +116,7 @@ export function createHalt(options: HaltOptions): Halt {
       return sequence.left;
     }
     const mine: Sequence = {
-      ...{ pressedMs, stopsToGo: 1 + STOP_REPEATS, dueMs: clock.now() },
+      ...{ pressedMs: latch.pressedMs, stopsToGo: 1 + STOP_REPEATS, dueMs: clock.now() },
       left: Promise.resolve(null),
     };
     sequence = mine;
@@ -144,56 +124,31 @@ export function createHalt(options: HaltOptions): Halt {
     return mine.left;
   }
 
-  /** Behind its last packet more is known of what goes on than at the press. */
-  async function send(sequence: () => Promise<Unheld | null>): Promise<void> {
-    const sending = sequence();
-    underWay = sending.then(
-      () => undefined,
-      () => undefined,
-    );
-    try {
-      const unheld = await sending;
-      note('sent', unheld);
-    } catch (error) {
-      // What was planned to hold the robot did not leave.
-      note('failed', options.unheldSince(pressedMs));
-      throw error;
-    }
-  }
-
   return {
     latchedByLoss: () =>
-      latch({ reason: 'reconnected', by: null, stop: 'failed', unheld: options.plan().unheld }),
+      latch.set({ reason: 'reconnected', by: null, stop: 'failed', unheld: options.plan().unheld }),
     async halt(why = 'pressed') {
       const { unheld } = options.plan();
-      latch({ reason: why, by: null, stop: 'sending', unheld });
-      pressedMs = clock.now();
-      await send(sendOrJoin);
+      latch.set({ reason: why, by: null, stop: 'sending', unheld });
+      latch.press();
+      await latch.follow(sendOrJoin());
     },
-    async resume() {
-      requireReady(store.state);
-      const resumed = latches;
-      // Its last hold would take back what is moved meanwhile.
-      await underWay;
-      if (resumed !== latches) throw new LinkError('latched', 'stopped again');
-      store.update({ latch: null });
-    },
+    resume: () => latch.release(),
     stopAfterReturn() {
-      // Its failure is the latch's `failed`; there is no caller to tell.
-      pressedMs = clock.now();
-      send(async () => {
+      latch.press();
+      async function send(): Promise<Unheld | null> {
         await repeatStop(clock, queue.stop, () => sequence === null);
-        // Somebody has pressed STOP meanwhile, and its stops leave in place of these.
-        return sequence?.left ?? options.unheldSince(pressedMs);
-      }).catch(() => undefined);
+        // STOP was pressed meanwhile, and its stops leave in place of these.
+        return sequence?.left ?? options.unheldSince(latch.pressedMs);
+      }
+      // Its failure is the latch's `failed`; no caller waits for it.
+      latch.follow(send()).catch(() => undefined);
     },
     again() {
-      const { latch: current } = store.state;
-      if (current === null || stopsFollow()) return;
-      store.update({ latch: { ...current, stop: 'sending' } });
-      void underWay.then(() => send(sendOrJoin)).catch(() => undefined);
+      if (stopsFollow() || !latch.reopen()) return;
+      void latch.settled.then(() => latch.follow(sendOrJoin())).catch(() => undefined);
     },
-    confirmed: () => note('confirmed'),
+    confirmed: () => latch.change({ stop: 'confirmed' }),
   };
 }
 

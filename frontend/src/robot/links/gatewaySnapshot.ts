@@ -19,7 +19,8 @@ import {
   NOTHING_READ,
   type SessionStore,
 } from '#shared/robot/store.ts';
-import type { Activity, Battery, Latch, LatchReason, LinkState } from '#shared/robot/state.ts';
+import { createMotionLatch, type MotionLatch } from '#shared/robot/latch.ts';
+import type { Activity, Battery, LatchReason, LinkState } from '#shared/robot/state.ts';
 import type { GatewaySlots } from './gatewaySlots.ts';
 import type { Said } from './gatewaySocket.ts';
 import {
@@ -48,17 +49,13 @@ export interface GatewaySnapshot {
   readonly store: SessionStore;
   readonly estimate: RobotEstimate;
   readonly running: Running;
+  readonly latch: MotionLatch;
   /** Why the gateway refuses motion, whatever this page shows; null where it does not. */
   readonly latchedBy: LatchReason | null;
-  /** Counts latches of this page, so that a resume does not undo one that came after it. */
-  readonly latches: number;
   heard(message: Exclude<Said, { type: 'tick' | 'played' }>): void;
   lineChanged(line: LineState): void;
   /** The download or what the slots hold is another now. */
   slotsChanged(): void;
-  latch(next: Latch): void;
-  /** `confirmed` stays, whatever is said later. */
-  changeLatch(change: Partial<Pick<Latch, 'stop' | 'unheld'>>): void;
   stored(slot: number, frames: readonly Frame[]): void;
 }
 
@@ -81,7 +78,7 @@ export function createGatewaySnapshot(options: GatewaySnapshotOptions): GatewayS
   let play: PlayState | null = null;
   /** Until the link is ready: from then on the estimate follows by itself. */
   let before: MotionBefore | null = null;
-  let latches = 0;
+  const latch = createMotionLatch({ clock, store, drop, unheldSince: (ms) => estimate.unheldSince(ms) });
 
   function heard(message: Exclude<Said, { type: 'tick' | 'played' }>): void {
     switch (message.type) {
@@ -137,7 +134,7 @@ export function createGatewaySnapshot(options: GatewaySnapshotOptions): GatewayS
         break;
       case 'halted':
         if (isOpen)
-          changeLatch({
+          latch.change({
             stop: 'sent',
             unheld: message.unheld && { ...message.unheld, forMs: message.unheld.forMs ?? Infinity },
           });
@@ -220,7 +217,7 @@ export function createGatewaySnapshot(options: GatewaySnapshotOptions): GatewayS
     estimate.unstored();
     store.update({ storedSlots: estimate.storedSlots(), ...NOTHING_READ });
     if (next.status === 'lost' || next.status === 'stale')
-      latch({ reason: 'reconnected', by: null, stop: 'failed', unheld: estimate.haltPlan(null).unheld });
+      latch.set({ reason: 'reconnected', by: null, stop: 'failed', unheld: estimate.haltPlan(null).unheld });
     else drop();
   }
 
@@ -239,14 +236,8 @@ export function createGatewaySnapshot(options: GatewaySnapshotOptions): GatewayS
     if (hasLost) drop();
   }
 
-  function latch(next: Latch): void {
-    latches += 1;
-    store.update({ latch: next });
-    drop();
-  }
-
   function latchElsewhere(reason: LatchReason): void {
-    latch({ reason, by: stoppedBy, stop: 'sent', unheld: estimate.haltPlan(null).unheld });
+    latch.set({ reason, by: stoppedBy, stop: 'sent', unheld: estimate.haltPlan(null).unheld });
   }
 
   /**
@@ -256,22 +247,14 @@ export function createGatewaySnapshot(options: GatewaySnapshotOptions): GatewayS
   function latchAsGateway(): void {
     if (options.sendUnheardStop()) return;
     if (latchedBy !== null) latchElsewhere(latchedBy);
-    else if (store.state.latch !== null) store.update({ latch: null });
-  }
-
-  /** Confirmed it stays, whatever is said later. */
-  function changeLatch(change: Partial<Pick<Latch, 'stop' | 'unheld'>>): void {
-    const { latch: current } = store.state;
-    if (current === null) return;
-    const stop = current.stop === 'confirmed' ? 'confirmed' : (change.stop ?? current.stop);
-    store.update({ latch: { ...current, ...change, stop } });
+    else if (store.state.latch !== null) latch.clear();
   }
 
   function latchChanged(next: LatchReason | null): void {
     const isNews = next !== latchedBy;
     latchedBy = next;
     if (isOpen && isNews) {
-      if (next === null) store.update({ latch: null });
+      if (next === null) latch.clear();
       else if (store.state.latch === null) latchElsewhere(next);
     }
   }
@@ -291,7 +274,7 @@ export function createGatewaySnapshot(options: GatewaySnapshotOptions): GatewayS
     if (report.kind === 'runStarted') running.began(report.slot, report.times, 'acknowledged');
     if (report.kind === 'runFinished' || report.kind === 'runStopped') running.ended();
     noteReport(store, report, clock.now());
-    if (report.kind === 'runStopped') changeLatch({ stop: 'confirmed' });
+    if (report.kind === 'runStopped') latch.change({ stop: 'confirmed' });
   }
 
   function showPlay(): void {
@@ -347,10 +330,7 @@ export function createGatewaySnapshot(options: GatewaySnapshotOptions): GatewayS
     get latchedBy() {
       return latchedBy;
     },
-    get latches() {
-      return latches;
-    },
-    ...{ heard, lineChanged, slotsChanged, latch, changeLatch },
+    ...{ heard, lineChanged, slotsChanged, latch },
     stored(slot, frames) {
       estimate.stored(slot, frames);
       showStoredSlots();
