@@ -1,6 +1,7 @@
 // One request of the gateway's HTTP interface beside the page. Routes, verbs and bodies are typed from the gateway's own description
 // (http.generated.ts); an answer's shape is not trusted. Knows no route, and not what a refusal means to the caller.
 
+import * as v from 'valibot';
 import type { paths } from './http.generated.ts';
 
 /** How a request says that our own page makes it: a browser adds no Origin to a GET, and no other page may add this header. */
@@ -101,4 +102,46 @@ function addressOf(path: string, values: object, query: object): string {
 
 export function isRecord(value: unknown): value is Record<string, unknown> {
   return typeof value === 'object' && value !== null && !Array.isArray(value);
+}
+
+interface RequestsOptions {
+  readonly withinMs: number;
+  /** The caller's own error for one of the gateway. */
+  failed(problem: GatewayProblem, options: ErrorOptions): Error;
+  /** The caller's own error for an answer of another shape. */
+  unreadable(): Error;
+}
+
+type Given<P extends Path, V extends Verb<P>> = Omit<Asked<P, V>, 'withinMs'>;
+
+/** The requests of one part of the page, which has errors of its own. */
+export function requestsOf({ withinMs: usualMs, failed, unreadable }: RequestsOptions) {
+  function answerTo<P extends Path, V extends Verb<P>>(
+    verb: V,
+    path: P,
+    given: Given<P, V>,
+    withinMs = usualMs,
+  ): Promise<unknown> {
+    return request(verb, path, { ...given, withinMs } as Asked<P, V>).catch((error: unknown) => {
+      throw error instanceof GatewayProblem ? failed(error, { cause: error }) : error;
+    });
+  }
+
+  return {
+    async ask<P extends Path, V extends Verb<P>>(
+      verb: V,
+      path: P,
+      schema: v.GenericSchema<unknown, Answer<P, V>>,
+      given: Given<P, V>,
+      withinMs?: number,
+    ): Promise<Answer<P, V>> {
+      const read = v.safeParse(schema, await answerTo(verb, path, given, withinMs));
+      if (!read.success) throw unreadable();
+      return read.output;
+    },
+    /** For answers that say nothing new. */
+    async send<P extends Path, V extends Verb<P>>(verb: V, path: P, given: Given<P, V>): Promise<void> {
+      await answerTo(verb, path, given);
+    },
+  };
 }

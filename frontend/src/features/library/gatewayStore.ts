@@ -3,14 +3,7 @@
 import * as v from 'valibot';
 import { factsSchema } from '#shared/files/factsSchema.ts';
 import { LibraryError, type DocumentStore, type LibraryErrorCode } from '#shared/files/documentStore.ts';
-import {
-  GatewayProblem,
-  request,
-  type Answer,
-  type Asked,
-  type Path,
-  type Verb,
-} from '../../robot/request.ts';
+import { requestsOf } from '../../robot/request.ts';
 import type {
   DocumentWritten,
   LibraryListing,
@@ -52,6 +45,13 @@ const versionsSchema: v.GenericSchema<unknown, ListedVersion[]> = v.array(
 );
 const versionTextSchema: v.GenericSchema<unknown, VersionText> = v.object({ text: v.string() });
 
+const { ask, send } = requestsOf({
+  withinMs: ANSWER_WITHIN_MS,
+  failed: ({ code, message }, options) =>
+    new LibraryError(code === null ? 'unreachable' : (CODES[code] ?? 'failed'), message, options),
+  unreadable: () => new LibraryError('failed', 'the gateway’s answer is none'),
+});
+
 export const gatewayStore: DocumentStore = {
   place: 'gateway',
   list: () => ask('get', '/api/library', listingSchema, {}),
@@ -76,34 +76,3 @@ export const gatewayStore: DocumentStore = {
     await send('delete', VERSION, { values: { document: id, version } });
   },
 };
-
-type Given<P extends Path, V extends Verb<P>> = Omit<Asked<P, V>, 'withinMs'>;
-
-async function ask<P extends Path, V extends Verb<P>>(
-  verb: V,
-  path: P,
-  schema: v.GenericSchema<unknown, Answer<P, V>>,
-  given: Given<P, V>,
-): Promise<Answer<P, V>> {
-  const read = v.safeParse(schema, await answerTo(verb, path, given));
-  if (!read.success) throw new LibraryError('failed', 'the gateway’s answer is none');
-  return read.output;
-}
-
-/** What it answers says nothing new. */
-async function send<P extends Path, V extends Verb<P>>(verb: V, path: P, given: Given<P, V>): Promise<void> {
-  await answerTo(verb, path, given);
-}
-
-async function answerTo<P extends Path, V extends Verb<P>>(verb: V, path: P, given: Given<P, V>) {
-  const asked = { ...given, withinMs: ANSWER_WITHIN_MS } as Asked<P, V>;
-  return request(verb, path, asked).catch((error: unknown) => {
-    throw problem(error);
-  });
-}
-
-function problem(error: unknown): unknown {
-  if (!(error instanceof GatewayProblem)) return error;
-  const code = error.code === null ? 'unreachable' : (CODES[error.code] ?? 'failed');
-  return new LibraryError(code, error.message, { cause: error });
-}

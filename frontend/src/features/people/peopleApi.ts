@@ -1,14 +1,7 @@
 // HTTP requests about people: identity, pairing, invitations, tokens. Validates every answer; every failure is a PeopleError.
 
 import * as v from 'valibot';
-import {
-  GatewayProblem,
-  request,
-  type Answer,
-  type Asked,
-  type Path,
-  type Verb,
-} from '../../robot/request.ts';
+import { requestsOf } from '../../robot/request.ts';
 import { PeopleError, type PeopleApi, type PeopleErrorCode } from './people.ts';
 import type { Invitation, Me, PairWish, People, StopLink, Token, You } from '../../robot/http.generated.ts';
 
@@ -56,6 +49,13 @@ const invitationSchema: v.GenericSchema<unknown, Invitation> = v.object({
 const stopLinkSchema: v.GenericSchema<unknown, StopLink> = v.object(link);
 const tokenSchema: v.GenericSchema<unknown, Token> = v.object({ id: v.string(), token: v.string() });
 
+const { ask, send } = requestsOf({
+  withinMs: ANSWER_WITHIN_MS,
+  failed: ({ code, message }, options) =>
+    new PeopleError(code === null ? 'unreachable' : (CODES[code] ?? 'refused'), message, options),
+  unreadable: () => new PeopleError('unreachable', 'no gateway is at this address'),
+});
+
 /** null if no gateway answers: the page was served from elsewhere. */
 export async function readMe(): Promise<Me | null> {
   return ask('get', '/api/me', meSchema, {}, HERE_WITHIN_MS).catch(() => null);
@@ -83,40 +83,3 @@ export const peopleApi: PeopleApi = {
   makeToken: (wish) => ask('post', '/api/tokens', tokenSchema, { body: wish }),
   makeStopLink: (name) => ask('post', '/api/stop-links', stopLinkSchema, { body: { name } }),
 };
-
-type Given<P extends Path, V extends Verb<P>> = Omit<Asked<P, V>, 'withinMs'>;
-
-async function ask<P extends Path, V extends Verb<P>>(
-  verb: V,
-  path: P,
-  schema: v.GenericSchema<unknown, Answer<P, V>>,
-  given: Given<P, V>,
-  withinMs?: number,
-): Promise<Answer<P, V>> {
-  const read = v.safeParse(schema, await answerTo(verb, path, given, withinMs));
-  if (!read.success) throw new PeopleError('unreachable', 'no gateway is at this address');
-  return read.output;
-}
-
-/** What it answers says nothing new. */
-async function send<P extends Path, V extends Verb<P>>(verb: V, path: P, given: Given<P, V>): Promise<void> {
-  await answerTo(verb, path, given);
-}
-
-async function answerTo<P extends Path, V extends Verb<P>>(
-  verb: V,
-  path: P,
-  given: Given<P, V>,
-  withinMs = ANSWER_WITHIN_MS,
-): Promise<unknown> {
-  const asked = { ...given, withinMs } as Asked<P, V>;
-  return request(verb, path, asked).catch((error: unknown) => {
-    throw asPeopleError(error);
-  });
-}
-
-function asPeopleError(error: unknown): unknown {
-  if (!(error instanceof GatewayProblem)) return error;
-  const code = error.code === null ? 'unreachable' : (CODES[error.code] ?? 'refused');
-  return new PeopleError(code, error.message, { cause: error });
-}

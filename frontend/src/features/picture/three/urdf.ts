@@ -59,7 +59,7 @@ function partsOf(robot: Robot): readonly string[] | null {
 
 const ARM = { foot: 0.03, shoulder: 0.045, upper: 0.104, fore: 0.089, roll: 0.05, grip: 0.095 };
 /** Each jaw turns by so much of what its servo does, from half open. */
-const JAW = { share: -0.22, open: 0.36, length: 0.05 };
+const JAW = { share: -0.22, offset: 0.36, length: 0.05 };
 
 /** Straight up at home, as six-servo arms are. */
 function arm(robot: Robot): readonly string[] {
@@ -93,7 +93,7 @@ function arm(robot: Robot): readonly string[] {
         `jaw_${side}`,
         JOINT.gripper,
         { on: 'palm', at: [0, side * 0.014, 0.025], axis: [-side, 0, 0] },
-        { share: JAW.share, offset: JAW.open },
+        JAW,
       ),
       link(`jaw_${side}`, [
         { shape: 'box', size: [0.016, 0.009, JAW.length], at: [0, side * 0.006, JAW.length / 2] },
@@ -303,9 +303,8 @@ function mimicJoint(
   child: string,
   servo: number,
   mount: Mount,
-  { share, ...rest }: { readonly share: number; readonly offset?: number; readonly open?: number },
+  { share, offset }: { readonly share: number; readonly offset: number },
 ): string {
-  const offset = rest.offset ?? rest.open ?? 0;
   const mimic = `<mimic joint="${jointName(servo)}" multiplier="${share}" offset="${offset}"/>`;
   return jointText(`${child}_joint`, 'continuous', child, mount, mimic);
 }
