@@ -1,7 +1,8 @@
-// Files on this computer: a button to choose them, and saving a text or bytes as a download of the browser.
+// Files on this computer: a button or a zone to choose them, and saving a text or bytes as a download of the browser.
 
-import { useRef } from 'react';
+import { type DragEvent, type ReactNode, useRef } from 'react';
 import { Button, type ButtonProps } from './Button.tsx';
+import styles from './localFiles.module.css';
 
 interface FileButtonProps extends Pick<ButtonProps, 'children'> {
   /** As `accept` of a file input; any file if absent. */
@@ -29,6 +30,32 @@ export function FileButton({ children, onChoose, ...kind }: FileButtonProps) {
         }}
       />
     </>
+  );
+}
+
+interface FileZoneProps extends FileButtonProps {
+  readonly hint: string;
+  /** Below the button. */
+  readonly below?: ReactNode;
+  /** Files can be dropped here; left out: what is around it takes them. */
+  readonly takesDrop?: boolean;
+}
+
+/** The place for files from this computer: a button to choose them, and what can be done with them. */
+export function FileZone({ hint, below, takesDrop = false, ...button }: FileZoneProps) {
+  const drop = (event: DragEvent): void => {
+    event.preventDefault();
+    button.onChoose([...event.dataTransfer.files]);
+  };
+  return (
+    <div
+      className={styles.zone}
+      {...(takesDrop && { onDragOver: (event) => event.preventDefault(), onDrop: drop })}
+    >
+      <FileButton {...button} />
+      <span className={styles.hint}>{hint}</span>
+      {below}
+    </div>
   );
 }
 

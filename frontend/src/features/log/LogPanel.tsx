@@ -16,6 +16,7 @@ import { LogList } from './LogList.tsx';
 import { createLogView, logFile } from './logView.ts';
 import { saveFile } from '../../ui/localFiles.tsx';
 import { PART } from '../../ui/focus.ts';
+import field from '../../ui/Field.module.css';
 import styles from './LogPanel.module.css';
 
 /** Searches the words, and the bytes if the query is whole bytes in hex, with or without spaces. Ignores case. */
@@ -81,7 +82,7 @@ export function RawForm({ text, judged, obstacle, isConsented, maySend, ...on }:
   return (
     <form className={styles.form} aria-label={words.raw.title} onSubmit={submit}>
       <input
-        className={styles.field}
+        className={cx(field.field, styles.field)}
         aria-label={words.raw.field}
         aria-describedby={explanationId}
         placeholder={words.raw.example}
@@ -134,7 +135,7 @@ export function LogPanel({ onFold }: { readonly onFold?: () => void }) {
         <Filter />
         <input
           type="search"
-          className={styles.search}
+          className={cx(field.field, styles.search)}
           aria-label={words.log.search}
           placeholder={words.log.searchHint}
           autoComplete="off"

@@ -8,7 +8,7 @@ import { FAMILIES, type FamilyId } from '#shared/codec/families.ts';
 import { type Robots, type OwnRobot, freshRobot, currentOf } from './robots.ts';
 import { useStores, useDevice, useSnapshot } from '../stores.ts';
 import { Button, IconButton } from '../../ui/Button.tsx';
-import { saveFile, FileButton } from '../../ui/localFiles.tsx';
+import { saveFile, FileZone } from '../../ui/localFiles.tsx';
 import { words } from '../../i18n/whole.ts';
 import { robotFlawText } from '../../i18n/robotFlaws.ts';
 import { boardName } from '../../i18n/sentences.ts';
@@ -107,24 +107,22 @@ function ImportRobot({ connected }: { readonly connected: FamilyId | null }) {
   }
 
   return (
-    <div
-      className={styles.zone}
-      onDragOver={(event) => event.preventDefault()}
-      onDrop={(event) => {
-        event.preventDefault();
-        void take([...event.dataTransfer.files]);
-      }}
+    <FileZone
+      accept=".json,application/json"
+      multiple
+      takesDrop
+      hint={words.robots.importHint}
+      onChoose={(files) => void take(files)}
+      below={
+        <ul className={styles.outcomes} aria-live="polite">
+          {outcomes.map((outcome) => (
+            <li key={outcome}>{outcome}</li>
+          ))}
+        </ul>
+      }
     >
-      <FileButton accept=".json,application/json" multiple onChoose={(files) => void take(files)}>
-        {words.robots.import}
-      </FileButton>
-      <span className={styles.dim}>{words.robots.importHint}</span>
-      <ul className={styles.outcomes} aria-live="polite">
-        {outcomes.map((outcome) => (
-          <li key={outcome}>{outcome}</li>
-        ))}
-      </ul>
-    </div>
+      {words.robots.import}
+    </FileZone>
   );
 }
 

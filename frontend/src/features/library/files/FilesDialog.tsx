@@ -20,10 +20,10 @@ import { problemText, remarkText } from './fileText.ts';
 import { type Answer, readyGroups, type ReadyGroup, countsOf, type FileCounts } from './answers.ts';
 import { FoundGroup } from './FoundGroup.tsx';
 import { useKnownFamily, useStores } from '../../stores.ts';
-import { FileButton } from '../../../ui/localFiles.tsx';
+import { FileZone } from '../../../ui/localFiles.tsx';
 import { SaveAs } from './SaveAs.tsx';
 import { Dialog } from '../../../ui/Dialog.tsx';
-import styles from './FileProgress.module.css';
+import styles from './FilesDialog.module.css';
 
 /** Progress of reading files or importing their groups, with a button to cancel. */
 interface FileProgressProps {
@@ -38,7 +38,7 @@ function FileProgress({ label, progress, text, onCancel }: FileProgressProps) {
     <div className={styles.progress}>
       <div>
         <ProgressBar label={label} {...progress} text={text} />
-        <p className={styles.text}>{text}</p>
+        <p className={styles.dim}>{text}</p>
       </div>
       <Button onPress={onCancel}>{words.files.cancel}</Button>
     </div>
@@ -127,12 +127,9 @@ export function FilesContent({ files, onTake, onTakeAll }: FilesContentProps) {
     <>
       <section className={styles.part}>
         <h3 className={styles.heading}>{words.files.open}</h3>
-        <div className={styles.choose}>
-          <FileButton multiple onChoose={files.open}>
-            {words.files.choose}
-          </FileButton>
-          <span className={styles.filesContentDim}>{words.files.hint}</span>
-        </div>
+        <FileZone multiple hint={words.files.hint} onChoose={files.open}>
+          {words.files.choose}
+        </FileZone>
         <Reading files={files} />
         <TakeAll files={files} onTakeAll={onTakeAll} />
         <ul className={styles.list} aria-label={words.files.list} aria-live="polite">
@@ -163,7 +160,7 @@ function Reading({ files }: Pick<FilesContentProps, 'files'>) {
         />
       )}
       <div aria-live="polite">
-        {unread > 0 && <p className={styles.filesContentDim}>{words.files.unread({ count: unread })}</p>}
+        {unread > 0 && <p className={styles.dim}>{words.files.unread({ count: unread })}</p>}
       </div>
     </>
   );
@@ -191,7 +188,7 @@ function TakeAll({ files, onTakeAll }: Pick<FilesContentProps, 'files' | 'onTake
       <Button icon="library" onPress={() => onTakeAll(ready)}>
         {words.files.takeAll({ count: ready.length })}
       </Button>
-      <span className={styles.filesContentDim}>{words.files.takeAllHint({ name: first.group.name })}</span>
+      <span className={styles.dim}>{words.files.takeAllHint({ name: first.group.name })}</span>
     </div>
   );
 }
