@@ -1,15 +1,14 @@
 import { expect, test } from 'vitest';
 import { family } from '../codec/families.ts';
-import { UNKNOWN_MOTION, takenOver, type MotionBefore, type WayBefore } from './model.ts';
 import {
-  afterCommand,
-  gentleMs,
-  positionAt,
-  readingOf,
-  targetOf,
+  UNKNOWN_MOTION,
+  takenOver,
+  type MotionBefore,
+  type WayBefore,
   type KnownBoard,
   type Motion,
-} from './motion.ts';
+} from './model.ts';
+import { afterCommand, gentleMs, positionAt, readingOf, targetOf } from './motion.ts';
 import { afterReport } from './reports.ts';
 import type { Report } from '../codec/reports.ts';
 

@@ -1,8 +1,9 @@
+import { UNKNOWN_MOTION, type KnownBoard, type Motion } from './model.ts';
 import { expect, test } from 'vitest';
 import type { Command, Frame, ServoTarget } from '../codec/commands.ts';
 import { family, type FamilyId } from '../codec/families.ts';
 import { haltPlan, holdBehindStop } from './haltPlan.ts';
-import { afterCommand, UNKNOWN_MOTION, type KnownBoard, type Motion } from './motion.ts';
+import { afterCommand } from './motion.ts';
 
 type Targets = readonly (readonly [servo: number, position: number])[];
 

@@ -1,10 +1,19 @@
-// The estimate as a value, and what a way of playing groups has to answer. Knows what can be known of a board's motion; no
-// rule of any board: those are tracks.ts, deadlines.ts and polled.ts.
+// The estimate as a value: what can be known of a board's motion, what it is without a command (unknown, taken over, forgotten), and what a
+// way of playing groups has to answer. Knows no rule of any board: those are tracks.ts, deadlines.ts and polled.ts.
 
+import timings from '../../protocol/timings.json' with { type: 'json' };
 import type { Command, ServoTarget, Frame } from '../codec/commands.ts';
 import type { Family } from '../codec/families.ts';
 import type { ReportKind } from '../codec/reports.ts';
-import { doubted, type Order, type Tracks, boardDurationMs, type Track } from './tracks.ts';
+import {
+  boardDurationMs,
+  doubted,
+  lastEndMs,
+  LONGEST_MOVE_MS,
+  type Order,
+  type Track,
+  type Tracks,
+} from './tracks.ts';
 
 // Where servos at rest stand by the board's own reports, as long as nothing can have moved them since. It is no track:
 // that position was no target, and a hold goes by the tracks.
@@ -137,7 +146,10 @@ export interface Playback {
   passMs(frames: readonly Frame[]): number;
 }
 
-/** Nothing is known: after connecting, and after anything that may have moved the robot behind our back. */
+/** From the end of a group's last frame until its servos stand. */
+export const LAST_TICKS_MS = timings.estimate.lastTicksMs;
+
+/** Nothing is known: after connecting, and after anything unseen that may have moved the robot. */
 export const UNKNOWN_MOTION: Motion = {
   tracks: new Map(),
   readings: new Map(),
@@ -204,5 +216,40 @@ function trackOf({ from, to, begunMsAgo, durationMs }: WayBefore, nowMs: number,
   return {
     ...{ from, to, startMs, durationMs: boardDurationMs(durationMs, family) },
     ...{ fromLeeway: 0, toLeeway: 0 },
+  };
+}
+
+/** Nothing is known any more: the robot may have been moved or the board restarted. A group that ran may run on. */
+export function forgotten(motion: Motion, atMs: number): Motion {
+  const { deafUntilMs, readings, run, tracks, maySwallow, restlessUntilMs, inheritedUntilMs } = motion;
+  return {
+    ...UNKNOWN_MOTION,
+    readings: onlyReleased(readings),
+    run: run && { kind: 'unknown', slot: null, endsToHear: 1 },
+    deafUntilMs,
+    maySwallow,
+    inheritedUntilMs,
+    restlessUntilMs: Math.max(
+      restlessUntilMs,
+      run === null ? lastEndMs(tracks, atMs) + LAST_TICKS_MS : atMs + LONGEST_MOVE_MS,
+    ),
+    skipsFirst: 'maybe',
+  };
+}
+
+/** Whoever had the link before it was opened at `atMs` may have set something in motion. */
+export function inherited(motion: Motion, atMs: number): Motion {
+  // A question of ours may have ended their group (L8).
+  return { ...motion, inheritedUntilMs: atMs + LONGEST_MOVE_MS, skipsFirst: 'maybe' };
+}
+
+/** Of two forgotten motions it is unknown which it was. */
+export function eitherOf(one: Motion, other: Motion): Motion {
+  return {
+    ...one,
+    run: one.run ?? other.run,
+    deafUntilMs: Math.max(one.deafUntilMs, other.deafUntilMs),
+    restlessUntilMs: Math.max(one.restlessUntilMs, other.restlessUntilMs),
+    inheritedUntilMs: Math.max(one.inheritedUntilMs, other.inheritedUntilMs),
   };
 }

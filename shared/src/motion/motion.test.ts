@@ -1,20 +1,10 @@
+import { forgotten, UNKNOWN_MOTION, type KnownBoard, type Motion } from './model.ts';
 import { describe, expect, test } from 'vitest';
 import type { Command, Frame } from '../codec/commands.ts';
 import { family, type FamilyId } from '../codec/families.ts';
 import type { Report } from '../codec/reports.ts';
 import { haltPlan } from './haltPlan.ts';
-import {
-  advance,
-  afterCommand,
-  forgotten,
-  leewayAt,
-  passMs,
-  positionAt,
-  targetOf,
-  UNKNOWN_MOTION,
-  type KnownBoard,
-  type Motion,
-} from './motion.ts';
+import { advance, afterCommand, leewayAt, passMs, positionAt, targetOf } from './motion.ts';
 import { afterEnd, afterReport } from './reports.ts';
 
 type Groups = Readonly<Record<number, readonly Frame[]>>;

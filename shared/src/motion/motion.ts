@@ -15,11 +15,11 @@ import { HEADER } from '../codec/packet.ts';
 import { deadlines } from './deadlines.ts';
 import {
   afterOrder,
+  LAST_TICKS_MS,
   onlyReleased,
   type Reading,
   type Readings,
   runningUnknown,
-  UNKNOWN_MOTION,
   type KnownBoard,
   type Motion,
   type Playback,
@@ -47,8 +47,6 @@ import {
   unrestBehind,
 } from './tracks.ts';
 
-export { UNKNOWN_MOTION, type KnownBoard, type Motion };
-
 const PLAYBACKS: Readonly<Record<Family['motion']['groups'], Playback>> = { deadlines, polled };
 
 /** These keep a board that answers them from its servos and packets until then: flash work, slow talk (S41, X7, L13). */
@@ -71,7 +69,6 @@ const ANSWERS: Readonly<Partial<Record<Command['kind'], ReportKind>>> = {
   run: 'runAccepted',
 };
 export const LONGEST_DEAFNESS_MS = timings.estimate.longestDeafnessMs;
-export const LAST_TICKS_MS = timings.estimate.lastTicksMs;
 /** What LEN does not count, and the whole of a packet without parameters. */
 const HEAD_BYTES = 2;
 const SHORTEST_PACKET_BYTES = 4;
@@ -264,41 +261,6 @@ function perhapsReleased(tracks: Tracks, servos: readonly number[], atMs: number
 /** How long one pass of a group takes at most. */
 export function passMs(frames: readonly Frame[], board: KnownBoard): number {
   return playbackOf(board).passMs(frames);
-}
-
-/** Nothing is known any more: the robot may have been moved or the board restarted. A group that ran may run on. */
-export function forgotten(motion: Motion, atMs: number): Motion {
-  const { deafUntilMs, readings, run, tracks, maySwallow, restlessUntilMs, inheritedUntilMs } = motion;
-  return {
-    ...UNKNOWN_MOTION,
-    readings: onlyReleased(readings),
-    run: run && { kind: 'unknown', slot: null, endsToHear: 1 },
-    deafUntilMs,
-    maySwallow,
-    inheritedUntilMs,
-    restlessUntilMs: Math.max(
-      restlessUntilMs,
-      run === null ? lastEndMs(tracks, atMs) + LAST_TICKS_MS : atMs + LONGEST_MOVE_MS,
-    ),
-    skipsFirst: 'maybe',
-  };
-}
-
-/** Whoever had the link before it was opened at `atMs` may have set something in motion. */
-export function inherited(motion: Motion, atMs: number): Motion {
-  // A question of ours may have ended their group (L8).
-  return { ...motion, inheritedUntilMs: atMs + LONGEST_MOVE_MS, skipsFirst: 'maybe' };
-}
-
-/** Of two forgotten motions it is unknown which it was. */
-export function eitherOf(one: Motion, other: Motion): Motion {
-  return {
-    ...one,
-    run: one.run ?? other.run,
-    deafUntilMs: Math.max(one.deafUntilMs, other.deafUntilMs),
-    restlessUntilMs: Math.max(one.restlessUntilMs, other.restlessUntilMs),
-    inheritedUntilMs: Math.max(one.inheritedUntilMs, other.inheritedUntilMs),
-  };
 }
 
 /** Present position of a servo in board units, or null while it is unknown. */

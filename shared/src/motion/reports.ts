@@ -3,8 +3,8 @@
 
 import type { ServoTarget } from '../codec/commands.ts';
 import type { Report, ReportKind } from '../codec/reports.ts';
-import { afterPositions, runningUnknown, type KnownBoard, type Motion } from './model.ts';
-import { advance, LAST_TICKS_MS, LONGEST_DEAFNESS_MS, playbackOf, restless } from './motion.ts';
+import { afterPositions, runningUnknown, type KnownBoard, type Motion, LAST_TICKS_MS } from './model.ts';
+import { advance, LONGEST_DEAFNESS_MS, playbackOf, restless } from './motion.ts';
 import { lastEndMs, stands } from './tracks.ts';
 
 /** After the board said so at `atMs`; the end of a group is `afterEnd`. */

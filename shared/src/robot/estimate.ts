@@ -2,7 +2,16 @@
 // and how slow a servo's first move must be. Knows the clock; no link, no queue.
 
 import type { Clock } from '../clock.ts';
-import { takenOver, type MotionBefore } from '../motion/model.ts';
+import {
+  takenOver,
+  type MotionBefore,
+  eitherOf,
+  forgotten,
+  inherited,
+  UNKNOWN_MOTION,
+  type KnownBoard,
+  type Motion,
+} from '../motion/model.ts';
 import { afterCut, afterEnd, afterReport } from '../motion/reports.ts';
 import { haltPlan, holdBehindStop, unheldSince, type HaltPlan, type Unheld } from '../motion/haltPlan.ts';
 import {
@@ -10,21 +19,15 @@ import {
   afterCommand,
   afterCutPacket,
   afterFiller,
-  eitherOf,
   farthestFrom,
-  forgotten,
   gentleMs,
   hears,
-  inherited,
   passMs,
   positionAt,
   readingOf,
   remainingMs,
   targetOf,
-  UNKNOWN_MOTION,
   withoutServos,
-  type KnownBoard,
-  type Motion,
 } from '../motion/motion.ts';
 import type { Command, Frame, MoveCommand } from '../codec/commands.ts';
 import type { Family } from '../codec/families.ts';

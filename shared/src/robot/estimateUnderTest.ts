@@ -1,17 +1,8 @@
 // A simulated board and the estimate of it side by side, for tests: each command as it would leave a session, each answer
 // as the session would hear it, and both positions of each servo at many instants.
 
-import {
-  advance,
-  afterCommand,
-  forgotten,
-  hears,
-  leewayAt,
-  positionAt,
-  remainingMs,
-  UNKNOWN_MOTION,
-  type KnownBoard,
-} from '../motion/motion.ts';
+import { forgotten, UNKNOWN_MOTION, type KnownBoard } from '../motion/model.ts';
+import { advance, afterCommand, hears, leewayAt, positionAt, remainingMs } from '../motion/motion.ts';
 import { afterCut, afterEnd, afterReport } from '../motion/reports.ts';
 import type { Command, Frame } from '../codec/commands.ts';
 import { encodeCommand } from '../codec/encode.ts';
