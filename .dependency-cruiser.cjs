@@ -131,7 +131,7 @@ module.exports = {
       'gateway-requests-know-nothing',
       'A request of the gateway is made by those who know what it is for.',
       { path: `${page}robot/request[.]ts$` },
-      { pathNot: `${page}robot/(request|http[.]generated)[.]ts$` },
+      { pathNot: `${page}robot/(request|http[.]generated)[.]ts$|^node_modules/valibot/` },
     ),
     forbid(
       'state-knows-no-feature',

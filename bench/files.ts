@@ -5,7 +5,7 @@ import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import type { Page } from '@playwright/test';
 import startSqlite from 'sql.js';
-import { mixedFiles } from '#shared/testing/files.ts';
+import { mixedFiles } from '#shared/testing/groups.ts';
 import { fileMeans } from '../frontend/src/features/library/files/means.ts';
 import { amount } from './amounts.ts';
 import type { Figure } from './figure.ts';

@@ -1,5 +1,6 @@
-// The action group being written: undoable, saved in the browser's storage soon after each edit. Text that cannot be read is
-// never thrown away: it is set aside under another key and the person is told. Never moves the robot.
+// The action group that is open, and the board and robot that it is checked and drawn with. It is undoable, saved in the browser's storage
+// soon after each edit. Text that cannot be read is never thrown away: it is set aside under another key and the person is told. Never
+// moves the robot.
 
 import { emptyGroup, type ActionGroup, groupFromText, groupToText } from '#shared/group/group.ts';
 import type { History } from '#shared/document/history.ts';
@@ -8,6 +9,9 @@ import { words } from '../i18n/words.ts';
 import type { Notices } from '../state/notices.ts';
 import { createThrottle, type TextStorage } from '../state/storage.ts';
 import { createUndoable, type SavedDocument } from '../state/undoable.ts';
+import { familyOfUnit, robotInUnit } from '#shared/profile/units.ts';
+import type { Robot } from '#shared/profile/robot.ts';
+import { FAMILIES, type Family } from '#shared/codec/families.ts';
 
 export type DocumentState = History<ActionGroup>;
 
@@ -71,4 +75,25 @@ function load(storage: TextStorage, notices: Notices): ActionGroup {
     notices.tell('warning', words.actions.notSaved);
   }
   return fresh;
+}
+
+export interface GroupBoard {
+  readonly family: Family;
+  readonly robot: Robot;
+  /** The group has another unit than the known board. */
+  readonly isOther: boolean;
+}
+
+export const knownFamily = (connected: Family, robot: Pick<Robot, 'board'>): Family =>
+  connected.id === 'unknown' ? FAMILIES[robot.board] : connected;
+
+export function boardOfGroup(
+  { unit, frames }: Pick<ActionGroup, 'unit' | 'frames'>,
+  family: Family,
+  robot: Robot,
+): GroupBoard {
+  const isOther = frames.length > 0 && unit !== family.unit;
+  return isOther
+    ? { family: familyOfUnit(unit), robot: robotInUnit(robot, unit), isOther }
+    : { family, robot, isOther };
 }

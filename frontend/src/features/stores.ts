@@ -13,12 +13,17 @@ import type { PoseBook } from '#shared/profile/pose.ts';
 import type { BatteryState, BatteryStore } from './battery/battery.ts';
 import type { Blend, BlendState } from './poses/blend.ts';
 import type { Boards } from '../robot/remembered.ts';
-import { boardOfGroup, knownFamily, type GroupBoard } from './groupBoard.ts';
 import type { CompiledState, CompiledStore } from './board/compile/compiled.ts';
 import type { MotionTape } from './animate/play/motionTape.ts';
 import type { Mapping } from '#shared/profile/mapping.ts';
 import type { Device, DeviceState } from '../robot/device.ts';
-import type { Document, DocumentState } from './groupDocument.ts';
+import {
+  type Document,
+  type DocumentState,
+  boardOfGroup,
+  knownFamily,
+  type GroupBoard,
+} from './groupDocument.ts';
 import { currentOf, type RobotStore } from './profiles/robots.ts';
 import type { RobotSync } from './profiles/robotSync.ts';
 import { guessesOf, guessOf, type LastPoses, type Positions } from '../robot/lastPoses.ts';
@@ -37,6 +42,7 @@ import type { Undoable } from '../state/undoable.ts';
 import type { Library, LibraryState } from './library/library.ts';
 import type { Timeline, TimelineState } from './animate/timeline/timeline.ts';
 import type { View, ViewState } from './view.ts';
+import { timesOf } from '#shared/group/groupTimes.ts';
 
 export interface Stores {
   readonly device: Device;
@@ -234,4 +240,16 @@ export function editServoView(
 ): void {
   const { id } = stores.robots.current();
   stores.view.setState({ servos: { ...change(servoViewOf(stores)), robotId: id } });
+}
+
+/** As an index; null while nothing is played. */
+export function usePlayedFrame(): number | null {
+  const { document } = useStores();
+  const isPlaying = usePlayback(({ phase }) => phase !== null && phase !== 'storing');
+  const index = useTimeline(({ playheadMs }) =>
+    isPlaying
+      ? timesOf(document.store.getState().present).ends.findIndex((endMs) => endMs >= playheadMs)
+      : -1,
+  );
+  return index === -1 ? null : index;
 }

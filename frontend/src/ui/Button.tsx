@@ -1,5 +1,5 @@
-// A button with text, and an icon button with a name; both can be made from an action. Neutral by default: colours mean states. Native buttons, because a panel has dozens
-// of them and one of the library's takes five times as long to mount.
+// A button with text, and an icon button with a name; both can be made from an action. Neutral by default: colours mean states. Native
+// buttons, because a panel has dozens of them and one of the library's takes five times as long to mount.
 
 import type { ComponentProps, MouseEvent, ReactNode, Ref } from 'react';
 import { cx } from './cx.ts';

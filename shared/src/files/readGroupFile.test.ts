@@ -7,7 +7,7 @@ import fc from 'fast-check';
 import { safeParse } from 'valibot';
 import { describe, expect, test } from 'vitest';
 import { flawOfGroup, groupSchema } from '../group/group.ts';
-import { meaningOf, MEANINGS } from '../testing/files.ts';
+import { meaningOf, MEANINGS } from '../testing/groups.ts';
 import { MAX_FILE_BYTES, readGroupFile, type GroupFile, type Means } from './readGroupFile.ts';
 import type { Problem } from './reading.ts';
 

@@ -1,5 +1,5 @@
-// Edits of whole frames that leave their times alone (easing, note, colour, left and right), of markers, and a whole group in the other unit.
-// Pure functions, the very same object where nothing changes. What left and right is, the robot profile says.
+// Edits of whole frames that leave their times alone (easing, note, colour, left and right), of markers, and a whole group in the other
+// unit. Pure functions, the very same object where nothing changes. What left and right is, the robot profile says.
 
 import { rescaled } from '../profile/units.ts';
 import type { Colour } from '../document/schema.ts';

@@ -1,11 +1,11 @@
-// Where each servo is now, given the commands that left the wire and when. One pure value and functions over it: no clock,
-// no link, no session. How a family moves is data (`Family.motion`), how it plays groups is deadlines.ts or polled.ts.
+// Where each servo is now, given the commands that left the wire and when. One pure value and functions over it: no clock, no link, no
+// session. How a family moves is data (`Family.motion`), how it plays groups is deadlines.ts or polled.ts.
 //
-// Null means that nobody can know: before the end of a servo's first move unless the board reported where it stands, while a group runs whose frames are not ours,
-// behind the first frame of LeArm's groups (their times jitter, L7), after a release, in a move that flash work froze (S29,
-// S41), and after a command that came when the board may have been deaf. What nobody tells us we cannot know at all: a reset
-// of the board, a pad or key pressed on a board that does not report runs, a packet lost on the way. LSC, bus boards and
-// xArm are closed: their model is the simulated board's, a careful guess.
+// Null means that nobody can know: before the end of a servo's first move unless the board reported where it stands, while a group runs
+// whose frames are not ours, behind the first frame of LeArm's groups (their times jitter, L7), after a release, in a move that flash work
+// froze (S29, S41), and after a command that came when the board may have been deaf. What nobody tells us we cannot know at all: a reset of
+// the board, a pad or key pressed on a board that does not report runs, a packet lost on the way. LSC, bus boards and xArm are closed:
+// their model is the simulated board's, a careful guess.
 
 import timings from '../../protocol/timings.json' with { type: 'json' };
 import type { Command, Frame, MoveCommand, ServoTarget } from '../codec/commands.ts';

@@ -1,5 +1,5 @@
-// The snapshot of a robot and its listeners, what a board's answers make of it, and the group that runs. Each change makes a new object, so that a page can
-// compare references.
+// The snapshot of a robot and its listeners, what a board's answers make of it, and the group that runs. Each change makes a new object, so
+// that a page can compare references.
 
 import type { Command } from '../codec/commands.ts';
 import { UNKNOWN_BOARD } from '../codec/families.ts';

@@ -16,8 +16,7 @@ import { readUint16, uint16, createGroupStore, openLayout, decodeFrame } from '.
 import type { Work } from './agenda.ts';
 import { COMMAND_NUMBER, type Frame } from '../codec/commands.ts';
 import { createBatterySampler, createMailbox, createMainLoop, createSlots } from './mainLoop.ts';
-import type { Engine, EngineParts } from './engine.ts';
-import { createPanel } from './panel.ts';
+import { type Engine, type EngineParts, createPanel } from './engine.ts';
 import { createRunner, type RunReports } from './runner.ts';
 
 // How fast groups are played (X3): a percentage for each, lost at power-off.

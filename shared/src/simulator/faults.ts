@@ -2,7 +2,7 @@
 // Knows bytes and replies as counts and chances; does not know what they mean.
 
 import { HEADER } from '../codec/packet.ts';
-import type { Press } from './panel.ts';
+import type { Press } from './engine.ts';
 
 /** Faults of the line strike each byte by chance, in both directions. */
 const LINE_FAULTS = ['droppedByte', 'doubledByte', 'flippedByte', 'insertedByte', 'stray55'] as const;

@@ -3,7 +3,7 @@
 
 import { TICK_MS, type Servos } from './servos.ts';
 import type { Source, Work } from './agenda.ts';
-import { NO_PAD_POLL, type PadPoll, type Panel } from './panel.ts';
+import { NO_PAD_POLL, type PadPoll, type Panel } from './engine.ts';
 import type { Runner } from './runner.ts';
 
 // The one slot between the interrupt that receives and the loop that serves (S9, S10). What an earlier packet left

@@ -4,9 +4,8 @@
 import { COMMAND_NUMBER, type Frame } from '../codec/commands.ts';
 import { createBatterySampler, createMailbox, createMainLoop, createSlots } from './mainLoop.ts';
 import { batteryHandler, createDispatch, motionHandlers, storeHandlers, createParser } from './dispatch.ts';
-import type { Engine, EngineParts } from './engine.ts';
+import { type Engine, type EngineParts, createPadPoll, NO_PAD_POLL, createPanel } from './engine.ts';
 import { createGroupStore, openLayout, decodeFrame } from './groupStore.ts';
-import { createPadPoll, NO_PAD_POLL, createPanel } from './panel.ts';
 import { createRunner } from './runner.ts';
 import { createServos } from './servos.ts';
 import { noWork, type Work } from './agenda.ts';

@@ -1,4 +1,5 @@
-// The boards there are to simulate, as values: which firmware, with how many servos. Knows no behaviour: that is in the engines. Source: boards.md chapter 2.
+// The boards there are to simulate, as values: which firmware, with how many servos. Knows no behaviour: that is in the engines. Source:
+// boards.md chapter 2.
 
 import { createClosedEngine, type ClosedTraits } from './closedEngine.ts';
 import type { CreateEngine } from './engine.ts';

@@ -1,5 +1,5 @@
-// The motion engines: one plan for all channels, re-made at the tick after any accepted target (S23-S27), and servos that each take their own
-// time. Count ticks and know no clock; when a tick comes is mainLoop.ts.
+// The motion engines: one plan for all channels, re-made at the tick after any accepted target (S23-S27), and servos that each take their
+// own time. Count ticks and know no clock; when a tick comes is mainLoop.ts.
 
 export interface Servos {
   /** Takes one target. A channel the board has not, or a position out of range, is dropped silently (S23, S24). */

@@ -1,4 +1,5 @@
-// Action groups generated for tests, and ways to look at their motion. Knows documents; no board.
+// Action groups generated for tests, ways to look at their motion, and files of groups: those of shared/protocol/vectors/files with what
+// they mean, and as many in every format as are wanted, as large as real ones are (boards.md section 9). Knows documents; no board.
 
 import fc from 'fast-check';
 import { COLOURS } from '../document/schema.ts';
@@ -7,8 +8,13 @@ import { insertFrame } from '../group/groupEdits.ts';
 import { addMarker } from '../group/frameEdits.ts';
 import type { TimeRange } from '../group/timeEdits.ts';
 import { frameEnds, positionAt, tracksOf, type KeyRef, type Tracks } from '../group/tracks.ts';
+import meanings from '../../protocol/vectors/files/meanings.json' with { type: 'json' };
+import type { Reading } from '../files/reading.ts';
+import { FAMILIES, type Family } from '../codec/families.ts';
+import { readyRobot } from '../profile/readyRobots.ts';
+import { writeGroupFile, type MakeDatabase, type SavedFile } from '../files/writeGroupFile.ts';
 
-// Action groups generated for tests, and ways to look at their motion.
+// Generated groups, and their motion.
 
 interface GroupTraits {
   readonly servos?: readonly number[];
@@ -100,4 +106,56 @@ export function sampled(tracks: Tracks, servos: readonly number[], untilMs = 14_
     const track = tracks.get(servo);
     return times.map((atMs) => (track === undefined ? null : positionAt(track, atMs)));
   });
+}
+
+// The files of shared/protocol/vectors/files.
+
+export const MEANINGS = meanings;
+
+/** As the twin of a fixture says it. */
+export function meaningOf(reading: Reading) {
+  if ('problem' in reading) return reading;
+  const { groups, asksUnit, remarks } = reading;
+  return groups.map(({ name, slot, unit, frames }) => ({
+    ...{ name, slot, unit, asksUnit, remarks: remarks.map(({ code }) => code) },
+    frames: frames.map(({ durationMs, targets }) => ({ durationMs, targets })),
+  }));
+}
+
+// Files in every format that can be opened.
+
+const SERVO_COUNT = 16;
+/** From the median of a real collection to its largest. */
+const FRAME_COUNTS = [6, 12, 56, 120, 237];
+const FORMATS = ['xml', 'd6a', 'csv', 'rob', 'json'] as const;
+
+export async function mixedFiles(count: number, makeDatabase: MakeDatabase): Promise<readonly SavedFile[]> {
+  const files: SavedFile[] = [];
+  for (let index = 0; index < count; index += 1) {
+    const format = FORMATS[index % FORMATS.length] ?? 'xml';
+    const boardId = format === 'rob' ? 'xarm' : 'doc';
+    const board = FAMILIES[boardId];
+    const frames = FRAME_COUNTS[Math.floor(index / FORMATS.length) % FRAME_COUNTS.length] ?? 0;
+    const group = groupOf(`mixed ${index + 1}`, frames, board);
+    const names = { robot: 'Plain', role: (role: string) => role, limb: (limb: string) => limb };
+    const robot = readyRobot('plain16', boardId, names);
+    const made = await writeGroupFile(format, group, { family: board, robot }, makeDatabase);
+    if ('content' in made) files.push(made);
+  }
+  return files;
+}
+
+/** Pulse widths below 1000 µs too, so that no file without a unit leaves a choice. */
+function groupOf(name: string, frames: number, { unit, position: { min, max } }: Family): ActionGroup {
+  const middle = (min + max) / 2;
+  return Array.from({ length: frames }).reduce<ActionGroup>(
+    (group, _, frame) => {
+      const targets = Array.from({ length: SERVO_COUNT }, (_each, index) => ({
+        servo: index + 1,
+        position: Math.round(middle + 0.4 * (max - min) * Math.sin(frame * 0.3 + index)),
+      }));
+      return insertFrame(group, frame, { durationMs: 300, targets });
+    },
+    emptyGroup(name, unit),
+  );
 }

@@ -2,8 +2,7 @@
 // what the board does. Changes are read out.
 
 import type { Unheld } from '#shared/motion/haltPlan.ts';
-import { usePlayedFrame } from '../animate/play/usePlayedFrame.ts';
-import { useDevice, useDocument, useIsTeaching, useSnapshot, useStores } from '../stores.ts';
+import { useDevice, useDocument, useIsTeaching, useSnapshot, useStores, usePlayedFrame } from '../stores.ts';
 import { mayResume } from '#shared/robot/lease.ts';
 import type { LinkErrorCode } from '#shared/robot/linkError.ts';
 import type { Activity, Latch, LinkState } from '#shared/robot/state.ts';

@@ -1,6 +1,6 @@
 import { describe, expect, test, vi } from 'vitest';
 import { recordingPen } from '../picture/penUnderTest.ts';
-import { paintMarks, type Marks } from './paintMarks.ts';
+import { paintMarks, type Marks } from './PositionSlider.tsx';
 
 const THUMB = { width: 18, height: 22 };
 const SIZE = { width: 218, height: 42 };

@@ -1,21 +1,21 @@
 // Who drives the robot, with the actions to request, grant or release it. Hidden while nobody else uses the robot. On a phone the text
 // itself opens a menu, because there is no room for several buttons.
 
-import { useState } from 'react';
+import { useState, useRef, type ReactNode } from 'react';
 import { type Unattended, isWatching, type Lease } from '#shared/robot/lease.ts';
 import { useSnapshot, useStores } from '../stores.ts';
-import { Button } from '../../ui/Button.tsx';
+import { Button, type ButtonProps } from '../../ui/Button.tsx';
 import { Mark } from '../../ui/Chip.tsx';
 import { cx } from '../../ui/cx.ts';
 import { useNow } from '../../ui/useEachFrame.ts';
 import { personWithin } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/words.ts';
 import { Icon } from '../../ui/Icon.tsx';
-import { MenuButton } from '../../ui/MenuButton.tsx';
 import { useLayout } from '../../ui/useLayout.ts';
 import { secondsLeft } from '../../i18n/numbers.ts';
 import { leaseTextOf, type LeaseText, type LeaseOffer } from './leaseText.ts';
 import styles from './LeaseChip.module.css';
+import { later, usePart } from '../../ui/later.tsx';
 
 /** A run that continues, or may continue, without the person who started it. Shown to everybody. */
 export function UnattendedChip() {
@@ -175,4 +175,31 @@ function PassesIn({ lease: { grantedInMs, hasRequested } }: { readonly lease: Le
   const nowMs = useNow(device.clock.now, 250);
   const leftMs = (grantedInMs ?? 0) - (nowMs - heardMs);
   return (hasRequested ? words.lease.yoursIn : words.lease.theirsIn)({ seconds: secondsLeft(leftMs) });
+}
+
+interface MenuButtonProps extends Pick<ButtonProps, 'tone'> {
+  readonly label: string;
+  /** Shown in place of the label. */
+  readonly children?: ReactNode;
+  readonly choices: readonly { readonly id: string; readonly name: string }[];
+  onChoose(id: string): void;
+}
+
+const menu = later(async () => (await import('../../ui/ChoiceMenu.tsx')).ChoiceMenu);
+
+/** A button with a menu of a few choices. The code of the menu is fetched when one first opens. */
+function MenuButton({ label, children = label, choices, onChoose, ...button }: MenuButtonProps) {
+  const ref = useRef<HTMLButtonElement>(null);
+  const [isOpen, setOpen] = useState(false);
+  const { part: ChoiceMenu } = usePart(menu, isOpen);
+  return (
+    <>
+      <Button {...button} ref={ref} aria-haspopup="menu" aria-expanded={isOpen} onPress={() => setOpen(true)}>
+        {children}
+      </Button>
+      {ChoiceMenu !== null && (
+        <ChoiceMenu {...{ label, choices, onChoose, isOpen }} under={ref} onClose={() => setOpen(false)} />
+      )}
+    </>
+  );
 }

@@ -1,4 +1,5 @@
-// What an example is made of, before there is a robot, and examples for any servos in a row: small turns about home. Knows no servo's limits.
+// What an example is made of, before there is a robot, and examples for any servos in a row: small turns about home. Knows no servo's
+// limits.
 
 import type { Easing } from '../group.ts';
 

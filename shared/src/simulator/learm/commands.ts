@@ -1,5 +1,5 @@
-// The two LeArms as values, what LeArm does with a command: the numbers of the other boards and its own ones (boards.md 2.3), with its delays
-// before each answer (L13), and how it plays its groups (L6-L11). Knows no bytes on the line and no loop.
+// The two LeArms as values, what LeArm does with a command: the numbers of the other boards and its own ones (boards.md 2.3), with its
+// delays before each answer (L13), and how it plays its groups (L6-L11). Knows no bytes on the line and no loop.
 
 import { COMMAND_NUMBER, type Frame } from '../../codec/commands.ts';
 import type { Reply } from '../dispatch.ts';

@@ -3,12 +3,11 @@
 
 import { useEffect, useEffectEvent, type RefObject, useState, useMemo, type CSSProperties } from 'react';
 import { indexOfFrame } from '#shared/group/groupEdits.ts';
-import { useStores } from '../../stores.ts';
+import { useStores, usePlayedFrame } from '../../stores.ts';
 import { clipFromText, clipToText } from '../timeline/clipText.ts';
 import { createStripKeys } from './frameActions.ts';
 import { copy, cut, paste, togetherNow, useWholeFrames } from './frameVerbs.ts';
 import { cardOf, useCards } from '../../../ui/cards.ts';
-import { usePlayedFrame } from '../play/usePlayedFrame.ts';
 import { showFrame } from '../timeline/inStep.ts';
 import { useInFrame } from '../../../ui/useInFrame.ts';
 import { words } from '../../../i18n/whole.ts';

@@ -4,7 +4,7 @@ import { indexOfFrame, setTargets } from '#shared/group/groupEdits.ts';
 import { freeOf, stayingOf } from '../../servoView.ts';
 import { motionHindrance, tellsPositions } from '../../../robot/readiness.ts';
 import { GENTLE_MOVE_MS } from '../../../robot/moves.ts';
-import { knownFamily } from '../../groupBoard.ts';
+import { knownFamily } from '../../groupDocument.ts';
 import { runByKey, type Action, type KeyUse, type Pressed } from '../../../ui/action.ts';
 import { neighbour, cardActions, walkKeys } from '../../../ui/cards.ts';
 import type { TimelineStores } from '../timeline/context.ts';

@@ -1,5 +1,5 @@
-// The pointer on the lanes, whatever it is: one press at a time becomes a gesture, two fingers zoom and pan, a finger that rests
-// opens the menu or, dragged on, draws a box; the middle button pans. Escape, a lost pointer and a lost window call a gesture off. Knows no edits.
+// The pointer on the lanes, whatever it is: one press at a time becomes a gesture, two fingers zoom and pan, a finger that rests opens the
+// menu or, dragged on, draws a box; the middle button pans. Escape, a lost pointer and a lost window call a gesture off. Knows no edits.
 
 import type { Spot } from './hit.ts';
 import type { Gesture, Held, Press, StatusName } from './gesture.ts';

@@ -8,7 +8,7 @@ import { filled, misfitsOf } from '#shared/files/fit.ts';
 import { meaningText, misfitText } from './fileText.ts';
 import { words } from '../../../i18n/whole.ts';
 import { GroupThumb } from '../../picture/PoseThumb.tsx';
-import { boardOfGroup } from '../../groupBoard.ts';
+import { boardOfGroup } from '../../groupDocument.ts';
 import { useKnownFamily, useRobot } from '../../stores.ts';
 import { Button } from '../../../ui/Button.tsx';
 import { Toggle } from '../../../ui/Toggle.tsx';

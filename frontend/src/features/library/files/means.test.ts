@@ -5,7 +5,7 @@ import { join } from 'node:path';
 import fc from 'fast-check';
 import startSqlite from 'sql.js';
 import { beforeAll, describe, expect, test } from 'vitest';
-import { meaningOf, MEANINGS } from '#shared/testing/files.ts';
+import { meaningOf, MEANINGS } from '#shared/testing/groups.ts';
 import { readGroupFile } from '#shared/files/readGroupFile.ts';
 import { sheetOf } from '#shared/files/csv.ts';
 import { emptyGroup } from '#shared/group/group.ts';

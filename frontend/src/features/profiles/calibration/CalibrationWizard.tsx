@@ -15,7 +15,6 @@ import { FAMILIES } from '#shared/codec/families.ts';
 import type { CalibrationStep } from '#shared/profile/calibration.ts';
 import { servoLabel } from '../../../i18n/sentences.ts';
 import { words } from '../../../i18n/whole.ts';
-import { type CurrentCalibration, useCalibration } from './useCalibration.ts';
 import { RobotHead } from '../RobotPicture.tsx';
 import { useStores } from '../../stores.ts';
 import { Button } from '../../../ui/Button.tsx';
@@ -23,7 +22,7 @@ import { Mark } from '../../../ui/Chip.tsx';
 import { cx } from '../../../ui/cx.ts';
 import { DirectionStep } from './DirectionStep.tsx';
 import { EndStep } from './EndStep.tsx';
-import { MotionGate, Answer, Ask } from './StepParts.tsx';
+import { MotionGate, Answer, Ask, type CurrentCalibration, useCalibration } from './StepParts.tsx';
 import styles from './CalibrationWizard.module.css';
 
 /** Offers to copy the results, mirrored, to the servo on the other side. */
