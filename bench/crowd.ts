@@ -13,7 +13,7 @@ import { stopFigures, stopTimes } from './presses.ts';
 import { withBoard, withGateway, type BoardOnPort } from './station.ts';
 import { percentile } from './statistics.ts';
 
-/** With the driver and whoever presses STOP all 216 seats. */
+/** With the driver and a person who presses STOP all 216 seats. */
 const READERS = 194;
 const NON_READERS = 20;
 const SECONDS = amount(5, 2);

@@ -39,7 +39,7 @@ const FIRST_POSITION = family.position.min;
 
 type Send = (targets: readonly ServoTarget[]) => void;
 
-/** One wire with a board at its end, and a client that is told of slider events. */
+/** One wire with a board at its end, and a client that is reported of slider events. */
 interface Client {
   readonly send: Send;
   readonly log: readonly BusLogEntry[];

@@ -1,4 +1,4 @@
-// Somebody on the gateway's WebSocket who presses STOP, and may drive, as a page does and without one. Knows the messages;
+// A person on the gateway's WebSocket who presses STOP, and may drive, as a page does and without one. Knows the messages;
 // measures nothing but when the press was.
 
 import { once } from 'node:events';

@@ -1,4 +1,4 @@
-// `npm run build:site` as somebody meets it who has the page from a web server below some path: it works without a gateway and
+// `npm run build:site` as a person meets it who has the page from a web server below some path: it works without a gateway and
 // without a network, and takes a new version only when a person says so.
 
 import { appendFileSync, cpSync } from 'node:fs';

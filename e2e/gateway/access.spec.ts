@@ -1,4 +1,4 @@
-// A gateway on the network: who comes in and how, what each may do, and that whoever looks can stop the robot.
+// A gateway on the network: who comes in and how, what each may do, and that a person who looks can stop the robot.
 
 import { ofKind, type Bus } from '../fixtures/bus.ts';
 import { ready } from '../fixtures/dashboard.ts';
@@ -26,7 +26,7 @@ test('an owner comes in by the terminal’s link, lets a viewer in, who stops th
   const before = await stops(ptyBoard.bus);
   await ben.stop.click();
   await poll(() => stops(ptyBoard.bus)).toBeGreaterThanOrEqual(before + 3);
-  // The gateway has just opened the port: what somebody else set in motion before may go on.
+  // The gateway has just opened the port: what another client set in motion before may go on.
   await expect(ben.status).toContainText('The robot may keep moving for up to');
   await expect(owner.status).toContainText('Stopped by Ben');
 
@@ -119,7 +119,7 @@ test('a stop-only link has one button, which stops the robot', async ({ newGatew
   await expect(passer.getByRole('heading', { name: 'Stop the robot' })).toBeVisible();
 });
 
-test('whoever revokes a script is asked what becomes of the group that it let go on @exhaustive', async ({
+test('a person who revokes a script is asked what becomes of the group that it let go on @exhaustive', async ({
   newGateway,
   ptyBoard,
   browser,

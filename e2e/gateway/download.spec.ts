@@ -125,7 +125,7 @@ test.describe('on a board that seems to be silent', () => {
     await question.getByRole('button', { name: 'Keep them' }).click();
   });
 
-  test('whoever looks on sees it, STOP of anybody ends it, and nobody runs what is left', async ({
+  test('a viewer sees it, STOP of anybody ends it, and nobody runs what is left', async ({
     dashboard,
     robot,
     browser,

@@ -1,5 +1,5 @@
 // A window that stands still, as browsers do with tabs nobody looks at and computers with their lid closed: it moves nothing
-// when it wakes, whatever it had in mind, and whoever goes on meanwhile is not hindered.
+// when it wakes, whatever it had in mind, and a person who goes on meanwhile is not hindered.
 
 import type { CDPSession } from '@playwright/test';
 import { kindsAfter, lastTarget, ofKind } from '../fixtures/bus.ts';

@@ -1,5 +1,5 @@
 // Boards nobody knows, and boards that are not what they were: what a person can tell from the page alone. A real gateway that
-// was told no board, real serial devices.
+// was reported no board, real serial devices.
 
 import type { BoardSettings } from '../fixtures/robot.ts';
 import { expect, poll, test } from '../fixtures/test.ts';
@@ -68,7 +68,7 @@ for (const { trouble, settings, says } of TROUBLES) {
   test.describe(trouble, () => {
     test.use({ boardSettings: settings });
 
-    test('is told in words that say what to do @exhaustive', async ({ page, ptyBoard, newGateway }) => {
+    test('is reported in words that say what to do @exhaustive', async ({ page, ptyBoard, newGateway }) => {
       const { url } = await newGateway({ serial: ptyBoard.device, board: 'unknown' });
       await page.goto(url);
       await expect(page.getByRole('region', { name: 'Which board is this?' })).toContainText(says, {

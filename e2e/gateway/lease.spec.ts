@@ -1,4 +1,4 @@
-// One robot, several people: one drives, the others look on, ask, take over and stop. The bus tells what the robot was told.
+// One robot, several people: one drives, the others look on, ask, take over and stop. The bus tells what the robot was reported.
 
 import type { BrowserContext, WebSocketRoute } from '@playwright/test';
 import { kindsAfter, lastTarget, ofKind } from '../fixtures/bus.ts';
@@ -24,7 +24,7 @@ async function joins(robot: Robot, context: BrowserContext): Promise<Dashboard> 
   return ready(page);
 }
 
-test('whoever is alone drives without being asked, and never hears of it @exhaustive', async ({
+test('a person who is alone drives without being asked, and never hears of it @exhaustive', async ({
   dashboard,
   robot,
 }) => {
@@ -55,7 +55,7 @@ test('one drives, the other looks on, asks, is refused, asks again and is let', 
   const before = await topOfWork(dashboard);
   const other = await joins(robot, context);
   await expect(dashboard.turn).toContainText('No driver');
-  // Nothing moves under a finger when somebody joins.
+  // Nothing moves under a finger when a person joins.
   await poll(() => topOfWork(dashboard)).toEqual(before);
   expect(before[0], 'a phone keeps its room for the work').toBeLessThanOrEqual(112);
   await dashboard.type(dashboard.target(1), 1800);
@@ -80,7 +80,7 @@ test('one drives, the other looks on, asks, is refused, asks again and is let', 
   await poll(() => topOfWork(dashboard)).toEqual(before);
 });
 
-test('whoever calibrates asks to drive where it is said @exhaustive', async ({
+test('a person who calibrates asks to drive where it is said @exhaustive', async ({
   dashboard,
   robot,
   context,
@@ -102,7 +102,7 @@ test('whoever calibrates asks to drive where it is said @exhaustive', async ({
 test.describe('with a finger', () => {
   test.use({ hasTouch: true });
 
-  test('scrolling past the sliders asks nobody for the robot, a tap on one does @exhaustive', async ({
+  test('scrolling past the sliders asks nothing for the robot, a tap on one does @exhaustive', async ({
     dashboard,
     robot,
     context,
@@ -128,7 +128,7 @@ test.describe('with a finger', () => {
   });
 });
 
-test('a driver who says nothing passes it on; taking over asks nobody and stops what moves @exhaustive', async ({
+test('a driver who says nothing passes it on; taking over asks nothing and stops what moves @exhaustive', async ({
   dashboard,
   robot,
   context,

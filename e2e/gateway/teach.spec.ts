@@ -66,7 +66,7 @@ async function onlooker(browser: Browser, page: Dashboard['page']): Promise<Dash
   return ready(other);
 }
 
-test('somebody who takes over ends it: nothing moves, the teacher is told, and a servo that was let go goes gently @exhaustive', async ({
+test('a person who takes over ends it: nothing moves, the teacher is reported, and a servo that was let go goes gently @exhaustive', async ({
   teaching: dashboard,
   arm,
   browser,

@@ -1,4 +1,4 @@
-// One robot, two screens: whoever looks on can stop it, and both see that it is stopped.
+// One robot, two screens: a viewer can stop it, and both see that it is stopped.
 
 import { ofKind } from '../fixtures/bus.ts';
 import { anotherBrowser, ready } from '../fixtures/dashboard.ts';
@@ -28,7 +28,7 @@ test('a STOP on one screen stops the robot for both, and either may resume', asy
   await expect(other.notices).toContainText('Another window chose Resume');
 });
 
-test('what another browser stored in a slot is told, and whether it is the group at hand', async ({
+test('what another browser stored in a slot is reported, and whether it is the group at hand', async ({
   dashboard,
   robot,
   browser,

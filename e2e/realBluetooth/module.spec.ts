@@ -1,5 +1,5 @@
 // Nothing of Web Bluetooth is made up here but the answer to the chooser, and nothing of the module but its radio: a real Chromium
-// talks to BlueZ's interface. Where dbus-daemon is missing these are skipped, and the reason is told.
+// talks to BlueZ's interface. Where dbus-daemon is missing these are skipped, and the reason is reported.
 
 import { lastTarget, ofKind } from '../fixtures/bus.ts';
 import { ONCE_BACK, READY } from '../fixtures/dashboard.ts';
@@ -23,7 +23,7 @@ test('a module is chosen, its board moves, tells its battery and stops', async (
   });
 });
 
-test('a link that breaks is told at once, and comes back with a stop @exhaustive', async ({
+test('a link that breaks is reported at once, and comes back with a stop @exhaustive', async ({
   openModule,
   bluetoothBoard,
 }) => {

@@ -1,5 +1,5 @@
 // Nothing of HID is made up here but the chooser: a real Chromium, and a real gateway, open a hidraw node through their own code.
-// Where umockdev is missing these are skipped, and the reason is told.
+// Where umockdev is missing these are skipped, and the reason is reported.
 
 import { lastTarget, ofKind } from '../fixtures/bus.ts';
 import { dashboardOf, ONCE_BACK, READY } from '../fixtures/dashboard.ts';

@@ -1,5 +1,5 @@
 // Nothing of Web Serial is made up here but the chooser: a real Chromium opens a real pty through its own serial code.
-// Where umockdev is missing these are skipped, and the reason is told.
+// Where umockdev is missing these are skipped, and the reason is reported.
 
 import { kindsAfter, lastTarget, ofKind } from '../fixtures/bus.ts';
 import { READY } from '../fixtures/dashboard.ts';
@@ -44,7 +44,7 @@ test('STOP goes out three times over a real port, and holds', async ({ connected
   expect(ofKind(await ptyBoard.bus(), 'move').at(-1)?.targets).toEqual([{ servo: 1, position: 2000 }]);
 });
 
-test('an adapter that goes away is told as such @exhaustive', async ({ connected, ptyBoard }) => {
+test('an adapter that goes away is reported as such @exhaustive', async ({ connected, ptyBoard }) => {
   await ptyBoard.unplug();
   await expect(connected.link).toHaveText(/^Lost/);
   await expect(connected.status).toContainText(/Check the robot’s cable|Plug the robot in|Another program/);

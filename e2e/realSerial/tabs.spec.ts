@@ -35,7 +35,7 @@ function hide(page: Page): Promise<void> {
   });
 }
 
-test('a hidden tab pauses; the next one is told who drives, moves the robot here, and gives it back @exhaustive', async ({
+test('a hidden tab pauses; the next one is shown who drives, moves the robot here, and gives it back @exhaustive', async ({
   connected,
   open,
   context,

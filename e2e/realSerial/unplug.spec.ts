@@ -41,7 +41,7 @@ async function watchLink(page: Page): Promise<() => Promise<readonly Seen[]>> {
 const timeOf = (seen: readonly Seen[], wanted: string): number =>
   seen.findLast(({ event }) => event === wanted)!.atMs;
 
-test('a cable that is pulled and comes back is told within half a second', async ({
+test('a cable that is pulled and comes back is reported within half a second', async ({
   connected,
   page,
   pull,

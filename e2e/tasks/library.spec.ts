@@ -87,7 +87,7 @@ test('a gateway that has said who is here is waited for @exhaustive', async ({ d
 test.describe('two browsers at one gateway', () => {
   test.use({ expectedComplaint: /412/ });
 
-  test('changes made at the same time are both kept, and the later one is told @exhaustive', async ({
+  test('changes made at the same time are both kept, and the later one is reported @exhaustive', async ({
     dashboard,
     page,
     browser,

@@ -7,7 +7,7 @@ import { SLOW_FLASH } from '../fixtures/robot.ts';
 import { ONCE_BACK, READY } from '../fixtures/dashboard.ts';
 import { expect, poll, test } from '../fixtures/test.ts';
 
-test('a pulled cable is told, comes back without a reload, and moves only after Resume @everyWay', async ({
+test('a pulled cable is reported, comes back without a reload, and moves only after Resume @everyWay', async ({
   dashboard,
   robot,
 }) => {

@@ -60,7 +60,7 @@ test.describe('at its alarm', () => {
     await poll(async () => ofKind(await robot.bus(), 'run')).toHaveLength(1);
   });
 
-  test('a robot that was taken to rest says that nobody pressed Stop', async ({ dashboard }) => {
+  test('a robot that was taken to rest says that Stop was not pressed', async ({ dashboard }) => {
     await dashboard.feedBy('2S pack', { policy: 'Go to rest and stop' });
     await expect(dashboard.status).toContainText('Stopped by the robot’s low-battery setting', {
       timeout: 40_000,

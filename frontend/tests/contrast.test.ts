@@ -1,4 +1,4 @@
-// For whoever needs other colours or a still page: with the system's high contrast what has the focus is still to be seen, and
+// For people who need other colours or a still page: with the system's high contrast what has the focus is still to be seen, and
 // nothing moves by itself where that is not wanted.
 
 import type { Page } from './harness/page.ts';

@@ -1,4 +1,4 @@
-// Moving servos: by slider, by number, in a set time. Nothing moves that nobody asked for, nothing is clamped silently.
+// Moving servos: by slider, by number, in a set time. Nothing moves without an order, nothing is clamped silently.
 
 import { lastTarget, ofKind, type Heard } from '../../e2e/fixtures/bus.ts';
 import { ONCE_BACK, READY } from '../../e2e/fixtures/dashboard.ts';

@@ -68,7 +68,7 @@ test('who has a hexapod says so, and has one described', async ({ page, url }) =
   await expect(connectDialog.getByRole('radio', { name: 'Hexapod' })).toBeChecked();
 });
 
-test('whoever looks for what does not work finds what is there', async ({ page, url }) => {
+test('a person who looks for a fault finds what is there', async ({ page, url }) => {
   const dashboard = dashboardOf(page);
   await page.goto(url);
   await expect(dashboard.link).toHaveText(/Ready/);

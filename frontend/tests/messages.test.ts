@@ -81,7 +81,7 @@ test('no hint lies over Stop or takes a press', async ({ page, url }) => {
   await expect(hint).toHaveCSS('pointer-events', 'none');
 });
 
-test('whoever dismisses a message by key is back where they came from', async ({ page, url }) => {
+test('a message dismissed by key gives the focus back', async ({ page, url }) => {
   const dashboard = dashboardOf(page);
   await page.goto(url);
   await expect(dashboard.link).toHaveText(/Simulated/);

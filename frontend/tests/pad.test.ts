@@ -145,7 +145,7 @@ test('T keeps what the pad has just done, also while it drives', async ({ dashbo
   await expect(dialog).toContainText(/positions become \d+ keys/);
 });
 
-test('servos that nobody knows are asked for and go home slowly', async ({ dashboard, robot, page }) => {
+test('servos of unknown position are asked for and go home slowly', async ({ dashboard, robot, page }) => {
   await switchOn(page);
   await pad.hold(RIGHT_TRIGGER);
   await expect(dashboard.notices).toContainText('Gripper does not move: its position is unknown.');

@@ -12,7 +12,7 @@ const { libraryOf } = here(library);
 const { noteTexts } = here(notes);
 const { timelineOf } = here(timeline);
 
-test('the board gets a group before it runs it, not a second time, and in place of another one when told so', async ({
+test('the board gets a group before it runs it, not a second time, and in place of another one when the person agrees', async ({
   dashboard,
   robot,
   page,

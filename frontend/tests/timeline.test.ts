@@ -7,7 +7,7 @@ import { expect, here, test } from './harness/test.ts';
 const keepGroup = here(e2e.keepGroup);
 const timelineOf = here(e2e.timelineOf);
 
-/** Of the lanes, where the ruler and the heads of the frames are. */
+/** Of the tracks, where the ruler and the heads of the frames are. */
 const RULER_Y = 11;
 const HEADS_Y = 33;
 
@@ -324,7 +324,7 @@ test('the wheel zooms where the pointer is, and all of it fits again', async ({ 
   await expect(timeline.key('Gripper, 0.50 s, 1000 µs, linear')).toBeHidden();
   expect((await timeline.middleOf(timeline.key(name))).x).toBeCloseTo(before.x, -1);
 
-  // Dragged past the end of the lanes it takes them along.
+  // Dragged past the end of the tracks it takes them along.
   const tracks = await timeline.grid.boundingBox();
   await page.mouse.down();
   await page.mouse.move(tracks.x + tracks.width - 2, before.y, { steps: 4 });
@@ -519,7 +519,9 @@ test.describe('with fingers', () => {
     await expect(timeline.selected).toHaveCount(2);
   });
 
-  test('arrows below the lanes nudge what is selected in time and value', async ({ dashboard: { page } }) => {
+  test('arrows below the tracks nudge what is selected in time and value', async ({
+    dashboard: { page },
+  }) => {
     await page.getByRole('tab', { name: 'Animate' }).click();
     const timeline = timelineOf(page);
     const arrow = (name: string) =>

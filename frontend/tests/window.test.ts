@@ -1,5 +1,5 @@
 // The windows of class rooms: what the main jobs are done with is on screen as a whole, and stays where it is, from connecting a
-// robot to stopping it. Nobody has to scroll for it.
+// robot to stopping it. Scrolling is not needed for it.
 
 import type { Locator } from './harness/locator.ts';
 import type { Look, Page } from './harness/page.ts';
@@ -16,7 +16,7 @@ const CLASS_ROOMS: readonly [Look['viewport'], Look['viewport']] = [
 ];
 const SERVOS = [1, 2, 3, 4, 5, 6];
 
-/** How much of a control somebody can point at: its middle and its corners, just within its edge. */
+/** How much of a control a person can point at: its middle and its corners, just within its edge. */
 function whatIsCut(control: Locator): Promise<string | null> {
   return control.evaluate((element) => {
     const area = element.closest('label') ?? element;

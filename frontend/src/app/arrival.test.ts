@@ -26,7 +26,7 @@ test.each([
   expect(deviceName(userAgent)).toBe(name);
 });
 
-test('somebody who was revoked, or may more or less now, is another one', () => {
+test('a person who was revoked, or may more or less now, is another one', () => {
   const ben = { id: 'ben', name: 'Ben', role: 'driver' } as const;
   const me = { mode: 'lan', overheard: true } as const;
   expect(isAnother(ben, { ...me, you: ben })).toBe(false);

@@ -44,7 +44,7 @@ test('left to the system again, it is the language of the browser again', async 
   await spoken('zh-CN');
 });
 
-test('robots are named in the language they are made in, and steps told in the one they are read in', async () => {
+test('robots are named in the language they are made in, and steps named in the one they are read in', async () => {
   await visit(['zh']);
   const { robots } = await createTestPage();
   const { robot } = robots.current();

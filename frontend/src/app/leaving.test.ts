@@ -19,7 +19,7 @@ function openPage(): { page: Window; events: string[]; show(state: DocumentVisib
   };
 }
 
-test('a page that is hidden is told so, one that is shown again is not', () => {
+test('a page that is hidden gets a call, one that is shown again is not', () => {
   const { events, show } = openPage();
   show('hidden');
   show('visible');

@@ -141,14 +141,14 @@ describe('the document', () => {
     expect(document.store.getState().past).toHaveLength(1);
   });
 
-  test('text that cannot be read is set aside unharmed, and the person is told', () => {
+  test('text that cannot be read is set aside unharmed, and a notice says so', () => {
     const { group, stored, noticeTexts } = createTestPage({ 'servodeck.group': '{"version":9}' });
     expect(group().frames).toHaveLength(0);
     expect(stored.get('servodeck.group.unreadable')).toBe('{"version":9}');
     expect(noticeTexts()).toEqual([words.actions.broken]);
   });
 
-  test('a browser that stores nothing is told once; editing goes on', () => {
+  test('a browser that stores nothing is reported once; editing goes on', () => {
     const refuse = (): never => {
       throw new Error('storage is forbidden');
     };

@@ -1,5 +1,5 @@
 // The action group that is open, and the board and robot that it is checked and drawn with. It is undoable, saved in the browser's storage
-// soon after each edit. Text that cannot be read is never thrown away: it is set aside under another key and the person is told. Never
+// soon after each edit. Text that cannot be read is never thrown away: it is stored under another key, with a notice. Never
 // moves the robot.
 
 import { emptyGroup, type ActionGroup, groupFromText, groupToText } from '#shared/group/group.ts';

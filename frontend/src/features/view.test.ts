@@ -55,7 +55,7 @@ test('what else is open or selected begins anew', () => {
   expect(createView(memories).getState()).toEqual(INITIAL_VIEW);
 });
 
-test('the kiosk outlives a reload, until somebody leaves it', () => {
+test('the kiosk outlives a reload, until a person leaves it', () => {
   const memories = memoriesWith(null);
   createView(memories).setState({ kiosk: 'on' });
   expect(createView(memories).getState().kiosk).toBe('on');

@@ -46,7 +46,7 @@ export interface ViewState {
   readonly actionsOpen: boolean;
   /** The open view of the dialog of robots; null if it is closed. */
   readonly robotView: 'list' | 'edit' | 'calibrate' | null;
-  /** The progress of one robot's calibration, kept over a reload. */
+  /** The progress of one robot's calibration, which survives a reload. */
   readonly calibration: StoredCalibration | null;
   readonly logOpen: boolean;
   readonly logKinds: readonly LogKind[];
@@ -69,7 +69,7 @@ export interface ViewState {
   readonly times: number;
   readonly untilStopped: boolean;
   /** The next run may continue without this page; reset after each run. */
-  readonly goesOn: boolean;
+  readonly keepsRunning: boolean;
   /** The longest time without this page. */
   readonly keepRunningMinutes: number;
 }
@@ -137,7 +137,7 @@ export const INITIAL_VIEW: ViewState = {
   slot: null,
   times: 1,
   untilStopped: false,
-  goesOn: false,
+  keepsRunning: false,
   keepRunningMinutes: 10,
 };
 

@@ -665,8 +665,8 @@ export interface Messages {
     readonly release: string;
     readonly mayKeepRunning: (values: { readonly slot: number }) => string;
     readonly playingMayContinue: string;
-    readonly goesOnFor: (values: { readonly ms: number }) => string;
-    readonly goesOnLabel: string;
+    readonly keepsRunningFor: (values: { readonly ms: number }) => string;
+    readonly runsWithoutDriver: string;
     readonly keep: string;
     readonly keepHint: string;
     readonly handOver: string;
@@ -683,8 +683,8 @@ export interface Messages {
     readonly driver: (values: { readonly name: string }) => string;
     readonly asked: (values: { readonly name: string }) => string;
     readonly asker: (values: { readonly name: string }) => string;
-    readonly goesOn: (values: { readonly slot: number; readonly name: string }) => string;
-    readonly playingGoesOn: (values: { readonly name: string }) => string;
+    readonly keepsRunning: (values: { readonly slot: number; readonly name: string }) => string;
+    readonly playKeepsRunning: (values: { readonly name: string }) => string;
     readonly given: (values: { readonly name: string }) => string;
   };
   readonly record: {
@@ -882,8 +882,8 @@ export interface Messages {
     readonly byScript: string;
     readonly stoppedBy: (values: { readonly name: string }) => string;
     readonly robot: string;
-    readonly goesOnFor: (values: { readonly servos: string; readonly ms: number }) => string;
-    readonly goesOn: (values: { readonly servos: string }) => string;
+    readonly mayKeepMovingFor: (values: { readonly servos: string; readonly ms: number }) => string;
+    readonly mayKeepMoving: (values: { readonly servos: string }) => string;
   };
   readonly activity: {
     readonly idle: string;
@@ -1402,7 +1402,7 @@ export interface Messages {
     readonly revokeText: string;
     readonly revokeTextOfRun: (values: { readonly slot: number }) => string;
     readonly revokeAndStop: string;
-    readonly revokeGroupGoesOn: string;
+    readonly revokeOnly: string;
     readonly keep: string;
     readonly more: {
       readonly title: string;

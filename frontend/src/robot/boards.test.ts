@@ -20,7 +20,7 @@ test('a board is known again at the next visit, each by its own way', () => {
   expect(next.recall(HAND)).toEqual({ family: 'lsc-6', nickname: '' });
 });
 
-test('another family keeps the nickname; a board nobody identified gets none', () => {
+test('another family keeps the nickname; a board that was not identified gets none', () => {
   const boards = createBoards(storageWith());
   boards.rename(HAND, 'Nobody');
   expect(boards.recall(HAND)).toBeUndefined();

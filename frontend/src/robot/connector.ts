@@ -145,7 +145,7 @@ export function createConnector(options: ConnectorOptions): Connector {
     const { robot, way } = opening;
     current = opening;
     store.setState({ openDevice: opening.port });
-    // Before the page itself hears that it is ready: where somebody has changed the gateway's port, it leads to another board.
+    // Before the page itself hears that it is ready: where the gateway's port was changed, it leads to another board.
     let wasReady = false;
     let isNew = true;
     robot.subscribe({

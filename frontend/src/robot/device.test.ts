@@ -50,7 +50,7 @@ describe('what playing could not keep', () => {
     targets: [{ servo: 1, position: 1000 + 10 * (index % 20) }],
   }));
 
-  test('frames that began late are told, with how late, and that none was left out', async () => {
+  test('frames that began late are reported, with how late, and that none was left out', async () => {
     const { device, asleep, draw, noticeTexts } = await createTestPage();
     device.play(MANY, 1, () => undefined);
     await draw(1900);
@@ -61,7 +61,7 @@ describe('what playing could not keep', () => {
     ]);
   });
 
-  test('a frame that was left out is told instead', async () => {
+  test('a frame that was left out is reported instead', async () => {
     const { device, channel, asleep, draw, noticeTexts } = await createTestPage();
     const { write } = channel;
     let sent = 0;
@@ -75,7 +75,7 @@ describe('what playing could not keep', () => {
     expect(noticeTexts()).not.toContainEqual(expect.stringContaining('None was left out'));
   });
 
-  test('nothing is told of what went well', async () => {
+  test('nothing is reported of what went well', async () => {
     const { device, draw, noticeTexts } = await createTestPage();
     device.play(MANY, 1, () => undefined);
     await draw(6000);
@@ -93,7 +93,7 @@ describe('what came too late', () => {
     return { ...page, refuse, again: () => page.device.move([{ servo: 1, position: 1600 }], 500) };
   }
 
-  test('is told until it was asked for again and went well for a while', async () => {
+  test('is reported until it was asked for again and went well for a while', async () => {
     const { refuse, again, noticeTexts, draw } = await latePage();
     refuse('expired');
     await draw(20_000);
@@ -196,13 +196,13 @@ describe('a device with a session', () => {
     expect(state().snapshot.waitingToStart).toEqual([]);
   });
 
-  test('knows nothing of a servo that nobody moved', async () => {
+  test('knows nothing of a servo that was not moved', async () => {
     const { device, targets } = await createTestPage();
     expect(targets()).toEqual({});
     expect(device.motion(1)).toEqual({ target: null, estimated: null });
   });
 
-  test('wakes nobody who listens while a drag goes on', async () => {
+  test('wakes no listener while a drag goes on', async () => {
     const { device, draw } = await createTestPage();
     const woken = vi.fn();
     async function dragTo(from: number, to: number) {
@@ -346,7 +346,7 @@ describe('a device with a session', () => {
     expect(noticeTexts()).toEqual([downloadCancelled(5)]);
   });
 
-  test('playing to the end is told, pausing is not', async () => {
+  test('playing to the end is reported, pausing is not', async () => {
     const { device, state, draw, targets } = await createTestPage();
     let finished = 0;
     device.play(FRAMES, 1, (isDone) => (finished += Number(isDone)));

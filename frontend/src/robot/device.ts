@@ -33,11 +33,11 @@ export interface DeviceState {
   readonly family: Family;
   readonly way: Way | null;
   readonly snapshot: SessionState;
-  /** Servos that were asked for something, or whose place the board has said; where another one is nobody knows. */
+  /** Servos that were asked for something, or whose position the board has reported; the position of others is unknown. */
   readonly known: readonly number[];
   /** Those of them whose place is the board's own word. */
   readonly readServos: readonly number[];
-  /** A servo is on its way, as far as can be known; looked at now and then, and kept for a moment between two moves. */
+  /** A servo is on its way, as far as can be known; looked at now and then, and true for a moment between two moves. */
   readonly isMoving: boolean;
 }
 
@@ -72,7 +72,7 @@ export interface Device extends BoardVerbs {
   /** About who drives a robot that is shared. */
   lease(action: LeaseAction): void;
   /** The run under way may go on without this page, for so long at most; null: it may not. */
-  letGoOn(forMs: number | null): void;
+  keepRunning(forMs: number | null): void;
   retryNow(): void;
   /** Holds for later sessions too. */
   setAutoReconnect(enabled: boolean): void;
@@ -292,7 +292,7 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
       if (send(targets, onBoard(robot(), targets), durationMs)) refresh();
     },
     lease: (action) => session?.lease(action),
-    letGoOn: (forMs) => session?.letRun(forMs),
+    keepRunning: (forMs) => session?.letRun(forMs),
     retryNow: () => session?.retryNow(),
     setAutoReconnect(enabled) {
       autoReconnect = enabled;

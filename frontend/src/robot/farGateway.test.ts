@@ -124,7 +124,7 @@ test.each([0, 5, 20, 50].flatMap((delayMs) => [6, 32].map((servoCount) => [delay
   },
 );
 
-test('a first move is slow and waits for nobody, however many moves follow it', async () => {
+test('a first move is slow and waits for nothing, however many moves follow it', async () => {
   const clock = createVirtualClock();
   const line = createSimulatedChannel(clock, { servoCount: 6, onForMs: 60_000 });
   const { session, left } = await farGateway(clock, 50, line);

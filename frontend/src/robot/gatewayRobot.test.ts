@@ -30,7 +30,7 @@ async function settled({ clock }: GatewayUnderTest): Promise<void> {
 }
 
 describe('who drives', () => {
-  test('a free lease hinders nobody, and neither does one’s own', async () => {
+  test('a free lease hinders no one, and neither does one’s own', async () => {
     const gateway = await createGateway();
     for (const state of [FREE, OURS]) {
       gateway.say(lease(state));
@@ -38,7 +38,7 @@ describe('who drives', () => {
     }
   });
 
-  test.each([THEIRS, { ...FREE, mayDrive: false }])('whoever looks on moves nothing: %o', async (state) => {
+  test.each([THEIRS, { ...FREE, mayDrive: false }])('a viewer moves nothing: %o', async (state) => {
     const gateway = await createGateway();
     const { robot } = gateway;
     gateway.say(lease(state));
@@ -70,7 +70,7 @@ describe('who drives', () => {
     expect(robot.state.lease).toBeNull();
   });
 
-  test('whoever looks on knows as well as the driver where the robot is, also when somebody stops it', async () => {
+  test('a viewer knows as well as the driver where the robot is, also when a person stops it', async () => {
     const { clock, robot, say, state } = await createGateway();
     say(lease(THEIRS), left({ kind: 'move', targets: TARGET, durationMs: 1_000 }));
     await clock.advance(1_000);
@@ -354,7 +354,7 @@ describe('playing', () => {
     expect(await played).toEqual({ lateFrames: 0, latestMs: 0, skippedFrames: 0, isWhole: true });
   });
 
-  test('while it plays, whoever asked for it, nothing else begins, and sliders move', async () => {
+  test('while it plays, whichever page asked for it, nothing else begins, and sliders move', async () => {
     const gateway = await createGateway();
     const { robot, say } = gateway;
     say(plays({ frameIndex: 4, frameCount: 9 }));
@@ -507,7 +507,7 @@ describe('downloads', () => {
     expect(robot.state.activity).toEqual({ kind: 'idle' });
   });
 
-  test('one that somebody else began is shown, refuses motion, and can be called off', async () => {
+  test('one that another client began is shown, refuses motion, and can be called off', async () => {
     const { robot, requests } = await withJobs({ job: JOB, brokenSlots: [5] });
     expect(robot.state).toMatchObject({ activity: { kind: 'downloading', slot: 5 }, brokenSlots: [5] });
     expect(() => robot.move(TARGET, 100)).toThrow(expect.objectContaining({ code: 'busy' }));

@@ -47,11 +47,11 @@ describe('what only brushes a servo', () => {
 });
 
 test.each([
-  ['nobody drives and it may', LEASE, null],
-  ['somebody else drives', { ...LEASE, driver: 'Anna' }, 'watching'],
-  ['it has asked whoever drives', { ...LEASE, driver: 'Anna', hasRequested: true }, 'asking'],
-  ['a viewer, while nobody drives', { ...LEASE, mayDrive: false }, 'viewing'],
-  ['a viewer, while somebody drives', { ...LEASE, mayDrive: false, driver: 'Anna' }, 'viewing'],
+  ['there is no driver and it may', LEASE, null],
+  ['another client drives', { ...LEASE, driver: 'Anna' }, 'watching'],
+  ['it has asked the driver', { ...LEASE, driver: 'Anna', hasRequested: true }, 'asking'],
+  ['a viewer, while there is no driver', { ...LEASE, mayDrive: false }, 'viewing'],
+  ['a viewer, while another client drives', { ...LEASE, mayDrive: false, driver: 'Anna' }, 'viewing'],
 ] as const)('what keeps a page from moving: %s', (_, lease, hindrance) => {
   expect(motionHindrance({ ...READY, lease })).toBe(hindrance);
 });
@@ -60,7 +60,7 @@ describe('a line', () => {
   const refused = (code: 'closed' | 'boardUnknown') =>
     ({ status: 'refused', error: new LinkError(code, 'for a test') }) as const;
 
-  test('is open although nobody has said which board is on it', () => {
+  test('is open although its board is unknown', () => {
     expect(isLineOpen(refused('boardUnknown'))).toBe(true);
     expect(isLineOpen({ status: 'stale', sinceMs: 0 })).toBe(true);
   });

@@ -42,7 +42,7 @@ describe('notices', () => {
     });
   });
 
-  test('a value that the board cannot take is told with its figures, in the language in use', async () => {
+  test('a value that the board cannot take is reported with its figures, in the language in use', async () => {
     const { notices, noticeTexts } = createTestPage();
     const refusal = new RangeRefusal({
       field: 'position',

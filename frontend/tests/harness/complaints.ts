@@ -1,4 +1,4 @@
-// What a page complains of that nobody looking at it would see: errors and warnings of the console. A test fails on any that it
+// What a page complains of that is not seen on it: errors and warnings of the console. A test fails on any that it
 // did not announce; exceptions fail it by themselves.
 
 import { expect, vi } from 'vitest';

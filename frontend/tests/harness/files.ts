@@ -60,7 +60,7 @@ export function watchFiles() {
 
   window.addEventListener('click', hear, { capture: true, signal: listening.signal });
   const click = HTMLElement.prototype.click;
-  // One that stands nowhere is heard by nobody.
+  // One that stands nowhere is heard by no one.
   HTMLElement.prototype.click = function (this: HTMLElement) {
     if (this.isConnected) click.call(this);
     else {

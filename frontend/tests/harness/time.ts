@@ -103,7 +103,7 @@ export async function advance(ms: number): Promise<void> {
 /** What no clock moves: layout that is observed, workers, the browser's database. */
 export const realMoment = (ms = 4): Promise<void> => new Promise((resolve) => real.setTimeout(resolve, ms));
 
-/** Until the browser has drawn, and observers of sizes and sight have been told. */
+/** Until the browser has drawn, and observers of sizes and sight were called. */
 export const realFrame = (): Promise<void> =>
   new Promise((resolve) => real.frame(() => real.setTimeout(resolve, 0)));
 

@@ -236,7 +236,7 @@ describe('parsing', () => {
     expect(parseCommand({ command, params: Uint8Array.from(params) })).toBeNull();
   });
 
-  test('an empty 7 stays unknown where nobody knows what it means', () => {
+  test('an empty 7 stays unknown where its meaning is unknown', () => {
     const packet: Packet = { command: 7, params: new Uint8Array(0) };
     const report = parseReport(packet, { ...FAMILIES.doc, emptySeven: 'unknown' });
     expect(report).toEqual({ kind: 'unknown', command: 7, params: new Uint8Array(0) });

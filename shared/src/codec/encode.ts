@@ -115,7 +115,7 @@ function checkFrame(frame: Frame, servoCount: Range, family: Family): void {
   });
 }
 
-/** Never all servos at once by an empty list or by 254, only those that are meant. */
+/** Never all servos at once by an empty list or by 254, only those that are listed. */
 function checkServos(servos: readonly number[], family: Family): void {
   checkRange('servoCount', servos.length, { min: 1, max: family.servosPerMove });
   servos.forEach((servo, index) => {

@@ -56,7 +56,7 @@ describe('a packet by hand', () => {
     expect(judge('55 55 03 0F 00')).toEqual(refusal('otherShape'));
   });
 
-  test('flash is not written by hand, told as soon as the number is there', () => {
+  test('flash is not written by hand, refused as soon as the number is there', () => {
     expect(judge('55 55 03 08')).toEqual(refusal('flash'));
     expect(judge('55 55 0B 19')).toEqual(refusal('flash'));
     expect(judge('55 55 02 08', FAMILIES['learm-esp32'])).toEqual(refusal('flash'));
@@ -76,7 +76,7 @@ describe('a packet by hand', () => {
     expect(judge('55 55 05 06 01 01 00', UNKNOWN_BOARD)).toEqual(refusal('unknownNumber'));
   });
 
-  test('what must never go is told so, also where unknown numbers may', () => {
+  test('what must never be sent is refused as such, also where unknown numbers may', () => {
     const careful = { ...FAMILIES.doc, neverSend: [0x63] };
     expect(judge('55 55 02 63', careful)).toEqual(refusal('neverSend'));
     expect(judge('55 55 05 08', FAMILIES.xarm)).toEqual(refusal('neverSend'));

@@ -94,7 +94,7 @@ export const COMMAND_SHAPES: ShapeRule = compile([
 
 /** No packet begins here. */
 export const NO = -1;
-/** The bytes end before it can be told. */
+/** The bytes end before it is certain. */
 export const WAIT = 0;
 /** Two headers, LEN, CMD: a packet without parameters is no longer. */
 const HEAD_SIZE = 4;

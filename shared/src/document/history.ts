@@ -4,7 +4,7 @@
 /** What a step is called, asked whenever it is shown: its language may have changed since. */
 export type Label = () => string;
 
-/** Steps kept; with structural sharing 1,000 states of the largest group cost a few megabytes. */
+/** Steps stored; with structural sharing 1,000 states of the largest group cost a few megabytes. */
 const MAX_STEPS = 1000;
 
 interface Step<T> {
@@ -27,7 +27,7 @@ export function startHistory<T>(present: T): History<T> {
   return { present, past: [], future: [], gesture: null };
 }
 
-/** One finished edit. A gesture in progress is committed first: no edit may vanish with somebody else's cancel. */
+/** One finished edit. A gesture in progress is committed first: no edit may vanish when another one is cancelled. */
 export function record<T>(history: History<T>, label: Label, next: T): History<T> {
   const settled = commit(history);
   return next === settled.present ? settled : step(settled, label, settled.present, next);

@@ -71,7 +71,7 @@ export interface DocumentStore {
 }
 
 export const LIBRARY_ERROR_CODES = [
-  'conflict', // somebody else has changed it since it was read
+  'conflict', // another client has changed it since it was read
   'notFound', // the store does not have it
   'full', // no room where it is stored
   'busy', // another program holds the store's file
@@ -104,7 +104,7 @@ export const TRASH_MS = timings.library.trashDays * 24 * 3600 * 1000;
 export function nextRevision(stored: Stored | undefined, { text, expected }: Writing): number {
   if (stored?.text === text) return stored.revision;
   if (stored !== undefined && stored.revision !== expected)
-    throw new LibraryError('conflict', 'somebody else has changed this document meanwhile');
+    throw new LibraryError('conflict', 'another client has changed this document meanwhile');
   return expected + 1;
 }
 

@@ -30,7 +30,7 @@ export function factsOf(group: ActionGroup, { updatedAtMs, robot }: FactsContext
   };
 }
 
-// What a list says of a robot, worked out from it: its limits and poses as the board counts, for whoever moves it
+// What a list says of a robot, worked out from it: its limits and poses as the board counts, for clients that move it
 // without knowing its trims.
 
 const MAX_POSITION = 0xffff;

@@ -82,7 +82,7 @@ const uint8_t GAP_MS = 10;  // what the board needs between two packets
 const uint8_t STEPS[] PROGMEM = {
 ${rows?.join('') ?? ''}};
 
-// Frame 1 when nobody knows where the servos stand: slowly.
+// Frame 1 while the positions of the servos are unknown: slowly.
 const uint8_t FIRST_STEPS[] PROGMEM = {
 ${firstRows?.join('') ?? ''}};
 const size_t SECOND_FRAME = ${bytesIn(frames.slice(0, 1), family)};
@@ -166,7 +166,7 @@ import serial
 NAME = ${asciiLiteral(group.name)}
 BOARD = ${asciiLiteral(family.name)}
 TIMES = ${group.times}  # how often it is played; 0: until Ctrl-C
-FIRST_MOVE_MS = ${FIRST_MOVE_MS}  # at least, because nobody knows where the servos stand
+FIRST_MOVE_MS = ${FIRST_MOVE_MS}  # at least, because the positions of the servos are unknown
 SERVOS_PER_PACKET = ${family.servosPerMove}
 BAUD = 9600
 GAP_S = 0.01  # what the board needs between two packets

@@ -95,7 +95,7 @@ describe('a broken file says where and why', () => {
     expect(await read(textFile(name, text))).toMatchObject({ problem });
   });
 
-  test('a .rob file that is encrypted, cut, empty or marked by somebody else', async () => {
+  test('a .rob file that is encrypted, cut, empty or marked by another program', async () => {
     const rob = bytesIn('step.rob');
     const as = async (bytes: Uint8Array) => read({ name: 'a.rob', bytes });
     expect(await as(bytesIn('secret.rob'))).toMatchObject({ problem: { code: 'encrypted' } });
@@ -115,7 +115,7 @@ describe('a broken file says where and why', () => {
   });
 });
 
-describe('what is not in the group is told', () => {
+describe('what is not in the group is reported', () => {
   test.each([
     [xml(row('#1 P1500 #2 P900 #1 P1600')), 'servoTwice', '1'],
     [`<A><Type>Stepper</Type>${xml(row('#1 P1500'))}</A>`, 'unknownType', 'Stepper'],

@@ -82,7 +82,7 @@ function readText(file: GroupFile, decode: Decode): Reading {
     TEXT_FORMATS.find(({ extension }) => file.name.toLowerCase().endsWith(extension));
   if (format === undefined) throw new Unreadable('unknownFormat');
   const read = format.read(text);
-  if ('name' in read) return { groups: [read], asksUnit: false, remarks };
+  if ('name' in read) return { groups: [read], isUnitMissing: false, remarks };
   return reading(file, { ...read, remarks: [...remarks, ...read.remarks] });
 }
 
@@ -102,7 +102,7 @@ function reading({ name: fileName }: GroupFile, { frames, unit, remarks }: Drawn
     })),
     nextId: frames.length + 1,
   };
-  return { groups: [group], asksUnit: unit === null, remarks: [...remarks, ...cutName(fileName, name)] };
+  return { groups: [group], isUnitMissing: unit === null, remarks: [...remarks, ...cutName(fileName, name)] };
 }
 
 /** Steps end at 1000, pulse widths begin at 500 µs. */

@@ -40,7 +40,7 @@ export type Reading =
   | {
       readonly groups: readonly ActionGroup[];
       /** The file does not say which unit its positions have; the groups carry the likelier one. */
-      readonly asksUnit: boolean;
+      readonly isUnitMissing: boolean;
       readonly remarks: readonly Remark[];
     }
   | { readonly problem: Problem };
@@ -134,7 +134,7 @@ export function meaningIn(unit: Unit, { frames }: ActionGroup): Meaning {
   return { positions: lowest > highest ? null : { min: lowest, max: highest }, outside };
 }
 
-/** Where the numbers leave no choice; null: both units can be meant, or neither. */
+/** Where the numbers leave no choice; null: both units fit, or neither. */
 export function onlyFittingUnit(group: ActionGroup): Unit | null {
   const fitting = (['us', 'steps'] as const).filter((unit) => meaningIn(unit, group).outside === 0);
   return fitting.length === 1 ? (fitting[0] ?? null) : null;

@@ -40,7 +40,7 @@ export function createHappeningsReader(): (snapshot: Watched) => readonly Happen
     if (next !== link) happened.push(next);
     if (snapshot.latch !== latch && isOurStop(snapshot.latch)) happened.push('stopped');
     else if (latch === null && snapshot.latch !== null) happened.push('latched');
-    // A link that is closed takes its latch along; nobody allowed motion.
+    // A link that is closed takes its latch along; motion was not resumed.
     if (latch !== null && snapshot.latch === null && next === 'opened') happened.push('resumed');
     link = next;
     latch = snapshot.latch;
@@ -102,7 +102,7 @@ export function createTape(capacity = CAPACITY): Tape {
     const board = boardAt(id);
     const line = lines[id % capacity];
     if (id < oldest || id >= next || board === undefined || line === undefined)
-      throw new RangeError(`entry ${id} is not kept`);
+      throw new RangeError(`entry ${id} is not stored`);
     return { id, board, entry: readLine(line) };
   }
 

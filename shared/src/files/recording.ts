@@ -8,7 +8,7 @@ import { fromHex, toHex } from '../codec/packet.ts';
 export const HAPPENINGS = ['opened', 'lost', 'closed', 'stopped', 'latched', 'resumed'] as const;
 export type Happening = (typeof HAPPENINGS)[number];
 
-/** Bytes that are no packet are kept apart as the decoder told them: `garbage`, or `truncated` by a silence. */
+/** Bytes that are no packet are stored apart, as the decoder reported them: `garbage`, or `truncated` by a silence. */
 export type ByteMark = 'sent' | 'received' | 'garbage' | 'truncated';
 
 /** `atMs` on the clock of the session, in whole milliseconds. */

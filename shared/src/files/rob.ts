@@ -1,5 +1,5 @@
 // ACT-40, the .rob files of the Bus Servo Control program: a header and 248 bytes a frame with room for 40 bus servos
-// (boards.md section 7). Positions are steps. What two of the three values of a servo mean nobody knows: not read, written 0.
+// (boards.md section 7). Positions are steps. The meaning of two of the three values of a servo is unknown: not read, written 0.
 
 import type { Frame } from '../codec/commands.ts';
 import { MAX_FRAMES, type ActionGroup } from '../group/group.ts';

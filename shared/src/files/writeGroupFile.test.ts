@@ -1,4 +1,4 @@
-// What is saved is read back the same, in our words and in the vendors'; what a format cannot hold is told before.
+// What is saved is read back the same, in our words and in the vendors'; what a format cannot hold is reported before.
 
 import { toJsonSchema } from '@valibot/to-json-schema';
 import fc from 'fast-check';
@@ -89,7 +89,7 @@ describe.each(['json', 'xml', 'd6a', 'rob', 'csv'] as const)('a group saved as %
 
   test('says its unit or asks for it', async () => {
     expect(await save(format, groupOf([[500, { 1: 700 }]], { unit }))).toMatchObject({
-      asksUnit: format === 'csv' || format === 'd6a',
+      isUnitMissing: format === 'csv' || format === 'd6a',
       groups: [{ unit }],
     });
   });
@@ -233,7 +233,7 @@ describe('what is lost', () => {
   };
   const codes = (format: SaveFormat) => lossesIn(format, eased).map(({ code }) => code);
 
-  test('is nothing in our own file, and told of each other', () => {
+  test('is nothing in our own file, and reported of each other', () => {
     expect(codes('json')).toEqual([]);
     expect(codes('xml')).toEqual(['easings', 'marks', 'about', 'times', 'completed', 'lacking']);
     expect(codes('python')).toEqual(['marks', 'about', 'completed']);

@@ -37,7 +37,7 @@ test('called off between two groups, none is lost', () => {
   expect([held(after), waiting(after)]).toEqual(['5 New, 9 New, 12 Old', []]);
 });
 
-test('of a download that nobody can tell of, what stands before a broken slot has arrived', () => {
+test('of a download that was not reported, what stands before a broken slot has arrived', () => {
   for (const download of [null, { ...latest(3, true), slots: [1, 2] }]) {
     expect(held(withDownload(BOOK, download, [5]))).toBe('9 New, 12 Old');
     expect(held(withDownload(BOOK, download, [9]))).toBe('5 Old, 12 Old');

@@ -51,7 +51,7 @@ describe('a clip', () => {
     ]);
   });
 
-  test('of another unit is refused, one beyond the limits is told', () => {
+  test('of another unit is refused, one beyond the limits is reported', () => {
     const one = setKey(emptyGroup('Wave', 'us'), 3, 100, 2400);
     const clip = copyKeys(one, refsOf(one));
     const steps = setKey(emptyGroup('Other', 'steps'), 1, 100, 500);
@@ -87,7 +87,7 @@ describe('whole frames in a clip', () => {
     );
   });
 
-  test('are keys for whoever pastes them at an instant, and keys are frames with the time they took', () => {
+  test('are keys where they are pasted at an instant, and keys are frames with the time they took', () => {
     const pose = (position: number) => ({ durationMs: 500, targets: [{ servo: 1, position }], note: 'Look' });
     const group = [1000, 2000].reduce((sum, at) => insertFrame(sum, 9, pose(at)), emptyGroup('Wave', 'us'));
     const frames = copyFrames(group, [2]);
@@ -100,7 +100,7 @@ describe('whole frames in a clip', () => {
     });
   });
 
-  test('are refused where they cannot be, and told where the robot must not go', () => {
+  test('are refused where they cannot be, and reported where the robot must not go', () => {
     const one = insertFrame(emptyGroup('Wave', 'us'), 0, {
       durationMs: 100,
       targets: [{ servo: 3, position: 2400 }],

@@ -13,7 +13,7 @@ import { positionAt, tracksOf } from './tracks.ts';
 
 const DOC = family('doc');
 const TICK_MS = 20;
-/** Where a servo may be of which nobody knows. */
+/** Where a servo may be whose position is unknown. */
 const ANYWHERE = -5000;
 const onTicks = fc.integer({ min: 1, max: 60 }).map((ticks) => ticks * TICK_MS);
 const SMOOTH = EASINGS.filter((easing) => easing !== 'hold');
@@ -179,7 +179,7 @@ describe('a compiled group', () => {
     expect(frames.map(({ durationMs }) => durationMs)).toEqual([100, 100, 200]);
   });
 
-  test('leaves out ends of frames that nobody needs', () => {
+  test('leaves out ends of frames that are not needed', () => {
     const line = groupOf([
       [100, { 1: 1000, 2: 1500 }],
       [100, { 1: 1100 }],
@@ -206,7 +206,7 @@ describe('a compiled group', () => {
     });
   });
 
-  test('goes straight to a first key that nobody knows the way to', () => {
+  test('goes straight to a first key to which the way is unknown', () => {
     for (const easing of EASINGS)
       expect(compile(groupOf([[100, { 1: 1000 }, easing]]), { ...FREE, maxErrorUnits: 1 }).frames).toEqual([
         { durationMs: 100, targets: [{ servo: 1, position: 1000 }] },
@@ -344,7 +344,7 @@ describe('what a group costs and what of it cannot be', () => {
     expect(report.problems).toEqual([]);
   });
 
-  test('a curve in less time than the board can follow is told with servo, time and degrees', () => {
+  test('a curve in less time than the board can follow is reported with servo, time and degrees', () => {
     const steep = groupOf([
       [20, { 1: 1000, 2: 1000 }],
       [40, { 2: 2000 }, 'in'],

@@ -76,7 +76,7 @@ function fitted(courses: readonly Course[], endMs: number, fit: Fit) {
   const ends = endsOf(courses, endMs);
   const frames: Frame[] = [];
   let worst: Deviation | null = null;
-  // A servo that comes from nobody knows where comes to its first key with the end of a frame.
+  // A servo that comes from an unknown position comes to its first key with the end of a frame.
   const arrivals = courses.flatMap(({ knownFromMs }) => (knownFromMs > 0 ? [knownFromMs] : []));
   const longestMs = fit.longestMs - (fit.longestMs % fit.stepMs);
   for (let fromMs = 0; fromMs < endMs;) {

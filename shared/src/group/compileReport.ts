@@ -15,7 +15,7 @@ const SERVO_DEGREES_PER_S = 300;
 
 export interface CompileOptions {
   readonly family: Family;
-  /** In the group's unit; positions are whole, so that less than 0.5 is seldom kept. */
+  /** In the group's unit; positions are whole, so that less than 0.5 is seldom reached. */
   readonly maxErrorUnits: number;
   /** Its limits, trims and degrees. */
   readonly robot?: Robot;
@@ -156,7 +156,7 @@ function courseProblems({ courses, options }: CompiledParts): CompileProblem[] {
   });
 }
 
-/** Jumps are meant to be as fast as can be. */
+/** Jumps are to be as fast as can be. */
 function fastestOf(legs: readonly Leg[]): Leg | null {
   return legs
     .filter(({ isJump }) => !isJump)

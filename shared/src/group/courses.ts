@@ -11,7 +11,7 @@ export interface Leg {
   readonly from: number;
   readonly to: number;
   readonly easing: Easing;
-  /** As fast as the servo can: how long it really takes, nobody asked. */
+  /** As fast as the servo can: how long that takes is not specified. */
   readonly isJump: boolean;
 }
 

@@ -146,7 +146,7 @@ export const groupToText = (group: ActionGroup): string => versionedLine(FORMAT,
 /** The same, for people to read. */
 export const groupToFile = (group: ActionGroup): string => versionedText(FORMAT, group);
 
-/** By what they say, whoever made the objects. */
+/** By their values, not by identity of the objects. */
 export const sameGroup = (one: ActionGroup, other: ActionGroup): boolean => plain(one) === plain(other);
 
 const plain = (group: ActionGroup): string => JSON.stringify(v.safeParse(groupSchema, group).output);

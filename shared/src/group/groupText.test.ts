@@ -57,7 +57,12 @@ describe('a group as text', () => {
 
   test.each([
     ['another version', groupToText(SAMPLE).replace('"version":1', '"version":2'), 'otherVersion'],
-    ['a unit nobody has', changed((group) => ({ ...group, unit: 'degrees' })), 'badValue', 'content.unit'],
+    [
+      'a unit that does not exist',
+      changed((group) => ({ ...group, unit: 'degrees' })),
+      'badValue',
+      'content.unit',
+    ],
     [
       'a name beyond 64 characters',
       changed((group) => ({ ...group, name: 'a'.repeat(65) })),

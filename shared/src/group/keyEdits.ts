@@ -114,7 +114,7 @@ function rippled(group: ActionGroup, refs: readonly KeyRef[], deltaMs: number): 
     : setDuration(group, first.id, Math.max(0, first.durationMs + deltaMs), { ripple: true });
 }
 
-/** About where each servo's swing grows or shrinks: the mean of its keys that are meant, or the positions given. */
+/** About where each servo's swing grows or shrinks: the mean of its keys among those, or the positions given. */
 type AmplitudeCentre = 'mean' | ReadonlyMap<number, number>;
 
 /** Servos without a centre stay as they are. */

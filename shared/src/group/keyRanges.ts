@@ -31,7 +31,7 @@ interface Lifted {
   readonly vacated: ReadonlySet<number>;
 }
 
-/** The keys that are meant, frame by frame, and what is left without them. */
+/** The named keys, frame by frame, and what is left without them. */
 export function lifted(group: ActionGroup, refs: readonly KeyRef[]): Lifted {
   const chosen = servosByFrame(refs);
   const keys: LiftedKeys[] = [];

@@ -77,7 +77,7 @@ describe('a passage', () => {
     expect(slow.atMs).toEqual([0, 250, 500, 750, 1000]);
   });
 
-  test('brings servos that nobody knows to their first place at the beginning', () => {
+  test('brings servos of unknown position to their first place at the beginning', () => {
     const late = [at(200, 1000), { durationMs: 400, targets: [{ servo: 2, position: 1700 }] }];
     expect(passageOf(late, { ...WHOLE, unknownServos: [2] }).frames[0]).toEqual(at(200, 1000, 1700));
     expect(passageOf(late, WHOLE).frames[0]).toEqual(at(200, 1000));

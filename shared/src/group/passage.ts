@@ -12,7 +12,7 @@ export interface PassageOptions {
   /** A slower frame is sent in parts. */
   readonly longestMs: number;
   /**
-   * Servos whose place nobody knows: they go to their first position in the lead, because a first move is slow and would hold up
+   * Servos whose position is unknown: they go to their first position in the lead, because a first move is slow and would hold up
    * the others later.
    */
   readonly unknownServos: readonly number[];

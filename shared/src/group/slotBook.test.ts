@@ -103,7 +103,7 @@ describe('the book of slots', () => {
     expect(slotBookFromText(JSON.stringify(earlier))).toEqual(slotBookFromText(text));
   });
 
-  test('does not know what somebody else has stored', () => {
+  test('does not know what another client has stored', () => {
     const book = withErased(withErasing(withStored(EMPTY_SLOT_BOOK, record(5))));
     expect(contentOf(withUnknown(book, 9), NOW, 9, group)).toBe('unknown');
     expect(contentOf(withUnknown(withStored(book, record(5)), 5), NOW, 5, group)).toBe('unknown');
@@ -145,7 +145,7 @@ describe('the book of slots', () => {
   });
 });
 
-test('an erase takes what others stored; what a download broke is gone already, whoever began it', () => {
+test('an erase takes what others stored; what a download broke is gone already, whichever client began it', () => {
   const stored = (name: string) => ({ name, version: 'a', documentId: null });
   const book = withStored(EMPTY_SLOT_BOOK, record(5));
   const versions = { 5: stored('Wave'), 6: stored('Nod'), 7: stored('Bow') };
@@ -199,7 +199,7 @@ describe('the word of a gateway that sees all downloads', () => {
     expect(withVersions(book, {}).stored).toEqual([]);
   });
 
-  test('what somebody else erased can be brought back, until somebody has, or has put something else there', () => {
+  test('what another client erased can be brought back, until that is done or something else is put there', () => {
     const erased = withVersions(book, { 3: versions[3]! });
     expect([erased.stored, erased.erased]).toEqual([[recordOf(book, 3)], [recordOf(book, 5)]]);
     expect(withVersions(erased, { 3: versions[3]! })).toBe(erased);
@@ -207,7 +207,7 @@ describe('the word of a gateway that sees all downloads', () => {
     expect(withVersions(erased, { 3: versions[3]!, 5: versionOf('another') }).erased).toEqual([]);
   });
 
-  test('what somebody else stored is kept as theirs', () => {
+  test('what another client stored is kept as theirs', () => {
     const theirs = withStored(book, { ...record(7), by: 'Bert' });
     expect(slotBookFromText(slotBookToText(theirs))).toEqual({ value: theirs });
   });

@@ -39,7 +39,7 @@ export interface SlotRecord {
   /** Which document of the library it is; null where it was not noted. */
   readonly documentId: string | null;
   readonly storedAtMs: number;
-  /** Somebody else, where it was not downloaded from here. */
+  /** Another person, where it was not downloaded from here. */
   readonly by?: string;
   readonly fingerprint: string;
   readonly frames: readonly Frame[];
@@ -48,10 +48,10 @@ export interface SlotRecord {
 export interface SlotBook {
   /** By slot, ascending. */
   readonly stored: readonly SlotRecord[];
-  /** What the last erase took and nobody has brought back. */
+  /** What the last erase took and was not restored since. */
   readonly erased: readonly SlotRecord[];
   readonly isEmptied: boolean;
-  /** What is on its way to the board, in this order: it may arrive when nobody is here any more. */
+  /** What is on its way to the board, in this order: it may arrive when this page is closed. */
   readonly begun: readonly SlotRecord[];
 }
 
@@ -83,7 +83,7 @@ export function withStored(book: SlotBook, record: SlotRecord): SlotBook {
   };
 }
 
-/** Something was stored there that nobody here knows. */
+/** Something was stored there that this page does not know. */
 export function withUnknown(book: SlotBook, slot: number): SlotBook {
   if (recordOf(book, slot) === undefined && !book.isEmptied) return book;
   return { ...book, stored: without(book.stored, slot), isEmptied: false };
@@ -91,7 +91,7 @@ export function withUnknown(book: SlotBook, slot: number): SlotBook {
 
 /**
  * By the word of the gateway, which sees all downloads: where something else stands by now, what was there is gone; where nothing does,
- * somebody has erased it; and what an erase took stands there again.
+ * it was erased elsewhere; and what an erase took stands there again.
  */
 export function withVersions(book: SlotBook, versions: StoredVersions): SlotBook {
   const isThere = ({ slot, fingerprint }: SlotRecord): boolean => versions[slot]?.version === fingerprint;

@@ -9,7 +9,7 @@ export interface KnownSlots {
   readonly book: Pick<SlotBook, 'stored' | 'erased'>;
   /** What others stored, as a shared link has it. */
   readonly versions: StoredVersions;
-  /** They hold half a group, which somebody may want to download again. */
+  /** They hold half a group, which a person may want to download again. */
   readonly broken: readonly number[];
   readonly range: Range;
 }
@@ -50,7 +50,7 @@ export function slotFor(own: number | null, known: KnownSlots, taken: readonly n
 const slotsFor = ({ min, max }: Range): readonly number[] =>
   Array.from({ length: max - min + 1 }, (_, index) => min + index).filter((slot) => !isLiveSlot(slot));
 
-// What becomes of groups on their way to the board, by what is told of the download: whoever asked for them may have
+// What becomes of groups on their way to the board, by the news of the download: the page that asked for them may have
 // been away.
 
 /** The latest download, by whichever client. */
@@ -73,7 +73,7 @@ export const withBegun = (book: SlotBook, begun: readonly SlotRecord[]): SlotBoo
 export const concerns = ({ slots }: LatestDownload, { begun }: SlotBook): boolean =>
   begun.length > 0 && begun.every(({ slot }) => slots.includes(slot));
 
-/** `news` null: nobody has heard of a download. `broken`: slots that hold half a group. */
+/** `news` null: no download was reported. `broken`: slots that hold half a group. */
 export function withDownload(
   book: SlotBook,
   latest: LatestDownload | null,
@@ -107,7 +107,7 @@ function reportedOutcome(
 
 /**
  * They go one after the other: what stands before a broken one has arrived. Where none broke, the first one has, which was
- * under way; of the others nobody can say.
+ * under way; of the others it is unknown.
  */
 function assumedOutcome(begun: readonly SlotRecord[], broken: readonly number[]): Outcome {
   const at = begun.findIndex(({ slot }) => broken.includes(slot));

@@ -1,5 +1,5 @@
 // Groups on deadlines: a frame begins when the time of the one before it is over (S42-S50). The open firmware's way; of the
-// closed boards nobody knows, and the simulated ones do the same. Knows runs; no servo's way.
+// closed boards it is unknown, and the simulated ones do the same. Knows runs; no servo's way.
 
 import timings from '../../protocol/timings.json' with { type: 'json' };
 import { wireMs } from '../codec/packet.ts';

@@ -78,7 +78,7 @@ test('is impossible while nothing is known', () => {
   expect(haltPlan(UNKNOWN_MOTION, 0, board)).toEqual({ hold: null, unheld: null });
 });
 
-test('behind a group that nobody knows its frame may go on, also when the group has been stopped', () => {
+test('behind an unknown group its frame may go on, also when the group has been stopped', () => {
   for (const left of [
     [[0, run(7)]],
     [

@@ -129,7 +129,7 @@ function holdAt(motion: Motion, atMs: number, family: Family): Hold | null {
   };
 }
 
-/** Null for a servo that nobody can hold, or that need not be held. */
+/** Null for a servo that cannot be held, or need not be. */
 function heldAt(track: Track, atMs: number, family: Family): Omit<Held, 'servo'> | null {
   const leeway = leewayOf(track, atMs, family);
   if (leeway === 0) return { position: track.to, isUnderWay: false, way: 0 };
@@ -173,14 +173,14 @@ function mayMoveUnknown({ run, restlessUntilMs }: Motion, atMs: number): boolean
   return run !== null || restlessUntilMs > atMs;
 }
 
-/** How long what nobody can hold still needs, a begun tick with it, or is given. */
+/** How long the part that cannot be held still needs, a begun tick with it, or is given. */
 function unknownMs({ tracks, restlessUntilMs }: Motion, atMs: number, tickMs: number): number {
   const unheld = [...tracks.values()].filter((track) => guessOf(track, atMs) === null);
   const needMs = unheld.map((track) => Math.min(endMs(track) - atMs + tickMs, mostMs(track)));
   return Math.max(Math.min(timings.stop.unknownFrameMs, restlessUntilMs - atMs), ...needMs);
 }
 
-/** Of what nobody knows whether it was begun. */
+/** Where it is unknown whether it was begun. */
 function mostMs({ fromLeeway }: Track): number {
   return fromLeeway === Infinity ? timings.stop.unknownFrameMs : Infinity;
 }

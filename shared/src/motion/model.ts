@@ -171,7 +171,7 @@ export function runningUnknown(motion: Motion, slot: number | null, endsToHear =
   return { ...motion, tracks: doubted(motion.tracks), readings, run: { kind: 'unknown', slot, endsToHear } };
 }
 
-/** Begun so long ago (below 0: not yet); `from` is null where nobody knows where it began. */
+/** Begun so long ago (below 0: not yet); `from` is null where its start is unknown. */
 export interface WayBefore {
   readonly servo: number;
   readonly from: number | null;
@@ -188,7 +188,7 @@ export interface PositionBefore {
   readonly isCurrent: boolean;
 }
 
-/** `runSlot`: the group that may run, whose frames nobody told. `released`: without torque, hands may have turned them. */
+/** `runSlot`: the group that may run, whose frames are unknown. `released`: without torque, hands may have turned them. */
 export interface MotionBefore {
   readonly ways: readonly WayBefore[];
   readonly runSlot: number | null;
@@ -237,7 +237,7 @@ export function forgotten(motion: Motion, atMs: number): Motion {
   };
 }
 
-/** Whoever had the link before it was opened at `atMs` may have set something in motion. */
+/** The former owner of the link, before it was opened at `atMs`, may have set something in motion. */
 export function inherited(motion: Motion, atMs: number): Motion {
   // A question of ours may have ended their group (L8).
   return { ...motion, inheritedUntilMs: atMs + LONGEST_MOVE_MS, skipsFirst: 'maybe' };

@@ -56,7 +56,7 @@ function robot(id: FamilyId, groups: Groups = {}) {
   return self.send(-1_000, move(20, [1, 1_000], [2, 1_000]));
 }
 
-describe('a servo nobody commanded', () => {
+describe('a servo without a command', () => {
   test('has no position and no target', () => {
     expect(positionAt(UNKNOWN_MOTION, 1, 0)).toBeNull();
     expect(targetOf(UNKNOWN_MOTION, 1)).toBeNull();
@@ -173,12 +173,12 @@ describe('a group on deadlines', () => {
     ).toBe(1_500);
   });
 
-  test('of no time at all is played nobody knows how often', () => {
+  test('of no time at all is played an unknown number of times', () => {
     const timeless = robot('openarm-old', { 3: [frame(0, [1, 2_000]), frame(0, [1, 1_000])] });
     expect(timeless.send(0, run(3, 0)).at(100)).toBeNull();
   });
 
-  test('somebody else started makes all unknown until its end', () => {
+  test('started by another client makes all unknown until its end', () => {
     const started = robot('lsc-6', groups).hear(0, { kind: 'runStarted', slot: 1, times: 1 });
     expect(started.at(10)).toBeNull();
     expect(
@@ -194,16 +194,16 @@ describe('a group on deadlines', () => {
     expect(own.at(57.3)).toBe(1_500);
   });
 
-  test('goes on when the end of the one before it is told late, and not which it was', () => {
+  test('goes on when the end of the one before it is reported late, and not which it was', () => {
     const two = { 3: [frame(40, [1, 2_000])], 4: [frame(400, [1, 1_000])] };
     const next = robot('doc', two).send(0, run(3)).send(60, run(4)).hear(64, END);
     expect(next.when(100).run).not.toBeNull();
     expect(next.hear(200, END).when(200).run).toBeNull();
-    const told = robot('doc', two).send(0, run(3)).hear(50, END).send(60, run(4));
-    expect(told.hear(200, END).when(200).run).toBeNull();
+    const later = robot('doc', two).send(0, run(3)).hear(50, END).send(60, run(4));
+    expect(later.hear(200, END).when(200).run).toBeNull();
   });
 
-  test('goes on when the end of another one is told late', () => {
+  test('goes on when the end of another one is reported late', () => {
     const next = robot('lsc-6', groups).send(0, run(1));
     const late = next.hear(5, { kind: 'runFinished', slot: 8 });
     expect(late.at(57.3)).toBe(1_500);
@@ -289,7 +289,7 @@ describe('a board busy with its flash', () => {
     expect(behind(310).at(5_000, 2)).toBe(1_500);
   });
 
-  test('goes on with a group nobody knows how far', () => {
+  test('goes on with a group that is played to an unknown point', () => {
     const running = robot('doc', { 1: [frame(100, [1, 2_000])] })
       .send(0, run(1, 0))
       .send(50, download);
@@ -305,7 +305,7 @@ test('released servos are unknown, the others are not (X7)', () => {
 describe('what a board says of its servos', () => {
   const says = (position: number): Report => ({ kind: 'positions', positions: [{ servo: 7, position }] });
 
-  test('makes one that nobody moved known, as a place and not as a wish', () => {
+  test('makes one that was not moved known, as a place and not as a wish', () => {
     const xarm = robot('bus-ctrl').hear(500, says(300));
     expect([xarm.at(600, 7), targetOf(xarm.when(600), 7)]).toEqual([300, null]);
     xarm.send(1_000, move(1_000, [7, 700]));

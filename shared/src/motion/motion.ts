@@ -1,9 +1,9 @@
 // Where each servo is now, given the commands that left the wire and when. One pure value and functions over it: no clock, no link, no
 // session. How a family moves is data (`Family.motion`), how it plays groups is deadlines.ts or polled.ts.
 //
-// Null means that nobody can know: before the end of a servo's first move unless the board reported where it stands, while a group runs
+// Null means unknown: before the end of a servo's first move unless the board reported where it stands, while a group runs
 // whose frames are not ours, behind the first frame of LeArm's groups (their times jitter, L7), after a release, in a move that flash work
-// froze (S29, S41), and after a command that came when the board may have been deaf. What nobody tells us we cannot know at all: a reset of
+// froze (S29, S41), and after a command that came when the board may have been deaf. What no packet reports is unknown too: a reset of
 // the board, a pad or key pressed on a board that does not report runs, a packet lost on the way. LSC, bus boards and xArm are closed:
 // their model is the simulated board's, a careful guess.
 
@@ -183,7 +183,7 @@ function released(motion: Motion, servos: readonly number[]): Motion {
   return withoutServos(motion, servos);
 }
 
-/** Servos at rest stay; those under way freeze and jump (S29), but they arrive. A group goes on, nobody knows when. */
+/** Servos at rest stay; those under way freeze and jump (S29), but they arrive. A group goes on at an unknown time. */
 function deafened(motion: Motion, kind: Command['kind'], atMs: number): Motion {
   const deafUntilMs = atMs + LONGEST_DEAFNESS_MS;
   const deaf = { ...motion, deafUntilMs, answersOwed: answersTo(kind), mayHoldPacket: false };
@@ -191,7 +191,7 @@ function deafened(motion: Motion, kind: Command['kind'], atMs: number): Motion {
   return { ...deaf, tracks: heldUp(motion.tracks, atMs, deafUntilMs) };
 }
 
-/** Those under way arrive, but nobody knows from where and when: by then at the latest. */
+/** Those under way arrive, from an unknown position at an unknown time: by then at the latest. */
 function heldUp(tracks: Tracks, atMs: number, untilMs: number): Tracks {
   return new Map(
     [...tracks].map(([servo, track]) => [servo, stands(track, atMs) ? track : lengthened(track, untilMs)]),
@@ -252,9 +252,9 @@ function perhapsStopped(motion: Motion, atMs: number, family: Family): Motion {
 
 /** Those under way drop or arrive. */
 function perhapsReleased(tracks: Tracks, servos: readonly number[], atMs: number): Tracks {
-  const kept = only(tracks, (track, servo) => !(servos.includes(servo) && stands(track, atMs)));
+  const left = only(tracks, (track, servo) => !(servos.includes(servo) && stands(track, atMs)));
   return new Map(
-    [...kept].map(([servo, track]) => [servo, servos.includes(servo) ? torn(track, endMs(track)) : track]),
+    [...left].map(([servo, track]) => [servo, servos.includes(servo) ? torn(track, endMs(track)) : track]),
   );
 }
 
@@ -282,7 +282,7 @@ export function leewayAt(motion: Motion, servo: number, nowMs: number, family: F
   return track ? leewayOf(track, nowMs, family) : Infinity;
 }
 
-/** How far from `to` a servo may be, in board units: on a way whose start nobody knows, what may be left of that way more. */
+/** How far from `to` a servo may be, in board units: on a way whose start is unknown, what may be left of that way more. */
 export function farthestFrom(
   motion: Motion,
   servo: number,

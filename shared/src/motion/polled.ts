@@ -1,5 +1,5 @@
 // Groups without deadlines: LeArm looks now and then whether all servos have arrived, then begins the next frame (L6-L11).
-// When that is cannot be told within a tick, so of a group only the first frame is known, and where it ends. Knows runs; no
+// The time of that is uncertain by a tick, so of a group only the first frame is known, and where it ends. Knows runs; no
 // servo's way.
 
 import timings from '../../protocol/timings.json' with { type: 'json' };
@@ -60,7 +60,7 @@ function orderOfPlay(frames: readonly Frame[], times: number, skipsFirst: boolea
 function request(motion: Motion, { slot, times }: RunRequest, atMs: number, board: KnownBoard): Motion {
   const frames = board.playedFrames(slot);
   const next = { ...motion, skipsFirst: 'no' } as const;
-  // What becomes of a run when the next one comes nobody has read.
+  // What becomes of a run when the next one comes is unknown.
   if (frames === null || motion.run !== null) return runningUnknown(next, slot);
   const order = orderOfPlay(frames, times, motion.skipsFirst === 'yes');
   if (order === null) return next;
@@ -82,7 +82,7 @@ function begin(motion: Motion, order: Order, atMs: number, board: KnownBoard): M
   };
 }
 
-/** Whether it plays `less` nobody knows: it moves its servos from now on, as long as `whole` takes, to the end of one or the other. */
+/** It may or may not play `less`: it moves its servos from now on, as long as `whole` takes, to the end of one or the other. */
 function beginEither(
   motion: Motion,
   whole: Order,

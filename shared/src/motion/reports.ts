@@ -41,14 +41,14 @@ function afterAnswer(motion: Motion, kind: ReportKind, atMs: number, { family }:
   return { ...answered, deafUntilMs, mayHoldPacket: false };
 }
 
-/** By our own command a moment ago; or somebody started it at the board, and how long ago nobody can tell to the tick. */
+/** By our own command a moment ago; or it was started at the board, at a time that is uncertain by a tick. */
 function afterStart(motion: Motion, slot: number): Motion {
   const { run } = motion;
   const isOurs = run?.kind === 'deadlines' && run.slot === slot && run.next <= 1 && run.loopsDone === 0;
   return isOurs ? motion : runningUnknown(motion, slot);
 }
 
-/** After a group has ended by itself, its last frame with it: the one in `slot`, or null where nobody says which. */
+/** After a group has ended by itself, its last frame with it: the one in `slot`, or null where the board does not say which. */
 export function afterEnd(motion: Motion, slot: number | null, atMs: number, board: KnownBoard): Motion {
   const current = advance(motion, atMs, board);
   const isAnother = current.run?.kind === 'deadlines' && slot !== null && slot !== current.run.slot;
@@ -62,7 +62,7 @@ function lastFrameMs({ tracks }: Motion, atMs: number, { family: { motion } }: K
   return LAST_TICKS_MS + (motion.timing === 'shared' ? lastEndMs(tracks, atMs) - atMs : 0);
 }
 
-/** After somebody has stopped the group, or it is taken to have ended: its frame in progress goes on (S50). */
+/** After the group was stopped, or is taken to have ended: its frame in progress goes on (S50). */
 export function afterCut(motion: Motion, atMs: number, board: KnownBoard): Motion {
   const current = advance(motion, atMs, board);
   return restless(current, { ...current, run: null }, atMs);

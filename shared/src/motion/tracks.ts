@@ -1,5 +1,5 @@
 // Where each servo is on its way: linear, in whole ticks of the board (S25-S27, L5). Knows targets and times; no group, no
-// command. The board's ticks fall where nobody can see them, so a servo under way may be one tick off, either way.
+// command. The times of the board's ticks are unknown, so a servo under way may be one tick off, either way.
 
 import timings from '../../protocol/timings.json' with { type: 'json' };
 import type { ServoTarget } from '../codec/commands.ts';
@@ -7,7 +7,7 @@ import type { Family } from '../codec/families.ts';
 
 /**
  * One servo's way. `from` is null when it is unknown where it started. A leeway of Infinity says that the position is right only
- * if no group that nobody knows has moved the servo: a guess, good enough to hold it there, not to show it.
+ * if no unknown group has moved the servo: a guess, good enough to hold it there, not to show it.
  */
 export interface Track {
   readonly from: number | null;
@@ -95,7 +95,7 @@ interface Unrest {
   readonly inheritedUntilMs: number;
 }
 
-/** Where the board re-times every servo, also what nobody knows of arrives with what takes effect at `atMs` (S26). */
+/** Where the board re-times every servo, also unknown moves arrive with what takes effect at `atMs` (S26). */
 export function unrestBehind(
   { restlessUntilMs, inheritedUntilMs }: Unrest,
   requestedMs: number,

@@ -32,7 +32,7 @@ describe('what is left of a pack', () => {
     );
   });
 
-  test('of an adapter nobody says', () => {
+  test('of an adapter is unknown', () => {
     expect(percentOf(7500, supplyOf(robotOn('doc', 'adapter')))).toBeNull();
   });
 });

@@ -39,7 +39,7 @@ export interface StoredCalibration {
 const whole = v.pipe(v.number(), v.safeInteger());
 const place = { servo: whole, step: v.picklist(CALIBRATION_STEPS) };
 
-const keptSchema = v.strictObject({
+const storedSchema = v.strictObject({
   robotId: whole,
   progress: v.strictObject({
     ...place,
@@ -55,7 +55,7 @@ export const calibrationToText = (stored: StoredCalibration | null): string => J
 /** null where it tells of none. */
 export function calibrationFromText(text: string): StoredCalibration | null {
   try {
-    return v.parse(keptSchema, JSON.parse(text));
+    return v.parse(storedSchema, JSON.parse(text));
   } catch {
     return null;
   }

@@ -115,7 +115,7 @@ describe('inputs', () => {
     expect(valueOf(axis(7), inputs)).toBe(0);
   });
 
-  test('the input that a finger moves is told, whatever else was held before', () => {
+  test('the input that a finger moves is reported, whatever else was held before', () => {
     const before = { ...NO_INPUTS, axes: [0, 1], buttons: [1, 0] };
     expect(movedInput(before, before)).toBeNull();
     expect(movedInput(before, { ...before, axes: [-0.9, 1] })).toEqual(axis(0, 'minus'));
@@ -194,7 +194,7 @@ describe('as text', () => {
       }),
     ),
     mappingToText(mappingOf()).replace('"version": 1', '"version": 2'),
-  ])('what is no mapping of ours is told apart: %s', (text) => {
+  ])('what is no mapping of ours is distinguished: %s', (text) => {
     expect(mappingFromText(text)).toHaveProperty('problem');
   });
 });

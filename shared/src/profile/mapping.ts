@@ -105,7 +105,7 @@ function sharedServos(bindings: readonly Binding[]): readonly number[] {
   );
 }
 
-/** Whether one movement of a finger is meant by both. */
+/** Whether one movement of a finger would trigger both. */
 export function overlaps(one: Input, other: Input): boolean {
   if (one.kind === 'key' || other.kind === 'key')
     return one.kind === 'key' && other.kind === 'key' && one.code === other.code;
@@ -186,9 +186,9 @@ export function clamped(value: number, min: number, max: number): number {
   return Math.min(max, Math.max(min, value));
 }
 
-// The mapping a robot has until somebody makes another: sticks, triggers and bumpers for its first six servos in the
+// The mapping a robot has until a person makes another: sticks, triggers and bumpers for its first six servos in the
 // order of an arm (servo 1 the gripper, 6 the base), and a pair of keys for each. Moves nothing until it is switched
-// on. T is nobody's: it keeps what the hand has just done.
+// on. T stays free: it captures what was just done by hand.
 
 export const READY_FEEL: Feel = { deadZonePercent: 15, curvePercent: 30, smoothingMs: 80, speedPercent: 100 };
 

@@ -10,7 +10,7 @@ const ROBOT = readyRobot('arm', 'doc', names);
 const RAW: Feel = { deadZonePercent: 0, curvePercent: 0, smoothingMs: 0, speedPercent: 100 };
 const STICK: Input = { kind: 'axis', index: 0, side: 'whole' };
 const BUTTON: Input = { kind: 'button', index: 0 };
-/** A servo that nobody moved, whose position the board told. */
+/** A servo that was not moved, whose position the board reported. */
 const TOLD = 4;
 const LOCKED = 5;
 const KEY: Input = { kind: 'key', code: 'KeyQ' };
@@ -59,7 +59,7 @@ describe('a rate', () => {
     expect(targets[1]).toBe(1505);
   });
 
-  test('begins at the commanded target, also where somebody else put it meanwhile', () => {
+  test('begins at the commanded target, also where another client put it meanwhile', () => {
     const { targets, rest, frames } = drive([[STICK, rate(100)]]);
     rest();
     frames(pushed(1), 10);
@@ -68,7 +68,7 @@ describe('a rate', () => {
     expect(targets[1]).toBe(2100);
   });
 
-  test('begins where the board says the servo stands, if nobody commanded it', () => {
+  test('begins where the board says the servo stands, if it had no command', () => {
     const { targets, rest, frames } = drive([[STICK, rate(100, TOLD)]]);
     rest();
     frames(pushed(1), 50);
@@ -173,13 +173,13 @@ describe('what moves nothing', () => {
     expect(frames(pushed(1), 20).flatMap(({ moves }) => moves)).toEqual([]);
   });
 
-  test('a servo that nobody knows stays where it is and is told', () => {
+  test('a servo of unknown position stays where it is and is reported', () => {
     const { rest, frame } = drive([[STICK, rate(500, 3)]]);
     expect(rest().unknown).toEqual([]);
     expect(frame(pushed(1))).toMatchObject({ moves: [], unknown: [3] });
   });
 
-  test('a locked servo stays, known or not, and is told', () => {
+  test('a locked servo stays, known or not, and is reported', () => {
     const { rest, frame, targets } = drive([
       [STICK, rate(500, LOCKED)],
       [BUTTON, { kind: 'position', servo: LOCKED, isReversed: false }],
@@ -190,7 +190,7 @@ describe('what moves nothing', () => {
     expect(frame({ ...pushed(1), buttons: [1] })).toMatchObject({ moves: [], locked: [LOCKED] });
   });
 
-  test('a servo that is pushed on at its limit stays there and is told; it comes back at once', () => {
+  test('a servo that is pushed on at its limit stays there and is reported; it comes back at once', () => {
     const { rest, frames, frame, targets } = drive([[STICK, rate(3000)]]);
     rest();
     const moments = frames(pushed(1), 200);
@@ -217,7 +217,7 @@ describe('what moves nothing', () => {
     expect(frame(pushed(1))).toMatchObject({ moves: [], unknown: [] });
   });
 
-  test('a servo that the robot does not have is nobody', () => {
+  test('a servo that the robot does not have is none', () => {
     const { rest, frame } = drive([[STICK, rate(500, 77)]]);
     rest();
     expect(frame(pushed(1))).toMatchObject({ moves: [], unknown: [] });

@@ -57,9 +57,9 @@ export interface Moment {
   readonly state: DriveState;
   readonly moves: readonly ServoTarget[];
   readonly begun: readonly Begun[];
-  /** Servos that were meant, whose position nobody knows. They stay where they are: they need a slow first move. */
+  /** Servos of the input whose position is unknown. They stay where they are: they need a slow first move. */
   readonly unknown: readonly number[];
-  /** Servos that were meant and are locked. */
+  /** Servos of the input that are locked. */
   readonly locked: readonly number[];
   /** Servos that are pushed on where they may be turned no further. */
   readonly atLimit: readonly number[];
@@ -154,8 +154,8 @@ function wishFor(
 /** All that turn a servo, together. */
 function unitsPerS({ servo }: RobotServo, { bindings, feel }: Mapping, held: readonly Held[]): number {
   return bindings.reduce((sum, { action }, at) => {
-    const isMeant = action.kind === 'rate' && action.servo === servo;
-    return isMeant ? sum + (action.unitsPerS * feel.speedPercent * (held[at]?.value ?? 0)) / 100 : sum;
+    const turnsIt = action.kind === 'rate' && action.servo === servo;
+    return turnsIt ? sum + (action.unitsPerS * feel.speedPercent * (held[at]?.value ?? 0)) / 100 : sum;
   }, 0);
 }
 

@@ -93,7 +93,7 @@ const HEXAPOD: readonly Joint[] = LEGS.flatMap((limb, leg) =>
   }),
 );
 
-/** Rows of at most eight, where nobody described the body. */
+/** Rows of at most eight, for a body without a description. */
 function plain(count: number): readonly Joint[] {
   const columns = Math.min(8, count);
   const rows = Math.ceil(count / columns);
@@ -193,7 +193,7 @@ function servoFor(
   };
 }
 
-/** The robot a board is taken for until somebody describes it: with as many servos as such boards usually move. */
+/** The robot of a board until a person describes it: with as many servos as such boards usually move. */
 export function usualRobot(board: FamilyId): ReadyRobotId {
   const { usualServoCount } = FAMILIES[board];
   if (usualServoCount === 6) return 'arm';

@@ -120,7 +120,7 @@ test('whatever is not called a flaw comes back from its file', () => {
 describe('limits and trims', () => {
   const robot = withServo({ min: 700, max: 2300, home: 1400, trim: 25 });
 
-  test('a target outside is refused with its servo; inside, or of a servo nobody described, it is not', () => {
+  test('a target outside is refused with its servo; inside, or of a servo without a description, it is not', () => {
     expect(
       refusedTarget(robot, [
         { servo: 4, position: 700 },

@@ -58,7 +58,7 @@ export type BodyKind = (typeof BODIES)[number];
 export const BATTERY_KINDS = ['adapter', '2s', '3s'] as const;
 export type BatteryKind = (typeof BATTERY_KINDS)[number];
 
-/** What a battery at its alarm brings about, each with what is before it: the person is told; nothing new is run or played; the
+/** What a battery at its alarm brings about, each with what is before it: the person is warned; nothing new is run or played; the
  * robot goes slowly to rest and is stopped. */
 export const BATTERY_POLICIES = ['tell', 'refuse', 'rest'] as const;
 export type BatteryPolicy = (typeof BATTERY_POLICIES)[number];

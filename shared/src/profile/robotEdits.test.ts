@@ -41,7 +41,7 @@ describe('servos come and go', () => {
     expect(flawOf(robot)).toBeNull();
   });
 
-  test('mirrors are pairs, whoever is paired with whom', () => {
+  test('mirrors are pairs, whichever way they are given', () => {
     const pairing = fc.tuple(
       fc.integer({ min: 1, max: 16 }),
       fc.option(fc.integer({ min: 1, max: 16 }), { nil: null }),

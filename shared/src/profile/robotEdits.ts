@@ -46,7 +46,7 @@ export function renumber(robot: Robot, from: number, to: number): Robot {
   return { ...robot, servos: servos.map((one) => (one.mirror === from ? { ...one, mirror: to } : one)) };
 }
 
-/** Two servos are each other's mirror, and nobody else's; null: this one has none. */
+/** Two servos are each other's mirror, and of no other; null: this one has none. */
 export function pair(robot: Robot, servo: number, partner: number | null): Robot {
   const two = [servo, partner];
   return {

@@ -25,7 +25,7 @@ describe('a robot with all that belongs to it', () => {
     expect(mergedKits(BASE, { ...BASE, robot: 'ours' }, theirs)).toBeNull();
   });
 
-  test('loses no change of either side, whoever is first', () => {
+  test('loses no change of either side, whichever is first', () => {
     fc.assert(
       fc.property(anyKit, anyKit, anyKit, (base, ours, theirs) => {
         const merged = mergedKits(base, ours, theirs);

@@ -77,7 +77,7 @@ export function kitToText(kit: Kit): string {
   return JSON.stringify({ format: KIT_FORMAT, version: 1, kit });
 }
 
-/** null where a newer version has written it, or nobody. */
+/** null where a newer version has written it, or where it is no robot. */
 export function kitFromText(text: string): Kit | null {
   const read = readJson(text, fileSchema);
   return 'value' in read ? read.value.kit : null;

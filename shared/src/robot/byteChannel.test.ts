@@ -62,7 +62,7 @@ test('a packet by hand that is too long is refused', async () => {
   expect(heard.slice(before)).toEqual([]);
 });
 
-test('what the link is not to carry is refused, and the page is told', async () => {
+test('what the link is not to carry is refused, and the page gets a notice', async () => {
   const { session, clock, heard } = await createRig({ withheld: ['download', 'erase'] });
   const refused = { code: 'notOnThisCable' };
   const frames = [{ durationMs: 500, targets: [{ servo: 1, position: 1_500 }] }];

@@ -1,5 +1,5 @@
 // A compiled group on a simulated board that plays frames straight and on deadlines: its own servos are where the document has
-// them. What the board adds of its own is one tick, because nobody knows where its ticks fall, and the rounding of a step.
+// them. What the board adds of its own is one tick, because the times of its ticks are unknown, and the rounding of a step.
 
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';

@@ -38,7 +38,7 @@ export function createStoring(core: Core, slotMemory: SlotMemory | undefined): S
   const { family, clock, store, estimate, exchange } = core;
   const broken = new Set<number>();
   let isCancelled = false;
-  /** Until then the board may acknowledge a frame that nobody waits for any more. */
+  /** Until then the board may acknowledge a frame whose request is over. */
   let owedUntilMs = 0;
 
   function publish(): void {

@@ -13,7 +13,7 @@ test('a released servo is unknown again: it drops (X7)', async () => {
   expect(robot.motions()(1)).toEqual({ target: null, estimated: null });
 });
 
-test('a group is played at the speed the board was told (X3), and nobody knows it after a restart', async () => {
+test('a group is played at the speed the board was set to (X3), and it is unknown after a restart', async () => {
   const clock = createVirtualClock();
   const robot = createRobotEstimate(family('lsc-6'), clock);
   robot.stored(8, [{ durationMs: 1_000, targets: [{ servo: 1, position: 2_000 }] }]);
@@ -29,7 +29,7 @@ test('a group is played at the speed the board was told (X3), and nobody knows i
   expect(robot.groupMs(8)).toBeNull();
 });
 
-test('a group somebody started at the board keeps everything unknown until it ends', async () => {
+test('a group a person started at the board keeps everything unknown until it ends', async () => {
   const clock = createVirtualClock();
   const robot = createRobotEstimate(family('lsc-6'), clock);
   const move = { kind: 'move', durationMs: 100, targets: [{ servo: 1, position: 1_200 }] } as const;

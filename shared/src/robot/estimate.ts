@@ -205,7 +205,7 @@ export interface GroupMemory {
   slots(): readonly number[];
   /** Without a slot, of every group (X3); without a percentage it is unknown whether the board took one. */
   setSpeed(slot: number | null, percent: number | null): void;
-  /** The board may have lost its speeds with its power, or kept them. */
+  /** The board may have lost its speeds with its power, or not. */
   forgetSpeeds(): void;
   /** With the times the board plays them in; empty where nothing is stored, null where the frames or the speed are unknown. */
   playedFrames(slot: number): readonly Frame[] | null;

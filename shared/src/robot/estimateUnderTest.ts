@@ -45,7 +45,7 @@ export interface EstimateUnderTest {
 export interface EstimateOptions {
   readonly family: Family;
   readonly profile: ProfileName;
-  /** When the board was switched on: nobody can know where its ticks fall. */
+  /** When the board was switched on: the times of its ticks are unknown. */
   readonly onForMs: number;
   /** A hand-held pad's receiver delays its ticks (S52). */
   readonly hasPad?: boolean;

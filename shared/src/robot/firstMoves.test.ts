@@ -28,7 +28,7 @@ function expectSlowOneByOne(rig: Rig): void {
   expect(Math.min(Infinity, ...gaps)).toBeGreaterThanOrEqual(FIRST_MOVE_STAGGER_MS - 1e-6);
 }
 
-describe('servos nobody knows', () => {
+describe('servos of unknown position', () => {
   test('start one after another, each slowly, and the session says who waits', async () => {
     const rig = await createRig();
     rig.session.move(pose(1_800), 0);

@@ -49,7 +49,7 @@ export function createGroups(core: Core, slotMemory: SlotMemory | undefined): Gr
     if (stopping !== null || store.state.activity.kind === 'running') {
       // One that left between the repeats of a stop would be ended by the last one.
       await (stopping ?? stop());
-      // Somebody may have pressed STOP meanwhile.
+      // STOP may have been pressed meanwhile.
       requireReleased(store.state);
     }
     running.began(slot, times, 'requested');

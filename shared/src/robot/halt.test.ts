@@ -99,7 +99,7 @@ describe('STOP', () => {
     expect(rig.session.state.latch?.stop).toBe('sent');
   });
 
-  test('names the servos in their first move, which nobody can hold', async () => {
+  test('names the servos in their first move, which cannot be held', async () => {
     const rig = await createRig();
     await knownAtRest(rig);
     rig.session.move([{ servo: 3, position: 1_200 }], 0);

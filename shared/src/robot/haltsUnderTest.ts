@@ -69,7 +69,7 @@ function both(position: number, durationMs: number): Frame {
   return { durationMs, targets: [1, 6].map((servo) => ({ servo, position })) };
 }
 
-/** Of LeArm's groups the frames behind the first come nobody knows when, and a stop lets the base go on (L7, L9). */
+/** Of LeArm's groups the frames behind the first come at an unknown time, and a stop lets the base go on (L7, L9). */
 function behindTheFirstFrame(): Promise<HaltHistory> {
   const frames = [both(1_000, 300), both(1_400, 2_000)];
   return ranFor(1_000, 'learm-esp32', frames, 2);

@@ -1,4 +1,4 @@
-// What may happen to a robot before somebody presses STOP, generated: every verb of the page in any order, on boards with every kind
+// What may happen to a robot before a person presses STOP, generated: every verb of the page in any order, on boards with every kind
 // of slot. Knows verbs and families; no session and no board.
 
 import fc from 'fast-check';
@@ -128,7 +128,7 @@ export function somePlainHistory(profile: ProfileName): fc.Arbitrary<StopHistory
       !DISTURBING.has(step.kind) && (step.kind !== 'run' || step.slot === KNOWN_SLOT);
     const steps = history.steps.filter(isKnown);
     const runs = steps.filter(({ kind }) => kind === 'run');
-    // What becomes of LeArm's run behind another nobody has read (L11).
+    // What becomes of LeArm's run behind another is not documented (L11).
     const refused = commands.includes('download') ? (motion.groups === 'polled' ? runs.slice(1) : []) : runs;
     const isRun = runs.length > refused.length;
     return {

@@ -1,4 +1,4 @@
-// Who is at the other end: what is asked, what the answers mean, what may be sent before somebody knows, and what happens when
+// Who is at the other end: what is asked, what the answers mean, what may be sent before that is known, and what happens when
 // the board falls silent. Real simulated boards, virtual time.
 
 import { describe, expect, test } from 'vitest';
@@ -31,7 +31,7 @@ const ANSWERS_LIKE: readonly (readonly [ProfileName, readonly FamilyId[]])[] = [
   ['learm-esp32-bus', ['learm-esp32-bus']],
 ];
 
-describe('a board nobody knows', () => {
+describe('an unknown board', () => {
   test.each(ANSWERS_LIKE)('%s answers like %s', async (profile, candidates) => {
     const rig = await asked({ profile });
     expect(rig.session.state.link).toEqual({ status: 'identifying' });
@@ -170,7 +170,7 @@ describe('the heartbeat', () => {
     expect(rig.heard.map(({ command }) => command.kind)).toEqual(Array(4).fill(question));
   });
 
-  test('asks nothing of boards that may stay silent, and nothing while nobody looks', async () => {
+  test('asks nothing of boards that may stay silent, and nothing while no page is visible', async () => {
     const silent = await watched('openarm-new', 'openarm-new');
     await silent.clock.advance(30_000);
     expect(silent.heard).toEqual([]);

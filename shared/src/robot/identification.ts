@@ -20,7 +20,7 @@ interface IdentificationOptions {
   readonly store: SessionStore;
   readonly queue: Queue;
   readonly replies: Replies;
-  /** What the board is taken for until somebody says otherwise. */
+  /** The family of the board until a person chooses another. */
   readonly family: Family;
   readonly identifies: boolean;
   isWatched(): boolean;
@@ -104,7 +104,7 @@ export function createIdentification(options: IdentificationOptions): Identifica
     const fit = fitOf(claim, evidence);
     if (evidence.some(({ kind }) => kind === 'echoed'))
       refuse('echo', 'the line sends back what it is given');
-    else if (claim === UNKNOWN_BOARD) refuse('boardUnknown', 'nobody has said which board this is');
+    else if (claim === UNKNOWN_BOARD) refuse('boardUnknown', 'it is not known which board this is');
     else if (fit === 'contradicts') refuse('wrongBoard', `this does not answer like a ${claim.name}`);
     else accept(fit === 'silent');
   }
@@ -166,9 +166,9 @@ export function createIdentification(options: IdentificationOptions): Identifica
 
 interface HeartbeatOptions {
   readonly clock: Clock;
-  /** The question, or null while it may not be asked: nobody looks, something runs, no such board answers anything. */
+  /** The question, or null while it may not be asked: no page is visible, something runs, no such board answers anything. */
   question(): Question | null;
-  /** Sends it and waits; false when no answer came, null when nobody can tell. */
+  /** Sends it and waits; false when no answer came, null when that is uncertain. */
   ask(question: Question): Promise<boolean | null>;
   gone(): void;
 }

@@ -10,11 +10,11 @@ const THEIRS: Lease = { ...FREE, driver: 'Bert' };
 
 test.each([
   ['a link of its own', null, true],
-  ['nobody drives', FREE, true],
+  ['there is no driver', FREE, true],
   ['this end drives', OURS, true],
-  ['somebody else drives', THEIRS, false],
-  ['somebody else drives, an owner looks on', { ...THEIRS, mayTake: true }, true],
-  ['nobody drives, a viewer looks on', { ...FREE, mayDrive: false }, false],
+  ['another client drives', THEIRS, false],
+  ['another client drives, an owner looks on', { ...THEIRS, mayTake: true }, true],
+  ['there is no driver, a viewer looks on', { ...FREE, mayDrive: false }, false],
 ] as const)('who may resume: %s', (_, lease, may) => {
   expect(mayResume(lease)).toBe(may);
 });

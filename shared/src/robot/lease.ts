@@ -12,7 +12,7 @@ export interface Unattended {
   readonly endsInMs: number;
 }
 
-/** Somebody who is here and may drive. */
+/** A client that is connected and may drive. */
 export interface Candidate {
   readonly id: string;
   readonly name: string;
@@ -50,7 +50,7 @@ export interface Lease {
  */
 export type LeaseAction = 'request' | 'release' | 'refuse' | 'take' | { readonly grantTo: string };
 
-/** Somebody else drives, or this end never may. On a link of its own there is no lease. */
+/** Another client drives, or this end never may. On a link of its own there is no lease. */
 export function isWatching(lease: Lease | null): boolean {
   return lease !== null && !lease.drives && (lease.driver !== null || !lease.mayDrive);
 }

@@ -28,7 +28,7 @@ export const LINK_ERROR_CODES = [
   'notSupported', // this board has no such command
   'notOnThisCable', // the board has it, and no hardware has confirmed how this cable carries it
   'latched', // stopped: motion waits for Resume
-  'notDriving', // somebody else drives this robot
+  'notDriving', // another client drives this robot
   'expired', // it was said too long ago to be done now
   'busy', // something else must end first, e.g. a download
   'slotBroken', // the slot holds half a group (S35)

@@ -13,7 +13,7 @@ describe('moving', () => {
     expect(heard).toEqual([]);
   });
 
-  test('the first move of a servo nobody knows takes 1.5 s, the next one what was asked', async () => {
+  test('the first move of a servo of unknown position takes 1.5 s, the next one what was asked', async () => {
     const { clock, session, ofKind } = await createRig();
     session.move([{ servo: 1, position: 2_000 }], 100);
     await clock.advance(2_000);
@@ -164,7 +164,7 @@ describe('playing from the page', () => {
     expect(ofKind('move').length).toBe(1 + 2 + 27 + 1);
   });
 
-  test('goes on with another frame than the first where it is told so', async () => {
+  test('goes on with another frame than the first where that is asked for', async () => {
     const { clock, session, heard } = await createRig();
     const done = session.play(frames, { times: 3, loopFrom: 1 });
     await clock.advance(5_000);

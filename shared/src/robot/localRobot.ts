@@ -32,7 +32,7 @@ export interface LocalRobotOptions {
   readonly identifies?: boolean | undefined;
   /** Nothing can have moved it before: it begins with its link. */
   readonly isNew?: boolean | undefined;
-  /** Whether somebody looks: then an idle board is asked now and again whether it is still there. Absent: never. */
+  /** Whether a page is visible: then an idle board is asked now and again whether it is still there. Absent: never. */
   readonly isWatched?: (() => boolean) | undefined;
   /** Without it broken slots are forgotten with the robot. */
   readonly slotMemory?: SlotMemory | undefined;

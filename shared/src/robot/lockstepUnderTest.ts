@@ -115,7 +115,7 @@ function answer(request: Request): unknown {
   if (bench === null) throw new RangeError('no board was started');
   for (const [atMs, what] of request.happened) {
     advance(bench, atMs);
-    // Whoever asks was sure that the board is silent until then.
+    // The caller was sure that the board is silent until then.
     if (bench.clock.now() < atMs) return { early: bench.said, atMs: bench.clock.now() };
     happen(bench, what);
   }

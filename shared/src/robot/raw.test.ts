@@ -36,7 +36,7 @@ describe('a packet sent by hand', () => {
     expect(rig.channel.board.target(1)).toBe(2_000);
   });
 
-  test('does not move a servo nobody knows faster than the first move may be', async () => {
+  test('does not move a servo of unknown position faster than the first move may be', async () => {
     const rig = await createRig();
     expect(await send(rig, MOVE_FAST)).toBe('outOfRange');
     expect(rig.heard).toEqual([]);
@@ -45,7 +45,7 @@ describe('a packet sent by hand', () => {
     expect(await send(rig, MOVE_FAST)).toBeNull();
   });
 
-  test('does not make two servos nobody knows start at once', async () => {
+  test('does not make two servos of unknown position start at once', async () => {
     const rig = await createRig();
     expect(await send(rig, '55 55 0B 03 02 D0 07 01 DC 05 02 DC 05')).toBe('outOfRange');
     expect(rig.heard).toEqual([]);
@@ -119,7 +119,7 @@ describe('a packet sent by hand', () => {
     expect(rig.ofKind('release')).toEqual([{ kind: 'release', servos: [1] }]);
   });
 
-  test('moves no board that nobody has named', async () => {
+  test('moves no board whose family is unknown', async () => {
     const rig = await createRig({ profile: 'xarm', family: family('unknown') });
     expect(await send(rig, '55 55 08 03 01 DC 05 01 90 01')).toBe('outOfRange');
     expect(await send(rig, '55 55 05 06 08 01 00')).toBe('outOfRange');

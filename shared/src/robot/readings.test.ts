@@ -43,7 +43,7 @@ describe('reading positions', () => {
     expect(rig.heard).toEqual([]);
   });
 
-  test('the first move of a servo that the board told of need not be slow', async () => {
+  test('the first move of a servo that the board reported need not be slow', async () => {
     const rig = await rigOf('xarm');
     await outcome(rig, rig.session.readPositions([1]));
     const at = rig.channel.board.pulse(1);
@@ -119,7 +119,7 @@ describe('reading positions', () => {
     expect(await outcome(rig, rig.session.readPositions(SIX))).toBe('busy');
   });
 
-  test('what was told is forgotten when the link goes, and when the board is another one', async () => {
+  test('what was reported is forgotten when the link goes, and when the board is another one', async () => {
     const rig = await rigOf('xarm');
     await outcome(rig, rig.session.readPositions(SIX));
     rig.channel.unplug();
@@ -161,7 +161,7 @@ describe('release', () => {
     return rig;
   }
 
-  test('nobody knows any more where those servos are', async () => {
+  test('the positions of those servos are unknown again', async () => {
     const rig = await posed();
     expect(rig.session.motions()(1).estimated).toBe(600);
     await outcome(rig, rig.session.release([1]));

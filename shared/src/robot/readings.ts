@@ -14,7 +14,7 @@ import {
 import { LinkError } from './linkError.ts';
 
 export interface Readings {
-  /** Some boards are asked for all servos at once, whichever are meant. The answer is in `state.reported`. */
+  /** Some boards are asked for all servos at once, whichever are listed. The answer is in `state.reported`. */
   readPositions(servos: readonly number[]): Promise<void>;
   readVersion(): Promise<void>;
   readOffsets(): Promise<void>;

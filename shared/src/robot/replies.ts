@@ -71,7 +71,7 @@ export interface Replies {
    * comes before `earliestMs` cannot be the answer and stays unsolicited: a doubled one of the question before.
    */
   expect(kind: ReportKind, earliestMs?: number): Expectation;
-  /** True when somebody was waiting for it. */
+  /** True when a request was waiting for it. */
   deliver(report: Report): boolean;
   fail(error: LinkError): void;
 }

@@ -61,7 +61,7 @@ export function requireQuestion(state: SessionState): void {
     throw new LinkError('busy', 'asking would end the running group: end it first');
 }
 
-/** The board is ready, nobody has pressed STOP since the last Resume, and nobody else drives. */
+/** The board is ready, motion is not latched, and no other client drives. */
 export function requireReleased(state: SessionState): void {
   requireReady(state);
   if (state.latch !== null) throw new LinkError('latched', 'stopped: resume first');

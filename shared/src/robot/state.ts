@@ -29,7 +29,7 @@ export interface SlotGroup {
   readonly documentId?: string | null;
 }
 
-/** What is known of a group that somebody stored. */
+/** What is known of a stored group. */
 export interface StoredGroup {
   /** The fingerprint, where a page did it. */
   readonly version: string;
@@ -42,7 +42,7 @@ export interface StoredGroup {
   readonly atMs: number | null;
 }
 
-/** What was stored in each slot last; a slot of which nobody knows is not in it. */
+/** What was stored in each slot last; unknown slots are not in it. */
 export type SlotVersions = Readonly<Partial<Record<number, StoredGroup>>>;
 
 /** Of several groups together. */
@@ -91,7 +91,7 @@ export type LinkState =
 export interface Latch {
   /**
    * `pressed` here, `elsewhere` on another screen, `battery`: its policy, here or there, `unwatched`: its driver was not heard while
-   * it moved, `reconnected`: the link came back and nobody has looked yet.
+   * it moved, `reconnected`: the link came back and no person has resumed yet.
    */
   readonly reason: HaltReason | LatchReason;
   /** Name of the person who stopped it elsewhere; null where it was here. */
@@ -125,7 +125,7 @@ export interface Reading {
 
 export interface SessionState {
   readonly link: LinkState;
-  /** What the board is taken for; `UNKNOWN_BOARD` before somebody has said so. */
+  /** What the board is taken for; `UNKNOWN_BOARD` before that is known. */
   readonly family: Family;
   /** Others may look on and drive, too, and what it was given goes on without this end. */
   readonly canShare: boolean;
@@ -147,7 +147,7 @@ export interface SessionState {
   readonly offsets: readonly ServoOffset[] | null;
   /** Slots whose download was begun and not finished, here or in an earlier visit: broken on the board (S35). */
   readonly brokenSlots: readonly number[];
-  /** Null where nobody else can store. */
+  /** Null where no other client can store. */
   readonly slotVersions: SlotVersions | null;
   /** How far the download before this moment came, by whichever client; null where none is known. */
   readonly lastDownload: Pick<DownloadProgress, 'slots' | 'groupsStored'> | null;
@@ -194,6 +194,6 @@ export interface SessionEvents {
   traffic(entry: Traffic): void;
   /** Something asked for without waiting (a slider's move, a frame being played) could not be done. */
   problem(error: LinkError): void;
-  /** Somebody else has allowed motion again. */
+  /** Another client has resumed motion. */
   resumed(by: string): void;
 }

@@ -12,7 +12,7 @@ export type Step =
 
 /** One that pre-empts (S47), one that does not, one that is followed by the next (S49). */
 export const STORED_SLOTS = [0, 5, 100, 101] as const;
-/** What the simulated closed boards hold from the start and the estimate is told, because another program stored it. */
+/** What the simulated closed boards hold from the start, and the estimate too, because another program stored it. */
 export const TOLD_SLOTS = [0, 1, 8] as const;
 /** What they hold besides. */
 const UNTOLD_SLOT = 2;
@@ -61,7 +61,7 @@ export function knownSlots({ commands }: Family): readonly number[] {
   return commands.includes('download') ? STORED_SLOTS : TOLD_SLOTS;
 }
 
-/** Slots nobody told of are rare: behind them everything is unknown for long. */
+/** Slots that were not reported are rare: behind them everything is unknown for long. */
 function someSlot(family: Family): fc.Arbitrary<number> {
   return fc.oneof(
     { weight: 12, arbitrary: fc.constantFrom(...knownSlots(family)) },

@@ -18,7 +18,7 @@ const LOOKED_MS = 5;
 const LEAST_HELD = 0.3;
 /**
  * Where STOP says which servos go on, no hold throws a servo any farther than that in a tick, and none takes one of the others back
- * by more. A servo whose place is a guess since a group that nobody knows is named, and goes to that place slowly.
+ * by more. A servo whose place is a guess since an unknown group is named, and goes to that place slowly.
  */
 const HOLD_LIMIT = 30;
 const TIMEOUT_MS = 3_600_000;
@@ -66,7 +66,7 @@ describe.each(SIMULATED)('$profile', ({ profile }) => {
   );
 });
 
-/** A hold where nobody knows the place takes the time of a first move; the last one leaves 160 ms behind the press. */
+/** A hold where the place is unknown takes the time of a first move; the last one leaves 160 ms behind the press. */
 const SLOWEST_HOLD_MS = 1_800;
 
 /** What is named though nothing that the history knows can move it, or can move it that long. */
@@ -142,7 +142,7 @@ test.each(['bus-ctrl', 'xarm'] as const)('%s: behind a reading only what moves i
   expect(outcome.unheld?.servos).toEqual([1]);
 });
 
-test('what goes on is counted from the press also where the board is told once more', async () => {
+test('what goes on is counted from the press also where a stop is sent once more', async () => {
   const steps: StopHistory['steps'] = [
     { kind: 'move', durationMs: 2440, targets: [{ servo: 1, position: 0 }] },
     { kind: 'wait', ms: 21 },
@@ -294,7 +294,7 @@ const FOUND: readonly {
     },
   },
   {
-    name: 'a servo on its way from where a group nobody knows left it is held on a guess',
+    name: 'a servo on its way from where an unknown group left it is held on a guess',
     profile: 'lsc-32',
     history: {
       ...{ ...PLAIN, onForMs: 60_106 },

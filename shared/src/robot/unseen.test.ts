@@ -1,5 +1,5 @@
-// What moves the robot behind our back: where the session is told of it, the estimate is right or says that it does not
-// know, and it knows again after a stop and a move. Where nobody tells (motion.ts) there is nothing to prove.
+// What moves the robot behind our back: where the session hears of it, the estimate is right or says that it does not
+// know, and it knows again after a stop and a move. Where no packet reports it (motion.ts) there is nothing to prove.
 
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
@@ -36,7 +36,7 @@ async function expectKnownAgain(robot: EstimateUnderTest, family: Family): Promi
 
 describe.each(REPORTING)('$profile', ({ family, profile }) => {
   test(
-    'somebody starts a group at the board: unknown from its word on, known again after its end',
+    'a person starts a group at the board: unknown from its word on, known again after its end',
     async () => {
       await fc.assert(
         fc.asyncProperty(
@@ -55,8 +55,10 @@ describe.each(REPORTING)('$profile', ({ family, profile }) => {
             await robot.wait(4_500);
             await expectKnownAgain(robot, family);
             expect(robot.reports.map(({ kind }) => kind)).toEqual(['runStarted', 'runFinished']);
-            const told = robot.samples.filter(({ atMs, reportsHeard }) => atMs < afterMs || reportsHeard > 0);
-            expect(told.filter(isWrong)).toEqual([]);
+            const covered = robot.samples.filter(
+              ({ atMs, reportsHeard }) => atMs < afterMs || reportsHeard > 0,
+            );
+            expect(covered.filter(isWrong)).toEqual([]);
           },
         ),
         { numRuns },
@@ -70,7 +72,7 @@ describe.each(SIMULATED)('$profile', ({ family, profile }) => {
   test(
     'the link is lost and comes back: unknown, and known again after stop and move',
     async () => {
-      // A LeArm that restarts listens to its own app until somebody presses its key (L2).
+      // A LeArm that restarts listens to its own app until a person presses its key (L2).
       const restarts = profile.startsWith('learm') ? fc.constant(false) : fc.boolean();
       await fc.assert(
         fc.asyncProperty(moves(family), moves(family), restarts, async (before, after, restarted) => {

@@ -88,7 +88,7 @@ export function createBoard(options: BoardOptions): Board {
   const chip = options.flash ?? createFlashChip();
   const plan = planFaults(options.faults ?? [], options.seed ?? 1);
   const startedAtMs = clock.now();
-  let unplugTold = false;
+  let unplugReported = false;
 
   const agenda = createAgenda(clock, onForMs, () => sources, tellHost);
   const { now, turn } = agenda;
@@ -151,8 +151,8 @@ export function createBoard(options: BoardOptions): Board {
   function tellHost(): void {
     const bytes = line.takeSent();
     if (bytes.length > 0) send(bytes);
-    if (line.isPlugged() || unplugTold) return;
-    unplugTold = true;
+    if (line.isPlugged() || unplugReported) return;
+    unplugReported = true;
     options.onUnplug?.();
   }
 
@@ -161,7 +161,7 @@ export function createBoard(options: BoardOptions): Board {
   }
 
   function plugIn(): void {
-    unplugTold = false;
+    unplugReported = false;
     line.plug(true);
   }
 

@@ -146,7 +146,7 @@ test('2.5: a PWM board does not answer a question for positions', async () => {
   expect(takeReplies()).toBe('');
 });
 
-test('2.4: on the open firmware only the end of a group from the pad is told', async () => {
+test('2.4: on the open firmware only the end of a group from the pad is reported', async () => {
   const under = createBoardUnderTest({ profile: 'openarm-new', faults: [parseFault('padRun=3@1000')] });
   await under.exchange(download(3, 1, 0, 200, [1, 1000]), 990);
   under.takeReplies();

@@ -1,5 +1,5 @@
 // LSC, Bus Servo Controller and xArm by their documents (boards.md chapter 5), with the commands that only they have (2.3): their
-// firmware is closed, so what nobody wrote down is the open firmware's way (parser, mailbox, runner) and proves nothing about a
+// firmware is closed, so what is not documented follows the open firmware (parser, mailbox, runner) and proves nothing about a
 // real board.
 
 import {

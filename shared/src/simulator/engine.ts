@@ -24,9 +24,9 @@ export interface Engine {
   readonly takeByte: (byte: number) => void;
   /** What it does by itself; the first one first where two are due at once. */
   readonly sources: readonly Source[];
-  /** Somebody starts a group at the board. */
+  /** A person starts a group at the board. */
   readonly press: (press: Press) => void;
-  /** Somebody presses the key that says whom the board listens to, where it has one (L2). */
+  /** A person presses the key that chooses what the board listens to, where it has one (L2). */
   readonly pressMode?: () => void;
   /** A hand turns a servo, where its torque can be off. */
   readonly turn?: (servo: number, position: number) => void;

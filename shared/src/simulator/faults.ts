@@ -22,9 +22,9 @@ export type Fault =
   /** How long the chip takes to erase a sector: 45 ms typical, 400 ms at worst; Infinity for an erase without end. */
   | { readonly name: 'slowErase'; readonly sectorMs: number }
   | { readonly name: 'lowBattery'; readonly batteryMv: number }
-  /** Somebody starts a group at the board itself, with its pad or its key. */
+  /** A person starts a group at the board itself, with its pad or its key. */
   | { readonly name: 'padRun' | 'keyRun'; readonly slot: number; readonly afterMs: number }
-  /** Somebody presses the key that says whom the board listens to (L2). */
+  /** A person presses the key that chooses what the board listens to (L2). */
   | { readonly name: 'modeKey'; readonly afterMs: number }
   /** A reset at that time; `brownOut` is without power for a moment first. */
   | { readonly name: 'reboot'; readonly afterMs: number }

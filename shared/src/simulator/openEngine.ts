@@ -18,7 +18,7 @@ export interface OpenBuild {
   readonly reportsEnd: boolean;
   /** The group behind which the next one starts (S49). */
   readonly chainedSlot: number | null;
-  /** Only the protocol document's board does: the open firmware reads the voltage and tells nobody (S17). */
+  /** Only the protocol document's board does: the open firmware reads the voltage and does not report it (S17). */
   readonly answersBattery: boolean;
   /** Every accepted move and frame goes to the bus servos, too, entry by entry (S31). */
   readonly copiesToBus: boolean;

@@ -1,4 +1,4 @@
-// A board on a bench for tests: virtual time, bytes as hex text, everything it sends kept with its time. Knows the board's
+// A board on a bench for tests: virtual time, bytes as hex text, everything it sends recorded with its time. Knows the board's
 // public face only.
 
 import { createBoard, type Board, type BoardOptions } from '../simulator/board.ts';
@@ -6,7 +6,7 @@ import type { BusLogEntry } from '../simulator/line.ts';
 import { uint16 } from '../simulator/groupStore.ts';
 import { createVirtualClock, type VirtualClock } from './virtualClock.ts';
 
-// A board on a bench for tests: virtual time, bytes as hex text, everything it sends kept with its time.
+// A board on a bench for tests: virtual time, bytes as hex text, everything it sends recorded with its time.
 
 export interface BoardUnderTest {
   readonly clock: VirtualClock;

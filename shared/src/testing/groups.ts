@@ -58,7 +58,7 @@ export function someGroup({
     });
 }
 
-/** Whoever changes it in place throws. */
+/** A change in place throws. */
 export function frozen<T>(value: T): T {
   if (typeof value === 'object' && value !== null) Object.values(Object.freeze(value)).forEach(frozen);
   return value;
@@ -115,9 +115,9 @@ export const MEANINGS = meanings;
 /** As the twin of a fixture says it. */
 export function meaningOf(reading: Reading) {
   if ('problem' in reading) return reading;
-  const { groups, asksUnit, remarks } = reading;
+  const { groups, isUnitMissing, remarks } = reading;
   return groups.map(({ name, slot, unit, frames }) => ({
-    ...{ name, slot, unit, asksUnit, remarks: remarks.map(({ code }) => code) },
+    ...{ name, slot, unit, isUnitMissing, remarks: remarks.map(({ code }) => code) },
     frames: frames.map(({ durationMs, targets }) => ({ durationMs, targets })),
   }));
 }

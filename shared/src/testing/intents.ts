@@ -12,7 +12,7 @@ type AskableCommand = Extract<Command, { kind: (typeof ASKABLE)[number] }>;
 
 export type Intent =
   | AskableCommand
-  /** Sent by hand, or a question by which boards are told apart. */
+  /** Sent by hand, or a question that identifies a board. */
   | { readonly kind: 'raw'; readonly bytes: Uint8Array }
   | { readonly kind: 'stopGroup' | 'cancelDownload' | 'halt' | 'resume' | 'close' }
   /** Frames that were never sent are the last one again; the host gave up before them. */
@@ -24,7 +24,7 @@ type DownloadCommand = Extract<Command, { kind: 'download' }>;
 const STOP_SEQUENCE_MS = 250;
 const FRAME_HANDLED = 25;
 
-/** One for each entry; null where nobody wanted anything. */
+/** One for each entry; null where no intent stands behind it. */
 export function intentsOf(entries: readonly Entry[]): readonly (Intent | null)[] {
   let isLatched = false;
   let lastStopMs = -Infinity;
@@ -42,7 +42,7 @@ export function intentsOf(entries: readonly Entry[]): readonly (Intent | null)[]
   function sentIntent(atMs: number, bytes: Uint8Array, index: number): Intent | null {
     const command = commandIn(bytes);
     if (command?.kind === 'download') {
-      if (download?.goesOnWith(command) === true) return null;
+      if (download?.continuesWith(command) === true) return null;
       download = gatherDownload(entries, index, command);
       return download.intent;
     }
@@ -75,7 +75,7 @@ interface Download {
   /** Null where its beginning is not in the recording. */
   readonly intent: Intent | null;
   /** A repeat or the next frame; a group that was stored to its end is not begun again by itself. */
-  goesOnWith(command: DownloadCommand): boolean;
+  continuesWith(command: DownloadCommand): boolean;
   /** The entry `index` acknowledges a frame. */
   handled(index: number): Intent | null;
 }
@@ -88,7 +88,7 @@ function gatherDownload(entries: readonly Entry[], from: number, first: Download
   let isStored = false;
   return {
     intent: lastFrame ? { kind: 'download', slot, frames: padded(frames, lastFrame, frameCount) } : null,
-    goesOnWith: (command) => !isStored && command.slot === slot && command.frameCount === frameCount,
+    continuesWith: (command) => !isStored && command.slot === slot && command.frameCount === frameCount,
     handled(index) {
       if (index < lastAt) return null;
       if (isWhole) isStored = true;

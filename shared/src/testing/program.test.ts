@@ -15,7 +15,7 @@ test('a log whose expectations fail is not', async () => {
   expect(output).toContain('FAILED  session battery 7500 mV');
 });
 
-test('what cannot be read is told line by line', async () => {
+test('what cannot be read is reported line by line', async () => {
   expect(await replayText(`${LOG}2.0 > 5Z`)).toEqual({
     output: 'This log cannot be read.\nline 5: "5Z" is no byte like 0F; words stand behind a #',
     isGood: false,

@@ -35,7 +35,7 @@ const frames = (count: number) =>
 
 /**
  * Times are recorded in whole milliseconds, so the length of a gentle move and the place of a hold may be off by one; and
- * two stop sequences that overlap cannot be told from one.
+ * two stop sequences that overlap cannot be distinguished from one.
  */
 const isCertain = ({ recorded, replayed }: Row): boolean =>
   !/^55 55 .. 0[37]/u.test(recorded ?? replayed ?? '');
@@ -176,7 +176,7 @@ describe('replayed to a board', () => {
     for (const { laterMs } of rows) expect(Math.abs(laterMs)).toBeLessThanOrEqual(2);
   });
 
-  test('another value is told as a difference, not as one too few and one too many', async () => {
+  test('another value is reported as a difference, not as one too few and one too many', async () => {
     const { rig, entries } = await createRecordingRig({ batteryMv: 6_900 });
     DEEDS.battery!(rig.session);
     await rig.clock.advance(500);

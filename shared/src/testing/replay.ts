@@ -185,7 +185,7 @@ function titled(title: string, lines: readonly string[]): readonly string[] {
   return lines.length === 0 ? [] : [title, ...lines.map((line) => `  ${line}`), ''];
 }
 
-/** Alike is counted, not listed: nobody looks for it. */
+/** What is alike is counted, not listed. */
 function rowLines(rows: readonly Row[]): readonly string[] {
   const { same } = tally(rows);
   return [`${same} the same`, ...rows.filter(({ verdict }) => verdict !== 'same').map(rowLine)];

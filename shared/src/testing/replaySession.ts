@@ -49,7 +49,7 @@ function createHost(
   };
 }
 
-// A link whose other end is a recording: it says what the board said, when it is told to.
+// A link whose other end is a recording: it gives what the board said, when the replay asks for it.
 
 interface ReplayChannel extends ByteChannel {
   /** `whole` where they are packets, as the recording has them. */
@@ -95,7 +95,7 @@ function createReplayChannel(clock: Clock): ReplayChannel {
 
 interface Failure {
   readonly atMs: number;
-  /** What was asked for; `link` where nobody asked. */
+  /** What was asked for; `link` where nothing was asked. */
   readonly what: string;
   readonly code: LinkErrorCode;
 }

@@ -1,4 +1,4 @@
-// A clock that moves only when told to. Lets tests and simulations play hours in milliseconds, in an exact and repeatable
+// A clock that moves only by `advance`. Lets tests and simulations play hours in milliseconds, in an exact and repeatable
 // order. Knows timers only; asks no platform for anything.
 
 import type { Clock } from '../clock.ts';

@@ -61,12 +61,12 @@ export const LIBRARY: readonly Exhibit[] = [
 
 /** Files with a group without a unit, one that does not fit, and broken ones. */
 const READINGS: readonly (readonly [name: string, reading: Reading])[] = [
-  ['No.10 wave.xml', { groups: [wave('wave', 1500, 10)], asksUnit: true, remarks: [] }],
+  ['No.10 wave.xml', { groups: [wave('wave', 1500, 10)], isUnitMissing: true, remarks: [] }],
   [
     'nod.xml',
     {
       groups: [wave('nod', 600, null)],
-      asksUnit: false,
+      isUnitMissing: false,
       remarks: [{ code: 'servoTwice', place: { frame: 3 }, found: '2' }],
     },
   ],

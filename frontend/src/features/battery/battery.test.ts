@@ -125,7 +125,7 @@ describe('the readings of a visit', () => {
 });
 
 describe('a low battery', () => {
-  test('is told once, and only when readings agree', async () => {
+  test('is reported once, and only when readings agree', async () => {
     const { clock, notices, noticeTexts } = await createTestPage(6900);
     await clock.advance(9000);
     expect(noticeTexts()).toEqual([]);
@@ -136,7 +136,7 @@ describe('a low battery', () => {
     expect(noticeTexts()).toEqual([]);
   });
 
-  test('is told again when it is lower still', async () => {
+  test('is reported again when it is lower still', async () => {
     const { clock, robots, noticeTexts } = await createTestPage(6900);
     await clock.advance(SETTLED_MS);
     const thresholds = { warnMv: 7200, alarmMv: 7000 };
@@ -147,7 +147,7 @@ describe('a low battery', () => {
     expect(noticeTexts().at(-1)).toBe(words.battery.alarmed({ volts: words.numbers.formatVolts(6900) }));
   });
 
-  test('is told of another robot too', async () => {
+  test('is reported for another robot too', async () => {
     const { clock, device, notices, noticeTexts } = await createTestPage(6900);
     await clock.advance(SETTLED_MS);
     notices.dismiss(notices.store.getState()[0]!.id);
@@ -192,7 +192,7 @@ describe('a low battery', () => {
   );
 
   test.each([0, 9900])(
-    'at %i mV nobody knows, so nothing is refused and nothing moves',
+    'at %i mV the level is unknown: nothing is refused and nothing moves',
     async (batteryMv) => {
       const { clock, device, ofKind, noticeTexts } = await createTestPage(batteryMv, 'rest');
       await clock.advance(60_000);

@@ -14,7 +14,7 @@ const LONGEST_MINUTES = 60;
 function KeepRunningControl() {
   const { view } = useStores();
   const isShared = useSnapshot((snapshot) => snapshot.lease !== null);
-  const isOn = useView((state) => state.goesOn);
+  const isOn = useView((state) => state.keepsRunning);
   if (!isShared) return null;
   return (
     <div className={styles.row}>
@@ -23,7 +23,7 @@ function KeepRunningControl() {
         <Toggle
           label={words.board.keepRunning}
           isOn={isOn}
-          onChange={(goesOn) => view.setState({ goesOn })}
+          onChange={(keepsRunning) => view.setState({ keepsRunning })}
         />
         <p className={styles.hint}>{isOn ? words.board.keepRunningHint : ''}</p>
       </div>

@@ -35,10 +35,10 @@ export function runAsChosen(
   times: number,
   settled: (isTaken: boolean) => void = () => undefined,
 ): void {
-  const { goesOn, keepRunningMinutes } = view.getState();
-  view.setState({ goesOn: false });
+  const { keepsRunning, keepRunningMinutes } = view.getState();
+  view.setState({ keepsRunning: false });
   device.run(slot, times, (isTaken) => {
-    if (isTaken && goesOn) device.letGoOn(keepRunningMinutes * 60_000);
+    if (isTaken && keepsRunning) device.keepRunning(keepRunningMinutes * 60_000);
     settled(isTaken);
   });
 }

@@ -105,15 +105,15 @@ const IN_ANOTHER_TAB: readonly LinkErrorCode[] = ['heldElsewhere', 'movedAway'];
 function latchWords({ reason, by, unheld }: Latch): string {
   const why = reason === 'elsewhere' ? stoppedBy(by) : words.stop.reason[reason];
   if (unheld === null) return why;
-  const goesOn = unheldText(unheld);
-  return reason === 'pressed' ? goesOn : `${goesOn}. ${why}`;
+  const moving = unheldText(unheld);
+  return reason === 'pressed' ? moving : `${moving}. ${why}`;
 }
 
 function unheldText({ servos, forMs }: Unheld): string {
   const who = servos === null ? words.stop.robot : servosText(servos);
   return Number.isFinite(forMs)
-    ? words.stop.goesOnFor({ servos: who, ms: forMs })
-    : words.stop.goesOn({ servos: who });
+    ? words.stop.mayKeepMovingFor({ servos: who, ms: forMs })
+    : words.stop.mayKeepMoving({ servos: who });
 }
 
 type DownState = Extract<LinkState, { status: 'lost' | 'refused' }>;

@@ -40,7 +40,7 @@ describe('findings', () => {
     expect(idsOf({ heard: { packets: 0, noise: [], answeredMs: null } })).not.toContain('heardNothing');
   });
 
-  test('a browser without serial ports is not blamed for ports that nobody allowed', () => {
+  test('a browser without serial ports is not blamed for ports that were not allowed', () => {
     const interfaces = { ...FACTS.interfaces, serial: 'missing' } as const;
     expect(idsOf({ interfaces })).not.toContain('allowedPorts');
   });

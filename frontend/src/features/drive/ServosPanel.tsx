@@ -220,7 +220,7 @@ export function ServosPanel({ isBesideRobot = false }: ServosPanelProps) {
 
 const LAYOUTS = ['list', 'body', 'model'] as const;
 
-/** A body that nobody described has no model. */
+/** A body without a description has no model. */
 const layoutsOf = (body: BodyKind): readonly ServoLayout[] =>
   LAYOUTS.filter((layout) => layout !== 'model' || body !== 'plain');
 

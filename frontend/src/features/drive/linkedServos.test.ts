@@ -59,7 +59,7 @@ describe('servos that move together', () => {
     expect(targetsOf([member(1), near], 1, 2000, { 1: 1000, 2: 1500 })).toEqual({ 1: 1100, 2: 1600 });
   });
 
-  test('who meets its limit first is told, and nobody where all of them get there', () => {
+  test('the servo that meets its limit first is reported, and none where all of them get there', () => {
     const members = [member(1), member(2, 1, { max: 1600 }), member(3, 1, { max: 1550 })];
     const first = (position: number) =>
       moveLinked(members, 1, position, { 1: 1000, 2: 1500, 3: 1500 }, null).first;
@@ -67,7 +67,7 @@ describe('servos that move together', () => {
     expect(first(1050)).toBeNull();
   });
 
-  test('start from home where nobody knows where they are', () => {
+  test('start from home where their positions are unknown', () => {
     expect(targetsOf([member(1), member(2)], 1, 1600, { 1: 1500 })).toEqual({ 1: 1600, 2: 1600 });
   });
 

@@ -41,7 +41,7 @@ test('the estimate hangs below the middle of where a thumb would be', () => {
   expect(to?.[1]).toBeLessThanOrEqual(SIZE.height);
 });
 
-test('where nobody knows there is no estimate, and the border is broken and of another colour', () => {
+test('where it is unknown there is no estimate, and the border is broken and of another colour', () => {
   expect(bar({ estimate: null })).toBeUndefined();
   expect(border({ isKnown: true })).toMatchObject({ colour: 'commanded', dash: [] });
   const { colour, dash = [] } = border({ isKnown: false }) ?? {};

@@ -19,7 +19,7 @@ async function createXarm() {
   };
 }
 
-/** Until a board has told of six servos (X7), and once more. */
+/** Until a board has reported six servos (X7), and once more. */
 const TWO_READS_MS = 1200;
 
 describe('teaching by hand', () => {
@@ -124,7 +124,7 @@ describe('teaching by hand', () => {
     ['a lost link', ({ channel }) => channel.unplug()],
     ['a group of the board', ({ device }) => device.run(8, 1)],
   ];
-  test.each(ENDINGS)('%s ends it without a move of ours, and the person is told', async (_, happen) => {
+  test.each(ENDINGS)('%s ends it without a move of ours, and a notice says so', async (_, happen) => {
     const page = await createXarm();
     const { teaching, draw, isOn, ofKind, noticeTexts, reads } = page;
     teaching.begin();

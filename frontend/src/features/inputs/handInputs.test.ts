@@ -116,7 +116,7 @@ test.each(BOARDS)('%s', { timeout: 60_000 * TIMES }, async (profile) => {
     async function happen(one: Event): Promise<void> {
       switch (one.kind) {
         case 'read':
-          // On their way servos freeze for it and then jump, whoever moved them (S29, X7).
+          // On their way servos freeze for it and then jump, whatever moved them (S29, X7).
           if (device.isAtRest() && isStill()) device.readPositions(SERVOS);
           return pass(one.ms);
         case 'release':

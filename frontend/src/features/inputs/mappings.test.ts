@@ -21,7 +21,7 @@ function page(texts = new Map<string, string>()) {
 const emptied = (mapping: Mapping): Mapping => ({ ...mapping, bindings: [] });
 
 describe('mappings', () => {
-  test('a robot has the ready one until somebody changes it; then it is there at the next visit', () => {
+  test('a robot has the ready one until a person changes it; then it is there at the next visit', () => {
     const { texts, mappings, robots } = page();
     expect(mappings.store.getState().present).toEqual(readyMapping(robots.current().robot));
     mappings.edit(() => 'empty', emptied);

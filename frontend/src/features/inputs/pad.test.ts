@@ -19,7 +19,7 @@ const STANDARD = { id: 'Pad', index: 0, mapping: 'standard' };
 const STOP = 1;
 const RIGHT_TRIGGER = 7;
 
-/** A robot whose first servo stands at 1500, and a pad lying beside it, switched on unless told otherwise. */
+/** A robot whose first servo stands at 1500, and a pad lying beside it, switched on unless said otherwise. */
 async function createTestPage({ drives = true } = {}) {
   const rig = await createRig();
   const notices = createNotices(rig.clock);
@@ -130,7 +130,7 @@ describe('driving by pad', () => {
     expect(await movesIn(300)).toBe(0);
   });
 
-  test('a servo that nobody moved stays and is asked for; once it is known it turns', async () => {
+  test('a servo that was not moved stays and is asked for; once it is known it turns', async () => {
     const { hold, frames, device, noticeTexts, target, movesIn } = await createTestPage();
     hold(5);
     expect(await movesIn(300)).toBe(0);
@@ -150,7 +150,7 @@ describe('driving by pad', () => {
   });
 });
 
-test('a servo that is pushed on at its limit is told once while driving goes on, with its range', async () => {
+test('a servo that is pushed on at its limit is reported once while driving goes on, with its range', async () => {
   const { hold, frames, noticeTexts, target, movesIn } = await createTestPage();
   const push = async (): Promise<void> => {
     hold(RIGHT_TRIGGER);
@@ -166,7 +166,7 @@ test('a servo that is pushed on at its limit is told once while driving goes on,
   expect(noticeTexts()).toEqual([]);
 });
 
-test('a locked servo stays, is told once a push, and turns once it is free', async () => {
+test('a locked servo stays, is reported once a push, and turns once it is free', async () => {
   const { hold, frames, view, robots, noticeTexts, target, movesIn } = await createTestPage();
   const lock = (...locked: readonly number[]): void =>
     view.setState({ servos: { ...INITIAL_SERVO_VIEW, robotId: robots.current().id, locked } });

@@ -111,7 +111,7 @@ describe('keeping', () => {
   test.each([
     ['the page went at once', (first: ReturnType<typeof createVisit>) => first.leave()],
     ['it crashed a moment later', (_: unknown, clock: VirtualClock) => clock.advance(16)],
-  ])('what was not kept yet is kept at the next visit, which is told: %s', async (_name, end) => {
+  ])('what was not kept yet is kept at the next visit, and a notice says so: %s', async (_name, end) => {
     const { visit, clock } = createPlace();
     const first = visit();
     await clock.advance(0);
@@ -128,7 +128,7 @@ describe('keeping', () => {
     expect(second.group().frames).toHaveLength(1);
   });
 
-  test('while the keeper is away everything waits here, is told once, and is kept when it is back', async () => {
+  test('while the library is away everything waits here, is reported once, and is kept when it is back', async () => {
     const { flaky, state } = unreliable(createMemoryStore());
     const { visit } = createPlace(flaky);
     const page = visit();
@@ -149,7 +149,7 @@ describe('keeping', () => {
     expect(page.noticeTexts()).toEqual([]);
   });
 
-  test('what has no room here while the keeper is away is told until either has it', async () => {
+  test('what has no room here while the library is away is reported until either has it', async () => {
     const { flaky, state } = unreliable(createMemoryStore());
     const { visit } = createPlace(flaky);
     const page = visit();
@@ -243,7 +243,7 @@ describe('two pages at one library', () => {
     return { one, other, documentStore, clock };
   }
 
-  test('changes at the same time are both kept, and the later one is told', async () => {
+  test('changes at the same time are both kept, and the later one is reported', async () => {
     const { one, other, documentStore, clock } = await bothOpen();
     const id = one.openId();
     one.capture(1111);
@@ -413,7 +413,7 @@ describe('files', () => {
     return { ...place, page, text: (await page.library.exportText())! };
   }
 
-  test('a damaged group is told by name, and one of its versions takes its place', async () => {
+  test('a damaged group is reported by name, and one of its versions takes its place', async () => {
     const { visit, clock, documentStore } = createPlace();
     const first = visit();
     first.document.edit(() => 'rename', called('Wave'));
@@ -490,7 +490,7 @@ describe('files', () => {
     };
   }
 
-  test('an export holds all that is whole, and what is not is told by name', async () => {
+  test('an export holds all that is whole, and what is not is reported by name', async () => {
     const { text, documentStore, clock } = await twoGroups();
     const all = documentsIn(text);
     const exported = async (...broken: readonly string[]) => {

@@ -28,7 +28,7 @@ describe('a packet that is being typed', () => {
     expect(judge(text).explanation).toBe(explanation);
   });
 
-  test('is refused where the family must not get it, or nobody knows', () => {
+  test('is refused where the family must not get it, or is unknown', () => {
     expect(judge('55 55 02 0C', 'learm-esp32').explanation).toMatch(/^Command 12 is never sent to LeArm AI/u);
     expect(judge('55 55 02 63', 'lsc-6')).toMatchObject({ packet: null, isRefused: true });
     expect(judge('55 55 08 03 01 E8 03 01 28 0A').explanation).toContain(

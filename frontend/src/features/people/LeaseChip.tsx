@@ -1,4 +1,4 @@
-// Who drives the robot, with the actions to request, grant or release it. Hidden while nobody else uses the robot. On a phone the text
+// Who drives the robot, with the actions to request, grant or release it. Hidden while no other client uses the robot. On a phone the text
 // itself opens a menu, because there is no room for several buttons.
 
 import { useState, useRef, type ReactNode } from 'react';
@@ -29,13 +29,13 @@ export function UnattendedChip() {
       className={cx(styles.lease, styles.alone)}
       data-alone
       role="group"
-      aria-label={words.lease.goesOnLabel}
+      aria-label={words.lease.runsWithoutDriver}
     >
       <div className={styles.said}>
         <Mark truth="commanded" />
         <div className={styles.words}>
           <p className={styles.text} aria-live="polite">
-            {isOurs ? mayKeepRunning(run) : goesOn(run, you)}
+            {isOurs ? mayKeepRunning(run) : keepsRunningText(run, you)}
           </p>
           <p className={styles.more}>
             <Left key={run.endsInMs} run={run} />
@@ -43,7 +43,7 @@ export function UnattendedChip() {
         </div>
       </div>
       {isOurs && (
-        <Button tone="quiet" hint={words.lease.keepHint} onPress={() => device.letGoOn(null)}>
+        <Button tone="quiet" hint={words.lease.keepHint} onPress={() => device.keepRunning(null)}>
           {words.lease.keep}
         </Button>
       )}
@@ -55,9 +55,9 @@ function mayKeepRunning({ slot }: Unattended): string {
   return slot === null ? words.lease.playingMayContinue : words.lease.mayKeepRunning({ slot });
 }
 
-function goesOn({ slot, by }: Unattended, you: string): string {
+function keepsRunningText({ slot, by }: Unattended, you: string): string {
   const name = personWithin(by, you);
-  return slot === null ? words.lease.playingGoesOn({ name }) : words.lease.goesOn({ slot, name });
+  return slot === null ? words.lease.playKeepsRunning({ name }) : words.lease.keepsRunning({ slot, name });
 }
 
 /** Counts down from the time of the message. */
@@ -65,7 +65,7 @@ function Left({ run: { endsInMs } }: { readonly run: Unattended }) {
   const { device } = useStores();
   const [heardMs] = useState(device.clock.now);
   const nowMs = useNow(device.clock.now, 250);
-  return words.lease.goesOnFor({ ms: endsInMs - (nowMs - heardMs) });
+  return words.lease.keepsRunningFor({ ms: endsInMs - (nowMs - heardMs) });
 }
 
 export function LeaseChip() {

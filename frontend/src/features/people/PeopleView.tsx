@@ -192,7 +192,7 @@ function RevokeControl({ person: { id, name, unattendedSlot }, wishes }: PersonP
       text={runs ? words.people.revokeTextOfRun({ slot: unattendedSlot }) : words.people.revokeText}
       keepLabel={words.people.keep}
       otherwise={
-        runs ? { label: words.people.revokeGroupGoesOn, onConfirm: () => wishes.revoke(id, true) } : undefined
+        runs ? { label: words.people.revokeOnly, onConfirm: () => wishes.revoke(id, true) } : undefined
       }
       confirmLabel={runs ? words.people.revokeAndStop : words.people.revoke}
       closeLabel={words.close}

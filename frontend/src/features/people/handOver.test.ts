@@ -18,7 +18,7 @@ const OURS: Lease = {
   ...{ you: 'Bert', mayTake: false, grantedBy: null, candidates: [], others: 2, unattended: null },
 };
 
-test('whoever is handed the robot is told from whom, once', () => {
+test('the person who gets the robot is shown who gave it, once', () => {
   const texts: string[] = [];
   const store = createStore<DeviceState>(() => ({
     ...{

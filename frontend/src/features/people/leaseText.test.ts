@@ -26,7 +26,7 @@ test.each<[string, Lease, readonly unknown[]]>([
   ['an owner need not ask', OWNER, ['request', 'take']],
   ['an owner need not wait', { ...OWNER, hasRequested: true }, ['release', 'take']],
   ['a viewer does nothing', LOOKS_ON, []],
-  ['what nobody has is not asked for', { ...PUPIL, driver: null }, []],
+  ['a free lease is not asked for', { ...PUPIL, driver: null }, []],
 ])('%s', (_, lease, wishes) => {
   expect(leaseTextOf(lease).acts.map(({ wish }) => wish)).toEqual(wishes);
 });

@@ -108,7 +108,7 @@ test('a token is shown until it is closed', async () => {
   expect(people.store.getState().shown).toBeNull();
 });
 
-test('what the gateway refuses is told with its reason', async () => {
+test('what the gateway refuses is reported with its reason', async () => {
   people.change('anna', { role: 'viewer' });
   people.revoke('ben', false);
   await settled();
@@ -118,7 +118,7 @@ test('what the gateway refuses is told with its reason', async () => {
   ]);
 });
 
-test('whoever lets nobody in says their own name, and hears when an owner changes it', async () => {
+test('a person who lets no one in says their own name, and hears when an owner changes it', async () => {
   const { api, asked } = gateway();
   const guest = { ...ANNA, you: BEN };
   const notices = { tell: (_tone: string, text: string) => void texts.push(text) };

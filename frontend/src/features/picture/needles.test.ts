@@ -15,7 +15,7 @@ function drawn(...dials: readonly NeedlesAt[]) {
   }));
 }
 
-test('of a servo that nobody knows nothing is drawn', () => {
+test('of a servo of unknown position nothing is drawn', () => {
   expect(drawn({ spot: { x: 24, y: 24 }, needles: NONE })).toEqual([]);
 });
 

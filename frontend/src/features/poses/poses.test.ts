@@ -62,7 +62,7 @@ describe('going to a pose', () => {
     expect(page.book().applied).toBe('rest');
   });
 
-  test('locked servos stay where they are, and the person is told', async () => {
+  test('locked servos stay where they are, and a notice says so', async () => {
     const page = await pageWithPoses();
     const lock = (...locked: readonly number[]): void =>
       page.view.setState({

@@ -30,7 +30,7 @@ const narrowed = (robot: Robot): Robot => changeServo(robot, 4, { max: 2000 });
 
 const FASTER = 'Another robot was put there meanwhile.';
 
-/** What a gateway does: which robot is on the board, told to every screen. */
+/** What a gateway does: which robot is on the board, reported to every screen. */
 function createGateway(clock: VirtualClock) {
   const screens = new Set<(document: string | null) => void>();
   let document: string | null = null;
@@ -91,7 +91,7 @@ function lesson() {
 }
 
 describe('the robot of a shared board', () => {
-  test('is the usual one where nobody has described any, the same for two screens at once', async () => {
+  test('is the usual one where there is no description, the same for two screens at once', async () => {
     const { clock, gateway, documentStore } = lesson();
     const screens = [
       createScreen(gateway, documentStore, clock),
@@ -107,7 +107,7 @@ describe('the robot of a shared board', () => {
     }
   });
 
-  test('is at hand of whoever joins, and each edit follows', async () => {
+  test('is at hand of a page that joins, and each edit follows', async () => {
     const { clock, gateway, documentStore } = lesson();
     const teacher = createScreen(gateway, documentStore, clock);
     teacher.robots.add(() => 'add', { ...freshRobot('arm', 'doc'), name: 'Crane' });
@@ -123,7 +123,7 @@ describe('the robot of a shared board', () => {
     expect([pupil.inUse(), pupil.poses()]).toEqual(['Digger', ['Wave']]);
   });
 
-  test('is changed for everybody by whoever takes up another one', async () => {
+  test('is changed for everybody by the page that takes up another one', async () => {
     const { clock, gateway, documentStore } = lesson();
     const [one, other] = [
       createScreen(gateway, documentStore, clock),
@@ -139,7 +139,7 @@ describe('the robot of a shared board', () => {
     expect(one.inUse()).not.toBe('Hand');
   });
 
-  test('and its limits are left to whoever drives; poses are not', async () => {
+  test('and its limits are left to the driver; poses are not', async () => {
     const { clock, gateway, documentStore } = lesson();
     const pupil = createScreen(gateway, documentStore, clock);
     await clock.advance(1000);
@@ -221,7 +221,7 @@ describe('the robot of a shared board', () => {
     expect([one.isTheBoards(), other.isTheBoards()]).toEqual([true, true]);
   });
 
-  test('is put there by whoever was not ready when it was kept, as soon as that is over', async () => {
+  test('is put there by a page that was not ready when it was kept, as soon as that is over', async () => {
     const { clock, gateway, documentStore } = lesson();
     const one = createScreen(gateway, documentStore, clock);
     one.change({ link: { status: 'identifying' } });
@@ -232,7 +232,7 @@ describe('the robot of a shared board', () => {
     expect(one.isTheBoards()).toBe(true);
   });
 
-  test('whoever was slower takes up what was put there, and asks no more', async () => {
+  test('the slower page takes up what was put there, and asks no more', async () => {
     const { clock, gateway, documentStore } = lesson();
     const described = ['Crane', 'Digger'].map((name) => {
       const { robots, texts } = createVisit(createMemoryStore('browser'), clock);
@@ -250,13 +250,13 @@ describe('the robot of a shared board', () => {
       await clock.advance(1000);
       expect(gateway.asked).toHaveLength(asked + 2);
       expect(screens.map(({ isTheBoards }) => isTheBoards())).toEqual([true, true]);
-      // A wish that somebody had is not lost without a word.
+      // A wish that a person had is not lost without a word.
       expect(refusals()).toBe(noticeTexts);
       for (const { robots } of screens) robots.duplicate();
     }
   });
 
-  test('who described one before the word came that somebody was faster asks nothing either', async () => {
+  test('who described one before the word came that another page was faster asks nothing either', async () => {
     const { clock, gateway, documentStore } = lesson();
     gateway.refuseBy(new LinkError('gatewayRefused', FASTER));
     const one = createScreen(gateway, documentStore, clock);
@@ -270,7 +270,7 @@ describe('the robot of a shared board', () => {
     expect(one.isTheBoards()).toBe(true);
   });
 
-  test('stays what it is where the gateway refuses another one, which is told once', async () => {
+  test('stays what it is where the gateway refuses another one, and a notice says so once', async () => {
     const { clock, gateway, documentStore } = lesson();
     const one = createScreen(gateway, documentStore, clock);
     await clock.advance(1000);
@@ -283,7 +283,7 @@ describe('the robot of a shared board', () => {
     expect(gateway.asked.filter((document) => document !== 'usual-doc')).toHaveLength(1);
   });
 
-  test('a link of its own asks nobody, and nothing is asked before it is ready', async () => {
+  test('a link of its own asks nothing, and nothing is asked before it is ready', async () => {
     const { clock, gateway, documentStore } = lesson();
     const screen = createScreen(gateway, documentStore, clock);
     screen.change({ link: { status: 'opening' } });

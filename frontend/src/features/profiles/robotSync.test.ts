@@ -31,7 +31,7 @@ describe('robots in the library', () => {
     await clock.advance(300);
     const other = createVisit(documentStore, clock);
     await clock.advance(300);
-    // In place of the one that nobody has described.
+    // In place of the one without a description.
     expect(other.names()).toEqual(['Crane']);
     expect(other.poses()).toEqual(['Wave']);
     expect(other.noticeTexts()).toEqual([]);
@@ -44,7 +44,7 @@ describe('robots in the library', () => {
     expect(one.poses()).toEqual(['Wave', 'Bow']);
   });
 
-  test('the library is told limits and poses as the board counts', async () => {
+  test('the library gets limits and poses as the board counts', async () => {
     const clock = createVirtualClock();
     const documentStore = createMemoryStore('gateway');
     const one = createVisit(documentStore, clock);
@@ -64,7 +64,7 @@ describe('robots in the library', () => {
     ]);
   });
 
-  test('a robot that nobody has described stays here until it is wanted, and is one wherever it is made', async () => {
+  test('a robot without a description stays here until it is wanted, and is one wherever it is made', async () => {
     const clock = createVirtualClock();
     const documentStore = createMemoryStore('gateway');
     const [one, other] = [createVisit(documentStore, clock), createVisit(documentStore, clock)];
@@ -103,7 +103,7 @@ describe('robots in the library', () => {
     ]);
   });
 
-  test('what was described before there was a library comes beside what is there, and is told', async () => {
+  test('what was described before there was a library comes beside what is there, and is reported', async () => {
     const clock = createVirtualClock();
     const documentStore = createMemoryStore('gateway');
     await twoScreens(clock, documentStore);
@@ -137,7 +137,7 @@ describe('robots in the library', () => {
     expect(one.robots.current().robot.servos[3]?.min).toBe(1000);
   });
 
-  test('a robot that is removed goes everywhere, and comes back where nobody may remove it', async () => {
+  test('a robot that is removed goes everywhere, and comes back where it may not be removed', async () => {
     const clock = createVirtualClock();
     const documentStore = createMemoryStore('gateway');
     const { one, other } = await twoScreens(clock, documentStore);
@@ -165,7 +165,7 @@ describe('robots in the library', () => {
     expect(driver.noticeTexts()).toEqual([expect.stringContaining('Only an owner may remove')]);
   });
 
-  test('a library that is away is told once, and gets everything when it is back', async () => {
+  test('a library that is away is reported once, and gets everything when it is back', async () => {
     const clock = createVirtualClock();
     const documentStore = createMemoryStore('gateway');
     let isAway = true;

@@ -15,7 +15,7 @@ export interface Driving {
   /** How many are at the gateway, this page among them, and what goes on without anybody. */
   counted(clients: number, unattended: Unattended | null): void;
   ticked(nonce: string): void;
-  /** Resolves when this page drives and its nonce is of now, no older than `withinMs`; rejects where somebody else drives. */
+  /** Resolves when this page drives and its nonce is of now, no older than `withinMs`; rejects where another client drives. */
   begin(withinMs?: number): Promise<void>;
   /** Ends the waiting, with this error. */
   fail(error: LinkError): void;

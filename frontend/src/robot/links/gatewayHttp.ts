@@ -3,7 +3,7 @@
 import { isLinkErrorCode, LinkError } from '#shared/robot/linkError.ts';
 import { GatewayProblem, request, type Asked, type Path, type Verb } from '../request.ts';
 
-/** Rejects where nobody answers in time, and with what the gateway says it refuses for. */
+/** Rejects where no answer comes in time, and with the gateway's reason where it refuses. */
 export async function askGateway<P extends Path, V extends Verb<P>>(
   verb: V,
   path: P,

@@ -120,7 +120,7 @@ test('one that is ended while its request is on its way is ended when it has arr
   await vi.waitFor(() => expect(posted).toEqual([{ type: 'stopPlaying' }]));
 });
 
-test('with the gateway gone nobody waits for its end', async () => {
+test('with the gateway gone nothing waits for its end', async () => {
   const { player, turns } = createPage();
   const failed = player.play(FRAMES, 0, 0).catch((error: unknown) => error);
   await turns();

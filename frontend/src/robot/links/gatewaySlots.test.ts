@@ -73,7 +73,7 @@ test('a download begins with the nonce of this page’s lease and ends as the ga
   expect(changes()).toBe(2);
 });
 
-test('its end may be told before its beginning is answered', async () => {
+test('its end may be reported before its beginning is answered', async () => {
   const { slots, turns, answer } = createPage();
   const failed = slots.store([{ slot: 5, frames: FRAMES }]).catch((error: unknown) => error);
   await turns();
@@ -105,7 +105,7 @@ test('what the gateway refuses for is the error', async () => {
   expect(await failed).toMatchObject({ code: 'notDriving' });
 });
 
-test('with the gateway gone nobody waits for it, and nothing is shown', async () => {
+test('with the gateway gone nothing waits for it, and nothing is shown', async () => {
   const { slots, turns, answer } = createPage();
   const failed = slots.store([{ slot: 5, frames: FRAMES }]).catch((error: unknown) => error);
   await turns();
@@ -120,7 +120,7 @@ test('with the gateway gone nobody waits for it, and nothing is shown', async ()
   expect(slots.download).toBeNull();
 });
 
-test('only one under way is called off, whoever began it', async () => {
+test('only one under way is called off, whichever client began it', async () => {
   const { slots, requests, answer } = createPage();
   slots.jobChanged(DONE);
   await slots.cancel();
@@ -134,10 +134,10 @@ test('only one under way is called off, whoever began it', async () => {
 
 test('the same broken slots and versions again are no news', () => {
   const { slots, changes } = createPage();
-  for (const told of [[], [5], [5], [5, 8]]) slots.slotsChanged(told, {});
+  for (const news of [[], [5], [5], [5, 8]]) slots.slotsChanged(news, {});
   const stored = (version: string) => ({ version, name: 'Wave', document: 'w', by: 'Anna', atMs: 1000 });
-  for (const told of [{ 5: stored('a') }, { 5: stored('a') }, { 5: stored('b') }])
-    slots.slotsChanged([5, 8], told);
+  for (const news of [{ 5: stored('a') }, { 5: stored('a') }, { 5: stored('b') }])
+    slots.slotsChanged([5, 8], news);
   expect(slots.versions).toEqual({
     5: { version: 'b', name: 'Wave', documentId: 'w', by: 'Anna', atMs: 1000 },
   });

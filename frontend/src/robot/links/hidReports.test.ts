@@ -55,9 +55,9 @@ test('no report is an error, and none of its bytes is lost but the padding', () 
     fc.property(fc.uint8Array({ maxLength: REPORT_BYTES }), (report) => {
       const { packet, rest } = splitReport(report);
       const unpadded = report.subarray(0, report.findLastIndex((byte) => byte !== 0) + 1);
-      const told = [...packet, ...rest];
-      expect(told.slice(0, unpadded.length)).toEqual([...unpadded]);
-      expect(told.slice(unpadded.length).every((byte) => byte === 0)).toBe(true);
+      const bytes = [...packet, ...rest];
+      expect(bytes.slice(0, unpadded.length)).toEqual([...unpadded]);
+      expect(bytes.slice(unpadded.length).every((byte) => byte === 0)).toBe(true);
     }),
   );
 });

@@ -22,7 +22,7 @@ export interface FakeHid {
   readonly hid: EventTarget;
   /** The next opening fails so. */
   failOpen(name: string): void;
-  /** A device that the page may see, told as the browser tells it. */
+  /** A device that the page may see, as the browser reports it. */
   plugIn(productName?: string): FakeBoard;
   /** What the chooser was asked for. */
   readonly asked: HIDDeviceRequestOptions[];

@@ -20,7 +20,7 @@ function page(state: LeaseState): { driving: Driving; said: ClientMessage[]; pas
   return { driving, said, pass: (ms) => (nowMs += ms) };
 }
 
-test('a lease that nobody has is requested, and with its first tick the turn begins', async () => {
+test('a free lease is requested, and with its first tick the turn begins', async () => {
   const { driving, said } = page(FREE);
   const begun = driving.begin();
   expect(said).toEqual([{ type: 'lease', action: 'request' }]);
@@ -61,7 +61,7 @@ test('a page that was busy says nothing with an old nonce, but waits for the nex
   expect(said.map(({ type }) => type)).toEqual(['heartbeat', 'heartbeat']);
 });
 
-test('whoever needs newer words waits for the next tick', async () => {
+test('a call that needs a newer tick waits for the next tick', async () => {
   const { driving, pass } = page(OURS);
   driving.ticked('1-1');
   pass(150);
@@ -71,7 +71,7 @@ test('whoever needs newer words waits for the next tick', async () => {
   expect(driving.nonce).toBe('1-2');
 });
 
-test('a page that wakes when its turn is over is told so, and waits for no tick', async () => {
+test('a page that wakes when its turn is over gets that error, and waits for no tick', async () => {
   const { driving, said, pass } = page(OURS);
   driving.ticked('1-1');
   pass(20_000);
@@ -87,7 +87,7 @@ test('while another drives nothing is requested by moving', async () => {
   expect(said).toEqual([]);
 });
 
-test('whoever was quicker has it, and the nonce of a turn that is over is gone', async () => {
+test('the quicker page has it, and the nonce of a turn that is over is gone', async () => {
   const { driving } = page(FREE);
   const begun = driving.begin();
   driving.leaseChanged(THEIRS);
@@ -98,7 +98,7 @@ test('whoever was quicker has it, and the nonce of a turn that is over is gone',
   expect(driving.nonce).toBeNull();
 });
 
-test('how many are there is part of it, whichever was told first', () => {
+test('how many are there is part of it, whichever was reported first', () => {
   const { driving } = page(FREE);
   driving.counted(3, null);
   expect(driving.lease?.others).toBe(2);

@@ -45,7 +45,7 @@ export interface FakeBrowser {
   failNext(step: Step, error: DOMException): void;
   /** Failures that were asked for and have not come about. */
   unmet(): readonly Step[];
-  /** A device that the page may see, told as the browser tells it. */
+  /** A device that the page may see, as the browser reports it. */
   plugIn(ids?: SerialPortInfo): FakePort;
   /** For `vi.stubGlobal`. */
   readonly navigator: object;

@@ -16,7 +16,7 @@ import {
 } from './tabUnderTest.ts';
 
 const STOP = Uint8Array.of(0x55, 0x55, 0x02, 0x07);
-/** Whoever holds a port may be about to let go. */
+/** The holder of a port may be about to let go. */
 const TOLD_IN_TURN_MS = 1600;
 const it = freshBrowser();
 
@@ -35,7 +35,7 @@ async function drag({ session }: Tab, packetCount: number): Promise<void> {
   }
 }
 
-test('a second tab is told who drives, and opens nothing', async () => {
+test('a second tab is shown who drives, and opens nothing', async () => {
   const port = it.browser.plugIn();
   const first = await openReady(port);
   const second = openTab(port);
@@ -138,7 +138,7 @@ test('a robot that cannot be stopped changes hands all the same, in bounded time
   expect(outcome(first)).toBe('movedAway');
 });
 
-test('a tab that does not answer keeps the robot, and the other one is told', async () => {
+test('a tab that does not answer keeps the robot, and the other one gets a notice', async () => {
   const port = it.browser.plugIn();
   void navigator.locks.request(
     'servodeck port CH340 USB serial adapter',
@@ -148,9 +148,9 @@ test('a tab that does not answer keeps the robot, and the other one is told', as
   const tab = openTab(port);
   await pass(TOLD_IN_TURN_MS);
   const taking = tab.session.takeOver();
-  const told = expect(taking).rejects.toMatchObject({ code: 'heldElsewhere' });
+  const refused = expect(taking).rejects.toMatchObject({ code: 'heldElsewhere' });
   await pass(3600);
-  await told;
+  await refused;
   expect(port.isOpen()).toBe(false);
 });
 

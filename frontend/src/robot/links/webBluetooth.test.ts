@@ -88,7 +88,7 @@ describe.each(STEPS)('at %s', (step: Step) => {
   );
 });
 
-test('a link that the radio lost is told at once and comes back by itself', async () => {
+test('a link that the radio lost is reported at once and comes back by itself', async () => {
   const tab = await openReady();
   fake.drop();
   await pass(1);
@@ -296,7 +296,7 @@ describe('what the browser says', () => {
     expect((await lookForBluetooth()).obstacle).toBe('insecureAddress');
   });
 
-  test('two robots of one name are told apart', () => {
+  test('two robots of one name are distinguished', () => {
     expect(moduleLabel(createModule().module)).not.toBe(
       moduleLabel(createModule(undefined, 'Zr0q==').module),
     );

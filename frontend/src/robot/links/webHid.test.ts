@@ -145,7 +145,7 @@ test('a device that takes nothing is lost within a second, and the link says so'
   expect(link.robot.state.link.status).toBe('lost');
 });
 
-test('an unplugged board is told at once, and found again as the new object that the browser hands out', async () => {
+test('an unplugged board is reported at once, and found again as the new object that the browser hands out', async () => {
   const board = browser.plugIn();
   const link = await ready(board);
   link.robot.move([{ servo: 1, position: 1500 }], 100);

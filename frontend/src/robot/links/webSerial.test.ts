@@ -41,7 +41,7 @@ const it = freshBrowser();
 
 const named = (name: string): DOMException => new DOMException('made for a test', name);
 
-/** What the link comes to; null where the failure is nobody's concern. */
+/** What the link comes to; null where the failure does not matter. */
 function expectedAt(step: Step, name: string): LinkErrorCode | null {
   switch (step) {
     case 'getPorts':
@@ -80,7 +80,7 @@ async function meet(step: Step, name: string, port: FakePort): Promise<Tab> {
 }
 
 describe.each(LINK_STEPS)('an exception at %s', (step) => {
-  test.each(NAMES)('%s is told or passes, and the link can be used again', async (name) => {
+  test.each(NAMES)('%s is reported or passes, and the link can be used again', async (name) => {
     const port = it.browser.plugIn();
     const tab = await meet(step, name, port);
     await pass();
@@ -146,7 +146,7 @@ describe('a port that is read', () => {
     await expectUse(tab, again);
   });
 
-  test('that will not close is told as lost all the same', async () => {
+  test('that will not close is reported as lost all the same', async () => {
     const port = it.browser.plugIn();
     const tab = await openReady(port);
     port.jam();

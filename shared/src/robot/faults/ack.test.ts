@@ -19,7 +19,7 @@ type Outcome = (typeof OUTCOMES)[number];
 /** A frame of one servo takes 13.5 ms to leave. A copy that comes later than that looks like its answer. */
 const NEXT_PACKET_MS = 13;
 const ACK_COMMAND = 0x19;
-/** An empty 8: somebody's erase was done. */
+/** An empty 8: an erase was done. */
 const FOREIGN = Uint8Array.of(0x55, 0x55, 0x02, 0x08);
 
 interface Circumstances {

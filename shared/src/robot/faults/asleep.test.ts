@@ -99,7 +99,7 @@ describe('and what does not depend on the computer goes on', () => {
     expect(rig.channel.board.frameCount(1)).toBe(FRAMES.length);
   });
 
-  test('a person is told what became of it, once', async () => {
+  test('a notice says what became of it, once', async () => {
     const rig = await atRest();
     const problems: string[] = [];
     rig.session.subscribe({ problem: ({ code }) => problems.push(code) });

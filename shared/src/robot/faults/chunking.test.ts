@@ -43,13 +43,13 @@ function streamOf(sources: readonly Source[], seed: number): Uint8Array {
 }
 
 function decode(pieces: readonly Uint8Array[], rule: ShapeRule): string {
-  let told = '';
+  let said = '';
   const decoder = createDecoder((event) => {
-    told += `${event.kind === 'packet' ? 'packet' : event.reason} ${textOf(event.bytes)}\n`;
+    said += `${event.kind === 'packet' ? 'packet' : event.reason} ${textOf(event.bytes)}\n`;
   }, rule);
   for (const piece of pieces) decoder.push(piece);
   decoder.idle();
-  return told;
+  return said;
 }
 
 function inPieces(bytes: Uint8Array, size: number): readonly Uint8Array[] {

@@ -33,7 +33,7 @@ type Kind = keyof typeof DAMAGES;
 interface Cost {
   /** Sent packets that are missing, the damaged one included. */
   readonly lost: number;
-  /** Packets that nobody sent. */
+  /** Packets that were not sent. */
   readonly believed: number;
 }
 

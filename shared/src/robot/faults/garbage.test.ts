@@ -21,7 +21,7 @@ const COMMANDS_SEEN = [3, 6, 8, 15, 20, 21, 23, 25];
 
 type ByteAt = (at: number, random: Random) => number;
 
-/** What a line may say when nobody speaks the protocol, up to what costs a decoder most. */
+/** What a line may say when no device speaks the protocol, up to what costs a decoder most. */
 const GARBAGE: readonly { readonly name: string; readonly chunks: number; readonly byteAt: ByteAt }[] = [
   { name: 'random bytes', chunks: IS_EXHAUSTIVE ? 160 : 32, byteAt: (_, random) => random(256) },
   {
@@ -68,12 +68,12 @@ function memoryInUse(): number {
   return heapUsed + arrayBuffers;
 }
 
-/** All that is fed is told of again, in pieces: what is not told of yet is what the decoder holds. */
+/** All that is fed is reported again, in pieces: what is not reported yet is what the decoder holds. */
 function feed(byteAt: ByteAt, rule: ShapeRule, chunks: number, pieceBytes: number, seed: number): void {
   const random = belowFrom(createRandom(seed));
   const counting = counted(rule);
-  let [fed, told, mostUntold] = [0, 0, 0];
-  const decoder = createDecoder(({ bytes }) => (told += bytes.length), counting.rule);
+  let [fed, reportedBytes, mostUnreported] = [0, 0, 0];
+  const decoder = createDecoder(({ bytes }) => (reportedBytes += bytes.length), counting.rule);
   const chunk = new Uint8Array(CHUNK_BYTES);
   const inUse: number[] = [];
   for (let quarter = 0; quarter < 4; quarter += 1) {
@@ -82,14 +82,14 @@ function feed(byteAt: ByteAt, rule: ShapeRule, chunks: number, pieceBytes: numbe
       for (let at = 0; at < CHUNK_BYTES; at += pieceBytes) {
         decoder.push(chunk.subarray(at, at + pieceBytes));
         fed += Math.min(pieceBytes, CHUNK_BYTES - at);
-        mostUntold = Math.max(mostUntold, fed - told);
+        mostUnreported = Math.max(mostUnreported, fed - reportedBytes);
       }
     }
     inUse.push(memoryInUse());
   }
   decoder.idle();
-  expect(told).toBe(fed);
-  expect(mostUntold).toBeLessThanOrEqual(MOST_UNTOLD_BYTES);
+  expect(reportedBytes).toBe(fed);
+  expect(mostUnreported).toBeLessThanOrEqual(MOST_UNTOLD_BYTES);
   expect(counting.lookUps() / fed).toBeLessThanOrEqual(MOST_WORK_PER_BYTE);
   // A decoder that kept what it was fed would grow in each quarter; what the runner itself holds comes and goes.
   const grown = inUse.slice(1).map((bytes, quarter) => bytes - inUse[quarter]!);

@@ -1,4 +1,4 @@
-// F7 of safety.md section 5: a packet is cut on the wire, then the board is told to stop.
+// F7 of safety.md section 5: a packet is cut on the wire, then the board gets a stop.
 
 import { expect, test } from 'vitest';
 import { wireMs } from '../../codec/packet.ts';
@@ -12,7 +12,7 @@ const REST = 1_500;
 const HEAD_BYTES = 7;
 const ENTRY_BYTES = 3;
 
-/** The board plays a group for ever, and its slot still holds a long packet that nobody may execute again (S13). */
+/** The board plays a group for ever, and its slot still holds a long packet that must not be executed again (S13). */
 async function runningRig(): Promise<Rig> {
   const rig = await createRig({ servoCount: SERVOS });
   const { session, clock } = rig;

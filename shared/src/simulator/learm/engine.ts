@@ -103,7 +103,7 @@ const GRIPPER = 1;
 export function createLearmEngine(traits: LearmTraits, parts: EngineParts): Engine {
   const { now, reply, print, sectorMs } = parts;
   const packets: { readonly command: number; readonly params: Uint8Array }[] = [];
-  // A board that has been on for a while: somebody has pressed the key already.
+  // A board that has been on for a while: the key was pressed already.
   let booted = now() >= READY_MS;
   let mode = MODES.indexOf(booted ? 'pc' : 'app');
   let jammed = false;

@@ -45,7 +45,7 @@ test('L1: after power-up it stands in its pose at once and prints two lines befo
   expect(String.fromCharCode(...bytesOf(takeReplies()))).toBe('begin\r\n');
 });
 
-test('L2: it starts in its app mode and hears nothing on USB until somebody presses the key', async () => {
+test('L2: it starts in its app mode and hears nothing on USB until a person presses the key', async () => {
   const { clock, exchange, takeReplies } = learm({ onForMs: 0, faults: ['modeKey=4000'] });
   await clock.advance(3500);
   takeReplies();

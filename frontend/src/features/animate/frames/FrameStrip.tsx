@@ -54,7 +54,7 @@ function useStripClipboard(list: RefObject<HTMLElement | null>, changed: () => v
 }
 
 // Which cards of a long strip are there: those in sight and some on both sides, so that a few hundred cost no more
-// than a few dozen. The room of the others is kept.
+// than a few dozen. The others keep their space.
 
 /** A card and the gap behind it; the style sheet says the same. */
 const STEP_PX = 140;

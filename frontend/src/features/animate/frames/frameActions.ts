@@ -183,8 +183,8 @@ export function createStripKeys(stores: TimelineStores): StripKeys {
     const ids = groupOf({ stores }).frames.map((frame) => frame.id);
     const to = neighbour(key, ids.indexOf(id), ids.length);
     if (to === null) return false;
-    const goesOn = span.to === id && togetherNow(stores, id).includes(span.from);
-    span = { from: goesOn ? span.from : id, to: ids[to] ?? id };
+    const continues = span.to === id && togetherNow(stores, id).includes(span.from);
+    span = { from: continues ? span.from : id, to: ids[to] ?? id };
     spanFrames(stores, span.from, span.to);
     return true;
   }

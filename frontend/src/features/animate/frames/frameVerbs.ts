@@ -19,7 +19,7 @@ export type FrameIds = readonly number[];
 /** As the person counts the frames, from 1. */
 type Numbers = readonly number[];
 
-/** The frame that is meant alone, or all that are selected where it is one of them. */
+/** The given frame alone, or all that are selected where it is one of them. */
 export const together = (whole: FrameIds, id: number): FrameIds => (whole.includes(id) ? whole : [id]);
 
 export function togetherNow(stores: TimelineStores, id: number): FrameIds {
@@ -150,7 +150,7 @@ export function selectAllFrames(stores: TimelineStores, lead: number): void {
 }
 
 // Which frames are selected as a whole, with every key of theirs in a row that is shown, and the rests between them: what the strip
-// marks, and what is done to several frames is done to. The list is pure, and kept as long as it says the same.
+// marks, and what is done to several frames is done to. The list is pure, and stays the same object while its content does.
 
 /** In the order of time. A frame without a key to select goes with the frames on both sides of it. */
 export function wholeFrames(

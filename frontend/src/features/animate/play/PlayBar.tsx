@@ -116,7 +116,7 @@ function PreviewButton({ phase }: { readonly phase: PlaybackPhase | null }) {
   );
 }
 
-/** Nobody reads a button while the playhead is dragged. */
+/** A button need not change faster than it can be read. */
 const SAID_EACH_MS = 500;
 
 /** From where, as the playhead goes, or how often; or what ends it. With room for the longest: what follows stays in its place. */

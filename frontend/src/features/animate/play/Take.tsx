@@ -18,7 +18,7 @@ export interface TakeProps {
   onClose(): void;
 }
 
-/** What nobody sees in a hand's motion. */
+/** An error that is not seen in a motion by hand. */
 const USUAL_ERROR = { us: 10, steps: 4 } as const;
 const MOST_ERROR = 200;
 

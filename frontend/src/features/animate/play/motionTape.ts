@@ -1,4 +1,4 @@
-// The motion of the last two minutes, always kept: where each servo was by estimate, many times a second while any of them moves.
+// The motion of the last two minutes, always recorded: where each servo was by estimate, many times a second while any of them moves.
 // Bounded: what is older goes. Knows no group.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
@@ -53,7 +53,7 @@ export function createMotionTape({ device, robots, clock }: MotionTapeOptions): 
     return new Map(known);
   }
 
-  /** What stood still is kept only where a motion begins. */
+  /** What stood still is recorded only where a motion begins. */
   function sample(): void {
     const now = { atMs: clock.now(), pose: poseNow() };
     if (last !== null && !samePose(last.pose, now.pose)) {

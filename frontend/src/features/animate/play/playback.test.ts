@@ -273,7 +273,7 @@ describe('playing from the page', () => {
     }
   });
 
-  test('what does not fit the robot is not begun, and the person is told which', async () => {
+  test('what does not fit the robot is not begun, and a notice says which', async () => {
     const { playback, noticeTexts, draw, heard } = await pageWith(
       groupOf(frame(400, 1000), frame(400, 2600)),
     );
@@ -347,7 +347,7 @@ describe('the playhead', () => {
     return { ...page, lookFar, fromMs };
   }
 
-  test('is brought into sight where playing begins; whoever looks away meanwhile is left alone', async () => {
+  test('is brought into sight where playing begins; a person who looks away meanwhile is not interrupted', async () => {
     const { playback, lookFar, fromMs, draw } = await pageLookingFar();
     playback.play();
     expect(fromMs()).toBe(576);
@@ -414,7 +414,7 @@ describe('the robot that follows', () => {
   });
 });
 
-describe('a robot that follows where somebody else takes it over', () => {
+describe('a robot that follows where another client takes it over', () => {
   test.each(['playback', 'blend', 'macroRun'] as const)(
     'does so no longer, and not again: %s',
     async (which) => {
@@ -546,7 +546,7 @@ describe('playing on the board', () => {
       expect(counts()).toEqual([4, 1]);
     });
 
-    test('asks again where somebody else has stored something there meanwhile, and before', async () => {
+    test('asks again where another client has stored something there meanwhile, and before', async () => {
       const { share, othersStore, asked: stored } = createSharedSlots();
       const { device, playback, replacing, draw, asked, phase } = await pageWithAnother('Bow', { share });
       // A board that holds nothing never says that a run is over.

@@ -1,4 +1,4 @@
-// What is played and how it is to be played, and what goes on with each frame and when nobody looks any more. What plays comes with the
+// What is played and how, with a call for each frame of the screen and for a page that is hidden. The player comes with the
 // panel that has the buttons for it, see `playerOf`. Knows no panel.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
@@ -14,12 +14,12 @@ import type { GroupPlace } from '../../board/slots/groupPlace.ts';
 import type { Replacing } from '../../board/slots/replacing.ts';
 import type { Slots } from '../../board/slots/slots.ts';
 
-// Where the timeline's playhead is, for whoever plays the group.
+// The timeline's playhead, for the player of the group.
 
-/** The instant that is looked at, and the part of the group that is meant; null: all of it. */
+/** The time that is shown, and the part of the group to play; null: all of it. */
 export interface Playhead {
   at(): number;
-  /** Out of sight it stays there: whoever looks elsewhere is left alone. */
+  /** Without scrolling: a person who looks elsewhere is not interrupted. */
   go(atMs: number): void;
   /** Brought into sight. */
   show(atMs: number): void;

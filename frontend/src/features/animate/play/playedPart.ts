@@ -18,7 +18,7 @@ import { isSilent, servoViewFor } from '../../servoView.ts';
 import type { View } from '../../view.ts';
 
 export interface PlayedPart {
-  /** Where the playhead is within what is meant; null: it begins at the beginning, as a loop always does. */
+  /** Where the playhead is within the part to play; null: it begins at the beginning, as a loop always does. */
   within(): number | null;
   /** What was marked, or all of it. */
   part(): { readonly fromMs: number; readonly toMs: number };
@@ -39,7 +39,7 @@ export interface PlayedPartOptions {
   chosen(): { readonly loops: boolean; readonly speedPercent: number };
 }
 
-/** Of a servo's range: so much further on nobody sees a jerk. */
+/** Of a servo's range: a step of so much is not seen as a jerk. */
 const LARGEST_SEAM = 0.05;
 
 const seamOf = ({ position: { min, max } }: Family): PassageOptions['seam'] => ({

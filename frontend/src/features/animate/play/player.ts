@@ -41,7 +41,7 @@ function createPlayer(options: PlaybackOptions, store: StoreApi<PlaybackState>):
     if (store.getState().phase !== next) store.setState({ phase: next });
   };
 
-  /** What may be played now; else the person is told what keeps it from that. */
+  /** What may be played now; else null, and a notice says why. */
   function playable(by: 'page' | 'board'): CompiledGroup | null {
     const hindrance = startHindrance(device.store.getState().snapshot);
     const group = compiled.now();

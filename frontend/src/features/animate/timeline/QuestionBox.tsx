@@ -1,7 +1,7 @@
 // A field in place: a number or a text that the timeline asks for, beside what it is about. Enter and leaving the field take it,
 // Escape does not (and stops the robot, as everywhere). Before it is asked for, the value of the selected key stands there.
 // That one opens by a mere click on a key, so until something is written in it the hand is still on the keys: what writes no
-// number is meant for them.
+// number is for them.
 
 import { useEffect, useRef, type KeyboardEvent } from 'react';
 import { useStores, useTimeline } from '../../stores.ts';
@@ -20,7 +20,7 @@ import styles from './QuestionBox.module.css';
 
 export interface AskBoxProps {
   onClose(): void;
-  /** The press was meant for the keys: the field has closed. */
+  /** The press is for the keys: the field has closed. */
   onPass(event: KeyboardEvent): void;
 }
 
@@ -64,7 +64,7 @@ function Asked({ ask, onClose, onPass }: AskBoxProps & { readonly ask: Ask }) {
     const problem = answer(contextOf(stores), ask, text);
     if (problem !== null) stores.notices.tell('warning', problem);
   };
-  /** A number nobody typed is taken by Enter alone: whoever leaves the field has thought better of it. */
+  /** A suggested number is taken by Enter alone; leaving the field cancels it. */
   const isLeftAlone = (text: string): boolean => asked.kind === 'number' && text === asked.initial(context);
   return (
     <div className={styles.box} style={place ?? {}}>
@@ -93,7 +93,7 @@ function Asked({ ask, onClose, onPass }: AskBoxProps & { readonly ask: Ask }) {
   );
 }
 
-/** All of it is selected, as when it opened: whoever wants to write in it has set the caret. */
+/** All of it is selected, as when it opened: the person has not set the caret. */
 function isUntouched({ value, defaultValue, selectionStart, selectionEnd }: HTMLInputElement): boolean {
   return value === defaultValue && selectionStart === 0 && selectionEnd === value.length;
 }
@@ -103,7 +103,7 @@ const FOR_KEYS = /^(Arrow.+|Page.+|Delete|Backspace|ContextMenu|F10|[a-z ])$/i;
 /** On a screen's keyboard Backspace is how a field is cleared. */
 const isForKeys = (key: string): boolean => FOR_KEYS.test(key) && !(key === 'Backspace' && isTouch());
 
-/** Beside what it is about, within the lanes. */
+/** Beside what it is about, within the tracks. */
 function placeOf(context: ShownContext): Place | null {
   const { state, times, stores } = context;
   const { playheadMs } = stores.timeline.getState();

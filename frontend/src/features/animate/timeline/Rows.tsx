@@ -1,4 +1,4 @@
-// The rows for those who read or hear them: at the left each row's head, and over the lanes a cell for each key, in its place,
+// The rows for those who read or hear them: at the left each row's head, and over the tracks a cell for each key, in its place,
 // which the eye sees painted. Only what is in sight is there, and a row is drawn again only where something of it changed.
 
 import { memo } from 'react';

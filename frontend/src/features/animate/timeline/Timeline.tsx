@@ -1,4 +1,4 @@
-// The timeline: a grid for keyboard and ears, lanes for eye and hand, both of the same keys. Changes the document alone; the
+// The timeline: a grid for keyboard and ears, tracks for eye and hand, both of the same keys. Changes the document alone; the
 // playhead moves nothing but the picture of a pose.
 
 import {
@@ -90,17 +90,17 @@ export const Timeline = memo(function Timeline() {
   );
 
   useLayoutEffect(() => {
-    const [area, lane] = [scroller.current, tracks.current];
-    if (area === null || lane === null) return undefined;
+    const [area, canvas] = [scroller.current, tracks.current];
+    if (area === null || canvas === null) return undefined;
     const measure = (): void =>
       stores.timeline.setState({
-        widthPx: lane.clientWidth,
+        widthPx: canvas.clientWidth,
         heightPx: area.clientHeight,
         scrollTop: area.scrollTop,
       });
     const observer = new ResizeObserver(measure);
     observer.observe(area);
-    observer.observe(lane);
+    observer.observe(canvas);
     return () => observer.disconnect();
   }, [stores]);
 
@@ -179,7 +179,7 @@ export const Timeline = memo(function Timeline() {
           <Stage>
             <div
               ref={grid}
-              id={`${id}lanes`}
+              id={`${id}tracks`}
               role="grid"
               tabIndex={0}
               className={styles.grid}
@@ -209,7 +209,7 @@ export const Timeline = memo(function Timeline() {
           </Stage>
         </div>
       </div>
-      <Minimap tracks={`${id}lanes`} />
+      <Minimap tracks={`${id}tracks`} />
       <StatusText {...said} />
       <TimelineMenu menu={menu} onClose={closeMenu} />
     </section>
@@ -245,7 +245,7 @@ function Corner() {
   );
 }
 
-// The line over the lanes where the playhead is. On a canvas of its own: moved as an element it would have the browser sort the
+// The line over the tracks where the playhead is. On a canvas of its own: moved as an element it would have the browser sort the
 // layers of the whole page anew in each frame of a scrub.
 
 const LINE_PX = 1.5;

@@ -1,5 +1,5 @@
 // Copied keys and frames as text for the clipboard of the system, so that they reach another window, and back. The text is that
-// of a small action group: what was copied can be kept as a file, and a file can be pasted.
+// of a small action group: what was copied can be saved as a file, and a file can be pasted.
 
 import { type PasteProblem, clipGroup, copyFrames, type Clip } from '#shared/group/clip.ts';
 import { groupFromText, groupToText } from '#shared/group/group.ts';

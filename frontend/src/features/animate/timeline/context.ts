@@ -129,7 +129,7 @@ function cursorAmong({ rows, state: { cursor } }: TimelineContext, refs: readonl
   return { row: among.length > 0 ? cursor.row : (row?.id ?? ALL_ROW), frameId: ref.frameId };
 }
 
-/** The very set that was there, where it says the same: whoever shows it has nothing to do. */
+/** The very set that was there, where it has the same keys: views of it need no update. */
 const sameOr = (before: KeySet, after: KeySet): KeySet =>
   before === after || (before.size === after.size && [...after].every((name) => before.has(name)))
     ? before
@@ -153,7 +153,7 @@ export function select(stores: TimelineStores, wanted: KeySet | null, cursor?: C
 const sameCursor = (before: Cursor, after: Cursor = before): Cursor =>
   before.row === after.row && before.frameId === after.frameId ? before : after;
 
-/** False where nothing may be changed; then the person is told why. */
+/** False where nothing may be changed; then a notice says why. */
 export function hasChangeable(context: TimelineContext): boolean {
   if (changeable(context).length > 0) return true;
   if (context.state.selected.size > 0)

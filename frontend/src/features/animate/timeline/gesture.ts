@@ -1,4 +1,4 @@
-// What a press on the lanes becomes when it is dragged, and what all such gestures share: an edit that begins with the first
+// What a press on the tracks becomes when it is dragged, and what all such gestures share: an edit that begins with the first
 // movement, and where a thing that is dragged in time comes to rest.
 
 import type { ActionGroup } from '#shared/group/group.ts';
@@ -21,7 +21,7 @@ interface SnapField {
   readonly reachMs: number;
 }
 
-/** null: nothing holds it, each millisecond may be meant. */
+/** null: nothing snaps, each millisecond counts. */
 export function snapped(atMs: number, field: SnapField | null): number {
   if (field === null) return Math.round(atMs);
   const { placesMs, tickMs, reachMs } = field;
@@ -48,7 +48,7 @@ export interface Press {
   readonly sizes: Sizes;
   readonly spot: Spot;
   readonly held: Held;
-  /** A finger drags the lanes about where a mouse draws a box. */
+  /** A finger scrolls the tracks where a mouse draws a box. */
   readonly isTouch: boolean;
   showBox(box: { readonly from: Spot; readonly to: Spot } | null): void;
   scroll(byPx: number): void;
@@ -56,7 +56,7 @@ export interface Press {
 
 export interface Gesture {
   readonly status: StatusName;
-  /** Past an end of the lanes these go on below it. */
+  /** Past an end of the tracks these go on below it. */
   readonly leadsOn?: 'throughTime' | 'throughRowsToo';
   /** Where what is dragged is by now. */
   tells?(): string;

@@ -61,7 +61,7 @@ test('a press on a key that is called off selects what was selected before, as w
   expect(stores.timeline.getState().cursor).toEqual(before);
 });
 
-describe('lanes that go on below a drag', () => {
+describe('tracks that scroll below a drag', () => {
   const playOn = (stores: { timeline: Timeline }, byMs: number): void =>
     stores.timeline.setState(({ time }) => ({ time: { ...time, fromMs: time.fromMs + byMs } }));
 
@@ -350,7 +350,7 @@ describe('dragging other things', () => {
     expect(keys(2).map(([atMs]) => atMs)).toEqual([500, 1000, 1000]);
   });
 
-  test('locked rows stay where a stretch is pulled, and that is told where nothing else is selected', async () => {
+  test('locked rows stay where a stretch is pulled, and a notice says so where nothing else is selected', async () => {
     const { drag, press, select, keys, stores } = await createTestTimeline();
     editServoView(stores, (view) => ({ ...view, locked: [2] }));
     select([2, 1], [3, 1], [2, 2], [3, 2]);
@@ -409,7 +409,7 @@ describe('dragging other things', () => {
     expect(group().markers).toMatchObject([{ atMs: 820, text: 'Bow' }]);
   });
 
-  test('a finger drags the lanes about', async () => {
+  test('a finger scrolls the tracks', async () => {
     const { press, stores, group } = await createTestTimeline();
     const gesture = press({ x: 500, y: 90 }, {}, true);
     gesture.by(-40, 0);

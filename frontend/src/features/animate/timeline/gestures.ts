@@ -1,5 +1,5 @@
 // A table from what a press hit to what then follows the pointer. An edit of the document is one gesture of it, shown while it
-// lasts, kept at its end or called off.
+// lasts, committed at its end or cancelled.
 
 import { moveMarker } from '#shared/group/frameEdits.ts';
 import { setDuration } from '#shared/group/timeEdits.ts';
@@ -190,7 +190,7 @@ function boxGesture(press: Press, context: TimelineContext, { row }: Hit & { kin
     leadsOn: isOnRows ? 'throughRowsToo' : 'throughTime',
     tells: () => boxText(stores),
     move(spot) {
-      // Where it was begun: the lanes may have gone on.
+      // Where it was begun: the tracks may have scrolled.
       const { time, scrollTop } = stores.timeline.getState();
       const scrolledPx = isOnRows ? scrollTop - context.state.scrollTop : 0;
       const corner = { x: xOf(time, fromMs), y: from.y - scrolledPx };

@@ -133,7 +133,7 @@ export interface Box {
   readonly isOnRows: boolean;
 }
 
-/** The keys within a box on the lanes. What is scrolled below the row of all servos is not meant by a pointer on it. */
+/** The keys within a box on the tracks. Rows that are scrolled below the row of all servos are not hit by a pointer on it. */
 export function keysInBox(scene: Scene, { corner, pointer, isOnRows }: Box): readonly KeyRef[] {
   const { all, rows, state, sizes } = scene;
   const onRows = (spot: Spot): Spot => ({ x: spot.x, y: Math.max(topOfRows(sizes), spot.y) });

@@ -52,7 +52,7 @@ function settleCursor(stores: TimelineStores, before: GroupTimes): void {
   if (wasAtMs !== null) setChanged(stores.timeline, { cursor: cursorLeft(contextOf(stores), wasAtMs) });
 }
 
-/** While it is played, a page at a time; whoever has looked away from it meanwhile is left alone. */
+/** While it is played, a page at a time; a person who has scrolled away from it meanwhile is not interrupted. */
 function followPlayhead({ timeline }: TimelineStores, before: TimelineState): void {
   const { time, widthPx, playheadMs } = timeline.getState();
   const x = xOf(before.time, before.playheadMs);
@@ -70,7 +70,7 @@ export function showFrame(stores: TimelineStores, frameId: number | null): void 
   lookAt(context, endMs);
 }
 
-/** One key of it, in its own row: what is typed next is meant for it alone. */
+/** One key of it, in its own row: what is typed next is for it alone. */
 export function showKey(stores: TimelineStores, ref: KeyRef): void {
   const context = contextOf(stores);
   select(stores, keySet([ref]), { row: servoRowId(ref.servo), frameId: ref.frameId });

@@ -196,7 +196,7 @@ export function fitAll({ stores, times }: Pick<TimelineContext, 'stores' | 'time
   setChanged(stores.timeline, { time: sameOr(time, whole), followsGroup: true });
 }
 
-/** Whoever shows a stretch that is the same has nothing to do. */
+/** The same object where it shows the same: views of it need no update. */
 const sameOr = (before: TimeView, after: TimeView): TimeView =>
   before.fromMs === after.fromMs && before.msPerPx === after.msPerPx ? before : after;
 

@@ -1,4 +1,4 @@
-// Draws the lanes on a canvas: only what is seen, all of it at once. Draws what it is given; changes nothing.
+// Draws the tracks on a canvas: only what is seen, all of it at once. Draws what it is given; changes nothing.
 
 import { type Key, CURVES } from '#shared/group/tracks.ts';
 import { keyName } from './timeline.ts';
@@ -163,7 +163,7 @@ function lineTo(ctx: CanvasRenderingContext2D, { easing }: Key, [fromX, fromY]: 
   ctx.lineTo(x, y);
 }
 
-/** Nobody knows where the servo is before its first key. */
+/** Where the servo is before its first key is unknown. */
 function paintLeadIn({ ctx, look, scene }: Brush, placed: PlacedRow, first: Key | undefined): void {
   if (first === undefined) return;
   const y = keyY(placed, first.position, scene.family);

@@ -1,4 +1,4 @@
-// Draws what is fixed on top of the lanes: the ruler with its marks, markers and loop range, and the heads of the frames.
+// Draws what is fixed on top of the tracks: the ruler with its marks, markers and loop range, and the heads of the frames.
 
 import { type Look, colourOf } from '../../picture/Canvas.tsx';
 import type { Scene } from './scene.ts';

@@ -1,4 +1,4 @@
-// The pointer on the lanes, whatever it is: one press at a time becomes a gesture, two fingers zoom and pan, a finger that rests opens the
+// The pointer on the tracks, whatever it is: one press at a time becomes a gesture, two fingers zoom and pan, a finger that rests opens the
 // menu or, dragged on, draws a box; the middle button pans. Escape, a lost pointer and a lost window call a gesture off. Knows no edits.
 
 import type { Spot } from './hit.ts';
@@ -6,7 +6,7 @@ import type { Gesture, Held, Press, StatusName } from './gesture.ts';
 import { boxFrom, gestureOf, panFrom } from './gestures.ts';
 import { topOfRows } from './rows.ts';
 
-// Lanes that go on below what is dragged past one of their ends, the faster the farther: through time, and some
+// Tracks that scroll below what is dragged past one of their ends, the faster the farther: through time, and some
 // through the rows too.
 
 interface EdgePanHost {
@@ -20,7 +20,7 @@ interface EdgePanHost {
 }
 
 interface EdgePan {
-  /** Where on the lanes something is dragged. */
+  /** Where on the tracks something is dragged. */
   at(spot: Spot, throughRows: boolean): void;
   end(): void;
 }
@@ -29,7 +29,7 @@ const LEAST_PX = 2;
 const MOST_PX = 24;
 const PX_OVER_A_STEP = 6;
 
-/** How far the lanes go on in each frame of the screen; 0 while `x` is on them. */
+/** How far the tracks scroll in each frame of the screen; 0 while `x` is on them. */
 export function edgeStep(x: number, widthPx: number): number {
   const overPx = x < 0 ? x : Math.max(0, x - widthPx);
   return Math.sign(overPx) * Math.min(MOST_PX, LEAST_PX + Math.abs(overPx) / PX_OVER_A_STEP);
@@ -82,7 +82,7 @@ interface PointerHost {
   pan(byPx: number): void;
   openMenu(spot: Spot): void;
   doubleClick(spot: Spot): void;
-  /** A mouse is over the lanes and presses nothing; null: no longer. */
+  /** A mouse is over the tracks and presses nothing; null: no longer. */
   hover(spot: Spot | null): void;
   /** `tells`: where what is dragged is by now. */
   say(status: StatusName | null, tells?: () => string): void;

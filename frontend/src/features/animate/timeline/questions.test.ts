@@ -103,7 +103,7 @@ test('from its end a stretch is scaled so far as there is room before it', async
   expect(keys(1).map(([atMs]) => atMs)).toEqual([500, 1125, 1500]);
 });
 
-test('time inserted where nothing stands behind it changes nothing, and that is told', async () => {
+test('time inserted where nothing stands behind it changes nothing, and a notice says so', async () => {
   const { context, stores, noticeTexts, steps } = await createTestTimeline();
   const before = steps();
   stores.timeline.setState({ playheadMs: 1500 });

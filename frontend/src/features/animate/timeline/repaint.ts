@@ -1,4 +1,4 @@
-// What of the lanes has to be painted anew: after an edit that gave keys other positions the place of these, else all of it. Pure.
+// What of the tracks has to be painted anew: after an edit that gave keys other positions the place of these, else all of it. Pure.
 
 import { isPlacedAlike, type Key } from '#shared/group/tracks.ts';
 import type { GroupFrame } from '#shared/group/group.ts';

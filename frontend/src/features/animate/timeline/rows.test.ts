@@ -29,7 +29,7 @@ test('a row of several has a key for each frame that moves one of its servos', (
   ]);
 });
 
-test('whoever shows rows sees the very same keys until they are others', () => {
+test('views of rows see the very same keys until they are others', () => {
   const group = smallGroup();
   const before = [ALL, LIMB, FIRST].map((one) => keysOf(group, one));
   const nudged = moveKeys(

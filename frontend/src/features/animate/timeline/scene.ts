@@ -1,4 +1,4 @@
-// Everything that is on the lanes now, with its geometry: what painting and hitting have in common. Pure.
+// Everything that is on the tracks now, with its geometry: what painting and hitting have in common. Pure.
 
 import type { Marker } from '#shared/group/group.ts';
 import { positionRange, type Family, type Range } from '#shared/codec/families.ts';
@@ -14,7 +14,7 @@ export interface Scene {
   readonly markers: readonly Marker[];
   readonly family: Family;
   readonly sizes: Sizes;
-  /** The row of all servos and those that scroll, each where it is on the lanes. */
+  /** The row of all servos and those that scroll, each where it is on the tracks. */
   readonly all: PlacedRow;
   readonly rows: readonly PlacedRow[];
   readonly widthPx: number;

@@ -9,7 +9,7 @@ import { createMemoryStore } from '../../library/memoryStore.ts';
 import { createVisit } from '../../library/libraryUnderTest.ts';
 import { keySet, createTimeline, restoreSelection, resetForOpenedGroup } from './timeline.ts';
 
-/** As on the page: it hears of an edit before whoever forgets what is gone. */
+/** As on the page: it hears of an edit before the listener that forgets what is gone. */
 async function createStoredPage() {
   const page = await createTestTimeline();
   restoreSelection(page.stores);

@@ -40,7 +40,7 @@ describe('time on the screen', () => {
     expect(seen.toMs).toBeGreaterThan(9000);
   });
 
-  test('nobody gets lost before the beginning', () => {
+  test('the view does not go far before the beginning', () => {
     expect(xOf(panned({ fromMs: 500, msPerPx: 10 }, -10_000), 0)).toBeCloseTo(24);
   });
 

@@ -2,12 +2,12 @@
 
 import type { TimeView } from './timeline.ts';
 
-/** Between 1 ms and an hour across a usual lane. */
+/** Between 1 ms and an hour across a usual width. */
 const CLOSEST_MS_PER_PX = 0.1;
 const FARTHEST_MS_PER_PX = 4000;
 /** Left free beside what is fitted in, so that keys at the ends are whole. */
 const MARGIN_PX = 24;
-/** Nothing shorter is fitted in: a lane full of one instant says nothing. */
+/** Nothing shorter is fitted in: a width full of one instant shows nothing. */
 const SHORTEST_FIT_MS = 200;
 
 export interface Span {

@@ -103,7 +103,7 @@ function keysNamed({ tracks }: GroupTimes, selected: KeySet): readonly Key[] {
   return keys;
 }
 
-/** The instant at the left end of the lanes, and how much time a pixel is. */
+/** The instant at the left end of the tracks, and how much time a pixel is. */
 export interface TimeView {
   readonly fromMs: number;
   readonly msPerPx: number;
@@ -136,7 +136,7 @@ export interface TimelineState {
   readonly time: TimeView;
   /** All of the group stays in sight, until the person zooms or pans. */
   readonly followsGroup: boolean;
-  /** Of the lanes; 0 before they are drawn. */
+  /** Of the tracks; 0 before they are drawn. */
   readonly widthPx: number;
   readonly heightPx: number;
   /** How far the rows are scrolled. */

@@ -222,7 +222,7 @@ describe('keys', () => {
     expect(steps()).toBe(before + 2);
   });
 
-  test('Enter sets keys of all servos in an empty group, and none on a locked row, which is told', async () => {
+  test('Enter sets keys of all servos in an empty group, and none on a locked row, with a notice', async () => {
     const { key, stores, keys, noticeTexts, group } = await createTestTimeline();
     stores.document.edit(
       () => 'empty',

@@ -1,5 +1,5 @@
 // The stores of a timeline with a small group, for tests: three frames of 500 ms, servos 1 and 2 keyed in each, servo 3 in the
-// first and the last. The lanes show 0.1 s in 10 px, from 0 on.
+// first and the last. The tracks show 0.1 s in 10 px, from 0 on.
 
 import { insertFrame } from '#shared/group/groupEdits.ts';
 import { emptyGroup, type ActionGroup } from '#shared/group/group.ts';
@@ -48,7 +48,7 @@ export async function createTestTimeline() {
   const context = () => contextOf(stores);
   const group = () => document.store.getState().present;
 
-  /** Where a key of the servo is on the lanes. */
+  /** Where a key of the servo is on the tracks. */
   const spotOf = (servo: number, frame: number) => {
     const scene = sceneOf(context(), SIZES);
     const row = scene.rows.find(({ row: { servos } }) => servos[0] === servo);

@@ -1,4 +1,4 @@
-// Brings the lanes to life outside of React's rounds: paints them when something changed, follows pointer and wheel. Knows
+// Brings the tracks to life outside of React's rounds: paints them when something changed, follows pointer and wheel. Knows
 // elements and stores, no edit.
 
 import { contextOf, type TimelineStores, rowOf, select } from './context.ts';
@@ -15,7 +15,7 @@ import { followPointer } from './pointer.ts';
 import { panned, pinched, zoomedAt } from './timeScale.ts';
 import { isTouch } from '../../../ui/inputEvents.ts';
 
-// The wheel over the lanes: it zooms where the pointer is, with Shift it goes through time, and a touch pad's two
+// The wheel over the tracks: it zooms where the pointer is, with Shift it goes through time, and a touch pad's two
 // fingers pan.
 
 interface WheelHost {
@@ -76,7 +76,7 @@ export function hoverAt(stores: TimelineStores, sizes: Sizes, spot: Spot): Hover
   return isSelected ? { ...hover, status: 'selected' } : hover;
 }
 
-// Rows scroll so far that the cursor's is in sight, whoever moved it there; a row that is gone leaves the cursor to
+// Rows scroll so far that the cursor's is in sight, however it was moved there; a row that is gone leaves the cursor to
 // that of all servos, on the same frame, and keys on hidden rows are no longer selected.
 
 export function keepCursorInSight(
@@ -116,21 +116,21 @@ export function keepCursorInSight(
   };
 }
 
-interface LaneParts {
+interface CanvasParts {
   readonly scroller: HTMLElement;
   readonly tracks: HTMLElement;
   readonly canvas: HTMLCanvasElement;
   readonly box: HTMLElement;
 }
 
-interface LaneHost {
+interface CanvasHost {
   openMenu(spot: Spot): void;
   say(status: StatusName | null, tells?: () => string): void;
 }
 
 export const sizesNow = ({ isTall }: { readonly isTall: boolean }): Sizes => sizesOf(isTouch(), isTall);
 
-export function bringToLife(parts: LaneParts, stores: TimelineStores, host: LaneHost): () => void {
+export function bringToLife(parts: CanvasParts, stores: TimelineStores, host: CanvasHost): () => void {
   const sizes = (): Sizes => sizesNow(stores.timeline.getState());
   const painting = paintOnChange(parts, stores, sizes);
   const scroll = (byPx: number): void => void (parts.scroller.scrollTop += byPx);
@@ -178,7 +178,7 @@ const middle = (spots: readonly Spot[]): number => spots.reduce((sum, { y }) => 
 /** What of the servo panel shows here; a drag there changes other things of it all the time. */
 const SHOWN = ['robotId', 'hidden', 'folded', 'locked', 'solo', 'muted'] as const;
 
-function paintOnChange(parts: LaneParts, stores: TimelineStores, sizes: () => Sizes): () => void {
+function paintOnChange(parts: CanvasParts, stores: TimelineStores, sizes: () => Sizes): () => void {
   let request = 0;
   let painted: Painted | null = null;
   const repaint = (): void => {
@@ -218,7 +218,7 @@ interface Painted {
 }
 
 /** `before`: what was painted there last, null for nothing. */
-function paintTracks({ canvas }: LaneParts, scene: Scene, before: Painted | null): Painted | null {
+function paintTracks({ canvas }: CanvasParts, scene: Scene, before: Painted | null): Painted | null {
   const { widthPx, heightPx } = scene;
   const ctx = canvas.getContext('2d');
   if (ctx === null || widthPx === 0) return null;

@@ -54,7 +54,7 @@ describe('the group as the board gets it', () => {
     expect(state().latest.report.frameCount).toBe(2);
   });
 
-  test('is there at once for whoever sends it', async () => {
+  test('is there at once where it is sent', async () => {
     const { add, compiled, state } = await openTestPage();
     add(1000);
     expect(compiled.now().report.frameCount).toBe(1);

@@ -1,5 +1,5 @@
-// The group at hand as the board would get it, with what does not fit: worked out when nobody is in the middle of a gesture, or at
-// once for whoever is about to send it. Moves nothing.
+// The open group as the board would get it, with what does not fit: compiled between gestures, or at once where it is about to be sent.
+// Moves nothing.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { CompileProblem } from '#shared/group/compileReport.ts';
@@ -120,7 +120,7 @@ const compiled = (source: Source): CompiledGroup => ({ source, ...compileSource(
 const isSame = (one: Source, other: Source): boolean =>
   (Object.keys(one) as (keyof Source)[]).every((key) => one[key] === other[key]);
 
-/** What the person hears of and may take: the servo comes later than it is told. */
+/** Warnings that a person may accept: the servo comes later than the group says. */
 const REMARKS: readonly CompileProblem['kind'][] = ['tooFast'];
 /** The page sends as much as there is, in as many packets as it takes. */
 const BOARD_ONLY: readonly CompileProblem['kind'][] = ['tooManyFrames', 'tooManyServos'];

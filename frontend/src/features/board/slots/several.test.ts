@@ -6,7 +6,7 @@ import { EMPTY_SLOT_BOOK } from '#shared/group/slotBook.ts';
 import { createTestPage } from '../../pageUnderTest.ts';
 import { downloadOf, hindranceOf, thoseThatCan, type Wanted } from './SeveralGroups.tsx';
 
-test('what does not fit, is empty or wants the slot of another is told; the rest can be downloaded', async () => {
+test('what does not fit, is empty or wants the slot of another is reported; the rest can be downloaded', async () => {
   const { compiled, device, robots } = await createTestPage();
   const on = { family: device.store.getState().family, robot: robots.current().robot };
   const wantedOf = (documentId: string, slot: number, ...positions: readonly number[]): Wanted => {

@@ -102,7 +102,7 @@ describe('the slots of a board', () => {
     expect(channel.board.storedFrame(9, 1)).toEqual(BOW.frames[1]);
   });
 
-  test('after an erase that the board did not answer nobody knows what is left', async () => {
+  test('after an erase that the board did not answer what is left is unknown', async () => {
     const { slots, state, stored, draw } = await openTestPage(new Map(), {
       faults: [{ name: 'lostAck', nth: 2 }],
     });
@@ -172,7 +172,7 @@ describe('the slots of a board', () => {
     expect(later.state().book.begun).toEqual([]);
   });
 
-  test('what somebody else stores in a slot makes it unknown', async () => {
+  test('what another client stores in a slot makes it unknown', async () => {
     const { slots, device, stored, draw } = await openTestPage();
     slots.download([WAVE, BOW]);
     await draw(4000);
@@ -181,7 +181,7 @@ describe('the slots of a board', () => {
     expect(stored()).toEqual(['9 Bow']);
   });
 
-  test('what somebody else stored while this page was away makes it unknown when it is back', async () => {
+  test('what another client stored while this page was away makes it unknown when it is back', async () => {
     const texts = new Map<string, string>();
     const gateway = createSharedSlots();
     const way: Way = { kind: 'gateway', label: '/dev/board', isSimulated: false };
@@ -194,7 +194,7 @@ describe('the slots of a board', () => {
     expect((await openTestPage(texts, { way, share })).stored()).toEqual(['9 Bow']);
   });
 
-  test('what somebody else stores while it looks on does so at once, what one has seen is told with a download', async () => {
+  test('what another client stores while it looks on does so at once, what one has seen is reported with a download', async () => {
     const { share, othersStore, asked } = createSharedSlots({ 5: storedGroup({ version: 'of Bert' }) });
     const { slots, stored, draw, noticeTexts } = await openTestPage(new Map(), { way: USB, share });
     slots.download([WAVE, BOW]);

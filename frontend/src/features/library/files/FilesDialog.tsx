@@ -76,7 +76,7 @@ const OpenedFileItem = memo(function OpenedFileItem({ file, files, onTake }: Ope
             <FoundGroup
               key={index}
               found={group}
-              asksUnit={reading.asksUnit}
+              isUnitMissing={reading.isUnitMissing}
               answer={answers[index] ?? NOT_ANSWERED}
               onAnswer={(change) => files.answer(id, index, change)}
               onTake={(taken) => onTake(id, taken)}

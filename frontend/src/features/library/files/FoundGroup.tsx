@@ -87,13 +87,13 @@ function linesOf(group: ActionGroup): readonly string[] {
 
 interface FoundGroupProps {
   readonly found: ActionGroup;
-  readonly asksUnit: boolean;
+  readonly isUnitMissing: boolean;
   readonly answer: Answer;
   onAnswer(change: Partial<Answer>): void;
   onTake(group: ActionGroup): void;
 }
 
-export function FoundGroup({ found, asksUnit, answer, onAnswer, onTake }: FoundGroupProps) {
+export function FoundGroup({ found, isUnitMissing, answer, onAnswer, onTake }: FoundGroupProps) {
   const family = useKnownFamily();
   const robot = useRobot();
   const { unit, converts } = answer;
@@ -123,7 +123,7 @@ export function FoundGroup({ found, asksUnit, answer, onAnswer, onTake }: FoundG
           {words.files.takeVerb}
         </Button>
       </div>
-      {asksUnit && <UnitQuestion group={found} unit={unit} onUnit={(one) => onAnswer({ unit: one })} />}
+      {isUnitMissing && <UnitQuestion group={found} unit={unit} onUnit={(one) => onAnswer({ unit: one })} />}
       {unit !== null && convertedOf(found, answer, family.unit) !== null && (
         <Toggle
           label={words.files.convert({ to: family.unit })}

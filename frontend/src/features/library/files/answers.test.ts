@@ -11,8 +11,8 @@ const group = (name: string, ...positions: readonly number[]) =>
     targets: positions.map((position, index) => ({ servo: index + 1, position })),
   });
 
-const read = (asksUnit: boolean, ...groups: readonly ReturnType<typeof group>[]): Reading => ({
-  ...{ groups, asksUnit, remarks: [] },
+const read = (isUnitMissing: boolean, ...groups: readonly ReturnType<typeof group>[]): Reading => ({
+  ...{ groups, isUnitMissing, remarks: [] },
 });
 const opened = (id: number, reading: Reading) => ({ id, reading, answers: firstAnswers(reading) });
 const STEPS: Answer = { unit: 'steps', converts: false };

@@ -15,7 +15,7 @@ export interface Answer {
 export function firstAnswers(reading: Reading): readonly Answer[] {
   if (!('groups' in reading)) return [];
   return reading.groups.map((group) => ({
-    unit: reading.asksUnit ? onlyFittingUnit(group) : group.unit,
+    unit: reading.isUnitMissing ? onlyFittingUnit(group) : group.unit,
     converts: false,
   }));
 }

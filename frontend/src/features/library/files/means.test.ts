@@ -24,7 +24,7 @@ beforeAll(async () => {
 
 const read = (name: string, bytes: Uint8Array) => readGroupFile({ name, bytes }, means);
 
-/** A database that somebody else made. */
+/** A database of another program. */
 function databaseOf(...statements: readonly string[]): Uint8Array {
   const database = new sqlite.Database();
   for (const statement of statements) database.run(statement);
@@ -55,7 +55,7 @@ test('a group saved as a database comes back, servos that are not named included
   const bytes = await means.makeDatabase(sheetOf(group));
   expect(await read('Wave.d6a', bytes)).toEqual({
     groups: [group],
-    asksUnit: true,
+    isUnitMissing: true,
     remarks: [],
   });
   const database = new sqlite.Database(bytes);

@@ -12,7 +12,7 @@ const groupIn = ({ name }: File): Reading => ({
   groups: [
     insertFrame(emptyGroup(name, 'us'), 0, { durationMs: 100, targets: [{ servo: 1, position: 1500 }] }),
   ],
-  asksUnit: false,
+  isUnitMissing: false,
   remarks: [],
 });
 

@@ -63,7 +63,7 @@ export function JointKnob({
   );
 }
 
-/** Over the arc where the servo was sent; hidden where nobody knows. */
+/** Over the arc where the servo was sent; hidden where that is unknown. */
 export function placeKnob(
   model: Model,
   servo: RobotServo,

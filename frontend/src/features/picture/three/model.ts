@@ -22,7 +22,7 @@ export interface Model {
   liftM(): number;
   /** The servo that turns what is under a pointer; null: none. */
   servoAt(clientX: number, clientY: number): number | null;
-  /** Of the servo that is selected; null: none, or nobody knows where it was sent. */
+  /** Of the servo that is selected; null: none, or its target is unknown. */
   ring(): Ring | null;
   draw(motion: Motions, preview: Pose | null, look: Look): void;
   select(servo: number | null): void;

@@ -78,6 +78,6 @@ test('an arm without its wrist servo still has a hand', () => {
   expect(joints.find(({ child }) => child === 'wrist')?.type).toBe('fixed');
 });
 
-test('a body that nobody described has no model', () => {
+test('a body without a description has no model', () => {
   expect(urdfOf(robotNamed('plain6'))).toBeNull();
 });

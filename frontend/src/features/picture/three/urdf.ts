@@ -36,7 +36,7 @@ const PITCH: Triple = [0, 1, 0];
 export const jointName = (servo: number): string => `servo_${servo}`;
 export const TIP = 'tip_';
 
-/** Null for bodies that nobody described. */
+/** Null for bodies without a description. */
 export function urdfOf(robot: Robot): string | null {
   const parts = partsOf(robot);
   return parts === null ? null : `<robot name="${robot.body}">\n${parts.join('\n')}\n</robot>\n`;

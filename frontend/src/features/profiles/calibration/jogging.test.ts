@@ -63,7 +63,7 @@ describe('jogging', () => {
     expect((moves.at(-1) ?? 0) - stood).toBeLessThanOrEqual(150);
   });
 
-  test('it ends at what the board can do, and is told of nothing beyond', async () => {
+  test('it ends at what the board can do, and asks for nothing beyond', async () => {
     const { clock, moves, hold } = bench(2450);
     hold(1);
     await clock.advance(5000);

@@ -82,7 +82,7 @@ describe('how far it turns', () => {
     [500, 510, 520],
     [1500, 1500, 1501],
     [500, 500, 533],
-  ])('not at all where nobody would see it: %i, %i, %i', (min, home, max) => {
+  ])('not at all where it would not be seen: %i, %i, %i', (min, home, max) => {
     expect(awayFrom({ ...freshRobot('arm', 'doc').servos[0]!, min, home, max })).toBeNull();
   });
 });
@@ -93,7 +93,7 @@ test.each([
   ['stands there', { target: 1500, estimated: 1500 }, 0],
   ['has too short a way to be seen', { target: 1500, estimated: 1530 }, 0],
   ['goes elsewhere', { target: 1700, estimated: 2400 }, 0],
-  ['is where nobody knows', { target: 1500, estimated: null }, 0],
+  ['is where it is unknown', { target: 1500, estimated: null }, 0],
 ])('a servo that is home at 1500 and %s', (_, motion, side) => {
   expect(homeward({ ...freshRobot('arm', 'doc').servos[0]!, home: 1500 }, motion)).toBe(side);
 });
