@@ -2,9 +2,18 @@
 // needs, each stored as the line it is saved as: text takes a fraction of the memory of the same entry as values. Knows the robot's events.
 
 import type { Family, BoardId } from '../codec/families.ts';
+import { fromHex } from '../codec/packet.ts';
 import { parseCommand, parseReport } from '../codec/parse.ts';
 import type { SessionState, Traffic } from '../robot/state.ts';
-import { type Entry, type Happening, readLine, writeLine, type Recording } from './recording.ts';
+import {
+  type ByteMark,
+  type Entry,
+  EVENT_SIGN,
+  type Happening,
+  type Recording,
+  SIGNS,
+  writeLine,
+} from './recording.ts';
 
 export type PacketEntry = Extract<Entry, { readonly bytes: Uint8Array }>;
 
@@ -103,7 +112,7 @@ export function createTape(capacity = CAPACITY): Tape {
     const line = lines[id % capacity];
     if (id < oldest || id >= next || board === undefined || line === undefined)
       throw new RangeError(`entry ${id} is not stored`);
-    return { id, board, entry: readLine(line) };
+    return { id, board, entry: entryIn(line) };
   }
 
   return {
@@ -127,3 +136,19 @@ export function createTape(capacity = CAPACITY): Tape {
     },
   };
 }
+
+/** Back from `writeLine`, and from nothing else: the lines of a file are checked by recordingText.ts. */
+function entryIn(line: string): Entry {
+  const [seconds, sign, rest = ''] = line.split('  ');
+  const atMs = Math.round(Number(seconds) * 1000);
+  const [happening, board] = rest.split(' ');
+  if (sign !== EVENT_SIGN) {
+    const mark = MARKS.find((one) => SIGNS[one] === sign) ?? 'garbage';
+    return { atMs, mark, bytes: fromHex(rest) };
+  }
+  return board === undefined
+    ? { atMs, mark: 'link', happening: happening as Happening }
+    : { atMs, mark: 'board', board: board as BoardId };
+}
+
+const MARKS = Object.keys(SIGNS) as readonly ByteMark[];

@@ -1,8 +1,8 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import { FAMILIES } from '../codec/families.ts';
-import { HAPPENINGS, isBoardId, type Entry, type Recording } from './recording.ts';
-import { readRecording, writeRecording } from './recordingText.ts';
+import { HAPPENINGS, type Entry, type Recording } from './recording.ts';
+import { isBoardId, readRecording, writeRecording } from './recordingText.ts';
 
 const HEAD = 'servodeck-log: 1\nboard: doc\n';
 const read = (body: string) => readRecording(HEAD + body);

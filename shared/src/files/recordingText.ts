@@ -1,16 +1,33 @@
 // A recording as a text file: a header of `key: value` lines, then one line per entry. Strict about what it cannot read and
 // lenient about line ends, a byte order mark, empty lines and comments. Linear in the size of the text.
 
+import { FAMILIES, type BoardId } from '../codec/families.ts';
+import { fromHex } from '../codec/packet.ts';
 import {
-  LineProblem,
-  readBoard,
-  readLine,
-  withoutNote,
+  EVENT_SIGN,
+  HAPPENINGS,
+  SIGNS,
   writeLine,
+  type ByteMark,
   type Entry,
+  type Happening,
   type Header,
   type Recording,
 } from './recording.ts';
+
+const MARKS: ReadonlyMap<string, ByteMark> = new Map(
+  Object.entries(SIGNS).map(([mark, sign]) => [sign, mark as ByteMark]),
+);
+/** Longer than any packet, any piece of noise and the filler after a cut packet. */
+const MAX_BYTES = 512;
+/** Time, sign, the rest. */
+const COLUMNS = /^(\S+)[ \t]+(\S+)(?:[ \t]+(.*))?$/u;
+const SECONDS = /^\d{1,9}(?:\.\d{1,3})?$/u;
+
+/** Says why a line cannot be read. */
+class LineProblem extends Error {
+  override readonly name = 'LineProblem';
+}
 
 interface TextProblem {
   /** From 1; 0 where it is the whole text. */
@@ -137,3 +154,57 @@ function createReader() {
 const FORMAT_KEY = 'servodeck-log';
 const KEYS: readonly string[] = [FORMAT_KEY, 'board', 'port', 'date', 'app'];
 const HEADER_LINE = /^([a-z-]+):(.*)$/u;
+
+/** The line without its words for people, trimmed. */
+function withoutNote(line: string): string {
+  const at = line.indexOf('#');
+  return (at < 0 ? line : line.slice(0, at)).trim();
+}
+
+/** Takes what `withoutNote` gives. Throws LineProblem. */
+function readLine(line: string): Entry {
+  const [, time = '', sign = '', rest = ''] = COLUMNS.exec(line) ?? [];
+  if (!SECONDS.test(time)) throw new LineProblem(`a line begins with its seconds, like 12.345, then a sign`);
+  const atMs = Math.round(Number(time) * 1000);
+  if (sign === EVENT_SIGN) return { atMs, ...readEvent(rest) };
+  const mark = MARKS.get(sign);
+  if (mark === undefined) {
+    throw new LineProblem(`"${sign}" is no sign; there are ${[...MARKS.keys(), EVENT_SIGN].join(' ')}`);
+  }
+  return { atMs, mark, bytes: readBytes(rest) };
+}
+
+type Event = { mark: 'link' | 'board' } & (
+  | Pick<Extract<Entry, { mark: 'link' }>, 'mark' | 'happening'>
+  | Pick<Extract<Entry, { mark: 'board' }>, 'mark' | 'board'>
+);
+
+function readEvent(text: string): Event {
+  if (isHappening(text)) return { mark: 'link', happening: text };
+  const board = /^board[ \t]+(\S+)$/u.exec(text)?.[1];
+  if (board === undefined) throw new LineProblem(`"${text}" is none of ${HAPPENINGS.join(', ')}, board NAME`);
+  return { mark: 'board', board: readBoard(board) };
+}
+
+function readBoard(text: string): BoardId {
+  if (isBoardId(text)) return text;
+  throw new LineProblem(`no board is called "${text}"`);
+}
+
+function readBytes(text: string): Uint8Array {
+  const wrongByte = text.split(/[ \t]+/u).find((pair) => !/^[0-9a-f]{2}$/iu.test(pair));
+  if (wrongByte === '') throw new LineProblem('there are no bytes');
+  if (wrongByte !== undefined)
+    throw new LineProblem(`"${wrongByte}" is no byte like 0F; words stand behind a #`);
+  const bytes = fromHex(text);
+  if (bytes.length > MAX_BYTES) throw new LineProblem(`more than ${MAX_BYTES} bytes in one line`);
+  return bytes;
+}
+
+export function isBoardId(text: string): text is BoardId {
+  return text === 'unknown' || Object.hasOwn(FAMILIES, text);
+}
+
+function isHappening(text: string): text is Happening {
+  return (HAPPENINGS as readonly string[]).includes(text);
+}

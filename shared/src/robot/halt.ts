@@ -145,7 +145,10 @@ export function createHalt(options: HaltOptions): Halt {
       latch.follow(send()).catch(() => undefined);
     },
     again() {
-      if (stopsFollow() || !latch.reopen()) return;
+      const { latch: current } = store.state;
+      if (current === null || stopsFollow()) return;
+      // Also a confirmed one.
+      store.update({ latch: { ...current, stop: 'sending' } });
       void latch.settled.then(() => latch.follow(sendOrJoin())).catch(() => undefined);
     },
     confirmed: () => latch.change({ stop: 'confirmed' }),

@@ -26,8 +26,6 @@ export interface MotionLatch {
   clear(): void;
   /** `confirmed` stays, whatever is said later. */
   change(change: Partial<Pick<Latch, 'stop' | 'unheld'>>): void;
-  /** Its stop is to be sent once more, also a confirmed one; false where motion is not latched. */
-  reopen(): boolean;
   press(): void;
   /** Notes how that stop ends; `undefined` where what goes on is not known with it. Rejects as it does. */
   follow(stopping: Promise<Unheld | null | undefined>): Promise<void>;
@@ -48,7 +46,7 @@ export function createMotionLatch({ clock, store, drop, unheldSince }: MotionLat
     if (latch === null) return;
     const isConfirmed = latch.stop === 'confirmed';
     if (isConfirmed && change.unheld === undefined) return;
-    store.update({ latch: { ...latch, ...change, ...(isConfirmed && { stop: 'confirmed' }) } });
+    store.update({ latch: { ...latch, ...change, ...(isConfirmed && { stop: latch.stop }) } });
   }
 
   return {
@@ -65,11 +63,6 @@ export function createMotionLatch({ clock, store, drop, unheldSince }: MotionLat
     },
     clear,
     change,
-    reopen() {
-      const { latch } = store.state;
-      if (latch !== null) store.update({ latch: { ...latch, stop: 'sending' } });
-      return latch !== null;
-    },
     press: () => void (pressedMs = clock.now()),
     async follow(stopping) {
       settled = stopping.then(

@@ -17,6 +17,33 @@ import { leaseTextOf, type LeaseText, type LeaseOffer } from './leaseText.ts';
 import styles from './LeaseChip.module.css';
 import { later, usePart } from '../../ui/later.tsx';
 
+interface MenuButtonProps extends Pick<ButtonProps, 'tone'> {
+  readonly label: string;
+  /** Shown in place of the label. */
+  readonly children?: ReactNode;
+  readonly choices: readonly { readonly id: string; readonly name: string }[];
+  onChoose(id: string): void;
+}
+
+const menu = later(async () => (await import('../../ui/ChoiceMenu.tsx')).ChoiceMenu);
+
+/** A button with a menu of a few choices. The code of the menu is fetched when one first opens. */
+function MenuButton({ label, children = label, choices, onChoose, ...button }: MenuButtonProps) {
+  const ref = useRef<HTMLButtonElement>(null);
+  const [isOpen, setOpen] = useState(false);
+  const { part: ChoiceMenu } = usePart(menu, isOpen);
+  return (
+    <>
+      <Button {...button} ref={ref} aria-haspopup="menu" aria-expanded={isOpen} onPress={() => setOpen(true)}>
+        {children}
+      </Button>
+      {ChoiceMenu !== null && (
+        <ChoiceMenu {...{ label, choices, onChoose, isOpen }} under={ref} onClose={() => setOpen(false)} />
+      )}
+    </>
+  );
+}
+
 /** A run that continues, or may continue, without the person who started it. Shown to everybody. */
 export function UnattendedChip() {
   const { device } = useStores();
@@ -175,31 +202,4 @@ function PassesIn({ lease: { grantedInMs, hasRequested } }: { readonly lease: Le
   const nowMs = useNow(device.clock.now, 250);
   const leftMs = (grantedInMs ?? 0) - (nowMs - heardMs);
   return (hasRequested ? words.lease.yoursIn : words.lease.theirsIn)({ seconds: secondsLeft(leftMs) });
-}
-
-interface MenuButtonProps extends Pick<ButtonProps, 'tone'> {
-  readonly label: string;
-  /** Shown in place of the label. */
-  readonly children?: ReactNode;
-  readonly choices: readonly { readonly id: string; readonly name: string }[];
-  onChoose(id: string): void;
-}
-
-const menu = later(async () => (await import('../../ui/ChoiceMenu.tsx')).ChoiceMenu);
-
-/** A button with a menu of a few choices. The code of the menu is fetched when one first opens. */
-function MenuButton({ label, children = label, choices, onChoose, ...button }: MenuButtonProps) {
-  const ref = useRef<HTMLButtonElement>(null);
-  const [isOpen, setOpen] = useState(false);
-  const { part: ChoiceMenu } = usePart(menu, isOpen);
-  return (
-    <>
-      <Button {...button} ref={ref} aria-haspopup="menu" aria-expanded={isOpen} onPress={() => setOpen(true)}>
-        {children}
-      </Button>
-      {ChoiceMenu !== null && (
-        <ChoiceMenu {...{ label, choices, onChoose, isOpen }} under={ref} onClose={() => setOpen(false)} />
-      )}
-    </>
-  );
 }
