@@ -2,8 +2,7 @@
 
 import { exampleGroup, examplesFor, type ExampleId } from '#shared/group/examples/examples.ts';
 import { useStore } from 'zustand';
-import { mayPlay } from '../../features/animate/play/playActions.ts';
-import { playerOf } from '../../features/animate/play/player.ts';
+import { PLAY } from '../../features/animate/play/playActions.ts';
 import { useDevice, useDocument, useRobot, useSnapshot, useStores } from '../../features/stores.ts';
 import { words } from '../../i18n/whole.ts';
 import { startHindrance } from '../../robot/readiness.ts';
@@ -33,7 +32,8 @@ export function TryMotion() {
       );
     view.setState({ selectedFrame: null });
     playhead.show(0);
-    if (mayPlay({ playback, device, document }) === true) playerOf(playback).play();
+    const context = { playback, device, document };
+    if (PLAY.enabled(context) === true) PLAY.run(context);
   }
   return (
     <div className={styles.row} role="group" aria-label={words.workspace.try}>
