@@ -15,6 +15,7 @@ from typing import Any, Protocol
 from servodeck.errors import (
     CancelledError,
     ClosedError,
+    NotOnThisCableError,
     NotSupportedError,
     PortBusyError,
     PortError,
@@ -110,6 +111,14 @@ class Link:
     def withheld(self) -> frozenset[Withheld]:
         """Commands that the open port does not carry."""
         return self._wire.withheld if self._wire else frozenset()
+
+    def judge_carried(self, kind: Withheld) -> None:
+        """Raises NotOnThisCableError where no hardware has confirmed how the cable carries it."""
+        if kind in self.withheld:
+            raise NotOnThisCableError(
+                f"The board's own USB cable carries no {kind} yet: no hardware has confirmed how. "
+                "Use its serial header with an adapter, or Bluetooth."
+            )
 
     def wire(self) -> Wire:
         """The open wire. Raises the reason why there is none."""

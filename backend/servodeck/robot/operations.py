@@ -170,7 +170,7 @@ class Operations:
     async def erase(self, claim: Claim) -> Outcome:
         """Until the board says that it is done."""
         command = Erase()
-        self._control.board.judge_carried("erase")
+        self._control.board.link.judge_carried("erase")
         check(command, self._family())
         self._judge_rest()
         async with self._one_request():

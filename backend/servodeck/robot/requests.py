@@ -83,7 +83,7 @@ class Requests:
         command = packet.command
         assert command
         if isinstance(command, Erase):
-            self._board.judge_carried("erase")
+            self._board.link.judge_carried("erase")
         session.caller.require(role_for(packet))
         self._limits.judge(command, session)
         wire = self._board.link.wire()
@@ -186,7 +186,7 @@ class Requests:
         """
         board = self._board
         before = board.jobs.parts_of(behind) if behind else ()
-        board.judge_carried("download")
+        board.link.judge_carried("download")
         judge_parts((*before, *parts), board.family_id)
         for part in parts:
             self._limits.judge_targets(part.extremes)

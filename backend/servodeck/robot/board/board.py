@@ -15,15 +15,14 @@ from servodeck.errors import (
     CancelledError,
     ClosedError,
     GatewayError,
-    NotOnThisCableError,
     PortLostError,
 )
 from servodeck.port.link import Link, Ports
 from servodeck.port.ports import OpenPort
 from servodeck.port.reader import inbox_of
-from servodeck.port.wire import Job, Left, Owner, Wire
+from servodeck.port.wire import Left, Owner, Wire
 from servodeck.protocol.decoder import DecoderEvent, NoiseEvent, PacketEvent
-from servodeck.protocol.families import FAMILIES, Family, Withheld, carried
+from servodeck.protocol.families import FAMILIES, Family, carried
 from servodeck.protocol.packets import STOP, CommandPacket, encoded, parse_report
 from servodeck.protocol.values import Command, ReadBattery, Report, RunAccepted, RunStarted
 from servodeck.robot.board.activity import Activity, Unattended
@@ -128,14 +127,6 @@ class Board:
         """With the limits of the port: it may carry shorter packets than the board takes."""
         return carried(self.family_id, self.link.longest_packet)
 
-    def judge_carried(self, kind: Withheld) -> None:
-        """Raises NotOnThisCableError where no hardware has confirmed how the cable carries it."""
-        if kind in self.link.withheld:
-            raise NotOnThisCableError(
-                f"The board's own USB cable carries no {kind} yet: no hardware has confirmed how. "
-                "Use its serial header with an adapter, or Bluetooth."
-            )
-
     @property
     def motion(self) -> Estimate:
         return self.activity.motion
@@ -186,7 +177,7 @@ class Board:
         self.plays.end(reason)
         self.moves.drop(reason)
         with contextlib.suppress(GatewayError):
-            self.link.wire().purge(is_no_stop, reason)
+            self.link.wire().purge(lambda job: job.number != STOP, reason)
 
     def drop(self, owner: Owner, reason: GatewayError) -> None:
         """Drops the packets of `owner` that wait for the wire."""
@@ -353,7 +344,3 @@ class Board:
         if hears_again or isinstance(report, RunAccepted | RunStarted):
             self._events.may_have_missed_stops()
         self.identification.heard(report, event.bytes)
-
-
-def is_no_stop(job: Job) -> bool:
-    return job.number != STOP
