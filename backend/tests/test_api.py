@@ -155,7 +155,7 @@ async def test_the_ports_list_holds_the_one_named_at_the_start() -> None:
         listed = (await client.get("/api/ports")).json()
         assert listed[0] == {
             "device": DEVICE,
-            "description": "Port named at the start",
+            "description": "Port",
             "likely": True,
             "lasting": None,
             "inUse": False,

@@ -88,11 +88,11 @@ test('a port in use is said to be, and not offered once more @exhaustive', async
   await expect(dashboard.link).toHaveText(READY);
   await dashboard.link.click();
   const ports = dashboard.connectDialog.getByRole('group', { name: 'Gateway' });
-  await expect(ports.getByRole('button', { name: 'Port named at the start (board) is open' })).toBeDisabled();
+  await expect(ports.getByRole('button', { name: 'Port (board) is open' })).toBeDisabled();
   await expect(ports).toContainText('In use here. Choose Disconnect below to disconnect this page');
   await dashboard.button('Disconnect').click();
   await dashboard.link.click();
-  await ports.getByRole('button', { name: 'Open Port named at the start (board)' }).click();
+  await ports.getByRole('button', { name: 'Open Port (board)' }).click();
   await expect(dashboard.link).toHaveText(READY);
 });
 

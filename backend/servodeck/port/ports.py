@@ -202,7 +202,7 @@ def list_devices(*also: str | None) -> list[PortInfo]:
     """All ports of this computer, the likely ones first, and `also` those known by name alone."""
     found = [*map(describe, list_ports.comports()), *map(describe_hid, hid.list_boards())]
     extra = [
-        PortInfo(name, "Port named at the start", likely=True)
+        PortInfo(name, "Port at an address" if "://" in name else "Port", likely=True)
         for name in dict.fromkeys(also)
         if name and not any(is_same_port(name, port.device) for port in found)
     ]

@@ -1549,10 +1549,13 @@ export interface Messages {
     readonly title: {
       readonly serial: string;
       readonly hid: string;
+      readonly gateway: string;
     };
     readonly copy: string;
     readonly copied: string;
     readonly system: string;
+    readonly there: string;
+    readonly systemOfGateway: string;
     readonly systems: {
       readonly windows: string;
       readonly macos: string;
@@ -1575,6 +1578,8 @@ export interface Messages {
       readonly hidWindows: string;
       readonly hidHeld: string;
       readonly hidRule: string;
+      readonly hidapi: string;
+      readonly lookAgain: string;
       readonly notHid: string;
       readonly hid: string;
     };

@@ -8,12 +8,12 @@ import { CopyButton } from './CopyButton.tsx';
 import { SYSTEMS, operatingSystem, type OperatingSystem } from './operatingSystem.ts';
 import styles from './PortGuide.module.css';
 
-/** A serial port, or the board's own USB cable. */
-export type GuideKind = 'serial' | 'hid';
+/** A serial port, the board's own USB cable, or both at a gateway, without the browser's part. */
+export type GuideKind = 'serial' | 'hid' | 'gateway';
 type Step = keyof Words['guide']['steps'];
 
 /** The likeliest cause first. LSC boards, bus servo controllers and older LeArms are no serial port on their own cable. */
-const STEPS: Readonly<Record<GuideKind, Readonly<Record<OperatingSystem, readonly Step[]>>>> = {
+const STEPS: Readonly<Record<GuideKind, Readonly<Partial<Record<OperatingSystem, readonly Step[]>>>>> = {
   serial: {
     windows: ['switchOn', 'cable', 'driver', 'comPort', 'hid'],
     macos: ['switchOn', 'cable', 'macName', 'macAllow', 'hid'],
@@ -26,6 +26,11 @@ const STEPS: Readonly<Record<GuideKind, Readonly<Record<OperatingSystem, readonl
     linux: ['hidRule', 'switchOn', 'cable', 'hidHeld', 'snap', 'notHid'],
     chromeos: ['switchOn', 'cable', 'notLinux', 'school', 'notHid'],
   },
+  gateway: {
+    windows: ['switchOn', 'cable', 'driver', 'comPort', 'hidapi', 'lookAgain'],
+    macos: ['switchOn', 'cable', 'macName', 'macAllow', 'hidapi', 'lookAgain'],
+    linux: ['switchOn', 'cable', 'dmesg', 'brltty', 'dialout', 'hidRule', 'lookAgain'],
+  },
 };
 
 /** Right wherever Servodeck is installed, and where it is not: the browser alone may be on this computer. */
@@ -36,18 +41,21 @@ const ALLOW_HID = [
 ].join(' && ');
 
 export function PortGuide({ kind }: { readonly kind: GuideKind }) {
-  const [system, setSystem] = useState<OperatingSystem>(operatingSystem);
+  const steps = STEPS[kind];
+  const systems = SYSTEMS.filter((one) => one in steps);
+  const [system, setSystem] = useState<OperatingSystem>(() => likeliestOf(systems));
   return (
     <details className={styles.guide}>
       <summary>{words.guide.title[kind]}</summary>
+      {kind === 'gateway' && <p className={styles.there}>{words.guide.there}</p>}
       <Choice<OperatingSystem>
-        label={words.guide.system}
+        label={kind === 'gateway' ? words.guide.systemOfGateway : words.guide.system}
         value={system}
-        options={SYSTEMS.map((value) => ({ value, label: words.guide.systems[value] }))}
+        options={systems.map((value) => ({ value, label: words.guide.systems[value] }))}
         onChange={setSystem}
       />
       <ol className={styles.steps}>
-        {STEPS[kind][system].map((step) => (
+        {steps[system]?.map((step) => (
           <li key={step}>
             {words.guide.steps[step]}
             {step === 'hidRule' && (
@@ -61,4 +69,10 @@ export function PortGuide({ kind }: { readonly kind: GuideKind }) {
       </ol>
     </details>
   );
+}
+
+/** The one that the browser runs on. At a gateway it may be none of them: Linux, as on the computers in robots. */
+function likeliestOf(systems: readonly OperatingSystem[]): OperatingSystem {
+  const here = operatingSystem();
+  return systems.includes(here) ? here : 'linux';
 }

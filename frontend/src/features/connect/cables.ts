@@ -145,7 +145,7 @@ const webBluetooth: Cable = {
 
 const gateway: Cable = {
   kind: 'gateway',
-  guide: 'serial',
+  guide: 'gateway',
   canLookAgain: true,
   listed: () => null,
   about: () => words.connect.gateway.about,
