@@ -12,7 +12,7 @@ import { mainThreadOf, type MainThread } from './mainThread.ts';
 import { openDashboard, withBoard, withPage } from './station.ts';
 
 export const SLOWER = 4;
-const MEASURE_MS = amount(2_000, 300);
+const MEASURE_MS = amount(1_600, 300);
 const FRAMES_PER_SECOND = 60;
 export const DUE = (MEASURE_MS / 1_000) * FRAMES_PER_SECOND;
 /** Longer than it is looked at: each servo is under way all the time. */
@@ -97,16 +97,16 @@ async function changeBareSliders(page: Page): Promise<void> {
 }
 
 /** Nothing is estimated of a servo before its first move has ended. */
-async function centre(page: Page): Promise<void> {
+export async function centre(page: Page, count = ROBOT.servos.length): Promise<void> {
   await page.getByRole('button', { name: 'Centre all' }).click();
   await page
     .getByText(/^≈ 1500$/)
-    .nth(ROBOT.servos.length - 1)
+    .nth(count - 1)
     // A row scrolled out of sight is not painted.
     .waitFor({ state: 'attached' });
 }
 
-async function moveAll(page: Page): Promise<void> {
+export async function moveAll(page: Page): Promise<void> {
   await page.getByRole('radio', { name: 'Fixed time' }).check();
   const time = page.getByRole('textbox', { name: 'Move time in milliseconds' });
   await time.fill(String(MOVE_MS));
@@ -116,7 +116,8 @@ async function moveAll(page: Page): Promise<void> {
   await page.getByRole('radio', { name: 'Follow the pointer' }).check();
 }
 
-function framesDrawn(page: Page, forMs: number): Promise<number> {
+/** In a page that changes in each of them. */
+export function framesDrawn(page: Page, forMs: number): Promise<number> {
   return page.evaluate(
     (measureMs) =>
       new Promise<number>((resolve) => {

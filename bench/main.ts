@@ -28,6 +28,7 @@ import { measureStart } from './start.ts';
 import { measureStopDragging, measureStopIdle } from './stop.ts';
 import { measureStopReconnect } from './stopAfterLoss.ts';
 import { measureStopDownload, measureStopFlood, measureStopRunning } from './stopStates.ts';
+import { measureThree } from './three.ts';
 import { toTable } from './table.ts';
 import { measureTimeline } from './timeline.ts';
 
@@ -48,6 +49,7 @@ const GROUPS: Readonly<Record<string, () => Figure[] | Promise<Figure[]>>> = {
   'stop.reconnect': measureStopReconnect,
   crowd: measureCrowd,
   frames: measureFrames,
+  three: measureThree,
   tracks: measureTracks,
   files: measureFiles,
   library: measureLibrary,
