@@ -101,6 +101,20 @@ test('each workspace has its own work, and a slot is one press from the timeline
   await expect(workspace(page, 'Drive')).toBeChecked();
 });
 
+test('the cards of frames fold away, and the timeline has their room', async ({ dashboard, page }) => {
+  await dashboard.type(dashboard.target(6), 1800);
+  await dashboard.capture.click();
+  const rows = page.getByRole('region', { name: 'Timeline' });
+  const height = async (): Promise<number> => (await rows.boundingBox()).height;
+  const before = await height();
+  await dashboard.button('Hide the frame cards').click();
+  await expect(dashboard.frame(1)).toHaveCount(0);
+  await poll(height).toBeGreaterThan(before + 60);
+  await page.reload();
+  await dashboard.button('Show the frame cards').click();
+  await expect(dashboard.frame(1)).toBeVisible();
+});
+
 test.describe('on the first visit', () => {
   test.override({ workspace: 'live' });
 

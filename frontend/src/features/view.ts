@@ -50,6 +50,8 @@ export interface ViewState {
   readonly calibration: StoredCalibration | null;
   readonly logOpen: boolean;
   readonly logKinds: readonly LogKind[];
+  /** The cards of frames below the timeline of a wide screen. */
+  readonly frameCards: 'shown' | 'folded';
   readonly selectedFrame: number | null;
   /** Each press adds a frame or key to the selection or removes it, for fingers, which have no Ctrl key. */
   readonly addsToSelection: boolean;
@@ -86,6 +88,7 @@ const REMEMBERED = {
   tab: { by: 'tab', key: 'servodeck.tab', values: ['live', 'actions', 'board', 'log', 'buttons'] },
   picture: { by: 'browser', key: 'servodeck.picture', values: ['auto', 'drawing', 'body', 'model'] },
   authoring: { by: 'tab', key: 'servodeck.authoring', values: ['group', 'poses', 'pad'] },
+  frameCards: { by: 'browser', key: 'servodeck.frameCards', values: ['shown', 'folded'] },
   driveBelow: { by: 'tab', key: 'servodeck.driveBelow', values: ['none', 'poses', 'pad'] },
 } as const satisfies { readonly [K in keyof ViewState]?: Memory<ViewState[K]> };
 
@@ -123,6 +126,7 @@ export const INITIAL_VIEW: ViewState = {
   calibration: null,
   logOpen: false,
   logKinds: ['move', 'group', 'battery', 'link', 'noise'],
+  frameCards: 'shown',
   selectedFrame: null,
   addsToSelection: false,
   servos: INITIAL_SERVO_VIEW,

@@ -1095,6 +1095,8 @@ export interface Messages {
     readonly nothingToUndo: string;
     readonly nothingToRedo: string;
     readonly nothingWritten: string;
+    readonly showCards: string;
+    readonly hideCards: string;
   };
   readonly board: {
     readonly details: string;

@@ -128,13 +128,14 @@ function Tools() {
 function Content() {
   const isEmpty = useDocument(({ present }) => present.frames.length === 0);
   const isPhone = useLayout() === 'phone';
+  const isFolded = useView(({ frameCards }) => frameCards === 'folded') && !isPhone;
   const isPainted = useIsPainted();
   const timeline = <Timeline key="timeline" />;
   const capture = <CaptureBar key="capture" />;
   const tools = <FrameTools key="tools" />;
   const frames = (
     <Fragment key="frames">
-      {isEmpty ? <Empty /> : <FrameStrip />}
+      {isEmpty ? <Empty /> : !isFolded && <FrameStrip />}
       {isPhone ? [capture, tools] : [tools, capture]}
       <PlayBar />
     </Fragment>
@@ -214,6 +215,7 @@ export function FrameTools() {
   const index = useDocument(({ present }) => indexOfFrame(present, id ?? -1));
   return (
     <div className={toolsStyles.tools} role="group" aria-label={words.actions.tools}>
+      <FoldButton />
       <span className={toolsStyles.which}>
         {id === null
           ? words.actions.select
@@ -232,6 +234,22 @@ export function FrameTools() {
         </span>
       ))}
     </div>
+  );
+}
+
+/** A phone has the cards on a screen of their own. */
+function FoldButton() {
+  const { view } = useStores();
+  const isFolded = useView(({ frameCards }) => frameCards === 'folded');
+  const isPhone = useLayout() === 'phone';
+  if (isPhone) return null;
+  return (
+    <IconButton
+      icon={isFolded ? 'later' : 'down'}
+      label={isFolded ? words.actions.showCards : words.actions.hideCards}
+      aria-expanded={!isFolded}
+      onPress={() => view.setState({ frameCards: isFolded ? 'shown' : 'folded' })}
+    />
   );
 }
 
