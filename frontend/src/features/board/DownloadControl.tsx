@@ -1,11 +1,12 @@
 // Downloads the compiled group to the chosen slot and shows the progress.
 
+import { problemText } from './compile/problemText.ts';
 import { isWatching } from '#shared/robot/lease.ts';
 import { useSnapshot, useStores, useCompiled, useDevice, useDocument, useSlot } from '../stores.ts';
 import { Button } from '../../ui/Button.tsx';
 import { ProgressBar } from '../../ui/ProgressBar.tsx';
 import { words } from '../../i18n/words.ts';
-import { obstacles, problemText } from './compile/compiled.ts';
+import { obstacles } from './compile/compiled.ts';
 import { startHindrance } from '../../robot/readiness.ts';
 import styles from './DownloadProgress.module.css';
 

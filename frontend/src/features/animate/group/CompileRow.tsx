@@ -1,6 +1,7 @@
 // What the group becomes on the board: whether it fits, what it costs, how far off it is and where, and what does not fit. A click
 // on a place goes there.
 
+import { problemText } from '../../board/compile/problemText.ts';
 import { useState } from 'react';
 import type { CompileProblem } from '#shared/group/compileReport.ts';
 import { type ActionGroup, MOST_ERROR_UNITS, maxErrorOf } from '#shared/group/group.ts';
@@ -16,7 +17,7 @@ import {
   useKnownFamily,
 } from '../../stores.ts';
 import { showKey } from '../timeline/inStep.ts';
-import { obstacles, problemText } from '../../board/compile/compiled.ts';
+import { obstacles } from '../../board/compile/compiled.ts';
 import { words } from '../../../i18n/whole.ts';
 import { servoName } from '../../../i18n/sentences.ts';
 import { Chip } from '../../../ui/Chip.tsx';

@@ -1,6 +1,7 @@
 // Plays the group at hand, from the page or on the board, and says where it is: what is played is what compile makes of it, by
 // either way. One thing at a time; STOP, a lost link and a hidden page end it. Knows no panel.
 
+import { problemText } from '../../board/compile/problemText.ts';
 import type { StoreApi } from 'zustand/vanilla';
 import { totalDurationMs } from '#shared/group/group.ts';
 import { frameEnds } from '#shared/group/tracks.ts';
@@ -8,7 +9,7 @@ import type { Activity } from '#shared/robot/state.ts';
 import { words } from '../../../i18n/whole.ts';
 import { instantText } from '../timeline/valueText.ts';
 import { createBoardRun, pageAt, previewAt, type PagePlay, type PreviewPlay } from './boardRun.ts';
-import { obstacles, type CompiledGroup, problemText } from '../../board/compile/compiled.ts';
+import { obstacles, type CompiledGroup } from '../../board/compile/compiled.ts';
 import { createFollower } from '../../../robot/follower.ts';
 import { createPlayedPart } from './playedPart.ts';
 import type { Playback, PlaybackOptions, PlaybackPhase, PlaybackState, Player } from './playback.ts';

@@ -10,8 +10,6 @@ import { type Document, knownFamily } from '../../groupDocument.ts';
 import type { RobotStore } from '../../profiles/robots.ts';
 import { setChanged } from '../../../state/setChanged.ts';
 import { compileSource, type Source, type CompileResult } from './compileSource.ts';
-import { words } from '../../../i18n/words.ts';
-import { namesIn } from '../../../i18n/sentences.ts';
 
 export interface CompiledGroup extends CompileResult {
   readonly source: Source;
@@ -133,42 +131,4 @@ export function obstacles(
   return problems.filter(
     ({ kind }) => !REMARKS.includes(kind) && (by === 'board' || !BOARD_ONLY.includes(kind)),
   );
-}
-
-export function problemText(problem: CompileProblem, { group, robot }: Source): string {
-  const reasons = words.compile.reasons;
-  const nameOf = namesIn(robot);
-  const frameNumber = (id: number): number => group.frames.findIndex((frame) => frame.id === id) + 1;
-  switch (problem.kind) {
-    case 'unit':
-      return reasons.unit({ group: words.units[problem.group], board: words.units[problem.board] });
-    case 'servo':
-      return reasons.servo({ ...problem, name: nameOf(problem.servo) });
-    case 'position':
-      return reasons.position({
-        ...problem,
-        name: nameOf(problem.servo),
-        frame: frameNumber(problem.frameId),
-      });
-    case 'tooManyServos':
-      return reasons.tooManyServos({ ...problem, frame: problem.frame + 1 });
-    case 'tooManyFrames':
-      return reasons.tooManyFrames(problem);
-    case 'tooShort':
-      return reasons.tooShort({
-        ...problem,
-        name: nameOf(problem.servo),
-        frame: frameNumber(problem.frameId),
-      });
-    case 'tooFast':
-      return reasons.tooFast({ ...problem, name: nameOf(problem.servo) });
-    case 'deviation': {
-      const { atMs, units, limit, servo } = problem;
-      const positionText = words.position[group.unit];
-      return reasons.deviation({
-        ...{ name: nameOf(servo), atMs, error: positionText({ position: Math.round(units) }) },
-        allowed: positionText({ position: limit }),
-      });
-    }
-  }
 }

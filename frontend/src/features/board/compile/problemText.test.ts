@@ -1,10 +1,10 @@
+import { problemText } from './problemText.ts';
 import { afterEach, expect, test } from 'vitest';
 import { emptyGroup } from '#shared/group/group.ts';
 import { readyRobot } from '#shared/profile/readyRobots.ts';
 import { FAMILIES } from '#shared/codec/families.ts';
 import { robotNames } from '../../../i18n/sentences.ts';
 import { speak } from '../../../i18n/words.ts';
-import { problemText } from './compiled.ts';
 
 afterEach(() => speak('en'));
 

@@ -1,5 +1,6 @@
 // Downloads several groups of the library at once: which ones, to which slots, and why some cannot be downloaded.
 
+import { problemText } from '../compile/problemText.ts';
 import { useMemo, useState, useEffect } from 'react';
 import type { ActionGroup } from '#shared/group/group.ts';
 import { ownSlot, slotFor } from '#shared/group/slotPlaces.ts';
@@ -12,7 +13,7 @@ import { cx } from '../../../ui/cx.ts';
 import { NumberField } from '../../../ui/NumberField.tsx';
 import { words } from '../../../i18n/whole.ts';
 import styles from './Slots.module.css';
-import { obstacles, type CompiledGroup, problemText } from '../compile/compiled.ts';
+import { obstacles, type CompiledGroup } from '../compile/compiled.ts';
 import type { SlotDownload } from './slots.ts';
 
 interface Pick {
