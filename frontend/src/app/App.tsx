@@ -8,7 +8,7 @@ import { useBatteryTab } from '../features/battery/BatteryReadout.tsx';
 import { motionsInFrame } from '../features/picture/motion.ts';
 import { ConnectDialog } from '../features/connect/ConnectDialog.tsx';
 import type { Page } from './page.ts';
-import { LogDrawer, LogPanel, Messages } from '../features/log/LogDrawer.tsx';
+import { LogPanel, Messages } from '../features/log/Messages.tsx';
 import { FilesProvider } from '../features/library/files/FilesArea.tsx';
 import { LibraryDialog } from '../features/library/LibraryDialog.tsx';
 import { PeopleDialog } from '../features/people/PeopleDialog.tsx';
@@ -54,6 +54,10 @@ const BatteryPanel = laterComponent(
 );
 const CompileRow = laterComponent(
   async () => (await import('../features/animate/group/CompileRow.tsx')).CompileRow,
+  'var(--control)',
+);
+const LogDrawer = laterComponent(
+  async () => (await import('../features/log/LogDrawer.tsx')).LogDrawer,
   'var(--control)',
 );
 const Kiosk = laterComponent(async () => (await import('./Kiosk.tsx')).Kiosk, '100%');

@@ -2,7 +2,7 @@
 // upon that by chance, and no reload is a way around it.
 
 import { useEffect, useRef, useState } from 'react';
-import { Messages } from '../features/log/LogDrawer.tsx';
+import { Messages } from '../features/log/Messages.tsx';
 import { useMacros, useStores } from '../features/stores.ts';
 import { StatusLine, type StatusLineProps } from '../features/connect/StatusLine.tsx';
 import { words } from '../i18n/whole.ts';

@@ -44,8 +44,9 @@ import { hasGateway, putOnBoard } from '../robot/gatewayApi.ts';
 import { beginAnewAsAnother, type Arrival } from './arrival.ts';
 import { peopleApi } from '../features/people/peopleApi.ts';
 import { watchLeaving } from './leaving.ts';
-import { welcome } from './welcome.ts';
 import { createConnector, type Connector } from '../robot/connector.ts';
+
+const VISITED_KEY = 'servodeck.visited';
 
 /** The page's time, for whoever is no transport. */
 export const pageClock: Clock = browserClock;
@@ -146,7 +147,17 @@ export async function openPage({ me, problem }: Arrival): Promise<Page> {
   };
   watchLeaving(window, { hidden: paused, left });
   applyBatteryPolicy({ device, battery, robots, poses, notices });
-  welcome({ device, robots, storage, clock: pageClock, page: window, isWatched });
+  if (!wasHere(storage))
+    void import('./welcome.ts').then(({ welcome }) =>
+      welcome({
+        device,
+        robots,
+        clock: pageClock,
+        page: window,
+        isWatched,
+        noteVisit: () => noteVisit(storage),
+      }),
+    );
   watchInputs(window, pad);
   tellHandedOver(device.store, notices);
   resetForOpenedGroup({ library, view, timeline });
@@ -175,6 +186,22 @@ async function chooseStore(me: Me | null): Promise<DocumentStore> {
 /** Which of them is wanted is known only later: neither is in the first load. */
 const loadGatewayStore = async (): Promise<DocumentStore> =>
   (await import('../features/library/gatewayStore.ts')).gatewayStore;
+
+function wasHere(storage: TextStorage): boolean {
+  try {
+    return storage.getItem(VISITED_KEY) !== null;
+  } catch {
+    return true;
+  }
+}
+
+function noteVisit(storage: TextStorage): void {
+  try {
+    storage.setItem(VISITED_KEY, 'yes');
+  } catch {
+    // Storage is forbidden: each visit is the first one.
+  }
+}
 
 /** Not `randomUUID`, which is there only at secure addresses. */
 function newId(): string {

@@ -5,12 +5,10 @@ import type { Clock } from '#shared/clock.ts';
 import type { ServoTarget } from '#shared/codec/commands.ts';
 import type { RobotServo } from '#shared/profile/robot.ts';
 import type { RobotStore } from '../features/profiles/robots.ts';
-import type { Device } from '../robot/device.ts';
+import type { Device, DeviceState } from '../robot/device.ts';
 import { GENTLE_MOVE_MS } from '../robot/moves.ts';
 import { startHindrance } from '../robot/readiness.ts';
-import type { TextStorage } from '../state/storage.ts';
 
-const KEY = 'servodeck.visited';
 const BREATH_MS = 2_000;
 /** Between two breaths: the battery of a robot that moves is not asked for. */
 const REST_MS = 3_500;
@@ -21,14 +19,13 @@ const TOUCHES = ['pointerdown', 'keydown', 'wheel'] as const;
 interface Welcome {
   readonly device: Device;
   readonly robots: RobotStore;
-  readonly storage: TextStorage;
   readonly clock: Clock;
   readonly page: Pick<Window, 'addEventListener' | 'removeEventListener'>;
   isWatched(): boolean;
+  noteVisit(): void;
 }
 
-export function welcome({ device, robots, storage, clock, page, isWatched }: Welcome): void {
-  if (wasHere(storage)) return;
+export function welcome({ device, robots, clock, page, isWatched, noteVisit }: Welcome): void {
   const since = new AbortController();
   let breaths = 0;
   let cancel = (): void => undefined;
@@ -37,11 +34,7 @@ export function welcome({ device, robots, storage, clock, page, isWatched }: Wel
     since.abort();
     cancel();
     stopListening();
-    try {
-      storage.setItem(KEY, 'yes');
-    } catch {
-      // Storage is forbidden: each visit is the first one.
-    }
+    noteVisit();
   }
 
   function breathe(): void {
@@ -54,12 +47,13 @@ export function welcome({ device, robots, storage, clock, page, isWatched }: Wel
     if (way?.kind === 'simulated') cancel = clock.after(BREATH_MS + REST_MS, breathe);
   }
 
-  // A robot that is opened by hand was touched before that.
-  const stopListening = device.store.subscribe(({ way, snapshot }) => {
+  function begin({ way, snapshot }: DeviceState): void {
     if (way === null || startHindrance(snapshot) !== null || snapshot.battery.kind !== 'read') return;
     stopListening();
     breathe();
-  });
+  }
+  const stopListening = device.store.subscribe(begin);
+  begin(device.store.getState());
   for (const touch of TOUCHES) page.addEventListener(touch, leave, { capture: true, signal: since.signal });
 }
 
@@ -70,12 +64,4 @@ function breath(servos: readonly RobotServo[], count: number): readonly ServoTar
     const room = Math.min(home - min, max - home) * share;
     return { servo, position: Math.round(home + (index % 2 === 0 ? room : -room)) };
   });
-}
-
-function wasHere(storage: TextStorage): boolean {
-  try {
-    return storage.getItem(KEY) !== null;
-  } catch {
-    return true;
-  }
 }

@@ -39,7 +39,7 @@ from servodeck.robot.board.slots import SlotMemory
 from servodeck.robot.board.storing import Jobs
 from servodeck.snapshots import IdentityState, JobState, LinkState, PlayState, PortState, StoredGroup
 
-DRAIN_S = 0.5
+DRAIN_S = 2.0
 
 
 class BoardEvents(Protocol):

@@ -2,7 +2,7 @@
 
 import type { SessionState } from '#shared/robot/state.ts';
 import { BodyMap } from '../../features/picture/BodyMap.tsx';
-import { Messages } from '../../features/log/LogDrawer.tsx';
+import { Messages } from '../../features/log/Messages.tsx';
 import type { Stores } from '../../features/stores.ts';
 import { TopBar } from '../TopBar.tsx';
 import { errorSentence } from '../../i18n/sentences.ts';

@@ -1,30 +1,13 @@
-// The log at the foot of the page: folded to the latest entry, or unfolded. Also the page's messages.
+// The log at the foot of the page: folded to the latest entry, or unfolded.
 
-import { useStore } from 'zustand';
-import { laterComponent, later, usePart } from '../../ui/later.tsx';
+import { later, usePart } from '../../ui/later.tsx';
 import { useStores, useView } from '../stores.ts';
-import { Toasts } from '../../ui/Toasts.tsx';
-import { words } from '../../i18n/words.ts';
+import { words } from '../../i18n/whole.ts';
 import { Icon } from '../../ui/Icon.tsx';
 import { pressOnce } from '../../ui/inputEvents.ts';
 import { PART } from '../../ui/focus.ts';
+import { LogPanel } from './Messages.tsx';
 import styles from './LogDrawer.module.css';
-
-export const LogPanel = laterComponent(async () => (await import('./LogPanel.tsx')).LogPanel, '100%');
-
-export function Messages() {
-  const { notices } = useStores();
-  const list = useStore(notices.store);
-  return (
-    <Toasts
-      label={words.regions.notices}
-      dismissLabel={words.dismiss}
-      moreLabel={(count) => words.moreNotices({ count })}
-      toasts={list.map(({ tone, ...notice }) => ({ ...notice, truth: tone === 'info' ? 'neutral' : tone }))}
-      onDismiss={notices.dismiss}
-    />
-  );
-}
 
 /** The words for packets are loaded after the page; the line already has its height. */
 const latest = later(async () => (await import('./LatestEntry.tsx')).LatestEntry);
