@@ -39,6 +39,7 @@ from servodeck.robot.board.slots import SlotMemory
 from servodeck.robot.board.storing import Jobs
 from servodeck.snapshots import IdentityState, JobState, LinkState, PlayState, PortState, StoredGroup
 
+# Three stops and the hold take a quarter of a second; a busy machine takes longer.
 DRAIN_S = 2.0
 
 
