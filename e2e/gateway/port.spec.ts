@@ -31,10 +31,9 @@ test('a port that another program has names the program, until that ends @exhaus
 }) => {
   test.skip(process.platform !== 'linux', 'other systems do not tell');
   const other = await newGateway({ serial: ptyBoard.device });
-  const gateway = await newGateway();
+  const gateway = await newGateway({ serial: ptyBoard.device });
   await page.goto(gateway.url);
   const dashboard = dashboardOf(page);
-  await gateway.usePort(ptyBoard.device).catch(() => undefined);
   const sentence = /This port is open in .*python\S* \(\d+\)\. Close it there/;
   await expect(dashboard.status).toContainText(sentence);
   await dashboard.link.click();
