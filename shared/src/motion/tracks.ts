@@ -186,8 +186,13 @@ export function stoppedBefore(
   family: Family,
 ): Tracks {
   const next = new Map(tracks);
-  for (const frame of recent)
-    if (frame.by === 'frame' && isNear(frame, atMs, family))
+  for (const frame of recent.filter(({ by }) => by === 'frame'))
+    if (isNear(frame, atMs, family)) {
+      for (const { servo } of frame.targets) {
+        const track = next.get(servo);
+        // Nothing else has moved it: it may still be anywhere.
+        if (track && !frame.before.has(servo)) next.set(servo, torn(track, endMs(track)));
+      }
       for (const [servo, former] of frame.before) {
         const track = next.get(servo);
         if (!track) continue;
@@ -197,6 +202,7 @@ export function stoppedBefore(
           : isElsewhere || endMs(former) > endMs(track);
         if (isOpen) next.set(servo, torn(track, endMs(former)));
       }
+    }
   return next;
 }
 

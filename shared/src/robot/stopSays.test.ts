@@ -156,7 +156,7 @@ test('what goes on is counted from the press also where a stop is sent once more
 
 const FOUND: readonly {
   readonly name: string;
-  readonly profile: 'doc' | 'learm-esp32' | 'openarm-old' | 'lsc-32';
+  readonly profile: 'doc' | 'learm-esp32' | 'openarm-new' | 'openarm-old' | 'lsc-32';
   readonly history: StopHistory;
 }[] = [
   {
@@ -454,6 +454,24 @@ const FOUND: readonly {
         { kind: 'wait', ms: 89 },
         { kind: 'run', slot: 5, times: 3 },
         { kind: 'wait', ms: 70 },
+        { kind: 'run', slot: 5, times: 0 },
+      ],
+    },
+  },
+  {
+    name: 'a frame that has not begun leaves a servo at a place that is unknown',
+    profile: 'openarm-new',
+    history: {
+      ...{ onForMs: 60_000, hasPad: true, isSlow: false, wasErased: true },
+      unknown: [{ durationMs: 0, targets: [{ servo: 2, position: 500 }] }],
+      known: [
+        { durationMs: 1, targets: [{ servo: 2, position: 500 }] },
+        { durationMs: 1, targets: [1, 2, 6].map((servo) => ({ servo, position: 500 })) },
+      ],
+      steps: [
+        { kind: 'wait', ms: 14 },
+        { kind: 'move', durationMs: 380, targets: [{ servo: 1, position: 500 }] },
+        { kind: 'wait', ms: 60 },
         { kind: 'run', slot: 5, times: 0 },
       ],
     },

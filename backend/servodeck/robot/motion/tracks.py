@@ -178,6 +178,11 @@ def stopped_before(tracks: Tracks, recent: Sequence[Order], at_ms: float, family
     for frame in recent:
         if frame.by != "frame" or not is_near(frame, at_ms, family):
             continue
+        for target in frame.targets:
+            # Nothing else has moved it: it may still be anywhere.
+            if target.servo in changed and target.servo not in frame.before:
+                first = changed[target.servo]
+                changed[target.servo] = torn(first, end_ms(first))
         for servo, former in frame.before.items():
             track = changed.get(servo)
             if track is None:
