@@ -125,16 +125,16 @@ test.describe('on the first visit', () => {
     await expect(dashboard.link).toHaveText(/Ready\s*Simulated/);
     const leaves = new Set<string>();
     await expect(dashboard.bar).toContainText('7.50 V');
-    for (let second = 0; second < 12; second += 1) {
+    for (let second = 0; second < 16; second += 1) {
       await advance(1000);
-      leaves.add(await dashboard.target(6).inputValue());
+      leaves.add(await dashboard.target(4).inputValue());
     }
     expect(leaves.size).toBeGreaterThan(1);
     await page.keyboard.press('Tab');
     await advance(3000);
-    const rests = await dashboard.target(6).inputValue();
+    const rests = await dashboard.target(4).inputValue();
     await advance(8000);
-    expect(await dashboard.target(6).inputValue()).toBe(rests);
+    expect(await dashboard.target(4).inputValue()).toBe(rests);
   });
 
   test('a connected robot does not move by itself', async ({ page, robot }) => {

@@ -147,17 +147,7 @@ export async function openPage({ me, problem }: Arrival): Promise<Page> {
   };
   watchLeaving(window, { hidden: paused, left });
   applyBatteryPolicy({ device, battery, robots, poses, notices });
-  if (!wasHere(storage))
-    void import('./welcome.ts').then(({ welcome }) =>
-      welcome({
-        device,
-        robots,
-        clock: pageClock,
-        page: window,
-        isWatched,
-        noteVisit: () => noteVisit(storage),
-      }),
-    );
+  if (!wasHere(storage)) void welcomeUntouched(() => noteVisit(storage), { device, robots });
   watchInputs(window, pad);
   tellHandedOver(device.store, notices);
   resetForOpenedGroup({ library, view, timeline });
@@ -186,6 +176,22 @@ async function chooseStore(me: Me | null): Promise<DocumentStore> {
 /** Which of them is wanted is known only later: neither is in the first load. */
 const loadGatewayStore = async (): Promise<DocumentStore> =>
   (await import('../features/library/gatewayStore.ts')).gatewayStore;
+
+const TOUCHES = ['pointerdown', 'keydown', 'wheel'] as const;
+
+/** A touch that comes before the part that welcomes counts as well. */
+async function welcomeUntouched(
+  noteTouch: () => void,
+  { device, robots }: Pick<Stores, 'device' | 'robots'>,
+): Promise<void> {
+  const touched = new AbortController();
+  const { signal } = touched;
+  signal.addEventListener('abort', noteTouch);
+  for (const touch of TOUCHES)
+    window.addEventListener(touch, () => touched.abort(), { capture: true, signal });
+  const { welcome } = await import('./welcome.ts');
+  if (!signal.aborted) welcome({ device, robots, clock: pageClock, touched: signal, isWatched });
+}
 
 function wasHere(storage: TextStorage): boolean {
   try {

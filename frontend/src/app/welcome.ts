@@ -3,7 +3,6 @@
 
 import type { Clock } from '#shared/clock.ts';
 import type { ServoTarget } from '#shared/codec/commands.ts';
-import type { RobotServo } from '#shared/profile/robot.ts';
 import type { RobotStore } from '../features/profiles/robots.ts';
 import type { Device, DeviceState } from '../robot/device.ts';
 import { GENTLE_MOVE_MS } from '../robot/moves.ts';
@@ -14,37 +13,47 @@ const BREATH_MS = 2_000;
 const REST_MS = 3_500;
 /** Of the way to the nearer limit. */
 const DEPTH = 0.05;
-const TOUCHES = ['pointerdown', 'keydown', 'wheel'] as const;
 
 interface Welcome {
   readonly device: Device;
   readonly robots: RobotStore;
   readonly clock: Clock;
-  readonly page: Pick<Window, 'addEventListener' | 'removeEventListener'>;
+  readonly touched: AbortSignal;
   isWatched(): boolean;
-  noteVisit(): void;
 }
 
-export function welcome({ device, robots, clock, page, isWatched, noteVisit }: Welcome): void {
-  const since = new AbortController();
-  let breaths = 0;
+export function welcome({ device, robots, clock, touched, isWatched }: Welcome): void {
+  let stand: readonly ServoTarget[] | null = null;
+  let isOut = false;
   let cancel = (): void => undefined;
-
-  function leave(): void {
-    since.abort();
-    cancel();
-    stopListening();
-    noteVisit();
-  }
 
   function breathe(): void {
     const { way, snapshot } = device.store.getState();
-    const isAlive = way?.isSimulated === true && startHindrance(snapshot) === null;
-    if (isAlive && isWatched()) {
-      device.move(breath(robots.current().robot.servos, breaths), breaths === 0 ? GENTLE_MOVE_MS : BREATH_MS);
-      breaths += 1;
+    const isAlive = way?.isSimulated === true && startHindrance(snapshot) === null && isWatched();
+    if (isAlive && stand === null) {
+      stand = standing();
+      device.move(stand, GENTLE_MOVE_MS);
+    } else if (isAlive && stand !== null) {
+      isOut = !isOut;
+      device.move(isOut ? leaning(stand) : stand, BREATH_MS);
     }
     if (way?.kind === 'simulated') cancel = clock.after(BREATH_MS + REST_MS, breathe);
+  }
+
+  /** Where it was sent already, else home. */
+  function standing(): readonly ServoTarget[] {
+    return robots
+      .current()
+      .robot.servos.map(({ servo, home }) => ({ servo, position: device.motion(servo).target ?? home }));
+  }
+
+  function leaning(from: readonly ServoTarget[]): readonly ServoTarget[] {
+    const { servos } = robots.current().robot;
+    return from.map(({ servo, position }, index) => {
+      const limits = servos.find((one) => one.servo === servo) ?? { min: position, max: position };
+      const room = Math.max(0, Math.min(position - limits.min, limits.max - position)) * DEPTH;
+      return { servo, position: Math.round(position + (index % 2 === 0 ? room : -room)) };
+    });
   }
 
   function begin({ way, snapshot }: DeviceState): void {
@@ -53,15 +62,9 @@ export function welcome({ device, robots, clock, page, isWatched, noteVisit }: W
     breathe();
   }
   const stopListening = device.store.subscribe(begin);
-  begin(device.store.getState());
-  for (const touch of TOUCHES) page.addEventListener(touch, leave, { capture: true, signal: since.signal });
-}
-
-/** First to home, then a little off and back. */
-function breath(servos: readonly RobotServo[], count: number): readonly ServoTarget[] {
-  const share = count % 2 === 0 ? 0 : DEPTH;
-  return servos.map(({ servo, home, min, max }, index) => {
-    const room = Math.min(home - min, max - home) * share;
-    return { servo, position: Math.round(home + (index % 2 === 0 ? room : -room)) };
+  touched.addEventListener('abort', () => {
+    stopListening();
+    cancel();
   });
+  begin(device.store.getState());
 }
