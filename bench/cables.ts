@@ -20,9 +20,9 @@ import {
 import { percentile } from './statistics.ts';
 import { stopsWhileDragging } from './stop.ts';
 
-const TRIPS = amount(40, 12);
-const PRESSES = amount(12, 3);
-const DRAG_MS = amount(1_500, 800);
+const TRIPS = amount(30, 12);
+const PRESSES = amount(10, 3);
+const DRAG_MS = amount(1_200, 800);
 /** First moves of six servos, one after another. */
 const FIRST_MOVES_MS = 3_500;
 /** What waits behind the last event has left by then. */

@@ -16,8 +16,8 @@ import { percentile } from './statistics.ts';
 /** With the driver and a person who presses STOP all 216 seats. */
 const READERS = 194;
 const NON_READERS = 20;
-const SECONDS = amount(5, 2);
-const SECONDS_ALONE = amount(4, 1);
+const SECONDS = amount(4, 2);
+const SECONDS_ALONE = amount(3, 1);
 const PRESSES = amount(12, 3);
 /** safety.md section 5: F11 with everybody reading, F10 with some who do not. */
 const AGE_LIMIT_MS = 150;

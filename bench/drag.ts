@@ -24,7 +24,7 @@ import { realClock } from './realClock.ts';
 import { percentile } from './statistics.ts';
 
 const SERVO_COUNTS = [6, 16, 32];
-const DRAG_MS = amount(5_900, 1_000);
+const DRAG_MS = amount(3_900, 1_000);
 const FRAME_MS = 1_000 / 60;
 /** The page takes no more than that, see useRawDrag.ts. */
 const QUICK_POINTER_MS = 4;

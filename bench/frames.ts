@@ -12,7 +12,7 @@ import { mainThreadOf, type MainThread } from './mainThread.ts';
 import { openDashboard, withBoard, withPage } from './station.ts';
 
 export const SLOWER = 4;
-const MEASURE_MS = amount(1_600, 300);
+const MEASURE_MS = amount(1_400, 300);
 const FRAMES_PER_SECOND = 60;
 export const DUE = (MEASURE_MS / 1_000) * FRAMES_PER_SECOND;
 /** Longer than it is looked at: each servo is under way all the time. */

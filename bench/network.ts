@@ -27,12 +27,12 @@ import { median, percentile } from './statistics.ts';
 
 const DELAYS_MS = [0, 5, 20, 50];
 const SERVO_COUNTS = [6, 32];
-const DRAG_MS = amount(1_000, 400);
+const DRAG_MS = amount(700, 400);
 /** The page takes no more than that, see useRawDrag.ts. */
 const POINTER_MS = 4;
 const SHARE_LIMIT = 0.95;
 /** The gateway knows by then where they are, so no move is a first one. */
-const REST_MS = 1_000;
+const REST_MS = 700;
 const ECHOES = amount(20, 5);
 const RETRY_MS = 100;
 const TRIES = 30;
@@ -100,6 +100,8 @@ async function dragsOver(address: string, board: BoardOnPort, restMs: number): P
     await sleep(realClock, restMs);
     const drags: Drag[] = [];
     for (const servoCount of SERVO_COUNTS) drags.push(await drag(session, servoCount, board));
+    // A driver who leaves a robot that moves has it stopped, and the next one would find that.
+    await sleep(realClock, REST_MS);
     return drags;
   } finally {
     await session.close();

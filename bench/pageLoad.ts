@@ -28,6 +28,7 @@ interface Load {
 export function measurePageLoad(): Promise<Figure[]> {
   return withBoard([], (board) =>
     withPage(board.device, async (page, url) => {
+      await page.addInitScript(() => sessionStorage.setItem('servodeck.tab', 'live'));
       await openDashboard(page, url);
       const thread = await mainThreadOf(page);
       const tools = await page.context().newCDPSession(page);

@@ -18,7 +18,7 @@ import { withBoard, withGateway } from './station.ts';
 import { percentile } from './statistics.ts';
 
 const FRAME_MS = 100;
-const FRAME_COUNT = amount(30, 8);
+const FRAME_COUNT = amount(24, 8);
 const SERVO_COUNT = 6;
 const DELAY_MS = 20;
 const LIMIT_MS = 2;

@@ -17,7 +17,7 @@ import type { Figure } from './figure.ts';
 import { withPage, withSilentBoard } from './station.ts';
 import { percentile } from './statistics.ts';
 
-const TRIPS = amount(80, 12);
+const TRIPS = amount(60, 12);
 /** Thrown away: caches and compilers warm up, on both sides alike. */
 const WARM_UP_TRIPS = amount(15, 3);
 /** No question waits for its turn: longer than the gateway leaves between two packets, and it takes 30 messages a second. */

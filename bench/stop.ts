@@ -13,7 +13,7 @@ import type { Figure } from './figure.ts';
 import { stopFigures, stopTimes, type StopTimes } from './presses.ts';
 import { withBoard, withDashboard, type BoardOnPort } from './station.ts';
 
-const PRESSES = amount(18, 3);
+const PRESSES = amount(15, 3);
 /** Between Resume and the next press: at any moment of the packet on the wire, whose cycle is about 36 ms. */
 const PAUSE_MS = { shortest: 60, longest: 110 };
 /** A stop goes out at 0, 70 and 140 ms, then the hold. */

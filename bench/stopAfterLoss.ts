@@ -17,7 +17,7 @@ const STEADY_MS = 5_100;
 const PRESS_WITHIN_MS = 400;
 const SEQUENCE_MS = 300;
 /** Each takes five seconds and next to nothing of the processor. */
-const ROBOTS = amount(9, 2);
+const ROBOTS = amount(7, 2);
 const PRESSES_EACH = amount(2, 1);
 const STOP = Buffer.from([0x55, 0x55, 0x02, 0x07]);
 

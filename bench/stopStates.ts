@@ -13,7 +13,7 @@ import { stopFigures, stopTimes, type StopTimes } from './presses.ts';
 import { withPresser, type Presser } from './presser.ts';
 import { withBoard, withGateway } from './station.ts';
 
-const PRESSES = amount(18, 3);
+const PRESSES = amount(15, 3);
 const STOPS_PER_PRESS = 3;
 const SLOT = 8;
 /** A download that was stopped has the next one wait 2.5 s; several robots at once take the time of one. */

@@ -10,7 +10,7 @@ import { centre, framesDrawn, moveAll, SLOWER } from './frames.ts';
 import { mainThreadOf } from './mainThread.ts';
 import { openDashboard, withBoard, withPage } from './station.ts';
 
-const MEASURE_MS = amount(2_000, 400);
+const MEASURE_MS = amount(1_200, 400);
 const HUMANOID = readyRobot('humanoid18', 'doc', {
   robot: 'Humanoid',
   role: (role, servo) => `${role} ${servo}`,
