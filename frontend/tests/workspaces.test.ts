@@ -125,7 +125,7 @@ test.describe('on the first visit', () => {
     await expect(dashboard.link).toHaveText(/Ready\s*Simulated/);
     const leaves = new Set<string>();
     await expect(dashboard.bar).toContainText('7.50 V');
-    for (let second = 0; second < 16; second += 1) {
+    for (let second = 0; second < 20; second += 1) {
       await advance(1000);
       leaves.add(await dashboard.target(4).inputValue());
     }

@@ -32,7 +32,8 @@ export function welcome({ device, robots, clock, touched, isWatched }: Welcome):
     const isAlive = way?.isSimulated === true && startHindrance(snapshot) === null && isWatched();
     if (isAlive && stand === null) {
       stand = standing();
-      device.move(stand, GENTLE_MOVE_MS);
+      const isSent = stand.every(({ servo }) => device.motion(servo).target !== null);
+      if (!isSent) device.move(stand, GENTLE_MOVE_MS);
     } else if (isAlive && stand !== null) {
       isOut = !isOut;
       device.move(isOut ? leaning(stand) : stand, BREATH_MS);
