@@ -103,6 +103,7 @@ test('each workspace has its own work, and a slot is one press from the timeline
 
 test('the cards of frames fold away, and the timeline has their room', async ({ dashboard, page }) => {
   await dashboard.type(dashboard.target(6), 1800);
+  await expect(dashboard.estimate(6)).toHaveText('≈ 1800');
   await dashboard.capture.click();
   const rows = page.getByRole('region', { name: 'Timeline' });
   const height = async (): Promise<number> => (await rows.boundingBox()).height;
