@@ -9,7 +9,7 @@ import { SIMULATED } from './estimateUnderTest.ts';
 import type { ProfileName } from '../simulator/profileNames.ts';
 import { TIMES } from '../testing/cases.ts';
 import { SERVOS, somePlainHistory, someStopHistory, type StopHistory } from './historiesUnderTest.ts';
-import { SELDOM_MS, stopped, type StopOutcome } from './stopUnderTest.ts';
+import { SELDOM_MS, stopped, type StopOutcome, type StopWord } from './stopUnderTest.ts';
 
 const HELD_WITHIN_MS = 150;
 /** The robot is looked at that often while it shall be held. */
@@ -34,8 +34,12 @@ function brokenHolds({ unheld, backBy, longestStep }: StopOutcome): readonly str
   return longestStep > HOLD_LIMIT ? [...back, `a step of ${longestStep}`] : back;
 }
 
-/** Servos that moved longer than STOP said, with their time. */
-function broken({ unheld, movedForMs, sentForMs }: StopOutcome): readonly string[] {
+/** Servos that moved longer than STOP said then, with their time. */
+function broken({ words }: StopOutcome): readonly string[] {
+  return words.flatMap(brokenWord);
+}
+
+function brokenWord({ unheld, movedForMs, sentForMs }: StopWord): readonly string[] {
   return movedForMs.flatMap((forMs, index) => {
     const servo = SERVOS[index] ?? 0;
     const isNamed = unheld !== null && (unheld.servos === null || unheld.servos.includes(servo));

@@ -14,7 +14,7 @@ import {
 } from '../simulator/groupStore.ts';
 import { LEARM_LAYOUT } from '../simulator/learm/engine.ts';
 import type { ProfileName } from '../simulator/profileNames.ts';
-import { createRig, type Rig } from './rig.ts';
+import { createRig, type HeardCommand, type Rig } from './rig.ts';
 import {
   CUT_SLOT,
   FOREIGN_SLOT,
@@ -24,12 +24,20 @@ import {
   type StopStep,
 } from './historiesUnderTest.ts';
 
-export interface StopOutcome {
+/** What STOP said, and what the robot did until it said something else; behind flash work a stop is sent once more. */
+export interface StopWord {
   readonly unheld: Unheld | null;
-  /** Of each servo, when its pulse changed last, counted from the press; 0 where it did not. */
+  /** Of each servo, when its pulse changed last meanwhile, counted from the press; 0 where it did not. */
   readonly movedForMs: readonly number[];
-  /** From the press to the last byte. */
+  /** From the press to the last byte that this speaks of. */
   readonly sentForMs: number;
+}
+
+export interface StopOutcome {
+  /** What it said at last. */
+  readonly unheld: Unheld | null;
+  /** All that it said once its packets had left, oldest first. */
+  readonly words: readonly StopWord[];
   /** Of each servo, the farthest that a hold took it back against its direction of travel. */
   readonly backBy: readonly number[];
   /** The longest way of a servo within one tick under a hold, where it did not go that fast before. */
@@ -158,12 +166,11 @@ export async function stopped(profile: ProfileName, history: StopHistory): Promi
   const look = (): readonly number[] => SERVOS.map((servo) => board.pulse(servo));
 
   const pressedMs = clock.now();
-  let sentMs = Infinity;
   // Where the link is away, the session stops the board as soon as it is back.
-  const settled = session.halt().then(() => (sentMs = clock.now()), ignore);
+  const settled = session.halt().catch(ignore);
   const holds = watchHolds(rig);
+  const words = noteWords(rig, pressedMs);
   let last = look();
-  const movedForMs = SERVOS.map(() => 0);
   const isOver = (): boolean =>
     clock.now() - pressedMs > DEAF_FOR_MS &&
     board.runningSlot() === null &&
@@ -172,18 +179,53 @@ export async function stopped(profile: ProfileName, history: StopHistory): Promi
     const isClose = clock.now() - pressedMs < CLOSELY_FOR_MS;
     await clock.advance(isClose ? SAMPLE_MS : SELDOM_MS);
     const pulses = look();
-    for (const [index, pulse] of pulses.entries())
-      if (pulse !== last[index]) movedForMs[index] = clock.now() - pressedMs;
+    words.look(pulses.map((pulse, index) => pulse !== last[index]));
     if (isClose) holds.look();
     last = pulses;
   }
   await settled;
-  const { latch } = session.state;
-  if (sentMs === Infinity) sentMs = rig.heard.at(-1)?.atMs ?? pressedMs;
   board.powerOff();
   return {
-    ...{ unheld: latch?.unheld ?? null, movedForMs, sentForMs: sentMs - pressedMs },
+    ...{ unheld: session.state.latch?.unheld ?? null, words: words.all() },
     ...{ backBy: holds.backBy, longestStep: holds.longestStep() },
+  };
+}
+
+/** What moves while a stop leaves is measured by what is said behind it. */
+function noteWords({ heard, session, clock }: Rig, pressedMs: number) {
+  const none = SERVOS.map(() => 0);
+  const words: (Omit<StopWord, 'sentForMs'> & { readonly saidForMs: number })[] = [];
+  let whileSending = none;
+
+  function sentForMs(saidForMs: number): number {
+    const isOfStop = ({ command: { kind }, atMs }: HeardCommand): boolean =>
+      (kind === 'stop' || kind === 'move') && atMs <= pressedMs + saidForMs;
+    return Math.max(0, (heard.findLast(isOfStop)?.atMs ?? pressedMs) - pressedMs);
+  }
+
+  function note(movedForMs: readonly number[]): void {
+    const unheld = session.state.latch?.unheld ?? null;
+    const word = words.at(-1);
+    if (word?.unheld !== unheld) words.push({ unheld, movedForMs, saidForMs: clock.now() - pressedMs });
+    else
+      words.splice(-1, 1, {
+        ...word,
+        movedForMs: word.movedForMs.map((forMs, index) => Math.max(forMs, movedForMs[index] ?? 0)),
+      });
+    whileSending = none;
+  }
+
+  return {
+    look(hasMoved: readonly boolean[]): void {
+      const atMs = clock.now() - pressedMs;
+      const moved = whileSending.map((forMs, index) => (hasMoved[index] === true ? atMs : forMs));
+      if (session.state.latch?.stop === 'sending') whileSending = moved;
+      else note(moved);
+    },
+    all(): readonly StopWord[] {
+      if (whileSending !== none) note(whileSending);
+      return words.map(({ saidForMs, ...word }) => ({ ...word, sentForMs: sentForMs(saidForMs) }));
+    },
   };
 }
 
