@@ -247,6 +247,37 @@ describe('run', () => {
     expect(rig.channel.board.runningSlot()).toBe(6);
   });
 
+  test('gives way to one that is asked for while it waits for the end of another', async () => {
+    const rig = await createRig();
+    await stored(rig, 5);
+    await stored(rig, 6);
+    void rig.session.run(5, 0);
+    await rig.clock.advance(500);
+    const overtaken = rig.session.run(6, 1).catch((error: unknown) => error);
+    void rig.session.run(6, 0);
+    await rig.clock.advance(6_000);
+    expect(await overtaken).toMatchObject({ code: 'cancelled' });
+    expect(rig.ofKind('run').map(({ times }) => times)).toEqual([0, 0]);
+    expect(rig.channel.board.runningSlot()).toBe(6);
+    expect(rig.session.state.activity).toMatchObject({ slot: 6, times: 0, truth: 'acknowledged' });
+  });
+
+  test('does not leave between the stops of one who ends the group while it waits', async () => {
+    const rig = await createRig();
+    await stored(rig, 5);
+    await stored(rig, 6);
+    void rig.session.run(5, 0);
+    await rig.clock.advance(500);
+    const overtaken = rig.session.run(6, 0).catch((error: unknown) => error);
+    await rig.clock.advance(100);
+    void rig.session.stopGroup();
+    await rig.clock.advance(1_000);
+    expect(await overtaken).toMatchObject({ code: 'cancelled' });
+    expect(rig.ofKind('run')).toHaveLength(1);
+    expect(rig.channel.board.runningSlot()).toBeNull();
+    expect(rig.session.state.activity).toEqual({ kind: 'idle' });
+  });
+
   test('is never repeated by itself: a lost acknowledgement leaves it unknown', async () => {
     const rig = await createRig({ faults: [{ name: 'lostAck', nth: 1 }] });
     const done = rig.session.run(5, 1).catch((error: unknown) => error);

@@ -30,27 +30,36 @@ export function createGroups(core: Core, slotMemory: SlotMemory | undefined): Gr
   const storing = createStoring(core, slotMemory);
   const running = createRunning(clock, store, () => estimate);
   let stopping: Promise<void> | null = null;
+  /** Runs and stops asked for: a run that waits for a stop is overtaken by what is asked for behind it. */
+  let asked = 0;
 
-  /** Pressed again, it stops at once and again. */
-  async function stop(): Promise<void> {
+  /** Pressed again, it stops at once and again. Only behind all of it another group may begin. */
+  async function end(): Promise<void> {
     requireReady(store.state);
-    const repeats = repeatStop(clock, queue.stop);
-    stopping = repeats;
-    try {
-      await repeats;
-    } finally {
-      if (stopping === repeats) stopping = null;
-    }
-    running.ended();
+    const mine = repeatStop(clock, queue.stop)
+      .then(running.ended)
+      .finally(() => {
+        if (stopping === mine) stopping = null;
+      });
+    stopping = mine;
+    await mine;
+  }
+
+  function stop(): Promise<void> {
+    asked += 1;
+    return end();
   }
 
   async function run(slot: number, times: number): Promise<void> {
     requireRunnable(store.state, slot, times);
+    asked += 1;
+    const mine = asked;
     if (stopping !== null || store.state.activity.kind === 'running') {
       // One that left between the repeats of a stop would be ended by the last one.
-      await (stopping ?? stop());
+      await (stopping ?? end());
       // STOP may have been pressed meanwhile.
       requireReleased(store.state);
+      if (mine !== asked) throw new LinkError('cancelled', 'another group or a stop was asked for meanwhile');
     }
     running.began(slot, times, 'requested');
     try {
