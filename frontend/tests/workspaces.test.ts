@@ -5,6 +5,9 @@ import { dashboardOf, expect, poll, test } from './harness/test.ts';
 import { advance } from './harness/time.ts';
 import type { Page } from './harness/page.ts';
 
+// How long fetching it takes is for a server to say.
+await import('../src/app/welcome.ts');
+
 const workspace = (page: Page, name: string) => page.getByRole('radio', { name, exact: true });
 
 /** What can be pressed, set or typed in, in sight; a choice counts once, and so does the row of a servo. */
