@@ -17,7 +17,7 @@ interface ChannelLinkOptions extends Omit<ChannelEvents, 'lost' | 'available'> {
   changed(state: LineState): void;
 }
 
-interface ChannelLink extends Omit<Link, 'attempt' | 'lost' | 'available' | 'requireOpen'> {
+interface ChannelLink extends Omit<Link, 'attempt' | 'lost' | 'abandon' | 'available' | 'requireOpen'> {
   /** The page is about to go: hands the packet over before it returns, and the link is lost. */
   leave(lastPacket: Uint8Array): void;
   send(packet: Uint8Array): Promise<void>;
@@ -64,9 +64,8 @@ export function createChannelLink({ channel, clock, changed, ...events }: Channe
     takeOver: link.takeOver,
     setAutoReconnect: link.setAutoReconnect,
     leave(lastPacket) {
-      if (!link.isOpen) return;
-      void channel.close(lastPacket);
-      link.lost(new LinkError('lost', 'the page was left'));
+      void channel.close(link.isOpen ? lastPacket : undefined);
+      link.abandon(new LinkError('lost', 'the page was left'));
     },
     send,
   };

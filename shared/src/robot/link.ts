@@ -32,6 +32,8 @@ export interface Link {
   setAutoReconnect(enabled: boolean): void;
   /** The open line ended by itself. */
   lost(error: LinkError): void;
+  /** Ends what is under way, an attempt too, as lost; a later one may follow. */
+  abandon(error: LinkError): void;
   /** Worth an attempt before the next one is due. */
   available(): void;
   /** Throws where the line is not open. */
@@ -116,6 +118,11 @@ export function createLink({ clock, open, close, changed }: LinkOptions): Link {
     setAutoReconnect: reconnect.setEnabled,
     lost(error) {
       if (state.status === 'open') fail(error);
+    },
+    abandon(error) {
+      if (state.status === 'closed' || state.status === 'refused') return;
+      attempt += 1;
+      fail(error);
     },
     available: reconnect.available,
     requireOpen() {

@@ -200,10 +200,14 @@ test('a page that was left and comes back finds its robot, stopped, and waits fo
   expect(stops(port)).toBe(4);
 });
 
-test('a page that is left without a link does nothing', async () => {
-  const tab = openTab(it.browser.plugIn());
+test('a page that is left while its port opens lets go of it, and opens it when it comes back', async () => {
+  const port = it.browser.plugIn();
+  const tab = openTab(port);
   tab.session.leave();
-  await pass();
+  expect(outcome(tab)).toBe('lost');
+  await pass(5);
+  expect(port.isOpen()).toBe(false);
+  await pass(600);
   expect(outcome(tab)).toBe('ready');
 });
 
