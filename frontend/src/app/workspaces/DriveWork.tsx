@@ -9,7 +9,7 @@ import { laterComponent } from '../../ui/later.tsx';
 import { Split, sized } from './Split.tsx';
 import styles from './Workspaces.module.css';
 
-const TryMotion = laterComponent(async () => (await import('./TryMotion.tsx')).TryMotion, 'var(--control)');
+const TryMotion = laterComponent(async () => (await import('./TryMotion.tsx')).TryMotion, '0');
 
 const SIDE = { usual: 440, min: 360, max: 720 };
 const BELOW = { usual: 280, min: 160, max: 560 };
