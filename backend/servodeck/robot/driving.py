@@ -42,7 +42,7 @@ class Driving:
 
     @property
     def is_watched(self) -> bool:
-        """Whoever drives has not been silent for so long that what moves must end."""
+        """Whether the driver was heard recently enough for the robot to go on moving."""
         return self._lease.driver is not None and self._lease.silence != "silent"
 
     @property
