@@ -1,7 +1,8 @@
 // Motions to try on a simulated robot, one press each: an example becomes the group at hand, as one step, and is played.
 
-import { exampleGroup, examplesFor, type ExampleId } from '#shared/group/examples/examples.ts';
+import { examplesFor, type ExampleId } from '#shared/group/examples/examples.ts';
 import { useStore } from 'zustand';
+import { takeExample } from '../../features/animate/group/ExamplesControl.tsx';
 import { PLAY } from '../../features/animate/play/playActions.ts';
 import { useDevice, useDocument, useRobot, useSnapshot, useStores } from '../../features/stores.ts';
 import { words } from '../../i18n/whole.ts';
@@ -13,7 +14,8 @@ const SHOWN = 3;
 
 /** While nothing of one's own is written. */
 export function TryMotion() {
-  const { device, document, playback, view, playhead } = useStores();
+  const stores = useStores();
+  const { device, document, playback, view, playhead } = stores;
   const robot = useRobot();
   const isSimulated = useDevice(({ way }) => way?.isSimulated === true);
   const name = useDocument(({ present }) => present.name);
@@ -25,13 +27,8 @@ export function TryMotion() {
   if (!isSimulated || (!isEmpty && opened === undefined) || ids.length === 0) return null;
 
   function play(id: ExampleId): void {
-    if (id !== opened)
-      document.edit(
-        () => words.examples.step({ name: words.examples.names[id] }),
-        () => exampleGroup(id, robot, words.examples.names[id]),
-      );
-    view.setState({ selectedFrame: null });
-    playhead.show(0);
+    if (id === opened) playhead.show(0);
+    else takeExample(stores, id);
     const context = { playback, device, document };
     if (PLAY.enabled(context) === true) PLAY.run(context);
   }

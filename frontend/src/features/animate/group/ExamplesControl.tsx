@@ -4,7 +4,7 @@ import { useState } from 'react';
 import { exampleGroup, examplesFor, type ExampleId } from '#shared/group/examples/examples.ts';
 import { poseAt, totalDurationMs } from '#shared/group/group.ts';
 import { PoseThumb } from '../../picture/PoseThumb.tsx';
-import { useDevice, useDocument, useRobot, useStores } from '../../stores.ts';
+import { useDevice, useDocument, useRobot, useStores, type Stores } from '../../stores.ts';
 import { Button } from '../../../ui/Button.tsx';
 import { Dialog } from '../../../ui/Dialog.tsx';
 import { words } from '../../../i18n/whole.ts';
@@ -46,20 +46,27 @@ export function ExampleList({ onChosen }: { onChosen(): void }) {
   );
 }
 
+/** It takes the place of the group at hand, as one step. */
+export function takeExample({ document, view, playhead, robots }: Stores, id: ExampleId): void {
+  const name = words.examples.names[id];
+  const group = exampleGroup(id, robots.current().robot, name);
+  document.edit(
+    () => words.examples.step({ name: words.examples.names[id] }),
+    () => group,
+  );
+  view.setState({ selectedFrame: null });
+  playhead.show(0);
+}
+
 function ExampleCard({ id, onChosen }: { readonly id: ExampleId; onChosen(): void }) {
-  const { document, view, playhead } = useStores();
+  const stores = useStores();
   const robot = useRobot();
   const family = useDevice((state) => state.family);
   const name = words.examples.names[id];
   const group = exampleGroup(id, robot, name);
   const { frames } = group;
   const choose = (): void => {
-    document.edit(
-      () => words.examples.step({ name: words.examples.names[id] }),
-      () => group,
-    );
-    view.setState({ selectedFrame: null });
-    playhead.show(0);
+    takeExample(stores, id);
     onChosen();
   };
   return (
