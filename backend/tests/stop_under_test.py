@@ -123,8 +123,8 @@ class Watched(Control):
         self.pressed_s.append(now())
         return super().stop(cause)
 
-    def stopped_at_return(self, since_s: float) -> None:
-        super().stopped_at_return(since_s)
+    def stopped_again(self, since_s: float) -> None:
+        super().stopped_again(since_s)
         self.said.append(Said(since_s, now(), self.unheld))
 
     def _halted(self, left: Left) -> None:

@@ -275,7 +275,7 @@ class Control:
     def board_lost(self) -> None:
         self._latch.cause = Cause("loss")  # the change of the link's state follows and publishes both
 
-    def stopped_at_return(self, since_s: float) -> None:
+    def stopped_again(self, since_s: float) -> None:
         self._publish_unheld(since_s)
 
     def is_watched(self) -> bool:

@@ -137,7 +137,11 @@ class Watch:
                 self._control.stop(cause)
 
     def end_quietly(self, reason: GatewayError) -> None:
-        """Without the latch: a person is watching, or the end was announced."""
+        """Without the latch: a person is watching, or the end was announced. Not behind a STOP: a second hold
+        would end later than was said of the first.
+        """
+        if self._control.latch:
+            return
         with contextlib.suppress(GatewayError):
             self._control.board.halts.halt(reason)
 
@@ -153,7 +157,7 @@ class Watch:
 
     def _stop_unwatched(self, cause: Cause = SILENCE) -> None:
         """STOP because no driver watches over what moves: a person has to look before motion resumes. Not
-        twice: a second hold would end later than was announced for the first.
+        twice, as `end_quietly`.
         """
         if self._control.latch:
             return

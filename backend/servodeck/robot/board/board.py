@@ -50,7 +50,7 @@ class BoardEvents(Protocol):
     def board_lost(self) -> None:
         """An open port was lost, or the board has fallen silent; `board_changed` follows."""
 
-    def stopped_at_return(self, since_s: float) -> None:
+    def stopped_again(self, since_s: float) -> None:
         """The stops have left that are sent when a port comes back or a board answers again, which was at
         `since_s`.
         """
@@ -116,7 +116,7 @@ class Board:
         self.moves = MoveBuffer(self, now, events.board_changed)
         self.plays = Plays(self.moves, self._play_changed, now)
         self.unattended = Unattended(now, events.unattended_time_over, events.board_changed)
-        self.halts = Halts(self, now, events.stopped_at_return)
+        self.halts = Halts(self, now, events.stopped_again)
         self.activity = Activity(
             *(FAMILIES[family_id], self.plays, self.unattended, now),
             stop_again=self.halts.halt_again,
@@ -253,7 +253,7 @@ class Board:
         if before == "ready" and status not in ("ready", "closed"):
             self._no_longer_ready(status)
         if before == "stale" and status not in ("stale", "closed"):
-            self.halts.board_answers()
+            self.halts.halt_again()  # it may have moved or restarted unheard
         if "ready" in (before, status) and before != status:
             self.battery.board_ready(is_ready=status == "ready")
         if self.link.state.status == "open":

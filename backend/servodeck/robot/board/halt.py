@@ -24,8 +24,8 @@ if TYPE_CHECKING:
 
 class Halts:
     def __init__(self, board: "Board", now: Callable[[], float], stopped: Callable[[float], None]) -> None:
-        """`stopped` is called when the stops at a return have left, with the time since when the board may
-        have moved.
+        """`stopped` is called when stops have left that nobody pressed, with the time since when the board
+        may have moved.
         """
         self._board = board
         self._now = now
@@ -46,13 +46,18 @@ class Halts:
         self._board.moves.drop(reason)
         return self._board.link.wire().halt(self._hold, reason)
 
-    def halt_again(self) -> Left | None:
-        """As `halt`; None where there is no port to stop."""
-        with contextlib.suppress(GatewayError):
-            return self.halt(
+    def halt_again(self) -> None:
+        """The board may have missed the first stops. What these hold ends later than was said of those."""
+        again_s = self._now()
+
+        def left(stops: Left) -> None:
+            if not stops.cancelled() and stops.exception() is None:
+                self._stopped(again_s)
+
+        with contextlib.suppress(GatewayError):  # no port to stop
+            self.halt(
                 CancelledError("The board was stopped again, because it may have missed the first stop.")
-            )
-        return None
+            ).add_done_callback(left)
 
     def end_motion(self) -> Left | None:
         """Without the latch: what moves ends, because its driver begins something else. As `halt`; None where
@@ -104,17 +109,6 @@ class Halts:
                     self._stopped(opened_s)
         finally:
             self.at_return = None
-
-    def board_answers(self) -> None:
-        """For the first time in a while: it may have moved or restarted unheard."""
-        answers_s, stops = self._now(), self.halt_again()
-
-        def left(stops: Left) -> None:
-            if not stops.cancelled() and stops.exception() is None:
-                self._stopped(answers_s)
-
-        if stops:
-            stops.add_done_callback(left)
 
     def _hold(self, held: Sequence[CommandPacket]) -> CommandPacket | None:
         """Of a board that is unknown nothing is held; where the port carries whole packets, one holds all."""
