@@ -5,7 +5,7 @@ import asyncio
 import pytest
 
 from servodeck.callers import THIS_COMPUTER
-from servodeck.errors import CancelledError, ExpiredError, NotDrivingError
+from servodeck.errors import CancelledError, ExpiredError, MovingError, NotDrivingError
 from servodeck.protocol.values import Frame, ServoTarget
 from servodeck.robot.board.download import Group
 from tests.client import Client, driven, gateway_on
@@ -144,40 +144,29 @@ async def test_a_driver_who_leaves_while_the_last_frame_of_an_unknown_group_may_
 
 @in_virtual_time
 @pytest.mark.parametrize("how", ["falls silent", "leaves"])
-@pytest.mark.parametrize("last_frame_ms", [46, 2_400])
-async def test_a_download_behind_an_unknown_group_puts_off_the_stop_for_its_last_frame_to_its_own_end(
-    how: str, last_frame_ms: float
-) -> None:
-    port = AnsweringPort([[], [180], [last_frame_ms]])
-    async with gateway_on(port) as control:
-        anna = Client(control)
-        await anna.send(RUN)
-        await anna.send(STOP)
-        job = begin(control, TWO_FRAMES)
+async def test_a_download_right_behind_an_unknown_group_is_refused_and_puts_off_no_stop(how: str) -> None:
+    async with driven(RUN, STOP) as (control, port, anna):
+        with pytest.raises(MovingError, match=r"moves for up to 30\.0 s more"):
+            begin(control, TWO_FRAMES)
         if how == "leaves":
             control.leave(anna)
         anna.beats = False
-        stored = await ended(control, job)
-        assert (stored.status, control.board.jobs.broken(control.board.link.place)) == ("done", [])
-        await asyncio.sleep(2.1)
-        assert port.packets()[:2] == [STOP, RUN]
-        assert port.packets()[-3:] == STOPS
-        assert (control.latch, len(port.packets())) == (True, 8)
+        await asyncio.sleep(2.2)
+        assert (control.latch, port.packets()) == (True, [STOP, RUN, STOP, *STOPS])
 
 
 @in_virtual_time
-async def test_behind_a_download_nothing_is_stopped_for_a_driver_who_is_back() -> None:
-    port = AnsweringPort([[], [180], [2_400]])
+async def test_a_download_behind_the_last_frame_of_an_unknown_group_is_stored_without_its_driver() -> None:
+    port = AnsweringPort([[], [180], [46]])
     async with gateway_on(port) as control:
         anna = Client(control)
         await anna.send(RUN)
         await anna.send(STOP)
+        await asyncio.sleep(30.1)
         job = begin(control, TWO_FRAMES)
-        anna.beats = False
-        await asyncio.sleep(2.2)
-        anna.beats = True
+        control.leave(anna)
         assert (await ended(control, job)).status == "done"
-        await asyncio.sleep(1)
+        await asyncio.sleep(2.1)
         assert (control.latch, len(port.packets())) == (False, 5)
 
 

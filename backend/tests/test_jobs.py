@@ -170,6 +170,9 @@ async def test_it_is_refused_between_the_stops_of_a_change_of_driver_and_while_t
             begin(control, WAVE)
         port.say(bytes.fromhex("55550208"))
         await asyncio.sleep(0.01)
+        with pytest.raises(MovingError, match=r"up to 29\.\d s more"):  # the last frame of that group
+            begin(control, WAVE)
+        await asyncio.sleep(30)
         begin(control, WAVE)
 
 

@@ -171,6 +171,26 @@ async def test_what_needs_rest_is_refused_while_something_moves_or_waits(
 
 
 @pytest.mark.parametrize(
+    ("make", "family", "done"), [(erase, "doc", "acknowledged"), (release, "bus-ctrl", "sent")]
+)
+@in_virtual_time
+async def test_what_needs_rest_is_refused_while_the_last_frame_of_an_unknown_group_may_move(
+    make: Callable[[Client], AnyClientMessage], family: str, done: str
+) -> None:
+    port = FakePort()
+    async with gateway_on(port) as control:
+        control.choose_family(family)
+        page = driver_on(control)
+        await page.send(RUN)
+        await page.send(STOP)
+        assert await outcome(page, make(page)) == "busy"
+        await asyncio.sleep(30.1)
+        await page.heard()
+        asyncio.get_running_loop().call_later(0.2, port.say, ERASED)
+        assert await outcome(page, make(page)) == done
+
+
+@pytest.mark.parametrize(
     ("make", "family"),
     [(run, "doc"), (erase, "doc"), (set_speed, "bus-ctrl"), (release, "bus-ctrl")],
 )

@@ -292,8 +292,6 @@ class Control:
 
     def job_changed(self, state: JobState) -> None:
         self._broadcast.send_all(JobMessage(job=state))
-        if state.status != "running":
-            self._watch.download_ended()
 
     def play_changed(self, state: PlayState) -> None:
         self._broadcast.send_all(PlayStateMessage(play=state))

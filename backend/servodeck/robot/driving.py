@@ -41,11 +41,6 @@ class Driving:
         return self._lease.driver
 
     @property
-    def is_watched(self) -> bool:
-        """Whether the driver was heard recently enough for the robot to go on moving."""
-        return self._lease.driver is not None and self._lease.silence != "silent"
-
-    @property
     def epoch(self) -> int:
         """Another one with each driver, and while there is none."""
         return self._lease.epoch

@@ -81,8 +81,6 @@ def judge_latch(number: int, latch: bool) -> None:
 class Watch:
     def __init__(self, control: "Control") -> None:
         self._control = control
-        self._owed: Cause | None = None
-        """Of the STOP that waits for the end of a download."""
 
     def driver_quiet(self) -> None:
         control = self._control
@@ -95,14 +93,9 @@ class Watch:
             self._stop_unwatched()
 
     def driver_silent(self) -> None:
-        if not self._control.board.unattended.by and self._may_stop_now(SILENCE):
+        board = self._control.board
+        if not board.unattended.by and board.activity.may_still_move():
             self._stop_unwatched()
-
-    def download_ended(self) -> None:
-        """The STOP that waited for it comes now, unless somebody watches again."""
-        owed, self._owed = self._owed, None
-        if owed and not self._control.driving.is_watched and self._may_stop_now(owed):
-            self._stop_unwatched(owed)
 
     def driver_lost(self) -> None:
         self.driver_silent()
@@ -131,10 +124,9 @@ class Watch:
             board.unattended.end()
         elif not is_of(driver, caller_id):
             return
-        cause = Cause("person", by)
-        if self._may_stop_now(cause):
+        if board.activity.may_still_move():
             with contextlib.suppress(GatewayError):
-                self._control.stop(cause)
+                self._control.stop(Cause("person", by))
 
     def end_quietly(self, reason: GatewayError) -> None:
         """Without the latch: a person is watching, or the end was announced. Not behind a STOP: a second hold
@@ -145,21 +137,11 @@ class Watch:
         with contextlib.suppress(GatewayError):
             self._control.board.halts.halt(reason)
 
-    def _may_stop_now(self, cause: Cause) -> bool:
-        """Whether there is something to stop. If it is only the last frame of a group after which its driver
-        began a download, the STOP waits for the end of the download, because it would break a slot for a
-        frame that was allowed to finish.
-        """
-        board = self._control.board
-        waits = board.jobs.is_storing and not board.activity.may_move()
-        self._owed = cause if waits else None
-        return board.activity.may_still_move() and not waits
-
-    def _stop_unwatched(self, cause: Cause = SILENCE) -> None:
+    def _stop_unwatched(self) -> None:
         """STOP because no driver watches over what moves: a person has to look before motion resumes. Not
         twice, as `end_quietly`.
         """
         if self._control.latch:
             return
         with contextlib.suppress(GatewayError):
-            self._control.stop(cause)
+            self._control.stop(SILENCE)

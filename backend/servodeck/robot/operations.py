@@ -203,8 +203,7 @@ class Operations:
         return self._control.board.family
 
     def _judge_rest(self) -> None:
-        """Flash work freezes servos and then lets them jump (S29, S39)."""
-        if self._control.board.activity.may_move() or not self._control.board.moves.is_empty:
+        if not (self._control.board.activity.is_at_rest() and self._control.board.moves.is_empty):
             raise MovingError("The robot is moving: wait until it rests, or stop it first.")
 
     @contextlib.asynccontextmanager

@@ -200,7 +200,7 @@ class Requests:
         board.jobs.judge_idle()
         board.plays.judge_idle()
         is_clear = board.moves.is_empty and wire.is_clear_of(lambda number: number not in HARMLESS)
-        if board.activity.may_move() or not is_clear:
+        if not (board.activity.is_at_rest() and is_clear):
             raise MovingError(still_moving(board.motion, self._now()))
         claim()
         return board.jobs.begin(parts, by, board.link.place, wire)
@@ -231,7 +231,7 @@ def role_for(packet: CommandPacket) -> Role:
 def still_moving(motion: Estimate, now: float) -> str:
     if motion.group_may_run(now):
         return end_of_group(motion.group_ends_in_s(now))
-    if left_s := math.ceil(motion.moves_for_s(now) * 10) / 10:
+    if left_s := math.ceil(max(motion.moves_for_s(now), motion.restless_for_s(now)) * 10) / 10:
         return f"The robot moves for up to {left_s:.1f} s more: wait until then."
     return "The robot is about to move: wait until it rests."
 

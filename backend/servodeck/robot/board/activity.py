@@ -64,6 +64,12 @@ class Activity:
         """Also with the last frame of a group that its driver has ended."""
         return self.may_move() or self.motion.last_frame_may_move(self._now())
 
+    def is_at_rest(self) -> bool:
+        """Nothing moves, nor may anything unknown: flash work freezes servos and then lets them jump (S29,
+        S39), and a move powers a released servo again (X7).
+        """
+        return not self.may_move() and self.motion.restless_for_s(self._now()) == 0
+
     def left(self, packet: CommandPacket, command: Command, at_s: float, *, is_halting: bool) -> None:
         """The last bit of that packet leaves then. `is_halting`: it is part of a stop sequence."""
         self.motion.left(command, at_s)

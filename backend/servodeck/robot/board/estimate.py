@@ -8,7 +8,7 @@ from collections.abc import Collection, Sequence
 from math import inf
 
 from servodeck.protocol.families import Family
-from servodeck.protocol.timings import RUN
+from servodeck.protocol.timings import ESTIMATE, RUN
 from servodeck.protocol.values import (
     AllPositions,
     Command,
@@ -209,6 +209,14 @@ class Estimate:
         """Of a group that was ended, where it is unknown how long that takes."""
         now_ms = self._advance(now)
         return now_ms < min(self._last_frame_until_ms, self._motion.restless_until_ms)
+
+    def restless_for_s(self, now: float) -> float:
+        """At most, servos of which nothing is known may still move: in the last frame of an unknown group
+        that was ended, also behind a resume. The last ticks of anything else do not count.
+        """
+        now_ms = self._advance(now)
+        left_ms = self._motion.restless_until_ms - now_ms
+        return left_ms / 1000 if left_ms > ESTIMATE.last_ticks_ms else 0.0
 
     def is_unknown(self, servo: int, now: float) -> bool:
         """It was not moved, and the board has not said where it stands."""

@@ -115,13 +115,9 @@ class Jobs:
         if self._current and self._current.by.id == caller_id:
             self.end(error)
 
-    @property
-    def is_storing(self) -> bool:
-        return self._current is not None
-
     def is_busy(self) -> bool:
         """The board works on its flash."""
-        return self.is_storing or self._now() < self._erasing_until_s
+        return self._current is not None or self._now() < self._erasing_until_s
 
     def judge_idle(self) -> None:
         """Raises MovingError while the board works on its flash: what comes then overwrites what is being
