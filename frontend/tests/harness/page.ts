@@ -14,7 +14,7 @@ import type { Media, Screen } from './commands.ts';
 import { watchFiles } from './files.ts';
 import { act, keyboard, mouse, touchscreen } from './input.ts';
 import { handleOf, Locator } from './locator.ts';
-import { advance, during, endTimers, eventually, FRAME_MS, realFrame, turn } from './time.ts';
+import { advance, during, endTimers, eventually, FRAME_MS, realFrame, standStillFor, turn } from './time.ts';
 import '../../src/ui/fonts.css';
 import '../../src/ui/tokens.css';
 import '../../src/ui/base.css';
@@ -66,6 +66,14 @@ IDBFactory.prototype.open = function (...options) {
 const { transaction } = IDBDatabase.prototype;
 IDBDatabase.prototype.transaction = function (...options) {
   return noteStoring(transaction.apply(this, options), 'complete', 'abort');
+};
+
+/** A lock is granted in another process: a free one has been, once that process has answered what was asked later. */
+const { request } = LockManager.prototype;
+LockManager.prototype.request = function (...options: unknown[]) {
+  const granted = Reflect.apply(request, this, options) as Promise<unknown>;
+  standStillFor(this.query());
+  return granted;
 };
 
 /** What is listened to while a page is being put together ends with it; a browser sees to that at a reload. */

@@ -92,9 +92,20 @@ export function turn(): Promise<void> {
   });
 }
 
+/** What the browser answers in real time, and the page waits for by its clock. */
+const answers = new Set<Promise<unknown>>();
+
+/** Time stands still until then. */
+export function standStillFor(answer: Promise<unknown>): void {
+  answers.add(answer);
+  const come = (): void => void answers.delete(answer);
+  answer.then(come, come);
+}
+
 /** Time passes frame by frame, and the page is drawn in each. */
 export async function advance(ms: number): Promise<void> {
   for (let left = ms; left > 0; left -= FRAME_MS) {
+    await Promise.allSettled(answers);
     await clock.advance(Math.min(FRAME_MS, left));
     await turn();
   }
