@@ -318,6 +318,7 @@ export interface Messages {
     readonly look: string;
     readonly missing: string;
     readonly missingHint: string;
+    readonly modelMissing: (values: { readonly file: string }) => string;
     readonly belowFloor: (values: { readonly seconds: string }) => string;
   };
   readonly authoring: {
@@ -1638,6 +1639,40 @@ export interface Messages {
     readonly placesHint: string;
     readonly hint: string;
   };
+  readonly robotModel: {
+    readonly title: string;
+    readonly hint: string;
+    readonly choose: string;
+    readonly replace: string;
+    readonly remove: string;
+    readonly importStep: string;
+    readonly removeStep: string;
+    readonly about: (values: { readonly file: string; readonly joints: number; readonly triangles: number }) => string;
+    readonly missing: (values: { readonly names: string }) => string;
+    readonly elsewhere: (values: { readonly file: string }) => string;
+    readonly joints: string;
+    readonly joint: string;
+    readonly servo: string;
+    readonly none: string;
+    readonly reversed: string;
+    readonly homeDegrees: string;
+    readonly cell: (values: { readonly column: string; readonly joint: string }) => string;
+    readonly jointStep: (values: { readonly column: string; readonly joint: string }) => string;
+    readonly degreesProblem: string;
+    readonly end: string;
+    readonly noEnd: string;
+    readonly endStep: string;
+    readonly turn: (values: { readonly joint: string }) => string;
+    readonly picture: (values: { readonly robot: string }) => string;
+    readonly flaws: {
+      readonly tooLarge: string;
+      readonly noUrdf: string;
+      readonly broken: string;
+      readonly xacro: string;
+      readonly noJoint: string;
+      readonly notStored: string;
+    };
+  };
   readonly calibration: {
     readonly servos: string;
     readonly servo: (values: { readonly name: string; readonly done: number; readonly all: number }) => string;
@@ -2258,6 +2293,12 @@ export interface Messages {
     readonly degreesPerUnit: string;
     readonly mirror: string;
     readonly place: string;
+    readonly joint: string;
+    readonly homeDegrees: string;
+    readonly model: string;
+    readonly id: string;
+    readonly fileName: string;
+    readonly end: string;
   };
   readonly site: {
     readonly newVersion: string;

@@ -30,11 +30,14 @@ export function framesOf(numbers: ArrayLike<number>): readonly Frame[] {
 
 /** FNV-1a, 32 bits, from two beginnings: 64 bits, as hex. */
 export function fingerprintOf(frames: readonly Frame[]): string {
-  const words = numbersOf(frames);
+  return fingerprintOfNumbers(numbersOf(frames));
+}
+
+export function fingerprintOfNumbers(words: Iterable<number>): string {
   return [0x811c9dc5, 0x01000193].map((seed) => hashOf(words, seed).toString(16).padStart(8, '0')).join('');
 }
 
-function hashOf(words: readonly number[], seed: number): number {
+function hashOf(words: Iterable<number>, seed: number): number {
   let hash = seed;
   for (const word of words) {
     hash = Math.imul(hash ^ (word & 0xff), 0x01000193);

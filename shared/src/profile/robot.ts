@@ -14,7 +14,8 @@ const ROBOT_FIELDS = [
   ...(['robot', 'name', 'board', 'body', 'servos'] as const),
   ...(['battery', 'batteryCare', 'policy', 'thresholds', 'warnMv', 'alarmMv'] as const),
   ...(['servo', 'group', 'min', 'max', 'home', 'trim'] as const),
-  ...(['isReversed', 'degreesPerUnit', 'mirror', 'place'] as const),
+  ...(['isReversed', 'degreesPerUnit', 'mirror', 'place', 'joint', 'homeDegrees'] as const),
+  ...(['model', 'id', 'fileName', 'end'] as const),
 ] as const;
 export type RobotField = (typeof ROBOT_FIELDS)[number];
 
@@ -74,6 +75,25 @@ const whole = (range: Range) => v.pipe(v.number(), v.integer(), v.minValue(range
 const position = whole({ min: 0, max: 2500 });
 const familyIds = Object.keys(FAMILIES) as [FamilyId, ...FamilyId[]];
 
+/** As URDF names links and joints. */
+const urdfName = v.pipe(v.string(), v.minLength(1), v.maxLength(128));
+
+const jointSchema = v.strictObject({
+  name: urdfName,
+  /** A positive angle of the servo is a negative one of the joint. */
+  isReversed: v.boolean(),
+  /** The angle of the joint where the servo is at home. */
+  homeDegrees: v.pipe(v.number(), v.minValue(-360), v.maxValue(360)),
+});
+
+const modelSchema = v.strictObject({
+  /** 64 bits of hash of the imported file, in hexadecimal; the file itself is stored beside the robots. */
+  id: v.pipe(v.string(), v.regex(/^[\da-f]{16}$/)),
+  fileName: v.pipe(v.string(), v.minLength(1), v.maxLength(255)),
+  /** The link that can be dragged in the picture; null: none. */
+  end: v.nullable(urdfName),
+});
+
 const servoSchema = v.strictObject({
   servo: whole({ min: 1, max: 253 }),
   name,
@@ -91,6 +111,8 @@ const servoSchema = v.strictObject({
   mirror: v.nullable(whole({ min: 1, max: 253 })),
   /** Its place on the body's picture, in percent of width and height. */
   place: v.strictObject({ x: whole({ min: 0, max: 100 }), y: whole({ min: 0, max: 100 }) }),
+  /** The joint of the imported model that it turns. */
+  joint: v.exactOptional(jointSchema),
 });
 
 const batteryCareSchema = v.strictObject({
@@ -106,6 +128,8 @@ export const robotSchema = v.strictObject({
   battery: v.picklist(BATTERY_KINDS),
   batteryCare: batteryCareSchema,
   servos: v.pipe(v.array(servoSchema), v.minLength(1), v.maxLength(253)),
+  /** A model in 3D that was imported; without it the picture is made of primitive shapes after `body`. */
+  model: v.exactOptional(modelSchema),
 });
 
 const anyWhole = v.pipe(v.number(), v.safeInteger());
@@ -118,6 +142,8 @@ export const roughRobotSchema = v.strictObject({
   ),
 });
 
+export type RobotModel = Readonly<v.InferOutput<typeof modelSchema>>;
+export type RobotJoint = Readonly<v.InferOutput<typeof jointSchema>>;
 export type RobotServo = Readonly<v.InferOutput<typeof servoSchema>>;
 export type Robot = Readonly<Omit<v.InferOutput<typeof robotSchema>, 'servos'>> & {
   readonly servos: readonly RobotServo[];

@@ -46,6 +46,38 @@ export function renumber(robot: Robot, from: number, to: number): Robot {
   return { ...robot, servos: servos.map((one) => (one.mirror === from ? { ...one, mirror: to } : one)) };
 }
 
+/** The servo turns that joint, and no other servo does; null: none turns it. */
+export function turnJoint(robot: Robot, name: string, servo: number | null): Robot {
+  const before = robot.servos.find(({ joint }) => joint?.name === name)?.joint;
+  return {
+    ...robot,
+    servos: robot.servos.map((one) => {
+      if (one.servo === servo)
+        return { ...one, joint: before ?? { name, isReversed: false, homeDegrees: 0 } };
+      return one.joint?.name === name ? withoutJoint(one) : one;
+    }),
+  };
+}
+
+const SERVO_IN_NAME = /servo[_ -]?(\d+)$/iu;
+
+/** Servos for the joints of a new model: those that a joint is called after, else in order; arms count from the gripper. */
+export function turnJoints(robot: Robot, names: readonly string[]): Robot {
+  const bare: Robot = { ...robot, servos: robot.servos.map(withoutJoint) };
+  const called = names.map((name) => Number(SERVO_IN_NAME.exec(name)?.[1] ?? Number.NaN));
+  const sign = robot.body === 'arm' ? -1 : 1;
+  const inOrder = bare.servos.map(({ servo }) => servo).sort((one, other) => sign * (one - other));
+  const isCalled = called.some((servo) => servoOf(robot, servo) !== undefined);
+  return names.reduce((next, name, index) => {
+    const servo = isCalled ? called[index] : inOrder[index];
+    return servo === undefined || servoOf(robot, servo) === undefined ? next : turnJoint(next, name, servo);
+  }, bare);
+}
+
+export function withoutJoint({ joint: _, ...servo }: RobotServo): RobotServo {
+  return servo;
+}
+
 /** Two servos are each other's mirror, and of no other; null: this one has none. */
 export function pair(robot: Robot, servo: number, partner: number | null): Robot {
   const two = [servo, partner];

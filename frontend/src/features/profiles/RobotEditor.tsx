@@ -10,10 +10,18 @@ import { useRobot, useStores } from '../stores.ts';
 import { words } from '../../i18n/whole.ts';
 import { RobotPicture, RobotHead } from './RobotPicture.tsx';
 import { Button } from '../../ui/Button.tsx';
+import { laterComponent } from '../../ui/later.tsx';
 import { Select } from '../../ui/Select.tsx';
 import { boardName } from '../../i18n/sentences.ts';
 import { CellField, ServoTable } from './ServoTable.tsx';
 import styles from './RobotEditor.module.css';
+
+/** With three.js, so fetched only where an editor is open. */
+const ModelEditor = laterComponent(
+  async () => (await import('./ModelEditor.tsx')).ModelEditor,
+  '160px',
+  'asked',
+);
 
 /** The places of the servos on the drawing of the body, by drag or arrow keys. Moves nothing. */
 function PlaceEditor() {
@@ -95,6 +103,7 @@ export function RobotEditor() {
       <ServoTable />
       <AddServo />
       <PlaceEditor />
+      <ModelEditor />
     </>
   );
 }

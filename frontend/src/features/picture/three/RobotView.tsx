@@ -41,7 +41,7 @@ import { LimbHandle, placeHandles, PlaceFields } from './LimbHandle.tsx';
 import { type LedLimb, limbsOfModel, belowFloorAtMs, pathOf, type PathPoint } from './limbs.ts';
 import { createModel, type Model } from './model.ts';
 import { createStage, type Stage } from './stage.ts';
-import { urdfOf } from './urdf.ts';
+import { useModel } from './useModel.ts';
 import styles from './RobotView.module.css';
 
 const TURN_RADIANS = 0.15;
@@ -52,9 +52,12 @@ const PRESS_PX = 5;
 export function RobotView() {
   const stores = useStores();
   const robot = useRobot();
-  const urdf = useMemo(() => urdfOf(robot), [robot]);
+  const { description, state } = useModel(robot);
   const servos = useMemo(() => robot.servos.map(({ servo }) => servo), [robot]);
-  const limbs = useMemo(() => (urdf === null ? [] : limbsOfModel(parseUrdf(urdf), servos)), [urdf, servos]);
+  const limbs = useMemo(
+    () => (description === null ? [] : limbsOfModel(parseUrdf(description), servos)),
+    [description, servos],
+  );
   const canvas = useRef<HTMLCanvasElement>(null);
   const shown = useRef<Model | null>(null);
   const preview = useRef<Pose | null>(null);
@@ -78,24 +81,24 @@ export function RobotView() {
   });
 
   useEffect(() => {
-    if (canvas.current === null || urdf === null) return undefined;
+    if (canvas.current === null || description === null) return undefined;
     const stage = stageIn(canvas.current, () => beforeDraw());
     if (stage === null) {
       setMissing(true);
       return undefined;
     }
-    const model = createModel(stage, urdf, robot);
+    const model = createModel(stage, description, robot);
     shown.current = model;
     return () => {
       shown.current = null;
       model.dispose();
       stage.dispose();
     };
-  }, [urdf, robot]);
+  }, [description, robot]);
 
   const paths = usePaths(limbs);
-  useEffect(() => shown.current?.select(selected), [selected, urdf, robot]);
-  useEffect(() => shown.current?.showPaths(paths), [paths, urdf, robot]);
+  useEffect(() => shown.current?.select(selected), [selected, description, robot]);
+  useEffect(() => shown.current?.showPaths(paths), [paths, description, robot]);
   useMotions(servos, () => shown.current?.stage.draw());
   useFollow({
     read: () => (canvas.current === null ? null : lookOf(canvas.current)),
@@ -175,6 +178,11 @@ export function RobotView() {
         </div>
       </div>
       <UnknownNote />
+      {state === 'missing' && (
+        <p className={styles.warning} role="status">
+          {words.robot3d.modelMissing({ file: robot.model?.fileName ?? '' })}
+        </p>
+      )}
       <FloorNote {...{ paths }} />
       {limbs.length === 1 && limbs[0] !== undefined && (
         <div className={styles.foot}>
@@ -213,8 +221,11 @@ function usePaths(limbs: readonly LedLimb[]): readonly (readonly PathPoint[])[] 
 
 /** Only where the base stands on the floor: a body on legs lowers itself. */
 function FloorNote({ paths }: { readonly paths: readonly (readonly PathPoint[])[] }) {
-  const { body } = useRobot();
-  const atMs = body === 'arm' ? paths.map(belowFloorAtMs).find((found) => found !== null) : undefined;
+  const { body, model } = useRobot();
+  const atMs =
+    body === 'arm' && model === undefined
+      ? paths.map(belowFloorAtMs).find((found) => found !== null)
+      : undefined;
   if (atMs === undefined) return null;
   return (
     <p className={styles.warning} role="status">

@@ -3,6 +3,7 @@
 
 import {
   EdgesGeometry,
+  Group,
   type BufferGeometry,
   LineBasicMaterial,
   LineSegments,
@@ -49,10 +50,25 @@ const GHOST = { fill: 0.1, edge: 0.95 };
 /** Stripes of the screen, so that they look the same on each face. */
 const HATCH = { eachPx: 9, widthPx: 2.5 };
 
-export const parseUrdf = (urdf: string): URDFRobot => new URDFLoader().parse(urdf);
+/** `meshes`: by the names that the URDF has for them. */
+export interface Description {
+  readonly urdf: string;
+  readonly meshes: ReadonlyMap<string, Object3D | null>;
+}
 
-export function createFigure(urdf: string, servos: readonly number[], look: 'body' | 'ghost'): Figure {
-  const robot = parseUrdf(urdf);
+/** Throws where a joint hangs between links that do not exist. */
+export function parseUrdf({ urdf, meshes }: Description): URDFRobot {
+  const loader = new URDFLoader();
+  loader.loadMeshCb = (name, _manager, _material, done) => done(meshes.get(name)?.clone() ?? new Group());
+  return loader.parse(urdf);
+}
+
+export function createFigure(
+  description: Description,
+  servos: readonly number[],
+  look: 'body' | 'ghost',
+): Figure {
+  const robot = parseUrdf(description);
   const isGhost = look === 'ghost';
   const fill = (): MeshStandardMaterial =>
     new MeshStandardMaterial({

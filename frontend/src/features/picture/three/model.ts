@@ -1,12 +1,12 @@
 // The robot on its stage: body where it is by the estimate, outline where it was sent or where a preview has it, and the arc of the
 // servo that is selected. Drawn past React, from the motion of the frame. Moves nothing.
 
-import { Vector3 } from 'three';
+import { Box3, type Object3D, Vector3 } from 'three';
 import { type Robot, servoOf } from '#shared/profile/robot.ts';
 import type { Motions } from '#shared/robot/state.ts';
 import type { Look } from '../Canvas.tsx';
 import type { Pose } from '../pose.ts';
-import { createFigure, type Angles, type Figure } from './figure.ts';
+import { createFigure, type Angles, type Description, type Figure } from './figure.ts';
 import { radiansOf, createPathLine, type PathLine, type PathPoint } from './limbs.ts';
 import { createRing, type Ring } from './ring.ts';
 import { sizeOf, type Stage } from './stage.ts';
@@ -31,12 +31,16 @@ export interface Model {
   dispose(): void;
 }
 
-export function createModel(stage: Stage, urdf: string, robot: Robot): Model {
+export function createModel(stage: Stage, description: Description, robot: Robot): Model {
   const servos = robot.servos.map(({ servo }) => servo);
-  const [body, outline] = [createFigure(urdf, servos, 'body'), createFigure(urdf, servos, 'ghost')];
-  const stands = robot.body === 'humanoid' || robot.body === 'hexapod';
+  const [body, outline] = (['body', 'ghost'] as const).map((look) =>
+    createFigure(description, servos, look),
+  ) as [Figure, Figure];
+  const isImported = robot.model !== undefined;
+  const stands = !isImported && (robot.body === 'humanoid' || robot.body === 'hexapod');
   stage.scene.add(body.robot, outline.robot);
   if (stands) stand(body, outline);
+  if (isImported) lift(-lowestOf(body.robot), body, outline);
   const { reachM, heightM } = sizeOf(body.robot);
   stage.frame(reachM * ROOM, heightM);
   let selected: number | null = null;
@@ -129,14 +133,23 @@ function stand(body: Figure, outline: Figure): void {
   body.robot.updateMatrixWorld(true);
   const feet = Object.entries(body.robot.links).filter(([name]) => name.startsWith(`${TIP}leg`));
   const lowest = Math.min(0, ...feet.map(([, foot]) => foot.getWorldPosition(new Vector3()).z));
-  for (const { robot } of [body, outline]) robot.position.z = -lowest;
+  lift(-lowest, body, outline);
 }
+
+function lift(byM: number, ...figures: readonly Figure[]): void {
+  for (const { robot } of figures) robot.position.z = byM;
+}
+
+const lowestOf = (robot: Object3D): number => {
+  const { min } = new Box3().setFromObject(robot);
+  return Number.isFinite(min.z) ? min.z : 0;
+};
 
 let pen: CanvasRenderingContext2D | null = null;
 const plainColours = new Map<string, string>();
 
 /** Three.js reads neither the system's colours nor mixed ones; a canvas says each as a hexadecimal number. */
-function plainColour(colour: string): string {
+export function plainColour(colour: string): string {
   const known = plainColours.get(colour);
   if (known !== undefined) return known;
   pen ??= document.createElement('canvas').getContext('2d');
