@@ -33,9 +33,12 @@ from servodeck.robot.motion.halt_plan import HaltPlan, Unheld, halt_plan, hold_a
 from servodeck.robot.motion.model import (
     UNKNOWN_MOTION,
     UnknownRun,
+    either_of,
     farthest_from,
+    forgotten,
     gentle_ms,
     held_at,
+    inherited,
     only_released,
     position_at,
     remaining_ms,
@@ -47,10 +50,7 @@ from servodeck.robot.motion.motion import (
     after_command,
     after_cut_packet,
     after_filler,
-    either_of,
-    forgotten,
     hears,
-    inherited,
     latest_end_ms,
 )
 from servodeck.robot.motion.reports import after_cut, after_end, after_report
@@ -152,7 +152,7 @@ class Estimate:
         self._memory.clear()
         self._reported.clear()
         at_ms = self._advance(now)
-        missed = forgotten(self._missed, at_ms, self)
+        missed = forgotten(self._missed, at_ms, latest_end_ms(self._missed, self))
         self._forget(at_ms)
         if cut:
             self._motion = after_cut_packet(either_of(self._motion, missed), self.family)
@@ -280,7 +280,7 @@ class Estimate:
 
     def _forget(self, at_ms: float) -> None:
         self._memory.forget_speeds()
-        self._motion = forgotten(self._motion, at_ms, self)
+        self._motion = forgotten(self._motion, at_ms, latest_end_ms(self._motion, self))
 
     def _advance(self, now: float) -> float:
         """Does what was due; returns the time in milliseconds."""

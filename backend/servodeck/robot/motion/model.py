@@ -12,8 +12,10 @@ from math import inf
 from typing import Literal, Protocol
 
 from servodeck.protocol.families import Family
+from servodeck.protocol.timings import ESTIMATE
 from servodeck.protocol.values import Command, Frame, Move, Release, Report, Run, ServoTarget
 from servodeck.robot.motion.tracks import (
+    LONGEST_MOVE_MS,
     Order,
     Tracks,
     doubted,
@@ -195,6 +197,43 @@ def running_unknown(motion: Motion, slot: int | None, ends_to_hear: int = 1, unt
     """
     run = UnknownRun(slot, ends_to_hear, until_ms)
     return replace(motion, tracks=doubted(motion.tracks), readings=only_released(motion.readings), run=run)
+
+
+def forgotten(motion: Motion, at_ms: float, run_ends_ms: float) -> Motion:
+    """Nothing is known any more: the robot may have been moved or the board restarted. A group that ran may
+    continue until `run_ends_ms`.
+    """
+    if motion.run is not None:
+        still_ms: float = LONGEST_MOVE_MS
+    else:
+        still_ms = last_end_ms(motion.tracks, at_ms) - at_ms + ESTIMATE.last_ticks_ms
+    return replace(
+        UNKNOWN_MOTION,
+        readings=only_released(motion.readings),
+        run=UnknownRun(None, until_ms=run_ends_ms) if motion.run else None,
+        deaf_until_ms=motion.deaf_until_ms,
+        may_swallow=motion.may_swallow,
+        inherited_until_ms=motion.inherited_until_ms,
+        restless_until_ms=max(motion.restless_until_ms, at_ms + still_ms),
+        skips_first="maybe",
+    )
+
+
+def inherited(motion: Motion, at_ms: float) -> Motion:
+    """The last owner of the port, which was opened at `at_ms`, may have set something in motion."""
+    # A question of ours may have ended their group (L8).
+    return replace(motion, inherited_until_ms=at_ms + LONGEST_MOVE_MS, skips_first="maybe")
+
+
+def either_of(one: Motion, other: Motion) -> Motion:
+    """Of two forgotten motions it is unknown which it was."""
+    return replace(
+        one,
+        run=one.run or other.run,
+        deaf_until_ms=max(one.deaf_until_ms, other.deaf_until_ms),
+        restless_until_ms=max(one.restless_until_ms, other.restless_until_ms),
+        inherited_until_ms=max(one.inherited_until_ms, other.inherited_until_ms),
+    )
 
 
 def position_at(motion: Motion, servo: int, now_ms: float) -> int | None:

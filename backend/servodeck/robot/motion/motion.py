@@ -44,7 +44,6 @@ from servodeck.protocol.values import (
 )
 from servodeck.robot.motion.deadlines import deadlines, end_of, longest_ms
 from servodeck.robot.motion.model import (
-    UNKNOWN_MOTION,
     DeadlineRun,
     KnownBoard,
     Motion,
@@ -65,7 +64,6 @@ from servodeck.robot.motion.tracks import (
     board_duration_ms,
     contested,
     end_ms,
-    last_end_ms,
     lengthened,
     only,
     ordered,
@@ -317,40 +315,3 @@ def perhaps_released(tracks: Tracks, servos: Collection[int], at_ms: float) -> T
 def pass_ms(frames: Sequence[Frame], board: KnownBoard) -> float:
     """The longest duration of one pass of a group."""
     return playback_of(board).pass_ms(frames)
-
-
-def forgotten(motion: Motion, at_ms: float, board: KnownBoard) -> Motion:
-    """Nothing is known any more: the robot may have been moved or the board restarted. A group that ran may
-    run on.
-    """
-    if motion.run is not None:
-        still_ms: float = LONGEST_MOVE_MS
-    else:
-        still_ms = last_end_ms(motion.tracks, at_ms) - at_ms + ESTIMATE.last_ticks_ms
-    return replace(
-        UNKNOWN_MOTION,
-        readings=only_released(motion.readings),
-        run=UnknownRun(None, until_ms=latest_end_ms(motion, board)) if motion.run else None,
-        deaf_until_ms=motion.deaf_until_ms,
-        may_swallow=motion.may_swallow,
-        inherited_until_ms=motion.inherited_until_ms,
-        restless_until_ms=max(motion.restless_until_ms, at_ms + still_ms),
-        skips_first="maybe",
-    )
-
-
-def inherited(motion: Motion, at_ms: float) -> Motion:
-    """The last owner of the port, which was opened at `at_ms`, may have set something in motion."""
-    # A question of ours may have ended their group (L8).
-    return replace(motion, inherited_until_ms=at_ms + LONGEST_MOVE_MS, skips_first="maybe")
-
-
-def either_of(one: Motion, other: Motion) -> Motion:
-    """Of two forgotten motions it is unknown which it was."""
-    return replace(
-        one,
-        run=one.run or other.run,
-        deaf_until_ms=max(one.deaf_until_ms, other.deaf_until_ms),
-        restless_until_ms=max(one.restless_until_ms, other.restless_until_ms),
-        inherited_until_ms=max(one.inherited_until_ms, other.inherited_until_ms),
-    )
