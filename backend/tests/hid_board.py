@@ -19,9 +19,9 @@ class FakeHidraw:
         self._boards: list[FakeBoard] = []
         (folder / "class").mkdir()
         (folder / "dev").mkdir()
-        monkeypatch.setattr("servodeck.port.hid_devices.SYSFS", folder / "class")
-        monkeypatch.setattr("servodeck.port.hid_devices.DEV", folder / "dev")
-        monkeypatch.setattr("servodeck.port.hid_devices.IS_LINUX", True)
+        monkeypatch.setattr("servodeck.port.hid.SYSFS", folder / "class")
+        monkeypatch.setattr("servodeck.port.hid.DEV", folder / "dev")
+        monkeypatch.setattr("servodeck.port.hid.IS_LINUX", True)
 
     def plug(
         self,

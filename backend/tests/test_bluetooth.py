@@ -23,15 +23,16 @@ from servodeck.cli.main import app
 from servodeck.errors import OtherDeviceError, PortDeniedError, PortError, PortLostError, PortMissingError
 from servodeck.port.bluetooth import (
     CHUNK_BYTES,
+    GATHER_S,
     Bluetooth,
     BluetoothPort,
-    Gathered,
     choose,
     explain,
     this_computer,
     write_in_chunks,
 )
 from servodeck.port.link import BackgroundPorts
+from servodeck.port.reader import Gathered
 from servodeck.protocol.decoder import Decoder, DecoderEvent
 from servodeck.protocol.timings import wire_s
 from tests.amount import TIMES
@@ -96,7 +97,7 @@ def test_a_packet_goes_in_pieces_as_fast_as_the_line_behind_the_module(data: byt
 @in_virtual_time
 async def hear(pieces: list[tuple[int, bytes]], heard: list[tuple[float, bytes]]) -> None:
     """Each piece comes so many milliseconds behind the one before."""
-    gathered = Gathered(lambda data: heard.append((round(now() * 1000), data)))
+    gathered = Gathered(lambda data: heard.append((round(now() * 1000), data)), CHUNK_BYTES, GATHER_S)
     for pause_ms, piece in pieces:
         await asyncio.sleep(pause_ms / 1000)
         gathered.add(piece)

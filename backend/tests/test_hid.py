@@ -74,7 +74,7 @@ def test_a_device_that_shares_the_numbers_alone_is_listed_but_not_likely(hidraw:
 
 
 def test_a_computer_without_hid_has_no_boards(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    monkeypatch.setattr("servodeck.port.hid_devices.SYSFS", tmp_path / "none")
+    monkeypatch.setattr("servodeck.port.hid.SYSFS", tmp_path / "none")
     assert names() == []
 
 
@@ -159,7 +159,7 @@ def test_a_board_without_permission_says_what_allows_it(
         raise PermissionError(errno.EACCES, "denied", node)
 
     hidraw.plug()
-    monkeypatch.setattr("servodeck.port.hid_devices.open_device", refuse)
+    monkeypatch.setattr("servodeck.port.hid.open_device", refuse)
     with pytest.raises(HidDeniedError) as refused:
         open_board("hid")
     assert refused.value.detail.endswith(f"sudo {sys.executable} -m servodeck udev-rule --install")
@@ -268,7 +268,7 @@ class FakeHidapi(SimpleNamespace):
 def hidapi(monkeypatch: pytest.MonkeyPatch) -> FakeHidapi:
     library = FakeHidapi()
     monkeypatch.setitem(sys.modules, "hid", library)
-    monkeypatch.setattr("servodeck.port.hid_devices.IS_LINUX", False)
+    monkeypatch.setattr("servodeck.port.hid.IS_LINUX", False)
     return library
 
 
@@ -299,7 +299,7 @@ async def test_elsewhere_a_board_that_goes_is_lost(hidapi: FakeHidapi) -> None:
 
 def test_elsewhere_the_extra_is_named_where_it_is_missing(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "hid", None)
-    monkeypatch.setattr("servodeck.port.hid_devices.IS_LINUX", False)
+    monkeypatch.setattr("servodeck.port.hid.IS_LINUX", False)
     assert names() == []
     with pytest.raises(PortMissingError, match=r"servodeck\[hid\]"):
         open_board("hid")

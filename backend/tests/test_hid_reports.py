@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from servodeck.port.hid import ReportInbox, report_of, split_report
-from servodeck.protocol.decoder import Decoder, DecoderEvent, PacketEvent
+from servodeck.port.hid import report_of
+from servodeck.protocol.decoder import Decoder, DecoderEvent, PacketEvent, ReportDecoder, split_report
 from servodeck.protocol.timings import HID
 from tests.vectors import load_vectors
 
@@ -34,10 +34,9 @@ def test_a_packet_longer_than_a_report_is_never_split() -> None:
 
 def heard(reports: list[bytes]) -> list[DecoderEvent]:
     events: list[DecoderEvent] = []
-    inbox = ReportInbox(events.append)
+    decoder = ReportDecoder(events.append)
     for report in reports:
-        inbox.push(report)
-    inbox.close()
+        decoder.push(report)
     return events
 
 

@@ -23,6 +23,7 @@ from servodeck.errors import (
     PortMissingError,
 )
 from servodeck.port.ports import READ_WAIT_S, PortInfo
+from servodeck.port.reader import Gathered
 from servodeck.port.whereabouts import BLUETOOTH
 from servodeck.protocol import load_shared
 from servodeck.protocol.decoder import LONGEST_PACKET
@@ -236,7 +237,7 @@ class BluetoothPort:
         self._device = device
         self._bluetooth = bluetooth
         self._inbox: queue.SimpleQueue[bytes | None] = queue.SimpleQueue()
-        self._gathered = Gathered(self._inbox.put)
+        self._gathered = Gathered(self._inbox.put, CHUNK_BYTES, GATHER_S)
         self._client: BleakClient | None = None
         self._takes: BleakGATTCharacteristic | None = None
 
@@ -300,28 +301,6 @@ class BluetoothPort:
         return PortLostError(
             f"The Bluetooth connection to {self._device} broke off. Is the robot switched on and near?"
         )
-
-
-class Gathered:
-    """Joins the pieces of what the board said at once: the decoder takes a long pause for its end."""
-
-    def __init__(self, emit: Callable[[bytes], None]) -> None:
-        self._emit = emit
-        self._pieces = b""
-        self._timer: asyncio.TimerHandle | None = None
-
-    def add(self, piece: bytes) -> None:
-        if self._timer:
-            self._timer.cancel()
-        self._pieces += piece
-        if len(piece) == CHUNK_BYTES:
-            self._timer = asyncio.get_running_loop().call_later(GATHER_S, self._release)
-        else:
-            self._release()
-
-    def _release(self) -> None:
-        pieces, self._pieces = self._pieces, b""
-        self._emit(pieces)
 
 
 async def write_in_chunks(data: bytes, write: Callable[[bytes], Awaitable[None]]) -> None:

@@ -8,10 +8,10 @@ import time
 from collections.abc import Awaitable
 from dataclasses import dataclass, field
 
-from servodeck.port.hid import ReportInbox, find_board, is_hid
+from servodeck.port.hid import find_board, is_hid
 from servodeck.port.ports import OpenPort, group_of, open_port
 from servodeck.port.whereabouts import holders_of, is_bluetooth
-from servodeck.protocol.decoder import Decoder, DecoderEvent, PacketEvent
+from servodeck.protocol.decoder import Decoder, DecoderEvent, PacketEvent, ReportDecoder
 from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.packets import encode
 from servodeck.protocol.timings import DECODER, LINE
@@ -103,7 +103,7 @@ def find_rate(device: str) -> tuple[int, Heard] | None:
 def heard_on(port: OpenPort) -> Heard:
     heard = Heard()
     decoder = Decoder(heard.take)
-    inbox = ReportInbox(heard.take) if port.in_reports else decoder
+    inbox = ReportDecoder(heard.take) if port.in_reports else decoder
     until_s = time.monotonic() + LINE.listen_ms / 1000
     while time.monotonic() < until_s and heard.battery_mv is None:
         if data := port.read():

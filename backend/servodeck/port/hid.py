@@ -1,16 +1,21 @@
-"""Boards on their own USB cable, which is HID: which there are, how they are called, one of them as a port.
+"""Boards on their own USB cable, which is HID: the devices as each system offers them, the names of boards,
+and one of them as a port.
 
-`hid:SERIAL` names a board for good, `hid` the only one that is there. A report carries one packet, padded
-with zeros; twin of frontend/src/robot/links/webHid.ts, and shared/protocol/vectors/hid.json holds both. Knows
-no packet's meaning; hid_devices.py knows the systems.
+`hid:SERIAL` names a board for good, `hid` the only one that is there. Linux lists and opens devices by sysfs
+and /dev/hidraw with the standard library, other systems by hidapi, which the extra `servodeck[hid]` brings.
+A report carries one packet, padded with zeros; twin of frontend/src/robot/links/webHid.ts, and
+shared/protocol/vectors/hid.json holds both. Knows no packet's meaning; every call but `write` may block.
 """
 
 import errno
+import os
+import select
 import sys
 from collections import Counter
 from collections.abc import Callable
+from importlib import import_module
 from pathlib import Path
-from typing import Any, Final, TypeVar
+from typing import Any, Final, Protocol, TypeVar
 
 from servodeck.errors import (
     HidDeniedError,
@@ -19,11 +24,8 @@ from servodeck.errors import (
     PortLostError,
     PortMissingError,
 )
-from servodeck.port import hid_devices
-from servodeck.port.hid_devices import HidDevice, OpenDevice
 from servodeck.port.whereabouts import SHARED_NUMBERS, UsbDevice, busy
 from servodeck.protocol import load_shared
-from servodeck.protocol.decoder import HEAD_SIZE, HEADER, LENGTH_AT, Decoder, DecoderEvent, NoiseEvent
 from servodeck.protocol.families import Withheld
 from servodeck.protocol.timings import HID
 from servodeck.value import value
@@ -40,8 +42,167 @@ DENIED = frozenset({errno.EACCES, errno.EPERM})
 BUSY = frozenset({errno.EBUSY, errno.EAGAIN, errno.EWOULDBLOCK})
 
 TAKEN_WITHIN_S = HID.send_timeout_ms / 1000
+SYSFS = Path("/sys/class/hidraw")
+DEV = Path("/dev")
+USB_BUS = 3
+READ_WAIT_S = 0.2
+# Report number 0 goes before the bytes: the devices have no numbered reports.
+REPORT_NUMBER = b"\0"
+IS_LINUX = sys.platform == "linux"
 
 T = TypeVar("T")
+
+
+@value
+class HidDevice:
+    """`node` is what opens it; `serial` and `location` (the socket, `1-1.2`) may be empty."""
+
+    node: str
+    product: str
+    serial: str = ""
+    location: str = ""
+
+
+class OpenDevice(Protocol):
+    """Every failure is an OSError or a ValueError."""
+
+    def fileno(self) -> int | None:
+        """The descriptor to watch for reports; None where the system has none."""
+
+    def read(self) -> bytes:
+        """Waits a moment for a report; empty where none came."""
+
+    def read_now(self) -> bytes:
+        """The report that is there. Only after `fileno` was reported readable."""
+
+    def write(self, report: bytes) -> None:
+        """Returns when the device has taken it, which may be as late as the system gives it up."""
+
+    def close(self) -> None: ...
+
+
+class Hidraw:
+    """One open node of Linux, for this program alone among those that lock it."""
+
+    def __init__(self, node: str) -> None:
+        # Without O_NOCTTY a node that is a terminal, as in tests, would become ours.
+        self._descriptor = os.open(node, os.O_RDWR | os.O_NONBLOCK | os.O_CLOEXEC | os.O_NOCTTY)
+        import fcntl  # not on Windows
+
+        try:
+            fcntl.flock(self._descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError:
+            os.close(self._descriptor)
+            raise
+
+    def fileno(self) -> int | None:
+        return self._descriptor
+
+    def read(self) -> bytes:
+        ready, _, _ = select.select((self._descriptor,), (), (), READ_WAIT_S)
+        return self.read_now() if ready else b""
+
+    def read_now(self) -> bytes:
+        report = os.read(self._descriptor, HID.report_bytes)
+        if not report:
+            raise OSError("the device has hung up")
+        return report
+
+    def write(self, report: bytes) -> None:
+        os.write(self._descriptor, REPORT_NUMBER + report)
+
+    def close(self) -> None:
+        os.close(self._descriptor)
+
+
+def hidraw_devices(vendor: int, product: int) -> list[HidDevice]:
+    try:
+        nodes = sorted(SYSFS.iterdir())
+    except OSError:  # a kernel without HID
+        return []
+    found = (hidraw_device(node, vendor, product) for node in nodes)
+    return [device for device in found if device]
+
+
+def hidraw_device(node: Path, vendor: int, product: int) -> HidDevice | None:
+    """None where it is another one, or goes while it is looked at."""
+    try:
+        facts = facts_in(node / "device/uevent")
+        if facts.get("HID_ID") != f"{USB_BUS:04X}:{vendor:08X}:{product:08X}":
+            return None
+        # The HID device's parent is the USB interface, and that one's the device in the socket.
+        usb = Path(os.path.realpath(node / "device")).parents[1]
+        return HidDevice(
+            str(DEV / facts_in(node / "uevent")["DEVNAME"]),
+            text_in(usb / "product") or facts.get("HID_NAME", ""),
+            facts.get("HID_UNIQ", ""),
+            usb.name,
+        )
+    except (OSError, KeyError):
+        return None
+
+
+def facts_in(file: Path) -> dict[str, str]:
+    return dict(line.split("=", 1) for line in file.read_text("utf-8").splitlines() if "=" in line)
+
+
+def text_in(file: Path) -> str:
+    try:
+        return file.read_text("utf-8").strip()
+    except OSError:
+        return ""
+
+
+class Hidapi:
+    """One device that hidapi has opened; it hands reports only to a thread that waits for them."""
+
+    def __init__(self, node: str) -> None:
+        self._device: Any = import_module("hid").device()
+        self._device.open_path(node.encode())
+
+    def fileno(self) -> int | None:
+        return None
+
+    def read(self) -> bytes:
+        return bytes(self._device.read(HID.report_bytes, round(READ_WAIT_S * 1000)))
+
+    def read_now(self) -> bytes:
+        return self.read()
+
+    def write(self, report: bytes) -> None:
+        if self._device.write(REPORT_NUMBER + report) < 0:
+            raise OSError("the device took no report")
+
+    def close(self) -> None:
+        self._device.close()
+
+
+def hidapi_devices(vendor: int, product: int) -> list[HidDevice]:
+    """None without the extra."""
+    try:
+        listed: list[dict[str, Any]] = import_module("hid").enumerate(vendor, product)
+    except ImportError:
+        return []
+    return [
+        HidDevice(row["path"].decode(), row["product_string"] or "", row["serial_number"] or "")
+        for row in listed
+    ]
+
+
+def has_hidapi() -> bool:
+    try:
+        import_module("hid")
+    except ImportError:
+        return False
+    return True
+
+
+def find_devices(vendor: int, product: int) -> list[HidDevice]:
+    return hidraw_devices(vendor, product) if IS_LINUX else hidapi_devices(vendor, product)
+
+
+def open_device(node: str) -> OpenDevice:
+    return Hidraw(node) if IS_LINUX else Hidapi(node)
 
 
 @value
@@ -63,7 +224,7 @@ def is_hid(name: str) -> bool:
 
 
 def list_boards() -> list[HidBoard]:
-    devices = hid_devices.find_devices(VENDOR, PRODUCT)
+    devices = find_devices(VENDOR, PRODUCT)
     numbers = Counter(device.serial for device in devices)
     return [HidBoard(PREFIX + own_name(device, numbers), device) for device in devices]
 
@@ -90,7 +251,7 @@ def find_board(name: str) -> HidBoard:
 
 
 def missing(name: str) -> str:
-    if not hid_devices.IS_LINUX and not hid_devices.has_hidapi():
+    if not IS_LINUX and not has_hidapi():
         return "For a board's own USB cable this system needs hidapi: pip install 'servodeck[hid]'"
     which = "board on its own USB cable" if name == ANY else name
     return f"There is no {which}. Is the cable plugged in and the board switched on?"
@@ -100,7 +261,7 @@ def open_board(name: str) -> "HidPort":
     """Raises a PortError with a sentence."""
     board = find_board(name)
     try:
-        return HidPort(board.name, hid_devices.open_device(board.device.node))
+        return HidPort(board.name, open_device(board.device.node))
     except (OSError, ValueError) as error:
         raise explain(board, error) from error
 
@@ -112,7 +273,7 @@ def explain(board: HidBoard, error: Exception) -> PortError:
         return HidDeniedError(
             f"This account may not open {name}. Allow it once, then plug the cable in again: {ALLOW_HID}"
         )
-    if number in BUSY or not hid_devices.IS_LINUX:
+    if number in BUSY or not IS_LINUX:
         return busy(name, board.device.node, "another Servodeck, the maker's program")
     return PortMissingError(f"{name} cannot be opened. Is the cable plugged in and the board switched on?")
 
@@ -173,32 +334,3 @@ def report_of(packet: bytes) -> bytes:
     if len(packet) > HidPort.longest_packet:
         raise ValueError(f"{len(packet)} bytes do not fit into a report of {HidPort.longest_packet}")
     return packet.ljust(HidPort.longest_packet, b"\0")
-
-
-def split_report(report: bytes) -> tuple[bytes, bytes]:
-    """The packet at the beginning, empty where none is, and what else is in it, without its padding.
-
-    A second packet in the same report is not believed: it may be left over from the report before.
-    """
-    size = report[LENGTH_AT] + 2 if report[:2] == bytes((HEADER, HEADER)) and len(report) > LENGTH_AT else 0
-    is_whole = HEAD_SIZE <= size <= min(len(report), HidPort.longest_packet)
-    end = size if is_whole else 0
-    return report[:end], report[end:].rstrip(b"\0")
-
-
-class ReportInbox:
-    """Reports in, packets and noise out: each report is complete, so nothing waits for time to pass."""
-
-    def __init__(self, emit: Callable[[DecoderEvent], None]) -> None:
-        self._emit = emit
-        self._decoder = Decoder(emit)
-
-    def push(self, report: bytes) -> None:
-        packet, rest = split_report(report)
-        self._decoder.push(packet)
-        self._decoder.idle()
-        if rest:
-            self._emit(NoiseEvent("garbage", rest))
-
-    def close(self) -> None:
-        """Nothing is under way."""

@@ -1,5 +1,5 @@
-"""From an open port to packets: reads on the event loop, in the way that suits the platform, and notifies the
-decoder when the line has been silent.
+"""From an open port to packets: reads on the event loop, in the way that suits the platform, joins the pieces
+of a report that come by radio, and notifies the decoder when the line has been silent.
 
 Either the descriptor is watched (POSIX: half the CPU of a thread) or a thread waits in `read` (everywhere).
 Knows a port, a loop and the decoder, no client.
@@ -12,9 +12,8 @@ from collections.abc import Callable
 from functools import partial
 
 from servodeck.errors import PortLostError
-from servodeck.port.hid import ReportInbox
 from servodeck.port.ports import OpenPort
-from servodeck.protocol.decoder import Decoder, DecoderEvent
+from servodeck.protocol.decoder import Decoder, DecoderEvent, ReportDecoder
 from servodeck.protocol.timings import LINE
 
 Received = Callable[[bytes], None]
@@ -75,6 +74,32 @@ def read_in_thread(port: OpenPort, received: Received, lost: Lost) -> Stop:
     return stopped.set
 
 
+class Gathered:
+    """Joins the pieces of what the board said at once: the decoder takes a long pause for its end. A piece of
+    `whole_bytes` may have a next one, within `wait_s`.
+    """
+
+    def __init__(self, emit: Received, whole_bytes: int, wait_s: float) -> None:
+        self._emit = emit
+        self._whole_bytes = whole_bytes
+        self._wait_s = wait_s
+        self._pieces = b""
+        self._timer: asyncio.TimerHandle | None = None
+
+    def add(self, piece: bytes) -> None:
+        if self._timer:
+            self._timer.cancel()
+        self._pieces += piece
+        if len(piece) == self._whole_bytes:
+            self._timer = asyncio.get_running_loop().call_later(self._wait_s, self._release)
+        else:
+            self._release()
+
+    def _release(self) -> None:
+        pieces, self._pieces = self._pieces, b""
+        self._emit(pieces)
+
+
 PAUSE_S = LINE.pause_ms / 1000
 SILENCE_S = LINE.idle_ms / 1000
 
@@ -98,5 +123,5 @@ class Inbox:
             timer.cancel()
 
 
-def inbox_of(port: OpenPort, emit: Callable[[DecoderEvent], None]) -> Inbox | ReportInbox:
-    return ReportInbox(emit) if port.in_reports else Inbox(emit)
+def inbox_of(port: OpenPort, emit: Callable[[DecoderEvent], None]) -> Inbox | ReportDecoder:
+    return ReportDecoder(emit) if port.in_reports else Inbox(emit)

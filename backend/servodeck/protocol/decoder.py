@@ -8,7 +8,7 @@ shared/protocol/vectors/streams.json holds both.
 from collections.abc import Callable, Iterator
 from typing import Final, Literal
 
-from servodeck.protocol.timings import DECODER
+from servodeck.protocol.timings import DECODER, HID
 from servodeck.value import value
 
 RawBytes = bytes
@@ -235,3 +235,29 @@ class Decoder:
                 return True
             inner = data.find(HEADER, inner + 1, following)
         return False
+
+
+def split_report(report: bytes) -> tuple[bytes, bytes]:
+    """The packet at the beginning, empty where none is, and what else is in it, without its padding.
+
+    A second packet in the same report is not believed: it may be left over from the report before.
+    """
+    size = report[LENGTH_AT] + 2 if report[:2] == bytes((HEADER, HEADER)) and len(report) > LENGTH_AT else 0
+    is_whole = HEAD_SIZE <= size <= min(len(report), HID.report_bytes)
+    end = size if is_whole else 0
+    return report[:end], report[end:].rstrip(b"\0")
+
+
+class ReportDecoder:
+    """The same for HID reports, each of which carries one packet and is complete: it waits for no silence."""
+
+    def __init__(self, emit: Callable[[DecoderEvent], None]) -> None:
+        self._emit = emit
+        self._decoder = Decoder(emit)
+
+    def push(self, report: bytes) -> None:
+        packet, rest = split_report(report)
+        self._decoder.push(packet)
+        self._decoder.idle()
+        if rest:
+            self._emit(NoiseEvent("garbage", rest))
