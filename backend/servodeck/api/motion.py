@@ -18,8 +18,7 @@ from servodeck.api.websocket import play as play_for_page
 from servodeck.callers import Caller
 from servodeck.errors import CancelledError, MalformedError, NotFoundError, OutOfRangeError
 from servodeck.intents import ContinueMs, FrameBody, MessageId, Nonce, PersonId, PlayIntent, Servo
-from servodeck.protocol.families import Family
-from servodeck.protocol.limits import UNITS
+from servodeck.protocol.families import UNITS, Family
 from servodeck.protocol.values import Frame
 from servodeck.robot.board.download import Group, parts_of
 from servodeck.robot.board.playing import FrameGroup

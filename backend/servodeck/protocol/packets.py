@@ -9,12 +9,12 @@ from typing import Literal, assert_never
 
 from servodeck.errors import MalformedError
 from servodeck.protocol.decoder import COMMAND_AT, HEADER, Packet
-from servodeck.protocol.families import CommandKind, Family, Range
-from servodeck.protocol.limits import check, check_range
+from servodeck.protocol.families import Family, Range, check, check_range
 from servodeck.protocol.values import (
     AllPositions,
     Battery,
     Command,
+    CommandKind,
     Download,
     Erase,
     Erased,

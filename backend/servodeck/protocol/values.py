@@ -6,8 +6,22 @@ The same values as shared/src/codec/commands.ts and reports.ts.
 from collections.abc import Sequence
 from typing import ClassVar, Literal
 
-from servodeck.protocol.families import CommandKind
 from servodeck.value import value
+
+CommandKind = Literal[
+    "move",
+    "run",
+    "stop",
+    "erase",
+    "readBattery",
+    "download",
+    "setSpeed",
+    "release",
+    "readPositions",
+    "readVersion",
+    "readAllPositions",
+    "readOffsets",
+]
 
 
 @value

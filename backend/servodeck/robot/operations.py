@@ -12,8 +12,7 @@ from typing import TYPE_CHECKING, Protocol
 
 from servodeck.errors import CancelledError, GatewayError, MovingError, NoAnswerError
 from servodeck.port.wire import Left
-from servodeck.protocol.families import Family
-from servodeck.protocol.limits import check
+from servodeck.protocol.families import Family, check
 from servodeck.protocol.packets import MOVE, portions_of
 from servodeck.protocol.timings import RUN
 from servodeck.protocol.values import Command, Erase, Erased, Release, Run, RunAccepted, RunStarted, SetSpeed

@@ -10,8 +10,7 @@ from dataclasses import replace
 from servodeck.callers import Caller, Role
 from servodeck.errors import CancelledError, MalformedError, MovingError, NotSupportedError
 from servodeck.port.wire import STOP_PACKET, Job, Left
-from servodeck.protocol.families import FAMILIES
-from servodeck.protocol.limits import check
+from servodeck.protocol.families import FAMILIES, check
 from servodeck.protocol.packets import (
     DOWNLOAD,
     ERASE,

@@ -12,8 +12,7 @@ from typing import Any, Literal, TypeVar
 from servodeck.callers import Caller, as_script
 from servodeck.errors import CancelledError, MovingError, NotPairedError, OutOfRangeError
 from servodeck.port.wire import Left
-from servodeck.protocol.families import Family
-from servodeck.protocol.limits import check
+from servodeck.protocol.families import Family, check
 from servodeck.protocol.packets import portions_of
 from servodeck.protocol.values import Move, ServoTarget
 from servodeck.robot.board.download import Part

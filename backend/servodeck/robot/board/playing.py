@@ -13,8 +13,7 @@ from dataclasses import replace
 
 from servodeck.errors import CancelledError, GatewayError, MovingError, OutOfRangeError
 from servodeck.port.wire import Left
-from servodeck.protocol.families import Family
-from servodeck.protocol.limits import check, check_range
+from servodeck.protocol.families import Family, check, check_range
 from servodeck.protocol.timings import MOVE, PLAY
 from servodeck.protocol.values import Frame, Move, ServoTarget, extremes_of
 from servodeck.robot.board.move_buffer import MoveBuffer, MoveRequest
