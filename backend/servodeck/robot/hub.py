@@ -1,5 +1,6 @@
 """The sessions of connected clients, each with a bounded outbox, so that a client that does not read stalls
-no other; and the commands that have left the wire, which are sent to all of them.
+no other; the commands that have left the wire, which are sent to all of them; and how often a state is
+published that changes often.
 
 Knows sessions, callers, texts and commands; no socket, no other message's meaning, no port.
 """
@@ -139,6 +140,33 @@ class Hub:
         for session in self._sessions:
             if session is not but:
                 session.put(text)
+
+
+class Throttle:
+    """Publishes a state that changes often: at once, but not more often than every `every_s`; then the latest
+    one at the end of that time.
+    """
+
+    def __init__(self, publish: Callable[[], None], every_s: float, now: Callable[[], float]) -> None:
+        self._publish = publish
+        self._every_s = every_s
+        self._now = now
+        self._published_s = float("-inf")
+        self._timer: asyncio.TimerHandle | None = None
+
+    def soon(self) -> None:
+        if self._timer is None:
+            delay_s = self._published_s + self._every_s - self._now()
+            if delay_s > 0:
+                self._timer = asyncio.get_running_loop().call_later(delay_s, self.at_once)
+            else:
+                self.at_once()
+
+    def at_once(self) -> None:
+        if self._timer:
+            self._timer.cancel()
+        self._timer, self._published_s = None, self._now()
+        self._publish()
 
 
 FLUSH_S = 0.05

@@ -17,7 +17,7 @@ from servodeck.protocol.families import Family, check, check_range
 from servodeck.protocol.timings import MOVE, PLAY
 from servodeck.protocol.values import Frame, Move, ServoTarget, extremes_of
 from servodeck.robot.board.move_buffer import MoveBuffer, MoveRequest
-from servodeck.robot.hub import Session
+from servodeck.robot.hub import Session, Throttle
 from servodeck.snapshots import PlayState
 from servodeck.value import value
 
@@ -217,13 +217,12 @@ class Plays:
     ) -> None:
         """`events` is called with the progress of the latest play."""
         self._moves = moves
-        self._publish = events
+        self._events = events
         self._now = now
+        self._progress = Throttle(self._publish, PUBLISH_EVERY_S, now)
         self.present: Playing | None = None
         self.latest: PlayState | None = None
         self._ended: Callable[[PlayState], None] = lambda _: None
-        self._published_s = float("-inf")
-        self._publish_timer: asyncio.TimerHandle | None = None
 
     def begin(
         self,
@@ -262,14 +261,8 @@ class Plays:
             )
 
     def _changed(self, state: PlayState) -> None:
-        """At once, but not more often than a person can see."""
         self.latest = state
-        if self._publish_timer is None:
-            delay_s = max(0.0, self._published_s + PUBLISH_EVERY_S - self._now())
-            if delay_s:
-                self._publish_timer = asyncio.get_running_loop().call_later(delay_s, self._publish_latest)
-            else:
-                self._publish_latest()
+        self._progress.soon()
 
     def _finish(self, play: Playing, error: GatewayError | None) -> None:
         if play is not self.present:
@@ -279,12 +272,9 @@ class Plays:
         log.info("play %s", play.state.status, extra={"facts": {"code": play.state.code}})
         self.latest, ended = play.state, self._ended
         self._ended = lambda _: None
-        self._publish_latest()
+        self._progress.at_once()
         ended(play.state)
 
-    def _publish_latest(self) -> None:
-        if self._publish_timer:
-            self._publish_timer.cancel()
-        self._publish_timer, self._published_s = None, self._now()
+    def _publish(self) -> None:
         if self.latest:
-            self._publish(self.latest)
+            self._events(self.latest)

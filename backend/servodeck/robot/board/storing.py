@@ -26,6 +26,7 @@ from servodeck.protocol.values import Command, Erase, Erased, Report, Run
 from servodeck.robot.board.download import EDGE_FRAME_TIMEOUT_S, Download, Job, Part
 from servodeck.robot.board.replies import Replies
 from servodeck.robot.board.slots import SlotMemory
+from servodeck.robot.hub import Throttle
 from servodeck.snapshots import JobState, StoredGroup
 
 REMEMBERED = 16
@@ -55,8 +56,7 @@ class Jobs:
         self._replies = replies
         self._known: dict[str, Job] = {}
         self._current: Job | None = None
-        self._published_s = float("-inf")
-        self._publish_timer: asyncio.TimerHandle | None = None
+        self._progress = Throttle(self._publish, PUBLISH_EVERY_S, now)
         # Until then the board may acknowledge a frame that no download waits for any more.
         self._owed_until_s = float("-inf")
         self._erasing_until_s = float("-inf")
@@ -77,7 +77,7 @@ class Jobs:
             del self._known[old]
         facts = {"slots": job.state.slots, "frames": job.state.frame_count}
         log.info("download begun", extra={"facts": facts})
-        self._publish(job)
+        self._progress.at_once()
         job.task = asyncio.create_task(self._run(job))
         return job.state
 
@@ -94,7 +94,7 @@ class Jobs:
         if job.by.id != by.id:
             raise NotDrivingError(f"{job.state.by} began that download: only the same client may add to it.")
         job.add(parts)
-        self._publish(job)
+        self._progress.at_once()
         return job.state
 
     def cancel(self, job_id: str) -> JobState:
@@ -200,7 +200,7 @@ class Jobs:
         job.note_whole()
         self._events.group_stored(part)
         self._events.slots_changed()
-        self._publish(job)
+        self._progress.at_once()
 
     def _finish(self, job: Job, error: GatewayError | None) -> None:
         self._current = None
@@ -213,19 +213,15 @@ class Jobs:
         facts = {"slot": job.state.slot, "code": job.state.code, "detail": job.state.detail}
         log.info("download %s", job.state.status, extra={"facts": facts})
         self._events.slots_changed()
-        self._publish(job)
+        self._progress.at_once()
 
     def _progressed(self, job: Job, frames: int) -> None:
         job.note(frames)
-        if self._publish_timer is None:
-            delay_s = max(0.0, self._published_s + PUBLISH_EVERY_S - self._now())
-            self._publish_timer = asyncio.get_running_loop().call_later(delay_s, self._publish, job)
+        self._progress.soon()
 
-    def _publish(self, job: Job) -> None:
-        if self._publish_timer:
-            self._publish_timer.cancel()
-        self._publish_timer, self._published_s = None, self._now()
-        self._events.job_changed(job.state)
+    def _publish(self) -> None:
+        if self.latest:
+            self._events.job_changed(self.latest)
 
     def _found(self, job_id: str) -> Job:
         with suppress(KeyError):
