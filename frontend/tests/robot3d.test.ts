@@ -60,6 +60,27 @@ test('a typed place is one slow move; out of reach nothing moves', async ({ dash
   expect(ofKind(await robot.bus(), 'move')).toHaveLength(moves);
 });
 
+test('the elbow goes to the other side, and the gripper comes back to its place', async ({
+  dashboard,
+  page,
+  robot,
+}) => {
+  const model = await openStraight({ dashboard, page });
+  await dashboard.button('Other elbow').click();
+  await expect(dashboard.notices).toContainText('the arm does not get there');
+  await dashboard.type(model.along('Up'), 300);
+  await dashboard.type(model.along('Forward'), 150);
+  await advance(3000);
+  const before = await lastTarget(robot.bus, 4);
+  await dashboard.button('Other elbow').click();
+  await advance(3000);
+  await expect(model.along('Up')).toHaveValue('300');
+  await expect(model.along('Forward')).toHaveValue('150');
+  const after = await lastTarget(robot.bus, 4);
+  expect(Math.sign((after ?? 0) - 1500)).toBe(-Math.sign((before ?? 0) - 1500));
+  expect(ofKind(await robot.bus(), 'move').at(-1)?.durationMs).toBeGreaterThanOrEqual(300);
+});
+
 test('a locked servo stays where it is while the end is led', async ({ dashboard, page, robot }) => {
   const model = await openStraight({ dashboard, page });
   await page.getByRole('radio', { name: 'List' }).check();

@@ -314,6 +314,8 @@ export interface Messages {
       readonly z: string;
     };
     readonly mm: string;
+    readonly otherElbow: string;
+    readonly noOtherElbow: string;
     readonly outOfReach: (values: { readonly missMm: number }) => string;
     readonly look: string;
     readonly missing: string;

@@ -13,7 +13,8 @@ import {
   scaled,
   type Vec3,
 } from './chain.ts';
-import { follow, reach } from './inverse.ts';
+import { evenly } from '../testing/cases.ts';
+import { flip, follow, reach } from './inverse.ts';
 
 const HALF = Math.PI / 2;
 const joint = (name: string, origin: Vec3, axis: Vec3, min = -HALF, max = HALF): ChainJoint => ({
@@ -113,4 +114,31 @@ test('a drag in small steps turns the joints in small steps', () => {
     }),
     { numRuns: 500 },
   );
+});
+
+test('the other elbow leaves the tip where it is, and back again', () => {
+  const angleOf = evenly(-HALF, HALF);
+  const bent = fc.tuple(angleOf, angleOf, angleOf, angleOf);
+  let flipped = 0;
+  let returned = 0;
+  fc.assert(
+    fc.property(bent, (from) => {
+      const { tip } = poseOfChain(ARM, from);
+      const other = flip(ARM, from, null);
+      if (other === null) return;
+      flipped += 1;
+      expect(lengthOf(minus(poseOfChain(ARM, other.angles).tip, tip))).toBeLessThan(1e-3);
+      expect(other.angles.every((one) => one >= -HALF && one <= HALF)).toBe(true);
+      const back = flip(ARM, other.angles, null);
+      if (back === null) return;
+      returned += 1;
+      expect(Math.sign(other.angles[2] ?? 0)).toBe(-Math.sign(from[2]));
+      expect(Math.sign(back.angles[2] ?? 0)).toBe(Math.sign(from[2]));
+    }),
+    { numRuns: 300 },
+  );
+  expect(flip(ARM, [0.3, 0.4, 0, 0], null)).toBeNull();
+  expect(flipped).toBeGreaterThan(100);
+  // Folded up to its limits an arm may find no way back.
+  expect(returned / flipped).toBeGreaterThan(0.95);
 });

@@ -6,6 +6,7 @@ import {
   type Chain,
   type ChainPose,
   cross,
+  dot,
   lengthOf,
   minus,
   poseOfChain,
@@ -53,6 +54,47 @@ export function reach(chain: Chain, from: readonly number[], wish: Wish): Soluti
   }
   return best;
 }
+
+/**
+ * The place where the tip is, with the elbow bent the other way; null where its limits do not allow that. The pointing stays,
+ * where it can.
+ */
+export function flip(chain: Chain, from: readonly number[], rise: Wish['rise']): Solution | null {
+  const pose = poseOfChain(chain, from);
+  const side = sideOf(pose);
+  if (side === 0) return null;
+  for (const wanted of new Set([rise ?? pose.pointing[2], rise])) {
+    const wish: Wish = { tip: pose.tip, rise: wanted };
+    const starts = Array.from({ length: STARTS }, (_, start) => startOf(chain, start + 1));
+    const found = [mirrored(chain, from), ...starts]
+      .map((start) => descend(chain, start, wish))
+      .filter(({ angles, cost }) => cost <= SAME_M && sideOf(poseOfChain(chain, angles)) === -side)
+      .sort((one, other) => turnOf(from, one.angles) - turnOf(from, other.angles));
+    if (found[0] !== undefined) return found[0];
+  }
+  return null;
+}
+
+/** Which way the third joint bends, from the joint before it to the next one: 1, -1, or 0 for straight. */
+function sideOf({ joints, tip }: ChainPose): number {
+  const [before, elbow] = [joints[ELBOW - 1], joints[ELBOW]];
+  if (before === undefined || elbow === undefined) return 0;
+  const next = joints.slice(ELBOW + 1).find(({ at }) => lengthOf(minus(at, elbow.at)) > SAME_M);
+  const [near, far] = [minus(elbow.at, before.at), minus(next?.at ?? tip, elbow.at)];
+  const sine = dot(cross(near, far), elbow.axis) / (lengthOf(near) * lengthOf(far) || 1);
+  return Math.abs(sine) < STRAIGHT ? 0 : Math.sign(sine);
+}
+
+/** A degree. */
+const STRAIGHT = 0.0175;
+/** Base, shoulder, elbow. */
+const ELBOW = 2;
+
+const mirrored = ({ joints }: Chain, from: readonly number[]): readonly number[] =>
+  joints.map((joint, index) => clamped((index < ELBOW ? 1 : -1) * (from[index] ?? 0), joint));
+
+const turnOf = (from: readonly number[], to: readonly number[]): number =>
+  to.reduce((most, angle, index) => Math.max(most, Math.abs(angle - (from[index] ?? 0))), 0);
 
 type Found = Solution & { readonly cost: number };
 

@@ -6,11 +6,21 @@ import { Plane, Vector3 } from 'three';
 import type { Vec3 } from '#shared/kinematics/chain.ts';
 import { type Robot, servoOf } from '#shared/profile/robot.ts';
 import { words } from '../../../i18n/whole.ts';
+import { Button } from '../../../ui/Button.tsx';
 import { NumberField } from '../../../ui/NumberField.tsx';
 import { freeOf, isLocked } from '../../servoView.ts';
 import { guessNow, useStores, type Stores } from '../../stores.ts';
 import { useMotions } from '../useMotions.ts';
-import { type LedLimb, inMm, type Leading, type Led, leadTo, poseOfLimb, takeLimb } from './limbs.ts';
+import {
+  type LedLimb,
+  inMm,
+  type Leading,
+  type Led,
+  flipElbow,
+  leadTo,
+  poseOfLimb,
+  takeLimb,
+} from './limbs.ts';
 import type { Model } from './model.ts';
 import styles from './RobotView.module.css';
 
@@ -180,6 +190,28 @@ export function PlaceFields({ limb, isLevel, isBlocked }: LimbProps) {
         </span>
       ))}
     </div>
+  );
+}
+
+/** One slow move of the whole arm; the tip leaves its place on the way. */
+export function ElbowButton({ limb, isLevel, isBlocked }: LimbProps) {
+  const stores = useStores();
+
+  function turn(): void {
+    const leading = limbNow(stores, limb);
+    if (leading === null) return;
+    const targets = flipElbow(leading, stores.robots.current().robot, {
+      rise: isLevel ? 0 : null,
+      isLocked: (servo) => isLocked(stores, servo),
+    });
+    if (targets === null) stores.notices.refuse(words.robot3d.noOtherElbow);
+    else stores.device.move(freeOf(stores, targets), 'leap');
+  }
+
+  return (
+    <Button tone="quiet" isDisabled={isBlocked} onPress={turn}>
+      {words.robot3d.otherElbow}
+    </Button>
   );
 }
 

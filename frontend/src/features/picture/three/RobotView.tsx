@@ -37,7 +37,7 @@ import type { Pose } from '../pose.ts';
 import { UnknownNote } from '../UnknownNote.tsx';
 import { parseUrdf } from './figure.ts';
 import { JointKnob, placeKnob } from './JointKnob.tsx';
-import { LimbHandle, placeHandles, PlaceFields } from './LimbHandle.tsx';
+import { ElbowButton, LimbHandle, placeHandles, PlaceFields } from './LimbHandle.tsx';
 import { type LedLimb, limbsOfModel, belowFloorAtMs, pathOf, type PathPoint } from './limbs.ts';
 import { createModel, type Model } from './model.ts';
 import { createStage, type Stage } from './stage.ts';
@@ -198,6 +198,7 @@ export function RobotView() {
             <>
               <PlaceFields limb={limbs[0]} {...{ isLevel, isBlocked }} />
               <Toggle label={words.robot3d.level} isOn={isLevel} onChange={setLevel} />
+              <ElbowButton limb={limbs[0]} {...{ isLevel, isBlocked }} />
             </>
           )}
         </div>

@@ -25,7 +25,7 @@ import {
 import { carriersOf, isJoint } from './figure.ts';
 import { jointName, TIP } from './urdf.ts';
 import type { ServoTarget } from '#shared/codec/commands.ts';
-import { follow, reach, type Solution, type Wish } from '#shared/kinematics/inverse.ts';
+import { flip, follow, reach, type Solution, type Wish } from '#shared/kinematics/inverse.ts';
 import { degreesOf, positionOf, type Robot, type RobotServo, servoOf } from '#shared/profile/robot.ts';
 import type { ActionGroup } from '#shared/group/group.ts';
 import { timesOf } from '#shared/group/groupTimes.ts';
@@ -136,13 +136,32 @@ export function leadTo(leading: Leading, robot: Robot, { how, isLocked, ...wish 
   const { limb, angles } = leading;
   const chain = withLocks(limb, angles, isLocked);
   const { angles: found, missM }: Solution = (how === 'follow' ? follow : reach)(chain, angles, wish);
-  const targets = limb.servos.flatMap((number, index): readonly ServoTarget[] => {
+  const targets = targetsOf(limb, robot, found, isLocked);
+  return { leading: { limb, angles: found }, targets, missM };
+}
+
+function targetsOf(
+  { servos }: LedLimb,
+  robot: Robot,
+  angles: readonly number[],
+  isLocked: Lead['isLocked'],
+): readonly ServoTarget[] {
+  return servos.flatMap((number, index): readonly ServoTarget[] => {
     const servo = servoOf(robot, number);
     if (servo === undefined || isLocked(number)) return [];
-    const wanted = positionOf(servo, (found[index] ?? 0) / RADIANS);
+    const wanted = positionOf(servo, (angles[index] ?? 0) / RADIANS);
     return [{ servo: number, position: Math.min(servo.max, Math.max(servo.min, wanted)) }];
   });
-  return { leading: { limb, angles: found }, targets, missM };
+}
+
+/** The same place with the elbow bent the other way; null: this arm cannot, as it stands. */
+export function flipElbow(
+  leading: Leading,
+  robot: Robot,
+  { isLocked, rise }: Pick<Lead, 'isLocked' | 'rise'>,
+) {
+  const found = flip(withLocks(leading.limb, leading.angles, isLocked), leading.angles, rise);
+  return found === null ? null : targetsOf(leading.limb, robot, found.angles, isLocked);
 }
 
 /** A locked joint is one whose limits are where it stands. */
