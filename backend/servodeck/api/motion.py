@@ -1,8 +1,7 @@
 """The HTTP interface that moves the robot: moves, poses, runs, the lease, and whole groups, to be downloaded
 to the board or played by the gateway.
 
-Translates requests for `scripts` and the robot profile; decides which pose a name means.
-
+Translates requests for `scripts` and the robot profile, and decides nothing.
 """
 
 import asyncio
@@ -16,9 +15,8 @@ from starlette.requests import HTTPConnection
 from servodeck.api.routes import DRIVER, OWNER, VIEWER, Controlled, routes
 from servodeck.api.websocket import play as play_for_page
 from servodeck.callers import Caller
-from servodeck.errors import CancelledError, MalformedError, NotFoundError, OutOfRangeError
+from servodeck.errors import CancelledError, MalformedError
 from servodeck.intents import ContinueMs, FrameBody, MessageId, Nonce, PersonId, PlayIntent, Servo
-from servodeck.protocol.families import UNITS, Family
 from servodeck.protocol.values import Frame
 from servodeck.robot.board.download import Group, parts_of
 from servodeck.robot.board.playing import FrameGroup
@@ -189,7 +187,7 @@ poses_api = routes("/api/poses", "poses")
 async def list_poses(control: Controlled) -> Poses:
     """The poses of the robot on the board, with its name; number 0 is home. Positions as the board counts."""
     facts = control.robot.facts
-    return Poses(robot=facts.name if facts else "", poses=facts.poses if facts else [])
+    return Poses(robot=facts.name, poses=facts.poses) if facts else Poses(robot="", poses=[])
 
 
 @poses_api.post("/{pose}/apply", dependencies=ONCE_IDENTIFIED)
@@ -203,29 +201,9 @@ async def apply(
 ) -> MoveBegun:
     """Moves the robot to the pose of that number or name, in the same way as `move`."""
     control.board.identification.judge_known()
-    found = find((await list_poses(control)).poses, pose)
-    judge_unit(found, control.board.family)
+    found = control.robot.pose(pose, control.board.family)
     positions = {target.servo: target.position for target in found.targets}
     return await begin_move(request, caller, scripts, wish.time_ms, positions, take=wish.take)
-
-
-def find(poses: Sequence[NamedPose], wanted: str) -> NamedPose:
-    """By its number or its name. Raises NotFoundError, or OutOfRangeError where a name is not enough."""
-    found = [pose for pose in poses if wanted in (str(pose.id), pose.name)]
-    exact = [pose for pose in found if str(pose.id) == wanted] or found
-    if not exact:
-        raise NotFoundError(f"No pose is called {wanted}. GET /api/poses lists them.")
-    if len(exact) > 1:
-        numbers = ", ".join(str(pose.id) for pose in exact)
-        raise OutOfRangeError(f"Several poses are called {wanted}: use a number instead, {numbers}.")
-    return exact[0]
-
-
-def judge_unit(pose: NamedPose, family: Family) -> None:
-    if pose.unit != family.unit:
-        raise OutOfRangeError(
-            f"{pose.name} is in {UNITS[pose.unit]}; a {family.name} uses {UNITS[family.unit]}."
-        )
 
 
 Version = Annotated[str, Field(max_length=64)]

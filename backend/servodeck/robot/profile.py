@@ -11,10 +11,10 @@ from collections.abc import Callable, Iterable, Sequence
 from servodeck.errors import ConflictError, GatewayError, MovingError, NotFoundError, OutOfRangeError
 from servodeck.files import Remembered
 from servodeck.port.wire import Owner
-from servodeck.protocol.families import FAMILIES, UNKNOWN
+from servodeck.protocol.families import FAMILIES, UNITS, UNKNOWN, Family
 from servodeck.protocol.values import Command, Move, ServoTarget
 from servodeck.robot.board.board import Board
-from servodeck.snapshots import RobotFacts, RobotState, ServoLimits
+from servodeck.snapshots import NamedPose, RobotFacts, RobotState, ServoLimits
 from servodeck.threads import in_thread
 
 
@@ -103,6 +103,25 @@ class RobotOfBoard:
 
     def snapshot(self) -> RobotState | None:
         return RobotState(id=self._document, revision=self._revision) if self._document else None
+
+    def pose(self, wanted: str, family: Family) -> NamedPose:
+        """By its number or its name. Raises NotFoundError, or OutOfRangeError where a name is not enough, or
+        where the pose is in another unit than such a board uses.
+        """
+        poses = self.facts.poses if self.facts else []
+        found = [pose for pose in poses if wanted in (str(pose.id), pose.name)]
+        exact = [pose for pose in found if str(pose.id) == wanted] or found
+        if not exact:
+            raise NotFoundError(f"No pose is called {wanted}. GET /api/poses lists them.")
+        if len(exact) > 1:
+            numbers = ", ".join(str(pose.id) for pose in exact)
+            raise OutOfRangeError(f"Several poses are called {wanted}: use a number instead, {numbers}.")
+        [pose] = exact
+        if pose.unit != family.unit:
+            raise OutOfRangeError(
+                f"{pose.name} is in {UNITS[pose.unit]}; a {family.name} uses {UNITS[family.unit]}."
+            )
+        return pose
 
     def use_board(self, family: str, place: str) -> None:
         """That board is connected: its remembered robot is on it from now on. Nothing moves until its limits
