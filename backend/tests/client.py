@@ -84,7 +84,7 @@ class Client(Session):
     def _answer(self, nonce: str) -> None:
         if self.beats:
             self.nonce = nonce
-            self.control.driving.beat(self, nonce)
+            self.control.driving.lease.heartbeat(self, nonce)
 
 
 def packet_of(left: dict[str, Any], control: Control) -> bytes:

@@ -16,6 +16,7 @@ from servodeck.access import addresses
 from servodeck.access.connections import EXTENSION
 from servodeck.api.app import create_app
 from servodeck.api.robot import SILENCE_S
+from servodeck.events import NoiseMessage
 from servodeck.robot.control import Control
 from servodeck.robot.hub import OUTBOX_MESSAGES
 from tests.fake_port import FakePort, FakePorts
@@ -185,7 +186,7 @@ async def test_over_a_real_socket_a_listener_who_does_not_read_is_cut() -> None:
                 while len(running.control.hub) == 0:  # noqa: ASYNC110 (nothing announces it)
                     await asyncio.sleep(0)
                 while len(running.control.hub) > 0:
-                    running.control.hub.send_all("x" * 4096)
+                    running.control.hub.send_all(NoiseMessage(reason="garbage", bytes="55" * 2048))
                     await asyncio.sleep(0)
                 while running.server.server_state.connections:  # noqa: ASYNC110 (nothing announces it)
                     await asyncio.sleep(0)

@@ -55,7 +55,7 @@ def test_a_request_passes_when_the_driver_has_said_nothing_for_five_seconds() ->
     assert lease.granted_in_s(1.1) == pytest.approx(4.0)
     for beat in range(1, 20):
         at_s = beat * 0.25
-        lease.beat("anna", lease.issue(at_s))
+        lease.heartbeat("anna", lease.issue(at_s))
         lease.advance(at_s)
     assert lease.driver == "anna"
     lease.advance(0.1 + ANSWER_S)
@@ -139,7 +139,7 @@ def test_a_driver_that_is_heard_again_in_time_continues_driving() -> None:
     lease.request("anna", 0.0)
     lease.advance(3.0)
     recorder.take()
-    lease.beat("anna", lease.issue(3.0))
+    lease.heartbeat("anna", lease.issue(3.0))
     lease.advance(3.0 + QUIET_S)
     assert (lease.driver, recorder.take()) == ("anna", ["quiet"])
 
@@ -174,9 +174,9 @@ def test_an_old_nonce_is_no_sign_of_life() -> None:
     lease.request("anna", 0.0)
     recorder.take()
     old = lease.issue(0.0)
-    lease.beat("anna", old)
-    lease.beat("anna", old)
-    lease.beat("bert", lease.issue(0.5))
+    lease.heartbeat("anna", old)
+    lease.heartbeat("anna", old)
+    lease.heartbeat("bert", lease.issue(0.5))
     lease.advance(QUIET_S)
     assert recorder.take() == ["quiet"]
 
@@ -197,7 +197,7 @@ def test_a_command_counts_from_its_nonce_at_the_gate_and_again_at_the_port() -> 
 def test_what_had_to_wait_for_an_end_may_begin_as_long_as_its_driver_is_heard() -> None:
     lease, _ = new_lease()
     lease.request("anna", 0.0)
-    lease.beat("anna", lease.issue(1.0))
+    lease.heartbeat("anna", lease.issue(1.0))
     lease.judge(lease.renewed_permit("anna", 1.0 + QUIET_S), 1.0 + QUIET_S)
     with pytest.raises(ExpiredError):
         lease.renewed_permit("anna", 1.001 + QUIET_S)

@@ -71,7 +71,7 @@ class TwoDrivers(RuleBasedStateMachine):
     def beats(self, who: str, back: int) -> None:
         """With its newest nonce, or, as a frozen tab that wakes, with an old one."""
         for nonce, told_s, epoch in self.given[who][-back:][:1]:
-            self.lease.beat(who, nonce)
+            self.lease.heartbeat(who, nonce)
             if who == self.lease.driver and epoch == self.lease.epoch:
                 self.echoed_s = max(self.echoed_s, told_s)
 

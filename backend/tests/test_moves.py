@@ -25,10 +25,10 @@ from servodeck.errors import (
     OutOfRangeError,
 )
 from servodeck.intents import MoveMessage, Target
-from servodeck.port.wire import QUEUE_PER_OWNER, Left, Owner
+from servodeck.port.wire import QUEUE_PER_OWNER, Left
 from servodeck.protocol import packets
 from servodeck.protocol.packets import encode, parse_command
-from servodeck.protocol.values import Command, Move, ServoTarget
+from servodeck.protocol.values import Move, ServoTarget
 from servodeck.robot.board.move_buffer import FIRST_MOVE_MS, FIRST_MOVE_STAGGER_S
 from servodeck.robot.control import Control
 from servodeck.robot.lease import COMMAND_S, QUIET_S
@@ -427,15 +427,15 @@ async def check(asked: list[tuple[int, str | dict[int, int]]]) -> None:
                 said.append(ask(anna, positions=dict.fromkeys(what, position)))
 
         wished: list[tuple[float, bytes]] = []
-        send_leaving = control.leaving
+        write = port.write
 
-        def leaving(owner: Owner, command: Command, at_s: float) -> None:
+        def note(data: bytes) -> None:
             """The hold of a stop was not requested."""
             if not control.board.link.wire().is_halting:
-                wished.append((now(), encode(command, control.board.family)))
-            send_leaving(owner, command, at_s)
+                wished.append((now(), data))
+            write(data)
 
-        control.leaving = leaving  # type: ignore[method-assign]
+        port.write = note  # type: ignore[method-assign]
         for number, (at_ms, what) in enumerate(asked):
             at(begun_s + at_ms / 1000 + number / 1e6, partial(act, number, what))
         await asyncio.sleep(4)

@@ -110,7 +110,7 @@ async def test_a_page_drops_its_packets_and_is_not_heard_before_the_answer(how: 
 async def test_every_loss_of_the_lease_raises_the_epoch(how: str) -> None:
     async with script() as here:
         await here.move(1500, s1=2000)
-        before = here.control.driving.epoch
+        before = here.control.driving.lease.epoch
         if how == "release":
             await here.post("lease", action="release")
         elif how == "silence":
@@ -118,7 +118,7 @@ async def test_every_loss_of_the_lease_raises_the_epoch(how: str) -> None:
         else:
             await disconnect(here, how)
         assert here.control.driving.driver is None
-        assert here.control.driving.epoch == before + 1
+        assert here.control.driving.lease.epoch == before + 1
 
 
 @pytest.mark.parametrize("how", [REVOKE, DEMOTE])

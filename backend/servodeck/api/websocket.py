@@ -314,7 +314,9 @@ ACTS: dict[type[AnyClientMessage], Callable[[Any, Session, Control], None]] = {
     LeaseMessage: act_on_lease,
     GrantMessage: grant,
     ContinueMessage: allow_unattended,
-    HeartbeatMessage: lambda message, session, control: control.driving.beat(session, message.nonce),
+    HeartbeatMessage: lambda message, session, control: control.driving.lease.heartbeat(
+        session, message.nonce
+    ),
 }
 
 

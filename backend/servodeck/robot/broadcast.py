@@ -13,7 +13,6 @@ from servodeck.robot.driving import Driving
 from servodeck.robot.hub import Hub, Session
 from servodeck.robot.latch import Latch
 from servodeck.robot.profile import RobotOfBoard
-from servodeck.schema import Message
 
 
 class Broadcast:
@@ -49,10 +48,7 @@ class Broadcast:
 
     def state(self, but: Session | None = None) -> None:
         if self._hub.sessions:  # the message classes are built with the first message, after the start
-            self.send_all(StateMessage(**self._state_fields()), but)
-
-    def send_all(self, message: Message, but: Session | None = None) -> None:
-        self._hub.send_all(encode(message), but)
+            self._hub.send_all(StateMessage(**self._state_fields()), but)
 
     def _state_fields(self) -> dict[str, Any]:
         """The fields of `GatewayState`."""

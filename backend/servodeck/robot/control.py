@@ -31,10 +31,10 @@ from servodeck.files import Remembered
 from servodeck.packet_models import report_model
 from servodeck.port.diagnosis import Heard
 from servodeck.port.link import Ports
-from servodeck.port.wire import Left, Owner
+from servodeck.port.wire import Left
 from servodeck.protocol.decoder import NoiseEvent
 from servodeck.protocol.families import FAMILIES
-from servodeck.protocol.values import Command, Report
+from servodeck.protocol.values import Report
 from servodeck.robot.board.board import Board
 from servodeck.robot.board.slots import SlotMemory
 from servodeck.robot.broadcast import Broadcast
@@ -87,6 +87,7 @@ class Control:
         self.hub = Hub()
         self._watch = Watch(self)
         self.driving = Driving(self.hub, now, epoch, self._watch)
+        self._relay = Relay(self.hub, now, lambda: self.driving.driver)
         simulated_device = named_device if simulated else None
         self.board = Board(
             ports,
@@ -95,12 +96,12 @@ class Control:
             simulated_device,
             slot_memory or SlotMemory(),
             self,
+            self._relay.leaving,
             identifies=identifies_board,
             polls_battery=polls_battery,
         )
-        self._relay = Relay(self.hub, now, lambda: self.driving.driver)
         self._broadcast = Broadcast(self.hub, self.board, self._latch, self.robot, self.driving, now)
-        self.requests = Requests(self.board, self.driving, self.limits, self._latch, now)
+        self.requests = Requests(self.board, self.driving.lease, self.limits, self._latch, now)
         self.operations = Operations(self)
         self._halting: Left | None = None
         self._changed = asyncio.Event()
@@ -192,7 +193,7 @@ class Control:
             raise PortLostError(port.detail or "The serial port is lost.")
         if self._latch.open():
             self.board.motion.resumed(self.now())
-            self._broadcast.send_all(ResumedMessage(by=caller.name), but=session)
+            self.hub.send_all(ResumedMessage(by=caller.name), but=session)
 
     async def until_identified(self) -> None:
         """Returns when the board is identified, or cannot be now: then the request is refused with the
@@ -288,31 +289,28 @@ class Control:
         self._see_robot()
 
     def battery_changed(self) -> None:
-        self._broadcast.send_all(BatteryMessage(battery=self.board.battery.snapshot()))
+        self.hub.send_all(BatteryMessage(battery=self.board.battery.snapshot()))
 
     def job_changed(self, state: JobState) -> None:
-        self._broadcast.send_all(JobMessage(job=state))
+        self.hub.send_all(JobMessage(job=state))
 
     def play_changed(self, state: PlayState) -> None:
-        self._broadcast.send_all(PlayStateMessage(play=state))
+        self.hub.send_all(PlayStateMessage(play=state))
 
     def unattended_time_over(self) -> None:
         self._watch.end_quietly(CancelledError("The time allowed without a driver is over."))
 
     def heard(self, report: Report, packet: bytes) -> None:
         self._relay.send_left()  # a question before its answer
-        self._broadcast.send_all(ReceivedMessage(report=report_model(report), bytes=packet.hex()))
+        self.hub.send_all(ReceivedMessage(report=report_model(report), bytes=packet.hex()))
 
     def heard_noise(self, noise: NoiseEvent) -> None:
         self._relay.send_left()
-        self._broadcast.send_all(NoiseMessage(reason=noise.reason, bytes=noise.bytes.hex()))
+        self.hub.send_all(NoiseMessage(reason=noise.reason, bytes=noise.bytes.hex()))
 
     def may_have_missed_stops(self) -> None:
         if self.latch:
             self.board.halts.halt_again()
-
-    def leaving(self, owner: Owner, command: Command, at_s: float) -> None:
-        self._relay.leaving(owner, command, at_s)
 
     # Inside
 
@@ -325,7 +323,7 @@ class Control:
         self._broadcast.state()
 
     def _robot_changed(self) -> None:
-        self._broadcast.send_all(RobotMessage(robot=self.robot.snapshot()))
+        self.hub.send_all(RobotMessage(robot=self.robot.snapshot()))
 
     def _halted(self, left: Left) -> None:
         if not left.cancelled() and left.exception() is None:
@@ -333,4 +331,4 @@ class Control:
 
     def _publish_unheld(self, since_s: float) -> None:
         self._unheld = self.board.halts.unheld_since(since_s)
-        self._broadcast.send_all(HaltedMessage(unheld=self.unheld))
+        self.hub.send_all(HaltedMessage(unheld=self.unheld))

@@ -17,7 +17,7 @@ from servodeck.events import LeaseStateMessage, TickMessage, encode
 from servodeck.files import write_whole
 from servodeck.intents import LeaseAction
 from servodeck.robot.hub import Hub, Session
-from servodeck.robot.lease import BEAT_S, GONE_S, Lease, LeaseEvents, Permit
+from servodeck.robot.lease import GONE_S, HEARTBEAT_S, Lease, LeaseEvents
 from servodeck.snapshots import Candidate, LeaseState
 
 # A timer this late means that the process was held up: messages of the driver wait to be read, and a tick
@@ -30,7 +30,8 @@ class Driving:
     def __init__(self, hub: Hub, now: Callable[[], float], epoch: int, events: LeaseEvents) -> None:
         self._hub = hub
         self._now = now
-        self._lease: Lease[Session] = Lease(epoch, events)
+        self.lease: Lease[Session] = Lease(epoch, events)
+        """Commands are judged by it directly; only this class grants it or passes it on."""
         self._timer: asyncio.TimerHandle | None = None
         self._tick_s = 0.0
         self._wake_s = 0.0
@@ -38,12 +39,7 @@ class Driving:
 
     @property
     def driver(self) -> Session | None:
-        return self._lease.driver
-
-    @property
-    def epoch(self) -> int:
-        """Another one with each driver, and while there is none."""
-        return self._lease.epoch
+        return self.lease.driver
 
     def act(self, session: Session, action: LeaseAction) -> None:
         """Raises ForbiddenError, BusyError, NotDrivingError, or CancelledError for a session that has
@@ -54,14 +50,14 @@ class Driving:
         match action:
             case "request":
                 session.caller.require("driver")
-                self._lease.request(session, now)
+                self.lease.request(session, now)
             case "take":
                 session.caller.require("owner")
-                self._lease.take(session, now)
+                self.lease.take(session, now)
             case "release":
-                self._lease.release(session, now)
+                self.lease.release(session, now)
             case "refuse":
-                self._lease.refuse(session)
+                self.lease.refuse(session)
         self._plan()
 
     def give(self, giver: Session, to: str) -> None:
@@ -70,10 +66,10 @@ class Driving:
         """
         require_present(giver)
         giver.caller.require("driver")
-        driver = self._lease.driver
+        driver = self.lease.driver
         if not giver.caller.may("owner") and (driver is None or driver.caller.id != giver.caller.id):
             raise NotDrivingError("Only the driver or an owner may hand over the robot.")
-        self._lease.give(giver, self._candidate(to), self._now())
+        self.lease.give(giver, self._candidate(to), self._now())
         self._plan()
 
     def _candidate(self, caller_id: str) -> Session:
@@ -85,11 +81,11 @@ class Driving:
         ]
         if not found:
             raise NotFoundError("No connected client with that id may drive.")
-        requester = self._lease.requester
+        requester = self.lease.requester
         return requester if requester in found else found[-1]
 
     def leave(self, session: Session) -> None:
-        self._lease.leave(session, self._now())
+        self.lease.leave(session, self._now())
         self._plan()
 
     def presence_changed(self, session: Session) -> None:
@@ -101,19 +97,16 @@ class Driving:
                 self.send_state(one)
 
     def _may_give(self, session: Session) -> bool:
-        return session is self._lease.driver or session.caller.may("owner")
+        return session is self.lease.driver or session.caller.may("owner")
 
     def _candidates(self, giver: Session) -> list[Candidate]:
         """Each person once, also with several windows."""
         if not self._may_give(giver):
             return []
-        driver = self._lease.driver
+        driver = self.lease.driver
         but = {giver.caller.id} | ({driver.caller.id} if driver else set())
         found = {one.caller.id: one.caller.name for one in self._hub.sessions if could_drive(one)}
         return [Candidate(id=key, name=name) for key, name in found.items() if key not in but]
-
-    def beat(self, session: Session, nonce: str) -> None:
-        self._lease.beat(session, nonce)
 
     def claim_for(self, session: Session, *, take: bool) -> str:
         """For a program, which sends one request at a time: a new nonce; takes the lease where it is free, or
@@ -121,46 +114,32 @@ class Driving:
         """
         require_present(session)
         session.caller.require("driver")
-        driver = self._lease.driver
+        driver = self.lease.driver
         if take:
             self.act(session, "take")
         elif driver is None:
             self.act(session, "request")
         elif driver is not session:
             raise NotDrivingError(f'{driver.caller.name} drives. An owner may take over with "take": true.')
-        return self._lease.issue(self._now())
+        return self.lease.issue(self._now())
 
     def vouch(self, session: Session, for_s: float) -> None:
         """The motion that the program requested lasts for so long from now; ignored for a session that has
         ended.
         """
         if not session.ended.is_set():
-            self._lease.vouch(session, self._now() + for_s)
+            self.lease.vouch(session, self._now() + for_s)
             self._plan()
-
-    def permit(self, session: Session, nonce: str | None) -> Permit:
-        """Raises NotDrivingError or ExpiredError."""
-        return self._lease.permit(session, nonce, self._now())
-
-    def renewed_permit(self, session: Session) -> Permit:
-        """For what its driver has asked for already, and what had to end first has ended. Raises
-        NotDrivingError or ExpiredError.
-        """
-        return self._lease.renewed_permit(session, self._now())
 
     def judge_request(self, caller: Caller, nonce: str) -> None:
         """For requests of a page beside its WebSocket: only the driver has the nonce. A large request takes
         longer. Raises NotDrivingError or ExpiredError.
         """
-        self._lease.permit(self.driving_page(caller), nonce, self._now(), GONE_S)
-
-    def judge(self, permit: Permit) -> None:
-        """Raises NotDrivingError or ExpiredError."""
-        self._lease.judge(permit, self._now())
+        self.lease.permit(self.driving_page(caller), nonce, self._now(), GONE_S)
 
     def driving_page(self, caller: Caller) -> Session:
         """The page that drives, for its requests beside its WebSocket. Raises NotDrivingError."""
-        driver = self._lease.driver
+        driver = self.lease.driver
         if driver is None or driver.caller.id != caller.id:
             raise NotDrivingError(f"{driver.caller.name if driver else 'No client'} drives.")
         return driver
@@ -177,7 +156,7 @@ class Driving:
             raise NotDrivingError(f"{name} drives: only {name} or an owner may resume.")
 
     def state_for(self, session: Session) -> LeaseState:
-        lease = self._lease
+        lease = self.lease
         granted_in_s = lease.granted_in_s(self._now())
         return LeaseState(
             you=session.caller.name,
@@ -196,23 +175,23 @@ class Driving:
         """Each client its own view; the driver gets a nonce with it."""
         for session in self._hub.sessions:
             self.send_state(session)
-        if self._lease.driver:
-            self._tick(self._lease.driver)
+        if self.lease.driver:
+            self._tick(self.lease.driver)
 
     def send_state(self, session: Session) -> None:
         session.put(encode(LeaseStateMessage(lease=self.state_for(session))))
 
     def _tick(self, driver: Session) -> None:
         now = self._now()
-        self._tick_s = now + BEAT_S
-        driver.put(encode(TickMessage(nonce=self._lease.issue(now))))
+        self._tick_s = now + HEARTBEAT_S
+        driver.put(encode(TickMessage(nonce=self.lease.issue(now))))
 
     def _plan(self) -> None:
         if self._catches_up:
             return
         if self._timer:
             self._timer.cancel()
-        due_s = self._lease.due_s()
+        due_s = self.lease.due_s()
         if due_s is not None:
             self._wake_in(min(due_s, self._tick_s) - self._now())
 
@@ -225,14 +204,14 @@ class Driving:
         is_late = self._now() - self._wake_s > HELD_UP_S
         # Once, however late the next timer is: a driver who is gone must not be waited for longer.
         self._catches_up = is_late and not self._catches_up
-        if self._catches_up and self._lease.driver:
-            self._tick(self._lease.driver)
+        if self._catches_up and self.lease.driver:
+            self._tick(self.lease.driver)
             self._wake_in(CATCH_UP_S)
             return
         self._catches_up = False
-        self._lease.advance(self._now())
-        if self._lease.driver and self._now() >= self._tick_s:
-            self._tick(self._lease.driver)
+        self.lease.advance(self._now())
+        if self.lease.driver and self._now() >= self._tick_s:
+            self._tick(self.lease.driver)
         self._plan()
 
 

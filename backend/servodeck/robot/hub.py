@@ -16,6 +16,7 @@ from servodeck.events import LeftMessage, encode
 from servodeck.packet_models import command_model
 from servodeck.port.wire import Owner
 from servodeck.protocol.values import Command, Move
+from servodeck.schema import Message
 from servodeck.value import value
 
 # Enough for a second of a busy board (960 bytes) and the answers to a full queue; far more means that
@@ -136,7 +137,8 @@ class Hub:
     def leave(self, session: Session) -> None:
         self._sessions.pop(session, None)
 
-    def send_all(self, text: str, but: Session | None = None) -> None:
+    def send_all(self, message: Message, but: Session | None = None) -> None:
+        text = encode(message)
         for session in self._sessions:
             if session is not but:
                 session.put(text)

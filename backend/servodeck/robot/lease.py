@@ -10,7 +10,7 @@ from servodeck.errors import BusyError, ExpiredError, NotDrivingError
 from servodeck.protocol.timings import LEASE, MOVE
 from servodeck.value import value
 
-BEAT_S = LEASE.beat_ms / 1000
+HEARTBEAT_S = LEASE.beat_ms / 1000
 COMMAND_S = MOVE.expires_ms / 1000
 QUIET_S = LEASE.quiet_ms / 1000
 SILENT_S = LEASE.silent_ms / 1000
@@ -123,7 +123,7 @@ class Lease(Generic[H]):
         self._issued[nonce] = now
         return nonce
 
-    def beat(self, who: H, nonce: str) -> None:
+    def heartbeat(self, who: H, nonce: str) -> None:
         """Counts from when the nonce was issued: a late one is no sign of life now."""
         issued_s = self._issued.get(nonce, 0.0)
         if who is self.driver and issued_s > self._heard_s:
@@ -148,7 +148,7 @@ class Lease(Generic[H]):
         issued_s = None if nonce is None else self._issued.get(nonce)
         if nonce is None or issued_s is None or now - issued_s > within_s:
             raise ExpiredError("This request is too old.")
-        self.beat(who, nonce)
+        self.heartbeat(who, nonce)
         return Permit(self.epoch, issued_s, issued_s + within_s)
 
     def renewed_permit(self, who: H, now: float) -> Permit:

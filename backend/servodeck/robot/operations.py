@@ -54,19 +54,20 @@ class PageClaim:
 
     def __init__(self, control: "Control", session: Session, nonce: str | None) -> None:
         self.session = session
-        self._driving = control.driving
+        self._lease = control.driving.lease
+        self._now = control.now
         self._nonce = nonce
         self._permit: Permit | None = None
 
     def claim(self) -> None:
         self.session.caller.require("driver")
-        self._permit = self._driving.permit(self.session, self._nonce)
+        self._permit = self._lease.permit(self.session, self._nonce, self._now())
 
     def permit(self) -> Permit:
-        return self._permit or self._driving.permit(self.session, self._nonce)
+        return self._permit or self._lease.permit(self.session, self._nonce, self._now())
 
     def renew(self) -> None:
-        self._permit = self._driving.renewed_permit(self.session)
+        self._permit = self._lease.renewed_permit(self.session, self._now())
 
     def lasts(self, left: Left, for_s: float) -> None:
         """As long as it is heard."""
@@ -109,7 +110,7 @@ class Grant:
         return left
 
     def _present(self) -> tuple[int, int]:
-        return self._control.driving.epoch, self._control.board.halts.count
+        return self._control.driving.lease.epoch, self._control.board.halts.count
 
     def _judge(self) -> None:
         if self._mark != self._present():

@@ -28,20 +28,24 @@ from servodeck.robot.board.download import Part, judge_parts
 from servodeck.robot.board.estimate import Estimate
 from servodeck.robot.board.move_buffer import MoveRequest
 from servodeck.robot.board.playing import FrameGroup, judge_group
-from servodeck.robot.driving import Driving
 from servodeck.robot.hub import Session
 from servodeck.robot.latch import Latch, judge_latch
-from servodeck.robot.lease import Permit
+from servodeck.robot.lease import Lease, Permit
 from servodeck.robot.profile import RobotLimits
 from servodeck.snapshots import JobState, PlayState
 
 
 class Requests:
     def __init__(
-        self, board: Board, driving: Driving, limits: RobotLimits, latch: Latch, now: Callable[[], float]
+        self,
+        board: Board,
+        lease: Lease[Session],
+        limits: RobotLimits,
+        latch: Latch,
+        now: Callable[[], float],
     ) -> None:
         self._board = board
-        self._driving = driving
+        self._lease = lease
         self._limits = limits
         self._latch = latch
         self._now = now
@@ -53,7 +57,7 @@ class Requests:
         as fast as the soft limit and the link allow. Resolves when each has left or a newer one has taken its
         place. Raises, or fails with, what keeps one from leaving.
         """
-        board, driving = self._board, self._driving
+        board = self._board
         session.caller.require("driver")
         board.identification.judge_known()
         for target in targets:
@@ -62,12 +66,12 @@ class Requests:
         board.link.wire()
         judge_latch(MOVE, self._latch.is_closed)
         board.jobs.judge_idle()
-        permit = driving.permit(session, nonce)
+        permit = self._lease.permit(session, nonce, self._now())
         # Servos that wait to start may do so as long as the driver is heard.
         waiting = replace(permit, until_s=math.inf)
 
         def judge(target: ServoTarget, starts: bool) -> None:
-            driving.judge(waiting if starts else permit)
+            self._judge_driver(waiting if starts else permit)
             board.identification.judge_known()
             judge_latch(MOVE, self._latch.is_closed)
             self._limits.judge(Move(duration_ms, (target,)), session)
@@ -124,7 +128,7 @@ class Requests:
         board.jobs.judge_idle()
         if isinstance(command, Run | Erase):
             board.plays.judge_idle()
-        return wire.send(packet, session, judge=lambda: self._driving.judge(permit))
+        return wire.send(packet, session, judge=lambda: self._judge_driver(permit))
 
     def stop_once(self, session: Session) -> Left:
         """Ends the running group behind its frame in progress. It overtakes all that waits, and a run that it
@@ -160,16 +164,16 @@ class Requests:
         board.plays.judge_idle()
         if board.motion.group_may_run(self._now()) or wire.has_waiting(RUN):
             raise MovingError(end_of_group(board.motion.group_ends_in_s(self._now())))
-        permit = self._driving.permit(session, nonce)
+        permit = self._lease.permit(session, nonce, self._now())
         if permit.issued_s < self._latch.stopped_s:  # a large request may be slower than the STOP behind it
             raise CancelledError("STOP was pressed after this was requested.")
 
         def judge(is_first: bool) -> None:
             judge_latch(MOVE, self._latch.is_closed)
             if is_first:
-                self._driving.judge(permit)
+                self._judge_driver(permit)
             elif board.unattended.by is not session:
-                self._driving.judge(replace(permit, until_s=math.inf))
+                self._judge_driver(replace(permit, until_s=math.inf))
 
         return board.plays.begin(group, session, judge, ended, as_run=as_run)
 
@@ -205,8 +209,11 @@ class Requests:
         return board.jobs.begin(parts, by, board.link.place, wire)
 
     def _permitted(self, session: Session, nonce: str | None) -> Callable[[], None]:
-        permit = self._driving.permit(session, nonce)
-        return lambda: self._driving.judge(permit)
+        permit = self._lease.permit(session, nonce, self._now())
+        return lambda: self._judge_driver(permit)
+
+    def _judge_driver(self, permit: Permit) -> None:
+        self._lease.judge(permit, self._now())
 
 
 def judge_packet(text: str, board: str) -> CommandPacket:

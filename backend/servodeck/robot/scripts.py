@@ -70,13 +70,15 @@ class ScriptClaim:
     def __init__(self, control: Control, session: Session, *, take: bool) -> None:
         self.session = session
         self._driving = control.driving
+        self._now = control.now
         self._take = take
 
     def claim(self) -> None:
         self._driving.claim_for(self.session, take=self._take)
 
     def permit(self) -> Permit:
-        return self._driving.permit(self.session, self._driving.claim_for(self.session, take=False))
+        nonce = self._driving.claim_for(self.session, take=False)
+        return self._driving.lease.permit(self.session, nonce, self._now())
 
     def renew(self) -> None:
         """Each of its packets gets a new permit."""

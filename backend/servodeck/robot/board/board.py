@@ -80,9 +80,6 @@ class BoardEvents(Protocol):
         then it may have taken for the rest of that.
         """
 
-    def leaving(self, owner: Owner, command: Command, at_s: float) -> None:
-        """The command moves, ends or stores something; its last bit leaves at `at_s`."""
-
 
 class Board:
     def __init__(
@@ -93,17 +90,20 @@ class Board:
         simulated_device: str | None,
         slot_memory: SlotMemory,
         events: BoardEvents,
+        leaving: Callable[[Owner, Command, float], None],
         *,
         identifies: bool = False,
         polls_battery: bool = False,
     ) -> None:
         """`identifies`: the family `family_id` is checked at each opening, and the board is watched
         afterwards. `polls_battery`: the battery is read regularly. `simulated_device`: the port of a
-        simulated board.
+        simulated board. `leaving` gets each command that moves, ends or stores something, with its owner and
+        the time when its last bit leaves.
         """
         self.family_id = family_id
         self._simulated_device = simulated_device
         self._events = events
+        self._command_leaves = leaving
         self._now = now
         self.link = Link(ports, self._make_wire, self, now)
         self.replies = Replies()
@@ -323,7 +323,7 @@ class Board:
         self.jobs.left(command, at_s, self.link.place)
         is_opening = packet.number == STOP and owner is self
         if not is_opening:  # which ends no motion of a client
-            self._events.leaving(owner, command, at_s)
+            self._command_leaves(owner, command, at_s)
 
     def _take(self, event: DecoderEvent) -> None:
         if not isinstance(event, PacketEvent):
