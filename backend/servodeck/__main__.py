@@ -36,7 +36,7 @@ def is_stopped() -> bool:
 
     try:
         token = os.environ.get("SERVODECK_TOKEN") or token_in(os.environ.get("SERVODECK_TOKEN_FILE"))
-        stopped = Remote(os.environ.get("SERVODECK_URL") or HERE, token).ask("POST", "/api/stop")
+        stopped = Remote(os.environ.get("SERVODECK_URL") or HERE, token).request("POST", "/api/stop")
         words = stopped_words(stopped)
     except Exception:  # noqa: BLE001 (nothing may keep the second try from being made)
         return False

@@ -20,7 +20,7 @@ class Caller:
     role: Role
 
     def may(self, role: Role) -> bool:
-        """Whether `role` is enough for what is asked: each role may do all that the ones below it may."""
+        """Whether `role` is enough for what is requested: each role may do all that the ones below it may."""
         return RANKS[self.role] >= RANKS[role]
 
     def require(self, role: Role) -> None:

@@ -134,7 +134,7 @@ class EchoError(BoardError):
 
 
 class BoardSilentError(BoardError):
-    """It does not answer what such a board always answers: it may be off. It is asked again."""
+    """It does not answer what such a board always answers: it may be off. It is queried again."""
 
     code: ClassVar[ErrorCode] = "boardSilent"
     status: ClassVar[int] = 504
@@ -155,7 +155,7 @@ class NotDrivingError(GatewayError):
 
 
 class ExpiredError(GatewayError):
-    """It was asked for too long ago to be done now."""
+    """It was requested too long ago to be done now."""
 
     code: ClassVar[ErrorCode] = "expired"
     status: ClassVar[int] = 409
@@ -169,7 +169,7 @@ class BusyError(GatewayError):
 
 
 class TooManyError(GatewayError):
-    """Asked more often than this caller may."""
+    """Requested more often than this caller may."""
 
     code: ClassVar[ErrorCode] = "tooMany"
     status: ClassVar[int] = 429
@@ -237,14 +237,14 @@ class MalformedError(GatewayError):
 
 
 class ForbiddenError(GatewayError):
-    """Asked from an address or a page that may not ask."""
+    """Requested from an address or a page that may not do so."""
 
     code: ClassVar[ErrorCode] = "forbidden"
     status: ClassVar[int] = 403
 
 
 class NotPairedError(GatewayError):
-    """An unauthenticated caller asked for what only paired devices get."""
+    """An unauthenticated caller requested what only paired devices get."""
 
     code: ClassVar[ErrorCode] = "notPaired"
     status: ClassVar[int] = 401

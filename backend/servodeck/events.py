@@ -32,15 +32,15 @@ from servodeck.snapshots import (
 )
 
 PROTOCOL = 9
-"""Counted up with each change that an older page would not understand: that page is asked to reload."""
+"""Counted up with each change that an older page would not understand: that page is to reload."""
 
 
 class GatewayState(Message):
     """The state of the gateway, the same for every client. `board` is the family by which the board is
     driven. `brokenSlots` hold half a group: they cannot be run. `slotVersions` are the groups that the
     gateway last stored in each slot. `stoppedBy` is the name of the person who pressed STOP, or whose page
-    did so for the battery, if known. `waitingToStart`: servos that were asked to move from an unknown place,
-    so they start one after another, in this order.
+    did so for the battery, if known. `waitingToStart`: servos that are to move from an unknown place, so they
+    start one after another, in this order.
     """
 
     board: str
@@ -111,7 +111,7 @@ class NoiseMessage(Message):
 
 
 class HaltedMessage(Message):
-    """The stop sequence has left the wire. `unheld`: servos that may go on moving, if any."""
+    """The stop sequence has left the wire. `unheld`: servos that may continue to move, if any."""
 
     type: Literal["halted"] = "halted"
     unheld: UnheldServos | None
@@ -145,7 +145,7 @@ class PlayStateMessage(Message):
 
 
 class PlayedMessage(Message):
-    """To the client that asked for it: that play has ended, and how."""
+    """To the client that requested it: that play has ended, and how."""
 
     type: Literal["played"] = "played"
     id: MessageId

@@ -42,11 +42,11 @@ class BackgroundFile:
     """A value in memory that is written later: a full or slow disk delays no caller."""
 
     def __init__(self, file: Path | None, text: Callable[[], str]) -> None:
-        """`text` is asked for in a thread. Without a file it is forgotten with the gateway."""
+        """`text` is called in a thread. Without a file it is forgotten with the gateway."""
         self._file = file
         self._text = text
         self._lock = threading.Lock()
-        self._keeping: set[asyncio.Task[None]] = set()
+        self._saving: set[asyncio.Task[None]] = set()
 
     async def saved(self) -> None:
         """Waits until the present state is written, or has failed to be."""
@@ -58,8 +58,8 @@ class BackgroundFile:
 
     def save_soon(self) -> None:
         task = asyncio.create_task(self.saved())
-        self._keeping.add(task)
-        task.add_done_callback(self._keeping.discard)
+        self._saving.add(task)
+        task.add_done_callback(self._saving.discard)
 
     def _write(self) -> None:
         """Gets the text within the lock, so that no older text overwrites it."""
@@ -82,25 +82,25 @@ class Disk:
         self._now = now
         self._answer: str | None = None
         self._answered_at = float("-inf")
-        self._asking: asyncio.Task[None] | None = None
+        self._checking: asyncio.Task[None] | None = None
 
     async def problem(self) -> str | None:
         """The problem of the disk, for people; checked again after a few seconds."""
-        if self._asking is None and self._now() - self._answered_at > GOOD_FOR_S:
-            self._asking = asyncio.create_task(self._ask())
-        if self._asking:
+        if self._checking is None and self._now() - self._answered_at > GOOD_FOR_S:
+            self._checking = asyncio.create_task(self._check())
+        if self._checking:
             try:
-                await asyncio.wait_for(asyncio.shield(self._asking), WAIT_S)
+                await asyncio.wait_for(asyncio.shield(self._checking), WAIT_S)
             except TimeoutError:
                 return "The disk does not answer."
         return self._answer
 
-    async def _ask(self) -> None:
+    async def _check(self) -> None:
         try:
             self._answer = await in_thread(lambda: problem_of(self._folder))
             self._answered_at = self._now()
         finally:
-            self._asking = None
+            self._checking = None
 
 
 def problem_of(folder: Path) -> str | None:
@@ -126,7 +126,7 @@ class Memory(Message):
 
 class Remembered:
     def __init__(self, folder: Path | None = None) -> None:
-        """Without a folder it is forgotten with the gateway. What is said is stored."""
+        """Without a folder it is forgotten with the gateway. Each `remember_…` is stored."""
         file = folder / FILE if folder else None
         self._memory = read(file) if file else Memory()
         behind = BackgroundFile(file, self._text)

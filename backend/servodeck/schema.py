@@ -28,7 +28,7 @@ class Message(BaseModel):
         populate_by_name=True,
         serialize_by_alias=True,
         json_schema_serialization_defaults_required=True,
-        defer_build=True,  # a start says few of them; building all was a sixth of its time
+        defer_build=True,  # a start sends few of them; building all was a sixth of its time
     )
 
 
@@ -63,8 +63,8 @@ def is_object(text: str) -> bool:
         return False
     try:
         # json_type takes no text that json_valid refuses.
-        asked = "SELECT json_valid(?1) AND CASE WHEN json_valid(?1) THEN json_type(?1) END = 'object'"
-        return bool(answer_to(asked, text))
+        query = "SELECT json_valid(?1) AND CASE WHEN json_valid(?1) THEN json_type(?1) END = 'object'"
+        return bool(answer_to(query, text))
     except UnicodeEncodeError:
         return False
 

@@ -18,7 +18,7 @@ def devices_in(folder: Path) -> Devices:
 async def test_who_was_paired_is_known_after_a_restart_and_the_file_holds_no_secret(tmp_path: Path) -> None:
     devices = devices_in(tmp_path)
     anna, credential = devices.admit("device", "Anna", "owner")
-    await devices.keep()
+    await devices.save()
     again = devices_in(tmp_path)
     found = again.find(credential)
     assert found
@@ -44,10 +44,10 @@ async def test_a_revoked_device_stays_out_after_a_restart(tmp_path: Path) -> Non
     devices = devices_in(tmp_path)
     devices.admit("device", "Anna", "owner")
     ben, credential = devices.admit("device", "Ben", "driver")
-    await devices.keep()
+    await devices.save()
     devices.revoke(ben.id)
     assert devices.find(credential) is None
-    await devices.keep()
+    await devices.save()
     assert devices_in(tmp_path).find(credential) is None
     with pytest.raises(NotFoundError):
         devices.revoke(ben.id)
@@ -88,7 +88,7 @@ async def test_a_disk_in_trouble_keeps_no_device_out_that_is_in_memory(tmp_path:
     _, credential = devices.admit("device", "Anna", "owner")
     folder.write_text("in the way")
     with pytest.raises(StorageError):
-        await devices.keep()
+        await devices.save()
     assert devices.find(credential)
 
 

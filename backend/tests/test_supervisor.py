@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from servodeck.api.health import BEAT_S
+from servodeck.api.health import SAMPLE_EVERY_S
 from servodeck.api.server import END_S
 from servodeck.cli.main import app
 from tests.test_cli import Served
@@ -128,7 +128,7 @@ def test_the_unit_starts_what_this_version_understands() -> None:
 def test_the_unit_waits_long_enough_and_gives_only_what_is_needed() -> None:
     settings = settings_of_unit()
     assert settings["Type"] == ["notify"]
-    assert float(settings["WatchdogSec"][0]) > 4 * BEAT_S
+    assert float(settings["WatchdogSec"][0]) > 4 * SAMPLE_EVERY_S
     assert float(settings["TimeoutStopSec"][0]) > END_S
     assert int(settings["Nice"][0]) < 0
     assert settings["DynamicUser"] == ["yes"]

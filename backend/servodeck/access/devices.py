@@ -110,7 +110,7 @@ class Devices:
         self._keep_an_owner(present)
         self._devices = {one.id: one for one in self.all if one.id != device}
 
-    async def keep(self) -> None:
+    async def save(self) -> None:
         """Writes the present state. Raises a StorageError; the change in memory stays."""
         await in_thread(lambda: self._store.save(lambda: self.all))
 
@@ -176,7 +176,7 @@ class DeviceFile:
             raise self._unusable(error) from error
 
     def save(self, devices: Callable[[], list[Device]]) -> None:
-        with self._lock:  # and asked within it, so that an older list never overwrites a newer one
+        with self._lock:  # and read within it, so that an older list never overwrites a newer one
             try:
                 self._path.parent.mkdir(parents=True, exist_ok=True)
                 with closing(self._open()) as db:

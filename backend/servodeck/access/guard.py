@@ -190,7 +190,7 @@ def judge_forwarding(headers: list[tuple[bytes, bytes]]) -> None:
     for name, _ in headers:
         if name in FORWARDING or name.startswith(FORWARDING_PREFIX):
             raise ForbiddenError(
-                "This gateway was not told of a proxy (--public-url); "
+                "This gateway was started without a proxy (--public-url); "
                 f"the header {name.decode('latin-1')} says that one passed the request on."
             )
 

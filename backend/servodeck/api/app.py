@@ -24,7 +24,7 @@ from starlette.types import Receive, Scope, Send
 from servodeck import __version__, metrics
 from servodeck.access.entrance import Entrance
 from servodeck.access.guard import Guard, log_refusal
-from servodeck.api.health import Pulse, health_api, sign_of_life
+from servodeck.api.health import LoopDelay, health_api, sign_of_life
 from servodeck.api.page import STATIC, page
 from servodeck.api.routes import PUBLIC, JudgingRoute, named_roles, require_roles
 from servodeck.errors import ErrorCode, GatewayError, MalformedError, PortBusyError
@@ -142,7 +142,7 @@ def create_app(control: Control, library: Library, entrance: Entrance, static: P
     app.state.control = control
     app.state.scripts = Scripts(control, entrance.still_lets_in)
     app.state.library = library
-    app.state.pulse = Pulse(sign_of_life())
+    app.state.loop_delay = LoopDelay(sign_of_life())
     app.state.disk = Disk(library.folder, control.now)
     app.state.entrance = entrance
     app.mount("/", page(static))
@@ -158,7 +158,7 @@ def app_without_state() -> LaterApp:
         docs_url=None,
         redoc_url=None,
         openapi_url=None,
-        # Also where the environment asks for it: no data of this gateway is sent elsewhere.
+        # Also where the environment requests it: no data of this gateway is sent elsewhere.
         telemetry={"auto_configure": False, "tracing": False, "metrics": False, "logs": False},
         lifespan=lifespan,
     )
@@ -173,11 +173,11 @@ def app_without_state() -> LaterApp:
 @contextlib.asynccontextmanager
 async def lifespan(app: LaterApp) -> AsyncIterator[None]:
     control: Control = app.state.control
-    beating = asyncio.create_task(app.state.pulse.run())
+    sampling = asyncio.create_task(app.state.loop_delay.run())
     loading = asyncio.create_task(app.load_soon())
     yield
     loading.cancel()
-    beating.cancel()
+    sampling.cancel()
     await control.shut_down()
 
 

@@ -23,14 +23,15 @@ from servodeck.files import Disk
 from servodeck.schema import Message
 from servodeck.snapshots import PortState
 
-BEAT_S = 0.25
+SAMPLE_EVERY_S = 0.25
 REMEMBERED_S = 15.0
 
 
-class Pulse:
-    def __init__(self, each_beat: Callable[[], None]) -> None:
-        self._each_beat = each_beat
-        self._delays_s: deque[float] = deque(maxlen=int(REMEMBERED_S / BEAT_S))
+class LoopDelay:
+    def __init__(self, after_each: Callable[[], None]) -> None:
+        """`after_each` is called after each sample."""
+        self._after_each = after_each
+        self._delays_s: deque[float] = deque(maxlen=int(REMEMBERED_S / SAMPLE_EVERY_S))
 
     @property
     def worst_s(self) -> float:
@@ -40,10 +41,10 @@ class Pulse:
     async def run(self) -> None:
         loop = asyncio.get_running_loop()
         while True:
-            due = loop.time() + BEAT_S
-            await asyncio.sleep(BEAT_S)
+            due = loop.time() + SAMPLE_EVERY_S
+            await asyncio.sleep(SAMPLE_EVERY_S)
             self._delays_s.append(max(0.0, loop.time() - due))
-            self._each_beat()
+            self._after_each()
 
 
 def notify_systemd(state: str) -> None:
@@ -60,7 +61,7 @@ def notify_systemd(state: str) -> None:
 
 
 def sign_of_life() -> Callable[[], None]:
-    """To be called at each beat of the event loop: without it systemd restarts the gateway."""
+    """To be called while the event loop runs: without it systemd restarts the gateway."""
     is_awaited = os.environ.get("WATCHDOG_PID", str(os.getpid())) == str(os.getpid())
     if "WATCHDOG_USEC" in os.environ and is_awaited:
         return lambda: notify_systemd("WATCHDOG=1")
@@ -99,10 +100,10 @@ class Health(Message):
     troubles: list[Trouble]
 
 
-async def pulse_of(connection: HTTPConnection) -> Pulse:
-    pulse = connection.app.state.pulse
-    assert isinstance(pulse, Pulse)
-    return pulse
+async def loop_delay_of(connection: HTTPConnection) -> LoopDelay:
+    delay = connection.app.state.loop_delay
+    assert isinstance(delay, LoopDelay)
+    return delay
 
 
 async def disk_of(connection: HTTPConnection) -> Disk:
@@ -111,17 +112,17 @@ async def disk_of(connection: HTTPConnection) -> Disk:
     return disk
 
 
-Beating = Annotated[Pulse, Depends(pulse_of)]
+Measured = Annotated[LoopDelay, Depends(loop_delay_of)]
 Stored = Annotated[Disk, Depends(disk_of)]
 health_api = routes("", "health")
 
 
 @health_api.get("/api/health", dependencies=[PUBLIC])
-async def health(control: Controlled, pulse: Beating, disk: Stored) -> Health:
+async def health(control: Controlled, delay: Measured, disk: Stored) -> Health:
     """Always 200 while the gateway runs; `troubles` lists the parts that do not work."""
     troubles = [
         *port_troubles(control.board.port),
-        *loop_troubles(pulse.worst_s),
+        *loop_troubles(delay.worst_s),
         *(Trouble(part="disk", detail=detail) for detail in [await disk.problem()] if detail),
     ]
     return Health(status="degraded" if troubles else "ready", version=__version__, troubles=troubles)
@@ -141,8 +142,8 @@ def loop_troubles(worst_s: float) -> list[Trouble]:
 
 
 @health_api.get("/metrics", include_in_schema=False, dependencies=[VIEWER])
-async def numbers(control: Controlled, pulse: Beating) -> Response:
+async def numbers(control: Controlled, delay: Measured) -> Response:
     """In Prometheus's text format."""
     from servodeck.api.prometheus import MEDIA_TYPE, numbers_text
 
-    return Response(numbers_text(control, pulse.worst_s), media_type=MEDIA_TYPE)
+    return Response(numbers_text(control, delay.worst_s), media_type=MEDIA_TYPE)

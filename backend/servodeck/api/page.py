@@ -42,7 +42,7 @@ class Page:
         self._folder = folder
         self._index = folder / INDEX
         self._version: tuple[int, ...] | None = None
-        # What there is, and of that what was asked for, by its path in the folder.
+        # What there is, and of that what was requested, by its path in the folder.
         self._files: dict[str, Path] = {}
         self._cached: dict[str, CachedFile] = {}
 
@@ -61,11 +61,11 @@ class Page:
             self._cached = {}
             self._version = version
 
-    async def _answer(self, path: str, asked: Headers) -> Response:
+    async def _answer(self, path: str, request: Headers) -> Response:
         if path == INDEX and path not in self._files:
             return PlainTextResponse(NOT_BUILT, 503)
         coded = {name: path + suffix for name, suffix in ENCODINGS.items() if path + suffix in self._files}
-        encoding = next((name for name in taken(asked.get("accept-encoding", "")) if name in coded), None)
+        encoding = next((name for name in taken(request.get("accept-encoding", "")) if name in coded), None)
         cached = await self._read(path if encoding is None else coded[encoding])
         headers = {
             "ETag": cached.etag,
@@ -73,7 +73,7 @@ class Page:
         }
         if coded:
             headers["Vary"] = "Accept-Encoding"
-        if cached.etag in asked.get("if-none-match", "").replace("W/", "").split(", "):
+        if cached.etag in request.get("if-none-match", "").replace("W/", "").split(", "):
             return Response(None, 304, headers)
         if encoding is not None:
             headers["Content-Encoding"] = encoding

@@ -128,7 +128,9 @@ class StopLink(Message):
 # As long as browsers keep one: a device stays until it is revoked.
 COOKIE_S = 400 * 24 * 3600
 
-Continues = Annotated[bool, Query(description="Whether a group that it let continue without it may go on.")]
+Continues = Annotated[
+    bool, Query(description="Whether a group that it let continue without it may continue.")
+]
 Entered = Annotated[Entrance, Depends(entrance_of)]
 people_api = routes("/api", "people")
 
@@ -164,7 +166,7 @@ async def rename_me(
     """Changes the name of the caller; a number is added where the name is taken."""
     changed = entrance.devices.change(caller.id, wanted.name, None)
     spread_name(changed, control)
-    await entrance.devices.keep()
+    await entrance.devices.save()
     return you_of(changed.caller)
 
 
@@ -201,7 +203,7 @@ async def pair(
             samesite="strict",
         )
         with contextlib.suppress(StorageError):  # a full disk does not undo it; until the next start it holds
-            await entrance.devices.keep()
+            await entrance.devices.save()
     return you_of(caller)
 
 
@@ -262,7 +264,7 @@ async def change(
     else:
         reason, still_drives = "Your role is another one now.", changed.caller.may("driver")
         await scripts.disconnect(person, reason, by.name, still_drives=still_drives)
-    await entrance.devices.keep()
+    await entrance.devices.save()
     return person_of(changed, control)
 
 
@@ -281,7 +283,7 @@ async def revoke(
     entrance.devices.revoke(person)
     reason = "This device is not paired any more."
     await scripts.disconnect(person, reason, by.name, run_continues=continues)
-    await entrance.devices.keep()
+    await entrance.devices.save()
 
 
 @people_api.post("/invites", dependencies=[OWNER])
@@ -305,7 +307,7 @@ async def withdraw(invitation: str, entrance: Entered) -> None:
 async def make_token(wish: TokenWish, entrance: Entered) -> Token:
     """A token for a script: `Authorization: Bearer TOKEN`."""
     device, token = entrance.devices.admit("token", wish.name, wish.role)
-    await entrance.devices.keep()
+    await entrance.devices.save()
     return Token(id=device.id, token=token)
 
 
@@ -313,6 +315,6 @@ async def make_token(wish: TokenWish, entrance: Entered) -> Token:
 async def make_stop_link(wish: StopLinkWish, entrance: Entered, base: Base) -> StopLink:
     """A link that can stop the robot and do nothing else, for a sticker; valid until it is revoked."""
     device, credential = entrance.devices.admit("stopLink", wish.name, "stopper")
-    await entrance.devices.keep()
+    await entrance.devices.save()
     link = stop_link(base, credential)
     return StopLink(id=device.id, link=link, picture=picture_of(link))

@@ -37,12 +37,10 @@ class Numbers(Collector):
         yield CounterMetricFamily(
             "servodeck_noise_bytes", "Bytes of the board that were no packet", totals.noise_bytes
         )
-        yield counts("servodeck_refused", "What was asked for and refused", "code", metrics.refused)
+        yield counts("servodeck_refused", "Requests that were refused", "code", metrics.refused)
         yield waits()
         yield CounterMetricFamily("servodeck_stops", "Halts begun, for any cause", totals.stops)
-        yield CounterMetricFamily(
-            "servodeck_port_losses", "An open port went away unasked", totals.port_losses
-        )
+        yield CounterMetricFamily("servodeck_port_losses", "Losses of an open port", totals.port_losses)
         yield CounterMetricFamily("servodeck_port_openings", "The port was opened", totals.port_openings)
         states = GaugeMetricFamily("servodeck_port_state", "1 for the state it is in", labels=["status"])
         for status in get_args(PortStatus):
@@ -69,7 +67,7 @@ def waits() -> HistogramMetricFamily:
     limits = [*map(floatToGoString, metrics.WAIT_BUCKETS_S), "+Inf"]
     return HistogramMetricFamily(
         "servodeck_queue_wait_seconds",
-        "From being asked for to the first byte on the wire",
+        "From the request to the first byte on the wire",
         buckets=[*zip(limits, accumulate(metrics.queue_wait.counts), strict=True)],
         sum_value=metrics.queue_wait.sum_s,
     )

@@ -108,8 +108,8 @@ class Battery(Message):
 
 
 class Stopped(Message):
-    """`halted`: the stop sequence has left the wire. `unheld`: servos that may go on moving, because their
-    position is unknown; null where all are held.
+    """`halted`: the stop sequence has left the wire. `unheld`: servos that may continue to move, because
+    their position is unknown; null where all are held.
 
     """
 
@@ -207,7 +207,7 @@ async def close_port(control: Controlled) -> PortState:
 async def listen(request: Request, control: Controlled, caller: Annotated[Caller, OWNER]) -> RateFound:
     """Gives up the serial port for some seconds, listens on it at other speeds than the boards', and opens it
     again. For a board from which nothing that can be read arrives. Sends nothing; refused while the robot may
-    move, and while somebody else drives.
+    move, and while another client drives.
     """
     found = await control.find_rate(named(request, caller))
     if found is None:

@@ -116,7 +116,7 @@ class Server(uvicorn.Server):
 
     @contextlib.contextmanager
     def capture_signals(self) -> Iterator[None]:
-        # Without uvicorn's second raise of the signal: an end that was asked for is a success.
+        # Without uvicorn's second raise of the signal: a requested end is a success.
         if threading.current_thread() is not threading.main_thread():
             yield
             return

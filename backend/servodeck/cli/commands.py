@@ -20,23 +20,23 @@ from servodeck.cli.options import (
     MoveTime,
     Take,
     Times,
-    asked,
     asking,
     board,
     board_words,
     explain,
     explain_silence,
     fail,
+    once_identified,
+    request,
     show,
-    when_asked,
 )
 from servodeck.cli.remote import RefusedError, Remote, UnreachableError, stopped_words
 
 BEAT_S = 1.0
 # The longest time that the gateway allows without a driver.
 LONGEST_ALONE_S = 3600
-# How long the end of a group is waited for where it was not said: until its computed end and a little more,
-# or where only the board could tell.
+# How long the end of a group is waited for where it was not reported: until its computed end and a little
+# more, or where only the board could report it.
 AFTER_END_S = 2.0
 UNKNOWN_END_S = 30.0
 # Servos of unknown place start a quarter of a second apart.
@@ -46,7 +46,7 @@ MOVE_WAIT_S = 90.0
 @asking
 def status(remote: Remote, as_json: AsJson = False) -> None:
     """Show the port, the board, the driver and what is running."""
-    show(asked(remote, "GET", "/api/status"), as_json, status_words)
+    show(request(remote, "GET", "/api/status"), as_json, status_words)
 
 
 def status_words(state: dict[str, Any]) -> str:
@@ -69,14 +69,14 @@ def stop(remote: Remote, as_json: AsJson = False) -> None:
     """Stop the robot and refuse motion until `servodeck resume`. Prints which servos cannot be held, and for
     how long they may still move.
     """
-    answer = asked(remote, "POST", "/api/stop")
+    answer = request(remote, "POST", "/api/stop")
     show(answer, as_json, stopped_words)
 
 
 @asking
 def resume(remote: Remote, as_json: AsJson = False) -> None:
     """Allow motion again. Moves nothing."""
-    answer = asked(remote, "POST", "/api/resume")
+    answer = request(remote, "POST", "/api/resume")
     show(answer, as_json, lambda _: "Motion is allowed.")
 
 
@@ -92,8 +92,8 @@ def move(
 ) -> None:
     """Move servos together, in the board's unit."""
     body = {"timeMs": time_ms, "positions": positions_in(targets), "take": take}
-    when_asked(remote)
-    answer = asked(remote, "POST", "/api/move", body, wait_s=MOVE_WAIT_S)
+    once_identified(remote)
+    answer = request(remote, "POST", "/api/move", body, wait_s=MOVE_WAIT_S)
     show(answer, as_json, begun_words)
 
 
@@ -141,9 +141,9 @@ def run(
         fail("--timeout has no effect with --continue, which returns at once: leave out one of them.", USAGE)
     if times == 0 and timeout_s is None and go_on is None:
         go_on = LONGEST_ALONE_S
-    when_asked(remote)
+    once_identified(remote)
     body = {"times": times, "take": take, "continueForMs": None if go_on is None else go_on * 1000}
-    answer = asked(remote, "POST", f"/api/slots/{slot}/run", body)
+    answer = request(remote, "POST", f"/api/slots/{slot}/run", body)
     show(answer, as_json, lambda begun: f"Slot {slot}: {begun['outcome']}.")
     if go_on is not None:
         if times == 0:
@@ -164,16 +164,18 @@ def endless(slot: int, alone_s: int) -> str:
 
 
 def watch(remote: Remote, limit_s: float | None) -> float | None:
-    """Beats until the group is over. The seconds after which it was ended; None where it ended before."""
+    """Sends heartbeats until the group is over. The seconds after which it was ended; None where it ended
+    before.
+    """
     begun_s = time.monotonic()
     try:
-        while running := asked(remote, "GET", "/api/status")["running"]:
+        while running := request(remote, "GET", "/api/status")["running"]:
             limit_s = usual_limit_s(running["endsInMs"]) if limit_s is None else limit_s
             left_s = limit_s - (time.monotonic() - begun_s)
             if left_s <= 0:
                 let_go(remote)
                 return limit_s
-            asked(remote, "POST", "/api/lease", {"action": "heartbeat"})
+            request(remote, "POST", "/api/lease", {"action": "heartbeat"})
             time.sleep(min(BEAT_S, left_s))
     except KeyboardInterrupt:
         let_go(remote)
@@ -187,7 +189,7 @@ def usual_limit_s(ends_in_ms: int | None) -> float:
 
 def let_go(remote: Remote) -> None:
     """Releases the lease, which ends the run and needs no resume."""
-    asked(remote, "POST", "/api/lease", {"action": "release"})
+    request(remote, "POST", "/api/lease", {"action": "release"})
 
 
 def unheard_end(slot: int, limit_s: float) -> str:
@@ -207,14 +209,14 @@ def erase(
     """Erase every slot of the board for good. Owners only."""
     if not sure:
         typer.confirm("Every group on the board goes for good. Erase them?", abort=True)
-    when_asked(remote)
-    show(asked(remote, "POST", "/api/erase", {"take": take}), as_json, lambda _: "Every slot is empty.")
+    once_identified(remote)
+    show(request(remote, "POST", "/api/erase", {"take": take}), as_json, lambda _: "Every slot is empty.")
 
 
 @asking
 def battery(remote: Remote, as_json: AsJson = False) -> None:
     """Read the battery voltage."""
-    answer = asked(remote, "GET", "/api/battery")
+    answer = request(remote, "GET", "/api/battery")
     show(answer, as_json, lambda read: f"{read['batteryMv'] / 1000:.2f} V")
 
 
@@ -248,7 +250,7 @@ COMMANDS: tuple[Callable[..., None], ...] = (
 @asking
 def poses(remote: Remote, as_json: AsJson = False) -> None:
     """List the poses of the robot on the board, by number and name."""
-    show(asked(remote, "GET", "/api/poses"), as_json, poses_words)
+    show(request(remote, "GET", "/api/poses"), as_json, poses_words)
 
 
 def poses_words(book: dict[str, Any]) -> str:
@@ -266,16 +268,16 @@ def pose(
     as_json: AsJson = False,
 ) -> None:
     """Go to a pose of the robot on the board."""
-    when_asked(remote)
+    once_identified(remote)
     path = f"/api/poses/{quote(wanted, safe='')}/apply"
-    begun = asked(remote, "POST", path, {"timeMs": time_ms, "take": take}, wait_s=MOVE_WAIT_S)
+    begun = request(remote, "POST", path, {"timeMs": time_ms, "take": take}, wait_s=MOVE_WAIT_S)
     show(begun, as_json, begun_words)
 
 
 @asking
 def library(remote: Remote, as_json: AsJson = False) -> None:
     """List the groups and robots of the library."""
-    show(asked(remote, "GET", "/api/library"), as_json, library_words)
+    show(request(remote, "GET", "/api/library"), as_json, library_words)
 
 
 def library_words(listing: dict[str, Any]) -> str:

@@ -1,6 +1,6 @@
 """The command that looks for what keeps a robot from being driven, and says what to do about it.
 
-Prints findings, the good ones too, so that all of it can be sent to somebody who helps. Asks a board for its
+Prints findings, the good ones too, so that all of it can be sent to a person who helps. Asks a board for its
 battery and moves nothing.
 """
 
@@ -87,7 +87,7 @@ def findings_of(remote: Remote, device: str, *, rates: bool) -> Iterator[Finding
 def gateway_findings(remote: Remote) -> Generator[Finding, None, dict[str, Any] | None]:
     """Returns its status, None where it gives none."""
     try:
-        status: dict[str, Any] = remote.ask("GET", "/api/status")
+        status: dict[str, Any] = remote.request("GET", "/api/status")
     except UnreachableError:
         yield Finding("--", f"No gateway answers at {remote.url}: start one with servodeck serve.")
         return None
@@ -182,7 +182,7 @@ def heard_findings(name: str, heard: Heard, *, is_on_hid: bool) -> Iterator[Find
 def gateway_rate_finding(remote: Remote, name: str) -> Finding:
     """The gateway gives its port up for that."""
     try:
-        found = remote.ask("POST", "/api/port/listen", wait_s=LINE.listened_within_ms / 1000)
+        found = remote.request("POST", "/api/port/listen", wait_s=LINE.listened_within_ms / 1000)
     except (RefusedError, UnreachableError) as error:
         return Finding("look", f"The gateway does not listen at other speeds on {name}: {error}")
     return rate_finding(name, None if found["baud"] is None else (found["baud"], found["kind"]))

@@ -15,11 +15,11 @@ from servodeck.cli.options import (
     AsJson,
     Take,
     Times,
-    asked,
     asking,
     fail,
+    once_identified,
+    request,
     show,
-    when_asked,
 )
 from servodeck.cli.remote import Remote
 from servodeck.protocol.timings import DOWNLOAD
@@ -56,11 +56,11 @@ def download(
 def delivered(remote: Remote, groups: list[dict[str, Any]], *, take: bool) -> dict[str, Any]:
     """As one job, in as many requests as the gateway needs to read them."""
     first, *rest = portions_of(groups)
-    when_asked(remote)
-    job: dict[str, Any] = asked(remote, "POST", "/api/download", {"groups": first, "take": take})
+    once_identified(remote)
+    job: dict[str, Any] = request(remote, "POST", "/api/download", {"groups": first, "take": take})
     for portion in rest:
         body = {"groups": portion, "take": take, "behind": job["id"]}
-        job = asked(remote, "POST", "/api/download", body)
+        job = request(remote, "POST", "/api/download", body)
     return job
 
 
@@ -83,12 +83,12 @@ def followed(remote: Remote, job: dict[str, Any], *, shows_progress: bool) -> di
     try:
         while job["status"] == "running":
             time.sleep(LOOK_S)
-            job = asked(remote, "GET", f"/api/jobs/{job['id']}")
+            job = request(remote, "GET", f"/api/jobs/{job['id']}")
             for slot in job["slots"][stored : job["groupsStored"]] if shows_progress else ():
                 print(f"Slot {slot} is stored.", flush=True)
             stored = job["groupsStored"]
     except KeyboardInterrupt:
-        asked(remote, "DELETE", f"/api/jobs/{job['id']}")
+        request(remote, "DELETE", f"/api/jobs/{job['id']}")
         fail("Cancelled after the frame in progress.", INTERRUPTED)
     return job
 
@@ -145,7 +145,7 @@ def play(
     body: dict[str, Any] = {"frames": group_in(file)["frames"], "times": times, "take": take}
     if go_on is not None:
         body["continueForMs"] = min(go_on, LONGEST_ALONE_S) * 1000
-    state = asked(remote, "POST", "/api/play", body)
+    state = request(remote, "POST", "/api/play", body)
     if go_on is None:
         state = watched(remote, state)
     show(state, as_json, play_words)
@@ -159,15 +159,15 @@ def watched(remote: Remote, state: dict[str, Any]) -> dict[str, Any]:
     try:
         while state["status"] == "playing":
             time.sleep(LOOK_S)
-            latest = asked(remote, "GET", "/api/status")["play"]
+            latest = request(remote, "GET", "/api/status")["play"]
             if latest["id"] != state["id"]:  # it ended, and another play has begun
                 return state | {"status": "ended", "code": "cancelled", "detail": "Another one is played."}
             state = latest
             if state["status"] == "playing" and time.monotonic() - beaten_s >= BEAT_S:
-                asked(remote, "POST", "/api/lease", {"action": "heartbeat"})
+                request(remote, "POST", "/api/lease", {"action": "heartbeat"})
                 beaten_s = time.monotonic()
     except KeyboardInterrupt:
-        asked(remote, "DELETE", "/api/play")
+        request(remote, "DELETE", "/api/play")
         fail("Stopped after the frame in progress.", INTERRUPTED)
     return state
 

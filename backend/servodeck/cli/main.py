@@ -18,10 +18,10 @@ from servodeck.cli.options import (
     USAGE,
     Token,
     TokenFile,
-    asked,
     commands_of,
     fail,
     remote_at,
+    request,
     settings_of,
     toml_line,
 )
@@ -93,7 +93,7 @@ def ports(
         remote = remote_at(url, token, token_file)
         names = [field.name for field in fields(PortInfo)]
         query = "?bluetooth=true" if bluetooth else ""
-        listed = asked(remote, "GET", f"/api/ports{query}", wait_s=SCAN_WAIT_S)
+        listed = request(remote, "GET", f"/api/ports{query}", wait_s=SCAN_WAIT_S)
         found = [PortInfo(**{name: port[name] for name in names}) for port in listed]
     else:
         found = [*(modules_heard() if bluetooth else []), *list_devices()]

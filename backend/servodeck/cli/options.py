@@ -1,6 +1,6 @@
 """Shared parts of the commands: options that several take, where the options of `servodeck serve` come from
-(flag, then environment, then a TOML file, then default), how a command asks the gateway for its board, and
-how it ends when it cannot do what it was asked: a sentence on stderr and an exit code.
+(flag, then environment, then a TOML file, then default), how a command sends requests to the gateway, and
+how it ends when it cannot do what was requested: a sentence on stderr and an exit code.
 
 Knows options by their names; not what any of them means.
 """
@@ -35,7 +35,7 @@ WHAT_TO_DO = {
     "latched": "Look at the robot, then: servodeck resume",
     "notDriving": "Wait, ask there, or as an owner add --take.",
     "closed": "Open one on the page, or start the gateway with --serial DEVICE. servodeck ports lists them.",
-    "lost": "It is tried again by itself. servodeck status tells how it stands.",
+    "lost": "It is tried again by itself. servodeck status shows how it stands.",
     "noAnswer": "Is the board switched on?",
     "boardUnknown": "servodeck board shows what it answered.",
     "wrongBoard": "servodeck board shows what it answered.",
@@ -82,10 +82,10 @@ def asking(command: Callable[..., None]) -> Callable[..., None]:
     return run
 
 
-def asked(remote: Remote, method: str, path: str, body: object = None, **how: float) -> Any:
+def request(remote: Remote, method: str, path: str, body: object = None, **how: float) -> Any:
     """The answer; where there is none the program ends with what to do about it."""
     try:
-        return remote.ask(method, path, body, **how)
+        return remote.request(method, path, body, **how)
     except RefusedError as error:
         explain(error)
     except UnreachableError as error:
@@ -125,15 +125,15 @@ def board(
 ) -> None:
     """Show how the board was identified, or choose its family."""
     if family is not None:
-        asked(remote, "PUT", "/api/board", {"board": family})
-    show(when_asked(remote), as_json, board_words)
+        request(remote, "PUT", "/api/board", {"board": family})
+    show(once_identified(remote), as_json, board_words)
 
 
-def when_asked(remote: Remote) -> dict[str, Any]:
+def once_identified(remote: Remote) -> dict[str, Any]:
     """The state, once the gateway neither opens the port nor identifies the board."""
     until_s = time.monotonic() + IDENTIFIED_WITHIN_S
     while True:
-        state: dict[str, Any] = asked(remote, "GET", "/api/status")
+        state: dict[str, Any] = request(remote, "GET", "/api/status")
         if state["link"]["status"] not in ("opening", "identifying") or time.monotonic() > until_s:
             return state
         time.sleep(RETRY_S)

@@ -41,13 +41,13 @@ class Remote:
         self._parts = parts
         self._headers = {"Authorization": f"Bearer {token}"} if token else {}
 
-    def ask(self, method: str, path: str, body: object = None, wait_s: float = ANSWER_S) -> Any:
+    def request(self, method: str, path: str, body: object = None, wait_s: float = ANSWER_S) -> Any:
         """The body of the answer. Raises RefusedError or UnreachableError."""
         with self._answer_to(method, path, body, wait_s) as answer:
             return read(answer)
 
     def events(self) -> Iterator[str]:
-        """Each as JSON, for as long as the gateway tells. Raises as `ask` does."""
+        """Each as JSON, for as long as the gateway sends them. Raises as `request` does."""
         with self._answer_to("GET", "/api/events", None, None) as answer:
             if answer.status != OK:
                 read(answer)
@@ -73,13 +73,13 @@ class Remote:
 def read(answer: HTTPResponse) -> Any:
     text = answer.read()
     try:
-        said = json.loads(text or b"null")
-        refusal = None if answer.status < FAILED else RefusedError(said["code"], said["detail"])
+        body = json.loads(text or b"null")
+        refusal = None if answer.status < FAILED else RefusedError(body["code"], body["detail"])
     except (ValueError, TypeError, KeyError) as error:
         raise UnreachableError("The server at this address is not a Servodeck gateway.") from error
     if refusal:
         raise refusal
-    return said
+    return body
 
 
 RESUME = "servodeck resume allows motion again."

@@ -1,5 +1,5 @@
 """The program, with its command `servodeck serve`: reads HOST:PORT and binds it, puts the gateway together
-and ends it. The other commands are loaded only where one of them is asked for (main.py).
+and ends it. The other commands are loaded only where one of them is requested (main.py).
 
 Imports the gateway only where it is served, so that the small commands answer at once.
 """
@@ -179,7 +179,7 @@ def serve(
         slot_memory=SlotMemory(folder),
         remembered=remembered,
         recalls_board=recalls_board,
-        # A simulated one is what its starter says.
+        # A simulated one is what its starter names.
         identifies_board=not simulated,
         polls_battery=True,
         read_robot=robots_in(library),

@@ -142,7 +142,7 @@ def upgrade(db: sqlite3.Connection, path: Path, steps: Sequence[Sequence[str]]) 
     if 0 < version_of(db) < len(steps):
         back_up(db, path.with_name(f"library-before-version-{len(steps)}.sqlite"))
     db.execute("BEGIN IMMEDIATE")
-    for step in steps[version_of(db) :]:  # asked again: another gateway may have been faster
+    for step in steps[version_of(db) :]:  # read again: another gateway may have been faster
         for statement in step:
             db.execute(statement)
     db.execute(f"PRAGMA user_version = {len(steps)}")

@@ -1,6 +1,6 @@
 """Bluetooth modules of the boards: finds one, opens it as a port, says in a sentence why it cannot be had.
 
-The only module that imports bleak, which is an extra, and only once a module is asked for. bleak runs on an
+The only module that imports bleak, which is an extra, and only once a module is requested. bleak runs on an
 event loop of its own in a thread, so that what it hears of a whole room never delays the gateway. Knows no
 packet.
 """
@@ -267,7 +267,7 @@ class BluetoothPort:
         except queue.Empty:
             return b""
         if data is None:
-            self.lose()  # for the next that asks
+            self.lose()  # for the next call
             raise self._lost()
         return data
 
@@ -282,7 +282,7 @@ class BluetoothPort:
     def close(self) -> None:
         client, self._client = self._client, None
         if client:
-            with contextlib.suppress(Exception):  # it is gone; that is what was asked for
+            with contextlib.suppress(Exception):  # it is gone, as requested
                 self._bluetooth.submit(self._bluetooth.close(client)).result()
 
     async def _write(self, data: bytes) -> None:

@@ -317,7 +317,7 @@ class HidPort:
         try:
             self._device.close()
         except (OSError, ValueError):
-            return  # it is gone; that is what was asked for
+            return  # it is gone, as requested
 
     def _guarded(self, action: Callable[[], T]) -> T:
         try:

@@ -57,7 +57,7 @@ class LinkEvents(Protocol):
         """Before anything else is sent on that wire."""
 
     def port_lost(self, unfinished: CommandPacket | None) -> None:
-        """It was open and is gone, unasked; that packet was on its way."""
+        """It was open and was lost; that packet was on its way."""
 
     def port_changed(self) -> None:
         """`state` has changed."""
@@ -129,7 +129,7 @@ class Link:
         raise ClosedError("No serial port is open.")
 
     async def use(self, device: str) -> None:
-        """Changes to that device. Raises the PortError of the first attempt; later attempts go on all the
+        """Changes to that device. Raises the PortError of the first attempt; later attempts continue all the
         same.
         """
         first: asyncio.Future[None] = asyncio.get_running_loop().create_future()

@@ -112,7 +112,7 @@ class SerialPort:
         try:
             self._port.close()
         except (serial.SerialException, OSError):
-            return  # it is gone; that is what was asked for
+            return  # it is gone, as requested
 
     def _guarded(self, action: Callable[[], T]) -> T:
         try:

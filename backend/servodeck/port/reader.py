@@ -75,7 +75,7 @@ def read_in_thread(port: OpenPort, received: Received, lost: Lost) -> Stop:
 
 
 class Gathered:
-    """Joins the pieces of what the board said at once: the decoder takes a long pause for its end. A piece of
+    """Joins the pieces of what the board sent at once: the decoder takes a long pause for its end. A piece of
     `whole_bytes` may have a next one, within `wait_s`.
     """
 

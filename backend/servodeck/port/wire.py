@@ -50,7 +50,7 @@ class Job:
     make: Callable[[], CommandPacket | None]
     owner: Owner
     left: Left
-    asked_at: float
+    requested_at: float
 
 
 @dataclass(eq=False, slots=True)
@@ -258,7 +258,7 @@ class Wire:
             settle(job.left)
             return
         self._under_way = job
-        waited_s = self._now() - job.asked_at
+        waited_s = self._now() - job.requested_at
         await self._put(packet, job.owner)
         metrics.queue_wait.note(waited_s)
         self._under_way = None

@@ -122,7 +122,7 @@ class Decoder:
         del pending[:at]
 
     def pause(self) -> None:
-        """The line has paused, yet may go on: what is complete is believed, half packets wait."""
+        """The line has paused, yet may continue: what is complete is believed, half packets wait."""
         at = 0
         while at < len(self._pending) and (size := self._judge_last(self._pending, at)) > 0:
             at = self._take(self._pending, at, size)

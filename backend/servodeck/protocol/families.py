@@ -59,7 +59,7 @@ class MotionTraits:
     # `deadlines`: a frame takes its time, to the millisecond (S42). `polled`: the next begins some time
     # behind it (L7).
     groups: Literal["deadlines", "polled"]
-    # A stop halts these where they are; the others go on to the end of their frame (S50, L9).
+    # A stop halts these where they are; the others continue to the end of their frame (S50, L9).
     halted_by_stop: tuple[int, ...]
     # When the group in this slot ends by itself, the next one is played once (S49).
     chained_slot: int | None
@@ -100,7 +100,7 @@ class Family:
     run_reports_name_slot: bool
     # What an empty packet 7 says: opposite things per family.
     empty_seven: Literal["runFinished", "runStopped", "unknown"]
-    # Any question ends a running group, unsaid (L8): ask only while nothing runs.
+    # Any question ends a running group without a report (L8): ask only while nothing runs.
     query_kills_run: bool
     # What ends a packet that was cut, on a board that bears it; None: nothing may be sent for that.
     resync_filler: int | None
@@ -111,7 +111,7 @@ class Family:
     # Pause after the last byte has left the wire.
     service_gap_ms: int
     motion: MotionTraits
-    # What the board tells of more than this is not measured.
+    # What the board reports above this is not measured.
     battery_ceiling_mv: int | None
     # What plays a slot besides a run: buttons of the pad for slots 0, 1 and so on, SELECT with one, the key.
     pad_buttons: tuple[str | None, ...]

@@ -67,7 +67,7 @@ HARMLESS = frozenset(
 """They move nothing and store nothing, so they need no driver."""
 # In place of a slot: every group.
 ALL_GROUPS = 0xFF
-# What the board drives, by the number it tells with its version.
+# What the board drives, by the number it reports with its version.
 SERVO_TYPES: dict[int, Literal["us", "steps"]] = {1: "us", 2: "steps"}
 MIN_LENGTH = 2
 # Count and time before the entries of a move or frame; slot, count and number before those of a download.

@@ -1,1 +1,1 @@
-"""The robot behind the port: what may be asked of it, by whom and when, and what it does."""
+"""The robot behind the port: what may be requested of it, by whom and when, and what it does."""

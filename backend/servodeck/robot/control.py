@@ -220,7 +220,7 @@ class Control:
         if board not in FAMILIES:
             raise OutOfRangeError(f"board is {board}, allowed: {', '.join(FAMILIES)}")
         self.board.choose_family(board)
-        self._recalled_board.said(self.board)
+        self._recalled_board.chosen(self.board)
         self._see_robot()
 
     def allow_unattended(self, session: Session, for_ms: int | None) -> None:
@@ -243,7 +243,7 @@ class Control:
             self.board.recall(board)
         await self.board.link.use(device)
         if board:
-            self._recalled_board.said(self.board)
+            self._recalled_board.chosen(self.board)
 
     async def find_rate(self, caller: Caller) -> tuple[int, Heard] | None:
         """Listens on the port at other speeds, where the robot is at rest and no other client drives.

@@ -130,7 +130,7 @@ class Watch:
 
     def end_quietly(self, reason: GatewayError) -> None:
         """Without the latch: a person is watching, or the end was announced. Not behind a STOP: a second hold
-        would end later than was said of the first.
+        would end later than the first one reported.
         """
         if self._control.latch:
             return

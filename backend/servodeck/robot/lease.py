@@ -31,7 +31,7 @@ class LeaseEvents(Protocol):
         """Still nothing: groups that the board runs must end, too."""
 
     def driver_lost(self) -> None:
-        """The driver is gone unasked; `driver_changed` follows."""
+        """The driver is gone without a release; `driver_changed` follows."""
 
     def driver_changed(self) -> None:
         """The driver before does not drive any more: its motion must end."""
@@ -78,7 +78,7 @@ class Lease(Generic[H]):
             self._grant(who, now)
             return
         if self.requester is not None:
-            raise BusyError("Another client has asked already.")
+            raise BusyError("Another client has requested it already.")
         self.requester, self._answer_until_s = who, now + ANSWER_S
         self._events.lease_changed()
 
@@ -95,12 +95,12 @@ class Lease(Generic[H]):
             self._pass_on(now)
 
     def take(self, who: H, now: float) -> None:
-        """Without asking."""
+        """Without a request to the driver."""
         if who is not self.driver:
             self._grant(who, now)
 
     def give(self, giver: H, to: H, now: float) -> None:
-        """Without asking `to`, and before a pending request. The caller judges who may."""
+        """Without a request of `to`, and before a pending request. The caller judges who may."""
         if to is not self.driver:
             self._grant(to, now, giver)
 

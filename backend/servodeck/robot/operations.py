@@ -168,7 +168,7 @@ class Operations:
             self._ending = None
 
     async def erase(self, claim: Claim) -> Outcome:
-        """Until the board says that it is done."""
+        """Until the board reports that it is done."""
         command = Erase()
         self._control.board.link.judge_carried("erase")
         check(command, self._family())
@@ -187,7 +187,7 @@ class Operations:
         return "sent"
 
     async def release(self, claim: Claim, servos: Sequence[int]) -> Outcome:
-        """At rest only: a move that goes on or still waits for the wire would power them again (X7)."""
+        """At rest only: a move that continues or still waits for the wire would power them again (X7)."""
         family = self._family()
         commands = [Release(tuple(portion)) for portion in portions_of(servos, family.servos_per_move)]
         for command in commands:

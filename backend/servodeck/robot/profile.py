@@ -139,7 +139,7 @@ class RobotOfBoard:
             self._publish()
 
     def leave(self) -> None:
-        """No board is connected. The state of the port tells clients."""
+        """No board is connected. Clients see it in the state of the port."""
         if self._reading:
             self._reading.cancel()
         self._board = self._reading = None
@@ -215,7 +215,7 @@ class RobotOfBoard:
 
 class RecalledBoard:
     def __init__(self, remembered: Remembered, *, is_wanted: bool) -> None:
-        """Not wanted where an option has said it."""
+        """Not wanted where an option names the family."""
         self._remembered = remembered
         self.is_wanted = is_wanted
 
@@ -224,9 +224,9 @@ class RecalledBoard:
         if self.is_wanted and board.identification.claim is UNKNOWN and known in FAMILIES:
             board.recall(known)
 
-    def said(self, board: Board) -> None:
+    def chosen(self, board: Board) -> None:
         """A person has chosen it. What the board's answers contradict is not stored; a simulated one is what
-        its starter says, each time anew.
+        its starter names, each time anew.
         """
         family, status = board.identification.claim, board.identification.state.status
         is_contradicted = status == "refused" and family is not UNKNOWN

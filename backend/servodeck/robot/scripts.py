@@ -112,7 +112,7 @@ class ScriptGrant(Grant):
 
 class Scripts:
     def __init__(self, control: Control, still_lets_in: Callable[[Caller], bool]) -> None:
-        """`still_lets_in` is asked again when a request has been read: that may take a while."""
+        """`still_lets_in` is called again when a request has been read: that may take a while."""
         self._control = control
         self._still_lets_in = still_lets_in
         self._sessions: dict[str, ScriptSession] = {}
@@ -200,13 +200,13 @@ class Scripts:
         return job
 
     async def erase(self, caller: Caller, *, take: bool) -> None:
-        """Until the board says that it is done."""
+        """Until the board reports that it is done."""
         session = self._session_of(caller)
         claim = ScriptClaim(self._control, session, take=take)
         await session.do(self._control.operations.erase(claim))
 
     def act(self, caller: Caller, action: ScriptAction) -> LeaseState:
-        """On the lease alone; after a `heartbeat` what this script has begun may go on."""
+        """On the lease alone; after a `heartbeat` what this script has begun may continue."""
         session, driving = self._session_of(caller), self._control.driving
         if action != "heartbeat":
             driving.act(session, action)
@@ -275,7 +275,7 @@ def plan_move(
     now: float,
     name_of: Callable[[int], str],
 ) -> MovePlan:
-    """In exactly that time, as a script asks for it. Raises what the board cannot take, and a first move that
+    """In exactly that time, as a script requests it. Raises what the board cannot take, and a first move that
     would be too fast: it is refused, not silently made slower.
     """
     new = tuple(servo for servo in sorted(positions) if motion.is_unknown(servo, now))

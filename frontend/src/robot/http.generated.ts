@@ -1710,8 +1710,8 @@ export interface components {
     };
     /**
      * Stopped
-     * @description `halted`: the stop sequence has left the wire. `unheld`: servos that may go on moving, because their
-     *     position is unknown; null where all are held.
+     * @description `halted`: the stop sequence has left the wire. `unheld`: servos that may continue to move, because
+     *     their position is unknown; null where all are held.
      */
     Stopped: {
       /** Halted */
@@ -2504,7 +2504,7 @@ export interface operations {
   peopleRevoke: {
     parameters: {
       query?: {
-        /** @description Whether a group that it let continue without it may go on. */
+        /** @description Whether a group that it let continue without it may continue. */
         continues?: boolean;
       };
       header?: never;

@@ -24,8 +24,8 @@ function announcementMs({ runReportsNameSlot, answers }: Family): number {
 }
 
 /** The end of the group before may be said while the next one runs, and then not which it was. */
-function owesEnd({ untoldEndMs }: Motion, atMs: number, { family }: KnownBoard): boolean {
-  return !family.runReportsNameSlot && atMs - untoldEndMs < timings.estimate.endReportedWithinMs;
+function owesEnd({ unreportedEndMs }: Motion, atMs: number, { family }: KnownBoard): boolean {
+  return !family.runReportsNameSlot && atMs - unreportedEndMs < timings.estimate.endReportedWithinMs;
 }
 
 /** A run that begins at `atMs`. */
@@ -39,10 +39,10 @@ function begin(
   const total = board.playedFrames(slot)?.length;
   const ends = endsToHear + (owesEnd(motion, atMs, board) ? 1 : 0);
   if (total === undefined) return runningUnknown(motion, slot, ends);
-  const at = { askedAtMs: atMs, nextAtMs: atMs, passAtMs: atMs };
+  const at = { requestedAtMs: atMs, nextAtMs: atMs, passAtMs: atMs };
   return {
     ...motion,
-    untoldEndMs: -Infinity,
+    unreportedEndMs: -Infinity,
     run: { kind: 'deadlines', slot, total, next: 0, ...at, times, loopsDone: 0, endsToHear: ends },
   };
 }
@@ -89,7 +89,7 @@ function beginFrame(motion: Motion, run: DeadlineRun, board: KnownBoard): Motion
   return {
     ...motion,
     recent,
-    tracks: contested(tracks, recent, family, run.askedAtMs),
+    tracks: contested(tracks, recent, family, run.requestedAtMs),
     ...(isPause ? {} : unrestBehind(motion, durationMs, run.nextAtMs, family)),
     // The raw time, not the one the servos were given (S43).
     run: { ...run, next: run.next + 1, nextAtMs: run.nextAtMs + durationMs },
@@ -113,7 +113,7 @@ function isChained(slot: number | null, board: KnownBoard): boolean {
 
 function endRun(motion: Motion, run: DeadlineRun, board: KnownBoard): Motion {
   const ended = { ...motion, run: null };
-  if (!isChained(run.slot, board)) return { ...ended, untoldEndMs: run.nextAtMs };
+  if (!isChained(run.slot, board)) return { ...ended, unreportedEndMs: run.nextAtMs };
   // Its own end, still to be heard, and the next one's.
   return begin(
     ended,
@@ -138,7 +138,7 @@ function advance(motion: Motion, nowMs: number, board: KnownBoard): Motion {
 /** The board knows better than our clock; but each end it reports is only one of those it owes. */
 function ended(motion: Motion, board: KnownBoard): Motion {
   const { run } = motion;
-  if (run === null) return { ...motion, untoldEndMs: -Infinity };
+  if (run === null) return { ...motion, unreportedEndMs: -Infinity };
   if (run.kind === 'polled') return motion;
   if (run.endsToHear > 1) return { ...motion, run: { ...run, endsToHear: run.endsToHear - 1 } };
   const { chainedSlot } = board.family.motion;

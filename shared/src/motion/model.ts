@@ -68,7 +68,7 @@ export interface DeadlineRun {
   readonly kind: 'deadlines';
   readonly slot: number;
   /** What the board heard before is taken up already. */
-  readonly askedAtMs: number;
+  readonly requestedAtMs: number;
   readonly total: number;
   readonly next: number;
   readonly nextAtMs: number;
@@ -103,7 +103,7 @@ export interface Motion {
   /** Moves and frames of almost now. */
   readonly recent: readonly Order[];
   /** When a group ended by our clock whose end the board has not said yet; -Infinity for none. */
-  readonly untoldEndMs: number;
+  readonly unreportedEndMs: number;
   /** Until then the board may be busy with flash or servos, its servos frozen, packets waiting or dropped (S9, S41). */
   readonly deafUntilMs: number;
   /** When it has answered all that, it hears again sooner. */
@@ -155,7 +155,7 @@ export const UNKNOWN_MOTION: Motion = {
   readings: new Map(),
   run: null,
   recent: [],
-  untoldEndMs: -Infinity,
+  unreportedEndMs: -Infinity,
   deafUntilMs: -Infinity,
   answersOwed: [],
   mayHoldPacket: false,

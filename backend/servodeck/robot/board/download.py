@@ -38,8 +38,8 @@ class Group:
 class Part:
     """One group of a download; `packets` in the order of its frames, for boards of the family `board`.
     `extremes`: the least and the greatest position of each servo. `version`: what it is called, by the client
-    that asks, to tell it from others; `replaces`: that of what they have seen in its slot, if they have
-    looked; `document`: of the library, where it is of one.
+    that requests it, to distinguish it from others; `replaces`: that of what they have seen in its slot, if
+    they have looked; `document`: of the library, where it is of one.
     """
 
     slot: int
@@ -159,7 +159,7 @@ class Download:
         is_cancelled: Callable[[], bool],
         stored: Callable[[int], None],
     ) -> None:
-        """`packets` in the order of their frames. `is_cancelled` is asked between two frames; `stored` is
+        """`packets` in the order of their frames. `is_cancelled` is called between two frames; `stored` is
         called with the number of frames on the board, 0 at each beginning.
         """
         self._packets = packets

@@ -1,5 +1,5 @@
 """The state of the robot as the gateway knows it: the motion estimate, fed with the commands that left the
-wire and the reports of the board said, and the groups it stored itself. Twin of shared/src/robot/estimate.ts.
+wire and the reports of the board, and the groups it stored itself. Twin of shared/src/robot/estimate.ts.
 
 Pure: time comes in, in seconds. Knows commands and reports; no wire, no client.
 """
@@ -69,16 +69,16 @@ class Estimate:
         self.family = family
         self._memory = GroupMemory()
         self._reported: dict[int, tuple[int, float]] = {}
-        """By servo: the position that the board said last, and when."""
+        """By servo: the position that the board reported last, and when."""
         self._motion = UNKNOWN_MOTION
         self._at_ms = -inf
         """Until then everything is booked: the packet on the wire has left by then."""
         self._run: Run | None = None
-        self._asked: Run | None = None
+        self._requested: Run | None = None
         """The run that left last."""
         self._run_at_ms = -inf
         self._over_ms = -inf
-        """The board may still say until then that its group has ended, and is taken to play it."""
+        """The board may still report the end of its group until then, and is taken to play it."""
         self._unheard_until_ms = -inf
         """A move that the board may take up late has ended by then."""
         self._last_frame_until_ms = -inf
@@ -112,7 +112,7 @@ class Estimate:
         if is_ended and self._run_at_ms > self._resumed_at_ms:
             self._last_frame_until_ms = self._motion.restless_until_ms
         if isinstance(command, Run) and self._motion.run:
-            self._run = self._asked = command
+            self._run = self._requested = command
             self._run_at_ms, self._over_ms = at_ms, -inf
         elif isinstance(command, Stop) and is_heard:
             self._over_ms = -inf
@@ -135,7 +135,7 @@ class Estimate:
             self._motion = after_report(self._motion, report, at_ms, self)
 
     def resumed(self, now: float) -> None:
-        """A person answers for what may go on of groups that were stopped before; it may all the same."""
+        """A person answers for what may continue of groups that were stopped before; it may all the same."""
         self._resumed_at_ms = self._advance(now)
         self._last_frame_until_ms = -inf
 
@@ -188,7 +188,7 @@ class Estimate:
         return self._run is not None
 
     def group_ends_in_s(self, now: float) -> float | None:
-        """At the latest, for a group that may run; None where only the board could tell."""
+        """At the latest, for a group that may run; None where only the board could report it."""
         now_ms = self._advance(now)
         end_ms = latest_end_ms(self._motion, self) + RUN.end_grace_ms if self._motion.run else self._over_ms
         left_ms = max(0.0, end_ms - now_ms)
@@ -219,7 +219,7 @@ class Estimate:
         return left_ms / 1000 if left_ms > ESTIMATE.last_ticks_ms else 0.0
 
     def is_unknown(self, servo: int, now: float) -> bool:
-        """It was not moved, and the board has not said where it stands."""
+        """It was not moved, and the board has not reported where it stands."""
         now_ms = self._advance(now)
         return target_of(self._motion, servo) is None and position_at(self._motion, servo, now_ms) is None
 
@@ -304,8 +304,8 @@ class Estimate:
                 self._memory.set_speed(slot, percent if is_heard else None)
 
     def _started(self, report: RunStarted, at_ms: float) -> None:
-        """By a key or a pad at the board; one that was asked for may have been stopped since."""
-        is_ours = self._asked is not None and self._asked.slot == report.slot
+        """By a key or a pad at the board; one that was requested may have been stopped since."""
+        is_ours = self._requested is not None and self._requested.slot == report.slot
         if is_ours and self._run is None and at_ms - self._run_at_ms < RUN_REPORT_MS:
             return
         self._motion = after_report(self._motion, report, at_ms, self)

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 class Halts:
     def __init__(self, board: "Board", now: Callable[[], float], stopped: Callable[[float], None]) -> None:
-        """`stopped` is called when stops have left that nobody pressed, with the time since when the board
+        """`stopped` is called when stops have left that no person pressed, with the time since when the board
         may have moved.
         """
         self._board = board
@@ -35,7 +35,7 @@ class Halts:
         self.count = 0
         """The number of halts."""
         self.was_lost = False
-        """The port went away unasked, and has not come back."""
+        """The port was lost, and has not come back."""
         self.at_return: asyncio.Task[None] | None = None
         """Its stops are leaving, because the port has come back."""
 
@@ -47,7 +47,7 @@ class Halts:
         return self._board.link.wire().halt(self._hold, reason)
 
     def halt_again(self) -> None:
-        """The board may have missed the first stops. What these hold ends later than was said of those."""
+        """The board may have missed the first stops. What these hold ends later than reported then."""
         again_s = self._now()
 
         def left(stops: Left) -> None:

@@ -243,8 +243,8 @@ class Heartbeat:
         ask: Callable[[Question], Awaitable[bool | None]],
         gone: Callable[[], None],
     ) -> None:
-        """`question`: None while none may be asked: no client looks, something runs, no such board answers
-        anything. `ask`: False when no answer came, None when that is unknown.
+        """`question`: None while none may be sent: no client is connected, something runs, no such board
+        answers anything. `ask`: False when no answer came, None when that is unknown.
         """
         self._question = question
         self._ask = ask
@@ -252,7 +252,7 @@ class Heartbeat:
         self._runs = False
         self._misses = 0
         self._timer: asyncio.TimerHandle | None = None
-        self._beating: asyncio.Task[None] | None = None
+        self._polling: asyncio.Task[None] | None = None
 
     def start(self, *, is_gone: bool) -> None:
         """`is_gone`: it has been silent already, so it is asked more often."""
@@ -265,8 +265,8 @@ class Heartbeat:
         self._runs = False
         if self._timer:
             self._timer.cancel()
-        if self._beating:
-            self._beating.cancel()
+        if self._polling:
+            self._polling.cancel()
 
     def heard(self) -> None:
         """The board sent a report: it need not be asked for a while."""
@@ -281,9 +281,9 @@ class Heartbeat:
         self._timer = asyncio.get_running_loop().call_later(delay_ms / 1000, self._begin)
 
     def _begin(self) -> None:
-        self._beating = asyncio.create_task(self._beat())
+        self._polling = asyncio.create_task(self._poll())
 
-    async def _beat(self) -> None:
+    async def _poll(self) -> None:
         question = self._question()
         answered = await self._ask(question) if question else None
         if answered is False:

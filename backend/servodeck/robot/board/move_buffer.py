@@ -87,7 +87,7 @@ class MoveBuffer:
         return any(wish.request is request for wish in self._wishes.values())
 
     def starts_within_s(self, servos: Collection[int]) -> float:
-        """Until the last of them has started, if no others are asked for; others may be waiting already."""
+        """Until the last of them has started, if no others are requested; others may be waiting already."""
         motion, now = self._board.motion, self._now()
         count = sum(motion.is_unknown(servo, now) for servo in {*self._wishes, *servos})
         return max(0.0, self._next_start_s - now) + (count - 1) * FIRST_MOVE_STAGGER_S if count else 0.0

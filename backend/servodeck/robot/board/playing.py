@@ -53,7 +53,7 @@ def judge_group(group: FrameGroup, family: Family) -> Sequence[ServoTarget]:
     return extremes
 
 
-# Asked as each move leaves, whether it is the very first one; raises what keeps it from leaving.
+# Called as each move leaves, with whether it is the very first one; raises what keeps it from leaving.
 Judge = Callable[[bool], None]
 
 
@@ -243,7 +243,7 @@ class Plays:
         return play.state
 
     def end(self, error: GatewayError) -> None:
-        """At once; the frame in progress goes on where it is not held."""
+        """At once; the frame in progress continues where it is not held."""
         if self.present:
             self._finish(self.present, error)
 

@@ -1,4 +1,4 @@
-"""Puts questions to the board one at a time, and waits for what it says. Twin of shared/src/robot/replies.ts.
+"""Puts questions to the board one at a time, and waits for its reports. Twin of shared/src/robot/replies.ts.
 
 Packets have no numbers: an answer is recognised by its kind alone. Knows kinds of reports and time; no packet
 and no port.

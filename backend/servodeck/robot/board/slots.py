@@ -150,7 +150,7 @@ class SlotMemory:
         self._put(board, replace(self._of(board), stored={**self.stored(board), slot: group}))
 
     def forget(self, board: str) -> None:
-        """An erase has begun: it is unknown what is left. What was broken is, until the board says more."""
+        """An erase has begun: it is unknown what is left. What was broken is, until a report."""
         self._put(board, replace(self._of(board), stored={}))
 
     def clear(self, board: str) -> None:

@@ -1,4 +1,4 @@
-"""Downloads as jobs of the gateway: they go on when their client has left. One at a time; while it lasts
+"""Downloads as jobs of the gateway: they continue when their client has left. One at a time; while it lasts
 nothing else goes to the board. Records what they leave in the slots. Knows packets and a wire. Must not know
 HTTP, nor who may begin one and when.
 """

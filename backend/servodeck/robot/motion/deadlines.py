@@ -42,7 +42,10 @@ def announcement_ms(family: Family) -> float:
 
 def owes_end(motion: Motion, at_ms: float, family: Family) -> bool:
     """The end of the group before may be reported while the next one runs, and then not which it was."""
-    return not family.run_reports_name_slot and at_ms - motion.untold_end_ms < ESTIMATE.end_reported_within_ms
+    return (
+        not family.run_reports_name_slot
+        and at_ms - motion.unreported_end_ms < ESTIMATE.end_reported_within_ms
+    )
 
 
 def longest_ms(wanted: Run, family: Family) -> float:
@@ -75,7 +78,7 @@ def begin(motion: Motion, wanted: Run, at_ms: float, board: KnownBoard, ends_to_
     if frames is None:
         return running_unknown(motion, wanted.slot, ends, at_ms + longest_ms(wanted, board.family))
     run = DeadlineRun(wanted.slot, at_ms, len(frames), 0, at_ms, at_ms, wanted.times, 0, ends)
-    return replace(motion, untold_end_ms=-inf, run=run)
+    return replace(motion, unreported_end_ms=-inf, run=run)
 
 
 def is_empty(slot: int, board: KnownBoard) -> bool:
@@ -115,7 +118,7 @@ def begin_frame(motion: Motion, run: DeadlineRun, board: KnownBoard) -> Motion:
     return replace(
         motion,
         recent=recent,
-        tracks=contested(tracks, recent, family, run.asked_at_ms),
+        tracks=contested(tracks, recent, family, run.requested_at_ms),
         restless_until_ms=unrest[0],
         inherited_until_ms=unrest[1],
         # The raw time, not the one the servos were given (S43).
@@ -146,7 +149,7 @@ def is_chained(slot: int | None, board: KnownBoard) -> bool:
 def end_run(motion: Motion, run: DeadlineRun, board: KnownBoard) -> Motion:
     ended_motion = replace(motion, run=None)
     if not is_chained(run.slot, board):
-        return replace(ended_motion, untold_end_ms=run.next_at_ms)
+        return replace(ended_motion, unreported_end_ms=run.next_at_ms)
     # Its own end, still to be heard, and the next one's.
     at_ms = run.next_at_ms + BARE_PACKET_MS
     return begin(ended_motion, Run(run.slot + 1, 1), at_ms, board, run.ends_to_hear + 1)
@@ -176,7 +179,7 @@ class Deadlines:
         return motion
 
     def stop(self, motion: Motion, at_ms: float, board: KnownBoard) -> Motion:
-        """The frame in progress goes on to its end (S50), and none begins behind it."""
+        """The frame in progress continues to its end (S50), and none begins behind it."""
         return replace(
             motion,
             run=None,
@@ -191,7 +194,7 @@ class Deadlines:
         """The board knows better than our clock; but each end it reports is only one of those it owes."""
         run = motion.run
         if run is None:
-            return replace(motion, untold_end_ms=-inf)
+            return replace(motion, unreported_end_ms=-inf)
         if isinstance(run, PolledRun):
             return motion
         if run.ends_to_hear > 1:

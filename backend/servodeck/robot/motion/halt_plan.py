@@ -1,4 +1,4 @@
-"""The effect of STOP on a motion: the move that holds the robot, and the motion that goes on in spite of
+"""The effect of STOP on a motion: the move that holds the robot, and the motion that continues in spite of
 it. Both come from one value, so that they cannot contradict each other. Knows the estimate; no clock, no
 link. Twin of shared/src/motion/haltPlan.ts.
 """
@@ -46,7 +46,7 @@ class Held:
 
 
 def halt_plan(motion: Motion, now_ms: float, board: KnownBoard) -> HaltPlan:
-    """At the press of STOP at `now_ms`: the first hold, and the motion that goes on after the last one."""
+    """At the press of STOP at `now_ms`: the first hold, and the motion that continues after the last one."""
     stopped_ms = now_ms + wire_ms(4)
     stopped = after_command(advance(motion, now_ms, board), Stop(), stopped_ms, board)
     hold = hold_after_stop(stopped, stopped_ms, board)
@@ -112,7 +112,7 @@ def rests_ms(track: Track, family: Family) -> float:
 
 
 def others_than_halted(motion: Motion, last_ms: float, family: Family) -> tuple[int, ...] | None:
-    """Where a stop that was heard halts some servos, only the others go on with a frame (L9); None: any of
+    """Where a stop that was heard halts some servos, only the others continue with a frame (L9); None: any of
     them.
     """
     halted = family.motion.halted_by_stop

@@ -31,7 +31,7 @@ from servodeck.value import value
 
 @value
 class Reading:
-    # None: the board has not said it since.
+    # None: the board has not reported it since.
     position: int | None
     # It has no torque: hands may have turned it since, and its next move starts from anywhere.
     is_released: bool = False
@@ -91,11 +91,11 @@ class UnknownRun:
 @value
 class DeadlineRun:
     """`next` is the frame that begins at `next_at_ms`; `total` what the board takes for the group's length
-    (S46). `times` 0: until stopped. What the board heard before `asked_at_ms` is taken up already.
+    (S46). `times` 0: until stopped. What the board heard before `requested_at_ms` is taken up already.
     """
 
     slot: int
-    asked_at_ms: float
+    requested_at_ms: float
     total: int
     next: int
     next_at_ms: float
@@ -135,7 +135,7 @@ class Motion:
     run: AnyRun | None = None
     recent: tuple[Order, ...] = ()
     """Moves and frames of almost now."""
-    untold_end_ms: float = -inf
+    unreported_end_ms: float = -inf
     """When a group ended by our clock whose end the board has not reported yet."""
     deaf_until_ms: float = -inf
     """Until then the board may be busy with flash or servos, its servos frozen, packets waiting or dropped
@@ -150,7 +150,7 @@ class Motion:
     restless_until_ms: float = -inf
     """Until then a servo we know nothing of may still be on its way."""
     inherited_until_ms: float = -inf
-    """Until then what others set in motion before the port was opened may go on. Only STOP speaks of it."""
+    """Until then what others set in motion before the port was opened may continue. Only STOP reports it."""
     skips_first: Literal["no", "maybe", "yes"] = "no"
     """The next run skips its first frame (L11)."""
 
@@ -181,7 +181,7 @@ class Playback(Protocol):
         """Any other command came."""
 
     def ended(self, motion: Motion, board: KnownBoard, /) -> Motion:
-        """The board says that a group has ended."""
+        """The board reports that a group has ended."""
 
     def pass_ms(self, frames: Sequence[Frame]) -> float:
         """The longest duration of one pass of a group."""
@@ -193,7 +193,7 @@ UNKNOWN_MOTION = Motion()
 
 def running_unknown(motion: Motion, slot: int | None, ends_to_hear: int = 1, until_ms: float = inf) -> Motion:
     """It is unknown where anything is while that group may run, nor behind it: perhaps its slot is empty, and
-    the moves go on.
+    the moves continue.
     """
     run = UnknownRun(slot, ends_to_hear, until_ms)
     return replace(motion, tracks=doubted(motion.tracks), readings=only_released(motion.readings), run=run)

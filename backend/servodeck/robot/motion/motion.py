@@ -200,7 +200,7 @@ def moved(motion: Motion, move: Move, at_ms: float, board: KnownBoard) -> Motion
 
 
 def with_start(motion: Motion, targets: Sequence[ServoTarget]) -> Tracks:
-    """Those of the targets that stand where the board said begin there."""
+    """Those of the targets that stand where the board reported begin there."""
     readings = {target.servo: held_at(motion.readings, target.servo) for target in targets}
     at_rest = {servo: standing_at(at) for servo, at in readings.items() if at is not None}
     return {**motion.tracks, **at_rest}
@@ -212,7 +212,7 @@ def released(motion: Motion, servos: Collection[int]) -> Motion:
 
 
 def deafened(motion: Motion, command: Command, at_ms: float, board: KnownBoard) -> Motion:
-    """Servos at rest stay; those under way freeze and jump (S29), but they arrive. A group goes on, at an
+    """Servos at rest stay; those under way freeze and jump (S29), but they arrive. A group continues, at an
     unknown time.
     """
     deaf_until_ms = at_ms + ESTIMATE.longest_deafness_ms
@@ -296,7 +296,7 @@ def perhaps_moved(motion: Motion, move: Move, at_ms: float, family: Family) -> M
 
 
 def perhaps_stopped(motion: Motion, at_ms: float, family: Family) -> Motion:
-    """What a stop halts (L9) may go on, and a frame that it keeps from beginning may have begun."""
+    """What a stop halts (L9) may continue, and a frame that it keeps from beginning may have begun."""
     tracks = stopped_before(motion.tracks, motion.recent, at_ms, family)
     for servo in family.motion.halted_by_stop:
         if (track := tracks.get(servo)) and not stands(track, at_ms):

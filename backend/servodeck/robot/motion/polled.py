@@ -183,7 +183,7 @@ class Polled:
         return replace(stopped, tracks=frozen(stopped.tracks, board.family, at_ms))
 
     def interrupt(self, motion: Motion, at_ms: float) -> Motion:
-        """The group dies, unsaid (L8), and leaves its place in the frames behind (L11)."""
+        """The group ends without a report (L8), and leaves its place in the frames behind (L11)."""
         run = motion.run
         if run is None:
             return motion
@@ -191,7 +191,7 @@ class Polled:
         return replace(cut(motion, at_ms), skips_first="yes" if surely else "maybe")
 
     def ended(self, motion: Motion, _board: KnownBoard) -> Motion:
-        """It tells of no end (L6)."""
+        """It reports no end (L6)."""
         return motion
 
     def pass_ms(self, frames: Sequence[Frame]) -> float:

@@ -22,7 +22,7 @@ from servodeck.robot.motion.tracks import last_end_ms, stands
 
 
 def after_report(motion: Motion, report: Report, at_ms: float, board: KnownBoard) -> Motion:
-    """After the board said so at `at_ms`; the end of a group is `after_end`."""
+    """After the board sent it at `at_ms`; the end of a group is `after_end`."""
     current = advance(motion, at_ms, board)
     if isinstance(report, RunStarted):
         return after_start(current, report, at_ms, board)
@@ -54,7 +54,7 @@ def after_answer(motion: Motion, report: type[Report], at_ms: float, board: Know
         return motion
     index = motion.answers_owed.index(report)
     owed = motion.answers_owed[:index] + motion.answers_owed[index + 1 :]
-    # It took up what was asked behind the cut packet, so that one is over.
+    # It took up what was sent behind the cut packet, so that one is over.
     if owed:
         return replace(motion, answers_owed=owed, may_swallow=0)
     deaf_until_ms = at_ms + board.family.service_gap_ms if motion.may_hold_packet else -inf
@@ -74,10 +74,10 @@ def after_start(motion: Motion, report: RunStarted, at_ms: float, board: KnownBo
 
 def after_end(motion: Motion, slot: int | None, at_ms: float, board: KnownBoard) -> Motion:
     """After a group has ended by itself, its last frame with it: the one in `slot`, or None where
-    the board does not say which.
+    the board does not report which.
     """
     current = advance(motion, at_ms, board)
-    # Said so late that the next one runs already.
+    # Reported so late that the next one runs already.
     if isinstance(current.run, DeadlineRun) and slot is not None and slot != current.run.slot:
         return current
     return restless(
@@ -94,7 +94,7 @@ def last_frame_ms(motion: Motion, at_ms: float, board: KnownBoard) -> float:
 
 
 def after_cut(motion: Motion, at_ms: float, board: KnownBoard) -> Motion:
-    """After the group was stopped, or is taken to have ended: its frame in progress goes on
+    """After the group was stopped, or is taken to have ended: its frame in progress continues
     (S50).
     """
     current = advance(motion, at_ms, board)

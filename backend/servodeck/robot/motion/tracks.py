@@ -171,7 +171,7 @@ def contests(one: Order, other: Order, servo: int) -> bool:
 
 def stopped_before(tracks: Tracks, recent: Sequence[Order], at_ms: float, family: Family) -> dict[int, Track]:
     """After a stop at `at_ms`: frames that began just before it may not have begun. Then what was under way
-    goes on, and what stood still stands; that a hold would throw to where a frame has sent it that is too
+    continues, and what stood still stands; that a hold would throw to where a frame has sent it that is too
     short to need one.
     """
     changed = dict(tracks)
@@ -210,7 +210,7 @@ def redirected(track: Track | None, to: float, at_ms: float, duration_ms: float,
 
 
 def guessed(track: Track | None, to: float, at_ms: float, duration_ms: float) -> Track:
-    """Its way goes on as a guess."""
+    """Its way continues as a guess."""
     start = guess_of(track, at_ms) if track else None
     return Track(start, to, at_ms, duration_ms, inf, inf)
 

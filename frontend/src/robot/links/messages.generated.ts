@@ -806,7 +806,7 @@ export interface NoiseMessage {
   bytes: string;
 }
 /**
- * The stop sequence has left the wire. `unheld`: servos that may go on moving, if any.
+ * The stop sequence has left the wire. `unheld`: servos that may continue to move, if any.
  */
 export interface HaltedMessage {
   type: 'halted';
@@ -939,7 +939,7 @@ export interface PlayStateMessage {
   play: PlayState;
 }
 /**
- * To the client that asked for it: that play has ended, and how.
+ * To the client that requested it: that play has ended, and how.
  */
 export interface PlayedMessage {
   type: 'played';
