@@ -131,3 +131,28 @@ test('a group that goes through the floor says when', async ({ dashboard, page }
   await dashboard.button('Capture frame').click();
   await expect(warning).toBeVisible();
 });
+
+test('the frames before and after the playhead are outlined on request', async ({ dashboard, page }) => {
+  const model = await openStraight({ dashboard, page });
+  for (const up of [300, 250, 200]) {
+    await dashboard.type(model.along('Up'), up);
+    await dashboard.button('Capture frame').click();
+  }
+  await advance(5000);
+  const toggle = dashboard.button('Frames before and after');
+  const press = async (): Promise<void> => {
+    await toggle.press('Enter');
+    await advance(400);
+  };
+  // The picture alone: a button that is pressed looks otherwise.
+  await page
+    .getByRole('group', { name: 'View', exact: true })
+    .evaluate((buttons) => (buttons.style.opacity = '0'));
+  const before = await model.picture.screenshot();
+  const isAsBefore = async (): Promise<boolean> => (await model.picture.screenshot()).equals(before);
+  await press();
+  await expect(toggle).toHaveAttribute('aria-pressed', 'true');
+  expect(await isAsBefore()).toBe(false);
+  await press();
+  expect(await isAsBefore()).toBe(true);
+});

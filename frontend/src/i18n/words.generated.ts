@@ -317,6 +317,7 @@ export interface Messages {
     readonly otherElbow: string;
     readonly noOtherElbow: string;
     readonly outOfReach: (values: { readonly missMm: number }) => string;
+    readonly neighbours: string;
     readonly look: string;
     readonly missing: string;
     readonly missingHint: string;

@@ -60,7 +60,7 @@ export function Button({
 export interface IconButtonProps
   extends
     Pick<Hinted, 'keys' | 'whyNot'>,
-    Pick<ComponentProps<'button'>, 'aria-expanded' | 'aria-haspopup' | 'tabIndex'> {
+    Pick<ComponentProps<'button'>, 'aria-expanded' | 'aria-haspopup' | 'aria-pressed' | 'tabIndex'> {
   readonly icon: IconName;
   readonly label: string;
   readonly isDisabled?: boolean | undefined;

@@ -88,12 +88,16 @@ function isShown({ view, timeline, playback }: Stores): boolean {
 function previewOf(stores: Stores): Pose | null {
   const { targets } = stores.blend.store.getState();
   if (targets !== null) return (servo) => targets.find((one) => one.servo === servo)?.position ?? null;
-  const group = stores.document.store.getState().present;
   if (!isShown(stores)) return null;
-  const { tracks, ends } = timesOf(group);
+  const { ends } = timesOf(stores.document.store.getState().present);
   // Before the end of the first frame the pose depends on where the robot is.
-  const atMs = Math.max(stores.timeline.getState().playheadMs, ends[0] ?? 0);
-  const pose = poseAtMs(tracks, atMs);
+  return poseOfGroup(stores, Math.max(stores.timeline.getState().playheadMs, ends[0] ?? 0));
+}
+
+/** Of the group that is open, in the unit of the board; null where it has no frames. */
+function poseOfGroup(stores: Stores, atMs: number): Pose | null {
+  const group = stores.document.store.getState().present;
+  const pose = poseAtMs(timesOf(group).tracks, atMs);
   const view = servoViewOf(stores);
   const { unit } = knownFamily(stores.device.store.getState().family, stores.robots.current().robot);
   return pose.size === 0
@@ -102,4 +106,37 @@ function previewOf(stores: Stores): Pose | null {
         const position = isSilent(view, servo) ? undefined : pose.get(servo);
         return position === undefined ? null : rescaled(position, group.unit, unit);
       };
+}
+
+/** The frames on both sides of the playhead. */
+export interface Neighbours {
+  readonly before: Pose | null;
+  readonly after: Pose | null;
+}
+
+export const NO_NEIGHBOURS: Neighbours = { before: null, after: null };
+
+/** Calls `draw` with the poses before and after the playhead while `isOn`, and once with none afterwards. `of`: what they are drawn on. */
+export function useNeighbours(isOn: boolean, of: unknown, draw: (poses: Neighbours) => void): void {
+  const stores = useStores();
+  const drawn = useRef<readonly unknown[]>([]);
+  useEachFrame(() => {
+    const now = isOn ? [of, ...reasonsOf(stores)] : [];
+    if (now.length === drawn.current.length && now.every((reason, index) => reason === drawn.current[index]))
+      return;
+    drawn.current = now;
+    draw(isOn ? neighboursOf(stores) : NO_NEIGHBOURS);
+  });
+}
+
+function neighboursOf(stores: Stores): Neighbours {
+  const { playheadMs } = stores.timeline.getState();
+  const { ends } = timesOf(stores.document.store.getState().present);
+  const [before, after] = [
+    ends.findLast((endMs) => endMs < playheadMs),
+    ends.find((endMs) => endMs > playheadMs),
+  ];
+  const poseAt = (atMs: number | undefined): Pose | null =>
+    atMs === undefined ? null : poseOfGroup(stores, atMs);
+  return { before: poseAt(before), after: poseAt(after) };
 }

@@ -31,7 +31,7 @@ import {
 } from '../../stores.ts';
 import { workedOn } from '../../view.ts';
 import { lookOf } from '../Canvas.tsx';
-import { motionsInFrame, usePreview } from '../motion.ts';
+import { motionsInFrame, useNeighbours, usePreview } from '../motion.ts';
 import { useMotions } from '../useMotions.ts';
 import type { Pose } from '../pose.ts';
 import { UnknownNote } from '../UnknownNote.tsx';
@@ -66,7 +66,9 @@ export function RobotView() {
   const pressed = useRef<{ readonly x: number; readonly y: number } | null>(null);
   const [hasPlace, setPlace] = useState(false);
   const [isLevel, setLevel] = useState(false);
+  const [hasNeighbours, setNeighbours] = useState(false);
   const [isMissing, setMissing] = useState(false);
+  const isGroup = useView((view) => workedOn(view) === 'group');
   const isBlocked = useSnapshot((snapshot) => motionHindrance(snapshot) !== null);
   const selected = useServoView((view) => view.selected.at(-1) ?? null);
   const servo = selected === null ? undefined : servoOf(robot, selected);
@@ -108,6 +110,8 @@ export function RobotView() {
     preview.current = pose;
     shown.current?.stage.draw();
   });
+
+  useNeighbours(hasNeighbours && isGroup, description, (poses) => shown.current?.showNeighbours(poses));
 
   function turnKey(event: KeyboardEvent): void {
     const turn = TURNS[event.key];
@@ -174,6 +178,14 @@ export function RobotView() {
             label={words.robot3d.zoomOut}
             onPress={() => shown.current?.stage.zoom(1 / ZOOM)}
           />
+          {isGroup && (
+            <IconButton
+              icon="frames"
+              label={words.robot3d.neighbours}
+              aria-pressed={hasNeighbours}
+              onPress={() => setNeighbours(!hasNeighbours)}
+            />
+          )}
           <IconButton icon="home" label={words.robot3d.home} onPress={() => shown.current?.stage.home()} />
         </div>
       </div>

@@ -46,7 +46,14 @@ export interface Figure {
 
 /** Edges flatter than this are not drawn, so that cylinders have rims and no staves. */
 const EDGE_DEGREES = 35;
-const GHOST = { fill: 0.1, edge: 0.95 };
+const OPACITY = {
+  body: { fill: 1, edge: 1 },
+  ghost: { fill: 0.1, edge: 0.95 },
+  skin: { fill: 0.04, edge: 0.45 },
+} as const;
+
+/** `ghost`: an outline. `skin`: a weak one, of a pose before or after. */
+export type FigureLook = keyof typeof OPACITY;
 /** Stripes of the screen, so that they look the same on each face. */
 const HATCH = { eachPx: 9, widthPx: 2.5 };
 
@@ -63,19 +70,16 @@ export function parseUrdf({ urdf, meshes }: Description): URDFRobot {
   return loader.parse(urdf);
 }
 
-export function createFigure(
-  description: Description,
-  servos: readonly number[],
-  look: 'body' | 'ghost',
-): Figure {
+export function createFigure(description: Description, servos: readonly number[], look: FigureLook): Figure {
   const robot = parseUrdf(description);
-  const isGhost = look === 'ghost';
+  const isGhost = look !== 'body';
+  const opacity = OPACITY[look];
   const fill = (): MeshStandardMaterial =>
     new MeshStandardMaterial({
       roughness: 0.75,
       metalness: 0.05,
       transparent: isGhost,
-      opacity: isGhost ? GHOST.fill : 1,
+      opacity: opacity.fill,
       depthWrite: !isGhost,
       // The outline lies on the faces, and must win against them.
       polygonOffset: true,
@@ -86,7 +90,7 @@ export function createFigure(
     body: fill(),
     servo: fill(),
     unknown: hatched(fill()),
-    edge: new LineBasicMaterial({ transparent: isGhost, opacity: isGhost ? GHOST.edge : 1 }),
+    edge: new LineBasicMaterial({ transparent: isGhost, opacity: opacity.edge }),
     reportedEdge: new LineBasicMaterial(),
     selectedEdge: new LineBasicMaterial(),
     unknownEdge: new LineBasicMaterial(),

@@ -5,6 +5,7 @@ import { Box3, type Object3D, Vector3 } from 'three';
 import { type Robot, servoOf } from '#shared/profile/robot.ts';
 import type { Motions } from '#shared/robot/state.ts';
 import type { Look } from '../Canvas.tsx';
+import type { Neighbours } from '../motion.ts';
 import type { Pose } from '../pose.ts';
 import { createFigure, type Angles, type Description, type Figure } from './figure.ts';
 import { radiansOf, createPathLine, type PathLine, type PathPoint } from './limbs.ts';
@@ -26,6 +27,8 @@ export interface Model {
   ring(): Ring | null;
   draw(motion: Motions, preview: Pose | null, look: Look): void;
   select(servo: number | null): void;
+  /** Weak outlines of the frames before and after the playhead. */
+  showNeighbours(poses: Neighbours): void;
   /** The ways of its limbs through the group at hand. */
   showPaths(paths: readonly (readonly PathPoint[])[]): void;
   dispose(): void;
@@ -46,6 +49,21 @@ export function createModel(stage: Stage, description: Description, robot: Robot
   let selected: number | null = null;
   let ring: Ring | null = null;
   let lines: readonly PathLine[] = [];
+  const skins = new Map<keyof Neighbours, Figure>();
+
+  function showNeighbours(poses: Neighbours): void {
+    for (const name of ['before', 'after'] as const) {
+      const pose = poses[name];
+      if (pose === null && !skins.has(name)) continue;
+      const skin = skins.get(name) ?? createFigure(description, servos, 'skin');
+      skins.set(name, skin);
+      stage.scene.add(skin.robot);
+      skin.robot.visible = pose !== null;
+      skin.robot.position.copy(body.robot.position);
+      if (pose !== null) skin.pose(anglesOf(robot, pose));
+    }
+    stage.draw();
+  }
 
   function showPaths(paths: readonly (readonly PathPoint[])[]): void {
     for (const { line, dispose } of lines) {
@@ -70,6 +88,7 @@ export function createModel(stage: Stage, description: Description, robot: Robot
     stage,
     select,
     showPaths,
+    showNeighbours,
     liftM: () => body.robot.position.z,
     servoAt: (x, y) => body.servoAt(stage.rayAt(x, y)),
     ring: () => ring,
@@ -91,6 +110,7 @@ export function createModel(stage: Stage, description: Description, robot: Robot
     dispose() {
       ring?.dispose();
       showPaths([]);
+      for (const skin of skins.values()) skin.dispose();
       body.dispose();
       outline.dispose();
     },
@@ -108,6 +128,10 @@ export function createModel(stage: Stage, description: Description, robot: Robot
     stage.paint({ line: edge });
     body.paint({ body: plainColour(look.raised), edge: estimated, reported, ...common });
     outline.paint({ body: commanded, edge: commanded, reported: commanded, ...common });
+    for (const [name, skin] of skins) {
+      const colour = name === 'before' ? estimated : commanded;
+      skin.paint({ body: colour, edge: colour, reported: colour, ...common });
+    }
     ring?.paint(commanded);
     for (const line of lines) line.paint(commanded, plainColour(look.warning));
   }
