@@ -39,7 +39,7 @@ def board_of(*, silent_after: int | None = None) -> AnsweringPort:
 
 
 def broken(control: Control) -> list[int]:
-    return control.board.jobs.broken(control.board.link.place)
+    return control.board.broken_slots
 
 
 @in_virtual_time

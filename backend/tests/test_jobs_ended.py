@@ -52,7 +52,7 @@ async def test_what_ends_it_is_said_and_leaves_the_slot_broken(end: str) -> None
         found = await ended(control, job)
         assert (found.status, found.code) == ENDS[end]
         assert end == "silence" or now() - told_s <= 0.01
-        assert control.board.jobs.broken(place) == [SLOT]
+        assert control.board.slot_memory.broken(place) == [SLOT]
         last = [message["job"] for message in await anna.heard() if message["type"] == "job"][-1]
         assert (last["status"], last["code"]) == ENDS[end]
         await asyncio.sleep(0.3)
@@ -93,7 +93,7 @@ async def test_a_port_that_vanishes_at_any_byte_ends_it_and_what_comes_after_is_
             found = control.board.jobs.find(job.id)
             assert (found.status, found.code) == ("failed", "lost"), taken_bytes
             frames = b"".join(packet for packet in port.packets() if packet[3:4] == DOWNLOAD[3:4])
-            assert control.board.jobs.broken(place) == [SLOT], taken_bytes
+            assert control.board.slot_memory.broken(place) == [SLOT], taken_bytes
             assert len(frames) <= taken_bytes
             await asyncio.sleep(10)
             assert again.packets()[:2] == [b"\xfd" * 253, STOP], taken_bytes

@@ -39,7 +39,7 @@ def stored_by(port: AnsweringPort) -> list[tuple[int, int]]:
 
 
 def broken(control: Control) -> list[int]:
-    return control.board.jobs.broken(control.board.link.place)
+    return control.board.broken_slots
 
 
 @in_virtual_time

@@ -105,6 +105,7 @@ class Board:
         self._events = events
         self._command_leaves = leaving
         self._now = now
+        self.slot_memory = slot_memory
         self.link = Link(ports, self._make_wire, self, now)
         self.replies = Replies()
         self.battery = BatteryReader(self, self.replies, now, polls=polls_battery)
@@ -142,12 +143,12 @@ class Board:
 
     @property
     def broken_slots(self) -> list[int]:
-        return self.jobs.broken(self.link.place)
+        return self.slot_memory.broken(self.link.place)
 
     @property
     def slot_versions(self) -> dict[str, StoredGroup]:
         """By slot, as JSON has it."""
-        return {str(slot): stored for slot, stored in self.jobs.stored(self.link.place).items()}
+        return {str(slot): stored for slot, stored in self.slot_memory.stored(self.link.place).items()}
 
     @property
     def link_state(self) -> LinkState:

@@ -5,7 +5,7 @@ HTTP, nor who may begin one and when.
 
 import asyncio
 import logging
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from typing import Protocol
 
@@ -27,7 +27,7 @@ from servodeck.robot.board.download import EDGE_FRAME_TIMEOUT_S, Download, Job, 
 from servodeck.robot.board.replies import Replies
 from servodeck.robot.board.slots import SlotMemory
 from servodeck.robot.hub import Throttle
-from servodeck.snapshots import JobState, StoredGroup
+from servodeck.snapshots import JobState
 
 REMEMBERED = 16
 # Often enough for a progress bar, seldom enough for 200 clients.
@@ -134,12 +134,6 @@ class Jobs:
     def judge_run(self, command: Command | None, board: str) -> None:
         if isinstance(command, Run) and command.slot in self._memory.broken(board):
             raise SlotBrokenError(f"Slot {command.slot} holds half a group: download it again.")
-
-    def broken(self, board: str) -> list[int]:
-        return self._memory.broken(board)
-
-    def stored(self, board: str) -> Mapping[int, StoredGroup]:
-        return self._memory.stored(board)
 
     def judge_replaced(self, part: Part, board: str) -> None:
         """Raises SlotChangedError where the slot does not hold any more what the caller has seen there."""
