@@ -213,6 +213,38 @@ test('armed rows are recorded, each moved by itself, and no other', async ({ das
   await expect(dashboard.frames.getByRole('button', { name: /servos? .*\b2\b/ })).toHaveCount(0);
 });
 
+test('part of a recording goes in at the playhead, or over what its servos do there', async ({
+  dashboard,
+  page,
+}) => {
+  await captureGroup(dashboard, [1000, 1400], 1000);
+  await dashboard.type(dashboard.target(1), 1500);
+  await expect(dashboard.estimate(1)).toHaveText('≈ 1500');
+  await dashboard.button('Record').click();
+  for (const position of [1900, 1300, 1700]) {
+    await dashboard.type(dashboard.target(1), position);
+    await expect(dashboard.estimate(1)).toHaveText(`≈ ${position}`);
+  }
+  await dashboard.button(/^End recording/).click();
+  const dialog = page.getByRole('dialog', { name: 'Recorded motion' });
+  const result = await dialog.getByRole('status').textContent();
+  const begin = dialog.getByRole('slider', { name: 'Begin' });
+  await begin.fill('1000');
+  await expect(begin).toHaveAttribute('aria-valuetext', '1.0 sec');
+  expect(await dialog.getByRole('status').textContent()).not.toBe(result);
+  const count = await dashboard.frames.count();
+  await dialog.getByRole('button', { name: 'Insert at the playhead' }).click();
+  await poll(() => dashboard.frames.count()).toBeGreaterThan(count);
+  await expect(dashboard.button('Undo: insert recorded motion')).toBeVisible();
+
+  await dashboard.button('Undo: insert recorded motion').click();
+  await expect(dashboard.frames).toHaveCount(count);
+  await dashboard.frame(1).press('t');
+  await dialog.getByRole('button', { name: 'Record over' }).click();
+  await dashboard.button('Undo: record over').click();
+  await expect(dashboard.frames).toHaveCount(count);
+});
+
 test('on a phone a recording goes on while the sliders are in front', async ({ dashboard, page }) => {
   await page.setViewportSize({ width: 390, height: 844 });
   const tab = (name: string) => page.getByRole('tab', { name }).click();

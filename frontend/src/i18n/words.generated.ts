@@ -707,11 +707,24 @@ export interface Messages {
     readonly error: string;
     readonly errorField: string;
     readonly result: (values: { readonly ms: number; readonly samples: number; readonly keys: number }) => string;
+    readonly part: string;
+    readonly begin: string;
+    readonly finish: string;
+    readonly at: (values: { readonly ms: number }) => string;
+    readonly onlyArmed: {
+      readonly armed: string;
+      readonly selected: string;
+    };
+    readonly insert: string;
+    readonly over: string;
+    readonly overHint: string;
     readonly replace: string;
     readonly append: string;
     readonly name: (values: { readonly time: string }) => string;
     readonly steps: {
       readonly replace: string;
+      readonly insert: string;
+      readonly over: string;
       readonly append: string;
     };
   };
