@@ -2036,6 +2036,7 @@ export interface Messages {
     readonly needs: {
       readonly keys: string;
       readonly keysOrMarker: string;
+      readonly servoRow: string;
       readonly limb: string;
     };
     readonly keyUses: {
@@ -2071,6 +2072,8 @@ export interface Messages {
       readonly tools: (values: { readonly row: string }) => string;
       readonly menu: string;
       readonly value: string;
+      readonly large: string;
+      readonly small: string;
       readonly lock: string;
       readonly unlock: string;
       readonly mute: string;

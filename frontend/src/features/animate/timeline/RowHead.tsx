@@ -98,14 +98,15 @@ function valueText(stores: Stores, servo: number): string {
   return scaleAt({ group, robot, family, positionsIn }, servo).digits(position);
 }
 
-/** What the upper and the lower edge of a tall row stand for. */
+/** What the upper and the lower edge of a tall row, or of one that is open large, stand for. */
 function Axis({ servo }: { readonly servo: number }) {
   const isTall = useTimeline((state) => state.isTall);
   const { family, robot } = useGroupBoard();
   const positionsIn = useView((state) => state.positionsIn);
   const unit = useDocument(({ present }) => present.unit);
-  if (!isTall) return null;
-  const { min, max } = rangeOf({ robot, family }, servo);
+  const large = useTimeline((state) => (state.large?.servo === servo ? state.large : null));
+  if (!isTall && large === null) return null;
+  const { min, max } = large ?? rangeOf({ robot, family }, servo);
   const { text } = scaleAt({ robot, family, positionsIn, group: { unit } }, servo);
   return (
     <span className={styles.axis} aria-hidden="true">

@@ -10,7 +10,7 @@ import { useWords } from '../../../i18n/words.ts';
 import { nameOfKey } from './valueText.ts';
 import { keysOfFrame, timesOf, type GroupTimes } from '#shared/group/groupTimes.ts';
 import { RowHead } from './RowHead.tsx';
-import { keysInRow, type Row, type Sizes, within } from './rows.ts';
+import { type PlacedRow, keysInRow, type Row, type Sizes, within } from './rows.ts';
 import { keyY, placedInSight } from './scene.ts';
 import { seenSpan, xOf } from './timeScale.ts';
 import styles from './Rows.module.css';
@@ -38,12 +38,8 @@ export function Rows({ rows, sizes, id, openRowMenu }: RowsProps) {
   const isDense = useIsDense(placed.map(({ row }) => row));
   return (
     <SharedSheet className={styles.rows}>
-      {placed.map(({ row, top, height }) => (
-        <RowParts
-          key={row.id}
-          {...{ row, top, height, id, isDense, openRowMenu }}
-          index={rows.indexOf(row)}
-        />
+      {placed.map(({ row, ...place }) => (
+        <RowParts key={row.id} {...{ row, ...place, id, isDense, openRowMenu }} index={rows.indexOf(row)} />
       ))}
     </SharedSheet>
   );
@@ -68,11 +64,8 @@ const keysWithin = (row: Row, times: GroupTimes, { fromMs, toMs }: ReturnType<ty
   return keys.slice(...within(keys, fromMs, toMs)).filter(({ atMs }) => atMs >= fromMs && atMs <= toMs);
 };
 
-interface RowPartsProps {
-  readonly row: Row;
+interface RowPartsProps extends PlacedRow {
   readonly index: number;
-  readonly top: number;
-  readonly height: number;
   readonly id: string;
   readonly isDense: boolean;
   openRowMenu(row: string, button: HTMLElement): void;
@@ -96,9 +89,9 @@ const RowParts = memo(function RowParts({ index, isDense, openRowMenu, ...placed
   );
 });
 
-type CellsProps = Pick<RowPartsProps, 'row' | 'top' | 'height' | 'id' | 'isDense'>;
+type CellsProps = PlacedRow & Pick<RowPartsProps, 'id' | 'isDense'>;
 
-function Cells({ row, top, height, id, isDense }: CellsProps) {
+function Cells({ row, top, height, range, id, isDense }: CellsProps) {
   const { document } = useStores();
   // What a cell says depends on these; each is the very same object as long as it is the same.
   useDocument(({ present }) => keysInRow(row, timesOf(present)));
@@ -125,7 +118,7 @@ function Cells({ row, top, height, id, isDense }: CellsProps) {
       className={styles.cell}
       style={{
         insetInlineStart: `calc(var(--heads) + ${xOf(time, key.atMs) - CELL_PX / 2}px)`,
-        top: keyY({ row, top, height }, key.position, family) - top - CELL_PX / 2,
+        top: keyY({ row, top, height, range }, key.position, family) - top - CELL_PX / 2,
       }}
     />
   ));

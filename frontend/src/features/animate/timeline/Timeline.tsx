@@ -76,7 +76,8 @@ export const Timeline = memo(function Timeline() {
   const rows = useRows();
   const columns = useDocument(({ present }) => present.frames.length);
   const isTall = useTimeline((state) => state.isTall);
-  const sizes = sizesNow({ isTall });
+  const large = useTimeline((state) => state.large);
+  const sizes = sizesNow({ isTall, large });
   const totalPx = topOfRows(sizes) + heightOf(placedRows(rows.slice(1), sizes));
   const openMenu = useCallback((kind: OpenMenu['kind'], anchor: Element | null) => {
     setMenu({ kind, anchor: { current: anchor } });

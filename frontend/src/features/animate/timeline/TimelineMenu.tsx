@@ -133,10 +133,14 @@ function ActionItem({ action }: { readonly action: Action<TimelineContext> }) {
   );
 }
 
-/** Folding is for limbs alone. */
+/** Folding is for limbs alone, and a graph is of one servo. */
 function rowItems(row: Row | undefined): React.ReactElement[] {
-  const { folded, ...others } = ROW_ACTIONS;
-  const actions = row?.kind === 'limb' ? [...Object.values(others), folded] : Object.values(others);
+  const { folded, large, ...others } = ROW_ACTIONS;
+  const actions = [
+    ...(row?.kind === 'servo' ? [large] : []),
+    ...Object.values(others),
+    ...(row?.kind === 'limb' ? [folded] : []),
+  ];
   return actions.map((action) => <ActionItem key={action.id} action={action} />);
 }
 

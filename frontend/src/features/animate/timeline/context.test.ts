@@ -20,7 +20,7 @@ async function pageInSteps() {
 
 test('a group for a board that counts in steps is drawn as it is beside one in microseconds', async () => {
   const { context } = await pageInSteps();
-  const scene = sceneOf(context(), sizesOf(false, false));
+  const scene = sceneOf(context(), sizesOf(false, { isTall: false, large: null }));
   const row = scene.rows.find(({ row: { servos, kind } }) => kind === 'servo' && servos[0] === 1)!;
   const [bottom, middle, top] = [0, 500, 1000].map((position) => keyY(row, position, scene.family));
   expect(bottom).toBeGreaterThan(middle!);

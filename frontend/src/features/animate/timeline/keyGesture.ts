@@ -71,7 +71,7 @@ function turnedBy({ spot }: Press, scene: Scene, { row }: Hit & { kind: 'key' },
   const placed = scene.rows.find((one) => one.row.id === row.id);
   const way = spot.y - y;
   if (placed === undefined || Math.abs(way) < VALUE_FROM_PX) return 0;
-  const { min, max } = row.servo ?? scene.family.position;
+  const { min, max } = placed.range ?? row.servo ?? scene.family.position;
   const px = Math.max(RANGE_PX, placed.height - 14);
   return Math.round(((way - Math.sign(way) * VALUE_FROM_PX) * (max - min)) / px);
 }

@@ -24,7 +24,7 @@ test('keys that are crowded are as pale as their row: all of them where it is mu
     measureText: () => ({ width: 10 }),
   };
   const canvas = new Proxy(ctx, { get: (own, name: string) => own[name] ?? (() => undefined) });
-  const scene = sceneOf(context(), sizesOf(false, false));
+  const scene = sceneOf(context(), sizesOf(false, { isTall: false, large: null }));
   paint(
     {
       ctx: canvas as unknown as CanvasRenderingContext2D,

@@ -1,6 +1,6 @@
 // Draws the tracks on a canvas: only what is seen, all of it at once. Draws what it is given; changes nothing.
 
-import { type Key, CURVES } from '#shared/group/tracks.ts';
+import { type Key, CURVES, positionAt } from '#shared/group/tracks.ts';
 import { keyName } from './timeline.ts';
 import { handleX, HANDLES, stretchOf } from './hit.ts';
 import { type Brush, paintHeads, paintMarkers } from './paintHeads.ts';
@@ -115,6 +115,7 @@ function paintRow(brush: Brush, placed: PlacedRow, { left, right }: Stretch): vo
   const { state, times, muted } = scene;
   const keys = keysInRow(placed.row, times);
   const [from, to] = within(keys, msAt(state.time, left), msAt(state.time, right));
+  if (placed.range !== null) paintGraph(brush, placed, keys);
   ctx.globalAlpha = muted.has(placed.row.id) ? 0.4 : 1;
   if (placed.row.kind === 'servo' && keys.length > 0) {
     paintWay(brush, placed, keys, from, to);
@@ -126,6 +127,42 @@ function paintRow(brush: Brush, placed: PlacedRow, { left, right }: Stretch): vo
     if (key !== undefined) paintKey(brush, placed, key, isCrowded(scene, keys, index));
   }
   ctx.globalAlpha = 1;
+}
+
+const GRAPH_LINES = 4;
+const BAND_STEP_PX = 4;
+const DOT_PX = 2.5;
+
+/** Behind the curve of a row that is open large: lines to read by, the band of the allowed error, and what the board gets. */
+function paintGraph(brush: Brush, placed: PlacedRow, keys: readonly Key[]): void {
+  const { ctx, look, scene } = brush;
+  const { state, widthPx, family, compiled } = scene;
+  for (let line = 1; line < GRAPH_LINES; line++)
+    fill(ctx, look.line, 0.7, 0, Math.round(placed.top + (placed.height * line) / GRAPH_LINES), widthPx, 1);
+  const [first] = keys;
+  if (compiled === null || first === undefined) return;
+  const track = scene.times.tracks.get(first.servo);
+  const fromX = Math.max(0, xOf(state.time, first.atMs));
+  const edge = (units: number, step: number, x: number, endX: number): void => {
+    for (; step > 0 ? x <= endX : x >= endX; x += step) {
+      const at = track === undefined ? null : positionAt(track, msAt(state.time, x));
+      if (at !== null) ctx.lineTo(x, keyY(placed, at + units, family));
+    }
+  };
+  ctx.beginPath();
+  edge(compiled.maxErrorUnits, BAND_STEP_PX, fromX, widthPx);
+  edge(-compiled.maxErrorUnits, -BAND_STEP_PX, widthPx, fromX);
+  ctx.globalAlpha = 0.18;
+  ctx.fillStyle = look.commanded;
+  ctx.fill();
+  ctx.globalAlpha = 1;
+  ctx.fillStyle = look.estimated;
+  const [from, to] = within(compiled.points, msAt(state.time, 0), msAt(state.time, widthPx));
+  for (const { atMs, position } of compiled.points.slice(from, to)) {
+    ctx.beginPath();
+    ctx.arc(xOf(state.time, atMs), keyY(placed, position, family), DOT_PX, 0, 2 * Math.PI);
+    ctx.fill();
+  }
 }
 
 /** The servo's way from key to key; the first of them is before what is seen, the last one behind it. */

@@ -7,7 +7,7 @@ import { createTestTimeline } from './timelineUnderTest.ts';
 
 /** A key and its frame reach so far beside their place. */
 const BESIDE_PX = 12;
-const SIZES = sizesOf(false, false);
+const SIZES = sizesOf(false, { isTall: false, large: null });
 
 test('a key that is moved up or down has its place painted anew, everything else the whole', async () => {
   const { stores, context, select, key } = await createTestTimeline();

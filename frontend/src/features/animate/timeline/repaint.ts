@@ -64,6 +64,7 @@ function isSameButKeys(before: Scene, after: Scene): boolean {
   return (
     before.family === after.family &&
     before.markers === after.markers &&
+    before.compiled === after.compiled &&
     STATE.every((name) => before.state[name] === after.state[name]) &&
     isSameRecord(before.state.time, after.state.time) &&
     isSameRecord(before.state.cursor, after.state.cursor) &&

@@ -6,6 +6,7 @@ import type { ServoView } from '../../servoView.ts';
 import { ALL_ROW } from './timeline.ts';
 import type { Key } from '#shared/group/tracks.ts';
 import type { GroupTimes } from '#shared/group/groupTimes.ts';
+import type { Range } from '#shared/codec/families.ts';
 
 export interface Row {
   readonly id: string;
@@ -71,23 +72,33 @@ function limbRow(group: string, members: readonly RobotServo[]): Row {
   };
 }
 
+/** A row that is open large, and the part of its range that its height stands for. */
+export interface LargeRow extends Range {
+  readonly servo: number;
+}
+
 export interface RowHeights {
   readonly summary: number;
   readonly servo: number;
+  readonly large: LargeRow | null;
 }
 
 export interface PlacedRow {
   readonly row: Row;
   readonly top: number;
   readonly height: number;
+  /** What its height stands for; null: all that its servo may do. */
+  readonly range: Range | null;
 }
 
 /** One below the other from 0 on. */
 export function placedRows(rows: readonly Row[], heights: RowHeights): readonly PlacedRow[] {
   let top = 0;
   return rows.map((row) => {
-    const height = row.kind === 'servo' ? heights.servo : heights.summary;
-    const placed = { row, top, height };
+    const large = row.kind === 'servo' && row.servos[0] === heights.large?.servo ? heights.large : null;
+    const usual = row.kind === 'servo' ? heights.servo : heights.summary;
+    const height = large === null ? usual : LARGE_PX;
+    const placed = { row, top, height, range: large };
     top += height;
     return placed;
   });
@@ -120,13 +131,19 @@ export interface Sizes extends RowHeights {
   readonly reach: number;
 }
 
-const FINE: Sizes = { ruler: 22, heads: 22, summary: 26, servo: 28, reach: 8 };
-const COARSE: Sizes = { ruler: 44, heads: 44, summary: 44, servo: 44, reach: 22 };
+const FINE = { ruler: 22, heads: 22, summary: 26, servo: 28, reach: 8 };
+const COARSE = { ruler: 44, heads: 44, summary: 44, servo: 44, reach: 22 };
 const TALL_PX = 104;
+const LARGE_PX = 220;
 
-export function sizesOf(isCoarse: boolean, isTall: boolean): Sizes {
+export interface Heights {
+  readonly isTall: boolean;
+  readonly large: LargeRow | null;
+}
+
+export function sizesOf(isCoarse: boolean, { isTall, large }: Heights): Sizes {
   const sizes = isCoarse ? COARSE : FINE;
-  return isTall ? { ...sizes, servo: TALL_PX } : sizes;
+  return { ...sizes, large, ...(isTall && { servo: TALL_PX }) };
 }
 
 export const topOfAll = ({ ruler, heads }: Sizes): number => ruler + heads;

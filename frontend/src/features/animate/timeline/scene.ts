@@ -8,6 +8,12 @@ import type { GroupTimes } from '#shared/group/groupTimes.ts';
 import type { TimelineContext } from './context.ts';
 import { type PlacedRow, placedRows, type Row, seenRows, type Sizes, topOfAll, topOfRows } from './rows.ts';
 
+/** `points`: the ends of its frames. */
+export interface CompiledTrack {
+  readonly points: readonly { readonly atMs: number; readonly position: number }[];
+  readonly maxErrorUnits: number;
+}
+
 export interface Scene {
   readonly state: TimelineState;
   readonly times: GroupTimes;
@@ -22,6 +28,8 @@ export interface Scene {
   /** Rows whose keys cannot be changed, and those that move nothing. */
   readonly held: ReadonlySet<string>;
   readonly muted: ReadonlySet<string>;
+  /** What the board gets of the servo whose row is open large; null: not known, or none is. */
+  readonly compiled: CompiledTrack | null;
   /** Those with a selected key. */
   readonly selectedFrames: ReadonlySet<number>;
 }
@@ -38,6 +46,7 @@ export function sceneOf(context: TimelineContext, sizes: Sizes): Scene {
     all: placedAll(all, sizes),
     rows: rowsInSight(rest, state, sizes),
     held: isOf((servo) => isHeld(servoView, servo)),
+    compiled: null,
     muted: isOf((servo) => isSilent(servoView, servo)),
     selectedFrames: new Set(selectedKeys(times, state.selected).map(({ frameId }) => frameId)),
   };
@@ -74,7 +83,7 @@ function rowsInSight(
 }
 
 const placedAll = (row: Row, sizes: Sizes): PlacedRow => ({
-  ...{ row, top: topOfAll(sizes), height: sizes.summary },
+  ...{ row, top: topOfAll(sizes), height: sizes.summary, range: null },
 });
 
 const INSET_PX = 7;
@@ -84,9 +93,9 @@ function rangeOfRow({ servo, servos }: Row, family: Family): Range {
   return servo ?? positionRange(family, servos[0] ?? 0);
 }
 
-export function keyY({ row, top, height }: PlacedRow, position: number, family: Family): number {
+export function keyY({ row, top, height, range }: PlacedRow, position: number, family: Family): number {
   if (row.kind !== 'servo') return top + height / 2;
-  const { min, max } = rangeOfRow(row, family);
+  const { min, max } = range ?? rangeOfRow(row, family);
   const share = Math.min(1, Math.max(0, (position - min) / (max - min)));
   return top + INSET_PX + (1 - share) * (height - 2 * INSET_PX);
 }

@@ -9,6 +9,7 @@ import type { ActionGroup } from '#shared/group/group.ts';
 import type { History } from '#shared/document/history.ts';
 import type { Library } from '../../library/library.ts';
 import type { View } from '../../view.ts';
+import type { LargeRow } from './rows.ts';
 import { setChanged } from '../../../state/setChanged.ts';
 import type { Document } from '../../groupDocument.ts';
 
@@ -142,6 +143,7 @@ export interface TimelineState {
   /** How far the rows are scrolled. */
   readonly scrollTop: number;
   readonly isTall: boolean;
+  readonly large: LargeRow | null;
   readonly snaps: boolean;
   readonly ripples: boolean;
   /** The body shows the pose at the playhead. */
@@ -184,6 +186,7 @@ export function initialSelection() {
     question: null,
     typed: '',
     marker: null,
+    large: null,
   } satisfies Partial<TimelineState>;
 }
 

@@ -9,6 +9,8 @@ import { words } from '../../../i18n/whole.ts';
 import { keepInStep } from './inStep.ts';
 import { TIMELINE_ACTIONS } from './timelineActions.ts';
 import { createTestTimeline } from './timelineUnderTest.ts';
+import { sizesOf } from './rows.ts';
+import { keyY, sceneOf } from './scene.ts';
 
 test('what cannot be done says why, and its key does nothing', async () => {
   const { key, select, steps, context } = await createTestTimeline();
@@ -388,4 +390,45 @@ describe('keys', () => {
     expect(group()).toBe(before);
     expect(noticeTexts()).toEqual(['Not pasted: Gripper at 2600 is out of range; it takes 500 to 2500.']);
   });
+});
+
+test('a row opens as a graph that is fitted to its motion, and closes by the same key', async () => {
+  const { key, context, stores } = await createTestTimeline();
+  const large = () => stores.timeline.getState().large;
+  key('g');
+  expect(large()).toBeNull();
+  key('ArrowDown');
+  key('g');
+  expect(large()).toEqual({ servo: 1, min: 940, max: 1460 });
+  const sizes = sizesOf(false, stores.timeline.getState());
+  const [graph, ...others] = sceneOf(context(), sizes).rows;
+  expect(graph?.height).toBeGreaterThan(5 * sizes.servo);
+  expect(others[0]?.height).toBe(sizes.servo);
+  const yOf = (position: number) => keyY(graph!, position, context().family);
+  expect(yOf(1000) - yOf(1400)).toBeGreaterThan(graph!.height / 2);
+  key('g');
+  expect(large()).toBeNull();
+});
+
+test('a servo that stands still or has no key opens with room on both sides', async () => {
+  const { key, stores, context } = await createTestTimeline();
+  const rowOf = (servo: number) => ({ row: `servo ${servo}`, frameId: null });
+  stores.timeline.setState({ cursor: rowOf(4) });
+  key('g');
+  const { min, max } = servoOf(context().robot, 4)!;
+  expect(stores.timeline.getState().large).toEqual({ servo: 4, min, max });
+});
+
+test('in a graph a drag turns keys as far as the pointer goes', async () => {
+  const { press, select, key, keys, stores, spotIn } = await createTestTimeline();
+  key('ArrowDown');
+  key('g');
+  select([2, 1]);
+  const sizes = sizesOf(false, stores.timeline.getState());
+  const gesture = press(spotIn(1, 2, sizes), {}, false, sizes);
+  gesture.by(0, -60);
+  gesture.end(false);
+  const [, [, position] = []] = keys(1);
+  const unitsPerPx = (1460 - 940) / (220 - 14);
+  expect(position).toBeCloseTo(1200 + (60 - 5) * unitsPerPx, -0.5);
 });

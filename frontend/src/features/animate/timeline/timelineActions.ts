@@ -22,7 +22,7 @@ import {
 } from './changes.ts';
 import { editServoView } from '../../stores.ts';
 import { toggled } from '../../servoView.ts';
-import { rowOf, type TimelineContext } from './context.ts';
+import { rangeOf, rowOf, type TimelineContext } from './context.ts';
 import type { Row } from './rows.ts';
 import {
   fitAll,
@@ -200,8 +200,43 @@ const toList = (list: keyof typeof ROW_LISTS): RowAction => ({
 const isFolded = (context: TimelineContext): boolean =>
   context.servoView.folded.includes(cursorRow(context)?.name ?? '');
 
+const isLarge = (context: TimelineContext): boolean =>
+  context.state.large !== null && context.state.large.servo === cursorRow(context)?.servos[0];
+
+/** Free above and below the motion, so that keys can be dragged there. */
+const BESIDE_SHARE = 0.15;
+/** A servo that stands still has no range of its own. */
+const LEAST_UNITS = 40;
+
+/** Fitted to its motion as it is now: it must not grow under a key that is dragged. */
+function toggleLarge(context: TimelineContext): void {
+  const { stores, times } = context;
+  const row = cursorRow(context);
+  const [servo] = row?.servos ?? [];
+  if (row?.kind !== 'servo' || servo === undefined) return;
+  if (isLarge(context)) return stores.timeline.setState({ large: null });
+  const allowed = rangeOf(context, servo);
+  const positions = (times.tracks.get(servo)?.keys ?? []).map(({ position }) => position);
+  const [low, high] = [Math.min(...positions), Math.max(...positions)];
+  const beside = Math.max(LEAST_UNITS, (high - low) * BESIDE_SHARE);
+  const fitted = {
+    min: Math.max(allowed.min, Math.floor(low - beside)),
+    max: Math.min(allowed.max, Math.ceil(high + beside)),
+  };
+  const isOdd = positions.length === 0 || fitted.min >= fitted.max;
+  stores.timeline.setState({
+    large: { servo, ...(isOdd ? { min: allowed.min, max: allowed.max } : fitted) },
+  });
+}
+
 /** What is done to the row of the cursor. */
-export const ROW_ACTIONS: Readonly<Record<keyof typeof ROW_LISTS | 'folded', RowAction>> = {
+export const ROW_ACTIONS: Readonly<Record<keyof typeof ROW_LISTS | 'folded' | 'large', RowAction>> = {
+  large: {
+    ...{ id: 'large', icon: 'live', keys: ['g'] },
+    label: (context) => words.timeline.rows[isLarge(context) ? 'small' : 'large'],
+    enabled: (context) => cursorRow(context)?.kind === 'servo' || words.timeline.needs.servoRow,
+    run: toggleLarge,
+  },
   locked: toList('locked'),
   muted: toList('muted'),
   solo: toList('solo'),
@@ -280,6 +315,6 @@ export function pressInTimeline(context: TimelineContext, pressed: Pressed): boo
   // It begins a number where the selected keys can be below zero.
   if (chord === '-' && mayBeNegative(context)) type(context, chord);
   else if (use !== undefined) use.press(context, chord);
-  else return runByKey(all, pressed, context);
+  else return runByKey(all, pressed, context) || runByKey([ROW_ACTIONS.large], pressed, context);
   return true;
 }

@@ -11,7 +11,7 @@ import { contextOf, select } from './context.ts';
 import type { Held } from './gesture.ts';
 import { gestureOf } from './gestures.ts';
 import { keyY, sceneOf } from './scene.ts';
-import { sizesOf } from './rows.ts';
+import { type Sizes, sizesOf } from './rows.ts';
 import { pressInTimeline } from './timelineActions.ts';
 import { xOf } from './timeScale.ts';
 
@@ -27,7 +27,7 @@ export function smallGroup(): ActionGroup {
   );
 }
 
-const SIZES = sizesOf(false, false);
+const SIZES = sizesOf(false, { isTall: false, large: null });
 const NOTHING_HELD: Held = { ctrl: false, shift: false, alt: false };
 
 const NO_KEY_HELD = { ctrlKey: false, metaKey: false, shiftKey: false, altKey: false };
@@ -49,8 +49,8 @@ export async function createTestTimeline() {
   const group = () => document.store.getState().present;
 
   /** Where a key of the servo is on the tracks. */
-  const spotOf = (servo: number, frame: number) => {
-    const scene = sceneOf(context(), SIZES);
+  const spotIn = (servo: number, frame: number, sizes: Sizes) => {
+    const scene = sceneOf(context(), sizes);
     const row = scene.rows.find(({ row: { servos } }) => servos[0] === servo);
     const key = context()
       .times.tracks.get(servo)
@@ -60,10 +60,17 @@ export async function createTestTimeline() {
     return { x: xOf(scene.state.time, key.atMs), y: keyY(row, key.position, scene.family) };
   };
 
-  const press = (spot: { x: number; y: number }, held: Partial<Held> = {}, isTouch = false) => {
+  const spotOf = (servo: number, frame: number) => spotIn(servo, frame, SIZES);
+
+  const press = (
+    spot: { x: number; y: number },
+    held: Partial<Held> = {},
+    isTouch = false,
+    sizes = SIZES,
+  ) => {
     const all = { ...NOTHING_HELD, ...held };
     const gesture = gestureOf({
-      ...{ stores, spot, isTouch, sizes: SIZES, held: all },
+      ...{ stores, spot, isTouch, sizes, held: all },
       ...{ showBox: () => undefined, scroll: () => undefined },
     });
     return {
@@ -74,7 +81,7 @@ export async function createTestTimeline() {
   };
 
   return {
-    ...{ stores, context, group, noticeTexts, spotOf, press },
+    ...{ stores, context, group, noticeTexts, spotOf, spotIn, press },
     select: (...keys: readonly (readonly [frameId: number, servo: number])[]) =>
       select(stores, keySet(keys.map(([frameId, servo]) => ({ frameId, servo })))),
     /** Servo by servo, in the order of time. */

@@ -5,7 +5,7 @@ import { hoverAt, keepCursorInSight } from './trackCanvas.ts';
 import { sizesOf, topOfRows } from './rows.ts';
 import { createTestTimeline } from './timelineUnderTest.ts';
 
-const SIZES = sizesOf(false, false);
+const SIZES = sizesOf(false, { isTall: false, large: null });
 const TWO_ROWS = topOfRows(SIZES) + 2 * SIZES.servo;
 
 test('rows scroll below the cursor, no farther than they have to', async () => {
@@ -45,7 +45,8 @@ test('where its row is hidden the cursor is in the row of all servos, on the sam
 
 test('what a press would do is said of each place before it is pressed', async () => {
   const { stores, spotOf, select } = await createTestTimeline();
-  const statusAt = (spot: { x: number; y: number }) => hoverAt(stores, sizesOf(false, false), spot).status;
+  const statusAt = (spot: { x: number; y: number }) =>
+    hoverAt(stores, sizesOf(false, { isTall: false, large: null }), spot).status;
   expect(statusAt({ x: 30, y: 5 })).toBe('scrub');
   expect(statusAt({ x: 100, y: 33 })).toBe('duration');
   expect(statusAt({ x: 75, y: 33 })).toBe('box');

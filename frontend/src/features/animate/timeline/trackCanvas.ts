@@ -4,8 +4,8 @@
 import { contextOf, type TimelineStores, rowOf, select } from './context.ts';
 import type { StatusName } from './gesture.ts';
 import { hasAll, hitAt, type Hit, type Spot } from './hit.ts';
-import { sceneOf, type Scene } from './scene.ts';
-import { placedRows, scrolledTo, type Sizes, sizesOf, topOfRows } from './rows.ts';
+import { type CompiledTrack, sceneOf, type Scene } from './scene.ts';
+import { type Heights, placedRows, scrolledTo, type Sizes, sizesOf, topOfRows } from './rows.ts';
 import { ALL_ROW, keySet, selectedKeys } from './timeline.ts';
 import { setKeysAt } from './changes.ts';
 import { lookOf, SCHEMES, type Look } from '../../picture/Canvas.tsx';
@@ -13,6 +13,8 @@ import { selectFrame, setTime, shownKeys } from './looking.ts';
 import { paint } from './paint.ts';
 import { followPointer } from './pointer.ts';
 import { panned, pinched, zoomedAt } from './timeScale.ts';
+import type { CompiledGroup } from '../../board/compile/compiled.ts';
+import type { Stores } from '../../stores.ts';
 import { isTouch } from '../../../ui/inputEvents.ts';
 
 // The wheel over the tracks: it zooms where the pointer is, with Shift it goes through time, and a touch pad's two
@@ -104,8 +106,10 @@ export function keepCursorInSight(
   }
 
   const ends = [
-    stores.timeline.subscribe(({ cursor }, before) => {
+    stores.timeline.subscribe(({ cursor, large }, before) => {
       if (cursor.row !== before.cursor.row) scroll();
+      // Once its height is there to scroll in.
+      if (large !== before.large) requestAnimationFrame(scroll);
     }),
     stores.view.subscribe(({ servos }, before) => {
       if (servos.hidden !== before.servos.hidden || servos.folded !== before.servos.folded) leaveGoneRow();
@@ -128,9 +132,11 @@ interface CanvasHost {
   say(status: StatusName | null, tells?: () => string): void;
 }
 
-export const sizesNow = ({ isTall }: { readonly isTall: boolean }): Sizes => sizesOf(isTouch(), isTall);
+export const sizesNow = (heights: Heights): Sizes => sizesOf(isTouch(), heights);
 
-export function bringToLife(parts: CanvasParts, stores: TimelineStores, host: CanvasHost): () => void {
+type CanvasStores = TimelineStores & Pick<Stores, 'compiled'>;
+
+export function bringToLife(parts: CanvasParts, stores: CanvasStores, host: CanvasHost): () => void {
   const sizes = (): Sizes => sizesNow(stores.timeline.getState());
   const painting = paintOnChange(parts, stores, sizes);
   const scroll = (byPx: number): void => void (parts.scroller.scrollTop += byPx);
@@ -178,14 +184,16 @@ const middle = (spots: readonly Spot[]): number => spots.reduce((sum, { y }) => 
 /** What of the servo panel shows here; a drag there changes other things of it all the time. */
 const SHOWN = ['robotId', 'hidden', 'folded', 'locked', 'solo', 'muted'] as const;
 
-function paintOnChange(parts: CanvasParts, stores: TimelineStores, sizes: () => Sizes): () => void {
+function paintOnChange(parts: CanvasParts, stores: CanvasStores, sizes: () => Sizes): () => void {
+  const compiledTrack = createCompiledTrack(stores);
   let request = 0;
   let painted: Painted | null = null;
   const repaint = (): void => {
     if (request !== 0) return;
     request = requestAnimationFrame(() => {
       request = 0;
-      painted = paintTracks(parts, sceneOf(contextOf(stores), sizes()), painted);
+      const scene = { ...sceneOf(contextOf(stores), sizes()), compiled: compiledTrack() };
+      painted = paintTracks(parts, scene, painted);
     });
   };
   const schemes = SCHEMES.map((scheme) => matchMedia(scheme));
@@ -203,6 +211,7 @@ function paintOnChange(parts: CanvasParts, stores: TimelineStores, sizes: () => 
       if (!isSame || state.theme !== theme || state.positionsIn !== positionsIn) repaint();
     }),
     stores.device.store.subscribe(({ family }, before) => family !== before.family && repaint()),
+    stores.compiled.store.subscribe(() => stores.timeline.getState().large !== null && repaint()),
   ];
   repaint();
   return () => {
@@ -210,6 +219,29 @@ function paintOnChange(parts: CanvasParts, stores: TimelineStores, sizes: () => 
     for (const end of ends) end();
     for (const scheme of schemes) scheme.removeEventListener('change', repaint);
   };
+}
+
+/** The very same value as long as it is of the same row and the same frames. */
+function createCompiledTrack({ timeline, compiled }: Pick<CanvasStores, 'timeline' | 'compiled'>) {
+  let made: { readonly of: readonly unknown[]; readonly track: CompiledTrack } | null = null;
+  return (): CompiledTrack | null => {
+    const { large } = timeline.getState();
+    const { latest, isFresh } = compiled.store.getState();
+    if (large === null || !isFresh || latest.source.group.unit !== latest.source.family.unit) return null;
+    const of = [large.servo, latest];
+    if (made === null || !of.every((part, index) => part === made?.of[index]))
+      made = { of, track: trackIn(latest, large.servo) };
+    return made.track;
+  };
+}
+
+function trackIn({ frames, source }: CompiledGroup, servo: number): CompiledTrack {
+  let atMs = 0;
+  const points = frames.flatMap(({ durationMs, targets }) => {
+    atMs += durationMs;
+    return targets.flatMap((one) => (one.servo === servo ? [{ atMs, position: one.position }] : []));
+  });
+  return { points, maxErrorUnits: source.maxErrorUnits };
 }
 
 interface Painted {
