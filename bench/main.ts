@@ -9,6 +9,7 @@ import { SetupProblem, main, say } from '../scripts/steps.mjs';
 import { amount, isQuick } from './amounts.ts';
 import { measureBluetooth, measureHid } from './cables.ts';
 import { measureCodec } from './codec.ts';
+import { measureCollision } from './collision.ts';
 import { measureCrowd } from './crowd.ts';
 import { measureDownload } from './download.ts';
 import { measureDrag } from './drag.ts';
@@ -57,6 +58,7 @@ const GROUPS: Readonly<Record<string, () => Figure[] | Promise<Figure[]>>> = {
   page: measurePageSize,
   codec: measureCodec,
   ik: measureIk,
+  collision: measureCollision,
   timeline: measureTimeline,
   download: measureDownload,
 };

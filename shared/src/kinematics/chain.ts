@@ -82,7 +82,7 @@ export const cross = (one: Vec3, other: Vec3): Vec3 => [
   one[2] * other[0] - one[0] * other[2],
   one[0] * other[1] - one[1] * other[0],
 ];
-export const lengthOf = (vector: Vec3): number => Math.hypot(...vector);
+export const lengthOf = ([x, y, z]: Vec3): number => Math.sqrt(x * x + y * y + z * z);
 
 export const rotated = (rotation: Rotation, vector: Vec3): Vec3 => [
   dot(rotation[0], vector),
@@ -90,8 +90,25 @@ export const rotated = (rotation: Rotation, vector: Vec3): Vec3 => [
   dot(rotation[2], vector),
 ];
 
-function multiplied(one: Rotation, other: Rotation): Rotation {
+/** The other way round. */
+export const rotatedBack = ([x, y, z]: Rotation, [a, b, c]: Vec3): Vec3 => [
+  x[0] * a + y[0] * b + z[0] * c,
+  x[1] * a + y[1] * b + z[1] * c,
+  x[2] * a + y[2] * b + z[2] * c,
+];
+
+export function multiplied(one: Rotation, other: Rotation): Rotation {
   const column = (index: 0 | 1 | 2): Vec3 => [other[0][index], other[1][index], other[2][index]];
   const columns: Rotation = [column(0), column(1), column(2)];
   return [rotated(columns, one[0]), rotated(columns, one[1]), rotated(columns, one[2])];
+}
+
+/** As URDF has it: about the fixed axes x, y and z, in this order. */
+export function rotationOfRpy([roll, pitch, yaw]: Vec3): Rotation {
+  const [x, y, z] = [
+    rotationAbout([1, 0, 0], roll),
+    rotationAbout([0, 1, 0], pitch),
+    rotationAbout([0, 0, 1], yaw),
+  ];
+  return multiplied(z, multiplied(y, x));
 }

@@ -26,7 +26,7 @@ function legs(place: (leg: number) => Leg): Turns {
 }
 
 const STAND = { swing: 0, lift: 0 };
-const SWING = 0.25;
+const SWING = 0.15;
 const LIFT = 0.3;
 
 const to = (durationMs: number, place: (leg: number) => Leg): ExampleFrame => ({

@@ -1,345 +1,63 @@
-// Arm, hand, humanoid and hexapod as URDF made from primitive shapes, for a robot that brings no model of its own. A joint that a
-// servo turns is called `servo_<number>` and stands at 0 where the servo is at home; a link that a hand or foot ends in is called
-// `tip_<…>`. Metres and radians. Sizes are those of common robots: a picture to steer by, not a measurement.
+// The links of a body as URDF, for the drawing in three dimensions. A joint that a servo turns is called `servo_<number>` and stands
+// at 0 where the servo is at home; a link that a hand or foot ends in is called `tip_<…>`. Metres and radians.
 
-import { degreesOf, type Robot, type RobotServo, servoOf } from '#shared/profile/robot.ts';
-import { isLeg, jointedLimbs } from '../bones.ts';
-import { JOINT } from '../pose.ts';
-
-type Triple = readonly [number, number, number];
-
-interface Part {
-  readonly shape: 'box' | 'cylinder' | 'sphere';
-  /** Box: x, y, z. Cylinder: radius, length along z. Sphere: radius. */
-  readonly size: readonly number[];
-  readonly at?: Triple;
-  readonly turned?: Triple;
-  /** `servo`: the case of a servo; else what it carries. */
-  readonly kind?: 'servo';
-}
-
-interface Mount {
-  readonly on: string;
-  readonly at: Triple;
-  readonly turned?: Triple;
-  readonly axis: Triple;
-}
-
-const HALF_TURN = Math.PI;
-const QUARTER = Math.PI / 2;
-const UP: Triple = [0, 0, 1];
-/** The axes as the flat pictures turn: clockwise from above, from the front and from the right. */
-const YAW: Triple = [0, 0, -1];
-const ROLL: Triple = [-1, 0, 0];
-const PITCH: Triple = [0, 1, 0];
+import { degreesOf, type Robot, servoOf } from '#shared/profile/robot.ts';
+import { bodyLinks, type BodyLink } from '../bodyLinks.ts';
 
 export const jointName = (servo: number): string => `servo_${servo}`;
 export const TIP = 'tip_';
 
+/** No servo has this number. */
+const NO_SERVO = 0;
+const RADIANS = Math.PI / 180;
+
 /** Null for bodies without a description. */
 export function urdfOf(robot: Robot): string | null {
-  const parts = partsOf(robot);
-  return parts === null ? null : `<robot name="${robot.body}">\n${parts.join('\n')}\n</robot>\n`;
+  const links = bodyLinks(robot);
+  if (links === null) return null;
+  const parts = links.flatMap((link) => [...jointText(link, robot), linkText(link)]);
+  return `<robot name="${robot.body}">\n${parts.join('\n')}\n</robot>\n`;
 }
 
-function partsOf(robot: Robot): readonly string[] | null {
-  switch (robot.body) {
-    case 'arm':
-      return arm(robot);
-    case 'hand':
-      return hand(robot);
-    case 'humanoid':
-      return humanoid(robot);
-    case 'hexapod':
-      return hexapod(robot);
-    case 'plain':
-      return null;
-  }
-}
+const nameOf = ({ name, joint }: BodyLink): string => (joint === 'tip' ? `${TIP}${name}` : name);
 
-const ARM = { foot: 0.03, shoulder: 0.045, upper: 0.104, fore: 0.089, roll: 0.05, grip: 0.095 };
-/** Each jaw turns by so much of what its servo does, from half open. */
-const JAW = { share: -0.22, offset: 0.36, length: 0.05 };
+const linkText = (link: BodyLink): string =>
+  `<link name="${nameOf(link)}">${link.shapes.map(visual).join('')}</link>`;
 
-/** Straight up at home, as six-servo arms are. */
-function arm(robot: Robot): readonly string[] {
-  const joint = (servo: number, child: string, mount: Mount): string =>
-    servoJoint(robot, servo, child, mount);
-  return [
-    link('base_link', [
-      { shape: 'cylinder', size: [0.05, 0.012], at: [0, 0, 0.006] },
-      { shape: 'cylinder', size: [0.034, 0.018], at: [0, 0, 0.021], kind: 'servo' },
-    ]),
-    joint(JOINT.base, 'turret', { on: 'base_link', at: [0, 0, ARM.foot], axis: YAW }),
-    link('turret', [
-      { shape: 'box', size: [0.05, 0.046, 0.03], at: [0, 0, 0.02] },
-      axle(0.017, 0.056, [0, 0, ARM.shoulder]),
-    ]),
-    joint(JOINT.shoulder, 'upper_arm', { on: 'turret', at: [0, 0, ARM.shoulder], axis: PITCH }),
-    link('upper_arm', [bar(0.026, 0.036, ARM.upper), axle(0.015, 0.05, [0, 0, ARM.upper])]),
-    joint(JOINT.elbow, 'fore_arm', { on: 'upper_arm', at: [0, 0, ARM.upper], axis: PITCH }),
-    link('fore_arm', [bar(0.022, 0.03, ARM.fore), axle(0.013, 0.044, [0, 0, ARM.fore])]),
-    joint(JOINT.wrist, 'wrist', { on: 'fore_arm', at: [0, 0, ARM.fore], axis: PITCH }),
-    link('wrist', [{ shape: 'box', size: [0.024, 0.028, 0.036], at: [0, 0, 0.024], kind: 'servo' }]),
-    joint(JOINT.roll, 'palm', { on: 'wrist', at: [0, 0, ARM.roll], axis: YAW }),
-    link('palm', [
-      { shape: 'cylinder', size: [0.012, 0.01], at: [0, 0, 0] },
-      { shape: 'box', size: [0.022, 0.05, 0.02], at: [0, 0, 0.015] },
-    ]),
-    joint(JOINT.gripper, 'gripper_horn', { on: 'palm', at: [0, 0, 0.02], axis: ROLL }),
-    link('gripper_horn', []),
-    ...([1, -1] as const).flatMap((side) => [
-      mimicJoint(
-        `jaw_${side}`,
-        JOINT.gripper,
-        { on: 'palm', at: [0, side * 0.014, 0.025], axis: [-side, 0, 0] },
-        JAW,
-      ),
-      link(`jaw_${side}`, [
-        { shape: 'box', size: [0.016, 0.009, JAW.length], at: [0, side * 0.006, JAW.length / 2] },
-        {
-          shape: 'box',
-          size: [0.014, 0.008, 0.026],
-          at: [0, side * 0.001, JAW.length + 0.008],
-          turned: [side * 0.36, 0, 0],
-        },
-      ]),
-    ]),
-    tip('grip', 'wrist', [0, 0, ARM.roll + ARM.grip]),
-  ];
-}
-
-/** A closed finger turns each of its two bones by a quarter. */
-const FINGER = { share: 0.5, offset: QUARTER / 2, first: 0.045, second: 0.036 };
-
-/** Fingers grow up from the palm to their places on the flat picture; the base turns all of it. */
-function hand(robot: Robot): readonly string[] {
-  const base = robot.servos.find(({ place }) => place.y > 70);
-  const fingers = robot.servos.filter((servo) => servo !== base);
-  const turns = base === undefined ? [] : [base];
-  return [
-    link('base_link', [{ shape: 'cylinder', size: [0.035, 0.02], at: [0, 0, 0.01], kind: 'servo' }]),
-    ...turns.map(({ servo }) =>
-      servoJoint(robot, servo, 'palm', { on: 'base_link', at: [0, 0, 0.02], axis: YAW }),
-    ),
-    ...(turns.length === 0 ? [fixedJoint('palm', 'base_link', [0, 0, 0.02])] : []),
-    link('palm', [
-      { shape: 'cylinder', size: [0.02, 0.03], at: [0, 0, 0.015] },
-      { shape: 'box', size: [0.026, 0.084, 0.075], at: [0, 0, 0.065] },
-    ]),
-    ...fingers.flatMap(({ servo, place }) => {
-      const [across, up] = [(50 - place.x) * 0.0011, (52 - place.y) * 0.0004];
-      const mount = {
-        at: [0, across, 0.1 + up] as Triple,
-        turned: [across * -7, 0, 0] as Triple,
-        axis: PITCH,
-      };
-      const [near, far] = [`finger_${servo}`, `finger_end_${servo}`];
-      return [
-        servoJoint(robot, servo, `horn_${servo}`, { on: 'palm', ...mount }),
-        link(`horn_${servo}`, []),
-        mimicJoint(near, servo, { on: 'palm', ...mount }, FINGER),
-        link(near, [axle(0.008, 0.016, [0, 0, 0]), bar(0.014, 0.014, FINGER.first)]),
-        mimicJoint(far, servo, { on: near, at: [0, 0, FINGER.first], axis: PITCH }, FINGER),
-        link(far, [axle(0.007, 0.015, [0, 0, 0]), bar(0.012, 0.012, FINGER.second)]),
-      ];
-    }),
-  ];
-}
-
-interface Segment {
-  /** To the next joint, or to the tip. */
-  readonly to: Triple;
-  readonly axis: Triple;
-  readonly turned?: Triple;
-}
-
-const HUMANOID = { hip: 0.19, trunk: 0.12, shoulder: 0.1 };
-const LEG: readonly Segment[] = [
-  { axis: ROLL, to: [0, 0, -0.024] },
-  { axis: PITCH, to: [0, 0, -0.062] },
-  { axis: PITCH, to: [0, 0, -0.062] },
-  { axis: PITCH, to: [0, 0, -0.024] },
-  { axis: ROLL, to: [0, 0, -0.018] },
-];
-
-const armOf = (side: 1 | -1): readonly Segment[] => [
-  { axis: PITCH, to: [0, side * 0.022, 0] },
-  { axis: ROLL, to: [0, side * 0.02, -0.052] },
-  { axis: ROLL, to: [0, side * 0.004, -0.05] },
-  { axis: ROLL, to: [0, 0, -0.02] },
-];
-
-/** From the front, so its left is on the right of the flat picture. */
-function humanoid(robot: Robot): readonly string[] {
-  const limbs = jointedLimbs(robot).map(({ chain }, index) => {
-    const side = (chain[0]?.place.x ?? 0) > 50 ? 1 : -1;
-    return isLeg(chain)
-      ? limb(robot, chain, `leg_${index}`, [0, side * 0.036, 0], LEG, SOLE)
-      : limb(robot, chain, `arm_${index}`, [0, side * 0.058, HUMANOID.shoulder], armOf(side), []);
-  });
-  return [
-    link('base_link', [
-      { shape: 'box', size: [0.05, 0.1, HUMANOID.trunk], at: [0, 0, HUMANOID.trunk / 2] },
-      { shape: 'box', size: [0.056, 0.05, 0.05], at: [0, 0, HUMANOID.trunk / 2 + 0.01], kind: 'servo' },
-      { shape: 'box', size: [0.044, 0.05, 0.04], at: [0, 0, HUMANOID.trunk + 0.032] },
-      { shape: 'cylinder', size: [0.014, 0.016], at: [0, 0, HUMANOID.trunk + 0.006], kind: 'servo' },
-    ]),
-    ...limbs.flat(),
-  ];
-}
-
-const SOLE: readonly Part[] = [{ shape: 'box', size: [0.09, 0.05, 0.006], at: [0.008, 0, -0.015] }];
-
-const COXA = 0.028;
-const FEMUR = 0.056;
-const TIBIA = 0.092;
-
-/** From above, front up: its left is on the left of the flat picture. The shins stand up, as such robots stand. */
-function hexapod(robot: Robot): readonly string[] {
-  const limbs = jointedLimbs(robot).map(({ chain }, index) => {
-    const root = chain[0]?.place ?? { x: 50, y: 50 };
-    const side = root.x < 50 ? 1 : -1;
-    const along = (50 - root.y) / 32;
-    const leg: readonly Segment[] = [
-      { axis: YAW, to: [0, side * COXA, 0] },
-      { axis: [1, 0, 0], to: [0, side * FEMUR, 0] },
-      { axis: [1, 0, 0], turned: [side * -1.35, 0, 0], to: [0, side * TIBIA, 0] },
-    ];
-    return limb(
-      robot,
-      chain,
-      `leg_${index}`,
-      [along * 0.085, side * (0.062 - Math.abs(along) * 0.012), 0],
-      leg,
-      [],
-    );
-  });
-  return [
-    link('base_link', [
-      { shape: 'box', size: [0.21, 0.1, 0.01], at: [0, 0, 0.02] },
-      { shape: 'box', size: [0.21, 0.1, 0.01], at: [0, 0, -0.02] },
-      { shape: 'box', size: [0.17, 0.07, 0.034], at: [0, 0, 0], kind: 'servo' },
-      { shape: 'box', size: [0.02, 0.05, 0.016], at: [0.1, 0, 0.03] },
-    ]),
-    ...limbs.flat(),
-  ];
-}
-
-/** Servos of a limb in a row; one that has more joints than are known goes on like the last. */
-function limb(
-  robot: Robot,
-  chain: readonly RobotServo[],
-  name: string,
-  root: Triple,
-  segments: readonly Segment[],
-  end: readonly Part[],
-): readonly string[] {
-  let on = 'base_link';
-  let at = root;
-  const parts = chain.flatMap(({ servo }, index) => {
-    const segment = segments[Math.min(index, segments.length - 1)];
-    if (segment === undefined) return [];
-    const child = `${name}_${index}`;
-    const isLast = index === chain.length - 1;
-    const mount = { on, at, axis: segment.axis, ...(segment.turned && { turned: segment.turned }) };
-    const made = [
-      servoJoint(robot, servo, child, mount),
-      link(child, [
-        { shape: 'box', size: [0.024, 0.024, 0.024], kind: 'servo' },
-        ...between(segment.to, 0.016),
-        ...(isLast ? end : []),
-      ]),
-    ];
-    [on, at] = [child, segment.to];
-    return made;
-  });
-  return [...parts, tip(name, on, at)];
-}
-
-// The words of URDF.
-
-const bar = (depth: number, width: number, length: number): Part => ({
-  shape: 'box',
-  size: [depth, width, length],
-  at: [0, 0, length / 2],
-});
-
-/** Across the limb, along y. */
-const axle = (radius: number, length: number, at: Triple): Part => ({
-  shape: 'cylinder',
-  size: [radius, length],
-  at,
-  turned: [QUARTER, 0, 0],
-  kind: 'servo',
-});
-
-/** A box from the origin to a point that is not straight ahead. */
-function between(to: Triple, thickness: number): readonly Part[] {
-  const length = Math.hypot(...to);
-  if (length < thickness) return [];
-  const [x, y, z] = to;
-  const middle: Triple = [x / 2, y / 2, z / 2];
-  const lean = Math.atan2(-y, z);
-  return [
-    {
-      shape: 'box',
-      size: [thickness, thickness, length],
-      at: middle,
-      turned: [lean, Math.asin(x / length), 0],
-    },
-  ];
-}
-
-function servoJoint(robot: Robot, number: number, child: string, mount: Mount): string {
-  const servo = servoOf(robot, number);
-  if (servo === undefined) return fixedJoint(child, mount.on, mount.at, mount.turned);
-  const ends = [servo.min, servo.max].map((end) => (degreesOf(servo, end) / 180) * HALF_TURN);
-  const limit = `<limit lower="${text(Math.min(...ends))}" upper="${text(Math.max(...ends))}" effort="1" velocity="1"/>`;
-  return jointText(jointName(number), 'revolute', child, mount, limit);
-}
-
-function mimicJoint(
-  child: string,
-  servo: number,
-  mount: Mount,
-  { share, offset }: { readonly share: number; readonly offset: number },
-): string {
-  const mimic = `<mimic joint="${jointName(servo)}" multiplier="${share}" offset="${offset}"/>`;
-  return jointText(`${child}_joint`, 'continuous', child, mount, mimic);
-}
-
-const fixedJoint = (child: string, on: string, at: Triple, turned?: Triple): string =>
-  jointText(`${child}_joint`, 'fixed', child, { on, at, axis: UP, ...(turned && { turned }) }, '');
-
-const tip = (name: string, on: string, at: Triple): string =>
-  `${fixedJoint(`${TIP}${name}`, on, at)}\n${link(`${TIP}${name}`, [])}`;
-
-const jointText = (
-  name: string,
-  type: string,
-  child: string,
-  { on, at, turned, axis }: Mount,
-  rest: string,
-): string =>
-  `<joint name="${name}" type="${type}">${origin(at, turned)}<parent link="${on}"/><child link="${child}"/>` +
-  `<axis xyz="${texts(axis)}"/>${rest}</joint>`;
-
-const link = (name: string, parts: readonly Part[]): string =>
-  `<link name="${name}">${parts.map(visual).join('')}</link>`;
-
-function visual({ shape, size, at = [0, 0, 0], turned, kind }: Part): string {
+function visual({ shape, size, at, rpy, kind }: BodyLink['shapes'][number]): string {
   const [one = 0, two = 0] = size;
   const geometry = {
     box: `<box size="${texts(size)}"/>`,
     cylinder: `<cylinder radius="${text(one)}" length="${text(two)}"/>`,
     sphere: `<sphere radius="${text(one)}"/>`,
   }[shape];
-  return `<visual>${origin(at, turned)}<geometry>${geometry}</geometry><material name="${kind ?? 'body'}"/></visual>`;
+  return `<visual>${origin(at, rpy)}<geometry>${geometry}</geometry><material name="${kind ?? 'body'}"/></visual>`;
 }
 
-const origin = (at: Triple, turned: Triple = [0, 0, 0]): string =>
-  `<origin xyz="${texts(at)}" rpy="${texts(turned)}"/>`;
+const TYPES = { servo: 'revolute', follows: 'continuous', fixed: 'fixed', tip: 'fixed' } as const;
+
+function jointText(link: BodyLink, robot: Robot): readonly string[] {
+  const { mount, joint } = link;
+  if (mount === null || joint === 'none') return [];
+  const name = joint === 'servo' ? jointName(mount.servo ?? NO_SERVO) : `${nameOf(link)}_joint`;
+  return [
+    `<joint name="${name}" type="${TYPES[joint]}">${origin(mount.at, mount.rpy)}<parent link="${mount.on}"/>` +
+      `<child link="${nameOf(link)}"/><axis xyz="${texts(mount.axis)}"/>${turnText(link, robot)}</joint>`,
+  ];
+}
+
+function turnText({ mount, joint }: BodyLink, robot: Robot): string {
+  const servo = servoOf(robot, mount?.servo ?? NO_SERVO);
+  if (mount === null || servo === undefined) return '';
+  if (joint === 'follows')
+    return `<mimic joint="${jointName(servo.servo)}" multiplier="${mount.share}" offset="${mount.offset}"/>`;
+  const [one, other] = [degreesOf(servo, servo.min) * RADIANS, degreesOf(servo, servo.max) * RADIANS];
+  const [lower, upper] = [Math.min(one, other), Math.max(one, other)];
+  return `<limit lower="${text(lower)}" upper="${text(upper)}" effort="1" velocity="1"/>`;
+}
+
+const origin = (at: readonly number[], rpy: readonly number[]): string =>
+  `<origin xyz="${texts(at)}" rpy="${texts(rpy)}"/>`;
 
 const text = (value: number): string => String(Math.round(value * 1e6) / 1e6);
 const texts = (values: readonly number[]): string => values.map(text).join(' ');
