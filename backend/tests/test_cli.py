@@ -1,5 +1,6 @@
 """The command line as a person and as the start script use it."""
 
+import asyncio
 import json
 import os
 import re
@@ -18,8 +19,11 @@ import pytest
 from typer.testing import CliRunner, Result
 
 from servodeck import __version__
+from servodeck.api.server import Server
 from servodeck.cli.main import app
 from servodeck.files import FILE
+from tests.fake_port import FakePort, FakePorts
+from tests.running import server_on
 from tests.samples import STOP
 from tests.test_ports import Pty
 
@@ -180,6 +184,16 @@ def test_at_the_end_the_robot_is_stopped_first_and_the_process_leaves_in_time(
     assert time.monotonic() - begun_s <= END_S
     assert served.process.returncode == 0
     assert errors == ""
+
+
+def test_its_end_may_be_requested_again_when_its_event_loop_has_ended() -> None:
+    """As where the parent process closes our stdin just then."""
+
+    async def one_life() -> Server:
+        async with server_on(FakePorts(FakePort())) as running:
+            return running.server
+
+    asyncio.run(one_life()).leave()
 
 
 @pytest.mark.parametrize(

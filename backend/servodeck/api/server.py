@@ -73,9 +73,10 @@ class Server(uvicorn.Server):
 
     def leave(self) -> None:
         """Begins the end; may be called from any thread and from a signal handler."""
-        if self._loop:
-            self._loop.call_soon_threadsafe(self._leave.set)
         self.should_exit = True
+        if self._loop:
+            with contextlib.suppress(RuntimeError):  # the loop is closed: it has ended
+                self._loop.call_soon_threadsafe(self._leave.set)
 
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
         self._loop = asyncio.get_running_loop()
