@@ -65,7 +65,7 @@ class Client(Session):
         return self.control.requests.send(self, packet.hex(), self.nonce)
 
     async def next(self) -> str:
-        """What left the wire is kept apart, in `followed`."""
+        """What left the wire is in `followed` instead."""
         while (message := json.loads(text := await super().next()))["type"] == "left":
             self.followed += [packet_of(left, self.control) for left in message["commands"]]
             if not self.waiting:

@@ -50,7 +50,7 @@ async def knock(app: ASGIApp, scope: Scope, *, may_read: bool = True) -> int:
     answered = asyncio.Event()
 
     async def receive() -> Message:
-        """Who has heard the status hangs up: a stream would go on for ever."""
+        """Who has heard the status hangs up: a stream would continue for ever."""
         assert may_read
         if not messages:
             await answered.wait()

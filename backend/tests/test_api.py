@@ -118,7 +118,7 @@ async def test_a_port_that_cannot_be_had_is_refused_with_its_reason_and_tried_ag
 
 
 @in_virtual_time
-async def test_a_board_at_another_speed_is_heard_where_it_is_at_rest_and_nobody_else_drives() -> None:
+async def test_a_board_at_another_speed_is_heard_where_it_is_at_rest_and_no_other_client_drives() -> None:
     ports = FakePorts(*(FakePort() for _ in range(5)))
     async with http_to(ports, now) as (client, control):
         assert (await client.post("/api/port/listen")).json() == {"baud": None, "kind": None}

@@ -122,7 +122,7 @@ async def test_a_refused_method_gets_all_allowed_ones(method: str, path: str, al
         assert (answer.status_code, answer.headers["allow"]) == (405, allowed)
 
 
-async def test_no_telemetry_leaves_even_if_the_environment_asks_for_it(
+async def test_no_telemetry_leaves_even_if_the_environment_requests_it(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """The framework would send its measurements to the address in a variable."""

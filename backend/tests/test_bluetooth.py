@@ -174,7 +174,7 @@ def test_without_the_extra_the_sentence_says_what_to_install(monkeypatch: pytest
         Bluetooth().open("ble:Hiwonder")
 
 
-def test_bleak_is_not_loaded_before_a_module_is_asked_for() -> None:
+def test_bleak_is_not_loaded_before_a_module_is_requested() -> None:
     """It would take a fifth of the gateway's start."""
     code = "import sys, servodeck.port.link; sys.exit('bleak' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

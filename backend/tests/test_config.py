@@ -111,7 +111,7 @@ def test_a_file_that_is_named_has_to_be_there() -> None:
 
 def test_the_output_can_be_saved_as_a_file(tmp_path: Path) -> None:
     shown = show("--serial", "/dev/ttyUSB1", "--open").stdout
-    file = write(tmp_path / "kept.toml", shown)
+    file = write(tmp_path / "stored.toml", shown)
     again = show("--config", file).stdout
     assert tomllib.loads(again) == tomllib.loads(shown)
 

@@ -1,5 +1,5 @@
-"""F17: the real process on a disk that is full, cannot be written or fails. Control goes on, what was kept
-stays, and what cannot be kept is refused with its code.
+"""F17: the real process on a disk that is full, cannot be written or fails. Control continues, stored
+texts stay, and what cannot be stored is refused with its code.
 
 The disks are real ones in a mount namespace of their own; skipped where the system allows none.
 """

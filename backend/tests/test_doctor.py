@@ -20,7 +20,7 @@ from tests.vectors import load_vectors
 
 pytestmark = pytest.mark.slow
 
-NOBODY = "http://127.0.0.1:1"
+NO_GATEWAY = "http://127.0.0.1:1"
 
 
 @pytest.fixture
@@ -36,7 +36,7 @@ def diagnosed(pty: Pty, answer: bytes) -> tuple[int, str]:
     cable = os.open(pty.device, os.O_RDWR | os.O_NOCTTY)
     board = threading.Thread(target=lambda: os.read(pty.board, 100) and os.write(pty.board, answer))
     board.start()
-    result = CliRunner().invoke(app, ["doctor", "--url", NOBODY, "--port", pty.device])
+    result = CliRunner().invoke(app, ["doctor", "--url", NO_GATEWAY, "--port", pty.device])
     board.join()
     os.close(cable)
     return result.exit_code, result.stdout
@@ -67,7 +67,7 @@ def test_bytes_that_are_no_packets_are_explained(pty: Pty, answer: bytes, advice
 def test_a_port_that_a_program_has_open_names_the_program(pty: Pty) -> None:
     other = subprocess.Popen(["sleep", "60"], stdin=(cable := os.open(pty.device, os.O_RDWR | os.O_NOCTTY)))
     os.close(cable)
-    result = CliRunner().invoke(app, ["doctor", "--url", NOBODY, "--port", pty.device])
+    result = CliRunner().invoke(app, ["doctor", "--url", NO_GATEWAY, "--port", pty.device])
     other.kill()
     other.wait()
     assert f"is open in sleep ({other.pid}): close it there." in result.stdout
@@ -92,7 +92,7 @@ def test_a_board_on_its_own_usb_cable_is_asked_too(
 
     answering = threading.Thread(target=answer)
     answering.start()
-    result = CliRunner().invoke(app, ["doctor", "--url", NOBODY, "--port", "hid"])
+    result = CliRunner().invoke(app, ["doctor", "--url", NO_GATEWAY, "--port", "hid"])
     answering.join()
     hidraw.unplug_all()
     assert said in result.stdout
@@ -101,7 +101,7 @@ def test_a_board_on_its_own_usb_cable_is_asked_too(
 
 def test_without_a_gateway_it_says_how_to_start_one(pty: Pty) -> None:
     _, said = diagnosed(pty, b"")
-    assert f"No gateway answers at {NOBODY}" in said
+    assert f"No gateway answers at {NO_GATEWAY}" in said
     assert "Nothing answers on" in said
 
 
@@ -124,7 +124,7 @@ def test_a_board_at_another_speed_is_found_on_request(pty: Pty, said: bytes, adv
 
     board = threading.Thread(target=speak)
     board.start()
-    result = CliRunner().invoke(app, ["doctor", "--url", NOBODY, "--port", pty.device, "--rates"])
+    result = CliRunner().invoke(app, ["doctor", "--url", NO_GATEWAY, "--port", pty.device, "--rates"])
     is_done.set()
     board.join()
     os.close(cable)

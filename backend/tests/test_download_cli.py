@@ -89,7 +89,7 @@ def test_several_files_go_to_their_slots(served: Served, board: Board, tmp_path:
 
 
 @pytest.mark.exhaustive
-def test_it_may_go_on_without_the_command(served: Served, board: Board, tmp_path: Path) -> None:
+def test_it_may_continue_without_the_command(served: Served, board: Board, tmp_path: Path) -> None:
     wave = file_in(tmp_path, "wave.json", {"frames": FRAMES * 20})
     begun = run("download", f"5={wave}", "--no-wait", "--url", served.url)
     assert begun.exit_code == 0

@@ -132,7 +132,7 @@ async def test_a_driver_who_leaves_is_lost_at_once_and_what_moves_stops() -> Non
 
 
 @in_virtual_time
-async def test_a_driver_who_leaves_while_the_last_frame_of_an_unknown_group_may_go_on_stops_it() -> None:
+async def test_a_driver_who_leaves_while_the_last_frame_of_an_unknown_group_may_continue_stops_it() -> None:
     for goes_after_s, is_stopped in ((5, True), (29, True), (31, False)):
         async with driven(RUN, STOP) as (control, port, anna):
             await asyncio.sleep(goes_after_s)

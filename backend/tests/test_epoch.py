@@ -1,4 +1,4 @@
-"""The count of starts on disk, and what happens where it cannot be kept."""
+"""The count of starts on disk, and what happens where it cannot be written."""
 
 import os
 from pathlib import Path

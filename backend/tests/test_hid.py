@@ -192,7 +192,7 @@ def test_a_node_that_cannot_be_opened_otherwise_is_missing(hidraw: FakeHidraw) -
     assert isinstance(explain(board, OSError(errno.ENODEV, "gone")), PortMissingError)
 
 
-def test_boards_are_listed_beside_serial_ports_and_asked_for_by_name(hidraw: FakeHidraw) -> None:
+def test_boards_are_listed_beside_serial_ports_and_requested_by_name(hidraw: FakeHidraw) -> None:
     hidraw.plug()
     ports = [port for port in list_devices("hid", "hid:497223563535") if is_hid(port.device)]
     assert ports == [PortInfo("hid:497223563535", "LOBOT, USB cable of the board", likely=True)]

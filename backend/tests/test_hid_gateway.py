@@ -115,7 +115,7 @@ async def test_pages_get_the_commands_that_the_cable_does_not_carry() -> None:
 
 
 @in_virtual_time
-async def test_answers_that_were_not_asked_for_are_logged_once(caplog: pytest.LogCaptureFixture) -> None:
+async def test_answers_that_were_not_requested_are_logged_once(caplog: pytest.LogCaptureFixture) -> None:
     port = FakeHidPort()
     async with gateway_on(port) as control:
         asked = asyncio.create_task(control.board.battery.read())

@@ -15,7 +15,7 @@ NUMBERS = count()
 def come(hub: Hub, role: Role) -> int:
     """As many devices of that role as find a seat; how many they are."""
     for presence_changed in count():
-        caller = Caller(str(next(NUMBERS)), "Somebody", role)
+        caller = Caller(str(next(NUMBERS)), "A device", role)
         if not hub.has_room_for(caller):
             return presence_changed
         hub.join(Session(caller))

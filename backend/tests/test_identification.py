@@ -1,6 +1,6 @@
 """Who is at the other end of the gateway's port: what it asks, what the answers mean, what may be sent before
-somebody knows, and what happens when the board falls silent. Real simulated boards, virtual time; the page's
-session does the same on a link of its own: shared/src/robot/identification.test.ts.
+a person has chosen, and what happens when the board falls silent. Real simulated boards, virtual time; the
+page's session does the same on a link of its own: shared/src/robot/identification.test.ts.
 """
 
 import asyncio
@@ -185,7 +185,7 @@ async def test_one_that_restarts_in_front_of_us_is_given_the_time_to_start(simul
 
 
 @in_virtual_time
-async def test_a_stop_pressed_meanwhile_goes_first_and_the_questions_go_on(simulator: Simulator) -> None:
+async def test_a_stop_pressed_meanwhile_goes_first_and_the_questions_continue(simulator: Simulator) -> None:
     async with asked(simulator, "bus-ctrl") as here:
         await asyncio.sleep(0.205)
         await here.control.stop()

@@ -137,7 +137,7 @@ async def test_a_slot_that_is_wanted_twice_or_another_board_is_refused_before_an
         assert (port.packets(), broken(control)) == ([STOP], [])
 
 
-async def test_others_go_on_while_a_large_group_is_made_into_packets() -> None:
+async def test_others_continue_while_a_large_group_is_made_into_packets() -> None:
     turns = 0
 
     async def go_on() -> None:

@@ -163,7 +163,7 @@ def terminate(served: Served, _driver: Driver, bus: Bus, _chance: random.Random)
 
 
 def hold(served: Served, driver: Driver, bus: Bus, chance: random.Random) -> None:
-    """Held by the system; when it goes on, what waited for it is too old."""
+    """Held by the system; when it continues, what waited for it is too old."""
     served.process.send_signal(signal.SIGSTOP)
     driver.stand()
     bus.rest()

@@ -1,4 +1,4 @@
-"""The library on a real SQLite file: what is kept and refused, and what trouble on the disk does to it."""
+"""The library on a real SQLite file: what is stored and refused, and what trouble on the disk does to it."""
 
 import json
 import os
@@ -310,7 +310,7 @@ def test_what_a_list_says_of_a_document_is_not_believed_where_it_is_damaged(
         again.facts_of("arm", "robot")
 
 
-def test_a_document_stays_of_its_kind_and_is_asked_for_by_it(library: Library) -> None:
+def test_a_document_stays_of_its_kind_and_is_requested_by_it(library: Library) -> None:
     library.write("arm", "{}", "limits", 0, kind="robot")
     assert library.facts_of("arm", "robot") == ("limits", 1)
     with pytest.raises(ConflictError):

@@ -68,8 +68,8 @@ def test_the_library_is_listed(served: Served) -> None:
 
 
 def test_erasing_asks_first_and_reports_a_missing_answer(served: Served) -> None:
-    kept = CliRunner().invoke(app, ["erase", "--url", served.url], input="n\n")
-    assert kept.exit_code == 1
+    refused = CliRunner().invoke(app, ["erase", "--url", served.url], input="n\n")
+    assert refused.exit_code == 1
     silent = run("erase", "--yes", "--url", served.url)
     assert (silent.exit_code, "(noAnswer)" in silent.stderr) == (FAILURE, True)
     assert served.read(len(ERASE)) == ERASE

@@ -76,7 +76,7 @@ def restored(folder: Path) -> Library:
     return opened(folder, STEPS)
 
 
-class Kept(NamedTuple):
+class Stored(NamedTuple):
     """A document of an old file."""
 
     text: str
@@ -86,12 +86,12 @@ class Kept(NamedTuple):
     versions: tuple[str, ...]
 
 
-def fill(path: Path) -> dict[str, Kept]:
+def fill(path: Path) -> dict[str, Stored]:
     """Puts many documents into a file of that version, each another one; what is in them by now."""
-    random, kept = Random(path.stat().st_size), dict[str, Kept]()
+    random, stored = Random(path.stat().st_size), dict[str, Stored]()
     for number in range(COUNT):
         frames = [random.randint(500, 2500) for _ in range(random.randint(0, 200))]
-        kept[f"group-{number}"] = Kept(
+        stored[f"group-{number}"] = Stored(
             text=json.dumps({"name": f"群 {number} \U0001f916", "frames": frames}, ensure_ascii=False),
             facts=f'{{"name":"群 {number}","kind":"group"}}',
             revision=random.randint(1, 90),
@@ -101,7 +101,7 @@ def fill(path: Path) -> dict[str, Kept]:
     with closing(sqlite3.connect(path)) as db, db:
         db.create_function("sum_of", -1, sum_of, deterministic=True)
         has_sums = version_of(db) > 2
-        for id_, one in kept.items():
+        for id_, one in stored.items():
             document = (id_, one.revision, one.removed_at_ms, one.facts, one.text)
             columns = "(id, revision, removed_at_ms, facts, text)"
             db.execute(f"INSERT INTO document {columns} VALUES (?, ?, ?, ?, ?)", document)
@@ -113,13 +113,13 @@ def fill(path: Path) -> dict[str, Kept]:
         if has_sums:  # the last two statements of the step that brought them
             for statement in STEPS[2][-2:]:
                 db.execute(statement)
-    return kept
+    return stored
 
 
-def assert_holds(library: Library, kept: dict[str, Kept]) -> None:
+def assert_holds(library: Library, stored: dict[str, Stored]) -> None:
     found = {one.id: one for one in library.list()}
-    assert found.keys() == kept.keys() | {"wave", "old-pose"}
-    for id_, one in kept.items():
+    assert found.keys() == stored.keys() | {"wave", "old-pose"}
+    for id_, one in stored.items():
         is_removed = one.removed_at_ms is not None
         assert found[id_] == Listed(id_, one.revision, is_removed, one.facts, "group")
         assert library.read(id_) == (one.text, one.revision)
@@ -129,25 +129,25 @@ def assert_holds(library: Library, kept: dict[str, Kept]) -> None:
 
 @pytest.mark.parametrize("sql", FILES, ids=lambda sql: sql.stem)
 def test_of_many_documents_each_is_there_and_whole_behind_it(sql: Path, tmp_path: Path) -> None:
-    kept = fill(lay_down(sql, tmp_path))
+    stored = fill(lay_down(sql, tmp_path))
     before = content_of(tmp_path / FILE)
     library = opened(tmp_path)
-    assert_holds(library, kept)
+    assert_holds(library, stored)
     assert (library.damaged_file, library.changes_lost) == (None, False)
     library.close()
     assert content_of(tmp_path / BACKUP) == before
-    assert_holds(restored(tmp_path), kept)
+    assert_holds(restored(tmp_path), stored)
 
 
 @pytest.mark.parametrize("sql", FILES, ids=lambda sql: sql.stem)
 def test_a_disk_that_is_full_amid_the_upgrade_of_many_loses_none(sql: Path, tmp_path: Path) -> None:
-    kept = fill(lay_down(sql, tmp_path))
+    stored = fill(lay_down(sql, tmp_path))
     before = content_of(tmp_path / FILE)
     small, grow = "PRAGMA max_page_count = 4000", "INSERT INTO later SELECT zeroblob(9000000) FROM document"
     with pytest.raises(StorageFullError):
         opened(tmp_path, [*STEPS, ["CREATE TABLE later (text)", small, grow]]).list()
     assert content_of(tmp_path / FILE) == before
-    assert_holds(opened(tmp_path), kept)
+    assert_holds(opened(tmp_path), stored)
 
 
 @pytest.mark.parametrize("sql", FILES, ids=lambda sql: sql.stem)

@@ -128,7 +128,7 @@ async def test_any_client_ends_a_group_by_three_stops_and_a_run_waits_for_the_la
 
 
 @in_virtual_time
-async def test_ending_a_group_goes_on_when_its_page_has_gone() -> None:
+async def test_ending_a_group_continues_when_its_page_has_gone() -> None:
     port = FakePort()
     async with gateway_on(port) as control:
         viewer = Client(control, VIEWER)

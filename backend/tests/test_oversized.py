@@ -1,5 +1,5 @@
 """Requests and messages that are too large, or would be once they are unpacked, at a process of its own: each
-is ended at once, and none of it is kept (F13). What drips in is test_impatient.py.
+is ended at once, and none of it is held in memory (F13). What drips in is test_impatient.py.
 """
 
 import asyncio

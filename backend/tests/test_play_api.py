@@ -41,7 +41,7 @@ async def test_a_script_has_frames_played_looks_how_far_it_is_and_how_it_ended()
 
 
 @in_virtual_time
-async def test_without_a_beat_it_is_stopped_after_two_seconds_and_latched() -> None:
+async def test_without_a_heartbeat_it_is_stopped_after_two_seconds_and_latched() -> None:
     async with script() as here:
         begun_s = now()
         await here.post("play", frames=FRAMES, times=0)
@@ -57,7 +57,7 @@ async def test_without_a_beat_it_is_stopped_after_two_seconds_and_latched() -> N
 
 
 @in_virtual_time
-async def test_it_may_go_on_without_a_beat_for_as_long_as_was_said_and_everybody_sees_it() -> None:
+async def test_it_may_continue_without_a_heartbeat_for_as_long_as_was_allowed_and_everybody_sees_it() -> None:
     async with script() as here:
         await here.post("play", frames=FRAMES, times=0, continueForMs=10_000)
         await asyncio.sleep(8)
@@ -130,7 +130,7 @@ async def test_an_owner_takes_the_lease_for_it_and_what_moved_is_held_first() ->
 
 
 @in_virtual_time
-async def test_who_is_not_let_in_any_more_is_stopped_unless_an_owner_lets_it_go_on() -> None:
+async def test_who_is_not_let_in_any_more_is_stopped_unless_an_owner_lets_it_continue() -> None:
     for goes_on in (False, True):
         async with script() as here:
             await here.post("play", frames=FRAMES, times=0, continueForMs=60_000)

@@ -89,9 +89,9 @@ def test_left_out_commands_are_void_and_the_others_stay_in_order(packets: list[b
     commands = tuple(command for packet in packets if (command := parse_command(packet)))
     left = newest(commands)
     assert newest(left) == left
-    kept = [encode(command, FAMILIES["doc"]) for command in left]
-    assert [packet for packet in kept if packet in (STOP, RUN)] == [p for p in packets if p in (STOP, RUN)]
+    sent = [encode(command, FAMILIES["doc"]) for command in left]
+    assert [packet for packet in sent if packet in (STOP, RUN)] == [p for p in packets if p in (STOP, RUN)]
     rest = iter(packets)
-    assert all(packet in rest for packet in kept)
+    assert all(packet in rest for packet in sent)
     last = {packet[7]: packet for packet in packets if packet[3] == 3}
-    assert {packet[7]: packet for packet in kept if packet[3] == 3} == last
+    assert {packet[7]: packet for packet in sent if packet[3] == 3} == last

@@ -215,7 +215,7 @@ def test_a_run_that_is_stopped_elsewhere_ends_its_watch(served: Served) -> None:
 
 
 @pytest.mark.exhaustive
-def test_a_run_may_go_on_without_the_command(served: Served) -> None:
+def test_a_run_may_continue_without_the_command(served: Served) -> None:
     assert run("run", "8", "--continue", "60", "--url", served.url).exit_code == 0
     result = run("status", "--url", served.url).stdout
     assert "without A script on this computer for at most 60 s" in result

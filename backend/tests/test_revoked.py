@@ -124,7 +124,7 @@ async def test_every_loss_of_the_lease_raises_the_epoch(how: str) -> None:
 @pytest.mark.parametrize("how", [REVOKE, DEMOTE])
 @pytest.mark.parametrize("after_s", [0.5, 5])
 @in_virtual_time
-async def test_a_group_that_they_let_go_on_is_stopped_in_the_owners_name(how: str, after_s: float) -> None:
+async def test_a_group_that_they_let_continue_is_stopped_in_the_owners_name(how: str, after_s: float) -> None:
     """Whether they still drive or not."""
     async with script() as here:
         anna = Client(here.control, ANNA)
@@ -140,7 +140,7 @@ async def test_a_group_that_they_let_go_on_is_stopped_in_the_owners_name(how: st
 
 @pytest.mark.parametrize("after_s", [0.5, 5])
 @in_virtual_time
-async def test_the_owner_may_let_that_group_go_on(after_s: float) -> None:
+async def test_the_owner_may_let_that_group_continue(after_s: float) -> None:
     async with script() as here:
         anna = Client(here.control, ANNA)
         await here.post("slots/8/run", times=2, continueForMs=60_000)

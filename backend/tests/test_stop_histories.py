@@ -41,7 +41,7 @@ BYTE_S = 10 / 9600
 # Of every slot from 100 on, each of 255 frames of 30 s (S49).
 LONGEST_CHAIN_S = 2 * 160 * 255 * 30.0
 
-# A run that may go on without its driver goes on when that one lets go.
+# A run that may continue without its driver continues when that one lets go.
 STOPPING = sorted(set(DOORS) - {"letting go of the lease"})
 
 boards = st.sampled_from(sorted(BOARDS))

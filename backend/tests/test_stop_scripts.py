@@ -69,8 +69,8 @@ async def test_any_requests_of_scripts_end_by_themselves_and_free_the_lease() ->
                 for _ in range(chance.randint(1, 8)):
                     await ask(here, chance)
                     await asyncio.sleep(chance.choice(PAUSES_S))
-                # The longest that a run may go on; the five seconds of who asks to drive, and the two of who
-                # then says nothing.
+                # The longest that a run may continue; the five seconds of a client that requests to drive,
+                # and the two of one that then sends nothing.
                 await asyncio.sleep(5 + 5 + 2 + 0.5)
                 assert here.control.driving.driver is None
                 assert not here.control.board.activity.may_move()

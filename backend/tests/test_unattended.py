@@ -20,7 +20,7 @@ ENDLESS = bytes.fromhex("55550506080000")
 
 
 async def begin(control: Control, for_ms: int = 60_000) -> Client:
-    """Anna starts a group and lets it go on."""
+    """Anna starts a group and lets it continue."""
     anna = Client(control, ANNA)
     await anna.send(RUN)
     take(ContinueMessage(type="continue", for_ms=for_ms), anna, control)
@@ -141,7 +141,7 @@ async def test_an_endless_run_ends_when_its_time_is_over() -> None:
 
 
 @in_virtual_time
-async def test_only_what_runs_may_go_on_and_only_its_driver_says_so() -> None:
+async def test_only_what_runs_may_continue_and_only_its_driver_allows_it() -> None:
     async with gateway_on() as control:
         anna, carl = Client(control, ANNA), Client(control)
         with pytest.raises(NotDrivingError):

@@ -53,9 +53,9 @@ def test_the_least_used_of_one_address_ends_first_else_that_of_all(steps: list[t
             elif number < len(made):
                 link = made[number]
                 (links.use if what == "use" else links.remove)(link)
-                if kept := next((one for one in expected if one[1] is link), None):
-                    expected.remove(kept)
-                    expected += [kept] if what == "use" else []
+                if waiting := next((one for one in expected if one[1] is link), None):
+                    expected.remove(waiting)
+                    expected += [waiting] if what == "use" else []
             assert [link for link in made if link.has_ended] == [link for link in made if link in ended]
 
 

@@ -205,12 +205,12 @@ async def test_what_a_client_left_behind_is_dropped_unless_it_is_on_the_wire() -
     port = FakePort()
     async with open_wire(port) as wire:
         on_wire, dropped = wire.send(sample(MOVE), ANNA), wire.send(sample(MOVE), ANNA)
-        kept = wire.send(sample(BATTERY), BERT)
+        harmless = wire.send(sample(BATTERY), BERT)
         at(0.012, lambda: wire.purge(lambda job: job.owner is ANNA, ClosedError("gone")))
         await on_wire
         with pytest.raises(ClosedError):
             await dropped
-        await kept
+        await harmless
     assert port.packets() == [MOVE, BATTERY]
 
 

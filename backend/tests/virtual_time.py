@@ -18,7 +18,7 @@ class JumpingSelector(selectors.SelectSelector):
     """Where a real one would wait for a timer, it moves the clock there, but not while a thread works."""
 
     now_s = 0.0
-    # What else has its time: how far the clock may go on its way to a timer.
+    # What else has its time: how far the clock may run on its way to a timer.
     goes_to: Callable[[float], float] = staticmethod(lambda at_s: at_s)
 
     def select(self, timeout: float | None = None) -> list[tuple[selectors.SelectorKey, int]]:
