@@ -28,6 +28,13 @@ export function placeOf({ path, expected }: v.BaseIssue<unknown>): readonly unkn
 
 export const targetSchema = v.strictObject({ servo: whole(0, 0xff), position: whole(0, 0xffff) });
 
+/** A file too large for a document: stored beside it, under a hash. */
+export const fileReference = v.strictObject({
+  /** 64 bits of hash of its bytes, in hexadecimal. */
+  id: v.pipe(v.string(), v.regex(/^[\da-f]{16}$/)),
+  fileName: v.pipe(v.string(), v.minLength(1), v.maxLength(255)),
+});
+
 // A value as JSON that carries its format and version, and back through a schema.
 
 export type TextFlawCode =

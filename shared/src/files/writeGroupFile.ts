@@ -89,12 +89,15 @@ export interface Loss {
 /** Said before saving, so that it is no surprise later. */
 export function lossesIn(format: SaveFormat, group: ActionGroup): readonly Loss[] {
   if (format === 'json') return [];
-  const { frames, markers, robot, tags, times } = group;
+  const { frames, markers, robot, tags, times, sound } = group;
   const { completed, lacking } = filled(group);
   const isProgram = format === 'python' || format === 'arduino';
   const found: Readonly<Record<LossCode, boolean | readonly number[]>> = {
     easings: isProgram ? [] : frames.flatMap(({ easing }, index) => (easing === 'linear' ? [] : [index + 1])),
-    marks: markers.length > 0 || frames.some(({ note, colour }) => note !== '' || colour !== null),
+    marks:
+      sound !== undefined ||
+      markers.length > 0 ||
+      frames.some(({ note, colour }) => note !== '' || colour !== null),
     about: robot !== '' || tags.length > 0,
     times: times !== 1 && !isProgram,
     completed,

@@ -9,6 +9,7 @@ import * as v from 'valibot';
 import {
   COLOURS,
   type TextFlaw,
+  fileReference,
   runningId,
   targetSchema,
   whole,
@@ -31,7 +32,10 @@ export const NOTE_LENGTH = 200;
 export const MOST_ERROR_UNITS = 200;
 /** Far above any board; keeps a damaged file from filling the memory. */
 export const MAX_FRAMES = 10_000;
+const MAX_MS = 0xffff * MAX_FRAMES;
 const MAX_MARKERS = 1000;
+/** Half and double the slowest and the fastest that are found. */
+export const [FASTEST_BEAT_MS, SLOWEST_BEAT_MS] = [100, 4000] as const;
 const MAX_TAGS = 20;
 
 const frameSchema = v.strictObject({
@@ -48,8 +52,22 @@ const frameSchema = v.strictObject({
 const markerSchema = v.strictObject({
   id: runningId,
   /** Since the group began. */
-  atMs: whole(0, 0xffff * MAX_FRAMES),
+  atMs: whole(0, MAX_MS),
   text: v.pipe(v.string(), v.maxLength(NOTE_LENGTH)),
+});
+
+/** A sound that is played along. */
+const soundSchema = v.strictObject({
+  ...fileReference.entries,
+  /** When it begins, since the group began; before 0 its beginning is not heard. */
+  startMs: whole(-MAX_MS, MAX_MS),
+  /** Of the sound, since it began; null: none were found or tapped. */
+  beats: v.nullable(
+    v.strictObject({
+      firstMs: v.pipe(v.number(), v.minValue(0), v.maxValue(SLOWEST_BEAT_MS)),
+      everyMs: v.pipe(v.number(), v.minValue(FASTEST_BEAT_MS), v.maxValue(SLOWEST_BEAT_MS)),
+    }),
+  ),
 });
 
 export const groupSchema = v.strictObject({
@@ -71,8 +89,10 @@ export const groupSchema = v.strictObject({
   markers: v.pipe(v.array(markerSchema), v.maxLength(MAX_MARKERS)),
   /** The next unused id of a frame or marker: an undone frame comes back as itself. */
   nextId: runningId,
+  sound: v.exactOptional(soundSchema),
 });
 
+export type GroupSound = Readonly<v.InferOutput<typeof soundSchema>>;
 export type Marker = Readonly<v.InferOutput<typeof markerSchema>>;
 
 export type GroupFrame = Readonly<Omit<v.InferOutput<typeof frameSchema>, 'targets'>> & Frame;

@@ -47,6 +47,17 @@ describe('a group as text', () => {
     );
   });
 
+  test('has a sound or none, and a sound may have beats', () => {
+    const sound = { id: '0123456789abcdef', fileName: 'march.ogg', startMs: -250 };
+    const withSound = (beats: object | null): ActionGroup =>
+      ({ ...SAMPLE, sound: { ...sound, beats } }) as ActionGroup;
+    for (const group of [SAMPLE, withSound(null), withSound({ firstMs: 120.5, everyMs: 483.871 })])
+      expect(groupFromText(groupToText(group))).toEqual({ value: group });
+    expect(groupFromText(groupToText(withSound({ firstMs: 0, everyMs: 0 })))).toEqual({
+      problem: { code: 'badValue', at: 'content.sound.beats.everyMs' },
+    });
+  });
+
   test('any other text is refused and never throws', () => {
     fc.assert(
       fc.property(fc.oneof(fc.string(), fc.json()), (text) => {

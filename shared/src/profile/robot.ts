@@ -4,7 +4,7 @@
 // A servo's position is what the person means by it; the board gets it plus the servo's trim. Both in board units.
 
 import * as v from 'valibot';
-import { placeOf } from '../document/schema.ts';
+import { fileReference, placeOf } from '../document/schema.ts';
 import type { ServoTarget } from '../codec/commands.ts';
 import { FAMILIES, positionRange, type FamilyId, type Range } from '../codec/families.ts';
 
@@ -87,9 +87,7 @@ const jointSchema = v.strictObject({
 });
 
 const modelSchema = v.strictObject({
-  /** 64 bits of hash of the imported file, in hexadecimal; the file itself is stored beside the robots. */
-  id: v.pipe(v.string(), v.regex(/^[\da-f]{16}$/)),
-  fileName: v.pipe(v.string(), v.minLength(1), v.maxLength(255)),
+  ...fileReference.entries,
   /** The link that can be dragged in the picture; null: none. */
   end: v.nullable(urdfName),
 });

@@ -3,7 +3,7 @@
 
 import fc from 'fast-check';
 import { COLOURS } from '../document/schema.ts';
-import { EASINGS, emptyGroup, type ActionGroup, type Easing } from '../group/group.ts';
+import { EASINGS, emptyGroup, type ActionGroup, type Easing, type GroupSound } from '../group/group.ts';
 import { insertFrame } from '../group/groupEdits.ts';
 import { addMarker } from '../group/frameEdits.ts';
 import type { TimeRange } from '../group/timeEdits.ts';
@@ -27,6 +27,10 @@ interface GroupTraits {
 }
 
 const SERVOS = [1, 2, 3, 4, 5, 6];
+const SOUND: GroupSound = {
+  ...{ id: '0123456789abcdef', fileName: 'march.ogg', startMs: -250 },
+  beats: { firstMs: 120.5, everyMs: 483.871 },
+};
 
 export function someGroup({
   servos = SERVOS,
@@ -48,12 +52,16 @@ export function someGroup({
   });
   const marker = fc.record({ atMs: fc.integer({ min: 0, max: 8000 }), text: fc.string({ maxLength: 8 }) });
   return fc
-    .tuple(fc.array(frame, { minLength: least, maxLength: 8 }), fc.array(marker, { maxLength: 3 }))
-    .map(([frames, markers]) => {
-      const group = frames.reduce(
-        (sum, each) => insertFrame(sum, sum.frames.length, each),
-        emptyGroup('Wave', 'us'),
-      );
+    .tuple(
+      fc.array(frame, { minLength: least, maxLength: 8 }),
+      fc.array(marker, { maxLength: 3 }),
+      fc.constantFrom({}, {}, { sound: SOUND }),
+    )
+    .map(([frames, markers, sound]) => {
+      const group = frames.reduce((sum, each) => insertFrame(sum, sum.frames.length, each), {
+        ...emptyGroup('Wave', 'us'),
+        ...sound,
+      });
       return frozen(markers.reduce((sum, { atMs, text }) => addMarker(sum, atMs, text), group));
     });
 }
