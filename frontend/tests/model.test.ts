@@ -116,7 +116,7 @@ test('a profile whose model was imported elsewhere draws a common body, and says
   await expect(model.line('slew')).toBeVisible();
   await model.button('Close').click();
   await new Promise<void>((resolve) => {
-    indexedDB.deleteDatabase('servodeck-models').addEventListener('success', () => resolve());
+    indexedDB.deleteDatabase('servodeck-files').addEventListener('success', () => resolve());
   });
   await page.reload();
   await page.getByRole('radio', { name: '3D' }).check();

@@ -8,9 +8,9 @@ import { changeServo, turnJoint, turnJoints, withoutJoint } from '#shared/profil
 import { servoLabel } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/whole.ts';
 import { Button } from '../../ui/Button.tsx';
+import { storeFile } from '../../state/fileStore.ts';
 import { FileButton } from '../../ui/localFiles.tsx';
 import { Select } from '../../ui/Select.tsx';
-import { storeModel } from '../picture/modelStore.ts';
 import {
   type ModelFile,
   jointsOf,
@@ -96,7 +96,7 @@ async function imported(chosen: File, robot: Robot, take: (next: Robot) => boole
     return error instanceof ModelFileError ? flaws[error.flaw] : flaws.broken;
   }
   try {
-    const id = await storeModel(bytes);
+    const id = await storeFile(bytes);
     take({ ...turnJoints(robot, names), model: { id, fileName: chosen.name, end } });
     return null;
   } catch {

@@ -3,7 +3,7 @@
 import { useEffect, useMemo, useState } from 'react';
 import { Box3, Mesh, type Object3D, Vector3 } from 'three';
 import type { Robot } from '#shared/profile/robot.ts';
-import { storedModel } from '../modelStore.ts';
+import { storedFile } from '../../../state/fileStore.ts';
 import { type Description, parseUrdf } from './figure.ts';
 import { importedUrdf, type LimbEnd, linkName, meshName } from './importedUrdf.ts';
 import { type ModelFile, readModelFile } from './modelFile.ts';
@@ -18,7 +18,7 @@ interface ShownModel {
 
 async function modelFileOf(id: string): Promise<ModelFile | null> {
   try {
-    const bytes = await storedModel(id);
+    const bytes = await storedFile(id);
     return bytes === null ? null : readModelFile(bytes);
   } catch {
     return null;

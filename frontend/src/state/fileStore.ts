@@ -1,20 +1,20 @@
-// Files of imported models in the browser's database, each under a hash of its bytes. What a robot profile says of its model is in the
-// profile. Knows no content.
+// Files of this computer in the browser's database, each under a hash of its bytes: models in 3D and sounds. The document that uses one names
+// it by that hash. Knows no content.
 
 import { fingerprintOfNumbers } from '#shared/group/fingerprint.ts';
 
-const DATABASE = 'servodeck-models';
+const DATABASE = 'servodeck-files';
 const FILES = 'files';
 
 /** Returns its id. Rejects where the browser stores nothing, or no more. */
-export async function storeModel(bytes: Uint8Array): Promise<string> {
+export async function storeFile(bytes: Uint8Array): Promise<string> {
   const id = fingerprintOfNumbers(bytes);
   await inDatabase('readwrite', (files) => files.put(bytes, id));
   return id;
 }
 
-/** null: imported on another computer, or the browser has cleared its storage. */
-export async function storedModel(id: string): Promise<Uint8Array | null> {
+/** null: chosen on another computer, or the browser has cleared its storage. */
+export async function storedFile(id: string): Promise<Uint8Array | null> {
   const found = await inDatabase('readonly', (files) => files.get(id) as IDBRequest<unknown>);
   return found instanceof Uint8Array ? found : null;
 }
