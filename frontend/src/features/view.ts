@@ -55,6 +55,8 @@ export interface ViewState {
   readonly selectedFrame: number | null;
   /** Each press adds a frame or key to the selection or removes it, for fingers, which have no Ctrl key. */
   readonly addsToSelection: boolean;
+  /** Of groups that have one, on this computer. */
+  readonly sound: 'on' | 'muted';
   readonly servos: ServoView;
   readonly positionsIn: PositionsIn;
   readonly servoLayout: ServoLayout;
@@ -89,6 +91,7 @@ const REMEMBERED = {
   picture: { by: 'browser', key: 'servodeck.picture', values: ['auto', 'drawing', 'body', 'model'] },
   authoring: { by: 'tab', key: 'servodeck.authoring', values: ['group', 'poses', 'pad'] },
   frameCards: { by: 'browser', key: 'servodeck.frameCards', values: ['shown', 'folded'] },
+  sound: { by: 'browser', key: 'servodeck.sound', values: ['on', 'muted'] },
   driveBelow: { by: 'tab', key: 'servodeck.driveBelow', values: ['none', 'poses', 'pad'] },
 } as const satisfies { readonly [K in keyof ViewState]?: Memory<ViewState[K]> };
 
@@ -129,6 +132,7 @@ export const INITIAL_VIEW: ViewState = {
   frameCards: 'shown',
   selectedFrame: null,
   addsToSelection: false,
+  sound: 'on',
   servos: INITIAL_SERVO_VIEW,
   positionsIn: 'board',
   servoLayout: 'list',

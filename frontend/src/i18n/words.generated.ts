@@ -2008,6 +2008,7 @@ export interface Messages {
       readonly scaleAmplitude: string;
       readonly note: string;
       readonly marker: string;
+      readonly sound: string;
       readonly selectAll: string;
       readonly selectRow: string;
       readonly selectNone: string;
@@ -2169,6 +2170,37 @@ export interface Messages {
       readonly position: (values: { readonly name: string; readonly position: number; readonly min: number; readonly max: number }) => string;
     };
     readonly heldAtLimit: (values: { readonly count: number; readonly names: string }) => string;
+  };
+  readonly sound: {
+    readonly row: string;
+    readonly menu: string;
+    readonly start: string;
+    readonly startsAt: (values: { readonly file: string; readonly at: string }) => string;
+    readonly tempo: (values: { readonly bpm: number }) => string;
+    readonly noBeats: string;
+    readonly muted: string;
+    readonly beat: (values: { readonly number: number }) => string;
+    readonly find: string;
+    readonly noneFound: string;
+    readonly half: string;
+    readonly double: string;
+    readonly removeBeats: string;
+    readonly mute: string;
+    readonly unmute: string;
+    readonly replace: string;
+    readonly remove: string;
+    readonly missing: (values: { readonly file: string }) => string;
+    readonly choose: string;
+    readonly tooLarge: string;
+    readonly unreadable: (values: { readonly file: string }) => string;
+    readonly notStored: string;
+    readonly steps: {
+      readonly add: string;
+      readonly remove: string;
+      readonly move: string;
+      readonly beats: string;
+      readonly tempo: string;
+    };
   };
   readonly raw: {
     readonly title: string;

@@ -59,6 +59,17 @@ export function FileZone({ hint, below, takesDrop = false, ...button }: FileZone
   );
 }
 
+/** Asks the person for a file, in the press of a button or menu. null: none was chosen. */
+export function chooseFile(accept: string): Promise<File | null> {
+  const input = document.createElement('input');
+  Object.assign(input, { type: 'file', accept });
+  return new Promise((resolve) => {
+    input.addEventListener('change', () => resolve(input.files?.[0] ?? null));
+    input.addEventListener('cancel', () => resolve(null));
+    input.click();
+  });
+}
+
 export interface TextFile {
   readonly name: string;
   readonly text: string;

@@ -1,7 +1,7 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import { evenly } from '../testing/cases.ts';
-import { bpmOf, findBeats, nearestBeat, tappedBeats, withTempo } from './beats.ts';
+import { beatNear, bpmOf, findBeats, nearestBeat, tappedBeats, withTempo } from './beats.ts';
 
 const RATE = 8000;
 const LENGTH_MS = 60_000;
@@ -127,13 +127,28 @@ test('taps give the tempo and the first beat, whatever is missed between them', 
   expect(tappedBeats([0, 500, 1000, 2000, 2500])).toEqual({ firstMs: 0, everyMs: 500 });
   expect(tappedBeats([0, 500, 1000])).toBeNull();
   expect(tappedBeats([0, 20, 40, 60])).toBeNull();
-  expect(tappedBeats([0, 4000, 8000, 12_000])).toBeNull();
+  expect(tappedBeats([0, 5000, 10_000, 15_000])).toBeNull();
 });
 
 test('half the tempo has every other beat, twice the tempo one more between two', () => {
   const beats = { firstMs: 400, everyMs: 500 };
   expect(withTempo(beats, 0.5)).toEqual({ firstMs: 400, everyMs: 1000 });
   expect(withTempo(beats, 2)).toEqual({ firstMs: 150, everyMs: 250 });
+  expect(withTempo({ firstMs: 0, everyMs: 150 }, 2)).toBeNull();
+  expect(withTempo({ firstMs: 0, everyMs: 3000 }, 0.5)).toBeNull();
   expect(nearestBeat(beats, 1160)).toEqual({ number: 2, atMs: 1400 });
   expect(nearestBeat(beats, -900)).toEqual({ number: 0, atMs: 400 });
+});
+
+test('the beats of a group go along with its sound', () => {
+  const sound = {
+    id: '0123456789abcdef',
+    fileName: 'march.ogg',
+    startMs: -100,
+    beats: { firstMs: 400, everyMs: 500.4 },
+  };
+  expect(beatNear(sound, 850)).toEqual({ number: 1, atMs: 800 });
+  expect(beatNear(sound, -2000)).toEqual({ number: 0, atMs: 300 });
+  expect(beatNear({ ...sound, beats: null }, 850)).toBeNull();
+  expect(beatNear(undefined, 850)).toBeNull();
 });

@@ -1,13 +1,16 @@
 // Beats of a sound: found in its samples, fitted to taps, and counted. Times are in ms since the sound began; a beat grid has one tempo from
 // beginning to end. Pure; knows no file, no player and no screen.
 
+import { FASTEST_BEAT_MS, type GroupSound, SLOWEST_BEAT_MS } from './group.ts';
+
 /** Beat number n, from 0, is at firstMs + n × everyMs. */
 export interface Beats {
   readonly firstMs: number;
   readonly everyMs: number;
 }
 
-export const TEMPO_BPM = { min: 60, max: 200 } as const;
+/** Of the beats that are found in samples. */
+const TEMPO_BPM = { min: 60, max: 200 } as const;
 const MINUTE_MS = 60_000;
 
 export const bpmOf = ({ everyMs }: Beats): number => MINUTE_MS / everyMs;
@@ -21,14 +24,27 @@ function normalized(atMs: number, everyMs: number): Beats {
 /** Fractions of a ms that matter: over a thousand beats a thousandth of a ms is a whole one. */
 const rounded = (value: number, parts: number): number => Math.round(value * parts) / parts;
 
-/** Half or twice as many beats, the first one where it was. */
-export const withTempo = ({ firstMs, everyMs }: Beats, factor: 0.5 | 2): Beats =>
-  normalized(firstMs, everyMs / factor);
+/** Half or twice as many beats, the first one where it was; null: slower or faster than a group takes. */
+export function withTempo({ firstMs, everyMs }: Beats, factor: 0.5 | 2): Beats | null {
+  const next = everyMs / factor;
+  return next < FASTEST_BEAT_MS || next > SLOWEST_BEAT_MS ? null : normalized(firstMs, next);
+}
 
 /** The beat that is nearest to an instant; none before the first one. */
 export function nearestBeat({ firstMs, everyMs }: Beats, atMs: number): { number: number; atMs: number } {
   const number = Math.max(0, Math.round((atMs - firstMs) / everyMs));
   return { number, atMs: firstMs + number * everyMs };
+}
+
+/** In ms of the group, whole ones as its frames; null: it has no sound, or that no beats. */
+export function beatNear(
+  sound: GroupSound | undefined,
+  atMs: number,
+): { number: number; atMs: number } | null {
+  if (!sound?.beats) return null;
+  const { startMs, beats } = sound;
+  const beat = nearestBeat(beats, atMs - startMs);
+  return { ...beat, atMs: Math.round(beat.atMs + startMs) };
 }
 
 // Taps: a straight line through them by least squares. A pause or a missed tap leaves a gap in the numbers, not in the tempo.
@@ -39,8 +55,8 @@ const FEWEST_TAPS = 4;
 export function tappedBeats(tapsMs: readonly number[]): Beats | null {
   const steps = tapsMs.slice(1).map((atMs, index) => atMs - (tapsMs[index] ?? 0));
   const usual = steps.toSorted((one, other) => one - other)[Math.floor(steps.length / 2)];
-  if (tapsMs.length < FEWEST_TAPS || usual === undefined || usual < MOST_TAPS_MS || usual > FEWEST_TAPS_MS)
-    return null;
+  if (tapsMs.length < FEWEST_TAPS || usual === undefined) return null;
+  if (usual < FASTEST_BEAT_MS || usual > SLOWEST_BEAT_MS) return null;
   let number = 0;
   const points = tapsMs.map((atMs, index) => {
     if (index > 0) number += Math.max(1, Math.round((steps[index - 1] ?? 0) / usual));
@@ -49,9 +65,6 @@ export function tappedBeats(tapsMs: readonly number[]): Beats | null {
   const { at, slope } = lineThrough(points);
   return normalized(at, slope);
 }
-
-const MOST_TAPS_MS = 100;
-const FEWEST_TAPS_MS = 3000;
 
 interface Point {
   readonly x: number;

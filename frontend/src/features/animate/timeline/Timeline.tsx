@@ -33,6 +33,8 @@ import { TimelineMenu, type OpenMenu } from './TimelineMenu.tsx';
 import { TimelineTools } from './TimelineTools.tsx';
 import { actionOf, chordOf, runByKey } from '../../../ui/action.ts';
 import { PLAY, PREVIEW, STEPS } from '../play/playActions.ts';
+import { soundAmong, soundOf } from '../sound/sound.ts';
+import { SoundRow } from '../sound/SoundRow.tsx';
 import { PART } from '../../../ui/focus.ts';
 import styles from './Timeline.module.css';
 import { Canvas, type Pen } from '../../picture/Canvas.tsx';
@@ -168,8 +170,21 @@ export const Timeline = memo(function Timeline() {
   }
 
   return (
-    <section {...PART} className={styles.timeline} aria-label={words.timeline.title}>
+    <section
+      {...PART}
+      className={styles.timeline}
+      aria-label={words.timeline.title}
+      onDrop={(event) => {
+        const file = soundAmong(event.dataTransfer.files);
+        if (file === null) return;
+        event.preventDefault();
+        void soundOf(stores).take(file);
+      }}
+    >
       <TimelineTools openMenu={openMenu} />
+      <SoundRow>
+        <PlayheadLine />
+      </SoundRow>
       <div
         ref={scroller}
         className={styles.scroller}

@@ -1,6 +1,7 @@
 // What a press on the tracks becomes when it is dragged, and what all such gestures share: an edit that begins with the first
 // movement, and where a thing that is dragged in time comes to rest.
 
+import { beatNear } from '#shared/group/beats.ts';
 import type { ActionGroup } from '#shared/group/group.ts';
 import type { Label } from '#shared/document/history.ts';
 import type { SelectMode } from './timeline.ts';
@@ -13,7 +14,7 @@ import { msAt } from './timeScale.ts';
 // Where a thing that is dragged in time comes to rest: at something near, else on the board's own raster.
 
 interface SnapField {
-  /** Frame ends, other keys, playhead, markers. */
+  /** Frame ends, other keys, playhead, markers, beats. */
   readonly placesMs: readonly number[];
   /** The raster of the board; what is between its steps would be rounded there anyway. */
   readonly tickMs: number;
@@ -114,11 +115,26 @@ export function edits(
   };
 }
 
-/** Where the playhead comes to rest: what is set there shall be where the board can do it. */
+/** A place in time near a beat of the sound is that beat. */
+const beatsNear = ({ group }: Pick<TimelineContext, 'group'>, atMs: number): readonly number[] => {
+  const beat = beatNear(group.sound, atMs);
+  return beat === null ? [] : [beat.atMs];
+};
+
+/** Where the playhead comes to rest: what is set there shall be where the board can do it, or on a beat. */
 export function onRaster({ stores }: Press, context: TimelineContext, atMs: number, { alt }: Held): number {
   const { tickMs } = context.family.motion;
-  const isFree = alt || !stores.timeline.getState().snaps;
-  return Math.max(0, snapped(atMs, isFree ? null : { placesMs: [], tickMs, reachMs: 0 }));
+  const { snaps, time } = stores.timeline.getState();
+  const field = { placesMs: beatsNear(context, atMs), tickMs, reachMs: NEAR_PX * time.msPerPx };
+  return Math.max(0, snapped(atMs, alt || !snaps ? null : field));
+}
+
+/** Where the sound begins when it is dragged so far: at something of the group, else on the board's raster. */
+export function restingPlace(context: TimelineContext, wantedMs: number, isFree: boolean): number {
+  const { times, state, group, family } = context;
+  const placesMs = [0, ...times.ends, ...group.markers.map((marker) => marker.atMs), state.playheadMs];
+  const field = { placesMs, tickMs: family.motion.tickMs, reachMs: NEAR_PX * state.time.msPerPx };
+  return snapped(wantedMs, isFree || !state.snaps ? null : field);
 }
 
 /** What a thing at `atMs` comes to when it is dragged so far. `own` are the instants that move along. */
@@ -135,7 +151,8 @@ export function draggedTo(
   return ({ x }, { alt }) => {
     const { time, snaps } = press.stores.timeline.getState();
     const wanted = Math.max(0, atMs + msAt(time, x) - pressedMs);
-    const field = { placesMs, tickMs: family.motion.tickMs, reachMs: NEAR_PX * time.msPerPx };
+    const near = [...placesMs, ...beatsNear(context, wanted)];
+    const field = { placesMs: near, tickMs: family.motion.tickMs, reachMs: NEAR_PX * time.msPerPx };
     return snapped(wanted, alt || !snaps ? null : field);
   };
 }

@@ -5,7 +5,7 @@ import { moveMarker } from '#shared/group/frameEdits.ts';
 import { setDuration } from '#shared/group/timeEdits.ts';
 import { keySet, withKeys } from './timeline.ts';
 import type { KeyRef } from '#shared/group/tracks.ts';
-import { instantText, boxText, frameText, markerText, rangeText } from './valueText.ts';
+import { instantText, boxText, frameText, markerText, playheadText, rangeText } from './valueText.ts';
 import { words } from '../../../i18n/whole.ts';
 import { changeable, contextOf, select, whyHeld, type TimelineContext } from './context.ts';
 import {
@@ -60,7 +60,8 @@ function scrubGesture(press: Press, context: TimelineContext, atMs: number): Ges
       const wanted = onRaster(press, context, msAt(time, x), held);
       return { playheadMs: Math.max(0, Math.ceil(fromMs), Math.min(Math.floor(toMs), wanted)) };
     });
-  return { status: 'scrub', leadsOn: 'throughTime', move, end: nothing, cancel: nothing };
+  const tells = (): string => playheadText(press.stores);
+  return { status: 'scrub', leadsOn: 'throughTime', tells, move, end: nothing, cancel: nothing };
 }
 
 function rangeGesture(press: Press, context: TimelineContext, fromMs: number): Gesture {

@@ -20,6 +20,7 @@ import {
   setKeys,
   turnRound,
 } from './changes.ts';
+import { soundOf } from '../sound/sound.ts';
 import { editServoView } from '../../stores.ts';
 import { toggled } from '../../servoView.ts';
 import { rangeOf, rowOf, type TimelineContext } from './context.ts';
@@ -85,6 +86,7 @@ const ACTIONS: Readonly<Record<TimelineActionName, Own>> = {
   scaleAmplitude: { icon: 'tune', keys: ['a'], needs: 'keys', run: asking('scaleAmplitude') },
   note: { icon: 'edit', keys: ['n'], needs: 'keys', run: asking('note') },
   marker: { icon: 'marker', keys: ['m'], run: asking('marker') },
+  sound: { icon: 'upload', keys: [], run: ({ stores }) => void soundOf(stores).choose() },
   nextMarker: { icon: 'marker', keys: ['Shift+m'], run: goToMarker },
   selectAll: { icon: 'frames', keys: ['Ctrl+a'], run: selectAll },
   selectRow: {

@@ -1,5 +1,7 @@
 // Times and values on the timeline as text, also those of what is dragged. Changes nothing.
 
+import { beatNear } from '#shared/group/beats.ts';
+import type { ActionGroup } from '#shared/group/group.ts';
 import { servoOf } from '#shared/profile/robot.ts';
 import { words } from '../../../i18n/whole.ts';
 import { inUnits, scaleOf, type Scale } from '../../drive/scale.ts';
@@ -105,23 +107,41 @@ export function nameOfKey(
 /** The key under the hand, how far it has come in time, and how many come along. */
 export function keyText(stores: TimelineStores, cursor: Cursor, fromMs: number): string {
   const context = contextOf(stores);
-  const byMs = (endOfFrame(context.times, cursor.frameId) ?? fromMs) - fromMs;
-  return draggedKey(cellName(context, cursor), byMs, context.state.selected.size);
+  const atMs = endOfFrame(context.times, cursor.frameId) ?? fromMs;
+  const count = context.state.selected.size;
+  return draggedKey(cellName(context, cursor), atMs - fromMs, count, beatAt(context.group, atMs));
 }
 
 export function frameText(stores: TimelineStores, frameId: number): string {
-  const { times } = contextOf(stores);
+  const { times, group } = contextOf(stores);
   const place = times.places.get(frameId) ?? -1;
   const durationMs = times.frames[place]?.durationMs ?? 0;
-  return words.timeline.draggedEnd({ frame: place + 1, durationMs, at: instantText(times.ends[place] ?? 0) });
+  const endMs = times.ends[place] ?? 0;
+  const text = words.timeline.draggedEnd({ frame: place + 1, durationMs, at: instantText(endMs) });
+  return parts([text, ...beatAt(group, endMs)]);
 }
 
 export function markerText({ document }: TimelineStores, id: number): string {
-  const marker = document.store.getState().present.markers.find((one) => one.id === id);
-  return marker === undefined
-    ? ''
-    : words.timeline.draggedMarker({ text: marker.text, at: instantText(marker.atMs) });
+  const group = document.store.getState().present;
+  const marker = group.markers.find((one) => one.id === id);
+  if (marker === undefined) return '';
+  const text = words.timeline.draggedMarker({ text: marker.text, at: instantText(marker.atMs) });
+  return parts([text, ...beatAt(group, marker.atMs)]);
 }
+
+/** Where the playhead is, while it is dragged; empty where that says no more than the time above the names. */
+export function playheadText({ document, timeline }: TimelineStores): string {
+  return parts(beatAt(document.store.getState().present, timeline.getState().playheadMs));
+}
+
+/** `beat 12`, on that beat of the group's sound and nowhere else. */
+function beatAt({ sound }: Pick<ActionGroup, 'sound'>, atMs: number): readonly string[] {
+  const beat = beatNear(sound, atMs);
+  return beat?.atMs === atMs ? [words.sound.beat({ number: beat.number + 1 })] : [];
+}
+
+const parts = (facts: readonly string[]): string =>
+  facts.length === 0 ? '' : facts.reduce((one, other) => words.timeline.draggedParts({ one, other }));
 
 export function rangeText({ timeline }: TimelineStores): string {
   const { range } = timeline.getState();
@@ -136,11 +156,11 @@ export const boxText = ({ timeline }: TimelineStores): string =>
   words.timeline.keys({ count: timeline.getState().selected.size });
 
 /** `count`: with those that come along. */
-function draggedKey(key: string, byMs: number, count: number): string {
-  const facts = [
+function draggedKey(key: string, byMs: number, count: number, beat: readonly string[]): string {
+  return parts([
     key,
     ...(byMs === 0 ? [] : [`${byMs < 0 ? '−' : '+'}${instantText(Math.abs(byMs))}`]),
+    ...beat,
     ...(count < 2 ? [] : [words.timeline.keys({ count })]),
-  ];
-  return facts.reduce((one, other) => words.timeline.draggedParts({ one, other }));
+  ]);
 }

@@ -68,9 +68,10 @@ export function FilesArea({ children }: { readonly children: ReactNode }) {
       onDragLeave={() => setDropping(false)}
       onDrop={(event) => {
         if (!bringsFiles(event)) return;
-        event.preventDefault();
         setDropping(false);
-        open([...event.dataTransfer.files]);
+        // A part of the panel may have taken them.
+        if (!event.defaultPrevented) open([...event.dataTransfer.files]);
+        event.preventDefault();
       }}
     >
       {children}

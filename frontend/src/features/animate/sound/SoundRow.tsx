@@ -1,0 +1,272 @@
+// The row of the group's sound above the tracks: its loudness and beats over the same time as the keys. It is dragged, or moved with the arrow
+// keys, to begin earlier or later; what else can be done with it is in its menu.
+
+import {
+  type KeyboardEvent,
+  memo,
+  type PointerEvent,
+  type ReactNode,
+  useEffect,
+  useRef,
+  useState,
+} from 'react';
+import { useStore } from 'zustand';
+import { bpmOf } from '#shared/group/beats.ts';
+import type { GroupSound } from '#shared/group/group.ts';
+import { words } from '../../../i18n/whole.ts';
+import { Button, IconButton } from '../../../ui/Button.tsx';
+import { ChoiceMenu } from '../../../ui/ChoiceMenu.tsx';
+import { Canvas, type Pen } from '../../picture/Canvas.tsx';
+import { useDocument, useGroupBoard, useStores, useView } from '../../stores.ts';
+import { contextOf } from '../timeline/context.ts';
+import { restingPlace } from '../timeline/gesture.ts';
+import type { TimeView } from '../timeline/timeline.ts';
+import { msAt, xOf } from '../timeline/timeScale.ts';
+import { instantText } from '../timeline/valueText.ts';
+import { changeTempo, removeSound, setBeats, soundMoved, soundOf, type SoundState } from './sound.ts';
+import styles from './SoundRow.module.css';
+
+/** `children`: what is drawn over it, as over the tracks. */
+export const SoundRow = memo(function SoundRow({ children }: { readonly children: ReactNode }) {
+  const stores = useStores();
+  const sound = useDocument(({ present }) => present.sound);
+  // It follows the group as soon as there is one.
+  const { status } = useStore(soundOf(stores).store);
+  if (sound === undefined) return null;
+  return (
+    <div className={styles.row} role="group" aria-label={words.sound.row}>
+      <Head sound={sound} />
+      <div className={styles.track}>
+        <Wave sound={sound} />
+        {children}
+        {status === 'missing' ? <Missing sound={sound} /> : <Handle sound={sound} />}
+      </div>
+    </div>
+  );
+});
+
+function Head({ sound }: { readonly sound: GroupSound }) {
+  const [isOpen, setOpen] = useState(false);
+  const menu = useRef<Element>(null);
+  const isMuted = useView((state) => state.sound === 'muted');
+  return (
+    <div className={styles.head}>
+      <span className={styles.name} title={sound.fileName}>
+        {sound.fileName}
+      </span>
+      <span className={styles.tempo}>{isMuted ? words.sound.muted : tempoText(sound)}</span>
+      <span className={styles.more}>
+        <IconButton
+          icon="more"
+          label={words.sound.menu}
+          aria-haspopup="menu"
+          aria-expanded={isOpen}
+          onPress={(button) => {
+            menu.current = button;
+            setOpen(true);
+          }}
+        />
+      </span>
+      <SoundMenu sound={sound} under={menu} isOpen={isOpen} onClose={() => setOpen(false)} />
+    </div>
+  );
+}
+
+const tempoText = ({ beats }: GroupSound): string =>
+  beats === null ? words.sound.noBeats : words.sound.tempo({ bpm: Math.round(bpmOf(beats)) });
+
+interface SoundMenuProps {
+  readonly sound: GroupSound;
+  readonly under: React.RefObject<Element | null>;
+  readonly isOpen: boolean;
+  onClose(): void;
+}
+
+function SoundMenu({ sound, ...menu }: SoundMenuProps) {
+  const stores = useStores();
+  const { view } = stores;
+  const { track } = useStore(soundOf(stores).store);
+  const isMuted = useView((state) => state.sound === 'muted');
+  const acts: Readonly<Record<string, { readonly name: string; act(): void }>> = {
+    ...(track !== null && {
+      find: {
+        name: words.sound.find,
+        act: () =>
+          track.beats === null
+            ? stores.notices.tell('info', words.sound.noneFound)
+            : setBeats(stores, track.beats),
+      },
+    }),
+    ...(sound.beats !== null && {
+      half: { name: words.sound.half, act: () => changeTempo(stores, 0.5) },
+      double: { name: words.sound.double, act: () => changeTempo(stores, 2) },
+      noBeats: { name: words.sound.removeBeats, act: () => setBeats(stores, null) },
+    }),
+    mute: {
+      name: isMuted ? words.sound.unmute : words.sound.mute,
+      act: () => view.setState({ sound: isMuted ? 'on' : 'muted' }),
+    },
+    replace: { name: words.sound.replace, act: () => void soundOf(stores).choose() },
+    remove: { name: words.sound.remove, act: () => removeSound(stores) },
+  };
+  return (
+    <ChoiceMenu
+      {...menu}
+      label={words.sound.menu}
+      choices={Object.entries(acts).map(([id, { name }]) => ({ id, name }))}
+      onChoose={(id) => acts[id]?.act()}
+    />
+  );
+}
+
+/** On this computer it is nowhere, or not to be decoded. */
+function Missing({ sound }: { readonly sound: GroupSound }) {
+  const stores = useStores();
+  return (
+    <div className={styles.missing}>
+      <p>{words.sound.missing({ file: sound.fileName })}</p>
+      <Button icon="upload" onPress={() => void soundOf(stores).choose()}>
+        {words.sound.choose}
+      </Button>
+    </div>
+  );
+}
+
+const FAR = 10;
+
+/** All of the row: dragged, it moves the sound. */
+function Handle({ sound }: { readonly sound: GroupSound }) {
+  const stores = useStores();
+  const { document, notices, timeline } = stores;
+  const { tickMs } = useGroupBoard().family.motion;
+  const from = useRef<{ readonly atMs: number; readonly startMs: number; hasMoved: boolean } | null>(null);
+  const label = (): string => words.sound.steps.move;
+  const at = words.sound.startsAt({ file: sound.fileName, at: instantText(sound.startMs) });
+
+  const msUnder = ({ clientX, currentTarget }: PointerEvent): number =>
+    msAt(timeline.getState().time, clientX - currentTarget.getBoundingClientRect().left);
+
+  function move(event: PointerEvent): void {
+    const begun = from.current;
+    if (begun === null) return;
+    const wanted = begun.startMs + msUnder(event) - begun.atMs;
+    const startMs = restingPlace(contextOf(stores), wanted, event.altKey);
+    if (!begun.hasMoved && startMs === begun.startMs) return;
+    if (!begun.hasMoved) document.begin(label);
+    begun.hasMoved = true;
+    document.preview(soundMoved(startMs));
+  }
+
+  function end(isKept: boolean): void {
+    if (from.current?.hasMoved === true) {
+      if (isKept) document.commit();
+      else document.cancel();
+    }
+    from.current = null;
+  }
+
+  function key(event: KeyboardEvent): void {
+    const ticks = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
+    if (ticks === undefined) return;
+    event.preventDefault();
+    const startMs = sound.startMs + ticks * tickMs * (event.shiftKey ? FAR : 1);
+    document.edit(label, soundMoved(startMs));
+    notices.say(words.sound.startsAt({ file: sound.fileName, at: instantText(startMs) }));
+  }
+
+  useEffect(() => {
+    const callOff = (): void => end(false);
+    const escape = ({ key: name }: globalThis.KeyboardEvent): void => {
+      if (name === 'Escape') callOff();
+    };
+    window.addEventListener('blur', callOff);
+    window.addEventListener('keydown', escape, { capture: true });
+    return () => {
+      window.removeEventListener('blur', callOff);
+      window.removeEventListener('keydown', escape, { capture: true });
+    };
+  });
+
+  return (
+    <div
+      className={styles.handle}
+      role="slider"
+      tabIndex={0}
+      aria-label={words.sound.start}
+      aria-valuemin={-MOST_MS}
+      aria-valuemax={MOST_MS}
+      aria-valuenow={sound.startMs}
+      aria-valuetext={at}
+      onKeyDown={key}
+      onPointerDown={(event) => {
+        if (event.button !== 0) return end(false);
+        event.currentTarget.setPointerCapture(event.pointerId);
+        from.current = { atMs: msUnder(event), startMs: sound.startMs, hasMoved: false };
+      }}
+      onPointerMove={move}
+      onPointerUp={() => end(true)}
+      onPointerCancel={() => end(false)}
+    />
+  );
+}
+
+/** What a screen reader takes for the ends. */
+const MOST_MS = 3_600_000;
+
+function Wave({ sound }: { readonly sound: GroupSound }) {
+  const stores = useStores();
+  const { timeline, view } = stores;
+  const { store } = soundOf(stores);
+  return (
+    <Canvas
+      className={styles.wave}
+      shown={() =>
+        [sound, store.getState(), timeline.getState().time, view.getState().sound === 'muted'] as const
+      }
+      paint={paintWave}
+    />
+  );
+}
+
+/** Above it are the ticks of the beats, the shorter ones where they stand close. */
+const BEATS_PX = 8;
+const CLOSE_PX = 6;
+const INSET_PX = 3;
+
+export function paintWave(
+  pen: Pen,
+  [sound, { track }, time, isMuted]: readonly [GroupSound, SoundState, TimeView, boolean],
+): void {
+  const { ctx, look, size } = pen;
+  const { startMs, beats } = sound;
+  const lengthMs = track?.lengthMs ?? 0;
+  const from = Math.max(0, Math.floor(xOf(time, startMs)));
+  const to = Math.min(size.width, Math.ceil(xOf(time, startMs + lengthMs)));
+  const [top, bottom] = [BEATS_PX + INSET_PX, size.height - INSET_PX];
+  const middle = (top + bottom) / 2;
+  ctx.fillStyle = look.raised;
+  ctx.fillRect(from, BEATS_PX, Math.max(0, to - from), size.height - BEATS_PX);
+  if (track === null) return;
+  ctx.fillStyle = isMuted ? look.line : look.edge;
+  for (let x = from; x < to; x += 1) {
+    const first = Math.max(0, Math.floor((msAt(time, x) - startMs) / track.peakMs));
+    const last = Math.max(first + 1, Math.ceil((msAt(time, x + 1) - startMs) / track.peakMs));
+    let peak = 0;
+    for (let at = first; at < last; at += 1) peak = Math.max(peak, track.peaks[at] ?? 0);
+    const half = Math.max(0.5, ((bottom - top) / 2) * Math.min(1, peak));
+    ctx.fillRect(x, middle - half, 1, 2 * half);
+  }
+  if (beats === null) return;
+  const eachPx = beats.everyMs / time.msPerPx;
+  // Closer ones would be one bar: each second, fourth … of them.
+  const step = 2 ** Math.max(0, Math.ceil(Math.log2(CLOSE_PX / eachPx)));
+  ctx.fillStyle = look['ink-dim'];
+  const firstSeen = Math.floor((msAt(time, 0) - startMs - beats.firstMs) / beats.everyMs / step) * step;
+  for (let beat = Math.max(0, firstSeen); ; beat += step) {
+    const atMs = beats.firstMs + beat * beats.everyMs;
+    const x = xOf(time, startMs + atMs);
+    if (atMs > lengthMs || x > size.width) break;
+    const height = beat % (4 * step) === 0 ? BEATS_PX : BEATS_PX / 2;
+    ctx.fillRect(Math.round(x), 0, 1, height);
+  }
+}
