@@ -2,6 +2,7 @@
 
 import type { Clock } from '#shared/clock.ts';
 import { FAMILIES } from '#shared/codec/families.ts';
+import { createCollisions } from '../features/board/compile/collisions.ts';
 import { createCompileWorker } from '../features/board/compile/compileInWorker.ts';
 import { createBattery, pollBattery } from '../features/battery/battery.ts';
 import { applyBatteryPolicy } from '../features/battery/batteryPolicy.ts';
@@ -97,6 +98,9 @@ export async function openPage({ me, problem }: Arrival): Promise<Page> {
     ...{ document: written, device, robots, clock: pageClock },
     compileElsewhere: createCompileWorker(),
   });
+  const collisions = createCollisions(compiled, async () =>
+    (await import('../features/board/compile/checkInWorker.ts')).createCheck(),
+  );
   const slots = createSlots({ device, robots, notices, storage, today: Date.now });
   const place = createGroupPlace({ document: written, opened: library.store, view, slots, device });
   const replacing = createReplacing({ device, robots, slots, place });
@@ -108,7 +112,7 @@ export async function openPage({ me, problem }: Arrival): Promise<Page> {
   });
   const stores = {
     ...{ device, notices, boards, robots, battery, mappings, pad, poses, macroRun, library, view },
-    ...{ compiled, slots, place, replacing, playhead, playback, robotSync },
+    ...{ compiled, collisions, slots, place, replacing, playhead, playback, robotSync },
     blend: createBlend({ device, robots, view }),
     teaching: createTeaching({ device, robots, notices }),
     people: createPeople({ api: peopleApi, me, notices, now: pageClock.now }),

@@ -13,6 +13,7 @@ import type { PoseBook } from '#shared/profile/pose.ts';
 import type { BatteryState, BatteryStore } from './battery/battery.ts';
 import type { Blend, BlendState } from './poses/blend.ts';
 import type { Boards } from '../robot/remembered.ts';
+import type { CollisionState, CollisionStore } from './board/compile/collisions.ts';
 import type { CompiledState, CompiledStore } from './board/compile/compiled.ts';
 import type { MotionTape } from './animate/play/motionTape.ts';
 import type { Mapping } from '#shared/profile/mapping.ts';
@@ -65,6 +66,7 @@ export interface Stores {
   readonly macros: Undoable<MacroPage>;
   readonly macroRun: MacroRun;
   readonly compiled: CompiledStore;
+  readonly collisions: CollisionStore;
   readonly slots: Slots;
   readonly place: GroupPlace;
   readonly replacing: Replacing;
@@ -206,6 +208,10 @@ export function usePad<T>(select: (state: PadState) => T): T {
 
 export function useCompiled<T>(select: (state: CompiledState) => T): T {
   return useStore(useStores().compiled.store, select);
+}
+
+export function useCollisions<T>(select: (state: CollisionState) => T): T {
+  return useStore(useStores().collisions, select);
 }
 
 export function useSlots<T>(select: (state: SlotsState) => T): T {

@@ -471,6 +471,14 @@ export interface Messages {
     };
     readonly worst: (values: { readonly error: string; readonly degrees: string; readonly name: string; readonly atMs: number }) => string;
   };
+  readonly collision: {
+    readonly summary: (values: { readonly kind: string; readonly count: number }) => string;
+    readonly self: (values: { readonly name: string; readonly other: string; readonly from: string; readonly to: string }) => string;
+    readonly floor: (values: { readonly name: string; readonly from: string; readonly to: string }) => string;
+    readonly base: (values: { readonly isOnFloor: boolean }) => string;
+    readonly short: string;
+    readonly places: string;
+  };
   readonly play: {
     readonly late: (values: { readonly frames: number; readonly ms: number }) => string;
     readonly skipped: (values: { readonly frames: number }) => string;

@@ -156,6 +156,17 @@ function spansOf({ spans, touchedMs }: Watch, endMs: number): readonly Span[] {
   return touchedMs === null ? spans : [...spans, { fromMs: touchedMs, toMs: endMs }];
 }
 
+/** When anything touches, in milliseconds; places that overlap in time are one. `places`: in the order in which they begin. */
+export function collisionTimes(places: readonly Span[]): readonly Span[] {
+  const times: Span[] = [];
+  for (const { fromMs, toMs } of places) {
+    const before = times.at(-1);
+    if (before === undefined || fromMs > before.toMs) times.push({ fromMs, toMs });
+    else times[times.length - 1] = { ...before, toMs: Math.max(before.toMs, toMs) };
+  }
+  return times;
+}
+
 // From meetings to places: links that the same servos turn are one to a person.
 
 type Met = Pick<Meeting, 'kind' | 'links' | 'servos'> & { readonly spans: readonly Span[] };

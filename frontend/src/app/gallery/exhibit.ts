@@ -15,6 +15,7 @@ import { createMemoryStore } from '../../features/library/memoryStore.ts';
 import { createBattery } from '../../features/battery/battery.ts';
 import { createBlend } from '../../features/poses/blend.ts';
 import { createBoards } from '../../robot/remembered.ts';
+import { createCollisions } from '../../features/board/compile/collisions.ts';
 import { createCompiled } from '../../features/board/compile/compiled.ts';
 import { createDocument } from '../../features/groupDocument.ts';
 import type { TextStorage } from '../../state/storage.ts';
@@ -159,6 +160,7 @@ export function specimenStores(
     timeline,
     people: createPeople({ api: NOBODY, me: null, notices, now: pageClock.now }),
     ...{ compiled, slots, place, replacing, playhead },
+    collisions: createCollisions(compiled, () => Promise.resolve(() => Promise.resolve([]))),
     tape: createMotionTape({ device, robots, clock: pageClock }),
     playback: createPlayback({
       ...{ device, document, compiled, slots, place, replacing, notices, view, playhead, robots },

@@ -4,7 +4,15 @@ import { useId, useRef, type ReactNode, type RefObject } from 'react';
 import { slotTrigger } from '#shared/codec/families.ts';
 import type { Activity } from '#shared/robot/state.ts';
 import { motionHindrance } from '../../robot/readiness.ts';
-import { useSnapshot, useStores, useCompiled, useDevice, useDocument, useSlot } from '../stores.ts';
+import {
+  useSnapshot,
+  useStores,
+  useCollisions,
+  useCompiled,
+  useDevice,
+  useDocument,
+  useSlot,
+} from '../stores.ts';
 import { Button } from '../../ui/Button.tsx';
 import { words } from '../../i18n/words.ts';
 import { useSlotContents, CONTENT_TRUTH, useHeldName } from './slots/slotHooks.ts';
@@ -110,15 +118,20 @@ function AtAGlance() {
   const held = useHeldName()(slot) ?? '';
   const trigger = slotTrigger(id, slot);
   const { frames, report } = useCompiled((state) => state.latest);
+  const mayTouch = useCollisions(({ places }) => places.length > 0);
   const isOfOther = boardUnit !== unit;
   const fits = !isOfOther && obstacles(report, 'board').length === 0;
   if (frames.length === 0) return <p className={styles.boardStripHint}>{words.board.nothingToDownload}</p>;
   return (
     <span className={styles.glance} aria-hidden="true">
       <Chip truth={CONTENT_TRUTH[content]}>{heldText(content, held)}</Chip>
-      <Chip truth={fits ? 'confirmed' : 'danger'}>
-        {isOfOther ? words.compile.ofOther : fits ? words.compile.fits : words.compile.fitsNot}
-      </Chip>
+      {fits && mayTouch ? (
+        <CollisionNote isShort />
+      ) : (
+        <Chip truth={fits ? 'confirmed' : 'danger'}>
+          {isOfOther ? words.compile.ofOther : fits ? words.compile.fits : words.compile.fitsNot}
+        </Chip>
+      )}
       {trigger !== null && <Chip truth="warning">{triggerInBar(trigger)}</Chip>}
     </span>
   );
@@ -136,6 +149,11 @@ function Running({ activity }: { readonly activity: Extract<Activity, { kind: 'r
     </div>
   );
 }
+
+const CollisionNote = laterComponent(
+  async () => (await import('./compile/CollisionNote.tsx')).CollisionNote,
+  '0',
+);
 
 const BoardDetails = laterComponent(async () => (await import('./BoardDetails.tsx')).BoardDetails, '240px');
 

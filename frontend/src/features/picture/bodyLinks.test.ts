@@ -60,6 +60,8 @@ test('an arm that lies down hits the floor with its gripper', () => {
   expect(places?.some(({ kind, servos }) => kind === 'floor' && servos[0] === JOINT.gripper)).toBe(true);
 });
 
-test('a body without a description has no model', () => {
+test('a body without a description has no model, nor one that its owner has imported a model for', () => {
   expect(linkModelOf(readyRobot('plain6', 'doc', names))).toBeNull();
+  const model = { id: '0123456789abcdef', fileName: 'arm.zip', end: null };
+  expect(linkModelOf({ ...ARM, model })).toBeNull();
 });

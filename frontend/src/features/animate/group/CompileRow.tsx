@@ -1,7 +1,7 @@
 // What the group becomes on the board: whether it fits, what it costs, how far off it is and where, and what does not fit. A click
 // on a place goes there.
 
-import { problemText } from '../../board/compile/problemText.ts';
+import { collisionText, problemText } from '../../board/compile/problemText.ts';
 import { useState } from 'react';
 import type { CompileProblem } from '#shared/group/compileReport.ts';
 import { type ActionGroup, MOST_ERROR_UNITS, maxErrorOf } from '#shared/group/group.ts';
@@ -11,6 +11,7 @@ import { select } from '../../servoView.ts';
 import {
   editServoView,
   type Stores,
+  useCollisions,
   useCompiled,
   useStores,
   useDocument,
@@ -21,6 +22,7 @@ import { obstacles } from '../../board/compile/compiled.ts';
 import { words } from '../../../i18n/whole.ts';
 import { servoName } from '../../../i18n/sentences.ts';
 import { Chip } from '../../../ui/Chip.tsx';
+import { cx } from '../../../ui/cx.ts';
 import { NumberField } from '../../../ui/NumberField.tsx';
 import { useInFrame } from '../../../ui/useInFrame.ts';
 import styles from './CompileRow.module.css';
@@ -88,6 +90,44 @@ function Problems() {
   );
 }
 
+/** Warnings that a person may accept: where the robot may touch itself or the floor. */
+function Collisions() {
+  const stores = useStores();
+  const { robot } = useCompiled((state) => state.latest.source);
+  const places = useCollisions((state) => state.places);
+  const [shown, setShown] = useState(SHOWN);
+  const more = places.length - shown;
+  if (places.length === 0) return null;
+  const show = ({ servos, fromMs }: (typeof places)[number]): void => {
+    stores.view.setState({ tab: 'actions', authoring: 'group' });
+    editServoView(stores, (view) =>
+      select(
+        view,
+        [...new Set(servos)].filter((servo) => servo !== null),
+      ),
+    );
+    stores.playhead.show(Math.round(fromMs));
+  };
+  return (
+    <ul className={cx(styles.problems, styles.warnings)} aria-label={words.collision.places}>
+      {places.slice(0, shown).map((place, index) => (
+        <li key={index}>
+          <button type="button" className={styles.place} onClick={() => show(place)}>
+            {collisionText(place, { robot })}
+          </button>
+        </li>
+      ))}
+      {more > 0 && (
+        <li>
+          <button type="button" className={styles.place} onClick={() => setShown(shown + MORE)}>
+            {words.compile.more({ count: more })}
+          </button>
+        </li>
+      )}
+    </ul>
+  );
+}
+
 export function CompileRow() {
   const { compiled } = useStores();
   const { latest, isFresh } = useInFrame(compiled.store, (state) => state);
@@ -116,6 +156,7 @@ export function CompileRow() {
             </p>
             <Worst />
             <Problems />
+            <Collisions />
           </>
         )}
       </div>

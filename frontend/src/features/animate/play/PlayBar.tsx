@@ -21,6 +21,7 @@ import { chosenTimes } from '../../board/slots/groupPlace.ts';
 import { useSlotContents } from '../../board/slots/slotHooks.ts';
 import { motionHindrance, startHindrance } from '../../../robot/readiness.ts';
 import { isSilent } from '../../servoView.ts';
+import { CollisionNote } from '../../board/compile/CollisionNote.tsx';
 import { timesOf } from '#shared/group/groupTimes.ts';
 import { ActionButton, ActionIconButton, Button } from '../../../ui/Button.tsx';
 import { cx } from '../../../ui/cx.ts';
@@ -212,6 +213,7 @@ function Phase({ phase }: { readonly phase: PlaybackPhase | null }) {
   const rests = silent.length === 0 ? '' : words.play.silent({ names: words.numbers.formatNames(silent) });
   return (
     <p className={styles.phase} role="status">
+      {phase === null && <CollisionNote />}
       {phase === null ? rests : phase === 'playing' ? playing({ share: speedPercent / 100 }) : others[phase]}
     </p>
   );

@@ -1,11 +1,13 @@
 // Draws what is fixed on top of the tracks: the ruler with its marks, markers and loop range, and the heads of the frames.
 
+import { collisionTimes } from '#shared/kinematics/collision.ts';
 import { type Look, colourOf } from '../../picture/Canvas.tsx';
 import type { Scene } from './scene.ts';
 import { markText } from './valueText.ts';
 import { words } from '../../../i18n/whole.ts';
 import { hasAll } from './hit.ts';
-import { seenSpan, xOf } from './timeScale.ts';
+import { seenSpan, type Span, xOf } from './timeScale.ts';
+import type { TimeView } from './timeline.ts';
 
 // What everything that is painted is painted with, and of.
 
@@ -85,7 +87,56 @@ export function paintHeads(brush: Brush): void {
   paintRange(brush);
   paintMarks(brush);
   paintFrames(brush);
+  paintCollisions(brush);
   paintMarkers(brush);
+}
+
+// Where the robot may touch itself: a striped bar along the ruler's foot, with a warning sign where it begins.
+
+const BAR_PX = { height: 6, least: 12, stripe: 4 };
+const SIGN_PX = { half: 6, height: 11 };
+
+/** Wide enough to be seen and pointed at. */
+export function collisionBar(
+  time: TimeView,
+  { fromMs, toMs }: Span,
+): { readonly left: number; readonly width: number } {
+  const left = xOf(time, fromMs) - SIGN_PX.half;
+  return { left, width: Math.max(BAR_PX.least, xOf(time, toMs) - left) };
+}
+
+function paintCollisions({ ctx, look, scene }: Brush): void {
+  const { collisions, state, sizes, widthPx } = scene;
+  const bars = collisionTimes(collisions)
+    .map((place) => collisionBar(state.time, place))
+    .filter(({ left, width }) => left + width >= 0 && left <= widthPx);
+  for (const { left, width } of bars) {
+    const [from, top] = [Math.max(0, left), sizes.ruler - BAR_PX.height];
+    ctx.save();
+    ctx.beginPath();
+    ctx.rect(from, top, Math.min(widthPx, left + width) - from, BAR_PX.height);
+    ctx.clip();
+    ctx.fillStyle = look.panel;
+    ctx.fillRect(from, top, width, BAR_PX.height);
+    ctx.fillStyle = look.warning;
+    for (let x = from; x < Math.min(widthPx, left + width); x += 2 * BAR_PX.stripe)
+      ctx.fillRect(x, top, BAR_PX.stripe, BAR_PX.height);
+    ctx.restore();
+  }
+  for (const { left } of bars) paintSign(ctx, look, left + SIGN_PX.half, sizes.ruler);
+}
+
+function paintSign(ctx: CanvasRenderingContext2D, look: Look, x: number, bottom: number): void {
+  ctx.fillStyle = look.warning;
+  ctx.strokeStyle = look.panel;
+  ctx.lineWidth = 1;
+  ctx.beginPath();
+  ctx.moveTo(x, bottom - SIGN_PX.height);
+  ctx.lineTo(x + SIGN_PX.half, bottom);
+  ctx.lineTo(x - SIGN_PX.half, bottom);
+  ctx.closePath();
+  ctx.fill();
+  ctx.stroke();
 }
 
 function paintRange({ ctx, look, scene }: Brush): void {

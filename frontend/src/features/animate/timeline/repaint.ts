@@ -65,6 +65,7 @@ function isSameButKeys(before: Scene, after: Scene): boolean {
     before.family === after.family &&
     before.markers === after.markers &&
     before.compiled === after.compiled &&
+    before.collisions === after.collisions &&
     STATE.every((name) => before.state[name] === after.state[name]) &&
     isSameRecord(before.state.time, after.state.time) &&
     isSameRecord(before.state.cursor, after.state.cursor) &&

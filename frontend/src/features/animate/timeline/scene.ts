@@ -1,5 +1,6 @@
 // Everything that is on the tracks now, with its geometry: what painting and hitting have in common. Pure.
 
+import type { CollisionPlace } from '#shared/kinematics/collision.ts';
 import type { Marker } from '#shared/group/group.ts';
 import { positionRange, type Family, type Range } from '#shared/codec/families.ts';
 import { isHeld, isSilent } from '../../servoView.ts';
@@ -30,9 +31,13 @@ export interface Scene {
   readonly muted: ReadonlySet<string>;
   /** What the board gets of the servo whose row is open large; null: not known, or none is. */
   readonly compiled: CompiledTrack | null;
+  /** Where the robot may touch itself or the floor. */
+  readonly collisions: readonly CollisionPlace[];
   /** Those with a selected key. */
   readonly selectedFrames: ReadonlySet<number>;
 }
+
+const NO_COLLISIONS: Scene['collisions'] = [];
 
 export function sceneOf(context: TimelineContext, sizes: Sizes): Scene {
   const { state, times, rows, group, family, servoView } = context;
@@ -47,6 +52,7 @@ export function sceneOf(context: TimelineContext, sizes: Sizes): Scene {
     rows: rowsInSight(rest, state, sizes),
     held: isOf((servo) => isHeld(servoView, servo)),
     compiled: null,
+    collisions: NO_COLLISIONS,
     muted: isOf((servo) => isSilent(servoView, servo)),
     selectedFrames: new Set(selectedKeys(times, state.selected).map(({ frameId }) => frameId)),
   };

@@ -1,6 +1,8 @@
 // Brings the tracks to life outside of React's rounds: paints them when something changed, follows pointer and wheel. Knows
 // elements and stores, no edit.
 
+import type { CollisionPlace } from '#shared/kinematics/collision.ts';
+import { collisionText } from '../../board/compile/problemText.ts';
 import { contextOf, type TimelineStores, rowOf, select } from './context.ts';
 import type { StatusName } from './gesture.ts';
 import { hasAll, hitAt, type Hit, type Spot } from './hit.ts';
@@ -11,6 +13,7 @@ import { setKeysAt } from './changes.ts';
 import { lookOf, SCHEMES, type Look } from '../../picture/Canvas.tsx';
 import { selectFrame, setTime, shownKeys } from './looking.ts';
 import { paint } from './paint.ts';
+import { collisionBar } from './paintHeads.ts';
 import { followPointer } from './pointer.ts';
 import { panned, pinched, zoomedAt } from './timeScale.ts';
 import type { CompiledGroup } from '../../board/compile/compiled.ts';
@@ -78,6 +81,16 @@ export function hoverAt(stores: TimelineStores, sizes: Sizes, spot: Spot): Hover
   return isSelected ? { ...hover, status: 'selected' } : hover;
 }
 
+/** What the mark on the ruler under a pointer is about. */
+function collisionAt(stores: CanvasStores, sizes: Sizes, { x, y }: Spot): CollisionPlace | undefined {
+  if (y >= sizes.ruler) return undefined;
+  const { time } = stores.timeline.getState();
+  return stores.collisions.getState().places.findLast((place) => {
+    const { left, width } = collisionBar(time, place);
+    return x >= left && x <= left + width;
+  });
+}
+
 // Rows scroll so far that the cursor's is in sight, however it was moved there; a row that is gone leaves the cursor to
 // that of all servos, on the same frame, and keys on hidden rows are no longer selected.
 
@@ -134,7 +147,7 @@ interface CanvasHost {
 
 export const sizesNow = (heights: Heights): Sizes => sizesOf(isTouch(), heights);
 
-type CanvasStores = TimelineStores & Pick<Stores, 'compiled'>;
+type CanvasStores = TimelineStores & Pick<Stores, 'compiled' | 'collisions'>;
 
 export function bringToLife(parts: CanvasParts, stores: CanvasStores, host: CanvasHost): () => void {
   const sizes = (): Sizes => sizesNow(stores.timeline.getState());
@@ -161,7 +174,8 @@ export function bringToLife(parts: CanvasParts, stores: CanvasStores, host: Canv
     hover(spot) {
       const over = spot === null ? null : hoverAt(stores, sizes(), spot);
       parts.canvas.style.cursor = over?.cursor ?? '';
-      host.say(over?.status ?? null);
+      const place = spot === null ? undefined : collisionAt(stores, sizes(), spot);
+      host.say(over?.status ?? null, place && (() => collisionText(place, stores.robots.current())));
     },
     say: host.say,
   });
@@ -192,7 +206,8 @@ function paintOnChange(parts: CanvasParts, stores: CanvasStores, sizes: () => Si
     if (request !== 0) return;
     request = requestAnimationFrame(() => {
       request = 0;
-      const scene = { ...sceneOf(contextOf(stores), sizes()), compiled: compiledTrack() };
+      const { places: collisions } = stores.collisions.getState();
+      const scene = { ...sceneOf(contextOf(stores), sizes()), compiled: compiledTrack(), collisions };
       painted = paintTracks(parts, scene, painted);
     });
   };
@@ -211,6 +226,7 @@ function paintOnChange(parts: CanvasParts, stores: CanvasStores, sizes: () => Si
       if (!isSame || state.theme !== theme || state.positionsIn !== positionsIn) repaint();
     }),
     stores.device.store.subscribe(({ family }, before) => family !== before.family && repaint()),
+    stores.collisions.subscribe(repaint),
     stores.compiled.store.subscribe(() => stores.timeline.getState().large !== null && repaint()),
   ];
   repaint();

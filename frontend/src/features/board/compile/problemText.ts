@@ -1,6 +1,7 @@
-// What keeps a group from the board, in words: its servos by the names they have on the robot it was judged for. Apart from compiled.ts,
+// What keeps a group from the board, and where it may make the robot touch itself, in words: its servos by the names they have on the robot it was judged for. Apart from compiled.ts,
 // which is in the first load.
 
+import { type CollisionPlace, collisionTimes } from '#shared/kinematics/collision.ts';
 import type { CompileProblem } from '#shared/group/compileReport.ts';
 import { words } from '../../../i18n/whole.ts';
 import { namesIn } from '../../../i18n/sentences.ts';
@@ -42,4 +43,29 @@ export function problemText(problem: CompileProblem, { group, robot }: Source): 
       });
     }
   }
+}
+
+/** What meets, in the robot's own names, from when to when. */
+export function collisionText(
+  { kind, servos, fromMs, toMs }: CollisionPlace,
+  { robot }: Pick<Source, 'robot'>,
+): string {
+  const isOnFloor = robot.body === 'arm' || robot.body === 'hand';
+  const nameOf = (servo: number | null): string =>
+    servo === null ? words.collision.base({ isOnFloor }) : namesIn(robot)(servo);
+  // The base is what something else comes to.
+  const [one = null, other = null] = servos[0] === null ? servos.toReversed() : servos;
+  const [from, to] = [fromMs, toMs].map((ms) => (ms / 1000).toFixed(2)) as [string, string];
+  const about = { name: nameOf(one), from, to };
+  return kind === 'floor'
+    ? words.collision.floor(about)
+    : words.collision.self({ ...about, other: nameOf(other) });
+}
+
+/** All places in a few words; times that overlap count as one place. Null: there are none. */
+export function collisionSummary(places: readonly CollisionPlace[]): string | null {
+  const [first] = places;
+  if (first === undefined) return null;
+  const kind = places.every((place) => place.kind === first.kind) ? first.kind : 'both';
+  return words.collision.summary({ kind, count: collisionTimes(places).length });
 }
