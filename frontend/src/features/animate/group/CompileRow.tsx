@@ -106,7 +106,7 @@ function Collisions() {
         [...new Set(servos)].filter((servo) => servo !== null),
       ),
     );
-    stores.playhead.show(Math.round(fromMs));
+    stores.playhead.show(Math.ceil(fromMs));
   };
   return (
     <ul className={cx(styles.problems, styles.warnings)} aria-label={words.collision.places}>

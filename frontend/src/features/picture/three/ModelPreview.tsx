@@ -5,7 +5,7 @@ import { Box3 } from 'three';
 import type { Robot } from '#shared/profile/robot.ts';
 import { words } from '../../../i18n/whole.ts';
 import { lookOf } from '../Canvas.tsx';
-import { createFigure, type Figure } from './figure.ts';
+import { createFigure, type Figure, NO_MARKS } from './figure.ts';
 import { plainColour } from './model.ts';
 import type { ModelFile } from './modelFile.ts';
 import { createStage, sizeOf, type Stage } from './stage.ts';
@@ -31,12 +31,12 @@ export function ModelPreview({ robot, file, turned }: ModelPreviewProps) {
     const look = lookOf(canvas.current);
     const edge = plainColour(look.edge);
     shown.current.figure.pose((servo) => (servo === turned?.servo ? (turned.degrees * Math.PI) / 180 : 0), {
-      isReported: () => false,
+      ...NO_MARKS,
       isSelected: (servo) => servo === turned?.servo,
     });
     shown.current.stage.paint({ line: edge });
     shown.current.figure.paint({
-      ...{ body: plainColour(look.raised), edge, servo: edge, reported: edge, unknown: edge },
+      ...{ body: plainColour(look.raised), edge, servo: edge, reported: edge, unknown: edge, touching: edge },
       selected: plainColour(look.commanded),
     });
   });

@@ -11,6 +11,7 @@ import {
   useRef,
   useState,
 } from 'react';
+import { timesOf } from '#shared/group/groupTimes.ts';
 import { servoOf } from '#shared/profile/robot.ts';
 import { words } from '../../../i18n/whole.ts';
 import { motionHindrance } from '../../../robot/readiness.ts';
@@ -21,6 +22,8 @@ import { useFollow } from '../../../ui/useEachFrame.ts';
 import { select } from '../../servoView.ts';
 import {
   editServoView,
+  type Stores,
+  useCollisions,
   useGroup,
   useKnownFamily,
   useRobot,
@@ -39,7 +42,7 @@ import { parseUrdf } from './figure.ts';
 import { JointKnob, placeKnob } from './JointKnob.tsx';
 import { ElbowButton, LimbHandle, placeHandles, PlaceFields } from './LimbHandle.tsx';
 import { type LedLimb, limbsOfModel, belowFloorAtMs, pathOf, type PathPoint } from './limbs.ts';
-import { createModel, type Model } from './model.ts';
+import { createModel, type Model, type Preview } from './model.ts';
 import { createStage, type Stage } from './stage.ts';
 import { useModel } from './useModel.ts';
 import styles from './RobotView.module.css';
@@ -76,7 +79,8 @@ export function RobotView() {
   const beforeDraw = useEffectEvent(() => {
     const [model, element] = [shown.current, canvas.current];
     if (model === null || element === null) return;
-    model.draw(motionsInFrame(stores.device), preview.current, lookOf(element));
+    const shownPose = { pose: preview.current, touching: touchingIn(stores, preview.current) };
+    model.draw(motionsInFrame(stores.device), shownPose, lookOf(element));
     placeHandles(stores, model, limbs, handles.current, element);
     if (servo !== undefined && knob.current !== null)
       placeKnob(model, servo, stores.device.motion(servo.servo).target, knob.current, element);
@@ -110,6 +114,9 @@ export function RobotView() {
     preview.current = pose;
     shown.current?.stage.draw();
   });
+
+  const places = useCollisions((state) => state.places);
+  useEffect(() => shown.current?.stage.draw(), [places]);
 
   useNeighbours(hasNeighbours && isGroup, description, (poses) => shown.current?.showNeighbours(poses));
 
@@ -217,6 +224,18 @@ export function RobotView() {
       )}
     </div>
   );
+}
+
+/** What may touch something in the pose at the playhead; nothing while a blend of poses is shown, or no pose. */
+function touchingIn(
+  { blend, collisions, document, timeline }: Stores,
+  pose: Pose | null,
+): Preview['touching'] {
+  if (pose === null || blend.store.getState().targets !== null) return new Set();
+  const { ends } = timesOf(document.store.getState().present);
+  const atMs = Math.max(timeline.getState().playheadMs, ends[0] ?? 0);
+  const places = collisions.getState().places.filter(({ fromMs, toMs }) => fromMs <= atMs && atMs <= toMs);
+  return new Set(places.flatMap(({ servos }) => servos));
 }
 
 /** Of the group at hand, while it is what is worked on; after an edit when there is time. */

@@ -22,15 +22,22 @@ export interface FigureColours {
   readonly reported: string;
   readonly selected: string;
   readonly unknown: string;
+  readonly touching: string;
 }
 
 /** What its outline says of a servo, beside where it is. */
 export interface Marks {
   isReported(servo: number): boolean;
   isSelected(servo: number): boolean;
+  /** Of what the servo turns; null: of the base. It is filled, not only outlined. */
+  isTouching(servo: number | null): boolean;
 }
 
-const NO_MARKS: Marks = { isReported: () => false, isSelected: () => false };
+export const NO_MARKS: Marks = {
+  isReported: () => false,
+  isSelected: () => false,
+  isTouching: () => false,
+};
 
 /** Radians by servo; null: not known. */
 export type Angles = (servo: number) => number | null;
@@ -54,6 +61,7 @@ const OPACITY = {
 
 /** `ghost`: an outline. `skin`: a weak one, of a pose before or after. */
 export type FigureLook = keyof typeof OPACITY;
+const TOUCHING_OPACITY = 0.75;
 /** Stripes of the screen, so that they look the same on each face. */
 const HATCH = { eachPx: 9, widthPx: 2.5 };
 
@@ -93,8 +101,11 @@ export function createFigure(description: Description, servos: readonly number[]
     edge: new LineBasicMaterial({ transparent: isGhost, opacity: opacity.edge }),
     reportedEdge: new LineBasicMaterial(),
     selectedEdge: new LineBasicMaterial(),
+    touching: fill(),
+    touchingEdge: new LineBasicMaterial(),
     unknownEdge: new LineBasicMaterial(),
   };
+  materials.touching.opacity = TOUCHING_OPACITY;
   const parts = dressed(robot, servos, materials);
   return {
     robot,
@@ -103,8 +114,12 @@ export function createFigure(description: Description, servos: readonly number[]
       for (const { mesh, edges, isServo, carriedBy } of parts) {
         const isKnown = carriedBy.every((servo) => angles(servo) !== null);
         const turnedBy = carriedBy.at(-1);
-        mesh.material = isKnown ? materials[isServo ? 'servo' : 'body'] : materials.unknown;
-        if (turnedBy !== undefined && marks.isSelected(turnedBy)) edges.material = materials.selectedEdge;
+        const isTouching = marks.isTouching(turnedBy ?? null);
+        if (isTouching) mesh.material = materials.touching;
+        else mesh.material = isKnown ? materials[isServo ? 'servo' : 'body'] : materials.unknown;
+        if (isTouching) edges.material = materials.touchingEdge;
+        else if (turnedBy !== undefined && marks.isSelected(turnedBy))
+          edges.material = materials.selectedEdge;
         else if (!isKnown) edges.material = materials.unknownEdge;
         else if (turnedBy !== undefined && marks.isReported(turnedBy))
           edges.material = materials.reportedEdge;
@@ -118,7 +133,7 @@ export function createFigure(description: Description, servos: readonly number[]
       );
       return parts.find(({ mesh }) => mesh === hit?.object)?.carriedBy.at(-1) ?? null;
     },
-    paint({ body, servo, edge, reported, selected, unknown }) {
+    paint({ body, servo, edge, reported, selected, unknown, touching }) {
       materials.body.color.set(isGhost ? edge : body);
       materials.servo.color.set(isGhost ? edge : servo);
       materials.unknown.color.set(unknown);
@@ -126,6 +141,8 @@ export function createFigure(description: Description, servos: readonly number[]
       materials.reportedEdge.color.set(reported);
       materials.selectedEdge.color.set(selected);
       materials.unknownEdge.color.set(unknown);
+      materials.touching.color.set(touching);
+      materials.touchingEdge.color.set(touching);
     },
     dispose() {
       for (const { mesh, edges } of parts) for (const { geometry } of [mesh, edges]) geometry.dispose();

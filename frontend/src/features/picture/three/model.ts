@@ -7,7 +7,7 @@ import type { Motions } from '#shared/robot/state.ts';
 import type { Look } from '../Canvas.tsx';
 import type { Neighbours } from '../motion.ts';
 import type { Pose } from '../pose.ts';
-import { createFigure, type Angles, type Description, type Figure } from './figure.ts';
+import { NO_MARKS, createFigure, type Angles, type Description, type Figure } from './figure.ts';
 import { radiansOf, createPathLine, type PathLine, type PathPoint } from './limbs.ts';
 import { createRing, type Ring } from './ring.ts';
 import { sizeOf, type Stage } from './stage.ts';
@@ -17,6 +17,13 @@ import { jointName, TIP } from './urdf.ts';
 const SAME = 6;
 const ROOM = 1.05;
 
+export interface Preview {
+  /** null: there is none. */
+  readonly pose: Pose | null;
+  /** Servos whose parts may touch something there; null: the base. */
+  readonly touching: ReadonlySet<number | null>;
+}
+
 export interface Model {
   readonly stage: Stage;
   /** How far the middle of the base is above the floor. */
@@ -25,7 +32,7 @@ export interface Model {
   servoAt(clientX: number, clientY: number): number | null;
   /** Of the servo that is selected; null: none, or its target is unknown. */
   ring(): Ring | null;
-  draw(motion: Motions, preview: Pose | null, look: Look): void;
+  draw(motion: Motions, preview: Preview, look: Look): void;
   select(servo: number | null): void;
   /** Weak outlines of the frames before and after the playhead. */
   showNeighbours(poses: Neighbours): void;
@@ -92,17 +99,21 @@ export function createModel(stage: Stage, description: Description, robot: Robot
     liftM: () => body.robot.position.z,
     servoAt: (x, y) => body.servoAt(stage.rayAt(x, y)),
     ring: () => ring,
-    draw(motion, preview, look) {
+    draw(motion, { pose: preview, touching }, look) {
       const target: Pose = (servo) => motion(servo).target;
       const wanted: Pose = preview === null ? target : (servo) => preview(servo) ?? target(servo);
       body.pose(
         anglesOf(robot, (servo) => motion(servo).estimated),
         {
+          ...NO_MARKS,
           isReported: (servo) => motion(servo).reported !== undefined,
           isSelected: (servo) => servo === selected,
         },
       );
-      outline.pose(anglesOf(robot, wanted));
+      outline.pose(anglesOf(robot, wanted), {
+        ...NO_MARKS,
+        isTouching: (servo) => touching.has(servo),
+      });
       outline.robot.visible = preview !== null || !isThere(robot, motion);
       if (stands) stand(body, outline);
       paint(look);
@@ -124,7 +135,8 @@ export function createModel(stage: Stage, description: Description, robot: Robot
     ];
     const [estimated, commanded] = [plainColour(look.estimated), plainColour(look.commanded)];
     const reported = plainColour(look.confirmed);
-    const common = { servo: edge, selected: ink, unknown };
+    const warning = plainColour(look.warning);
+    const common = { servo: edge, selected: ink, unknown, touching: warning };
     stage.paint({ line: edge });
     body.paint({ body: plainColour(look.raised), edge: estimated, reported, ...common });
     outline.paint({ body: commanded, edge: commanded, reported: commanded, ...common });
@@ -133,7 +145,7 @@ export function createModel(stage: Stage, description: Description, robot: Robot
       skin.paint({ body: colour, edge: colour, reported: colour, ...common });
     }
     ring?.paint(commanded);
-    for (const line of lines) line.paint(commanded, plainColour(look.warning));
+    for (const line of lines) line.paint(commanded, warning);
   }
 }
 
