@@ -2017,6 +2017,7 @@ export interface Messages {
       readonly note: string;
       readonly marker: string;
       readonly sound: string;
+      readonly speed: string;
       readonly selectAll: string;
       readonly selectRow: string;
       readonly selectNone: string;
@@ -2178,6 +2179,14 @@ export interface Messages {
       readonly position: (values: { readonly name: string; readonly position: number; readonly min: number; readonly max: number }) => string;
     };
     readonly heldAtLimit: (values: { readonly count: number; readonly names: string }) => string;
+  };
+  readonly speed: {
+    readonly title: string;
+    readonly hint: string;
+    readonly together: string;
+    readonly current: (values: { readonly amps: string }) => string;
+    readonly degrees: (values: { readonly fastest: number; readonly limit: number }) => string;
+    readonly close: string;
   };
   readonly sound: {
     readonly row: string;

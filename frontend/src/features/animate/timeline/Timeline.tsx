@@ -35,6 +35,7 @@ import { actionOf, chordOf, runByKey } from '../../../ui/action.ts';
 import { PLAY, PREVIEW, STEPS } from '../play/playActions.ts';
 import { soundAmong, soundOf } from '../sound/sound.ts';
 import { SoundRow } from '../sound/SoundRow.tsx';
+import { SpeedRows } from '../speed/SpeedRows.tsx';
 import { PART } from '../../../ui/focus.ts';
 import styles from './Timeline.module.css';
 import { Canvas, type Pen } from '../../picture/Canvas.tsx';
@@ -226,6 +227,9 @@ export const Timeline = memo(function Timeline() {
         </div>
       </div>
       <Minimap tracks={`${id}tracks`} />
+      <SpeedRows>
+        <PlayheadLine />
+      </SpeedRows>
       <StatusText {...said} />
       <TimelineMenu menu={menu} onClose={closeMenu} />
     </section>

@@ -49,6 +49,7 @@ const LOOKS: readonly TimelineActionName[] = [
   'fitSelection',
   'range',
   'nextMarker',
+  'speed',
 ];
 
 export const TimelineMenu = memo(function TimelineMenu({

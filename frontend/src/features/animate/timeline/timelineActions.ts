@@ -21,6 +21,7 @@ import {
   turnRound,
 } from './changes.ts';
 import { soundOf } from '../sound/sound.ts';
+import { toggleSpeed } from '../speed/SpeedRows.tsx';
 import { editServoView } from '../../stores.ts';
 import { toggled } from '../../servoView.ts';
 import { rangeOf, rowOf, type TimelineContext } from './context.ts';
@@ -87,6 +88,7 @@ const ACTIONS: Readonly<Record<TimelineActionName, Own>> = {
   note: { icon: 'edit', keys: ['n'], needs: 'keys', run: asking('note') },
   marker: { icon: 'marker', keys: ['m'], run: asking('marker') },
   sound: { icon: 'upload', keys: [], run: ({ stores }) => void soundOf(stores).choose() },
+  speed: { icon: 'tune', keys: ['v'], run: ({ stores }) => toggleSpeed(stores) },
   nextMarker: { icon: 'marker', keys: ['Shift+m'], run: goToMarker },
   selectAll: { icon: 'frames', keys: ['Ctrl+a'], run: selectAll },
   selectRow: {

@@ -1,0 +1,31 @@
+// How fast a group turns each servo, beside what it can do: below the tracks, on request.
+
+import * as e2e from '../../e2e/fixtures/timeline.ts';
+import { expect, here, test } from './harness/test.ts';
+
+const keepGroup = here(e2e.keepGroup);
+const timelineOf = here(e2e.timelineOf);
+
+test.beforeEach(async ({ page }) => {
+  await keepGroup(page);
+});
+
+test('speeds and current are shown by a key, follow an edit, and are hidden again', async ({
+  dashboard,
+  page,
+}) => {
+  const { grid } = timelineOf(page);
+  const speeds = page.getByRole('region', { name: 'Speed and current' });
+  await expect(dashboard.frames).toHaveCount(3);
+  await expect(speeds).toBeHidden();
+  await grid.press('v');
+  const servo = (name: string) => speeds.getByRole('listitem').filter({ hasText: name });
+  await expect(servo('Gripper')).toContainText('36 of 257°/s');
+  await expect(servo('Elbow')).toContainText('0 of 257°/s');
+  await expect(servo('All together')).toContainText('up to 0.1 A');
+
+  await dashboard.type(dashboard.frameTime(3), 60);
+  await expect(servo('Gripper')).toContainText('300 of 257°/s');
+  await dashboard.button('Hide speed and current').click();
+  await expect(speeds).toBeHidden();
+});
