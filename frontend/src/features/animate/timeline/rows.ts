@@ -3,7 +3,7 @@
 import type { Robot, RobotServo } from '#shared/profile/robot.ts';
 import { limbsOf } from '../../picture/pose.ts';
 import type { ServoView } from '../../servoView.ts';
-import { ALL_ROW } from './timeline.ts';
+import { ALL_ROW, type LargeRow } from './timeline.ts';
 import type { Key } from '#shared/group/tracks.ts';
 import type { GroupTimes } from '#shared/group/groupTimes.ts';
 import type { Range } from '#shared/codec/families.ts';
@@ -70,11 +70,6 @@ function limbRow(group: string, members: readonly RobotServo[]): Row {
     ...{ id: `limb ${group}`, kind: 'limb', name: group, servo: null },
     servos: members.map(({ servo }) => servo),
   };
-}
-
-/** A row that is open large, and the part of its range that its height stands for. */
-export interface LargeRow extends Range {
-  readonly servo: number;
 }
 
 export interface RowHeights {

@@ -2,6 +2,7 @@
 // document's, none of it moves the robot. The playhead is the time that is shown; the player may move it.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
+import type { Range } from '#shared/codec/families.ts';
 import type { GroupTimes } from '#shared/group/groupTimes.ts';
 import type { Key, KeyRef } from '#shared/group/tracks.ts';
 import type { Clip } from '#shared/group/clip.ts';
@@ -9,7 +10,6 @@ import type { ActionGroup } from '#shared/group/group.ts';
 import type { History } from '#shared/document/history.ts';
 import type { Library } from '../../library/library.ts';
 import type { View } from '../../view.ts';
-import type { LargeRow } from './rows.ts';
 import { setChanged } from '../../../state/setChanged.ts';
 import type { Document } from '../../groupDocument.ts';
 
@@ -127,6 +127,11 @@ const QUESTIONS = [
   'marker',
 ] as const;
 export type Ask = (typeof QUESTIONS)[number];
+
+/** A row that is open large, and the part of its range that its height stands for. */
+export interface LargeRow extends Range {
+  readonly servo: number;
+}
 
 export interface TimelineState {
   readonly selected: KeySet;
