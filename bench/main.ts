@@ -25,6 +25,7 @@ import { measurePageLoad } from './pageLoad.ts';
 import { measurePageSize } from './pageSize.ts';
 import { measurePlay } from './play.ts';
 import { measureRelay } from './relay.ts';
+import { measureSound } from './sound.ts';
 import { measureStart } from './start.ts';
 import { measureStopDragging, measureStopIdle } from './stop.ts';
 import { measureStopReconnect } from './stopAfterLoss.ts';
@@ -41,6 +42,7 @@ const GROUPS: Readonly<Record<string, () => Figure[] | Promise<Figure[]>>> = {
   frames: measureFrames,
   three: measureThree,
   play: measurePlay,
+  sound: measureSound,
   drag: measureDrag,
   load: measurePageLoad,
   library: measureLibrary,

@@ -3,7 +3,7 @@
 import * as e2e from '../../e2e/fixtures/timeline.ts';
 import { expectSound } from './harness/sound.ts';
 import { expect, here, test, type Dashboard } from './harness/test.ts';
-import { metronome } from './wav.ts';
+import { metronome } from '#shared/testing/wav.ts';
 
 const keepGroup = here(e2e.keepGroup);
 const timelineOf = here(e2e.timelineOf);

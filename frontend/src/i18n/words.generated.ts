@@ -2199,6 +2199,12 @@ export interface Messages {
     readonly beat: (values: { readonly number: number }) => string;
     readonly find: string;
     readonly noneFound: string;
+    readonly tap: string;
+    readonly tapHere: string;
+    readonly tapHint: string;
+    readonly tapped: (values: { readonly bpm: number }) => string;
+    readonly take: string;
+    readonly cancel: string;
     readonly half: string;
     readonly double: string;
     readonly removeBeats: string;

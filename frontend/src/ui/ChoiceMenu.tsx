@@ -6,7 +6,7 @@ import { Popover } from 'react-aria-components/Popover';
 import { InLanguage } from './InLanguage.tsx';
 import styles from './Menu.module.css';
 
-interface ChoiceMenuProps {
+export interface ChoiceMenuProps {
   readonly label: string;
   readonly choices: readonly { readonly id: string; readonly name: string }[];
   readonly isOpen: boolean;

@@ -69,6 +69,10 @@ export interface Player {
   pause(): void;
   /** To the end of the next frame of the group, or of the one before, or to the beginning; the robot goes along where it follows. */
   step(direction: 1 | -1): void;
+  /** The group's sound alone, from its beginning, while nothing else plays. */
+  listen(isOn: boolean): void;
+  /** What of the group's time is heard right now; null: nothing plays. */
+  heardAt(): number | null;
   /** To be called while the page is drawn: moves the playhead, and the robot where it follows. */
   frame(): void;
   /** The page is not looked at any more. */

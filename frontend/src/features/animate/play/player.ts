@@ -8,7 +8,19 @@ import { frameEnds } from '#shared/group/tracks.ts';
 import type { Activity } from '#shared/robot/state.ts';
 import { words } from '../../../i18n/whole.ts';
 import { instantText } from '../timeline/valueText.ts';
-import { createBoardRun, pageAt, previewAt, type PagePlay, type PreviewPlay } from './boardRun.ts';
+import { createBoardRun } from './boardRun.ts';
+import {
+  boardAt,
+  boardCourse,
+  pageAt,
+  pageCourse,
+  type PagePlay,
+  previewAt,
+  previewCourse,
+  type PreviewPlay,
+} from './course.ts';
+import { soundOf } from '../sound/sound.ts';
+import { type Course, createSoundPlayer, groupAt } from '../sound/soundPlayer.ts';
 import { obstacles, type CompiledGroup } from '../../board/compile/compiled.ts';
 import { createFollower } from '../../../robot/follower.ts';
 import { createPlayedPart } from './playedPart.ts';
@@ -31,6 +43,36 @@ function createPlayer(options: PlaybackOptions, store: StoreApi<PlaybackState>):
   });
   let following: PagePlay | null = null;
   let previewing: PreviewPlay | null = null;
+  let listening: Course | null = null;
+
+  const { store: soundStore } = soundOf({ document, notices });
+  const sound = createSoundPlayer({
+    clock,
+    createContext: () => new AudioContext({ latencyHint: 'interactive' }),
+    playable() {
+      const { sound: own } = document.store.getState().present;
+      const { track } = soundStore.getState();
+      return own === undefined || track === null ? null : { buffer: track.buffer, startMs: own.startMs };
+    },
+  });
+  const setMuted = (): void => sound.setMuted(view.getState().sound === 'muted');
+  setMuted();
+  view.subscribe(setMuted);
+
+  /** null: nothing moves, or nobody knows yet when it will. */
+  function course(): Course | null {
+    const { latch, waitingToStart } = device.store.getState().snapshot;
+    if (latch !== null) return null;
+    if (previewing !== null) return previewCourse(previewing, clock.now());
+    if (following !== null) {
+      const isKnown = following.isUnderWay && !(following.isLead && waitingToStart.length > 0);
+      return isKnown ? pageCourse(following) : null;
+    }
+    const run = store.getState().phase === 'running' ? board.now() : null;
+    return run === null ? listening : boardCourse(run, clock.now());
+  }
+
+  const playSound = (): void => sound.follow(course());
 
   function followPlayhead(): void {
     if (document.store.getState().present.unit === device.store.getState().family.unit)
@@ -65,14 +107,20 @@ function createPlayer(options: PlaybackOptions, store: StoreApi<PlaybackState>):
     if (group === null) return;
     store.setState({ isLive: false });
     const passage = playedPart.passage(group);
-    following = { passage, index: 0, beganMs: clock.now(), isLead: true };
-    phase('leading');
     const times = playedPart.passes();
+    const { speedPercent } = store.getState();
+    following = {
+      ...{ passage, index: 0, beganMs: clock.now(), isLead: true, isUnderWay: false },
+      ...{ speedPercent, passesLeft: times },
+    };
+    phase('leading');
+    sound.wake();
     playhead.show(passage.atMs[0] ?? 0);
     const ended = (isDone: boolean): void => {
       if (isDone) playhead.go(passage.atMs.at(-1) ?? 0);
       following = null;
       phase(null);
+      playSound();
     };
     device.play(passage.frames, times, ended, passage.loopFrom);
   }
@@ -85,12 +133,15 @@ function createPlayer(options: PlaybackOptions, store: StoreApi<PlaybackState>):
     previewing = { ...part, startMs, passes: playedPart.passes(), speedPercent, beganMs: clock.now() };
     phase('previewing');
     playhead.show(startMs);
+    sound.wake();
+    playSound();
   }
 
   function endPreview(): void {
     if (previewing === null) return;
     previewing = null;
     phase(null);
+    playSound();
   }
 
   const board = createBoardRun({
@@ -106,7 +157,9 @@ function createPlayer(options: PlaybackOptions, store: StoreApi<PlaybackState>):
     const group = playable('board');
     const { times, untilStopped } = view.getState();
     const isEndless = untilStopped || store.getState().loops;
-    if (group !== null) board.begin(group, isEndless ? 0 : times);
+    if (group === null) return;
+    sound.wake();
+    board.begin(group, isEndless ? 0 : times);
   }
 
   function pause(): void {
@@ -119,18 +172,29 @@ function createPlayer(options: PlaybackOptions, store: StoreApi<PlaybackState>):
   let last = activity();
   device.store.subscribe(({ snapshot }, { snapshot: before }) => {
     const next = snapshot.activity;
+    // The servos of the first pose start one after another: the way there begins with the last of them.
+    if (following?.isLead === true && snapshot.waitingToStart.length < before.waitingToStart.length)
+      following = { ...following, beganMs: clock.now() };
     if (next !== last) {
       last = next;
       noteActivity(next);
+      playSound();
     }
-    if (snapshot.latch !== null && before.latch === null) endPreview();
+    if (snapshot.latch !== null && before.latch === null) {
+      endPreview();
+      listening = null;
+      playSound();
+    }
     if (endsMotion(snapshot)) store.setState({ isLive: false });
   });
 
   function noteActivity(next: Activity): void {
     if (next.kind === 'playing' && following !== null) {
       const isLead = following.isLead && next.frameIndex === 0;
-      following = { ...following, index: next.frameIndex, beganMs: clock.now(), isLead };
+      const isAgain = !isLead && next.frameIndex <= following.index;
+      const passesLeft = following.passesLeft - (isAgain && following.passesLeft > 0 ? 1 : 0);
+      const began = { index: next.frameIndex, beganMs: clock.now(), isUnderWay: true };
+      following = { ...following, ...began, isLead, passesLeft };
       const isBack = following.passage.returns && next.frameIndex === 0;
       phase(isLead ? 'leading' : isBack ? 'returning' : 'playing');
     }
@@ -148,8 +212,8 @@ function createPlayer(options: PlaybackOptions, store: StoreApi<PlaybackState>):
   }
 
   function showBoard(): void {
-    const atMs = board.at();
-    if (atMs !== null) playhead.go(atMs);
+    const run = board.now();
+    if (run !== null) playhead.go(Math.round(boardAt(run, clock.now())));
   }
 
   function step(direction: 1 | -1): void {
@@ -182,8 +246,27 @@ function createPlayer(options: PlaybackOptions, store: StoreApi<PlaybackState>):
       else if (following !== null) playhead.go(Math.round(pageAt(following, clock.now())));
       else showBoard();
       if (store.getState().isLive) followPlayhead();
+      playSound();
+    },
+    listen(isOn) {
+      const { sound: own } = document.store.getState().present;
+      const { track } = soundStore.getState();
+      const canHear = isOn && own !== undefined && track !== null;
+      listening = canHear
+        ? {
+            ...{ atMs: own.startMs, sinceMs: clock.now(), rate: 1 },
+            ...{ untilMs: own.startMs + track.lengthMs, thenMs: null },
+          }
+        : null;
+      if (isOn) sound.wake();
+      playSound();
+    },
+    heardAt() {
+      const now = course();
+      return now === null ? null : groupAt(now, clock.now());
     },
     hidden() {
+      listening = null;
       endPreview();
       store.setState({ isLive: false });
       device.stopPlaying();

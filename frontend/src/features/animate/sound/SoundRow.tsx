@@ -15,7 +15,7 @@ import { bpmOf } from '#shared/group/beats.ts';
 import type { GroupSound } from '#shared/group/group.ts';
 import { words } from '../../../i18n/whole.ts';
 import { Button, IconButton } from '../../../ui/Button.tsx';
-import { ChoiceMenu } from '../../../ui/ChoiceMenu.tsx';
+import { ChoiceMenu, type ChoiceMenuProps } from '../../../ui/ChoiceMenu.tsx';
 import { Canvas, type Pen } from '../../picture/Canvas.tsx';
 import { useDocument, useGroupBoard, useStores, useView } from '../../stores.ts';
 import { contextOf } from '../timeline/context.ts';
@@ -24,6 +24,7 @@ import type { TimeView } from '../timeline/timeline.ts';
 import { msAt, xOf } from '../timeline/timeScale.ts';
 import { instantText } from '../timeline/valueText.ts';
 import { changeTempo, removeSound, setBeats, soundMoved, soundOf, type SoundState } from './sound.ts';
+import { TapTempo } from './TapTempo.tsx';
 import styles from './SoundRow.module.css';
 
 /** `children`: what is drawn over it, as over the tracks. */
@@ -32,21 +33,40 @@ export const SoundRow = memo(function SoundRow({ children }: { readonly children
   const sound = useDocument(({ present }) => present.sound);
   // It follows the group as soon as there is one.
   const { status } = useStore(soundOf(stores).store);
+  const [taps, setTaps] = useState(false);
+  const [isMenuOpen, setMenuOpen] = useState(false);
   if (sound === undefined) return null;
   return (
     <div className={styles.row} role="group" aria-label={words.sound.row}>
-      <Head sound={sound} />
+      <Head sound={sound} isOpen={isMenuOpen} onOpen={setMenuOpen} onTap={() => setTaps(true)} />
       <div className={styles.track}>
         <Wave sound={sound} />
         {children}
-        {status === 'missing' ? <Missing sound={sound} /> : <Handle sound={sound} />}
+        {status === 'missing' ? (
+          <Missing sound={sound} />
+        ) : // A menu that is open keeps the focus to itself, and the button would not get it.
+        taps && !isMenuOpen && status === 'ready' ? (
+          <TapTempo startMs={sound.startMs} onClose={() => setTaps(false)} />
+        ) : (
+          <Handle sound={sound} />
+        )}
       </div>
     </div>
   );
 });
 
-function Head({ sound }: { readonly sound: GroupSound }) {
-  const [isOpen, setOpen] = useState(false);
+interface SoundMenuProps {
+  readonly sound: GroupSound;
+  readonly isOpen: boolean;
+  onTap(): void;
+}
+
+interface HeadProps extends SoundMenuProps {
+  onOpen(isOpen: boolean): void;
+}
+
+function Head({ onOpen, ...rest }: HeadProps) {
+  const { sound, isOpen } = rest;
   const menu = useRef<Element>(null);
   const isMuted = useView((state) => state.sound === 'muted');
   return (
@@ -63,11 +83,11 @@ function Head({ sound }: { readonly sound: GroupSound }) {
           aria-expanded={isOpen}
           onPress={(button) => {
             menu.current = button;
-            setOpen(true);
+            onOpen(true);
           }}
         />
       </span>
-      <SoundMenu sound={sound} under={menu} isOpen={isOpen} onClose={() => setOpen(false)} />
+      <SoundMenu {...rest} under={menu} onClose={() => onOpen(false)} />
     </div>
   );
 }
@@ -75,14 +95,7 @@ function Head({ sound }: { readonly sound: GroupSound }) {
 const tempoText = ({ beats }: GroupSound): string =>
   beats === null ? words.sound.noBeats : words.sound.tempo({ bpm: Math.round(bpmOf(beats)) });
 
-interface SoundMenuProps {
-  readonly sound: GroupSound;
-  readonly under: React.RefObject<Element | null>;
-  readonly isOpen: boolean;
-  onClose(): void;
-}
-
-function SoundMenu({ sound, ...menu }: SoundMenuProps) {
+function SoundMenu({ sound, onTap, ...menu }: SoundMenuProps & Pick<ChoiceMenuProps, 'under' | 'onClose'>) {
   const stores = useStores();
   const { view } = stores;
   const { track } = useStore(soundOf(stores).store);
@@ -96,6 +109,7 @@ function SoundMenu({ sound, ...menu }: SoundMenuProps) {
             ? stores.notices.tell('info', words.sound.noneFound)
             : setBeats(stores, track.beats),
       },
+      tap: { name: words.sound.tap, act: onTap },
     }),
     ...(sound.beats !== null && {
       half: { name: words.sound.half, act: () => changeTempo(stores, 0.5) },
@@ -157,9 +171,9 @@ function Handle({ sound }: { readonly sound: GroupSound }) {
     document.preview(soundMoved(startMs));
   }
 
-  function end(isKept: boolean): void {
+  function end(commits: boolean): void {
     if (from.current?.hasMoved === true) {
-      if (isKept) document.commit();
+      if (commits) document.commit();
       else document.cancel();
     }
     from.current = null;

@@ -24,7 +24,11 @@ export function metronome({ bpm, firstMs, lengthMs }: Metronome): Uint8Array<Arr
 function wavOf(samples: Int16Array): Uint8Array<ArrayBuffer> {
   const bytes = new Uint8Array(HEADER_BYTES + samples.byteLength);
   const view = new DataView(bytes.buffer);
-  const text = (at: number, word: string): void => bytes.set(new TextEncoder().encode(word), at);
+  const text = (at: number, word: string): void =>
+    bytes.set(
+      Array.from(word, (letter) => letter.charCodeAt(0)),
+      at,
+    );
   text(0, 'RIFF');
   view.setUint32(4, bytes.length - 8, true);
   text(8, 'WAVEfmt ');
