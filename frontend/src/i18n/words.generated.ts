@@ -1682,7 +1682,6 @@ export interface Messages {
     readonly homeDegrees: string;
     readonly cell: (values: { readonly column: string; readonly joint: string }) => string;
     readonly jointStep: (values: { readonly column: string; readonly joint: string }) => string;
-    readonly degreesProblem: string;
     readonly end: string;
     readonly noEnd: string;
     readonly endStep: string;
