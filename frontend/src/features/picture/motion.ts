@@ -71,7 +71,7 @@ export function usePreview(draw: (pose: Pose | null) => void): void {
 }
 
 /** The values that the preview depends on. */
-function reasonsOf(stores: Stores): readonly unknown[] {
+export function reasonsOf(stores: Stores): readonly unknown[] {
   const { playheadMs } = stores.timeline.getState();
   const { family } = stores.device.store.getState();
   const { muted, solo } = servoViewOf(stores);
@@ -95,7 +95,7 @@ function previewOf(stores: Stores): Pose | null {
 }
 
 /** Of the group that is open, in the unit of the board; null where it has no frames. */
-function poseOfGroup(stores: Stores, atMs: number): Pose | null {
+export function poseOfGroup(stores: Stores, atMs: number): Pose | null {
   const group = stores.document.store.getState().present;
   const pose = poseAtMs(timesOf(group).tracks, atMs);
   const view = servoViewOf(stores);
@@ -106,37 +106,4 @@ function poseOfGroup(stores: Stores, atMs: number): Pose | null {
         const position = isSilent(view, servo) ? undefined : pose.get(servo);
         return position === undefined ? null : rescaled(position, group.unit, unit);
       };
-}
-
-/** The frames on both sides of the playhead. */
-export interface Neighbours {
-  readonly before: Pose | null;
-  readonly after: Pose | null;
-}
-
-export const NO_NEIGHBOURS: Neighbours = { before: null, after: null };
-
-/** Calls `draw` with the poses before and after the playhead while `isOn`, and once with none afterwards. `of`: what they are drawn on. */
-export function useNeighbours(isOn: boolean, of: unknown, draw: (poses: Neighbours) => void): void {
-  const stores = useStores();
-  const drawn = useRef<readonly unknown[]>([]);
-  useEachFrame(() => {
-    const now = isOn ? [of, ...reasonsOf(stores)] : [];
-    if (now.length === drawn.current.length && now.every((reason, index) => reason === drawn.current[index]))
-      return;
-    drawn.current = now;
-    draw(isOn ? neighboursOf(stores) : NO_NEIGHBOURS);
-  });
-}
-
-function neighboursOf(stores: Stores): Neighbours {
-  const { playheadMs } = stores.timeline.getState();
-  const { ends } = timesOf(stores.document.store.getState().present);
-  const [before, after] = [
-    ends.findLast((endMs) => endMs < playheadMs),
-    ends.find((endMs) => endMs > playheadMs),
-  ];
-  const poseAt = (atMs: number | undefined): Pose | null =>
-    atMs === undefined ? null : poseOfGroup(stores, atMs);
-  return { before: poseAt(before), after: poseAt(after) };
 }

@@ -34,7 +34,7 @@ import {
 } from '../../stores.ts';
 import { workedOn } from '../../view.ts';
 import { lookOf } from '../Canvas.tsx';
-import { motionsInFrame, useNeighbours, usePreview } from '../motion.ts';
+import { motionsInFrame, usePreview } from '../motion.ts';
 import { useMotions } from '../useMotions.ts';
 import type { Pose } from '../pose.ts';
 import { UnknownNote } from '../UnknownNote.tsx';
@@ -44,6 +44,7 @@ import { ElbowButton, LimbHandle, placeHandles, PlaceFields } from './LimbHandle
 import { type LedLimb, limbsOfModel, belowFloorAtMs, pathOf, type PathPoint } from './limbs.ts';
 import { createModel, type Model, type Preview } from './model.ts';
 import { createStage, type Stage } from './stage.ts';
+import { useNeighbours } from './neighbours.ts';
 import { useModel } from './useModel.ts';
 import styles from './RobotView.module.css';
 
