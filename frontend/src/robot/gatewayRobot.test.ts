@@ -448,6 +448,48 @@ describe('what moved before the page came', () => {
   });
 });
 
+describe('a gateway without an open port', () => {
+  const CLOSED = { ...READY.port, device: null, status: 'closed' } as const;
+  const BUSY = {
+    ...READY.port,
+    ...({ status: 'lost', code: 'portBusy' } as const),
+    heldBy: ['minicom (7)'],
+  };
+  const DOWN = { ...READY.link, status: 'closed' } as const;
+
+  test.each([true, false])(
+    'another client chooses a busy port: the page reports why (reconnects: %s)',
+    async (reconnects) => {
+      const { robot, state } = await createGateway({ welcome: { port: CLOSED, link: DOWN } });
+      robot.setAutoReconnect(reconnects);
+      expect(robot.state.link).toMatchObject({ status: 'refused', error: { code: 'closed' } });
+      state({ port: { ...BUSY, status: 'opening', code: null, heldBy: [] } });
+      expect(robot.state.link).toMatchObject({ error: { code: 'closed' } });
+      state({ port: BUSY });
+      expect(robot.state.link).toMatchObject({
+        status: 'lost',
+        error: { code: 'portBusy', heldBy: ['minicom (7)'] },
+      });
+    },
+  );
+
+  test('an unchanged reason does not postpone the next attempt', async () => {
+    const { robot, state } = await createGateway({ welcome: { port: BUSY, link: DOWN } });
+    const { link } = robot.state;
+    state({ port: BUSY, clients: 2 });
+    expect(robot.state.link).toBe(link);
+  });
+
+  test('the page connects again when the gateway is back', async () => {
+    const { robot, clock, cut, state } = await createGateway({ welcome: { port: CLOSED, link: DOWN } });
+    cut();
+    expect(robot.state.link).toMatchObject({ status: 'lost', error: { code: 'gatewayUnreachable' } });
+    state({ port: READY.port, link: READY.link });
+    await clock.advance(1_000);
+    expect(robot.state.link.status).toBe('ready');
+  });
+});
+
 describe('downloads', () => {
   const JOB: JobState = {
     ...{ id: 'a1', by: 'Anna', status: 'running', slots: [5], groupsStored: 0, slot: 5, name: '' },

@@ -54,7 +54,11 @@ export function createGatewayRobot({ url, clock, mayDrive = true }: GatewayRobot
   let player: Promise<GatewayPlayer> | null = null;
   let playId = 0;
 
-  const socket = createGatewaySocket({ url, heard, refused, lost, available: () => link.available() });
+  const socket = createGatewaySocket({
+    ...{ url, heard, refused, lost },
+    unavailable: (error) => link.lost(error),
+    available: () => link.available(),
+  });
   const driving = createDriving(socket.post, clock.now);
   const slots = createGatewaySlots(begin, () => snapshot.slotsChanged());
   const snapshot = createGatewaySnapshot({

@@ -30,7 +30,7 @@ export interface Link {
   /** An attempt now, before which another tab lets go of the device. Rejects with `heldElsewhere` where it does not. */
   takeOver(): Promise<void>;
   setAutoReconnect(enabled: boolean): void;
-  /** The open line ended by itself. */
+  /** The open line ended by itself; or, between two attempts, the reason why it is down has changed. */
   lost(error: LinkError): void;
   /** Ends what is under way, an attempt too, as lost; a later one may follow. */
   abandon(error: LinkError): void;
@@ -44,6 +44,7 @@ export function createLink({ clock, open, close, changed }: LinkOptions): Link {
   let state: LineState = { status: 'closed' };
   let wasOpenBefore = false;
   let attempt = 0;
+  let isTrying = false;
 
   const isDown = (): boolean => state.status === 'lost' || state.status === 'refused';
 
@@ -61,6 +62,7 @@ export function createLink({ clock, open, close, changed }: LinkOptions): Link {
   }
 
   function fail(error: LinkError): void {
+    isTrying = false;
     const passes = passesByItself(error);
     const retryAtMs = reconnect.plan(passes);
     enter(passes ? { status: 'lost', error, retryAtMs } : { status: 'refused', error });
@@ -74,6 +76,7 @@ export function createLink({ clock, open, close, changed }: LinkOptions): Link {
 
   async function connect(options?: OpenOptions): Promise<void> {
     const mine = (attempt += 1);
+    isTrying = true;
     if (!isDown()) enter({ status: 'opening' });
     try {
       await open(options);
@@ -83,6 +86,7 @@ export function createLink({ clock, open, close, changed }: LinkOptions): Link {
       throw reason;
     }
     if (mine !== attempt) return;
+    isTrying = false;
     reconnect.refresh();
     const isReturn = wasOpenBefore;
     wasOpenBefore = true;
@@ -104,6 +108,7 @@ export function createLink({ clock, open, close, changed }: LinkOptions): Link {
     async close() {
       reconnect.rest();
       attempt += 1;
+      isTrying = false;
       wasOpenBefore = false;
       if (state.status !== 'closed') enter({ status: 'closed' });
       await close();
@@ -117,7 +122,8 @@ export function createLink({ clock, open, close, changed }: LinkOptions): Link {
     },
     setAutoReconnect: reconnect.setEnabled,
     lost(error) {
-      if (state.status === 'open') fail(error);
+      const isNews = 'error' in state && !isTrying && !isSameReason(state.error, error);
+      if (state.status === 'open' || isNews) fail(error);
     },
     abandon(error) {
       if (state.status === 'closed' || state.status === 'refused') return;
@@ -133,6 +139,9 @@ export function createLink({ clock, open, close, changed }: LinkOptions): Link {
     },
   };
 }
+
+const isSameReason = (one: LinkError, other: LinkError): boolean =>
+  one.code === other.code && one.heldBy.join() === other.heldBy.join();
 
 interface ReconnectOptions {
   readonly clock: Clock;

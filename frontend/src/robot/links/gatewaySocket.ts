@@ -28,6 +28,8 @@ export interface GatewaySocketOptions {
   refused(id: number, error: LinkError): void;
   /** The socket has closed by itself, or its port is not open any more. */
   lost(error: LinkError): void;
+  /** The port, which was not open, reports why it is not. */
+  unavailable(error: LinkError): void;
   /** The port is open again. */
   available(): void;
 }
@@ -117,6 +119,7 @@ export function createGatewaySocket(options: GatewaySocketOptions): GatewaySocke
     settle('port');
     if (next.status === 'open') options.available();
     else if (wasOpen) lost(portError(next));
+    else if (next.status !== 'opening') options.unavailable(portError(next));
   }
 
   /** No answer will come to what was asked. */
