@@ -130,7 +130,6 @@ export async function openPage({ me, problem }: Arrival): Promise<Page> {
     isWatched,
     role: me?.you?.role ?? 'owner',
     isAtGateway: me !== null,
-    robot: () => robots.current().robot,
     describeRobot: (body, board) =>
       void import('../features/connect/robotOfKind.ts').then(
         ({ takeUpKind }) => takeUpKind(robots, body, board),

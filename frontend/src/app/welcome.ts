@@ -1,8 +1,12 @@
-// The first visit: a simulated robot stands up, and the page's own breathes until the first touch of a key or pointer. A gateway may have
-// the robot stopped for a driver who leaves while it moves, so its simulated robot rests. A real robot is left alone.
+// The first visit: a simulated robot stands up gently, and the page's own makes small movements until the first key or touch. The one at a
+// gateway then rests, because a gateway stops the robot of a driver who leaves while it moves. On later visits, and on a real robot,
+// nothing moves by itself.
 
 import type { Clock } from '#shared/clock.ts';
 import type { ServoTarget } from '#shared/codec/commands.ts';
+import { FAMILIES } from '#shared/codec/families.ts';
+import { rescaled } from '#shared/profile/units.ts';
+import type { Robot, RobotServo } from '#shared/profile/robot.ts';
 import type { RobotStore } from '../features/profiles/robots.ts';
 import type { Device, DeviceState } from '../robot/device.ts';
 import { GENTLE_MOVE_MS } from '../robot/moves.ts';
@@ -41,11 +45,13 @@ export function welcome({ device, robots, clock, touched, isWatched }: Welcome):
     if (way?.kind === 'simulated') cancel = clock.after(BREATH_MS + REST_MS, breathe);
   }
 
-  /** Where it was sent already, else home. */
+  /** A servo that was moved before stays where it was sent. */
   function standing(): readonly ServoTarget[] {
-    return robots
-      .current()
-      .robot.servos.map(({ servo, home }) => ({ servo, position: device.motion(servo).target ?? home }));
+    const { robot } = robots.current();
+    return robot.servos.map((one) => ({
+      servo: one.servo,
+      position: device.motion(one.servo).target ?? standingAt(robot, one),
+    }));
   }
 
   function leaning(from: readonly ServoTarget[]): readonly ServoTarget[] {
@@ -68,4 +74,13 @@ export function welcome({ device, robots, clock, touched, isWatched }: Welcome):
     cancel();
   });
   begin(device.store.getState());
+}
+
+/** In microseconds, by servo: each link of the arm stands at an angle to the next one. */
+const ARM = [1200, 1500, 1950, 2050, 1150, 1500];
+
+function standingAt({ body, board }: Robot, { servo, min, max, home }: RobotServo): number {
+  const position = body === 'arm' ? ARM[servo - 1] : undefined;
+  if (position === undefined) return home;
+  return Math.min(max, Math.max(min, rescaled(position, 'us', FAMILIES[board].unit)));
 }

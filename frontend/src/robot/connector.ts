@@ -2,9 +2,8 @@
 // robot at its end to the device. How each way is opened is ways.ts.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
-import type { BodyKind, Robot as RobotProfile } from '#shared/profile/robot.ts';
-import type { ServoTarget } from '#shared/codec/commands.ts';
-import { FAMILIES, type BoardId, type FamilyId } from '#shared/codec/families.ts';
+import type { BodyKind } from '#shared/profile/robot.ts';
+import type { BoardId, FamilyId } from '#shared/codec/families.ts';
 import { type Boards, recallReconnects, recallWay, rememberReconnects, rememberWay } from './remembered.ts';
 import type { Device } from './device.ts';
 import type { TextStorage } from '../state/storage.ts';
@@ -74,8 +73,6 @@ export interface Connector {
   leave(): void;
 }
 
-const GREETING_MS = 2000;
-
 const loadPorts = () => import('./gatewayPorts.ts');
 
 export interface ConnectorOptions {
@@ -87,8 +84,6 @@ export interface ConnectorOptions {
   readonly role: You['role'];
   /** It has answered already. */
   readonly isAtGateway: boolean;
-  /** The one at hand. */
-  robot(): RobotProfile;
   /** Of that build, on that board. */
   describeRobot(body: BodyKind, board: FamilyId): void;
   isWatched(): boolean;
@@ -208,7 +203,6 @@ export function createConnector(options: ConnectorOptions): Connector {
     const [module] = last?.kind === 'webBluetooth' && reconnects ? await lookForModules() : [];
     if (last?.kind === 'simulated' || (gateway === 'absent' && last === null)) {
       await connectFirst(ways.simulated(store.getState().board));
-      if (last === null) greet();
     } else if (!reconnects) return;
     else if (last?.kind === 'webSerial' && port !== undefined) await connectFirst(ways.webSerial(port.port));
     else if (board !== undefined) await connectFirst(ways.webHid(board.board));
@@ -226,12 +220,6 @@ export function createConnector(options: ConnectorOptions): Connector {
       label: words.link.useGateway,
       act: () => chosen(ways.gateway()),
     });
-  }
-
-  /** Until a way is chosen the simulated arm rises, so that the page is alive; no real robot ever moves by itself. */
-  function greet(): void {
-    const { unit, usualServoCount } = FAMILIES[store.getState().board];
-    if (unit === 'us' && usualServoCount === 6) device.move(greetingOf(options.robot()), GREETING_MS);
   }
 
   device.setAutoReconnect(store.getState().reconnects);
@@ -295,15 +283,4 @@ export function createConnector(options: ConnectorOptions): Connector {
       current?.robot.leave();
     },
   };
-}
-
-/** Readable: every joint away from the line of its neighbour. */
-const GREETING = [1200, 1500, 1950, 2050, 1150, 1500];
-
-/** The pose that the simulated arm rises to when the page opens: as far as this robot's limits let each joint. */
-export function greetingOf({ servos }: RobotProfile): readonly ServoTarget[] {
-  return servos.flatMap(({ servo, min, max }) => {
-    const position = GREETING[servo - 1];
-    return position === undefined ? [] : [{ servo, position: Math.min(max, Math.max(min, position)) }];
-  });
 }
