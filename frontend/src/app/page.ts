@@ -11,7 +11,7 @@ import { createBoards } from '../robot/remembered.ts';
 import { createCompiled } from '../features/board/compile/compiled.ts';
 import { createDevice } from '../robot/device.ts';
 import { createDocument } from '../features/groupDocument.ts';
-import type { TextStorage } from '../state/storage.ts';
+import { readText, saveText, storageOf } from '../state/storage.ts';
 import type { DocumentStore } from '#shared/files/documentStore.ts';
 import { followLanguage } from './language.ts';
 import { createLibrary } from '../features/library/library.ts';
@@ -150,7 +150,8 @@ export async function openPage({ me, problem }: Arrival): Promise<Page> {
   };
   watchLeaving(window, { hidden: paused, left });
   applyBatteryPolicy({ device, battery, robots, poses, notices });
-  if (!wasHere(storage)) void welcomeUntouched(() => noteVisit(storage), { device, robots });
+  if (readText(storage, VISITED_KEY) === null)
+    void welcomeUntouched(() => saveText(storage, VISITED_KEY, 'yes'), { device, robots });
   watchInputs(window, pad);
   tellHandedOver(device.store, notices);
   resetForOpenedGroup({ library, view, timeline });
@@ -196,22 +197,6 @@ async function welcomeUntouched(
   if (!signal.aborted) welcome({ device, robots, clock: pageClock, touched: signal, isWatched });
 }
 
-function wasHere(storage: TextStorage): boolean {
-  try {
-    return storage.getItem(VISITED_KEY) !== null;
-  } catch {
-    return true;
-  }
-}
-
-function noteVisit(storage: TextStorage): void {
-  try {
-    storage.setItem(VISITED_KEY, 'yes');
-  } catch {
-    // Storage is forbidden: each visit is the first one.
-  }
-}
-
 /** Not `randomUUID`, which is there only at secure addresses. */
 function newId(): string {
   const bytes = crypto.getRandomValues(new Uint8Array(16));
@@ -219,11 +204,3 @@ function newId(): string {
 }
 
 const isWatched = (): boolean => document.visibilityState === 'visible';
-
-/** Asking for the storage alone may throw; each access then throws instead, where it is expected. */
-function storageOf(found: () => Storage): TextStorage {
-  return {
-    getItem: (key) => found().getItem(key),
-    setItem: (key, text) => found().setItem(key, text),
-  };
-}

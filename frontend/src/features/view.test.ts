@@ -27,6 +27,29 @@ test('so are the unit of positions and how servos are laid out', () => {
   expect(createView(memories).getState()).toMatchObject({ positionsIn: 'degrees', servoLayout: 'body' });
 });
 
+test('so are the sound and the sizes of parts; a size that is no number is not taken', () => {
+  const memories = memoriesWith(null);
+  createView(memories).setState({ sound: 'muted', splits: { driveSide: 420 } });
+  expect(createView(memories).getState()).toMatchObject({ sound: 'muted', splits: { driveSide: 420 } });
+  memories.browser.setItem('servodeck.splits', '{"driveSide":"wide","boardLog":300}');
+  expect(createView(memories).getState().splits).toEqual({ boardLog: 300 });
+});
+
+test('a browser that forbids storage has the usual view', () => {
+  const forbidden = {
+    getItem: () => {
+      throw new DOMException('forbidden', 'SecurityError');
+    },
+    setItem: () => {
+      throw new DOMException('forbidden', 'SecurityError');
+    },
+  };
+  const view = createView({ browser: forbidden, tab: forbidden });
+  expect(view.getState()).toEqual(INITIAL_VIEW);
+  view.setState({ theme: 'dark' });
+  expect(view.getState().theme).toBe('dark');
+});
+
 test('what is worked on outlives a reload of its tab; another tab begins anew', () => {
   const memories = memoriesWith(null);
   createView(memories).setState({ tab: 'actions', authoring: 'poses' });

@@ -8,7 +8,7 @@ import {
   type StoredCalibration,
 } from '#shared/profile/calibration.ts';
 import { LANGUAGE_CODES, type Language } from '../i18n/words.ts';
-import type { TextStorage } from '../state/storage.ts';
+import { readText, saveText, type TextStorage } from '../state/storage.ts';
 import { GENTLE_MOVE_MS, type MoveTime } from '../robot/moves.ts';
 import { INITIAL_SERVO_VIEW, type ServoView } from './servoView.ts';
 
@@ -80,38 +80,49 @@ export interface ViewState {
 
 export type View = StoreApi<ViewState>;
 
-/** The storage key and schema of each remembered choice. The current task survives a reload in its tab only. */
-const REMEMBERED = {
-  theme: { by: 'browser', key: 'servodeck.view', values: ['system', 'light', 'dark'] },
-  language: { by: 'browser', key: 'servodeck.language', values: ['system', ...LANGUAGE_CODES] },
-  positionsIn: { by: 'browser', key: 'servodeck.positionsIn', values: ['board', 'degrees'] },
-  kiosk: { by: 'browser', key: 'servodeck.kiosk', values: ['on', 'off'] },
-  servoLayout: { by: 'browser', key: 'servodeck.servoLayout', values: ['list', 'body', 'model'] },
-  tab: { by: 'tab', key: 'servodeck.tab', values: ['live', 'actions', 'board', 'log', 'buttons'] },
-  picture: { by: 'browser', key: 'servodeck.picture', values: ['auto', 'drawing', 'body', 'model'] },
-  authoring: { by: 'tab', key: 'servodeck.authoring', values: ['group', 'poses', 'pad'] },
-  frameCards: { by: 'browser', key: 'servodeck.frameCards', values: ['shown', 'folded'] },
-  sound: { by: 'browser', key: 'servodeck.sound', values: ['on', 'muted'] },
-  driveBelow: { by: 'tab', key: 'servodeck.driveBelow', values: ['none', 'poses', 'pad'] },
-} as const satisfies { readonly [K in keyof ViewState]?: Memory<ViewState[K]> };
-
-const CALIBRATION_KEY = 'servodeck.calibration';
-const SPLITS_KEY = 'servodeck.splits';
-
 interface Memory<Value> {
   readonly by: keyof Memories;
   readonly key: string;
-  readonly values: readonly Value[];
+  toText(value: Value): string;
+  /** undefined for a text that this page did not write. */
+  fromText(text: string): Value | undefined;
 }
+
+const choice = <Value extends string>(
+  by: keyof Memories,
+  key: string,
+  values: readonly Value[],
+): Memory<Value> => ({
+  ...{ by, key },
+  toText: (value) => value,
+  fromText: (text) => values.find((value) => value === text),
+});
+
+/** How each remembered value is stored. The current task survives a reload in its tab only. */
+const REMEMBERED: { readonly [K in keyof ViewState]?: Memory<ViewState[K]> } = {
+  theme: choice('browser', 'servodeck.view', ['system', 'light', 'dark']),
+  language: choice('browser', 'servodeck.language', ['system', ...LANGUAGE_CODES]),
+  positionsIn: choice('browser', 'servodeck.positionsIn', ['board', 'degrees']),
+  kiosk: choice('browser', 'servodeck.kiosk', ['on', 'off']),
+  servoLayout: choice('browser', 'servodeck.servoLayout', ['list', 'body', 'model']),
+  tab: choice('tab', 'servodeck.tab', ['live', 'actions', 'board', 'log', 'buttons']),
+  picture: choice('browser', 'servodeck.picture', ['auto', 'drawing', 'body', 'model']),
+  authoring: choice('tab', 'servodeck.authoring', ['group', 'poses', 'pad']),
+  frameCards: choice('browser', 'servodeck.frameCards', ['shown', 'folded']),
+  sound: choice('browser', 'servodeck.sound', ['on', 'muted']),
+  driveBelow: choice('tab', 'servodeck.driveBelow', ['none', 'poses', 'pad']),
+  splits: { by: 'browser', key: 'servodeck.splits', toText: JSON.stringify, fromText: splitsFromText },
+  calibration: {
+    ...{ by: 'tab', key: 'servodeck.calibration' },
+    ...{ toText: calibrationToText, fromText: calibrationFromText },
+  },
+};
 
 /** The browser's storage for all visits, and the one of its tab. */
 export interface Memories {
   readonly browser: TextStorage;
   readonly tab: TextStorage;
 }
-
-type Remembered = keyof typeof REMEMBERED;
-const NAMES = Object.keys(REMEMBERED) as Remembered[];
 
 export const INITIAL_VIEW: ViewState = {
   tab: 'live',
@@ -160,51 +171,38 @@ export function workedOn({
 }
 
 export function createView(memories: Memories): View {
-  const view = createStore<ViewState>(() => ({ ...INITIAL_VIEW, ...load(memories) }));
+  const remembered = Object.entries(REMEMBERED).map(([name, memory]) =>
+    createMemory(memories, name as keyof ViewState, memory as Memory<unknown>),
+  );
+  const view = createStore<ViewState>(() => ({
+    ...INITIAL_VIEW,
+    ...Object.fromEntries(remembered.flatMap(({ load }) => load())),
+  }));
   view.subscribe((state, before) => {
-    for (const name of NAMES) {
-      const { by, key } = REMEMBERED[name];
-      if (state[name] !== before[name]) save(memories[by], key, state[name]);
-    }
-    if (state.splits !== before.splits) save(memories.browser, SPLITS_KEY, JSON.stringify(state.splits));
-    if (state.calibration !== before.calibration)
-      save(memories.tab, CALIBRATION_KEY, calibrationToText(state.calibration));
+    for (const { save } of remembered) save(state, before);
   });
   return view;
 }
 
-function load(memories: Memories): Partial<ViewState> {
-  try {
-    const known = NAMES.map((name) => {
-      const { by, key } = REMEMBERED[name];
-      return [name, memories[by].getItem(key)] as const;
-    });
-    const chosen = known.filter(([name, text]) => isOneOf(REMEMBERED[name].values, text));
-    const calibration = calibrationFromText(memories.tab.getItem(CALIBRATION_KEY) ?? '');
-    const splits = splitsFromText(memories.browser.getItem(SPLITS_KEY));
-    return { ...Object.fromEntries(chosen), calibration, splits };
-  } catch {
-    return {};
-  }
+function createMemory(memories: Memories, name: keyof ViewState, memory: Memory<unknown>) {
+  const storage = memories[memory.by];
+  return {
+    load(): readonly (readonly [keyof ViewState, unknown])[] {
+      const value = memory.fromText(readText(storage, memory.key) ?? '');
+      return value === undefined ? [] : [[name, value]];
+    },
+    save(state: ViewState, before: ViewState): void {
+      if (state[name] !== before[name]) saveText(storage, memory.key, memory.toText(state[name]));
+    },
+  };
 }
 
-function splitsFromText(text: string | null): ViewState['splits'] {
+function splitsFromText(text: string): ViewState['splits'] | undefined {
   try {
-    const sizes = new Map<string, unknown>(Object.entries(Object(JSON.parse(text ?? '{}')) as object));
+    const sizes = new Map<string, unknown>(Object.entries(Object(JSON.parse(text)) as object));
     const known = SPLITS.map((split) => [split, sizes.get(split)] as const);
     return Object.fromEntries(known.filter(([, size]) => typeof size === 'number'));
   } catch {
-    return {};
-  }
-}
-
-const isOneOf = (values: readonly string[], text: string | null): boolean =>
-  text !== null && values.includes(text);
-
-function save(storage: TextStorage, key: string, text: string): void {
-  try {
-    storage.setItem(key, text);
-  } catch {
-    // Storage is forbidden: the choice lasts as long as the page.
+    return undefined;
   }
 }

@@ -7,7 +7,7 @@ import type { ServoTarget } from '#shared/codec/commands.ts';
 import { FAMILIES, type FamilyId } from '#shared/codec/families.ts';
 import { nameOf } from './remembered.ts';
 import type { Device, DeviceState } from './device.ts';
-import { type TextStorage, createThrottle } from '../state/storage.ts';
+import { createThrottle, saveText, type TextStorage } from '../state/storage.ts';
 
 /** By servo. */
 export type Positions = Readonly<Record<number, number>>;
@@ -39,11 +39,7 @@ export function createLastPoses(storage: TextStorage, device: Device): LastPoses
     const after = withPose(before, latest, device.pose());
     if (after === before) return;
     store.setState(after, true);
-    try {
-      storage.setItem(KEY, JSON.stringify(store.getState()));
-    } catch {
-      // This visit still knows.
-    }
+    saveText(storage, KEY, JSON.stringify(after));
   }
 
   device.store.subscribe((state, before) => {

@@ -5,7 +5,7 @@ import { createStore, type StoreApi } from 'zustand/vanilla';
 import { FAMILIES, type FamilyId } from '#shared/codec/families.ts';
 import type { SlotMemory } from '#shared/robot/download.ts';
 import type { Way, WayKind } from './device.ts';
-import type { TextStorage } from '../state/storage.ts';
+import { readText, saveText, type TextStorage } from '../state/storage.ts';
 
 interface KnownBoard {
   readonly family: FamilyId;
@@ -34,11 +34,7 @@ export function createBoards(storage: TextStorage): Boards {
 
   function put(way: BoardWay, board: KnownBoard): void {
     store.setState({ [nameOf(way)]: board });
-    try {
-      storage.setItem(BOARDS_KEY, JSON.stringify(store.getState()));
-    } catch {
-      // This visit still knows.
-    }
+    saveText(storage, BOARDS_KEY, JSON.stringify(store.getState()));
   }
 
   const recall = (way: BoardWay): KnownBoard | undefined => store.getState()[nameOf(way)];
@@ -85,26 +81,14 @@ export function rememberSlots(storage: TextStorage, way: () => BoardWay): SlotMe
   return {
     read() {
       key = keyNow();
-      return slotsIn(thisVisit.get(key) ?? stored(storage, key));
+      return slotsIn(thisVisit.get(key) ?? readText(storage, key) ?? '');
     },
     write(brokenSlots) {
       const text = brokenSlots.join(' ');
       thisVisit.set(key, text);
-      try {
-        storage.setItem(key, text);
-      } catch {
-        // This visit still knows.
-      }
+      saveText(storage, key, text);
     },
   };
-}
-
-function stored(storage: TextStorage, key: string): string {
-  try {
-    return storage.getItem(key) ?? '';
-  } catch {
-    return '';
-  }
 }
 
 /** Whatever else stands there was not written here and is passed over. */
@@ -127,38 +111,20 @@ const KINDS: readonly string[] = [
 ] satisfies WayKind[];
 
 export function rememberWay(storage: TextStorage, { kind, board }: LastWay): void {
-  try {
-    storage.setItem(WAY_KEY, `${kind} ${board}`);
-  } catch {
-    // The way is chosen again next time.
-  }
+  saveText(storage, WAY_KEY, `${kind} ${board}`);
 }
 
 export function recallWay(storage: TextStorage): LastWay | null {
-  try {
-    const [kind = '', board = ''] = storage.getItem(WAY_KEY)?.split(' ') ?? [];
-    if (!KINDS.includes(kind) || !(board in FAMILIES)) return null;
-    return { kind: kind as LastWay['kind'], board: board as FamilyId };
-  } catch {
-    return null;
-  }
+  const [kind = '', board = ''] = readText(storage, WAY_KEY)?.split(' ') ?? [];
+  if (!KINDS.includes(kind) || !(board in FAMILIES)) return null;
+  return { kind: kind as LastWay['kind'], board: board as FamilyId };
 }
 
 const RECONNECTS_KEY = 'servodeck.reconnects';
 
-/** Links come back by themselves unless a person has said otherwise. */
-export function recallReconnects(storage: TextStorage): boolean {
-  try {
-    return storage.getItem(RECONNECTS_KEY) !== 'off';
-  } catch {
-    return true;
-  }
-}
+/** Links come back by themselves unless a person chose otherwise. */
+export const recallReconnects = (storage: TextStorage): boolean =>
+  readText(storage, RECONNECTS_KEY) !== 'off';
 
-export function rememberReconnects(storage: TextStorage, reconnects: boolean): void {
-  try {
-    storage.setItem(RECONNECTS_KEY, reconnects ? 'on' : 'off');
-  } catch {
-    // It holds until the page is closed.
-  }
-}
+export const rememberReconnects = (storage: TextStorage, reconnects: boolean): void =>
+  saveText(storage, RECONNECTS_KEY, reconnects ? 'on' : 'off');

@@ -1,4 +1,5 @@
-// The browser's text storage, and writes that wait a moment so that many edits make one write. Knows no document.
+// The browser's text storage, how a choice is remembered in it, and writes that wait a moment so that many edits make one write. Knows no
+// document.
 
 import type { Clock } from '#shared/clock.ts';
 
@@ -6,6 +7,32 @@ import type { Clock } from '#shared/clock.ts';
 export interface TextStorage {
   getItem(key: string): string | null;
   setItem(key: string, text: string): void;
+}
+
+/** In some browsers reading `window.localStorage` throws; here that happens at each access, as in any other storage that is forbidden. */
+export function storageOf(found: () => Storage): TextStorage {
+  return {
+    getItem: (key) => found().getItem(key),
+    setItem: (key, text) => found().setItem(key, text),
+  };
+}
+
+/** null where nothing is stored or storage is forbidden. */
+export function readText(storage: TextStorage, key: string): string | null {
+  try {
+    return storage.getItem(key);
+  } catch {
+    return null;
+  }
+}
+
+/** For choices: where storage is forbidden or full, they last as long as the page. */
+export function saveText(storage: TextStorage, key: string, text: string): void {
+  try {
+    storage.setItem(key, text);
+  } catch {
+    // The caller still has it.
+  }
 }
 
 interface Throttle {

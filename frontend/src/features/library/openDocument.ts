@@ -6,7 +6,7 @@ import { type ActionGroup, groupFromText, sameGroup } from '#shared/group/group.
 import { LibraryError, type Listed } from '#shared/files/documentStore.ts';
 import { record, startHistory, type History, type Label } from '#shared/document/history.ts';
 import type { Document } from '../groupDocument.ts';
-import type { TextStorage } from '../../state/storage.ts';
+import { saveText, type TextStorage } from '../../state/storage.ts';
 
 /** Parses the text of a group. Throws a LibraryError if this version cannot read it. */
 export function groupOf(text: string): ActionGroup {
@@ -58,13 +58,8 @@ export function createOpenDocument(
 
   const revisionOf = (of: string): number => revisions.get(of) ?? 0;
 
-  function remember(): void {
-    try {
-      storage.setItem(KEY, JSON.stringify({ id, revision: revisionOf(id) }));
-    } catch {
-      // The document has already reported that this browser stores nothing.
-    }
-  }
+  /** Where storage is forbidden, the document has already reported it. */
+  const remember = (): void => saveText(storage, KEY, JSON.stringify({ id, revision: revisionOf(id) }));
 
   // Now, so that changes made before the first answer are found under this id again.
   remember();

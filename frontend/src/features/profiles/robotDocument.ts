@@ -7,7 +7,7 @@ import { kitFromText, kitToText, type Kit } from '#shared/profile/robotText.ts';
 import { startHistory, type History } from '#shared/document/history.ts';
 import type { Robot } from '#shared/profile/robot.ts';
 import type { Read, TextFlaw } from '#shared/document/schema.ts';
-import type { TextStorage } from '../../state/storage.ts';
+import { saveText, type TextStorage } from '../../state/storage.ts';
 import type { Notices } from '../../state/notices.ts';
 import type { OwnRobot, RobotStore } from './robots.ts';
 import { createUndoable, type Undoable } from '../../state/undoable.ts';
@@ -36,11 +36,8 @@ export function saveKnown(storage: TextStorage, known: ReadonlyMap<number, Known
     id,
     { document, revision, text: kitToText(kit) },
   ]);
-  try {
-    storage.setItem(KEY, JSON.stringify(Object.fromEntries(rows)));
-  } catch {
-    // The robots have already reported that this browser stores nothing.
-  }
+  // Where storage is forbidden, the robots have already reported it.
+  saveText(storage, KEY, JSON.stringify(Object.fromEntries(rows)));
 }
 
 export function loadKnown(storage: TextStorage): Map<number, Known> {
