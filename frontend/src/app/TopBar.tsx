@@ -11,14 +11,13 @@ import { BatteryReadout } from '../features/battery/BatteryReadout.tsx';
 import { IconButton } from '../ui/Button.tsx';
 import { PeopleButton } from '../features/people/PeopleDialog.tsx';
 import { boardName } from '../i18n/sentences.ts';
-import { LinkChip } from '../features/connect/LinkChip.tsx';
-import { StatusLine, type StatusLineProps } from '../features/connect/StatusLine.tsx';
-import { ActionsButton } from './ActionsDialog.tsx';
+import { LinkChip, StatusLine, type StatusLineProps } from '../features/connect/StatusLine.tsx';
+import { ActionsButton } from './dialogs.tsx';
 import { THEME } from './pageActions.ts';
 import { PART } from '../ui/focus.ts';
 import styles from './TopBar.module.css';
 import { useLayout } from '../ui/useLayout.ts';
-import { WorkspaceSwitch } from './workspaces/WorkspaceSwitch.tsx';
+import { WorkspaceSwitch } from './workspaces/parts.tsx';
 
 // Which language the page speaks. Each is called by its own name, for whoever cannot read the others.
 

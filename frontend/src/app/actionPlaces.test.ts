@@ -5,7 +5,7 @@ import { createMappings } from '../features/inputs/pad.ts';
 import { createTestPage } from '../features/pageUnderTest.ts';
 import type { Stores } from '../features/stores.ts';
 import { LANGUAGE_CODES, speak } from '../i18n/words.ts';
-import { ACTION_PLACES } from './actionPlaces.ts';
+import { ACTION_PLACES } from './ActionList.tsx';
 
 afterEach(() => speak('en'));
 

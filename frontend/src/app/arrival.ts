@@ -3,9 +3,8 @@
 
 import type { StoreApi } from 'zustand/vanilla';
 import type { DeviceState } from '../robot/device.ts';
-import { PeopleError } from '../features/people/people.ts';
+import { PeopleError, pair, readMe } from '../features/people/people.ts';
 import type { Me, PairWish, You } from '../robot/http.generated.ts';
-import { pair, readMe } from '../features/people/peopleApi.ts';
 
 export interface Arrival {
   /** null: no gateway serves this page. */
@@ -97,4 +96,20 @@ export function beginAnewAsAnother(
       if (isAnother(you, now)) begin();
     });
   });
+}
+
+export interface Leaving {
+  /** Timers get slow now, and nobody looks. */
+  hidden(): void;
+  /** Closed, reloaded, frozen, or kept for the way back. */
+  left(): void;
+}
+
+export function watchLeaving(page: Pick<Window, 'addEventListener' | 'document'>, leaving: Leaving): void {
+  const { document } = page;
+  document.addEventListener('visibilitychange', () => {
+    if (document.visibilityState === 'hidden') leaving.hidden();
+  });
+  document.addEventListener('freeze', leaving.left);
+  page.addEventListener('pagehide', leaving.left);
 }

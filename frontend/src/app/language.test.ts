@@ -3,9 +3,8 @@ import { createVirtualClock } from '#shared/testing/virtualClock.ts';
 import { undoLabel } from '#shared/document/history.ts';
 import { speak, words } from '../i18n/words.ts';
 import { createTestPage } from '../features/pageUnderTest.ts';
-import { followLanguage } from './language.ts';
+import { followLanguage, createView } from '../features/view.ts';
 import { createNotices } from '../state/notices.ts';
-import { createView } from '../features/view.ts';
 
 afterEach(() => speak('en'));
 

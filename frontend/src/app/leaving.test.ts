@@ -1,7 +1,7 @@
 // Each way in which a page goes, as the browser tells it.
 
 import { expect, test } from 'vitest';
-import { watchLeaving } from './leaving.ts';
+import { watchLeaving } from './arrival.ts';
 
 function openPage(): { page: Window; events: string[]; show(state: DocumentVisibilityState): void } {
   const document = Object.assign(new EventTarget(), {

@@ -5,7 +5,7 @@ import { createRoot } from 'react-dom/client';
 import { App } from './App.tsx';
 import { arrive, deviceName } from './arrival.ts';
 import { openPage } from './page.ts';
-import { pair, sayName, stopRobot } from '../features/people/peopleApi.ts';
+import { pair, sayName, stopRobot } from '../features/people/people.ts';
 import { isWithoutGateway } from '../robot/request.ts';
 import { preferredLanguage, speak } from '../i18n/words.ts';
 import '../ui/fonts.css';

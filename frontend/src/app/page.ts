@@ -3,29 +3,25 @@
 import type { Clock } from '#shared/clock.ts';
 import { FAMILIES } from '#shared/codec/families.ts';
 import { createCollisions } from '../features/board/compile/collisions.ts';
-import { createCompileWorker } from '../features/board/compile/compileInWorker.ts';
-import { createBattery, pollBattery } from '../features/battery/battery.ts';
-import { applyBatteryPolicy } from '../features/battery/batteryPolicy.ts';
-import { createBlend } from '../features/poses/blend.ts';
-import { createBoards } from '../robot/remembered.ts';
-import { createCompiled } from '../features/board/compile/compiled.ts';
+import { createCompileWorker, createCompiled } from '../features/board/compile/compiled.ts';
+import { createBattery, pollBattery, applyBatteryPolicy } from '../features/battery/battery.ts';
+import { createBlend, createPoses } from '../features/poses/poses.ts';
+import { createBoards, createLastPoses } from '../robot/remembered.ts';
 import { createDevice } from '../robot/device.ts';
 import { createDocument } from '../features/groupDocument.ts';
 import { readText, saveText, storageOf } from '../state/storage.ts';
 import type { DocumentStore } from '#shared/files/documentStore.ts';
-import { followLanguage } from './language.ts';
+import { followLanguage, createView } from '../features/view.ts';
 import { createLibrary } from '../features/library/library.ts';
-import { createLastPoses } from '../robot/lastPoses.ts';
 import { createMacroRun, createMacros } from '../features/buttons/macroRun.ts';
 import { createMappings, createPad, watchInputs } from '../features/inputs/pad.ts';
-import { tellHandedOver } from '../features/people/leaseText.ts';
+import { tellHandedOver } from '../features/people/LeaseChip.tsx';
 import { createGroupPlace } from '../features/board/slots/groupPlace.ts';
 import { createMotionTape } from '../features/animate/play/motionTape.ts';
 import { createNotices } from '../state/notices.ts';
-import { createPeople, peopleProblem } from '../features/people/people.ts';
+import { createPeople, peopleProblem, peopleApi } from '../features/people/people.ts';
 import type { Me } from '../robot/http.generated.ts';
 import { createPlayback, createPlayhead } from '../features/animate/play/playback.ts';
-import { createPoses } from '../features/poses/poses.ts';
 import { createTeaching } from '../features/drive/teaching.ts';
 import { createRobotSync } from '../features/profiles/robotSync.ts';
 import { followRobot } from '../features/profiles/robotOfLink.ts';
@@ -34,17 +30,10 @@ import { findOthersGroups } from '../features/board/slots/othersGroups.ts';
 import { createReplacing } from '../features/board/slots/replacing.ts';
 import { createSlots } from '../features/board/slots/slots.ts';
 import type { Stores } from '../features/stores.ts';
-import {
-  createTimeline,
-  resetForOpenedGroup,
-  restoreSelection,
-} from '../features/animate/timeline/timeline.ts';
-import { createView } from '../features/view.ts';
+import { createTimeline, resetForOpenedGroup, restoreSelection } from '../features/animate/timeline/timeline.ts';
 import { browserClock } from '../robot/links/browserClock.ts';
 import { hasGateway, putOnBoard } from '../robot/gatewayApi.ts';
-import { beginAnewAsAnother, type Arrival } from './arrival.ts';
-import { peopleApi } from '../features/people/peopleApi.ts';
-import { watchLeaving } from './leaving.ts';
+import { beginAnewAsAnother, type Arrival, watchLeaving } from './arrival.ts';
 import { createConnector, type Connector } from '../robot/connector.ts';
 
 const VISITED_KEY = 'servodeck.visited';
@@ -131,7 +120,7 @@ export async function openPage({ me, problem }: Arrival): Promise<Page> {
     role: me?.you?.role ?? 'owner',
     isAtGateway: me !== null,
     describeRobot: (body, board) =>
-      void import('../features/connect/robotOfKind.ts').then(
+      void import('../features/connect/RobotQuestion.tsx').then(
         ({ takeUpKind }) => takeUpKind(robots, body, board),
         notices.tellError,
       ),

@@ -11,30 +11,22 @@ import type { History } from '#shared/document/history.ts';
 import type { MacroPage } from '#shared/profile/macro.ts';
 import type { PoseBook } from '#shared/profile/pose.ts';
 import type { BatteryState, BatteryStore } from './battery/battery.ts';
-import type { Blend, BlendState } from './poses/blend.ts';
-import type { Boards } from '../robot/remembered.ts';
+import type { Blend, BlendState, Poses } from './poses/poses.ts';
+import { type Boards, guessesOf, guessOf, type LastPoses, type Positions } from '../robot/remembered.ts';
 import type { CollisionState, CollisionStore } from './board/compile/collisions.ts';
 import type { CompiledState, CompiledStore } from './board/compile/compiled.ts';
 import type { MotionTape } from './animate/play/motionTape.ts';
 import type { Mapping } from '#shared/profile/mapping.ts';
 import type { Device, DeviceState } from '../robot/device.ts';
-import {
-  type Document,
-  type DocumentState,
-  boardOfGroup,
-  knownFamily,
-  type GroupBoard,
-} from './groupDocument.ts';
+import { type Document, type DocumentState, boardOfGroup, knownFamily, type GroupBoard } from './groupDocument.ts';
 import { currentOf, type RobotStore } from './profiles/robots.ts';
 import type { RobotSync } from './profiles/robotSync.ts';
-import { guessesOf, guessOf, type LastPoses, type Positions } from '../robot/lastPoses.ts';
 import type { Notices } from '../state/notices.ts';
 import { servoViewFor, type ServoView } from './servoView.ts';
 import type { Pad, PadState } from './inputs/pad.ts';
 import type { MacroRun } from './buttons/macroRun.ts';
 import type { Playback, PlaybackState, Playhead } from './animate/play/playback.ts';
 import type { PeopleStore } from './people/people.ts';
-import type { Poses } from './poses/poses.ts';
 import type { Teaching } from './drive/teaching.ts';
 import type { GroupPlace } from './board/slots/groupPlace.ts';
 import type { Replacing } from './board/slots/replacing.ts';

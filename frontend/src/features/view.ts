@@ -2,15 +2,12 @@
 // the browser's tab remembers the current task and calibration. Knows no link.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
-import {
-  calibrationFromText,
-  calibrationToText,
-  type StoredCalibration,
-} from '#shared/profile/calibration.ts';
-import { LANGUAGE_CODES, type Language } from '../i18n/words.ts';
+import { calibrationFromText, calibrationToText, type StoredCalibration } from '#shared/profile/calibration.ts';
+import { LANGUAGE_CODES, type Language, preferredLanguage, speak, words } from '../i18n/words.ts';
 import { readText, saveText, type TextStorage } from '../state/storage.ts';
 import { GENTLE_MOVE_MS, type MoveTime } from '../robot/moves.ts';
 import { INITIAL_SERVO_VIEW, type ServoView } from './servoView.ts';
+import type { Notices } from '../state/notices.ts';
 
 /**
  * `live` is the workspace Drive, `actions` Animate. A wide screen has the log in the workspace of the board, and below the others; a
@@ -205,4 +202,25 @@ function splitsFromText(text: string): ViewState['splits'] | undefined {
   } catch {
     return undefined;
   }
+}
+
+export interface LanguageOptions {
+  readonly view: View;
+  readonly notices: Notices;
+  /** As `navigator.languages`. */
+  readonly tags: readonly string[];
+}
+
+/** Resolves once the first one is spoken, so that nothing is named in another. */
+export async function followLanguage({ view, notices, tags }: LanguageOptions): Promise<void> {
+  async function follow(): Promise<void> {
+    const { language } = view.getState();
+    await speak(language === 'system' ? preferredLanguage(tags) : language).catch(() =>
+      notices.tell('warning', words.language.notLoaded),
+    );
+  }
+  view.subscribe((state, before) => {
+    if (state.language !== before.language) void follow();
+  });
+  await follow();
 }

@@ -5,6 +5,8 @@ import { LinkError } from '#shared/robot/linkError.ts';
 import { ANSWER_WITHIN_MS } from './gatewayApi.ts';
 import { askGateway } from './links/gatewayHttp.ts';
 import { isRecord } from './request.ts';
+import { findRate, type HeardAtRate } from './links/otherRates.ts';
+import type { Opening } from './ways.ts';
 
 export interface GatewayPort {
   readonly device: string;
@@ -45,4 +47,28 @@ function isPort(value: unknown): value is GatewayPort {
     typeof value.description === 'string' &&
     typeof value.inUse === 'boolean'
   );
+}
+
+export interface FindRateOptions {
+  readonly isReadable: (heard: HeardAtRate) => boolean;
+  detach(): Promise<void>;
+  reopen(port: SerialPort): Promise<void>;
+}
+
+/** null where nothing that can be read arrives by itself. Rejects with a LinkError. */
+export async function findRateOf(opening: Opening, options: FindRateOptions): Promise<FoundRate | null> {
+  return opening.way().kind === 'gateway' ? findGatewayRate() : findHere(opening.port as SerialPort, options);
+}
+
+async function findHere(
+  port: SerialPort,
+  { isReadable, detach, reopen }: FindRateOptions,
+): Promise<FoundRate | null> {
+  await detach();
+  try {
+    const heard = await findRate(port, isReadable);
+    return heard && { baud: heard.baud, kind: heard.packets > 0 ? 'packets' : 'text' };
+  } finally {
+    await reopen(port);
+  }
 }

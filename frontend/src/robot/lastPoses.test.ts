@@ -2,7 +2,7 @@ import { expect, test } from 'vitest';
 import { FAMILIES } from '#shared/codec/families.ts';
 import { createRig, firstMovesMs } from '#shared/robot/rig.ts';
 import { createDevice, type Way } from './device.ts';
-import { createLastPoses, guessesOf } from './lastPoses.ts';
+import { createLastPoses, guessesOf } from './remembered.ts';
 import { createNotices } from '../state/notices.ts';
 import { createRobots } from '../features/profiles/robots.ts';
 

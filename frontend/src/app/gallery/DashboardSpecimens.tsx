@@ -12,7 +12,7 @@ import { BoardPanel } from '../../features/board/BoardPanel.tsx';
 import { pageClock } from '../page.ts';
 import { LogPanel } from '../../features/log/LogPanel.tsx';
 import { ThisBoard } from '../../features/connect/identity/ThisBoard.tsx';
-import { LivePanel } from '../LivePanel.tsx';
+import { LivePanel } from '../workspaces/parts.tsx';
 import type { BatteryStore } from '../../features/battery/battery.ts';
 import { nameOf } from '../../robot/remembered.ts';
 import type { RobotStore } from '../../features/profiles/robots.ts';

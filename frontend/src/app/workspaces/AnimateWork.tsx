@@ -2,13 +2,12 @@
 // the board.
 
 import { Authoring } from '../Authoring.tsx';
-import { LivePanel } from '../LivePanel.tsx';
+import { LivePanel, Split, sized } from './parts.tsx';
 import { CompileRow } from '../../features/animate/group/CompileRow.tsx';
 import { BatteryPanel } from '../../features/battery/BatteryPanel.tsx';
 import { BoardPanel } from '../../features/board/BoardPanel.tsx';
 import { useView } from '../../features/stores.ts';
 import { useLayout } from '../../ui/useLayout.ts';
-import { Split, sized } from './Split.tsx';
 import styles from './Workspaces.module.css';
 
 const SIDE = { min: 400, max: 720 };

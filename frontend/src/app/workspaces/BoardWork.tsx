@@ -7,7 +7,7 @@ import { LogPanel } from '../../features/log/LogPanel.tsx';
 import { useView } from '../../features/stores.ts';
 import panel from '../../ui/Panel.module.css';
 import { useLayout } from '../../ui/useLayout.ts';
-import { Split, sized } from './Split.tsx';
+import { Split, sized } from './parts.tsx';
 import styles from './Workspaces.module.css';
 
 const LOG = { usual: 320, min: 160, max: 720 };

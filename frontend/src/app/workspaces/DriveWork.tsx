@@ -1,12 +1,11 @@
 // The workspace Drive on a wide screen: the robot large, its sliders beside it, and below it the poses or the keys and the pad.
 
 import { BelowRobot } from '../Authoring.tsx';
-import { LivePanel } from '../LivePanel.tsx';
+import { LivePanel, Split, sized } from './parts.tsx';
 import { RobotPanel } from '../../features/drive/RobotPanel.tsx';
 import { useView } from '../../features/stores.ts';
 import { useLayout } from '../../ui/useLayout.ts';
 import { laterComponent } from '../../ui/later.tsx';
-import { Split, sized } from './Split.tsx';
 import styles from './Workspaces.module.css';
 
 const TryMotion = laterComponent(async () => (await import('./TryMotion.tsx')).TryMotion, '0');

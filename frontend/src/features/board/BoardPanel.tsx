@@ -4,19 +4,11 @@ import { useId, useRef, type ReactNode, type RefObject } from 'react';
 import { slotTrigger } from '#shared/codec/families.ts';
 import type { Activity } from '#shared/robot/state.ts';
 import { motionHindrance } from '../../robot/readiness.ts';
-import {
-  useSnapshot,
-  useStores,
-  useCollisions,
-  useCompiled,
-  useDevice,
-  useDocument,
-  useSlot,
-} from '../stores.ts';
+import { useSnapshot, useStores, useCollisions, useCompiled, useDevice, useDocument, useSlot } from '../stores.ts';
 import { Button } from '../../ui/Button.tsx';
 import { words } from '../../i18n/words.ts';
 import { useSlotContents, CONTENT_TRUTH, useHeldName } from './slots/slotHooks.ts';
-import { runAsChosen, useRunSettings } from './runSettings.ts';
+import { runAsChosen, useRunSettings } from './RunSettings.tsx';
 import { obstacles } from './compile/compiled.ts';
 import { Chip } from '../../ui/Chip.tsx';
 import { NumberField } from '../../ui/NumberField.tsx';

@@ -1,12 +1,13 @@
 // How often Run repeats the chosen slot: a number of times or until stopped, and whether the run may continue without this page.
 
-import { useSnapshot, useStores, useView, useDevice } from '../stores.ts';
+import { useSnapshot, useStores, useView, useDevice, useSlot } from '../stores.ts';
 import { NumberField } from '../../ui/NumberField.tsx';
 import { Toggle } from '../../ui/Toggle.tsx';
 import { words } from '../../i18n/whole.ts';
-import { useRunSettings } from './runSettings.ts';
 import field from '../../ui/Field.module.css';
 import styles from './BoardPanel.module.css';
+import type { Device } from '../../robot/device.ts';
+import type { View } from '../view.ts';
 
 const LONGEST_MINUTES = 60;
 
@@ -103,4 +104,43 @@ function TimesField({ untilStopped }: { readonly untilStopped: boolean }) {
       />
     </div>
   );
+}
+
+export interface ChosenRun {
+  readonly slot: number;
+  /** 0: until stopped. */
+  readonly times: number;
+  readonly untilStopped: boolean;
+  /** Some boards take no number of times for "without end". */
+  readonly canRepeat: boolean;
+}
+
+export function useRunSettings(): ChosenRun {
+  const slot = useSlot();
+  const canRepeat = useDevice((state) => state.family.zeroTimes === 'endless');
+  const untilStopped = useView((state) => state.untilStopped) && canRepeat;
+  const times = useView((state) => state.times);
+  return { slot, canRepeat, untilStopped, times: untilStopped ? 0 : times };
+}
+
+// A run as it was chosen beside its button: bound to this page, or, for this one time, to go on without it.
+
+interface Parts {
+  readonly device: Device;
+  readonly view: View;
+}
+
+/** `settled` as for `device.run`. */
+export function runAsChosen(
+  { device, view }: Parts,
+  slot: number,
+  times: number,
+  settled: (isTaken: boolean) => void = () => undefined,
+): void {
+  const { keepsRunning, keepRunningMinutes } = view.getState();
+  view.setState({ keepsRunning: false });
+  device.run(slot, times, (isTaken) => {
+    if (isTaken && keepsRunning) device.keepRunning(keepRunningMinutes * 60_000);
+    settled(isTaken);
+  });
 }

@@ -1,12 +1,30 @@
 // What to do when the robot is not in a chooser's list or may not be opened, for this operating system.
 
 import { useState } from 'react';
+
 import USB from '../../../../shared/protocol/usb.json' with { type: 'json' };
 import { Choice } from '../../ui/Toggle.tsx';
 import { words, type Words } from '../../i18n/whole.ts';
 import { CopyButton } from './CopyButton.tsx';
-import { SYSTEMS, operatingSystem, type OperatingSystem } from './operatingSystem.ts';
 import styles from './PortGuide.module.css';
+
+export const SYSTEMS = ['windows', 'macos', 'linux', 'chromeos'] as const;
+export type OperatingSystem = (typeof SYSTEMS)[number];
+
+const SIGNS: readonly (readonly [RegExp, OperatingSystem])[] = [
+  [/cros|chrome ?os/i, 'chromeos'],
+  [/win/i, 'windows'],
+  [/mac|iphone|ipad/i, 'macos'],
+];
+
+export function operatingSystemIn(platform: string): OperatingSystem {
+  return SIGNS.find(([sign]) => sign.test(platform))?.[1] ?? 'linux';
+}
+
+export function operatingSystem(): OperatingSystem {
+  const { userAgentData } = navigator as { userAgentData?: { readonly platform?: string } };
+  return operatingSystemIn(userAgentData?.platform ?? navigator.userAgent);
+}
 
 /** A serial port, the board's own USB cable, or both at a gateway, without the browser's part. */
 export type GuideKind = 'serial' | 'hid' | 'gateway';

@@ -15,6 +15,8 @@ import { secondsLeft } from '../../i18n/numbers.ts';
 import { words } from '../../i18n/words.ts';
 import { LeaseChip, UnattendedChip } from '../people/LeaseChip.tsx';
 import styles from './StatusLine.module.css';
+import { pressOnce } from '../../ui/inputEvents.ts';
+import linkChip from './LinkChip.module.css';
 
 export interface StatusLineProps {
   /** Its place in the bar. */
@@ -184,4 +186,52 @@ function activityWords(activity: Activity, played: Played | null): string {
     case 'erasing':
       return words.activity.erasing;
   }
+}
+
+const TRUTH: Readonly<Record<LinkState['status'], Truth>> = {
+  closed: 'neutral',
+  opening: 'unknown',
+  identifying: 'unknown',
+  ready: 'confirmed',
+  stale: 'warning',
+  lost: 'danger',
+  refused: 'danger',
+};
+
+export function LinkChip() {
+  const { view } = useStores();
+  const status = useSnapshot((snapshot) => snapshot.link.status);
+  const mustChoose = useSnapshot(({ link }) => link.status === 'refused' && link.error.code === 'closed');
+  const way = useDevice((state) => state.way);
+  const isSimulated = way?.isSimulated === true;
+  const connects = way === null || isSimulated || mustChoose;
+  const open = (): void => view.setState({ connectOpen: true });
+  const label = way === null || isSimulated ? '' : way.label;
+  const said = isSimulated ? words.link.simulated : words.link.status[status];
+  return (
+    <div className={linkChip.link} data-connects={connects}>
+      <button
+        type="button"
+        className={linkChip.chip}
+        aria-label={
+          label === '' ? words.link.chip({ status: said }) : words.link.chipWithPort({ status: said, label })
+        }
+        onClick={open}
+        onKeyDown={pressOnce}
+      >
+        <Mark truth={TRUTH[status]} />
+        <span className={linkChip.word}>{words.link.status[status]}</span>
+        {isSimulated ? (
+          <span className={linkChip.badge}>{words.link.simulated}</span>
+        ) : (
+          <span className={linkChip.label}>{label}</span>
+        )}
+      </button>
+      {connects && (
+        <Button tone={status === 'ready' ? 'plain' : 'primary'} icon="plug" onPress={open}>
+          {words.link.connect}
+        </Button>
+      )}
+    </div>
+  );
 }

@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { operatingSystemIn } from './operatingSystem.ts';
+import { operatingSystemIn } from './PortGuide.tsx';
 
 test.each([
   ['Windows', 'windows'],

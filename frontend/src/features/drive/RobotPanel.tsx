@@ -7,10 +7,12 @@ import { laterComponent } from '../../ui/later.tsx';
 import { Panel } from '../../ui/Panel.tsx';
 import { Choice } from '../../ui/Toggle.tsx';
 import { Body, RobotView } from '../picture/Body.tsx';
-import { useRobot, useStores, useView } from '../stores.ts';
+import { useRobot, useStores, useView, useIsGuessing, useKnownFamily } from '../stores.ts';
 import type { ViewState } from '../view.ts';
-import { Legend } from './Legend.tsx';
 import styles from './RobotPanel.module.css';
+import { tellsPositions } from '../../robot/readiness.ts';
+import { Chip } from '../../ui/Chip.tsx';
+import legend from './Legend.module.css';
 
 export const BodyMap = laterComponent(async () => (await import('../picture/BodyMap.tsx')).BodyMap, '100%');
 
@@ -79,3 +81,42 @@ export function RobotPanel({ children }: { readonly children?: ReactNode }) {
 
 const labelOf = (picture: Picture): string =>
   picture === 'drawing' ? words.workspace.drawing : words.servoPanel.layouts[picture];
+
+const COMPUTED = ['commanded', 'estimated', 'unknown'] as const;
+const ALL = ['commanded', 'estimated', 'confirmed', 'unknown'] as const;
+
+export function Legend() {
+  const family = useKnownFamily();
+  const isGuessing = useIsGuessing();
+  return (
+    <ul className={legend.legend} aria-label={words.truth.legend}>
+      {(tellsPositions(family) ? ALL : COMPUTED).map((truth) => (
+        <li key={truth}>
+          <Chip truth={truth}>{words.truth[truth]}</Chip>
+        </li>
+      ))}
+      {isGuessing && (
+        <li>
+          <Chip truth="guessed">{words.firstMoves.guess}</Chip>
+        </li>
+      )}
+    </ul>
+  );
+}
+
+export function UnitChoice() {
+  const { view } = useStores();
+  const family = useKnownFamily();
+  const positionsIn = useView((state) => state.positionsIn);
+  return (
+    <Choice
+      label={words.servoPanel.positionsIn}
+      value={positionsIn}
+      options={[
+        { value: 'board', label: words.units[family.unit] },
+        { value: 'degrees', label: words.servoPanel.degrees },
+      ]}
+      onChange={(wanted) => view.setState({ positionsIn: wanted })}
+    />
+  );
+}

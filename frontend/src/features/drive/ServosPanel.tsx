@@ -3,16 +3,7 @@
 
 import { useState } from 'react';
 import { type BodyKind, servoOf } from '#shared/profile/robot.ts';
-import {
-  useStores,
-  useRobot,
-  useServoView,
-  useDevice,
-  useView,
-  editServoView,
-  useIsTeaching,
-  useSnapshot,
-} from '../stores.ts';
+import { useStores, useRobot, useServoView, useDevice, useView, editServoView, useIsTeaching, useSnapshot } from '../stores.ts';
 import { LiveText } from '../../ui/LiveText.tsx';
 import { words } from '../../i18n/words.ts';
 import { SharedSheet } from '../picture/SharedSheet.tsx';
@@ -24,8 +15,7 @@ import { Button } from '../../ui/Button.tsx';
 import { laterComponent } from '../../ui/later.tsx';
 import { NumberField } from '../../ui/NumberField.tsx';
 import { Body, RobotView } from '../picture/Body.tsx';
-import { BodyMap } from './RobotPanel.tsx';
-import { Legend, UnitChoice } from './Legend.tsx';
+import { BodyMap, Legend, UnitChoice } from './RobotPanel.tsx';
 import type { ServoLayout } from '../view.ts';
 import { GENTLE_MOVE_MS } from '../../robot/moves.ts';
 import { cx } from '../../ui/cx.ts';

@@ -2,7 +2,7 @@
 
 import { degreesOf, positionOf, type RobotServo, servoOf } from '#shared/profile/robot.ts';
 import type { ServoTarget } from '#shared/codec/commands.ts';
-import type { Positions } from '../../robot/lastPoses.ts';
+import type { Positions } from '../../robot/remembered.ts';
 import { type Together, isHeld, type ServoView, freeOf } from '../servoView.ts';
 import type { Pace } from '../../robot/moves.ts';
 import { guessNow, servoViewOf, useStores, type Stores } from '../stores.ts';

@@ -1,10 +1,10 @@
 // The packet log in words and bytes, newest last: can be paused, searched, filtered by kind, saved and cleared. Packets are still recorded
 // while it is paused. Below it packets can be written by hand.
 
-import { useId, useState, type SyntheticEvent, useDeferredValue, useMemo, useSyncExternalStore } from 'react';
+import { useId, useState, type SyntheticEvent, useDeferredValue, useMemo, useSyncExternalStore, memo, useLayoutEffect, useRef, type KeyboardEvent } from 'react';
 import { useStore } from 'zustand';
 import type { LogEntry } from '../../robot/traffic.ts';
-import { bytesText, meaning, kindOf, lineText, judgeText, obstacleFor, type Judged } from './packetText.ts';
+import { bytesText, meaning, kindOf, lineText, judgeText, obstacleFor, type Judged, arrowOf } from './packetText.ts';
 import { useDevice, useSnapshot, useStores, useView } from '../stores.ts';
 import { Button, IconButton } from '../../ui/Button.tsx';
 import { Toggle } from '../../ui/Toggle.tsx';
@@ -12,12 +12,13 @@ import { cx } from '../../ui/cx.ts';
 import { words } from '../../i18n/whole.ts';
 import type { LogKind } from '../view.ts';
 import { useWords } from '../../i18n/words.ts';
-import { LogList } from './LogList.tsx';
 import { createLogView, logFile } from './logView.ts';
 import { saveFile } from '../../ui/localFiles.tsx';
 import { PART } from '../../ui/focus.ts';
 import field from '../../ui/Field.module.css';
 import styles from './LogPanel.module.css';
+import { Icon } from '../../ui/Icon.tsx';
+import logList from './LogList.module.css';
 
 /** Searches the words, and the bytes if the query is whole bytes in hex, with or without spaces. Ignores case. */
 export function searchTest(query: string, locale: string): (entry: LogEntry) => boolean {
@@ -207,4 +208,90 @@ function Filter() {
 function countedText(passed: number, hidden: number): string {
   if (hidden === 0) return words.log.counted({ passed });
   return words.log.countedOf({ passed, all: passed + hidden });
+}
+
+/** Within this distance the list counts as scrolled to the end. */
+const NEAR_PX = 24;
+
+interface LogListProps {
+  readonly entries: readonly LogEntry[];
+  readonly hiddenCount: number;
+  onCopy(entry: LogEntry): void;
+}
+
+export function LogList({ entries, hiddenCount, onCopy }: LogListProps) {
+  const list = useRef<HTMLDivElement>(null);
+  const follows = useRef(true);
+  useLayoutEffect(() => {
+    if (follows.current && list.current !== null) list.current.scrollTop = list.current.scrollHeight;
+  }, [entries]);
+  return (
+    <div
+      ref={list}
+      className={logList.list}
+      role="log"
+      aria-live="off"
+      aria-label={words.log.entries}
+      tabIndex={0}
+      onKeyDown={walk}
+      onScroll={({ currentTarget: { scrollTop, scrollHeight, clientHeight } }) => {
+        follows.current = scrollHeight - clientHeight - scrollTop < NEAR_PX;
+      }}
+    >
+      {entries.length === 0 && (
+        <p className={logList.empty}>{hiddenCount === 0 ? words.log.empty : words.log.nothingFound}</p>
+      )}
+      {entries.map((entry) => (
+        <Line key={entry.id} logEntry={entry} onCopy={onCopy} />
+      ))}
+    </div>
+  );
+}
+
+/** Goes from line to line; from the list itself to the newest line. */
+function walk(event: KeyboardEvent<HTMLDivElement>): void {
+  const step = { ArrowUp: -1, ArrowDown: 1 }[event.key];
+  if (step === undefined) return;
+  const lines = [...event.currentTarget.querySelectorAll('button')];
+  const at = lines.findIndex((line) => line === document.activeElement);
+  const next = at < 0 ? lines.at(-1) : lines[at + step];
+  event.preventDefault();
+  next?.focus();
+}
+
+interface LineProps {
+  readonly logEntry: LogEntry;
+  onCopy(entry: LogEntry): void;
+}
+
+const Line = memo(
+  function Line({ logEntry, onCopy }: LineProps) {
+    const { entry } = logEntry;
+    useWords();
+    return (
+      <div className={cx(logList.line, styles[entry.mark])}>
+        <time className={logList.time}>{words.dates.formatElapsed(entry.atMs)}</time>
+        <span className={logList.arrow} role="img" aria-label={arrowWords(entry.mark)}>
+          {arrowOf(entry)}
+        </span>
+        <span className={logList.meaning}>{meaning(logEntry)}</span>
+        <code className={logList.bytes}>{bytesText(logEntry)}</code>
+        <button
+          type="button"
+          className={logList.copy}
+          tabIndex={-1}
+          aria-label={words.log.copy}
+          onClick={() => onCopy(logEntry)}
+        >
+          <Icon name="copy" />
+        </button>
+      </div>
+    );
+  },
+  (before, after) => before.logEntry === after.logEntry,
+);
+
+function arrowWords(mark: LogEntry['entry']['mark']): string {
+  if (mark === 'link' || mark === 'board') return words.log.link;
+  return mark === 'sent' ? words.log.sent : words.log.received;
 }

@@ -4,7 +4,7 @@ import type { Lease } from '#shared/robot/lease.ts';
 import { INITIAL_STATE } from '#shared/robot/store.ts';
 import { FAMILIES } from '#shared/codec/families.ts';
 import type { DeviceState } from '../../robot/device.ts';
-import { tellHandedOver } from './leaseText.ts';
+import { tellHandedOver } from './LeaseChip.tsx';
 
 const OURS: Lease = {
   ...{

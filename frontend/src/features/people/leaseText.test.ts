@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest';
 import type { Lease } from '#shared/robot/lease.ts';
-import { leaseTextOf } from './leaseText.ts';
+import { leaseTextOf } from './LeaseChip.tsx';
 
 const LOOKS_ON: Lease = {
   ...{ driver: 'Anna', drives: false, requestedBy: null, hasRequested: false, grantedInMs: null },

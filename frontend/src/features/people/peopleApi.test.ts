@@ -1,5 +1,5 @@
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
-import { peopleApi, readMe } from './peopleApi.ts';
+import { peopleApi, readMe } from './people.ts';
 
 const ME = { mode: 'local', overheard: false, you: null };
 

@@ -1,10 +1,10 @@
 // One pose as a card with its picture, its name and a button to move there. The face selects; the grip drags.
 
-import { type Pose, movePose, renamePose } from '#shared/profile/pose.ts';
+import { type Pose, movePose, renamePose, poseOf } from '#shared/profile/pose.ts';
 import { unknownServos } from '#shared/profile/poseShapes.ts';
 import { PoseThumb } from '../picture/PoseThumb.tsx';
 import { motionHindrance } from '../../robot/readiness.ts';
-import { useDevice, useRobot, useSnapshot, useStores, useView } from '../stores.ts';
+import { useDevice, useRobot, useSnapshot, useStores, useView, usePoses } from '../stores.ts';
 import { IconButton } from '../../ui/Button.tsx';
 import { cx } from '../../ui/cx.ts';
 import { Icon } from '../../ui/Icon.tsx';
@@ -13,6 +13,7 @@ import { useDragOrder, type DragOrder } from '../../ui/cards.ts';
 import { words } from '../../i18n/whole.ts';
 import card from '../../ui/Card.module.css';
 import styles from './PoseCard.module.css';
+import { useEffect, useState, type RefObject } from 'react';
 
 export interface PoseCardProps {
   readonly pose: Pose;
@@ -106,4 +107,46 @@ function usePoseDrag({ id, name }: Pose): DragOrder {
     commit: () => book.commit(),
     cancel: () => book.cancel(),
   });
+}
+
+export function useSelectedPose(): Pose | undefined {
+  const id = useView((state) => state.selectedPose);
+  return usePoses(({ present }) => poseOf(present, id));
+}
+
+export interface Captured {
+  readonly pose: number;
+  readonly from: Element;
+}
+
+/**
+ * Returns a function to call with a pose captured by a key: the focus goes to its name in `list`, and Enter leads back to where the pose
+ * was captured.
+ */
+export function useNaming(list: RefObject<HTMLElement | null>): (captured: Captured) => void {
+  const [captured, setCaptured] = useState<Captured | null>(null);
+
+  useEffect(() => {
+    if (captured === null) return;
+    const { pose, from } = captured;
+    const name = list.current?.querySelector<HTMLInputElement>(`[data-pose='${pose}'] input`);
+    if (!name) return;
+    const key = (event: KeyboardEvent): void => {
+      if (event.key !== 'Enter' || !(from instanceof HTMLElement)) return;
+      // Otherwise the same key would press the element that gets the focus.
+      event.preventDefault();
+      from.focus();
+    };
+    const leave = (): void => setCaptured(null);
+    name.focus();
+    name.select();
+    name.addEventListener('keydown', key);
+    name.addEventListener('blur', leave);
+    return () => {
+      name.removeEventListener('keydown', key);
+      name.removeEventListener('blur', leave);
+    };
+  }, [captured, list]);
+
+  return setCaptured;
 }

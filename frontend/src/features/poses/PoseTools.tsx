@@ -12,7 +12,7 @@ import { Button, ActionIconButton } from '../../ui/Button.tsx';
 import { Toggle } from '../../ui/Toggle.tsx';
 import { words } from '../../i18n/whole.ts';
 import { POSE_ACTIONS, poseContextOf, type PoseContext } from './poseActions.ts';
-import { useSelectedPose } from './naming.ts';
+import { useSelectedPose } from './PoseCard.tsx';
 import styles from './PosesPanel.module.css';
 
 /** The label of an undo step. */

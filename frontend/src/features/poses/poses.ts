@@ -2,29 +2,22 @@
 // step of the book of poses; undoing it changes the book and moves nothing.
 
 import type { Label } from '#shared/document/history.ts';
-import {
-  EMPTY_BOOK,
-  addPose,
-  poseOf,
-  type PoseBook,
-  type PoseRef,
-  markApplied,
-  withPosesOf,
-  poseBookFromText,
-  poseBookToText,
-} from '#shared/profile/pose.ts';
+import { EMPTY_BOOK, addPose, poseOf, type PoseBook, type PoseRef, markApplied, withPosesOf, poseBookFromText, poseBookToText } from '#shared/profile/pose.ts';
 import { homeTargets, unknownServos } from '#shared/profile/poseShapes.ts';
 import type { ServoTarget } from '#shared/codec/commands.ts';
 import { flawSentence } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/words.ts';
 import type { Device } from '../../robot/device.ts';
 import { limitRefusal } from '../../robot/moves.ts';
-import { freeOf, stayingOf } from '../servoView.ts';
+import { freeOf, stayingOf, type Locking } from '../servoView.ts';
 import type { Notices } from '../../state/notices.ts';
 import { createRobotDocument, type RobotDocument } from '../profiles/robotDocument.ts';
 import type { RobotStore } from '../profiles/robots.ts';
 import type { TextStorage } from '../../state/storage.ts';
 import type { View } from '../view.ts';
+import { createStore, type StoreApi } from 'zustand/vanilla';
+import { endsMotion } from '../../robot/readiness.ts';
+import { createFollower } from '../../robot/follower.ts';
 
 export interface Poses {
   readonly book: RobotDocument<PoseBook>;
@@ -148,4 +141,46 @@ function onPlaceOf({ applied }: PoseBook, book: PoseBook): PoseBook {
 export function poseName(book: PoseBook, ref: PoseRef): string {
   if (typeof ref === 'string') return words.poses.verbs[ref];
   return poseOf(book, ref)?.name ?? words.poses.missing;
+}
+
+export interface BlendState {
+  /** null without a preview. */
+  readonly targets: readonly ServoTarget[] | null;
+  readonly isLive: boolean;
+}
+
+export interface Blend {
+  readonly store: StoreApi<BlendState>;
+  /** In the unit of the connected board; null ends the preview, and the robot stays. */
+  show(targets: readonly ServoTarget[] | null): void;
+  /** Switches following on, with a slow first move, or off. */
+  follow(isLive: boolean): void;
+}
+
+export function createBlend({ device, ...locking }: Locking & { readonly device: Device }): Blend {
+  const store = createStore<BlendState>(() => ({ targets: null, isLive: false }));
+  const follower = createFollower(device);
+
+  function follow(): void {
+    const { targets, isLive } = store.getState();
+    if (isLive && targets !== null)
+      follower.follow(new Map(freeOf(locking, targets).map(({ servo, position }) => [servo, position])));
+  }
+
+  device.store.subscribe(({ snapshot }) => {
+    if (store.getState().isLive && endsMotion(snapshot)) store.setState({ isLive: false });
+  });
+
+  return {
+    store,
+    show(targets) {
+      store.setState({ targets, isLive: targets !== null && store.getState().isLive });
+      follow();
+    },
+    follow(isLive) {
+      if (isLive) follower.begin();
+      store.setState({ isLive });
+      follow();
+    },
+  };
 }

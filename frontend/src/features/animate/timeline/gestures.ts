@@ -8,23 +8,13 @@ import type { KeyRef } from '#shared/group/tracks.ts';
 import { instantText, boxText, frameText, markerText, playheadText, rangeText } from './valueText.ts';
 import { words } from '../../../i18n/whole.ts';
 import { changeable, contextOf, select, whyHeld, type TimelineContext } from './context.ts';
-import {
-  draggedTo,
-  edits,
-  modeOf,
-  nothing,
-  onRaster,
-  type Gesture,
-  type Held,
-  type Press,
-} from './gesture.ts';
-import { hitAt, keysInBox, type Hit, type Spot } from './hit.ts';
+import { draggedTo, edits, modeOf, nothing, onRaster, type Gesture, type Held, type Press } from './gesture.ts';
+import { hitAt, keysInBox, type Hit, type Spot, sceneOf, wholeSceneOf } from './scene.ts';
 import { pressFrame } from './inStep.ts';
 import { keyGesture } from './keyGesture.ts';
 import { cursorAfter, stretchingOf } from './moving.ts';
 import { timesOf } from '#shared/group/groupTimes.ts';
 import { lookAt, selectFrame, setTime } from './looking.ts';
-import { sceneOf, wholeSceneOf } from './scene.ts';
 import { topOfRows } from './rows.ts';
 import { msAt, panned, seenSpan, xOf } from './timeScale.ts';
 

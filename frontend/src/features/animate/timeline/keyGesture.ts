@@ -6,9 +6,8 @@ import { words } from '../../../i18n/whole.ts';
 import { changeable, contextOf, select, whyHeld, type TimelineContext } from './context.ts';
 import { draggedTo, edits, modeOf, nothing, type Gesture, type Held, type Press } from './gesture.ts';
 import { timesOf } from '#shared/group/groupTimes.ts';
-import { hasAll, keysBetween, type Hit, type Spot } from './hit.ts';
+import { hasAll, keysBetween, type Hit, type Spot, type Scene } from './scene.ts';
 import { copyOf, cursorAfter, moveOf } from './moving.ts';
-import type { Scene } from './scene.ts';
 import { keyText } from './valueText.ts';
 
 /** How far the hand has to go before a drag turns a value, so that time alone can be dragged. */

@@ -2,12 +2,11 @@
 
 import { type Key, CURVES, positionAt } from '#shared/group/tracks.ts';
 import { keyName } from './timeline.ts';
-import { handleX, HANDLES, stretchOf } from './hit.ts';
+import { handleX, HANDLES, stretchOf, keyY, type Scene } from './scene.ts';
 import { type Brush, paintHeads, paintMarkers } from './paintHeads.ts';
 import type { Look } from '../../picture/Canvas.tsx';
 import { changedStretch, isWithin, wholeOf, type Stretch } from './repaint.ts';
 import { keysInRow, type PlacedRow, topOfRows, within } from './rows.ts';
-import { keyY, type Scene } from './scene.ts';
 import { msAt, seenSpan, xOf } from './timeScale.ts';
 import { keysOfFrame } from '#shared/group/groupTimes.ts';
 

@@ -2,10 +2,9 @@
 
 import { collisionTimes } from '#shared/kinematics/collision.ts';
 import { type Look, colourOf } from '../../picture/Canvas.tsx';
-import type { Scene } from './scene.ts';
+import { type Scene, hasAll } from './scene.ts';
 import { markText } from './valueText.ts';
 import { words } from '../../../i18n/whole.ts';
-import { hasAll } from './hit.ts';
 import { seenSpan, type Span, xOf } from './timeScale.ts';
 import type { TimeView } from './timeline.ts';
 

@@ -1,7 +1,7 @@
 // The pointer on the tracks, whatever it is: one press at a time becomes a gesture, two fingers zoom and pan, a finger that rests opens the
 // menu or, dragged on, draws a box; the middle button pans. Escape, a lost pointer and a lost window call a gesture off. Knows no edits.
 
-import type { Spot } from './hit.ts';
+import type { Spot } from './scene.ts';
 import type { Gesture, Held, Press, StatusName } from './gesture.ts';
 import { boxFrom, gestureOf, panFrom } from './gestures.ts';
 import { topOfRows } from './rows.ts';

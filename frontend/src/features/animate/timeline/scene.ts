@@ -1,13 +1,198 @@
-// Everything that is on the tracks now, with its geometry: what painting and hitting have in common. Pure.
+// What is under the pointer. Pure; the same geometry as the painting.
 
+import { type KeySet, selectedKeys, type TimelineState, ALL_ROW } from './timeline.ts';
+import type { KeyRef } from '#shared/group/tracks.ts';
+import { type GroupTimes, keysOfFrame, spanOf } from '#shared/group/groupTimes.ts';
+import { keysInRow, type PlacedRow, type Row, topOfRows, within, placedRows, seenRows, type Sizes, topOfAll } from './rows.ts';
+import { msAt, xOf, type Span } from './timeScale.ts';
 import type { CollisionPlace } from '#shared/kinematics/collision.ts';
 import type { Marker } from '#shared/group/group.ts';
 import { positionRange, type Family, type Range } from '#shared/codec/families.ts';
 import { isHeld, isSilent } from '../../servoView.ts';
-import { ALL_ROW, selectedKeys, type TimelineState } from './timeline.ts';
-import type { GroupTimes } from '#shared/group/groupTimes.ts';
 import type { TimelineContext } from './context.ts';
-import { type PlacedRow, placedRows, type Row, seenRows, type Sizes, topOfAll, topOfRows } from './rows.ts';
+
+export type Hit =
+  | { readonly kind: 'ruler'; readonly atMs: number }
+  | { readonly kind: 'marker'; readonly id: number; readonly atMs: number }
+  | { readonly kind: 'edge'; readonly frameId: number; readonly atMs: number }
+  | { readonly kind: 'head'; readonly frameId: number }
+  /** One of the ends of the selected stretch. */
+  | { readonly kind: 'handle'; readonly end: StretchEnd; readonly span: Span }
+  | {
+      readonly kind: 'key';
+      readonly refs: readonly KeyRef[];
+      readonly row: Row;
+      readonly frameId: number;
+      readonly atMs: number;
+    }
+  | { readonly kind: 'empty'; readonly row: PlacedRow | null; readonly atMs: number };
+
+export interface Spot {
+  readonly x: number;
+  readonly y: number;
+}
+
+export function hitAt(scene: Scene, { x, y }: Spot): Hit {
+  const { sizes, state } = scene;
+  const atMs = msAt(state.time, x);
+  if (y < sizes.ruler) return onRuler(scene, x, atMs);
+  if (y < sizes.ruler + sizes.heads) return onHeads(scene, x, atMs);
+  const row = rowAt(scene, y);
+  const handle = row === scene.all ? handleAt(scene, x) : null;
+  return handle ?? (row === null ? null : keyAt(scene, row, { x, y })) ?? { kind: 'empty', row, atMs };
+}
+
+export function rowAt({ all, rows }: Pick<Scene, 'all' | 'rows'>, y: number): PlacedRow | null {
+  const isOn = ({ top, height }: PlacedRow): boolean => y >= top && y < top + height;
+  return isOn(all) ? all : (rows.find(isOn) ?? null);
+}
+
+function onRuler({ markers, state, sizes }: Scene, x: number, atMs: number): Hit {
+  const marker = markers.find((one) => Math.abs(xOf(state.time, one.atMs) - x) <= sizes.reach);
+  return marker === undefined
+    ? { kind: 'ruler', atMs: Math.max(0, atMs) }
+    : { kind: 'marker', id: marker.id, atMs: marker.atMs };
+}
+
+function onHeads({ times, state, sizes }: Scene, x: number, atMs: number): Hit {
+  const { ends, frames } = times;
+  const index = ends.findIndex((endMs) => endMs >= atMs);
+  const here = index === -1 ? ends.length - 1 : index;
+  const edges = [here, here - 1].filter((one) =>
+    isNear(xOf(state.time, ends[one] ?? NaN), x, edgeReach(sizes.reach)),
+  );
+  const edge = frames[edges[0] ?? -1];
+  const endMs = ends[edges[0] ?? -1];
+  if (edge !== undefined && endMs !== undefined) return { kind: 'edge', frameId: edge.id, atMs: endMs };
+  const frame = index === -1 || atMs < 0 ? undefined : frames[index];
+  return frame === undefined ? { kind: 'empty', row: null, atMs } : { kind: 'head', frameId: frame.id };
+}
+
+/** Less than for a key: what is between two edges shall be hit too. */
+const edgeReach = (reach: number): number => reach * 0.6;
+
+const isNear = (one: number, other: number, reach: number): boolean => Math.abs(one - other) <= reach;
+
+export type StretchEnd = 'first' | 'last';
+
+/** The handles stand beside the stretch, so that its keys are free. */
+const HANDLE_PX = { first: -12, last: 12 } as const;
+
+/** In the order in which they are hit: a short stretch grows at its end. */
+export const HANDLES: readonly StretchEnd[] = ['last', 'first'];
+
+export const handleX = (
+  { time }: Pick<TimelineState, 'time'>,
+  { fromMs, toMs }: Span,
+  end: StretchEnd,
+): number => xOf(time, end === 'first' ? fromMs : toMs) + HANDLE_PX[end];
+
+const handleReach = (reach: number): number => Math.max(HANDLE_PX.last / 2, reach * 0.75);
+
+/** What the handle stretches: a selection of more than one instant. */
+export function stretchOf(times: GroupTimes, selected: KeySet): Span | null {
+  const span = spanOf(selectedKeys(times, selected));
+  return span === null || span.fromMs === span.toMs ? null : span;
+}
+
+function handleAt({ times, state, sizes }: Scene, x: number): Hit | null {
+  const span = stretchOf(times, state.selected);
+  if (span === null) return null;
+  const end = HANDLES.find((one) => isNear(handleX(state, span, one), x, handleReach(sizes.reach)));
+  return end === undefined ? null : { kind: 'handle', end, span };
+}
+
+function keyAt(scene: Scene, placed: PlacedRow, { x, y }: Spot): Hit | null {
+  const { times, state, sizes, family } = scene;
+  const keys = keysInRow(placed.row, times);
+  const reachMs = sizes.reach * state.time.msPerPx;
+  const atMs = msAt(state.time, x);
+  const [from, to] = within(keys, atMs - reachMs, atMs + reachMs);
+  let best: (typeof keys)[number] | null = null;
+  let bestPx: number = sizes.reach;
+  for (const key of keys.slice(from, to)) {
+    const px = Math.hypot(
+      xOf(state.time, key.atMs) - x,
+      beyondRow(keyY(placed, key.position, family) - y, sizes.reach),
+    );
+    if (px > bestPx) continue;
+    best = key;
+    bestPx = px;
+  }
+  if (best === null) return null;
+  const { frameId, servo } = best;
+  const refs = servo === -1 ? keysOfFrame(times, placed.row.servos, frameId) : [{ frameId, servo }];
+  return { kind: 'key', refs, row: placed.row, frameId, atMs: best.atMs };
+}
+
+/** In a low row a key is hit at any height of it. */
+const LOW_ROW_PX = 22;
+const beyondRow = (px: number, reach: number): number =>
+  Math.max(0, Math.abs(px) - Math.max(0, LOW_ROW_PX - reach));
+
+export interface Box {
+  /** Where it was begun; on rows that have been scrolled since it may be out of sight. */
+  readonly corner: Spot;
+  readonly pointer: Spot;
+  readonly isOnRows: boolean;
+}
+
+/** The keys within a box on the tracks. Rows that are scrolled below the row of all servos are not hit by a pointer on it. */
+export function keysInBox(scene: Scene, { corner, pointer, isOnRows }: Box): readonly KeyRef[] {
+  const { all, rows, state, sizes } = scene;
+  const onRows = (spot: Spot): Spot => ({ x: spot.x, y: Math.max(topOfRows(sizes), spot.y) });
+  const withAll = !isOnRows || state.scrollTop === 0;
+  return [
+    ...(withAll ? keysBetweenSpots(scene, [all], corner, pointer) : []),
+    ...keysBetweenSpots(scene, rows, isOnRows ? corner : onRows(corner), onRows(pointer)),
+  ];
+}
+
+function keysBetweenSpots(
+  { times, state, family }: Scene,
+  rows: readonly PlacedRow[],
+  one: Spot,
+  other: Spot,
+): readonly KeyRef[] {
+  const [left, right] = [Math.min(one.x, other.x), Math.max(one.x, other.x)];
+  const [top, bottom] = [Math.min(one.y, other.y), Math.max(one.y, other.y)];
+  const [fromMs, toMs] = [msAt(state.time, left), msAt(state.time, right)];
+  return rows
+    .filter((placed) => placed.top + placed.height > top && placed.top < bottom)
+    .flatMap((placed) =>
+      keysInRow(placed.row, times)
+        .filter(({ atMs, position }) => {
+          const y = keyY(placed, position, family);
+          return atMs >= fromMs && atMs <= toMs && y >= top && y <= bottom;
+        })
+        .flatMap(({ frameId, servo }): readonly KeyRef[] =>
+          servo === -1 ? keysOfFrame(times, placed.row.servos, frameId) : [{ frameId, servo }],
+        ),
+    );
+}
+
+/** From one key to another, as the rows and the clock go: what Shift and a click select. */
+export function keysBetween(
+  rows: readonly Row[],
+  times: GroupTimes,
+  one: { readonly row: string; readonly atMs: number },
+  other: { readonly row: string; readonly atMs: number },
+): readonly KeyRef[] {
+  const place = (row: string): number =>
+    Math.max(
+      0,
+      rows.findIndex(({ id }) => id === row),
+    );
+  const [first, last] = [place(one.row), place(other.row)].toSorted((a, b) => a - b);
+  const [fromMs = 0, toMs = 0] = [one.atMs, other.atMs].toSorted((a, b) => a - b);
+  const servos = new Set(rows.slice(first, (last ?? 0) + 1).flatMap((row) => row.servos));
+  return [...servos].flatMap((servo) =>
+    (times.tracks.get(servo)?.keys ?? []).filter(({ atMs }) => atMs >= fromMs && atMs <= toMs),
+  );
+}
+
+export const hasAll = (selected: KeySet, refs: readonly KeyRef[]): boolean =>
+  refs.length > 0 && refs.every(({ frameId, servo }) => selected.has(`${frameId}/${servo}`));
 
 /** `points`: the ends of its frames. */
 export interface CompiledTrack {

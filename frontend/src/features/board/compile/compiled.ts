@@ -3,13 +3,15 @@
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { CompileProblem } from '#shared/group/compileReport.ts';
-import { type ActionGroup, maxErrorOf } from '#shared/group/group.ts';
+import { type ActionGroup, maxErrorOf, groupToText } from '#shared/group/group.ts';
 import type { Clock } from '#shared/clock.ts';
 import type { Device } from '../../../robot/device.ts';
 import { type Document, knownFamily } from '../../groupDocument.ts';
 import type { RobotStore } from '../../profiles/robots.ts';
 import { setChanged } from '../../../state/setChanged.ts';
 import { compileSource, type Source, type CompileResult } from './compileSource.ts';
+import { framesOf } from '#shared/group/fingerprint.ts';
+import type { Answer, Order } from './compileWorker.ts';
 
 export interface CompiledGroup extends CompileResult {
   readonly source: Source;
@@ -131,4 +133,39 @@ export function obstacles(
   return problems.filter(
     ({ kind }) => !REMARKS.includes(kind) && (by === 'board' || !BOARD_ONLY.includes(kind)),
   );
+}
+
+/** Rejects where no worker can be had. */
+export function createCompileWorker(): (source: Source) => Promise<CompileResult> {
+  let beside: Beside | null = null;
+
+  return async ({ group, ...options }) => {
+    beside ??= start();
+    const { worker, failed } = beside;
+    const { port1, port2 } = new MessageChannel();
+    const answered = new Promise<Answer>((resolve) =>
+      port1.addEventListener('message', ({ data }: MessageEvent<Answer>) => resolve(data), { once: true }),
+    );
+    port1.start();
+    // As text: to copy thousands of objects takes the page longer than what it is spared.
+    worker.postMessage({ groupText: groupToText(group), options } satisfies Order, [port2]);
+    const { numbers, ...rest } = await Promise.race([answered, failed]).finally(() => port1.close());
+    return { ...rest, frames: framesOf(numbers) };
+  };
+}
+
+interface Beside {
+  readonly worker: Worker;
+  readonly failed: Promise<never>;
+}
+
+function start(): Beside {
+  const worker = new Worker(new URL('./compileWorker.ts', import.meta.url), { type: 'module' });
+  const failed = new Promise<never>((_, reject) =>
+    worker.addEventListener('error', () => reject(new Error('the worker beside the page failed')), {
+      once: true,
+    }),
+  );
+  failed.catch(() => undefined);
+  return { worker, failed };
 }

@@ -6,11 +6,10 @@ import { fitOf, type Fit } from '#shared/robot/identity.ts';
 import { useDevice, useSnapshot, useStores } from '../../stores.ts';
 import { Button } from '../../../ui/Button.tsx';
 import { Panel } from '../../../ui/Panel.tsx';
-import { summaryText, familyText } from './answerText.ts';
+import { summaryText, familyText, EvidenceList } from './ThisBoard.tsx';
 import { isBoardsOwnCable } from '../../../robot/readiness.ts';
 import { boardName } from '../../../i18n/sentences.ts';
 import { words } from '../../../i18n/whole.ts';
-import { EvidenceList } from './ThisBoard.tsx';
 import styles from './WhichBoard.module.css';
 
 export function WhichBoard() {

@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest';
 import { words } from '../../../i18n/whole.ts';
-import { summaryText } from './answerText.ts';
+import { summaryText } from './ThisBoard.tsx';
 
 const SILENT = [{ kind: 'silent', question: 'readBattery' }] as const;
 

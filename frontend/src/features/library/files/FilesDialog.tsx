@@ -1,29 +1,27 @@
 // The dialog for files: the opened files with their groups, and saving the open group. Stays mounted while it is closed.
 
-import { memo, useCallback, useEffect, useRef, useState } from 'react';
+import { memo, useCallback, useEffect, useRef, useState, useMemo } from 'react';
 import { useStore } from 'zustand';
 import type { ActionGroup } from '#shared/group/group.ts';
 import type { Remark } from '#shared/files/reading.ts';
 import { Button, IconButton } from '../../../ui/Button.tsx';
 import { ProgressBar } from '../../../ui/ProgressBar.tsx';
 import { words } from '../../../i18n/whole.ts';
-import {
-  type Progress,
-  type OpenedFile,
-  type OpenedFiles,
-  createOpenedFiles,
-  takeGroup,
-  takeGroups,
-  createFileReader,
-} from './openedFiles.ts';
-import { problemText, remarkText } from './fileText.ts';
+import { type Progress, type OpenedFile, type OpenedFiles, createOpenedFiles, takeGroup, takeGroups, createFileReader } from './openedFiles.ts';
+import { problemText, remarkText, lossText, misfitText } from './fileText.ts';
 import { type Answer, readyGroups, type ReadyGroup, countsOf, type FileCounts } from './answers.ts';
 import { FoundGroup } from './FoundGroup.tsx';
-import { useKnownFamily, useStores } from '../../stores.ts';
-import { FileZone } from '../../../ui/localFiles.tsx';
-import { SaveAs } from './SaveAs.tsx';
+import { useKnownFamily, useStores, useGroup, useRobot } from '../../stores.ts';
+import { FileZone, saveBlob } from '../../../ui/localFiles.tsx';
 import { Dialog } from '../../../ui/Dialog.tsx';
 import styles from './FilesDialog.module.css';
+import { fileNameOf } from '#shared/files/fileName.ts';
+import type { Misfit } from '#shared/files/fit.ts';
+import { lossesIn, EXTENSIONS, SAVE_FORMATS, writeGroupFile, type SaveFormat } from '#shared/files/writeGroupFile.ts';
+import { Choice } from '../../../ui/Toggle.tsx';
+import { boardName } from '../../../i18n/sentences.ts';
+import { fileMeans, loadSqlite } from './means.ts';
+import saveAs from './SaveAs.module.css';
 
 /** Progress of reading files or importing their groups, with a button to cancel. */
 interface FileProgressProps {
@@ -227,5 +225,78 @@ export function FilesDialog({ dropped, isOpen, onClose, onCounts }: FilesDialogP
     <Dialog title={words.files.title} closeLabel={words.close} wide isOpen={isOpen} onClose={onClose}>
       <FilesContent files={files} onTake={take} onTakeAll={(ready) => void takeAll(ready)} />
     </Dialog>
+  );
+}
+
+export function SaveAs() {
+  const group = useGroup();
+  const [format, setFormat] = useState<SaveFormat>('json');
+  const losses = useMemo(() => lossesIn(format, group), [format, group]);
+  if (group.frames.length === 0) return <p className={saveAs.dim}>{words.files.nothing}</p>;
+  return (
+    <>
+      <div>
+        <Choice<SaveFormat>
+          label={words.files.save}
+          value={format}
+          options={SAVE_FORMATS.map((value) => ({ value, label: words.files.formats[value] }))}
+          onChange={setFormat}
+        />
+      </div>
+      <p>{words.files.formatAbout[format]}</p>
+      {losses.length > 0 && (
+        <ul className={saveAs.losses}>
+          {losses.map((loss) => (
+            <li key={loss.code}>{lossText(loss)}</li>
+          ))}
+        </ul>
+      )}
+      <Save key={format} format={format} />
+    </>
+  );
+}
+
+const isProgram = (format: SaveFormat): boolean => format === 'python' || format === 'arduino';
+
+function Save({ format }: { readonly format: SaveFormat }) {
+  const { notices } = useStores();
+  const group = useGroup();
+  const family = useKnownFamily();
+  const robot = useRobot();
+  const [misfits, setMisfits] = useState<readonly Misfit[]>([]);
+
+  async function save(): Promise<void> {
+    const { makeDatabase } = fileMeans(loadSqlite);
+    const saved = await writeGroupFile(format, group, { family, robot }, makeDatabase);
+    setMisfits('misfits' in saved ? saved.misfits : []);
+    if ('content' in saved) saveBlob(saved.name, new Blob([saved.content]));
+  }
+
+  return (
+    <>
+      {isProgram(format) && (
+        <p className={saveAs.dim}>{words.files.forBoard({ board: boardName(family) })}</p>
+      )}
+      <div>
+        <Button
+          icon="save"
+          onPress={() => void save().catch(() => notices.tell('warning', words.files.saveFailed))}
+        >
+          {words.files.saveVerb({ name: fileNameOf(group, EXTENSIONS[format]) })}
+        </Button>
+      </div>
+      <div role="status">
+        {misfits.length > 0 && (
+          <>
+            <p className={saveAs.refused}>{words.files.notSaved}</p>
+            <ul className={saveAs.losses}>
+              {misfits.map((misfit) => (
+                <li key={`${misfit.code} ${misfit.servo}`}>{misfitText(misfit)}</li>
+              ))}
+            </ul>
+          </>
+        )}
+      </div>
+    </>
   );
 }

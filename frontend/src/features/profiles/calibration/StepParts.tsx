@@ -3,21 +3,13 @@
 
 import { type ReactNode, useLayoutEffect, useRef, useState, type MouseEvent, useEffect } from 'react';
 import { type Robot, type RobotServo, flawOf, servoOf } from '#shared/profile/robot.ts';
-import {
-  reachOf,
-  beginCalibration,
-  isServoDone,
-  partnerDone,
-  servoDone,
-  settled,
-  stepDone,
-} from '#shared/profile/robotEdits.ts';
+import { reachOf, beginCalibration, isServoDone, partnerDone, servoDone, settled, stepDone } from '#shared/profile/robotEdits.ts';
 import { isWatching, mayResume, type Lease } from '#shared/robot/lease.ts';
 import { FAMILIES } from '#shared/codec/families.ts';
 import { GENTLE_MOVE_MS } from '../../../robot/moves.ts';
 import { motionHindrance } from '../../../robot/readiness.ts';
 import { useDevice, useSnapshot, useStores, useRobot, useServoView, useView } from '../../stores.ts';
-import { leaseTextOf } from '../../people/leaseText.ts';
+import { leaseTextOf } from '../../people/LeaseChip.tsx';
 import { mayResumeText, servoLabel } from '../../../i18n/sentences.ts';
 import { words } from '../../../i18n/whole.ts';
 import { Button, type ButtonProps } from '../../../ui/Button.tsx';

@@ -8,6 +8,7 @@ import { Dialog } from '../ui/Dialog.tsx';
 import { laterComponent } from '../ui/later.tsx';
 import { words } from '../i18n/words.ts';
 import { LIST_ACTIONS } from './pageActions.ts';
+import type { Connector } from '../robot/connector.ts';
 
 const ActionList = laterComponent(async () => (await import('./ActionList.tsx')).ActionList, '70vh');
 
@@ -33,6 +34,41 @@ export function ActionsDialog() {
   return (
     <Dialog wide title={words.actionList.title} closeLabel={words.close} isOpen={isOpen} onClose={close}>
       <ActionList onChoose={choose} />
+    </Dialog>
+  );
+}
+
+const ConnectWays = laterComponent(
+  async () => (await import('../features/connect/ConnectWays.tsx')).ConnectWays,
+  '60vh',
+  'guards',
+);
+
+export function ConnectDialog({ connector }: { readonly connector: Connector }) {
+  const { view, notices } = useStores();
+  const isOpen = useView((state) => state.connectOpen);
+  const close = (): void => view.setState({ connectOpen: false });
+
+  useEffect(() => {
+    if (isOpen) connector.look().catch(notices.tellError);
+  }, [isOpen, connector, notices]);
+
+  return (
+    <Dialog wide title={words.connect.title} closeLabel={words.close} isOpen={isOpen} onClose={close}>
+      <ConnectWays connector={connector} onDone={close} />
+    </Dialog>
+  );
+}
+
+const LibraryView = laterComponent(async () => (await import('../features/library/LibraryView.tsx')).LibraryView, '60vh');
+
+export function LibraryDialog() {
+  const { view } = useStores();
+  const isOpen = useView((state) => state.libraryOpen);
+  const close = (): void => view.setState({ libraryOpen: false });
+  return (
+    <Dialog full title={words.library.title} closeLabel={words.close} isOpen={isOpen} onClose={close}>
+      <LibraryView onDone={close} />
     </Dialog>
   );
 }
