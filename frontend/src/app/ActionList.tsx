@@ -1,5 +1,5 @@
-// Every action of the page with its keys, by the place in which they work: to be looked up, or searched and done. Made from the
-// lists of actions alone.
+// Every action of the page with its keys, by the place in which the keys work: as a list to search and run from, and for the tests that
+// hold for each action. Made from the lists of actions alone.
 
 import { useMemo } from 'react';
 import { Autocomplete, useFilter } from 'react-aria-components/Autocomplete';
@@ -15,7 +15,14 @@ import styles from './ActionList.module.css';
 import { FRAME_ACTIONS, FRAME_KEYS, frameContextOf } from '../features/animate/frames/frameActions.ts';
 import { PLAY_ACTIONS } from '../features/animate/play/playActions.ts';
 import { contextOf } from '../features/animate/timeline/context.ts';
-import { COLOUR_ACTIONS, EASING_ACTIONS, MENU_KEYS, ROW_ACTIONS, TIMELINE_ACTIONS, TIMELINE_KEYS } from '../features/animate/timeline/timelineActions.ts';
+import {
+  COLOUR_ACTIONS,
+  EASING_ACTIONS,
+  MENU_KEYS,
+  ROW_ACTIONS,
+  TIMELINE_ACTIONS,
+  TIMELINE_KEYS,
+} from '../features/animate/timeline/timelineActions.ts';
 import { MACRO_ACTIONS, macroContextOf } from '../features/buttons/macroActions.ts';
 import { POSE_ACTIONS, poseContextOf } from '../features/poses/poseActions.ts';
 import { workedOn } from '../features/view.ts';
@@ -110,7 +117,7 @@ function Keys({ keys }: { readonly keys: readonly string[] }) {
 }
 
 /** An action as it is now, in the words of the moment. */
-export interface ListedAction extends Pick<Action<never>, 'id' | 'icon' | 'keys'> {
+interface ListedAction extends Pick<Action<never>, 'id' | 'icon' | 'keys'> {
   readonly label: string;
   readonly enabled: true | string;
   run(): void;
@@ -118,7 +125,7 @@ export interface ListedAction extends Pick<Action<never>, 'id' | 'icon' | 'keys'
 
 type ListedKeys = Pick<KeyUse<never>, 'id' | 'keys' | 'label'>;
 
-export interface ActionPlace {
+interface ActionPlace {
   readonly id: keyof Words['actionList']['places'];
   actions(stores: Stores): readonly ListedAction[];
   readonly keys: readonly ListedKeys[];

@@ -37,10 +37,13 @@ const ButtonsPage = laterComponent(
   '100%',
 );
 const AnimateWork = laterComponent(
-  async () => (await import('./workspaces/AnimateWork.tsx')).AnimateWork,
+  async () => (await import('./workspaces/AnimateAndBoard.tsx')).AnimateWork,
   '100%',
 );
-const BoardWork = laterComponent(async () => (await import('./workspaces/BoardWork.tsx')).BoardWork, '100%');
+const BoardWork = laterComponent(
+  async () => (await import('./workspaces/AnimateAndBoard.tsx')).BoardWork,
+  '100%',
+);
 const BoardPanel = laterComponent(
   async () => (await import('../features/board/BoardPanel.tsx')).BoardPanel,
   '240px',

@@ -4,7 +4,7 @@
 import { useIsUnidentified, useStores, type Stores } from '../features/stores.ts';
 import { Button } from '../ui/Button.tsx';
 import { words } from '../i18n/words.ts';
-import type { Undoable } from '../state/undoable.ts';
+import type { Undoable } from '../state/store.ts';
 import { captureFrame, useKnowsPose, useUnknownText } from '../features/animate/frames/CaptureButton.tsx';
 import styles from './CaptureStrip.module.css';
 

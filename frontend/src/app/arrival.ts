@@ -1,5 +1,5 @@
-// How somebody arrives at the page: with a link that pairs, with one that only stops, or with neither. What is secret in the
-// address leaves it at once, so that neither history nor a screenshot keeps it.
+// How a person arrives at the page (with a link that pairs, with one that only stops, or with neither) and how the page reports that it is
+// hidden or left. Secrets in the address leave it at once, so that neither history nor a screenshot stores them.
 
 import type { StoreApi } from 'zustand/vanilla';
 import type { DeviceState } from '../robot/device.ts';
@@ -98,7 +98,7 @@ export function beginAnewAsAnother(
   });
 }
 
-export interface Leaving {
+interface Leaving {
   /** Timers get slow now, and nobody looks. */
   hidden(): void;
   /** Closed, reloaded, frozen, or kept for the way back. */

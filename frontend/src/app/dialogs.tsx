@@ -1,5 +1,5 @@
-// The list of all actions over the page, and its button. What is chosen is done once the dialog has gone, so that a field which it opens
-// gets the focus.
+// Dialogs whose content is fetched when it is needed: connecting, the library, and the list of all actions with its button. A chosen action
+// runs once the dialog is closed, so that a field which it opens gets the focus.
 
 import { useEffect, useRef } from 'react';
 import { useStores, useView } from '../features/stores.ts';
@@ -60,7 +60,10 @@ export function ConnectDialog({ connector }: { readonly connector: Connector }) 
   );
 }
 
-const LibraryView = laterComponent(async () => (await import('../features/library/LibraryView.tsx')).LibraryView, '60vh');
+const LibraryView = laterComponent(
+  async () => (await import('../features/library/LibraryView.tsx')).LibraryView,
+  '60vh',
+);
 
 export function LibraryDialog() {
   const { view } = useStores();

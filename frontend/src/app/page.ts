@@ -30,7 +30,11 @@ import { findOthersGroups } from '../features/board/slots/othersGroups.ts';
 import { createReplacing } from '../features/board/slots/replacing.ts';
 import { createSlots } from '../features/board/slots/slots.ts';
 import type { Stores } from '../features/stores.ts';
-import { createTimeline, resetForOpenedGroup, restoreSelection } from '../features/animate/timeline/timeline.ts';
+import {
+  createTimeline,
+  resetForOpenedGroup,
+  restoreSelection,
+} from '../features/animate/timeline/timeline.ts';
 import { browserClock } from '../robot/links/browserClock.ts';
 import { hasGateway, putOnBoard } from '../robot/gatewayApi.ts';
 import { beginAnewAsAnother, type Arrival, watchLeaving } from './arrival.ts';

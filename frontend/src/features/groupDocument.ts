@@ -8,7 +8,7 @@ import type { Clock } from '#shared/clock.ts';
 import { words } from '../i18n/words.ts';
 import type { Notices } from '../state/notices.ts';
 import { createThrottle, type TextStorage } from '../state/storage.ts';
-import { createUndoable, type SavedDocument } from '../state/undoable.ts';
+import { createUndoable, type SavedDocument } from '../state/store.ts';
 import { familyOfUnit, robotInUnit } from '#shared/profile/units.ts';
 import type { Robot } from '#shared/profile/robot.ts';
 import { FAMILIES, type Family } from '#shared/codec/families.ts';

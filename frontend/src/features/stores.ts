@@ -18,7 +18,13 @@ import type { CompiledState, CompiledStore } from './board/compile/compiled.ts';
 import type { MotionTape } from './animate/play/motionTape.ts';
 import type { Mapping } from '#shared/profile/mapping.ts';
 import type { Device, DeviceState } from '../robot/device.ts';
-import { type Document, type DocumentState, boardOfGroup, knownFamily, type GroupBoard } from './groupDocument.ts';
+import {
+  type Document,
+  type DocumentState,
+  boardOfGroup,
+  knownFamily,
+  type GroupBoard,
+} from './groupDocument.ts';
 import { currentOf, type RobotStore } from './profiles/robots.ts';
 import type { RobotSync } from './profiles/robotSync.ts';
 import type { Notices } from '../state/notices.ts';
@@ -31,7 +37,7 @@ import type { Teaching } from './drive/teaching.ts';
 import type { GroupPlace } from './board/slots/groupPlace.ts';
 import type { Replacing } from './board/slots/replacing.ts';
 import type { Slots, SlotsState } from './board/slots/slots.ts';
-import type { Undoable } from '../state/undoable.ts';
+import type { Undoable } from '../state/store.ts';
 import type { Library, LibraryState } from './library/library.ts';
 import type { Timeline, TimelineState } from './animate/timeline/timeline.ts';
 import type { View, ViewState } from './view.ts';

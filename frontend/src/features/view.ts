@@ -1,8 +1,12 @@
-// The selection and the settings of this screen; neither the robot's state nor a document. The browser remembers the look and the kiosk;
-// the browser's tab remembers the current task and calibration. Knows no link.
+// The selection and the settings of this screen, the language among them; neither the robot's state nor a document. The browser remembers
+// the look and the kiosk; the browser's tab remembers the current task and calibration. Knows no link.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
-import { calibrationFromText, calibrationToText, type StoredCalibration } from '#shared/profile/calibration.ts';
+import {
+  calibrationFromText,
+  calibrationToText,
+  type StoredCalibration,
+} from '#shared/profile/calibration.ts';
 import { LANGUAGE_CODES, type Language, preferredLanguage, speak, words } from '../i18n/words.ts';
 import { readText, saveText, type TextStorage } from '../state/storage.ts';
 import { GENTLE_MOVE_MS, type MoveTime } from '../robot/moves.ts';
@@ -204,7 +208,7 @@ function splitsFromText(text: string): ViewState['splits'] | undefined {
   }
 }
 
-export interface LanguageOptions {
+interface LanguageOptions {
   readonly view: View;
   readonly notices: Notices;
   /** As `navigator.languages`. */

@@ -258,7 +258,7 @@ export function createConnector(options: ConnectorOptions): Connector {
     },
     async findRate(isReadable) {
       if (current === null) return null;
-      const { findRateOf } = await import('./gatewayPorts.ts');
+      const { findRateOf } = await loadPorts();
       return findRateOf(current, {
         ...{ isReadable, detach: device.detach },
         reopen: async (port) => chosen(await ways.webSerial(port)),

@@ -1,4 +1,5 @@
-// The gateway's ports: which there are, open one, listen on it at other speeds. Trusts no answer's shape; every failure is a LinkError.
+// The gateway's ports: listing them, opening one; and listening at other speeds on the port in use, at the gateway or here. Trusts no
+// answer's shape; every failure is a LinkError.
 
 import timings from '../../../shared/protocol/timings.json' with { type: 'json' };
 import { LinkError } from '#shared/robot/linkError.ts';
@@ -34,7 +35,7 @@ export async function openGatewayPort(device: string): Promise<void> {
 }
 
 /** On its port, which it gives up for that and opens again; null where nothing that can be read arrives. */
-export async function findGatewayRate(): Promise<FoundRate | null> {
+async function findGatewayRate(): Promise<FoundRate | null> {
   const found = await askGateway('post', '/api/port/listen', { withinMs: timings.line.listenedWithinMs });
   if (!isRecord(found) || typeof found.baud !== 'number') return null;
   return { baud: found.baud, kind: found.kind === 'packets' ? 'packets' : 'text' };
@@ -49,7 +50,7 @@ function isPort(value: unknown): value is GatewayPort {
   );
 }
 
-export interface FindRateOptions {
+interface FindRateOptions {
   readonly isReadable: (heard: HeardAtRate) => boolean;
   detach(): Promise<void>;
   reopen(port: SerialPort): Promise<void>;

@@ -1,5 +1,6 @@
-// What this browser remembers from visit to visit: which family each board is and what a person calls it, which of its slots hold half a
-// group, which way to a robot was chosen last. Knows storage; no link. Where storage is forbidden it is remembered until the page is closed.
+// What this browser remembers from visit to visit: the family and nickname of each board, which of its slots hold half a group, the way to a
+// robot that was chosen last, and where the servos were last sent: a guess that is offered, never a known position. Moves nothing. Where
+// storage is forbidden it lasts until the page is closed.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import { FAMILIES, type FamilyId } from '#shared/codec/families.ts';
@@ -134,7 +135,7 @@ export const rememberReconnects = (storage: TextStorage, reconnects: boolean): v
 /** By servo. */
 export type Positions = Readonly<Record<number, number>>;
 
-export interface LastPose {
+interface LastPose {
   /** Another family means another unit. */
   readonly family: FamilyId;
   readonly positions: Positions;

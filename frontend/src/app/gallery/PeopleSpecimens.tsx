@@ -1,4 +1,4 @@
-// Pairing, the stop-only page and an owner's view of people, in their states.
+// Connecting, pairing, the stop-only page and an owner's view of people, in their states.
 
 import type { ReactNode } from 'react';
 import { NameCard, PairCard, StopFace, type StopOutcome } from '../../features/people/EntryPage.tsx';

@@ -1,4 +1,4 @@
-// Poses and buttons in their states.
+// Poses, buttons, and the keys and pad in their states.
 
 import type { ReactNode } from 'react';
 import { addMacro, changeMacro } from '#shared/profile/macroEdits.ts';

@@ -1,4 +1,5 @@
-// A splitter of a workspace, whose size the browser remembers.
+// What the workspaces of a wide screen share: the sliders (or the question which board it is), splitters whose size the browser remembers,
+// and the choice of the workspace, in the bar of a desktop and at the foot of a tablet.
 
 import type { CSSProperties } from 'react';
 import { useStores, useView, useIsUnidentified } from '../../features/stores.ts';

@@ -1,8 +1,18 @@
-// The battery of the current robot: when the page reads it, the readings of this visit with their gauge, and the times at which
-// something ran. Moves nothing.
+// The battery of the current robot: when the page reads it, the readings of this visit with their gauge, and what a low one does, as chosen
+// for the robot: a warning, no new runs, or a move to the rest pose and a stop, on a shared robot only in the driver's page.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
-import { EMPTY_GAUGE, gaugeAfter, gaugeOf, type Gauge, type Reading, supplyOf, type Supply, isActionable, type Level } from '#shared/profile/battery.ts';
+import {
+  EMPTY_GAUGE,
+  gaugeAfter,
+  gaugeOf,
+  type Gauge,
+  type Reading,
+  supplyOf,
+  type Supply,
+  isActionable,
+  type Level,
+} from '#shared/profile/battery.ts';
 import { nameOf } from '../../robot/remembered.ts';
 import type { Device, DeviceState, RobotProfiles } from '../../robot/device.ts';
 import { BATTERY_AFTER_RUN_MS, BATTERY_EVERY_MS } from '#shared/robot/timings.ts';

@@ -4,7 +4,15 @@ import { useId, useRef, type ReactNode, type RefObject } from 'react';
 import { slotTrigger } from '#shared/codec/families.ts';
 import type { Activity } from '#shared/robot/state.ts';
 import { motionHindrance } from '../../robot/readiness.ts';
-import { useSnapshot, useStores, useCollisions, useCompiled, useDevice, useDocument, useSlot } from '../stores.ts';
+import {
+  useSnapshot,
+  useStores,
+  useCollisions,
+  useCompiled,
+  useDevice,
+  useDocument,
+  useSlot,
+} from '../stores.ts';
 import { Button } from '../../ui/Button.tsx';
 import { words } from '../../i18n/words.ts';
 import { useSlotContents, CONTENT_TRUTH, useHeldName } from './slots/slotHooks.ts';
@@ -14,6 +22,7 @@ import { Chip } from '../../ui/Chip.tsx';
 import { NumberField } from '../../ui/NumberField.tsx';
 import { triggerInBar, heldText } from '../../i18n/sentences.ts';
 import { DownloadControl, DownloadProgress } from './DownloadControl.tsx';
+import { CollisionNote } from './compile/problems.tsx';
 import { laterComponent } from '../../ui/later.tsx';
 import { PART } from '../../ui/focus.ts';
 import panel from '../../ui/Panel.module.css';
@@ -141,11 +150,6 @@ function Running({ activity }: { readonly activity: Extract<Activity, { kind: 'r
     </div>
   );
 }
-
-const CollisionNote = laterComponent(
-  async () => (await import('./compile/CollisionNote.tsx')).CollisionNote,
-  '0',
-);
 
 const BoardDetails = laterComponent(async () => (await import('./BoardDetails.tsx')).BoardDetails, '240px');
 

@@ -1,6 +1,6 @@
 // Downloads the compiled group to the chosen slot and shows the progress.
 
-import { problemText } from './compile/problemText.ts';
+import { problemText } from './compile/problems.tsx';
 import { isWatching } from '#shared/robot/lease.ts';
 import { useSnapshot, useStores, useCompiled, useDevice, useDocument, useSlot } from '../stores.ts';
 import { Button } from '../../ui/Button.tsx';

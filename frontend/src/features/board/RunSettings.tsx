@@ -1,4 +1,4 @@
-// How often Run repeats the chosen slot: a number of times or until stopped, and whether the run may continue without this page.
+// How often Run repeats the chosen slot (a number of times or until stopped), whether the run may continue without this page, and such a run.
 
 import { useSnapshot, useStores, useView, useDevice, useSlot } from '../stores.ts';
 import { NumberField } from '../../ui/NumberField.tsx';
@@ -106,7 +106,7 @@ function TimesField({ untilStopped }: { readonly untilStopped: boolean }) {
   );
 }
 
-export interface ChosenRun {
+interface ChosenRun {
   readonly slot: number;
   /** 0: until stopped. */
   readonly times: number;

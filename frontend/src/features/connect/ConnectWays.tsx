@@ -1,5 +1,5 @@
-// What the connect dialog shows: which robot it is, the ways that can lead to it from here, and of the others why they cannot.
-// `Ways` takes plain values, so every case can be shown without a link.
+// The content of the connect dialog: which robot it is, the ways that lead to it from here, each with a drawing of its cable, and the reason
+// for each way that is not possible. `Ways` takes plain values, so every case can be shown without a link.
 
 import { useId, useState, type ReactNode } from 'react';
 import { useStore } from 'zustand';
@@ -264,7 +264,7 @@ const SHAPES: Readonly<Record<Way['kind'], string>> = {
   simulated: 'M4 9h40v26H4zM16 41h16M24 35v6M14 30h10M19 30l-2-9 9-6 6 5M30 22l2-2 2 2',
 };
 
-export function CablePicture({ kind }: { readonly kind: Way['kind'] }) {
+function CablePicture({ kind }: { readonly kind: Way['kind'] }) {
   return (
     <svg className={styles.picture} viewBox="0 0 48 48" width="48" height="48" aria-hidden="true">
       <path d={SHAPES[kind]} fill="none" stroke="currentColor" strokeWidth="1.5" strokeLinejoin="round" />

@@ -11,7 +11,7 @@ import type { Way } from '../../robot/device.ts';
 import type { FoundRate, GatewayPort } from '../../robot/gatewayPorts.ts';
 import { Button } from '../../ui/Button.tsx';
 import type { Actions } from './cables.ts';
-import { CopyButton } from './CopyButton.tsx';
+import { CopyButton } from './PortGuide.tsx';
 import { findingsOf, heardIn, interfacesHere, isReadable, type Facts, type Finding } from './doctor.ts';
 import styles from './Doctor.module.css';
 

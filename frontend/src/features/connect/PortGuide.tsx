@@ -1,15 +1,16 @@
-// What to do when the robot is not in a chooser's list or may not be opened, for this operating system.
+// What to do when the robot is not in a chooser's list or cannot be opened, for this operating system, with commands to copy. The system is a
+// guess, and the person can choose another one.
 
 import { useState } from 'react';
-
 import USB from '../../../../shared/protocol/usb.json' with { type: 'json' };
 import { Choice } from '../../ui/Toggle.tsx';
 import { words, type Words } from '../../i18n/whole.ts';
-import { CopyButton } from './CopyButton.tsx';
 import styles from './PortGuide.module.css';
+import { Button } from '../../ui/Button.tsx';
+import { useStores } from '../stores.ts';
 
-export const SYSTEMS = ['windows', 'macos', 'linux', 'chromeos'] as const;
-export type OperatingSystem = (typeof SYSTEMS)[number];
+const SYSTEMS = ['windows', 'macos', 'linux', 'chromeos'] as const;
+type OperatingSystem = (typeof SYSTEMS)[number];
 
 const SIGNS: readonly (readonly [RegExp, OperatingSystem])[] = [
   [/cros|chrome ?os/i, 'chromeos'],
@@ -21,7 +22,7 @@ export function operatingSystemIn(platform: string): OperatingSystem {
   return SIGNS.find(([sign]) => sign.test(platform))?.[1] ?? 'linux';
 }
 
-export function operatingSystem(): OperatingSystem {
+function operatingSystem(): OperatingSystem {
   const { userAgentData } = navigator as { userAgentData?: { readonly platform?: string } };
   return operatingSystemIn(userAgentData?.platform ?? navigator.userAgent);
 }
@@ -93,4 +94,23 @@ export function PortGuide({ kind }: { readonly kind: GuideKind }) {
 function likeliestOf(systems: readonly OperatingSystem[]): OperatingSystem {
   const here = operatingSystem();
   return systems.includes(here) ? here : 'linux';
+}
+
+interface CopyButtonProps {
+  readonly text: string;
+  readonly label: string;
+  /** What is said once it is there. */
+  readonly done: string;
+}
+
+export function CopyButton({ text, label, done }: CopyButtonProps) {
+  const { notices } = useStores();
+  if (!window.isSecureContext) return null;
+  const copy = (): void =>
+    void navigator.clipboard.writeText(text).then(() => notices.tell('info', done), notices.tellError);
+  return (
+    <Button tone="quiet" icon="copy" onPress={copy}>
+      {label}
+    </Button>
+  );
 }

@@ -1,4 +1,5 @@
-// "Which robot do you have?": five builds to choose from, each with its picture. Knows no link.
+// "Which robot do you have?": five builds to choose from, each with its picture, and what a choice does to the robot in use. Moves nothing and
+// knows no link.
 
 import { type ReadyRobotId, READY_ROBOTS } from '#shared/profile/readyRobots.ts';
 import { BODIES, type BodyKind } from '#shared/profile/robot.ts';
@@ -43,7 +44,7 @@ export function RobotQuestion({ body, onBody }: RobotQuestionProps) {
 }
 
 /** The ready robot of that build on that board, null where no such robot is known. */
-export function readyFor(body: BodyKind, board: FamilyId): ReadyRobotId | null {
+function readyFor(body: BodyKind, board: FamilyId): ReadyRobotId | null {
   const ids = Object.keys(READY_ROBOTS) as ReadyRobotId[];
   const isSuch = (id: ReadyRobotId): boolean => {
     const ready: { readonly body: BodyKind; readonly boards: readonly FamilyId[] } = READY_ROBOTS[id];

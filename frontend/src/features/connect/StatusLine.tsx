@@ -1,5 +1,5 @@
-// What goes on, in one place that never moves: the latch with its Resume first, then a lost link with its countdown, then
-// what the board does. Changes are read out.
+// The state of the link and of the board: the chip in the bar that opens the ways to connect, and a line that never moves: the latch with its
+// Resume first, then a lost link with its countdown, then the board's activity. Changes are read out.
 
 import type { Unheld } from '#shared/motion/haltPlan.ts';
 import { useDevice, useDocument, useIsTeaching, useSnapshot, useStores, usePlayedFrame } from '../stores.ts';

@@ -1,4 +1,5 @@
-// The robot as the picture of the workspace Drive: as a model, a drawing, or with its servos at their places.
+// The robot as the picture of the workspace Drive: as a model, a drawing, or with its servos at their places; and the legend of the marks
+// of a position.
 
 import type { ReactNode } from 'react';
 import type { BodyKind } from '#shared/profile/robot.ts';

@@ -3,7 +3,16 @@
 
 import { useState } from 'react';
 import { type BodyKind, servoOf } from '#shared/profile/robot.ts';
-import { useStores, useRobot, useServoView, useDevice, useView, editServoView, useIsTeaching, useSnapshot } from '../stores.ts';
+import {
+  useStores,
+  useRobot,
+  useServoView,
+  useDevice,
+  useView,
+  editServoView,
+  useIsTeaching,
+  useSnapshot,
+} from '../stores.ts';
 import { LiveText } from '../../ui/LiveText.tsx';
 import { words } from '../../i18n/words.ts';
 import { SharedSheet } from '../picture/SharedSheet.tsx';

@@ -25,7 +25,7 @@ import type { Notices } from '../../state/notices.ts';
 import { motionHindrance } from '../../robot/readiness.ts';
 import type { Poses } from '../poses/poses.ts';
 import type { RobotStore } from '../profiles/robots.ts';
-import type { Undoable } from '../../state/undoable.ts';
+import type { Undoable } from '../../state/store.ts';
 import type { TextStorage } from '../../state/storage.ts';
 import { createRobotDocument, type RobotDocument } from '../profiles/robotDocument.ts';
 import { isTextField } from '../../ui/inputEvents.ts';

@@ -1,10 +1,30 @@
-// The packet log in words and bytes, newest last: can be paused, searched, filtered by kind, saved and cleared. Packets are still recorded
-// while it is paused. Below it packets can be written by hand.
+// The packet log in words and bytes, newest last: it can be paused, searched, filtered by kind, saved and cleared. Packets are still recorded
+// while it is paused. The list follows the newest line unless it is scrolled away; below it packets can be written by hand.
 
-import { useId, useState, type SyntheticEvent, useDeferredValue, useMemo, useSyncExternalStore, memo, useLayoutEffect, useRef, type KeyboardEvent } from 'react';
+import {
+  useId,
+  useState,
+  type SyntheticEvent,
+  useDeferredValue,
+  useMemo,
+  useSyncExternalStore,
+  memo,
+  useLayoutEffect,
+  useRef,
+  type KeyboardEvent,
+} from 'react';
 import { useStore } from 'zustand';
 import type { LogEntry } from '../../robot/traffic.ts';
-import { bytesText, meaning, kindOf, lineText, judgeText, obstacleFor, type Judged, arrowOf } from './packetText.ts';
+import {
+  bytesText,
+  meaning,
+  kindOf,
+  lineText,
+  judgeText,
+  obstacleFor,
+  type Judged,
+  arrowOf,
+} from './packetText.ts';
 import { useDevice, useSnapshot, useStores, useView } from '../stores.ts';
 import { Button, IconButton } from '../../ui/Button.tsx';
 import { Toggle } from '../../ui/Toggle.tsx';
@@ -219,7 +239,7 @@ interface LogListProps {
   onCopy(entry: LogEntry): void;
 }
 
-export function LogList({ entries, hiddenCount, onCopy }: LogListProps) {
+function LogList({ entries, hiddenCount, onCopy }: LogListProps) {
   const list = useRef<HTMLDivElement>(null);
   const follows = useRef(true);
   useLayoutEffect(() => {

@@ -1,5 +1,5 @@
-// Who drives the robot, with the actions to request, grant or release it. Hidden while no other client uses the robot. On a phone the text
-// itself opens a menu, because there is no room for several buttons.
+// Who drives the robot, in words, with the actions to request, grant or release it. Hidden while no other client uses the robot. On a phone the
+// text itself opens a menu, because there is no room for several buttons.
 
 import { useState, useRef, type ReactNode } from 'react';
 import { type Unattended, isWatching, type Lease, type LeaseAction } from '#shared/robot/lease.ts';
@@ -217,14 +217,14 @@ export function tellHandedOver(
   });
 }
 
-export interface LeaseOffer {
+interface LeaseOffer {
   readonly label: string;
   readonly hint?: string;
   readonly tone: 'plain' | 'quiet';
   readonly wish: LeaseAction;
 }
 
-export interface LeaseText {
+interface LeaseText {
   readonly truth: Truth;
   readonly text: string;
   /** `countdown`: how long the driver may still refuse. */

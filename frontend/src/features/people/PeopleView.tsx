@@ -1,11 +1,19 @@
-// The people and devices of a gateway with their roles, invitations, tokens and stop-only links. Plain values and callbacks.
+// The people and devices of a gateway with their roles, tokens and stop-only links, and the open invitation as QR code, link and eight digits.
+// Plain values and callbacks.
 
 import { useState } from 'react';
 import type { Candidate } from '#shared/robot/lease.ts';
 import { words } from '../../i18n/whole.ts';
 import type { Me, Person } from '../../robot/http.generated.ts';
 import { NameField } from '../../ui/NameField.tsx';
-import { type PeopleWishes, type Shown, PERSON_ROLES, type PeopleState, type PersonRole, type OpenInvitation } from './people.ts';
+import {
+  type PeopleWishes,
+  type Shown,
+  PERSON_ROLES,
+  type PeopleState,
+  type PersonRole,
+  type OpenInvitation,
+} from './people.ts';
 import { Button } from '../../ui/Button.tsx';
 import { cx } from '../../ui/cx.ts';
 import { Chip } from '../../ui/Chip.tsx';
@@ -230,7 +238,7 @@ interface InviteCardProps {
   readonly invitation: OpenInvitation | null;
 }
 
-export function InviteCard({ invitation, wishes, now }: InviteCardProps) {
+function InviteCard({ invitation, wishes, now }: InviteCardProps) {
   const [role, setRole] = useState<PersonRole>('viewer');
   const [name, setName] = useState('');
   /** Withdraws the invitation when another role is chosen, so that the code always matches the role above it. */

@@ -1,10 +1,21 @@
-// This page's identity at the gateway, and for owners the devices, tokens, stop-only links and the open invitation. A used invitation is
-// replaced by a new one, so that a class can join one after the other. Knows no HTTP.
+// This page's identity at the gateway, and for owners the devices, tokens, stop-only links and the open invitation, with the HTTP requests
+// for them. A used invitation is replaced by a new one, so that a class can join one after the other. Every failure is a PeopleError.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import { words } from '../../i18n/words.ts';
 import type { Notices } from '../../state/notices.ts';
-import type { Invitation, InviteWish, Me, People, PersonChange, StopLink, Token, TokenWish, You, PairWish } from '../../robot/http.generated.ts';
+import type {
+  Invitation,
+  InviteWish,
+  Me,
+  People,
+  PersonChange,
+  StopLink,
+  Token,
+  TokenWish,
+  You,
+  PairWish,
+} from '../../robot/http.generated.ts';
 import * as v from 'valibot';
 import { requestsOf } from '../../robot/request.ts';
 

@@ -1,4 +1,5 @@
-// One pose as a card with its picture, its name and a button to move there. The face selects; the grip drags.
+// One pose as a card with its picture, its name and a button to move there: the face selects, the grip drags; and the focus on the name of a
+// pose that has just been captured.
 
 import { type Pose, movePose, renamePose, poseOf } from '#shared/profile/pose.ts';
 import { unknownServos } from '#shared/profile/poseShapes.ts';

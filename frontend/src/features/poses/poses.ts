@@ -1,8 +1,18 @@
-// The poses of the current robot: capturing one, and moving to one within the limits, slowly by default. A move to a pose is an undo
-// step of the book of poses; undoing it changes the book and moves nothing.
+// The poses of the current robot: capturing one, moving to one within the limits, slowly by default, and the blend of two, which the robot
+// can follow until STOP. A move to a pose is an undo step of the book of poses; undoing it changes the book and moves nothing.
 
 import type { Label } from '#shared/document/history.ts';
-import { EMPTY_BOOK, addPose, poseOf, type PoseBook, type PoseRef, markApplied, withPosesOf, poseBookFromText, poseBookToText } from '#shared/profile/pose.ts';
+import {
+  EMPTY_BOOK,
+  addPose,
+  poseOf,
+  type PoseBook,
+  type PoseRef,
+  markApplied,
+  withPosesOf,
+  poseBookFromText,
+  poseBookToText,
+} from '#shared/profile/pose.ts';
 import { homeTargets, unknownServos } from '#shared/profile/poseShapes.ts';
 import type { ServoTarget } from '#shared/codec/commands.ts';
 import { flawSentence } from '../../i18n/sentences.ts';

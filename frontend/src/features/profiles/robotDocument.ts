@@ -10,7 +10,7 @@ import type { Read, TextFlaw } from '#shared/document/schema.ts';
 import { saveText, type TextStorage } from '../../state/storage.ts';
 import type { Notices } from '../../state/notices.ts';
 import type { OwnRobot, RobotStore } from './robots.ts';
-import { createUndoable, type Undoable } from '../../state/undoable.ts';
+import { createUndoable, type Undoable } from '../../state/store.ts';
 import { words } from '../../i18n/words.ts';
 
 /** A robot's state in the library when it was last read or written. */

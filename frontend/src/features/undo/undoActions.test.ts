@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest';
 import { actionOf } from '../../ui/action.ts';
-import { createUndoable } from '../../state/undoable.ts';
+import { createUndoable } from '../../state/store.ts';
 import { words } from '../../i18n/words.ts';
 import { REDO, UNDO } from './undoActions.ts';
 

@@ -1,7 +1,7 @@
 // What the group becomes on the board: whether it fits, what it costs, how far off it is and where, and what does not fit. A click
 // on a place goes there.
 
-import { collisionText, problemText } from '../../board/compile/problemText.ts';
+import { collisionText, problemText } from '../../board/compile/problems.tsx';
 import { useState } from 'react';
 import type { CompileProblem } from '#shared/group/compileReport.ts';
 import { type ActionGroup, MOST_ERROR_UNITS, maxErrorOf } from '#shared/group/group.ts';

@@ -21,7 +21,7 @@ import { chosenTimes } from '../../board/slots/groupPlace.ts';
 import { useSlotContents } from '../../board/slots/slotHooks.ts';
 import { motionHindrance, startHindrance } from '../../../robot/readiness.ts';
 import { isSilent } from '../../servoView.ts';
-import { CollisionNote } from '../../board/compile/CollisionNote.tsx';
+import { CollisionNote } from '../../board/compile/problems.tsx';
 import { timesOf } from '#shared/group/groupTimes.ts';
 import { ActionButton, ActionIconButton, Button } from '../../../ui/Button.tsx';
 import { cx } from '../../../ui/cx.ts';

@@ -1,7 +1,7 @@
 // Plays the group at hand, from the page or on the board, and says where it is: what is played is what compile makes of it, by
 // either way. One thing at a time; STOP, a lost link and a hidden page end it. Knows no panel.
 
-import { problemText } from '../../board/compile/problemText.ts';
+import { problemText } from '../../board/compile/problems.tsx';
 import type { StoreApi } from 'zustand/vanilla';
 import { totalDurationMs } from '#shared/group/group.ts';
 import { frameEnds } from '#shared/group/tracks.ts';

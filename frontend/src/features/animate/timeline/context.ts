@@ -16,7 +16,7 @@ import {
   type TimelineState,
 } from './timeline.ts';
 import { isHeld, type ServoView } from '../../servoView.ts';
-import { setChanged } from '../../../state/setChanged.ts';
+import { setChanged } from '../../../state/store.ts';
 import {
   groupBoardOf,
   servoViewOf,

@@ -9,7 +9,7 @@ import { ALL_ROW, keyName, keySet, selectedKeys, type TimelineState, withKeys } 
 import { cursorLeft, fitAll, lookAt, selectFrame, shownKeys } from './looking.ts';
 import { servoRowId } from './rows.ts';
 import { paged, xOf } from './timeScale.ts';
-import { setChanged } from '../../../state/setChanged.ts';
+import { setChanged } from '../../../state/store.ts';
 
 export function keepInStep(stores: TimelineStores): () => void {
   const { document, view, timeline } = stores;

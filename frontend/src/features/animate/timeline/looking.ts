@@ -2,7 +2,7 @@
 
 import type { Key } from '#shared/group/tracks.ts';
 import { ALL_ROW, type Cursor, selectedKeys, type SelectMode, type TimeView, withKeys } from './timeline.ts';
-import { setChanged } from '../../../state/setChanged.ts';
+import { setChanged } from '../../../state/store.ts';
 import { rowOf, select, type TimelineContext } from './context.ts';
 import { allKeys, endOfFrame, keysOfFrame, spanOf } from '#shared/group/groupTimes.ts';
 import { instantText } from './valueText.ts';

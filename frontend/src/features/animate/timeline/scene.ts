@@ -1,9 +1,19 @@
-// What is under the pointer. Pure; the same geometry as the painting.
+// The tracks as a scene: everything on them with its geometry, for painting, and what is under the pointer, for gestures. Pure.
 
 import { type KeySet, selectedKeys, type TimelineState, ALL_ROW } from './timeline.ts';
 import type { KeyRef } from '#shared/group/tracks.ts';
 import { type GroupTimes, keysOfFrame, spanOf } from '#shared/group/groupTimes.ts';
-import { keysInRow, type PlacedRow, type Row, topOfRows, within, placedRows, seenRows, type Sizes, topOfAll } from './rows.ts';
+import {
+  keysInRow,
+  type PlacedRow,
+  type Row,
+  topOfRows,
+  within,
+  placedRows,
+  seenRows,
+  type Sizes,
+  topOfAll,
+} from './rows.ts';
 import { msAt, xOf, type Span } from './timeScale.ts';
 import type { CollisionPlace } from '#shared/kinematics/collision.ts';
 import type { Marker } from '#shared/group/group.ts';

@@ -10,7 +10,7 @@ import type { ActionGroup } from '#shared/group/group.ts';
 import type { History } from '#shared/document/history.ts';
 import type { Library } from '../../library/library.ts';
 import type { View } from '../../view.ts';
-import { setChanged } from '../../../state/setChanged.ts';
+import { setChanged } from '../../../state/store.ts';
 import type { Document } from '../../groupDocument.ts';
 
 // A set of keys of the action group, by their names in the document.

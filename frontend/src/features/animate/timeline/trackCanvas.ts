@@ -2,7 +2,7 @@
 // elements and stores, no edit.
 
 import type { CollisionPlace } from '#shared/kinematics/collision.ts';
-import { collisionText } from '../../board/compile/problemText.ts';
+import { collisionText } from '../../board/compile/problems.tsx';
 import { contextOf, type TimelineStores, rowOf, select } from './context.ts';
 import type { StatusName } from './gesture.ts';
 import { hasAll, hitAt, type Hit, type Spot, type CompiledTrack, sceneOf, type Scene } from './scene.ts';

@@ -3,7 +3,7 @@ import type { CollisionPlace } from '#shared/kinematics/collision.ts';
 import { insertFrame } from '#shared/group/groupEdits.ts';
 import { createTestPage } from '../../pageUnderTest.ts';
 import { type CollisionCheck, createCollisions } from './collisions.ts';
-import { collisionSummary, collisionText } from './problemText.ts';
+import { collisionSummary, collisionText } from './problems.tsx';
 
 const place = (fromMs: number, toMs: number, kind: CollisionPlace['kind'] = 'self'): CollisionPlace => ({
   ...{ fromMs, toMs, kind, links: [] },

@@ -1,5 +1,5 @@
-// The open group as the board would get it, with what does not fit: compiled between gestures, or at once where it is about to be sent.
-// Moves nothing.
+// The open group as the board would get it, with what does not fit: compiled in a worker between gestures, because a large group takes as long as
+// ten frames of the screen, or at once where it is about to be sent. Moves nothing.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { CompileProblem } from '#shared/group/compileReport.ts';
@@ -8,7 +8,7 @@ import type { Clock } from '#shared/clock.ts';
 import type { Device } from '../../../robot/device.ts';
 import { type Document, knownFamily } from '../../groupDocument.ts';
 import type { RobotStore } from '../../profiles/robots.ts';
-import { setChanged } from '../../../state/setChanged.ts';
+import { setChanged } from '../../../state/store.ts';
 import { compileSource, type Source, type CompileResult } from './compileSource.ts';
 import { framesOf } from '#shared/group/fingerprint.ts';
 import type { Answer, Order } from './compileWorker.ts';

@@ -1,6 +1,6 @@
 // Downloads several groups of the library at once: which ones, to which slots, and why some cannot be downloaded.
 
-import { problemText } from '../compile/problemText.ts';
+import { problemText } from '../compile/problems.tsx';
 import { useMemo, useState, useEffect } from 'react';
 import type { ActionGroup } from '#shared/group/group.ts';
 import { ownSlot, slotFor } from '#shared/group/slotPlaces.ts';

@@ -1,4 +1,4 @@
-// The board at hand: the name the person gave it, what it is taken for and why, and the way to say otherwise.
+// The connected board: the name that the person gave it, its assumed kind with the answers that it is based on, and the choice of another.
 
 import { useState } from 'react';
 import { useStore } from 'zustand';
@@ -99,7 +99,7 @@ export function ThisBoard() {
   );
 }
 
-export function answerText(evidence: Evidence): string {
+function answerText(evidence: Evidence): string {
   const { answers } = words.identity;
   switch (evidence.kind) {
     case 'silent':
@@ -155,7 +155,7 @@ export function familyText({ id, position, unit }: Family): string {
   return words.identity.about({ description, min: position.min, max: position.max, unit: words.units[unit] });
 }
 
-export function offsetsText(offsets: readonly ServoOffset[]): string {
+function offsetsText(offsets: readonly ServoOffset[]): string {
   const set = offsets.filter(({ offset }) => offset !== 0).map(words.identity.offset);
   return set.length === 0
     ? words.identity.noOffsets

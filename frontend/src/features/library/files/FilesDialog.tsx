@@ -1,4 +1,5 @@
-// The dialog for files: the opened files with their groups, and saving the open group. Stays mounted while it is closed.
+// The dialog for files: the opened files with their groups, and saving the open group, with what the chosen format cannot store. Stays mounted
+// while it is closed.
 
 import { memo, useCallback, useEffect, useRef, useState, useMemo } from 'react';
 import { useStore } from 'zustand';
@@ -7,7 +8,15 @@ import type { Remark } from '#shared/files/reading.ts';
 import { Button, IconButton } from '../../../ui/Button.tsx';
 import { ProgressBar } from '../../../ui/ProgressBar.tsx';
 import { words } from '../../../i18n/whole.ts';
-import { type Progress, type OpenedFile, type OpenedFiles, createOpenedFiles, takeGroup, takeGroups, createFileReader } from './openedFiles.ts';
+import {
+  type Progress,
+  type OpenedFile,
+  type OpenedFiles,
+  createOpenedFiles,
+  takeGroup,
+  takeGroups,
+  createFileReader,
+} from './openedFiles.ts';
 import { problemText, remarkText, lossText, misfitText } from './fileText.ts';
 import { type Answer, readyGroups, type ReadyGroup, countsOf, type FileCounts } from './answers.ts';
 import { FoundGroup } from './FoundGroup.tsx';
@@ -17,7 +26,13 @@ import { Dialog } from '../../../ui/Dialog.tsx';
 import styles from './FilesDialog.module.css';
 import { fileNameOf } from '#shared/files/fileName.ts';
 import type { Misfit } from '#shared/files/fit.ts';
-import { lossesIn, EXTENSIONS, SAVE_FORMATS, writeGroupFile, type SaveFormat } from '#shared/files/writeGroupFile.ts';
+import {
+  lossesIn,
+  EXTENSIONS,
+  SAVE_FORMATS,
+  writeGroupFile,
+  type SaveFormat,
+} from '#shared/files/writeGroupFile.ts';
 import { Choice } from '../../../ui/Toggle.tsx';
 import { boardName } from '../../../i18n/sentences.ts';
 import { fileMeans, loadSqlite } from './means.ts';
@@ -228,7 +243,7 @@ export function FilesDialog({ dropped, isOpen, onClose, onCounts }: FilesDialogP
   );
 }
 
-export function SaveAs() {
+function SaveAs() {
   const group = useGroup();
   const [format, setFormat] = useState<SaveFormat>('json');
   const losses = useMemo(() => lossesIn(format, group), [format, group]);

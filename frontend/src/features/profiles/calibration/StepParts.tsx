@@ -3,7 +3,15 @@
 
 import { type ReactNode, useLayoutEffect, useRef, useState, type MouseEvent, useEffect } from 'react';
 import { type Robot, type RobotServo, flawOf, servoOf } from '#shared/profile/robot.ts';
-import { reachOf, beginCalibration, isServoDone, partnerDone, servoDone, settled, stepDone } from '#shared/profile/robotEdits.ts';
+import {
+  reachOf,
+  beginCalibration,
+  isServoDone,
+  partnerDone,
+  servoDone,
+  settled,
+  stepDone,
+} from '#shared/profile/robotEdits.ts';
 import { isWatching, mayResume, type Lease } from '#shared/robot/lease.ts';
 import { FAMILIES } from '#shared/codec/families.ts';
 import { GENTLE_MOVE_MS } from '../../../robot/moves.ts';

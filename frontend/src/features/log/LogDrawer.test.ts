@@ -5,7 +5,7 @@ import type { SessionState } from '#shared/robot/state.ts';
 import { INITIAL_STATE } from '#shared/robot/store.ts';
 import { createTrafficLog } from '../../robot/traffic.ts';
 import { meaning } from './packetText.ts';
-import { createStrip } from './LatestEntry.tsx';
+import { createStrip } from './LogDrawer.tsx';
 
 const READY: SessionState = { ...INITIAL_STATE, link: { status: 'ready' } };
 const STOPPED: SessionState = {

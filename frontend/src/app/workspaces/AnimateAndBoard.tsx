@@ -1,5 +1,5 @@
-// The workspace Animate on a wide screen: the timeline and its frames, the sliders beside them, and below, in one scroll, what is done with
-// the board.
+// Two workspaces of a wide screen that have the board's panels: Animate, with the timeline, its frames and the sliders beside them; and Board,
+// with the battery and the log of packets.
 
 import { Authoring } from '../Authoring.tsx';
 import { LivePanel, Split, sized } from './parts.tsx';
@@ -9,6 +9,8 @@ import { BoardPanel } from '../../features/board/BoardPanel.tsx';
 import { useView } from '../../features/stores.ts';
 import { useLayout } from '../../ui/useLayout.ts';
 import styles from './Workspaces.module.css';
+import { LogPanel } from '../../features/log/LogPanel.tsx';
+import panel from '../../ui/Panel.module.css';
 
 const SIDE = { min: 400, max: 720 };
 /** As Workspaces.module.css has it. */
@@ -31,6 +33,25 @@ export function AnimateWork() {
           <BoardPanel isSpread fit={<CompileRow />} />
           <BatteryPanel />
         </div>
+      </div>
+    </main>
+  );
+}
+
+const LOG = { usual: 320, min: 160, max: 720 };
+
+export function BoardWork() {
+  const isDesktop = useLayout() === 'desktop';
+  const splits = useView((state) => state.splits);
+  return (
+    <main className={styles.board} style={sized('--log', splits.boardLog)}>
+      <div className={styles.boardParts}>
+        <BoardPanel fit={<CompileRow />} />
+        <BatteryPanel />
+      </div>
+      {isDesktop && <Split name="boardLog" between="rows" {...LOG} />}
+      <div className={`${panel.panel} ${styles.log}`}>
+        <LogPanel />
       </div>
     </main>
   );

@@ -1,11 +1,13 @@
-// What keeps a group from the board, and where it may make the robot touch itself, in words: its servos by the names they have on the robot it was judged for. Apart from compiled.ts,
-// which is in the first load.
+// What keeps a group from the board, and where it may make the robot touch itself, in words: servos have the names of the robot that the group
+// was judged for. Apart from compiled.ts, which is in the first load.
 
 import { type CollisionPlace, collisionTimes } from '#shared/kinematics/collision.ts';
 import type { CompileProblem } from '#shared/group/compileReport.ts';
 import { words } from '../../../i18n/whole.ts';
 import { namesIn } from '../../../i18n/sentences.ts';
 import type { Source } from './compileSource.ts';
+import { Chip } from '../../../ui/Chip.tsx';
+import { useCollisions } from '../../stores.ts';
 
 export function problemText(problem: CompileProblem, { group, robot }: Source): string {
   const reasons = words.compile.reasons;
@@ -68,4 +70,11 @@ export function collisionSummary(places: readonly CollisionPlace[]): string | nu
   if (first === undefined) return null;
   const kind = places.every((place) => place.kind === first.kind) ? first.kind : 'both';
   return words.collision.summary({ kind, count: collisionTimes(places).length });
+}
+
+/** `isShort`: in a line with other chips. */
+export function CollisionNote({ isShort = false }: { readonly isShort?: boolean }) {
+  const summary = collisionSummary(useCollisions(({ places }) => places));
+  if (summary === null) return null;
+  return <Chip truth="warning">{isShort ? words.collision.short : summary}</Chip>;
 }

@@ -1,4 +1,5 @@
-// A store of one immutable value with undo history and gestures. Knows neither storage nor the kind of value.
+// How stores of the page change: one immutable value with undo history and gestures, or only the values that differ. Knows neither storage
+// nor the kind of value.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import {
@@ -64,4 +65,10 @@ export function createUndoable<T>(initial: T, settled: (present: T) => void): Un
     undo: () => change(undo(store.getState())),
     redo: () => change(redo(store.getState())),
   };
+}
+
+export function setChanged<State extends object>(store: StoreApi<State>, next: Partial<State>): void {
+  const before = store.getState();
+  const isSame = (Object.keys(next) as (keyof State)[]).every((key) => Object.is(next[key], before[key]));
+  if (!isSame) store.setState(next);
 }

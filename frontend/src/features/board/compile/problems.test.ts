@@ -1,4 +1,4 @@
-import { problemText } from './problemText.ts';
+import { problemText } from './problems.tsx';
 import { afterEach, expect, test } from 'vitest';
 import { emptyGroup } from '#shared/group/group.ts';
 import { readyRobot } from '#shared/profile/readyRobots.ts';
