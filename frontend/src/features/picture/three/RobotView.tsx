@@ -35,16 +35,14 @@ import {
 import { workedOn } from '../../view.ts';
 import { lookOf } from '../Canvas.tsx';
 import { motionsInFrame, usePreview } from '../motion.ts';
-import { useMotions } from '../useMotions.ts';
+import { useMotions, useNeighbours } from '../useMotions.ts';
 import type { Pose } from '../pose.ts';
 import { UnknownNote } from '../UnknownNote.tsx';
 import { parseUrdf } from './figure.ts';
-import { JointKnob, placeKnob } from './JointKnob.tsx';
-import { ElbowButton, LimbHandle, placeHandles, PlaceFields } from './LimbHandle.tsx';
+import { JointKnob, placeKnob, ElbowButton, LimbHandle, placeHandles, PlaceFields } from './handles.tsx';
 import { type LedLimb, limbsOfModel, belowFloorAtMs, pathOf, type PathPoint } from './limbs.ts';
 import { createModel, type Model, type Preview } from './model.ts';
 import { createStage, type Stage } from './stage.ts';
-import { useNeighbours } from './neighbours.ts';
 import { useModel } from './useModel.ts';
 import styles from './RobotView.module.css';
 

@@ -5,7 +5,7 @@ import { Box3, type Object3D, Vector3 } from 'three';
 import { type Robot, servoOf } from '#shared/profile/robot.ts';
 import type { Motions } from '#shared/robot/state.ts';
 import type { Look } from '../Canvas.tsx';
-import type { Neighbours } from './neighbours.ts';
+import type { Neighbours } from '../useMotions.ts';
 import type { Pose } from '../pose.ts';
 import { NO_MARKS, createFigure, type Angles, type Description, type Figure } from './figure.ts';
 import { radiansOf, createPathLine, type PathLine, type PathPoint } from './limbs.ts';

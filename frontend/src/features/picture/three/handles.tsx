@@ -1,10 +1,10 @@
-// What leads a limb by its end: a handle over the picture, and the fields of an arm in millimetres. What comes of it goes the way of a
-// slider's value: soft limit, locks, driver and STOP are as there.
+// What moves servos in the picture in three dimensions: the handle at the end of a limb with its fields in millimetres, and the knob on the arc
+// of the selected servo. A target is treated as a slider's: soft limit, locks, driver and STOP.
 
 import { type KeyboardEvent, type PointerEvent, useRef, useState } from 'react';
 import { Plane, Vector3 } from 'three';
 import type { Vec3 } from '#shared/kinematics/chain.ts';
-import { type Robot, servoOf } from '#shared/profile/robot.ts';
+import { type Robot, servoOf, positionOf, type RobotServo } from '#shared/profile/robot.ts';
 import { words } from '../../../i18n/whole.ts';
 import { Button } from '../../../ui/Button.tsx';
 import { NumberField } from '../../../ui/NumberField.tsx';
@@ -20,9 +20,11 @@ import {
   leadTo,
   poseOfLimb,
   takeLimb,
+  radiansOf,
 } from './limbs.ts';
 import type { Model } from './model.ts';
 import styles from './RobotView.module.css';
+import { turnedBy } from './ring.ts';
 
 const STEP_M = { fine: 0.001, coarse: 0.01 };
 /** A place that is missed by more is out of reach. */
@@ -251,4 +253,73 @@ function nameOf({ servos }: LedLimb, robot: Robot): string {
   const last = servoOf(robot, servos.at(-1) ?? 0);
   if (last === undefined) return '';
   return last.group === '' ? last.name : last.group;
+}
+
+interface Turn {
+  readonly pointer: number;
+  radians: number;
+  x: number;
+  y: number;
+}
+
+export function JointKnob({
+  servo,
+  model,
+  onElement,
+}: {
+  readonly servo: RobotServo;
+  model(): Model | null;
+  onElement(element: HTMLElement | null): void;
+}) {
+  const stores = useStores();
+  const hold = useRef<Turn | null>(null);
+
+  function press(event: PointerEvent<HTMLSpanElement>): void {
+    const { target } = stores.device.motion(servo.servo);
+    if (event.button !== 0 || target === null) return;
+    const { pointerId: pointer, clientX: x, clientY: y } = event;
+    hold.current = { pointer, radians: radiansOf(servo, target), x, y };
+    event.currentTarget.setPointerCapture(pointer);
+  }
+
+  function move(event: PointerEvent): void {
+    const [held, shown] = [hold.current, model()];
+    const ring = shown?.ring() ?? null;
+    if (held?.pointer !== event.pointerId || shown === null || ring === null) return;
+    const moved = { x: event.clientX - held.x, y: event.clientY - held.y };
+    held.radians += turnedBy(ring, shown.stage, held.radians, moved);
+    [held.x, held.y] = [event.clientX, event.clientY];
+    const wanted = positionOf(servo, (held.radians / Math.PI) * 180);
+    const position = Math.min(servo.max, Math.max(servo.min, wanted));
+    const free = freeOf(stores, [{ servo: servo.servo, position }]);
+    if (free.length > 0) stores.device.drag(free, 'hand');
+  }
+
+  return (
+    <span
+      ref={onElement}
+      className={styles.knob}
+      aria-hidden="true"
+      onPointerDown={press}
+      onPointerMove={move}
+      onPointerUp={() => (hold.current = null)}
+      onPointerCancel={() => (hold.current = null)}
+    />
+  );
+}
+
+/** Over the arc where the servo was sent; hidden where that is unknown. */
+export function placeKnob(
+  model: Model,
+  servo: RobotServo,
+  target: number | null,
+  knob: HTMLElement,
+  canvas: HTMLElement,
+): void {
+  const ring = model.ring();
+  knob.style.visibility = ring === null || target === null ? 'hidden' : '';
+  if (ring === null || target === null) return;
+  const { left, top } = canvas.getBoundingClientRect();
+  const { x, y } = model.stage.onPage(ring.knobAt(radiansOf(servo, target)));
+  knob.style.translate = `${x - left}px ${y - top}px`;
 }
