@@ -103,7 +103,7 @@ test('a stop-only link has one button, which stops the robot', async ({ newGatew
   const owner = await guest(browser, (await firstInvitation(gateway)).link);
   const people = peopleOf(owner);
   await people.opener.click();
-  await people.dialog.getByRole('textbox', { name: 'What for' }).fill('On the robot');
+  await people.dialog.getByRole('textbox', { name: 'Purpose' }).fill('On the robot');
   await people.dialog.getByRole('button', { name: 'Make a stop-only QR code' }).click();
   const link = await people.dialog.getByText(/#stop=/).innerText();
 
@@ -132,7 +132,7 @@ test('a person who revokes a script is asked what becomes of the group that it l
   const shown = people.dialog.getByText(/^[0-9a-f]{16}\./);
   let token = '';
   async function danceAlone(): Promise<void> {
-    await people.dialog.getByRole('textbox', { name: 'What for' }).fill('Dance');
+    await people.dialog.getByRole('textbox', { name: 'Purpose' }).fill('Dance');
     await people.dialog.getByRole('button', { name: 'Make a token' }).click();
     // The one before stands there until this one has come.
     if (token !== '') await expect(shown).not.toHaveText(token);

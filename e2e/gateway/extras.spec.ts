@@ -73,7 +73,7 @@ test.describe('an LSC-6', () => {
     await dashboard.type(dashboard.slot, 8);
     await dashboard.type(dashboard.field('Group speed in percent'), 50);
     await dashboard.button('Set speed').click();
-    await expect(dashboard.notices).toContainText('Slot 8 was asked to play at 50 %');
+    await expect(dashboard.notices).toContainText('The speed 50 % was sent for slot 8');
     await page.getByRole('switch', { name: 'Every slot' }).press('Space');
     await dashboard.button('Set speed').click();
     await poll(async () => ofKind(await ptyBoard.bus(), 'setSpeed')).toEqual([

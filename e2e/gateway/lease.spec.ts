@@ -67,11 +67,11 @@ test('one drives, the other looks on, asks, is refused, asks again and is let', 
   await expect(other.estimate(1)).toHaveText('≈ 1800');
 
   await other.slider(1).click({ force: true });
-  await expect(dashboard.turn).toContainText('Another window asks to drive');
+  await expect(dashboard.turn).toContainText('Another window requests to drive');
   await act(dashboard, 'Refuse');
   await expect(other.turn).toContainText('Another window drives');
 
-  await act(other, 'Ask to drive');
+  await act(other, 'Request to drive');
   await act(dashboard, 'Allow');
   await expect(other.turn).toContainText('You drive');
   await expect(dashboard.slider(1)).toHaveAttribute('aria-disabled', 'true');
@@ -80,7 +80,7 @@ test('one drives, the other looks on, asks, is refused, asks again and is let', 
   await poll(() => topOfWork(dashboard)).toEqual(before);
 });
 
-test('a person who calibrates asks to drive where it is said @exhaustive', async ({
+test('a person who calibrates requests to drive where it is refused @exhaustive', async ({
   dashboard,
   robot,
   context,
@@ -91,8 +91,8 @@ test('a person who calibrates asks to drive where it is said @exhaustive', async
   const robots = robotDialogOf(other);
   await robots.opener.click();
   await robots.button('Calibrate').click();
-  await expect(robots.dialog).toContainText('Choose “Ask to drive” first.');
-  await robots.button('Ask to drive').click();
+  await expect(robots.dialog).toContainText('Choose “Request to drive” first.');
+  await robots.button('Request to drive').click();
   await expect(robots.button('Cancel request')).toBeVisible();
   await act(dashboard, 'Allow');
   await expect(robots.button('Cancel request')).toBeHidden();
@@ -123,7 +123,7 @@ test.describe('with a finger', () => {
     // The scroll goes on for a while by itself.
     await expect(async () => {
       await other.slider(4).tap({ force: true });
-      await expect(dashboard.turn).toContainText('Another window asks to drive', { timeout: 500 });
+      await expect(dashboard.turn).toContainText('Another window requests to drive', { timeout: 500 });
     }).toPass();
   });
 });
@@ -136,7 +136,7 @@ test('a driver who says nothing passes it on; taking over asks nothing and stops
   const other = await joins(robot, context);
   await dashboard.type(dashboard.target(1), 1800);
   await expect(other.turn).toContainText('drives');
-  await act(other, 'Ask to drive');
+  await act(other, 'Request to drive');
   await expect(other.turn).toContainText('You drive', { timeout: 10_000 });
 
   await movesSlowly(other, 1, 900);

@@ -55,7 +55,7 @@ test('a class shares a robot, hands it on, and stops it from any phone', async (
   }
   await expect(cleo.turn.getByRole('button')).toHaveCount(0);
 
-  await ben.turn.getByRole('button', { name: 'Ask to drive' }).tap();
+  await ben.turn.getByRole('button', { name: 'Request to drive' }).tap();
   await ada.turn.getByRole('button', { name: 'Allow' }).tap();
   await expect(ben.turn).toContainText('You drive');
   await ben.type(ben.target(2), 1800);

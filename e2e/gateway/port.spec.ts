@@ -63,7 +63,7 @@ test.describe('a program that prints at another speed', () => {
     await dashboard.button('Listen at other speeds').click();
     await expect(dialog.getByRole('status')).toContainText('At 115200 baud text arrives');
     await dashboard.button('Close').click();
-    await expect(dashboard.button('Ask again')).toBeVisible({ timeout: 15_000 });
+    await expect(dashboard.button('Query again')).toBeVisible({ timeout: 15_000 });
   });
 });
 

@@ -72,7 +72,7 @@ test('a person who takes over ends it: nothing moves, the teacher is reported, a
   browser,
 }) => {
   const other = await onlooker(browser, dashboard.page);
-  await other.turn.getByRole('button', { name: 'Ask to drive' }).click();
+  await other.turn.getByRole('button', { name: 'Request to drive' }).click();
   await dashboard.turn.getByRole('button', { name: 'Allow' }).click();
   await expect(other.turn).toContainText('You drive');
   await expect(dashboard.notices).toContainText('Teaching has ended. The servos are still released');

@@ -31,7 +31,7 @@ test.describe('a program that prints at another speed', () => {
     await dashboard.button('Listen at other speeds').click();
     await expect(dialog.getByRole('status')).toContainText('At 115200 baud text arrives');
     await dashboard.button('Close').click();
-    await expect(dashboard.button('Ask again')).toBeVisible(ASKED);
+    await expect(dashboard.button('Query again')).toBeVisible(ASKED);
   });
 });
 
@@ -48,7 +48,7 @@ test.describe('a LeArm AI that has just been switched on', () => {
     const question = page.getByRole('region', { name: 'Which board is this?' });
     await expect(question).toContainText(/K1 .*once/, ASKED);
     await expect(async () => {
-      await dashboard.button('Ask again').click({ timeout: 1000 });
+      await dashboard.button('Query again').click({ timeout: 1000 });
       await expect(question).toContainText('Firmware version', { timeout: 4000 });
     }).toPass({ timeout: 30_000 });
     await dashboard.takeFor('LeArm AI').click();

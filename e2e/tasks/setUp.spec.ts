@@ -60,7 +60,7 @@ test('an arm is set up in 33 acts, and nothing moves that was not asked to', asy
   await expect(robots.dialog.getByText('Does it close?')).toBeVisible();
   await press(robots.button('Yes, that way'));
   for (const servo of SERVOS.slice(1)) await press(robots.button(`Leave all of ${servo} as it is`));
-  await press(robots.button('Go on to poses'));
+  await press(robots.button('Continue with poses'));
 
   for (const [name, servo, position] of POSES) {
     await act(dashboard.type(dashboard.target(servo), position));

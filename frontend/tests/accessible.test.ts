@@ -185,7 +185,7 @@ for (const viewport of looks([PHONE, TABLET, DESKTOP]))
         .getByRole('list')
         .filter({ has: page.getByRole('img', { name: 'Dial of servo 32' }) })
         .first();
-      const legend = page.getByRole('list', { name: 'What the marks mean' });
+      const legend = page.getByRole('list', { name: 'Meaning of the marks' });
       const legendBox = (): Promise<DOMRect> => legend.evaluate((list) => list.getBoundingClientRect());
       const seenTo = (): Promise<number> =>
         dials.evaluate((list) => {

@@ -169,7 +169,7 @@ test.describe('what the board cannot do', () => {
     page,
   }) => {
     await dashboard.button('Details').click();
-    const problems = page.getByRole('list', { name: 'What does not fit' }).getByRole('button');
+    const problems = page.getByRole('list', { name: 'Values that do not fit' }).getByRole('button');
     await expect(problems).toHaveCount(5);
     await expect(problems.first()).toContainText('the board takes 255');
     await problems.last().click();

@@ -162,7 +162,7 @@ test.describe('with thirty-two servos', () => {
   );
 
   test('the dials leave what is below them free', async ({ dashboard, page }) => {
-    const legend = page.getByRole('list', { name: 'What the marks mean' });
+    const legend = page.getByRole('list', { name: 'Meaning of the marks' });
     await expect(dashboard.slider(1)).toBeVisible();
     const over = () =>
       legend.evaluate((list) => {
