@@ -16,7 +16,7 @@ describe('a packet that is being typed', () => {
     ['55 55 02', 'Incomplete: 1 byte missing for this LEN'],
     ['55 55 02 0', 'Incomplete: 1 byte missing for this LEN'],
     ['5555020f', 'Read the battery'],
-    ['55 55 02 0F 00', 'Too long: 1 byte more than LEN says.'],
+    ['55 55 02 0F 00', 'Too long: 1 byte more than LEN states.'],
     ['55 55 01', 'LEN 1 is too small; it counts itself and the command, so it is 2 at least.'],
     ['55 55 ff', 'LEN 255 is too large; LSC-compatible board takes 253 at most.'],
     ['41', 'A packet begins with 55 55.'],

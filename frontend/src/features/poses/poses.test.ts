@@ -72,7 +72,7 @@ describe('going to a pose', () => {
     expect(page.poses.apply('home', 1500)).toBe(true);
     await page.clock.advance(3000);
     expect(page.moves().flatMap(({ targets }) => targets.map(({ servo }) => servo))).toEqual([2, 4, 5, 6]);
-    expect(page.noticeTexts()).toEqual(['Gripper and Wrist are locked and stay.']);
+    expect(page.noticeTexts()).toEqual(['Gripper and Wrist are locked and do not move.']);
     expect(page.poses.apply(1, 1500)).toBe(false);
     expect(page.noticeTexts()).toContain('Gripper is locked and does not move.');
     expect(page.book().applied).toBe('home');
