@@ -32,7 +32,7 @@ test.describe('a group that folds the arm onto its base', () => {
     dashboard,
     page,
   }) => {
-    const list = page.getByRole('list', { name: 'Where it may touch' });
+    const list = page.getByRole('list', { name: 'Places where it may touch' });
     const place = list.getByRole('button', {
       name: /^Gripper may touch the floor, 1\.\d\d–\d\.\d\d s \(estimate\)$/,
     });
@@ -46,7 +46,7 @@ test.describe('a group that folds the arm onto its base', () => {
   });
 
   test('has a mark on the ruler that says what it is about', async ({ dashboard, page }) => {
-    await expect(page.getByRole('list', { name: 'Where it may touch' })).toBeVisible();
+    await expect(page.getByRole('list', { name: 'Places where it may touch' })).toBeVisible();
     await expect(dashboard.frames).toHaveCount(3);
     const timeline = timelineOf(page);
     const folded = await timeline.middleOf(timeline.key('Elbow, 2.00 s, 2500 µs, linear'));
@@ -56,7 +56,7 @@ test.describe('a group that folds the arm onto its base', () => {
   });
 
   test('is played all the same', async ({ dashboard, page, robot }) => {
-    await expect(page.getByRole('list', { name: 'Where it may touch' })).toBeVisible();
+    await expect(page.getByRole('list', { name: 'Places where it may touch' })).toBeVisible();
     const before = ofKind(await robot.bus(), 'move').length;
     await dashboard.button(/^Play/).click();
     await poll(async () => ofKind(await robot.bus(), 'move').length).toBeGreaterThan(before);
