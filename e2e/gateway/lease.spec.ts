@@ -91,7 +91,7 @@ test('a person who calibrates requests to drive where it is refused @exhaustive'
   const robots = robotDialogOf(other);
   await robots.opener.click();
   await robots.button('Calibrate').click();
-  await expect(robots.dialog).toContainText('Choose “Request to drive” first.');
+  await expect(robots.dialog).toContainText('Request to drive first.');
   await robots.button('Request to drive').click();
   await expect(robots.button('Cancel request')).toBeVisible();
   await act(dashboard, 'Allow');
