@@ -1182,7 +1182,7 @@ export interface Messages {
     readonly downloaded: (values: { readonly count: number; readonly slot: number }) => string;
     readonly downloadCancelled: string;
     readonly downloadBroke: (values: { readonly slot: number }) => string;
-    readonly speedSent: (values: { readonly slot: number; readonly percent: number }) => string;
+    readonly speedSent: (values: { readonly percent: number; readonly slot: number }) => string;
     readonly speedSentToAll: (values: { readonly percent: number }) => string;
     readonly place: (values: { readonly slot: number; readonly times: number }) => string;
     readonly placeNone: (values: { readonly times: number }) => string;
