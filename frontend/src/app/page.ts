@@ -9,7 +9,7 @@ import { createBlend, createPoses } from '../features/poses/poses.ts';
 import { createBoards, createLastPoses } from '../robot/remembered.ts';
 import { createDevice } from '../robot/device.ts';
 import { createDocument } from '../features/groupDocument.ts';
-import { readText, saveText, storageOf } from '../state/storage.ts';
+import { readText, saveText, storageOf, type TextStorage } from '../state/storage.ts';
 import type { DocumentStore } from '#shared/files/documentStore.ts';
 import { followLanguage, createView } from '../features/view.ts';
 import { createLibrary } from '../features/library/library.ts';
@@ -143,8 +143,7 @@ export async function openPage({ me, problem }: Arrival): Promise<Page> {
   };
   watchLeaving(window, { hidden: paused, left });
   applyBatteryPolicy({ device, battery, robots, poses, notices });
-  if (readText(storage, VISITED_KEY) === null)
-    void welcomeUntouched(() => saveText(storage, VISITED_KEY, 'yes'), { device, robots });
+  void welcomeVisitor(storage, { device, robots });
   watchInputs(window, pad);
   tellHandedOver(device.store, notices);
   resetForOpenedGroup({ library, view, timeline });
@@ -176,18 +175,19 @@ const loadGatewayStore = async (): Promise<DocumentStore> =>
 
 const TOUCHES = ['pointerdown', 'keydown', 'wheel'] as const;
 
-/** A touch that comes before the part that welcomes counts as well. */
-async function welcomeUntouched(
-  noteTouch: () => void,
-  { device, robots }: Pick<Stores, 'device' | 'robots'>,
+/** The visit counts once it is touched, also before the part that welcomes has come. */
+async function welcomeVisitor(
+  storage: TextStorage,
+  stores: Pick<Stores, 'device' | 'robots'>,
 ): Promise<void> {
+  const isFirstVisit = readText(storage, VISITED_KEY) === null;
   const touched = new AbortController();
   const { signal } = touched;
-  signal.addEventListener('abort', noteTouch);
+  signal.addEventListener('abort', () => saveText(storage, VISITED_KEY, 'yes'));
   for (const touch of TOUCHES)
     window.addEventListener(touch, () => touched.abort(), { capture: true, signal });
   const { welcome } = await import('./welcome.ts');
-  if (!signal.aborted) welcome({ device, robots, clock: pageClock, touched: signal, isWatched });
+  welcome({ ...stores, clock: pageClock, isFirstVisit, touched: signal, isWatched });
 }
 
 /** Not `randomUUID`, which is there only at secure addresses. */

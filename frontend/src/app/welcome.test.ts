@@ -1,4 +1,4 @@
-// The first visit: which robot stands up, in which pose, and what ends its small movements.
+// Which robot stands up as the page opens, in which pose, and what ends its small movements.
 
 import { expect, test } from 'vitest';
 import { changeServo } from '#shared/profile/robotEdits.ts';
@@ -10,12 +10,12 @@ import { welcome } from './welcome.ts';
 
 const SIMULATED: Way = { kind: 'simulated', label: 'Simulated board', isSimulated: true };
 
-async function visit(way = SIMULATED) {
+async function visit(way = SIMULATED, isFirstVisit = true) {
   const page = await createTestPage(new Map(), { way });
   const touched = new AbortController();
   pollBattery(page.device, () => true);
   const begin = (): void =>
-    welcome({ ...page, clock: page.clock, touched: touched.signal, isWatched: () => true });
+    welcome({ ...page, clock: page.clock, isFirstVisit, touched: touched.signal, isWatched: () => true });
   const pose = () => page.device.pose().map(({ position }) => position);
   return { ...page, begin, pose, touch: () => touched.abort() };
 }
@@ -29,6 +29,17 @@ test('the simulated arm stands up gently, and moves a little until it is touched
   await draw(5_000);
   expect(pose()).not.toEqual([1200, 1500, 1950, 2050, 1150, 1500]);
   touch();
+  const before = moves().length;
+  await draw(20_000);
+  expect(moves()).toHaveLength(before);
+});
+
+test('on a later visit it stands up and rests', async () => {
+  const { begin, draw, moves, pose, touch } = await visit(SIMULATED, false);
+  touch();
+  begin();
+  await draw(1_400);
+  expect(pose()).toEqual([1200, 1500, 1950, 2050, 1150, 1500]);
   const before = moves().length;
   await draw(20_000);
   expect(moves()).toHaveLength(before);
@@ -69,6 +80,13 @@ test('the simulated robot of a gateway stands up and rests', async () => {
   expect(before).toBeGreaterThan(0);
   await draw(20_000);
   expect(moves()).toHaveLength(before);
+});
+
+test('the simulated robot of a gateway does not move on a later visit', async () => {
+  const { begin, draw, moves } = await visit({ kind: 'gateway', label: 'Gateway', isSimulated: true }, false);
+  begin();
+  await draw(10_000);
+  expect(moves()).toEqual([]);
 });
 
 test.each([

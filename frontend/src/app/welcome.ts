@@ -1,6 +1,6 @@
-// The first visit: a simulated robot stands up gently, and the page's own makes small movements until the first key or touch. The one at a
-// gateway then rests, because a gateway stops the robot of a driver who leaves while it moves. On later visits, and on a real robot,
-// nothing moves by itself.
+// The page's own simulated robot stands up gently when the page opens, so that its pose is known; on the first visit it then makes small
+// movements until the first key or touch. The one at a gateway stands up on the first visit only and rests, because a gateway stops the
+// robot of a driver who leaves while it moves. A real robot never moves by itself.
 
 import type { Clock } from '#shared/clock.ts';
 import type { ServoTarget } from '#shared/codec/commands.ts';
@@ -13,7 +13,7 @@ import { GENTLE_MOVE_MS } from '../robot/moves.ts';
 import { startHindrance } from '../robot/readiness.ts';
 
 const BREATH_MS = 2_000;
-/** Between two breaths: the battery of a robot that moves is not asked for. */
+/** Between two breaths: the battery of a robot that moves is not read. */
 const REST_MS = 3_500;
 /** Of the way to the nearer limit. */
 const DEPTH = 0.05;
@@ -22,27 +22,33 @@ interface Welcome {
   readonly device: Device;
   readonly robots: RobotStore;
   readonly clock: Clock;
+  readonly isFirstVisit: boolean;
+  /** Aborted by the first key or touch. */
   readonly touched: AbortSignal;
   isWatched(): boolean;
 }
 
-export function welcome({ device, robots, clock, touched, isWatched }: Welcome): void {
-  let stand: readonly ServoTarget[] | null = null;
+export function welcome({ device, robots, clock, isFirstVisit, touched, isWatched }: Welcome): void {
+  let stand: readonly ServoTarget[] = [];
   let isOut = false;
   let cancel = (): void => undefined;
 
-  function breathe(): void {
-    const { way, snapshot } = device.store.getState();
-    const isAlive = way?.isSimulated === true && startHindrance(snapshot) === null && isWatched();
-    if (isAlive && stand === null) {
-      stand = standing();
-      const isSent = stand.every(({ servo }) => device.motion(servo).target !== null);
-      if (!isSent) device.move(stand, GENTLE_MOVE_MS);
-    } else if (isAlive && stand !== null) {
-      isOut = !isOut;
-      device.move(isOut ? leaning(stand) : stand, BREATH_MS);
-    }
-    if (way?.kind === 'simulated') cancel = clock.after(BREATH_MS + REST_MS, breathe);
+  function standUp(): void {
+    stand = standing();
+    const isSent = stand.every(({ servo }) => device.motion(servo).target !== null);
+    if (!isSent) device.move(stand, GENTLE_MOVE_MS);
+    breatheLater();
+  }
+
+  function breatheLater(): void {
+    if (!isFirstVisit || touched.aborted || device.store.getState().way?.kind !== 'simulated') return;
+    cancel = clock.after(BREATH_MS + REST_MS, () => {
+      if (startHindrance(device.store.getState().snapshot) === null && isWatched()) {
+        isOut = !isOut;
+        device.move(isOut ? leaning(stand) : stand, BREATH_MS);
+      }
+      breatheLater();
+    });
   }
 
   /** A servo that was moved before stays where it was sent. */
@@ -64,15 +70,14 @@ export function welcome({ device, robots, clock, touched, isWatched }: Welcome):
   }
 
   function begin({ way, snapshot }: DeviceState): void {
-    if (way === null || startHindrance(snapshot) !== null || snapshot.battery.kind !== 'read') return;
+    const isWelcome =
+      way?.kind === 'simulated' || (way?.isSimulated === true && isFirstVisit && !touched.aborted);
+    if (!isWelcome || startHindrance(snapshot) !== null || snapshot.battery.kind !== 'read') return;
     stopListening();
-    breathe();
+    standUp();
   }
   const stopListening = device.store.subscribe(begin);
-  touched.addEventListener('abort', () => {
-    stopListening();
-    cancel();
-  });
+  touched.addEventListener('abort', () => cancel());
   begin(device.store.getState());
 }
 
