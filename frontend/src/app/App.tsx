@@ -6,7 +6,7 @@ import { useStore } from 'zustand';
 import { CaptureStrip } from './CaptureStrip.tsx';
 import { useBatteryTab } from '../features/battery/BatteryReadout.tsx';
 import { motionsInFrame } from '../features/picture/motion.ts';
-import { ConnectDialog, ActionsDialog, LibraryDialog } from './dialogs.tsx';
+import { ConnectDialog, ActionsDialog, LibraryDialog, ReplaceDialog } from './dialogs.tsx';
 import type { Page } from './page.ts';
 import { LogPanel, Messages } from '../features/log/Messages.tsx';
 import { FilesProvider } from '../features/library/files/FilesArea.tsx';
@@ -15,7 +15,6 @@ import { TakeDialog } from '../features/animate/play/TakeDialog.tsx';
 import { RobotDialog } from '../features/profiles/RobotDialog.tsx';
 import { Authoring } from './Authoring.tsx';
 import { usePageKeys } from './pageActions.ts';
-import { ReplaceQuestion } from '../features/board/slots/ReplaceQuestion.tsx';
 import { LivePanel, WorkspaceSwitch } from './workspaces/parts.tsx';
 import { DriveWork } from './workspaces/DriveWork.tsx';
 import { StopButton } from '../features/drive/StopButton.tsx';
@@ -94,7 +93,7 @@ function Dashboard({ page }: { readonly page: Page }) {
       <ConnectDialog connector={page.connector} />
       <RobotDialog />
       <LibraryDialog />
-      <ReplaceQuestion />
+      <ReplaceDialog />
       {!isKiosk && <TakeDialog />}
       {!isKiosk && <ActionsDialog />}
       <PeopleDialog />

@@ -2,6 +2,7 @@
 // runs once the dialog is closed, so that a field which it opens gets the focus.
 
 import { useEffect, useRef } from 'react';
+import { useStore } from 'zustand';
 import { useStores, useView } from '../features/stores.ts';
 import { ActionIconButton } from '../ui/Button.tsx';
 import { Dialog } from '../ui/Dialog.tsx';
@@ -58,6 +59,17 @@ export function ConnectDialog({ connector }: { readonly connector: Connector }) 
       <ConnectWays connector={connector} onDone={close} />
     </Dialog>
   );
+}
+
+const ReplaceQuestion = laterComponent(
+  async () => (await import('../features/board/slots/ReplaceQuestion.tsx')).ReplaceQuestion,
+  '0',
+  'guards',
+);
+
+export function ReplaceDialog() {
+  const { replacing } = useStores();
+  return useStore(replacing.store, ({ question }) => question !== null) && <ReplaceQuestion />;
 }
 
 const LibraryView = laterComponent(

@@ -15,7 +15,6 @@ import { followLanguage, createView } from '../features/view.ts';
 import { createLibrary } from '../features/library/library.ts';
 import { createMacroRun, createMacros } from '../features/buttons/macroRun.ts';
 import { createMappings, createPad, watchInputs } from '../features/inputs/pad.ts';
-import { tellHandedOver } from '../features/people/LeaseChip.tsx';
 import { createGroupPlace } from '../features/board/slots/groupPlace.ts';
 import { createMotionTape } from '../features/animate/play/motionTape.ts';
 import { createNotices } from '../state/notices.ts';
@@ -26,7 +25,6 @@ import { createTeaching } from '../features/drive/teaching.ts';
 import { createRobotSync } from '../features/profiles/robotSync.ts';
 import { followRobot } from '../features/profiles/robotOfLink.ts';
 import { createRobots } from '../features/profiles/robots.ts';
-import { findOthersGroups } from '../features/board/slots/othersGroups.ts';
 import { createReplacing } from '../features/board/slots/replacing.ts';
 import { createSlots } from '../features/board/slots/slots.ts';
 import type { Stores } from '../features/stores.ts';
@@ -145,10 +143,12 @@ export async function openPage({ me, problem }: Arrival): Promise<Page> {
   applyBatteryPolicy({ device, battery, robots, poses, notices });
   void welcomeVisitor(storage, { device, robots });
   watchInputs(window, pad);
-  tellHandedOver(device.store, notices);
   resetForOpenedGroup({ library, view, timeline });
   restoreSelection({ document: written, timeline, view });
-  findOthersGroups({ device, robots, slots, compiled, library, documentStore });
+  void import('../features/board/slots/othersGroups.ts').then(
+    ({ findOthersGroups }) => findOthersGroups({ device, robots, slots, compiled, library, documentStore }),
+    notices.tellError,
+  );
   stores.view.subscribe(({ tab, kiosk }) => {
     if (tab === 'buttons' || kiosk === 'on') pad.drive(null);
   });

@@ -13,10 +13,16 @@ import { useNow } from '../../ui/useEachFrame.ts';
 import { servosText, stoppedBy, mayResumeText, errorSentence, linkSentence } from '../../i18n/sentences.ts';
 import { secondsLeft } from '../../i18n/numbers.ts';
 import { words } from '../../i18n/words.ts';
-import { LeaseChip, UnattendedChip } from '../people/LeaseChip.tsx';
+import { laterComponent } from '../../ui/later.tsx';
 import styles from './StatusLine.module.css';
 import { pressOnce } from '../../ui/inputEvents.ts';
 import linkChip from './LinkChip.module.css';
+
+const LeaseStatus = laterComponent(
+  async () => (await import('../people/LeaseChip.tsx')).LeaseStatus,
+  '0',
+  'guards',
+);
 
 export interface StatusLineProps {
   /** Its place in the bar. */
@@ -29,6 +35,7 @@ export function StatusLine({ className, onMoveHere }: StatusLineProps) {
   const link = useSnapshot((snapshot) => snapshot.link);
   const latch = useSnapshot((snapshot) => snapshot.latch);
   const activity = useSnapshot((snapshot) => snapshot.activity);
+  const isShared = useSnapshot((snapshot) => snapshot.lease !== null);
   const played = usePlayed();
   const isTeaching = useIsTeaching();
   const isDown = link.status === 'lost' || link.status === 'refused';
@@ -62,8 +69,7 @@ export function StatusLine({ className, onMoveHere }: StatusLineProps) {
           }
         />
       )}
-      <LeaseChip />
-      <UnattendedChip />
+      {isShared && <LeaseStatus />}
     </div>
   );
 }

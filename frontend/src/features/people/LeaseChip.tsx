@@ -1,7 +1,7 @@
 // Who drives the robot, in words, with the actions to request, grant or release it. Hidden while no other client uses the robot. On a phone the
-// text itself opens a menu, because there is no room for several buttons.
+// text itself opens a menu, because there is no room for several buttons. Loaded with the first robot that can be shared.
 
-import { useState, useRef, type ReactNode } from 'react';
+import { useEffect, useState, useRef, type ReactNode } from 'react';
 import { type Unattended, isWatching, type Lease, type LeaseAction } from '#shared/robot/lease.ts';
 import { useSnapshot, useStores } from '../stores.ts';
 import { Button, type ButtonProps } from '../../ui/Button.tsx';
@@ -9,7 +9,7 @@ import { Mark, type Truth } from '../../ui/Chip.tsx';
 import { cx } from '../../ui/cx.ts';
 import { useNow } from '../../ui/useEachFrame.ts';
 import { personWithin, personName } from '../../i18n/sentences.ts';
-import { words } from '../../i18n/words.ts';
+import { words } from '../../i18n/whole.ts';
 import { Icon } from '../../ui/Icon.tsx';
 import { useLayout } from '../../ui/useLayout.ts';
 import { secondsLeft } from '../../i18n/numbers.ts';
@@ -45,8 +45,19 @@ function MenuButton({ label, children = label, choices, onChoose, ...button }: M
   );
 }
 
-/** A run that continues, or may continue, without the person who started it. Shown to everybody. */
-export function UnattendedChip() {
+export function LeaseStatus() {
+  const { device, notices } = useStores();
+  useEffect(() => tellHandedOver(device.store, notices), [device, notices]);
+  return (
+    <>
+      <LeaseChip />
+      <UnattendedChip />
+    </>
+  );
+}
+
+/** A run that continues, or may continue, without the person who started it. Shown to every client. */
+function UnattendedChip() {
   const { device } = useStores();
   const run = useSnapshot((snapshot) => snapshot.lease?.unattended ?? null);
   const isOurs = useSnapshot((snapshot) => snapshot.lease?.drives ?? false);
@@ -96,7 +107,7 @@ function Left({ run: { endsInMs } }: { readonly run: Unattended }) {
   return words.lease.keepsRunningFor({ ms: endsInMs - (nowMs - heardMs) });
 }
 
-export function LeaseChip() {
+function LeaseChip() {
   const lease = useSnapshot((snapshot) => snapshot.lease);
   const isPhone = useLayout() === 'phone';
   if (lease === null || isAlone(lease)) return null;
@@ -137,7 +148,7 @@ function LeaseButtons({ lease, leaseText }: LeaseProps) {
   const { device } = useStores();
   return (
     <>
-      <LeaseStatus lease={lease} leaseText={leaseText} />
+      <LeaseWords lease={lease} leaseText={leaseText} />
       {leaseText.acts.map(({ label, wish, ...how }) => (
         <Button key={label} {...how} onPress={() => device.lease(wish)}>
           {label}
@@ -175,14 +186,14 @@ function LeaseMenu({ lease, leaseText }: LeaseProps) {
       onChoose={(index) => choose(acts[Number(index)])}
     >
       <span className={styles.face}>
-        <LeaseStatus lease={lease} leaseText={leaseText} />
+        <LeaseWords lease={lease} leaseText={leaseText} />
         <Icon name="down" />
       </span>
     </MenuButton>
   );
 }
 
-function LeaseStatus({ lease, leaseText: { truth, text, more } }: LeaseProps) {
+function LeaseWords({ lease, leaseText: { truth, text, more } }: LeaseProps) {
   return (
     <span className={styles.said}>
       <Mark truth={truth} />
@@ -205,12 +216,12 @@ function PassesIn({ lease: { grantedInMs, hasRequested } }: { readonly lease: Le
   return (hasRequested ? words.lease.yoursIn : words.lease.theirsIn)({ seconds: secondsLeft(leftMs) });
 }
 
-/** Shows a notice when another person hands the robot to this page without a request. */
+/** Shows a notice when another person hands the robot to this page without a request. Returns a function that ends it. */
 export function tellHandedOver(
   store: Pick<Device['store'], 'subscribe'>,
   notices: Pick<Notices, 'tell'>,
-): void {
-  store.subscribe(({ snapshot: { lease } }, { snapshot: before }) => {
+): () => void {
+  return store.subscribe(({ snapshot: { lease } }, { snapshot: before }) => {
     const giver = lease?.grantedBy ?? null;
     if (lease !== null && giver !== null && giver !== before.lease?.grantedBy)
       notices.tell('info', words.lease.given({ name: personName(giver, lease.you) }));

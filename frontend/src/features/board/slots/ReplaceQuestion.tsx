@@ -8,7 +8,7 @@ import { useDevice, useLibrary, useSnapshot, useStores } from '../../stores.ts';
 import { Button } from '../../../ui/Button.tsx';
 import { Dialog } from '../../../ui/Dialog.tsx';
 import { triggerText } from '../../../i18n/sentences.ts';
-import { words } from '../../../i18n/words.ts';
+import { words } from '../../../i18n/whole.ts';
 import confirm from '../../../ui/Confirm.module.css';
 
 export function ReplaceQuestion() {

@@ -84,4 +84,5 @@ export function findOthersGroups(options: OthersGroupsOptions): void {
     if (documents !== before.documents) void look();
   });
   robots.store.subscribe(() => void look());
+  void look();
 }
