@@ -71,15 +71,17 @@ function isKnown(board: unknown): board is KnownBoard {
 
 const SLOTS_KEY = 'servodeck.brokenSlots';
 
-/** Outlives a session, so that reconnecting without storage forgets nothing either. */
-const thisVisit = new Map<string, string>();
+/** Outlives a session, so that reconnecting without storage forgets nothing either. By storage: each opened page has its own. */
+const visits = new WeakMap<TextStorage, Map<string, string>>();
 
 /**
- * The board's name is asked at each reading, when the link is there: some links learn it only by opening, forget it
+ * The board's name is read each time, when the link is there: some links learn it only by opening, forget it
  * when they close, and may find another board later.
  */
 export function rememberSlots(storage: TextStorage, way: () => BoardWay): SlotMemory {
   const keyNow = (): string => `${SLOTS_KEY} ${nameOf(way())}`;
+  const thisVisit = visits.get(storage) ?? new Map<string, string>();
+  visits.set(storage, thisVisit);
   let key = keyNow();
   return {
     read() {
