@@ -65,6 +65,7 @@ async function expectSoundEverywhere({ page, isDark }: Look, state: string): Pro
 async function expectRobotsSound({ page, isDark }: Look): Promise<void> {
   const robots = robotDialogOf(dashboardOf(page));
   await robots.opener.click();
+  await expect(robots.dialog).toBeVisible();
   await expectSound('robots', { isDark });
   await robots.button('Edit').click();
   await robots.cell('Lowest', 'Elbow').fill('2600');

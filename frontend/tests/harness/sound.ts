@@ -19,6 +19,8 @@ export const isExhaustive = inject('isExhaustive');
 export const looks = <const All extends readonly unknown[]>(all: All): readonly All[number][] =>
   isExhaustive ? all : all.slice(0, 1);
 
+const isDialogOpen = (): boolean => document.querySelector('[role="dialog"], [role="alertdialog"]') !== null;
+
 /** What axe objects to in `place`; `rules` null for all of them. */
 export async function objections(
   place: Document | Element = document,
@@ -29,8 +31,13 @@ export async function objections(
   const { violations } = await during(
     axe.run(place, {
       ...{ preload: false, resultTypes: ['violations'] },
-      // Four fifths of axe's time; the colours themselves are proved from the tokens.
-      rules: { 'color-contrast': { enabled: isExhaustive } },
+      rules: {
+        // Four fifths of axe's time; the colours themselves are proved from the tokens.
+        'color-contrast': { enabled: isExhaustive },
+        // Behind an open dialog the page is hidden, with its landmark and its heading.
+        'landmark-one-main': { enabled: !isDialogOpen() },
+        'page-has-heading-one': { enabled: !isDialogOpen() },
+      },
       ...(rules === null ? {} : { runOnly: [...rules] }),
     }),
   );
@@ -39,8 +46,7 @@ export async function objections(
 
 /** What is behind a dialog is locked a moment before its content has come. */
 const isWaitingForDialog = (): boolean =>
-  document.documentElement.style.overflow === 'hidden' &&
-  document.querySelector('[role="dialog"], [role="alertdialog"]') === null;
+  document.documentElement.style.overflow === 'hidden' && !isDialogOpen();
 
 export async function expectSound(state: string, { isDark = false } = {}): Promise<void> {
   await expect.poll(isWaitingForDialog, { message: `${state}: a dialog comes` }).toBe(false);
