@@ -87,7 +87,7 @@ module.exports = {
     forbid(
       'documents-know-no-robot',
       'A document never moves the robot by itself. A saved log has the types of what it saves.',
-      { path: documents, pathNot: [test, '^shared/src/files/recorder[.]ts$'] },
+      { path: documents, pathNot: [test, '^shared/src/files/recording[.]ts$'] },
       { path: '^shared/src/(robot|simulator)/' },
     ),
     forbid(

@@ -1,7 +1,7 @@
 // How long it takes to estimate where a large motion makes a robot touch itself: as many keys as the largest group of a board has, on
 // the two bodies with the most links. In the page that runs in a worker.
 
-import { frameAngles } from '#shared/group/frameAngles.ts';
+import { frameAngles } from '#shared/group/frames.ts';
 import { collisionsOf } from '#shared/kinematics/collision.ts';
 import { readyRobot, type ReadyRobotId } from '#shared/profile/readyRobots.ts';
 import { positionOf, type Robot } from '#shared/profile/robot.ts';

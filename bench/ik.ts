@@ -6,7 +6,7 @@ import {
   NO_ROTATION,
   poseOfChain,
   type Vec3,
-} from '#shared/kinematics/chain.ts';
+} from '#shared/kinematics/model.ts';
 import { reach } from '#shared/kinematics/inverse.ts';
 import { amount } from './amounts.ts';
 import type { Figure } from './figure.ts';

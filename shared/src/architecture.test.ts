@@ -29,7 +29,7 @@ const importStatement =
   /^(?:import|export)\s[^;'=]*?from\s+'([^']+)'|^import\s+'([^']+)'|\bimport\('([^']+)'\)/gm;
 const processEntry = 'shared/src/simulator/process.ts';
 /** The simulated board as a channel fulfils what a session asks of a link; a saved log has the types of what it saves. */
-const sessionUsers = ['shared/src/simulator/channel.ts', 'shared/src/files/recorder.ts'];
+const sessionUsers = ['shared/src/simulator/channel.ts', 'shared/src/files/recording.ts'];
 const forTestsOnly = /\.(test|generated|d)\.tsx?$|\/rig\.ts$|UnderTest\.ts$|\/testing\//;
 
 /** `shared/src/codec/packet.ts` belongs to `shared/codec`, `shared/src/clock.ts` to `shared/clock`. */

@@ -1,6 +1,7 @@
 // The log of the visit: packets and changes of the link, the newest 20,000, each with a number of its own; and battery answers that this
 // page did not ask for. Knows what a session reports; what it means to a person is said elsewhere.
 
+import timings from '../../../shared/protocol/timings.json' with { type: 'json' };
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { BoardId } from '#shared/codec/families.ts';
 import {
@@ -9,9 +10,8 @@ import {
   createTape,
   type Tape,
   type TapeEntry,
-} from '#shared/files/recorder.ts';
+} from '#shared/files/recording.ts';
 import type { SessionState, Traffic } from '#shared/robot/state.ts';
-import timings from '../../../shared/protocol/timings.json' with { type: 'json' };
 
 export type LogEntry = TapeEntry;
 

@@ -2,7 +2,7 @@
 // place they may lie, and the one rule about writing that all of them follow. Knows no group, no robot and no place.
 
 import timings from '../../protocol/timings.json' with { type: 'json' };
-import type { GroupFacts, RobotFacts } from './factsSchema.ts';
+import type { GroupFacts, RobotFacts } from './facts.ts';
 
 /** What a list says of a document without reading it. */
 export type Facts = GroupFacts | RobotFacts;

@@ -3,8 +3,7 @@ import { expect, test } from 'vitest';
 import { EMPTY_BOOK, type PoseBook } from '../profile/pose.ts';
 import { readyRobot } from '../profile/readyRobots.ts';
 import { changeServo } from '../profile/robotEdits.ts';
-import { factsSchema } from './factsSchema.ts';
-import { robotFactsOf } from './facts.ts';
+import { factsSchema, robotFactsOf } from './facts.ts';
 
 const ARM = changeServo(
   readyRobot('arm', 'doc', { robot: 'Arm\ud800', role: (role) => role, limb: (limb) => limb }),

@@ -1,11 +1,13 @@
-// What a list says of an action group or a robot, worked out from it. Knows no place where documents are stored.
+// The entry of an action group or a robot in a list: computed from the document, or read from elsewhere by a schema. Does not know where
+// documents are stored.
 
+import * as v from 'valibot';
 import { poseAt, totalDurationMs, type ActionGroup } from '../group/group.ts';
-import type { GroupFacts, RobotFacts } from './factsSchema.ts';
 import type { PoseBook } from '../profile/pose.ts';
 import { homeTargets } from '../profile/poseShapes.ts';
 import { limitsOnBoard, onBoard, type Robot } from '../profile/robot.ts';
 import { FAMILIES } from '../codec/families.ts';
+import { count, targetSchema, whole } from '../document/schema.ts';
 
 interface FactsContext {
   readonly updatedAtMs: number;
@@ -55,3 +57,43 @@ export function robotFactsOf(robot: Robot, { poses }: PoseBook, updatedAtMs: num
 
 /** A trim may take a pose of another unit out of every board's range. */
 const isSendable = (position: number): boolean => position >= 0 && position <= MAX_POSITION;
+
+const name = v.pipe(v.string(), v.maxLength(64));
+
+const groupFactsSchema = v.strictObject({
+  kind: v.literal('group'),
+  name,
+  robot: name,
+  tags: v.pipe(v.array(name), v.maxLength(20)),
+  /** Milliseconds since 1970. */
+  updatedAtMs: count,
+  frames: count,
+  durationMs: count,
+  unit: v.picklist(['us', 'steps']),
+  /** Its picture. */
+  pose: v.pipe(v.array(targetSchema), v.maxLength(256)),
+});
+
+/** What its keeper goes by itself: limits and poses are as the board counts. */
+const robotFactsSchema = v.strictObject({
+  kind: v.literal('robot'),
+  name,
+  board: name,
+  updatedAtMs: count,
+  limits: v.array(
+    v.strictObject({ servo: whole(0, 0xff), name: v.string(), min: whole(0, 0xffff), max: whole(0, 0xffff) }),
+  ),
+  poses: v.array(
+    v.strictObject({
+      id: count,
+      name: v.string(),
+      unit: v.picklist(['us', 'steps']),
+      targets: v.array(targetSchema),
+    }),
+  ),
+});
+
+export const factsSchema = v.variant('kind', [groupFactsSchema, robotFactsSchema]);
+
+export type GroupFacts = v.InferOutput<typeof groupFactsSchema>;
+export type RobotFacts = v.InferOutput<typeof robotFactsSchema>;

@@ -1,8 +1,7 @@
 import fc from 'fast-check';
 import { expect, test } from 'vitest';
 import type { BoardId } from '../codec/families.ts';
-import type { Entry } from './recording.ts';
-import { createTape } from './recorder.ts';
+import { type Entry, createTape } from './recording.ts';
 
 const packet = (atMs: number): Entry => ({
   atMs,

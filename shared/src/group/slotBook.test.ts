@@ -1,7 +1,7 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import { withBegun } from './slotPlaces.ts';
-import { compareFrames } from './compareFrames.ts';
+import { compareFrames } from './frames.ts';
 import { fingerprintOf } from './fingerprint.ts';
 import {
   EMPTY_SLOT_BOOK,

@@ -1,11 +1,10 @@
 // Where a model may touch itself or the floor, on models small enough to know it.
 
-import { describe, expect, test } from 'vitest';
 import fc from 'fast-check';
+import { describe, expect, test } from 'vitest';
 import { evenly } from '../testing/cases.ts';
-import type { Vec3 } from './chain.ts';
+import type { Vec3, LinkModel, ModelLink } from './model.ts';
 import { collisions, collisionsOf, STEP_MM, type TimedAngles } from './collision.ts';
-import type { LinkModel, ModelLink } from './linkModel.ts';
 
 const LEVEL: Vec3 = [0, 0, 0];
 

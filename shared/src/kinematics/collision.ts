@@ -1,7 +1,7 @@
 // Where a robot may touch itself or the floor during a motion: links as primitive solids, swept through the poses in steps that depend on
 // how near they are (conservative advancement). An estimate: sizes are those of the model, not of the robot. Knows no board and no page.
 
-import { createPosing, type LinkModel, type Posing } from './linkModel.ts';
+import { createPosing, type LinkModel, type Posing } from './model.ts';
 import { type Meeting, meetingsOf, type Posture, postureOf } from './meetings.ts';
 
 /** At that time each servo is at that angle; between two of them all turn evenly. */

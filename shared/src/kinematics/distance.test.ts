@@ -1,9 +1,9 @@
 // Distances of convex solids against formulas and against points sampled on them.
 
-import { expect, test } from 'vitest';
 import fc from 'fast-check';
+import { expect, test } from 'vitest';
 import { evenly } from '../testing/cases.ts';
-import { added, lengthOf, minus, rotated, rotationOfRpy, type Vec3 } from './chain.ts';
+import { added, lengthOf, minus, rotated, rotationOfRpy, type Vec3 } from './model.ts';
 import { ACCURACY_M, capsule, distanceM, heightOf, type PlacedSolid, solidOf } from './distance.ts';
 
 const triple = (from: number, to: number): fc.Arbitrary<Vec3> =>

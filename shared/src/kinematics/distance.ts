@@ -1,8 +1,18 @@
 // How far two convex solids are apart: boxes, cylinders and spheres, or a capsule as a line with a radius. By Gilbert, Johnson and
 // Keerthi: the point of the difference of both that is nearest to the origin. Metres. Knows no robot.
 
-import { cross, dot, lengthOf, minus, rotated, rotatedBack, scaled, type Vec3 } from './chain.ts';
-import type { LinkShape, Place } from './linkModel.ts';
+import {
+  cross,
+  dot,
+  lengthOf,
+  minus,
+  rotated,
+  rotatedBack,
+  scaled,
+  type Vec3,
+  type LinkShape,
+  type Place,
+} from './model.ts';
 
 /** A core without its rounding; a sphere is a point, a capsule a line. */
 export interface Solid {

@@ -1,7 +1,7 @@
 // Inverse kinematics against arms whose answer is known in closed form, and over all that an arm can reach.
 
-import { expect, test } from 'vitest';
 import fc from 'fast-check';
+import { expect, test } from 'vitest';
 import {
   added,
   type Chain,
@@ -12,7 +12,7 @@ import {
   poseOfChain,
   scaled,
   type Vec3,
-} from './chain.ts';
+} from './model.ts';
 import { evenly } from '../testing/cases.ts';
 import { flip, follow, reach } from './inverse.ts';
 

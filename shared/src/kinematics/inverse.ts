@@ -12,7 +12,7 @@ import {
   poseOfChain,
   scaled,
   type Vec3,
-} from './chain.ts';
+} from './model.ts';
 
 export interface Wish {
   readonly tip: Vec3;

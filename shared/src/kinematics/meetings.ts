@@ -1,9 +1,19 @@
 // What of a robot can meet: two of its links, or a link and the floor; how near they are in a pose, and how far they move for each
 // radian of a servo at most. Neighbours and what one servo moves against each other are left out. Metres. Knows no time.
 
-import { lengthOf, minus, rotationOfRpy, type Vec3 } from './chain.ts';
+import {
+  lengthOf,
+  minus,
+  rotationOfRpy,
+  type Vec3,
+  BASE_PLACE,
+  type LinkModel,
+  type ModelLink,
+  type Place,
+  placeOn,
+  type Posing,
+} from './model.ts';
 import { distanceM, heightOf, type PlacedSolid, solidOf } from './distance.ts';
-import { BASE_PLACE, type LinkModel, type ModelLink, type Place, placeOn, type Posing } from './linkModel.ts';
 
 /** Links that are nearer than this at home are built so, and are not judged. In metres. */
 const HOME_M = 0.001;

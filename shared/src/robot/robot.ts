@@ -44,7 +44,7 @@ export interface Robot {
   erase(): Promise<void>;
   /** Millivolts. */
   readBattery(): Promise<number>;
-  /** A packet written by hand, as it is. Rejects with what keeps this board from getting it: rawPacket.ts, raw.ts. */
+  /** A packet written by hand, as it is. Rejects with what keeps this board from getting it: raw.ts. */
   sendRaw(packet: Uint8Array): Promise<void>;
   /** Asks where these servos stand; the board's word is in `state.reported`. */
   readPositions(servos: readonly number[]): Promise<void>;

@@ -1,7 +1,7 @@
 import { expect, test } from 'vitest';
 import { fromHex } from '../codec/packet.ts';
 import { compare, tally } from './replay.ts';
-import type { PacketEntry } from '../files/recorder.ts';
+import type { PacketEntry } from '../files/recording.ts';
 
 const STORED = '55 55 02 19';
 const said = (atMs: number, hex: string): PacketEntry => ({ atMs, mark: 'received', bytes: fromHex(hex) });

@@ -2,8 +2,7 @@ import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import type { Robot } from '../robot/robot.ts';
 import { compare, tally, type Row } from './replay.ts';
-import type { Entry } from '../files/recording.ts';
-import { entryOf, type PacketEntry, createHappeningsReader } from '../files/recorder.ts';
+import { type Entry, entryOf, type PacketEntry, createHappeningsReader } from '../files/recording.ts';
 import { replayToBoard, replayToSession } from './replaySession.ts';
 import { createRig, type Rig } from '../robot/rig.ts';
 

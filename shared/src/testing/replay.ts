@@ -4,8 +4,7 @@
 import type { BoardId } from '../codec/families.ts';
 import type { SessionState } from '../robot/state.ts';
 import { isProfileName, type ProfileName } from '../simulator/profileNames.ts';
-import type { Entry, Recording } from '../files/recording.ts';
-import { entryOf, type PacketEntry } from '../files/recorder.ts';
+import { type Entry, type Recording, entryOf, type PacketEntry } from '../files/recording.ts';
 import { replayToBoard, replayToSession, type SessionReplay } from './replaySession.ts';
 import { PROFILES } from '../simulator/profiles.ts';
 import { readRecording } from '../files/recordingText.ts';

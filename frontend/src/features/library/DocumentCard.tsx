@@ -1,8 +1,10 @@
 // One group of the library as a card: the picture opens it; details with name, tags, copy, versions and trash unfold in place.
 
+import styles from './Library.module.css';
+import field from '../../ui/Field.module.css';
 import { useStore } from 'zustand';
 import { memo, type Ref, useEffect, useState, type SubmitEvent } from 'react';
-import type { GroupFacts } from '#shared/files/factsSchema.ts';
+import type { GroupFacts } from '#shared/files/facts.ts';
 import { familyOfUnit } from '#shared/profile/units.ts';
 import { FAMILIES } from '#shared/codec/families.ts';
 import type { Listed, Version } from '#shared/files/documentStore.ts';
@@ -11,11 +13,9 @@ import { useStores, useLibrary } from '../stores.ts';
 import { Button, IconButton } from '../../ui/Button.tsx';
 import { cx } from '../../ui/cx.ts';
 import { words } from '../../i18n/whole.ts';
-import styles from './Library.module.css';
 import { rename } from '#shared/group/groupEdits.ts';
 import { tagsFromText, tagsToText } from '#shared/files/libraryText.ts';
 import { NameField } from '../../ui/NameField.tsx';
-import field from '../../ui/Field.module.css';
 
 /** The robot in the pose of the middle frame, or bars if the robot is unknown here. */
 function DocumentThumb({ facts }: { readonly facts: GroupFacts }) {

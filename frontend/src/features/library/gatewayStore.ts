@@ -1,7 +1,7 @@
 // The document store in the gateway's data folder, over HTTP. Validates every answer; every failure is a LibraryError.
 
 import * as v from 'valibot';
-import { factsSchema } from '#shared/files/factsSchema.ts';
+import { factsSchema } from '#shared/files/facts.ts';
 import { LibraryError, type DocumentStore, type LibraryErrorCode } from '#shared/files/documentStore.ts';
 import { requestsOf } from '../../robot/request.ts';
 import type {

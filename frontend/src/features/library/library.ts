@@ -7,8 +7,7 @@ import { sleep, type Clock } from '#shared/clock.ts';
 import { emptyGroup, type ActionGroup, groupFromText, groupToText } from '#shared/group/group.ts';
 import { rename } from '#shared/group/groupEdits.ts';
 import type { Label } from '#shared/document/history.ts';
-import { factsOf } from '#shared/files/facts.ts';
-import type { GroupFacts } from '#shared/files/factsSchema.ts';
+import { factsOf, type GroupFacts } from '#shared/files/facts.ts';
 import {
   asLibraryError,
   listedOf,

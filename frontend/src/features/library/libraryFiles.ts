@@ -2,7 +2,7 @@
 
 import type { Clock } from '#shared/clock.ts';
 import { type ActionGroup, groupToText, sameGroup } from '#shared/group/group.ts';
-import type { GroupFacts } from '#shared/files/factsSchema.ts';
+import type { GroupFacts } from '#shared/files/facts.ts';
 import {
   asLibraryError,
   LibraryError,

@@ -1,5 +1,5 @@
 import { describe, expect, test } from 'vitest';
-import { CAPACITY } from '#shared/files/recorder.ts';
+import { CAPACITY } from '#shared/files/recording.ts';
 import { createTrafficLog, type LogEntry } from '../../robot/traffic.ts';
 import { createLogView } from './logView.ts';
 

@@ -2,14 +2,13 @@
 
 import { type Family, family } from '#shared/codec/families.ts';
 import { fromHex, toHex } from '#shared/codec/packet.ts';
-import { judgeRaw, type RawRefusal, type RawVerdict } from '#shared/codec/rawPacket.ts';
+import { judgeRaw, type RawRefusal, type RawVerdict } from '#shared/robot/raw.ts';
 import { isHarmless, type Command, type ServoTarget, type CommandKind } from '#shared/codec/commands.ts';
 import type { SessionState, Traffic } from '#shared/robot/state.ts';
 import type { Report, ReportKind } from '#shared/codec/reports.ts';
 import { boardName, rangeText } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/whole.ts';
-import { writeLine, type Entry } from '#shared/files/recording.ts';
-import { trafficOf } from '#shared/files/recorder.ts';
+import { writeLine, type Entry, trafficOf } from '#shared/files/recording.ts';
 import type { LogEntry } from '../../robot/traffic.ts';
 import type { LogKind } from '../view.ts';
 

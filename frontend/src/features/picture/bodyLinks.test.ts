@@ -4,7 +4,7 @@ import { expect, test } from 'vitest';
 import { FAMILIES } from '#shared/codec/families.ts';
 import { compile } from '#shared/group/compile.ts';
 import { exampleGroup, examplesFor } from '#shared/group/examples/examples.ts';
-import { frameAngles } from '#shared/group/frameAngles.ts';
+import { frameAngles } from '#shared/group/frames.ts';
 import { maxErrorOf } from '#shared/group/group.ts';
 import { collisionsOf } from '#shared/kinematics/collision.ts';
 import { READY_ROBOTS, readyRobot, type ReadyRobotId } from '#shared/profile/readyRobots.ts';

@@ -1,7 +1,7 @@
 // Arm, hand, humanoid and hexapod as links made from primitive shapes, for a robot that brings no model of its own. Metres and radians.
 // Sizes are those of common robots: to steer by and to estimate by, not a measurement. Knows no drawing.
 
-import type { LinkModel, LinkMount, LinkShape, ModelLink } from '#shared/kinematics/linkModel.ts';
+import type { LinkModel, LinkMount, LinkShape, ModelLink } from '#shared/kinematics/model.ts';
 import { type Robot, type RobotServo, servoOf } from '#shared/profile/robot.ts';
 import { isLeg, jointedLimbs } from './bones.ts';
 import { JOINT } from './pose.ts';

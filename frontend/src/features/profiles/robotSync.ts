@@ -3,7 +3,7 @@
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { Clock } from '#shared/clock.ts';
-import type { RobotFacts } from '#shared/files/factsSchema.ts';
+import { type RobotFacts, robotFactsOf } from '#shared/files/facts.ts';
 import {
   asLibraryError,
   LibraryError,
@@ -11,7 +11,6 @@ import {
   type DocumentStore,
   type Listed,
 } from '#shared/files/documentStore.ts';
-import { robotFactsOf } from '#shared/files/facts.ts';
 import type { MacroPage } from '#shared/profile/macro.ts';
 import type { Mapping } from '#shared/profile/mapping.ts';
 import type { PoseBook } from '#shared/profile/pose.ts';

@@ -1,9 +1,9 @@
 // The worker that estimates where a motion may make the robot touch itself: in slices, so that a newer order ends the one under way.
 
-import { frameAngles } from '#shared/group/frameAngles.ts';
+import { frameAngles } from '#shared/group/frames.ts';
 import { framesOf } from '#shared/group/fingerprint.ts';
 import { type CollisionPlace, collisions } from '#shared/kinematics/collision.ts';
-import type { LinkModel } from '#shared/kinematics/linkModel.ts';
+import type { LinkModel } from '#shared/kinematics/model.ts';
 import type { Robot } from '#shared/profile/robot.ts';
 
 export interface CheckOrder {

@@ -1,7 +1,8 @@
 // The dialog with the map of the board's slots, and beside it the details of the chosen one.
 
+import styles from './Slots.module.css';
 import { useEffect, useRef, type KeyboardEvent, useState } from 'react';
-import { compareFrames } from '#shared/group/compareFrames.ts';
+import { compareFrames } from '#shared/group/frames.ts';
 import { type SlotRecord, type SlotContent, recordOf } from '#shared/group/slotBook.ts';
 import { slotTrigger, type SlotTrigger } from '#shared/codec/families.ts';
 import { totalDurationMs } from '#shared/group/group.ts';
@@ -15,7 +16,6 @@ import { DownloadControl } from '../DownloadControl.tsx';
 import { motionHindrance, startHindrance } from '../../../robot/readiness.ts';
 import { Button } from '../../../ui/Button.tsx';
 import { SeveralGroups } from './SeveralGroups.tsx';
-import styles from './Slots.module.css';
 
 const SHOWN = 8;
 

@@ -1,9 +1,10 @@
 // What moves servos in the picture in three dimensions: the handle at the end of a limb with its fields in millimetres, and the knob on the arc
 // of the selected servo. A target is treated as a slider's: soft limit, locks, driver and STOP.
 
+import styles from './RobotView.module.css';
 import { type KeyboardEvent, type PointerEvent, useRef, useState } from 'react';
 import { Plane, Vector3 } from 'three';
-import type { Vec3 } from '#shared/kinematics/chain.ts';
+import type { Vec3 } from '#shared/kinematics/model.ts';
 import { type Robot, servoOf, positionOf, type RobotServo } from '#shared/profile/robot.ts';
 import { words } from '../../../i18n/whole.ts';
 import { Button } from '../../../ui/Button.tsx';
@@ -23,7 +24,6 @@ import {
   radiansOf,
 } from './limbs.ts';
 import type { Model } from './model.ts';
-import styles from './RobotView.module.css';
 import { turnedBy } from './ring.ts';
 
 const STEP_M = { fine: 0.001, coarse: 0.01 };

@@ -21,7 +21,7 @@ import {
   type Vec3,
   poseOfChain,
   type ChainPose,
-} from '#shared/kinematics/chain.ts';
+} from '#shared/kinematics/model.ts';
 import { carriersOf, isJoint } from './figure.ts';
 import { jointName, TIP } from './urdf.ts';
 import type { ServoTarget } from '#shared/codec/commands.ts';

@@ -1,10 +1,10 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
-import { COMMAND_NUMBER } from './commands.ts';
-import { encodeCommand } from './encode.ts';
-import { FAMILIES, UNKNOWN_BOARD, type Family } from './families.ts';
-import { fromHex, packetBytes } from './packet.ts';
-import { judgeRaw } from './rawPacket.ts';
+import { COMMAND_NUMBER } from '../codec/commands.ts';
+import { encodeCommand } from '../codec/encode.ts';
+import { FAMILIES, UNKNOWN_BOARD, type Family } from '../codec/families.ts';
+import { fromHex, packetBytes } from '../codec/packet.ts';
+import { judgeRaw } from '../robot/raw.ts';
 
 const judge = (hex: string, family: Family = FAMILIES.doc) => judgeRaw(fromHex(hex), family);
 const refusal = (code: string) => ({ kind: 'refused', reason: expect.objectContaining({ code }) as unknown });

@@ -1,7 +1,9 @@
-// What is different between two groups as a board has them: length, and the first frame that is not the same. Pure.
+// Compiled frames as data: the differences between two lists, and the angles of a robot's joints over time, for estimates on its model. The
+// way to the first pose is left out, because the position before it is unknown. Pure; knows no geometry.
 
 import type { Frame } from '../codec/commands.ts';
 import { totalDurationMs } from './group.ts';
+import { degreesOf, servoOf, type Robot } from '../profile/robot.ts';
 
 export interface FramesComparison {
   readonly isSame: boolean;
@@ -45,3 +47,23 @@ function differing(one: Frame | undefined, other: Frame | undefined): FramesComp
 
 const positionsIn = (frame: Frame | undefined): ReadonlyMap<number, number> =>
   new Map(frame?.targets.map(({ servo, position }) => [servo, position]));
+
+const RADIANS = Math.PI / 180;
+
+/** Milliseconds from the beginning of the group, radians by servo. Servos that no frame has moved so far are at home. */
+export function frameAngles(
+  frames: readonly Frame[],
+  robot: Robot,
+): readonly { readonly atMs: number; readonly angles: ReadonlyMap<number, number> }[] {
+  let atMs = 0;
+  let angles: ReadonlyMap<number, number> = new Map();
+  return frames.map(({ durationMs, targets }) => {
+    const turned = targets.flatMap(({ servo: number, position }) => {
+      const servo = servoOf(robot, number);
+      return servo === undefined ? [] : [[number, degreesOf(servo, position) * RADIANS] as const];
+    });
+    atMs += durationMs;
+    angles = new Map([...angles, ...turned]);
+    return { atMs, angles };
+  });
+}

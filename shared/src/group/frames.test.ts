@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest';
 import { readyRobot } from '../profile/readyRobots.ts';
-import { frameAngles } from './frameAngles.ts';
+import { frameAngles } from './frames.ts';
 
 const robot = readyRobot('arm', 'doc', { robot: 'Arm', role: (role) => role, limb: (limb) => limb });
 
