@@ -102,7 +102,7 @@ function Dashboard({ page }: { readonly page: Page }) {
   );
 }
 
-/** What goes on whatever is shown. On its own: all below whoever listens to something is drawn again when that changes. */
+/** Work that continues in every view. On its own: all below a component that listens to something is drawn again when that changes. */
 function Unseen() {
   const stores = useStores();
   const { device, pad, playback } = stores;

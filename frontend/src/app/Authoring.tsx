@@ -15,7 +15,7 @@ import { PART } from '../ui/focus.ts';
 import panel from '../ui/Panel.module.css';
 import styles from './Authoring.module.css';
 
-/** Stands where a panel's title would; driving goes on, and is said, whichever of them is open. */
+/** Stands where a panel's title would; driving continues, and is shown, whichever of them is open. */
 function AuthoringTabs() {
   const { view } = useStores();
   const authoring = useView((state) => state.authoring);

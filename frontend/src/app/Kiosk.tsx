@@ -1,4 +1,4 @@
-// Only the buttons, what goes on, and STOP, which the page puts beside them. To leave takes a long press: no child comes
+// Only the buttons, the current activity, and STOP, which the page puts beside them. To leave takes a long press: no child comes
 // upon that by chance, and no reload is a way around it.
 
 import { useEffect, useRef, useState } from 'react';

@@ -1,4 +1,4 @@
-// The slim bar: which robot, how it is linked, what goes on, the battery. The right end is kept free for STOP.
+// The slim bar: which robot, how it is linked, its activity, the battery. The right end is reserved for STOP.
 
 import { useStore } from 'zustand';
 import { useStores, useView, useDevice } from '../features/stores.ts';
@@ -19,7 +19,7 @@ import styles from './TopBar.module.css';
 import { useLayout } from '../ui/useLayout.ts';
 import { WorkspaceSwitch } from './workspaces/parts.tsx';
 
-// Which language the page speaks. Each is called by its own name, for whoever cannot read the others.
+// Which language the page speaks. Each is called by its own name, for people who cannot read the others.
 
 function LanguageControl() {
   const { view } = useStores();

@@ -69,12 +69,12 @@ test.each(['local', 'lan'] as const)(
     ];
     const store = createStore(() => ({ snapshot: INITIAL_STATE }));
     const begun: number[] = [];
-    let asked = 0;
+    let requested = 0;
     beginAnewAsAnother(
       store,
       you,
-      () => begun.push(asked),
-      () => Promise.resolve(answers[asked++] ?? null),
+      () => begun.push(requested),
+      () => Promise.resolve(answers[requested++] ?? null),
     );
     store.setState({ snapshot: { ...INITIAL_STATE, link: { status: 'ready' } } });
     for (const retryAtMs of [250, 500, 1000]) {
@@ -84,7 +84,7 @@ test.each(['local', 'lan'] as const)(
       await Promise.resolve();
     }
     await Promise.resolve();
-    expect(asked).toBe(3);
+    expect(requested).toBe(3);
     expect(begun).toEqual([3]);
   },
 );

@@ -9,7 +9,7 @@ import type { Me, PairWish, You } from '../robot/http.generated.ts';
 export interface Arrival {
   /** null: no gateway serves this page. */
   readonly me: Me | null;
-  /** Whom the link in the address has let in just now: nobody has asked for a name yet. */
+  /** Whom the link in the address has let in just now: no name has been requested yet. */
   readonly entered: You | null;
   /** Why the link in the address did not let in, or why a page that was in is out. */
   readonly problem: PeopleError | null;
@@ -74,7 +74,7 @@ export function deviceName(userAgent: string): string {
   return DEVICES.find(([sign]) => sign.test(userAgent))?.[1] ?? 'Linux';
 }
 
-/** Whether somebody who was `before` is another one now: revoked, or with another role. */
+/** Whether the person `before` is another one now: revoked, or with another role. */
 export function isAnother(before: You | null, now: Me | null): boolean {
   if (now === null || before === null) return false;
   return now.you?.id !== before.id || now.you.role !== before.role;
@@ -82,7 +82,7 @@ export function isAnother(before: You | null, now: Me | null): boolean {
 
 /**
  * A lost gateway may have sent this device away, made more or less of it, or come back as one that lets in paired devices only:
- * asked at each attempt, because at the first it may not be back yet.
+ * queried at each attempt, because at the first it may not be back yet.
  */
 export function beginAnewAsAnother(
   store: Pick<StoreApi<Pick<DeviceState, 'snapshot'>>, 'subscribe'>,
@@ -99,9 +99,9 @@ export function beginAnewAsAnother(
 }
 
 interface Leaving {
-  /** Timers get slow now, and nobody looks. */
+  /** Timers get slow now, and the page is not visible. */
   hidden(): void;
-  /** Closed, reloaded, frozen, or kept for the way back. */
+  /** Closed, reloaded, frozen, or stored for the way back. */
   left(): void;
 }
 

@@ -40,7 +40,7 @@ import { createConnector, type Connector } from '../robot/connector.ts';
 
 const VISITED_KEY = 'servodeck.visited';
 
-/** The page's time, for whoever is no transport. */
+/** The page's time, for everything but transports. */
 export const pageClock: Clock = browserClock;
 
 export interface Page {
@@ -48,12 +48,12 @@ export interface Page {
   readonly connector: Connector;
 }
 
-/** `arrival` says who is here; a page without a gateway belongs to whoever opens it. */
+/** `arrival` says who is here; a page without a gateway belongs to the person who opens it. */
 export async function openPage({ me, problem }: Arrival): Promise<Page> {
   const storage = storageOf(() => window.localStorage);
   const notices = createNotices(pageClock);
   const view = createView({ browser: storage, tab: storageOf(() => window.sessionStorage) });
-  // Documents begin with names in the language of whoever opens the page.
+  // Documents begin with names in the language of the person who opens the page.
   await followLanguage({ view, notices, tags: navigator.languages });
   const robots = createRobots(storage, notices);
   const device = createDevice({

@@ -1,4 +1,4 @@
-// What is asked of the board and its link besides motion by hand: STOP, groups, readings, memory. Whatever fails becomes a
+// Requests to the board and its link besides motion by hand: STOP, groups, readings, memory. Whatever fails becomes a
 // notice. Knows no panel.
 
 import type { Frame } from '#shared/codec/commands.ts';
@@ -13,7 +13,7 @@ import type { LimitGate } from './moves.ts';
 import type { Clock } from '#shared/clock.ts';
 
 export interface BoardVerbs {
-  /** From now on each run and each playing asks first; `anyway` begins what was refused, once. */
+  /** From now on each run and each playback is checked first; `anyway` begins what was refused, once. */
   guardRuns(mayBegin: RunGuard): void;
   halt(why?: HaltReason): void;
   resume(): void;
@@ -43,7 +43,7 @@ export interface BoardVerbs {
 
 export type Settled = (isDone: boolean) => void;
 
-/** Whether something may begin to run now. Where not, it tells the person and may offer to begin it anyway. */
+/** Whether something may begin to run now. Where not, it shows a notice and may offer to begin it anyway. */
 export type RunGuard = (anyway: () => void) => boolean;
 
 export interface BoardVerbsOptions {
@@ -69,7 +69,7 @@ export function createBoardVerbs({
     if (session === null) return settled(false);
     work(session).then(
       (isDone) => {
-        lateNotices.asked();
+        lateNotices.requested();
         settled(isDone !== false);
       },
       (error: unknown) => {
@@ -81,11 +81,11 @@ export function createBoardVerbs({
 
   /** As `attempt`, where nothing forbids that something runs. */
   function attemptRun(work: (session: Robot) => Promise<unknown>, settled: Settled = () => undefined): void {
-    const asked = now();
+    const requested = now();
     const anyway = (): void => {
-      if (now() === asked) attempt(work);
+      if (now() === requested) attempt(work);
     };
-    if (asked !== null && mayBegin(anyway)) attempt(work, settled);
+    if (requested !== null && mayBegin(anyway)) attempt(work, settled);
     else settled(false);
   }
 
@@ -161,8 +161,8 @@ function speedSent(slot: number | null, percent: number): string {
 
 interface LateNotices {
   report(error: unknown): void;
-  /** Something was asked for and not refused. */
-  asked(): void;
+  /** Something was requested and not refused. */
+  requested(): void;
 }
 
 const LATE: readonly LinkErrorCode[] = ['expired', 'overslept'];
@@ -185,7 +185,7 @@ export function createLateNotices(clock: Clock, notices: Pick<Notices, 'takeBack
       wait();
       texts = [...texts, linkSentence(error)];
     },
-    asked() {
+    requested() {
       if (texts.length === 0 || cancel !== null) return;
       cancel = clock.after(WELL_MS, () => {
         for (const text of texts) notices.takeBack(text);

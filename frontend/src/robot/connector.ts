@@ -156,7 +156,7 @@ export function createConnector(options: ConnectorOptions): Connector {
     device.attach(robot, way());
     // A first attempt that fails is in the link's state, with its sentence and its next try.
     await robot.open().catch(() => undefined);
-    // The gateway tells what it leads to only once it is open.
+    // The gateway reports its port only once it is open.
     device.describe(robot, way());
   }
 

@@ -1,6 +1,6 @@
 // The robot as the page sees it: wraps one robot at a time, keeps its latest snapshot, and turns intents of the panels into calls
-// whose failures become notices. Live, never undoable; knows no link and no panel. What changes in each frame is asked
-// for and not in the store: its listeners would be woken for it.
+// whose failures become notices. Live, never undoable; knows no link and no panel. What changes in each frame is read
+// by calls and is not in the store, whose listeners would run each time.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import { sameList } from '#shared/group/groupEdits.ts';
@@ -33,7 +33,7 @@ export interface DeviceState {
   readonly family: Family;
   readonly way: Way | null;
   readonly snapshot: SessionState;
-  /** Servos that were asked for something, or whose position the board has reported; the position of others is unknown. */
+  /** Servos that were commanded, or whose position the board has reported; the position of others is unknown. */
   readonly known: readonly number[];
   /** Those of them whose place is the board's own word. */
   readonly readServos: readonly number[];
@@ -50,10 +50,10 @@ export interface Device extends BoardVerbs {
   /** What the robot's way leads to became known. */
   describe(robot: Robot, way: Way): void;
   detach(): Promise<void>;
-  /** What each was last asked for, from the moment on that it was, and where it is by now: as of this moment. */
+  /** The last commanded position of each, from that moment on, and where it is by now: as of this moment. */
   motions(): Motions;
   motion(servo: number): ServoMotion;
-  /** What the robot was last asked for, or at rest where the board says it stands; without servos of unknown place. */
+  /** The last commanded pose, or at rest the pose that the board reported; without servos of unknown place. */
   pose(): readonly ServoTarget[];
   /** Nothing moves and nothing is under way, as far as can be known. */
   isAtRest(): boolean;
@@ -135,18 +135,18 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
         target: targetOf(servo, sent, waitingToStart.includes(servo)),
         estimated: estimated === null ? null : inRobotUnits(servo, estimated),
       };
-      // Once it is asked for something the board's word is where it comes from.
+      // Once it is commanded, the board's report is its start.
       return reported === undefined || now.target !== sent ? now : { ...now, reported };
     };
   }
 
   function pose(): readonly ServoTarget[] {
     const motion = motions();
-    const asked = robot().servos.flatMap(({ servo }) => {
+    const requested = robot().servos.flatMap(({ servo }) => {
       const { target } = motion(servo);
       return target === null ? [] : [{ servo, position: target }];
     });
-    return asked.toSorted((one, other) => one.servo - other.servo);
+    return requested.toSorted((one, other) => one.servo - other.servo);
   }
 
   function isAtRest(): boolean {
@@ -218,7 +218,7 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     try {
       session.move(onIt, moveDurationMs(pace, targets, session.state.family, motions()));
       book.wish(targets);
-      lateNotices.asked();
+      lateNotices.requested();
       return true;
     } catch (error) {
       notices.tellError(error);

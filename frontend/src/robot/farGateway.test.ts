@@ -206,13 +206,13 @@ test('whichever sliders are moved and when, each ends where it was asked, and no
       ),
       async (delayMs, gestures) => {
         const { clock, session, left, move, problems } = await farSession(delayMs, 6);
-        const asked = new Map<number, number>();
+        const requested = new Map<number, number>();
         const askedMs = new Map<number, number>();
         for (const [index, { servos, pauseMs }] of gestures.entries()) {
           const position = 600 + index;
           move(position, servos);
           askedMs.set(position, clock.now());
-          servos.forEach((servo) => asked.set(servo, position));
+          servos.forEach((servo) => requested.set(servo, position));
           await clock.advance(pauseMs);
         }
         await clock.advance(3_000);
@@ -223,9 +223,9 @@ test('whichever sliders are moved and when, each ends where it was asked, and no
             expect(atMs - (askedMs.get(position) ?? NaN)).toBeLessThanOrEqual(1_000);
             ended.set(servo, position);
           }
-        expect(ended).toEqual(asked);
+        expect(ended).toEqual(requested);
         expect(problems).toEqual([]);
-        for (const [servo, position] of asked) expect(session.motions()(servo).target).toBe(position);
+        for (const [servo, position] of requested) expect(session.motions()(servo).target).toBe(position);
       },
     ),
     { numRuns: 60 * TIMES },

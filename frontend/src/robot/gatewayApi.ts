@@ -39,7 +39,7 @@ export async function readGateway(withinMs = ANSWER_WITHIN_MS): Promise<GatewayS
 }
 
 /**
- * Asks until an answer comes: a gateway that is slow is one, a server that answers otherwise has none. Documents must not be stored
+ * Repeats the request until an answer comes: a gateway that is slow is one, a server that answers otherwise has none. Documents must not be stored
  * at two places because of a bad moment.
  */
 export async function hasGateway(clock: Clock): Promise<boolean> {
@@ -48,7 +48,7 @@ export async function hasGateway(clock: Clock): Promise<boolean> {
     const answer = await fetch('api/status', { signal: AbortSignal.timeout(PATIENT_MS) }).catch(() => null);
     if (answer !== null && answer.status < FROM_HERE_PASSING) {
       const status: unknown = await answer.json().catch(() => null);
-      // One that wants to know first who asks is a gateway, too.
+      // A gateway that requires authentication is one, too.
       return isRecord(status) && (isRecord(status.port) || typeof status.code === 'string');
     }
     await new Promise<void>((resolve) => void clock.after(ASK_AGAIN_MS, resolve));

@@ -28,7 +28,7 @@ export async function readPorts(): Promise<readonly GatewayPort[]> {
   return list.filter(isPort).map(({ device, description, inUse }) => ({ device, description, inUse }));
 }
 
-/** Whatever board is there: the gateway knows it from before, or asks it. */
+/** Whatever board is there: the gateway knows it from before, or queries it. */
 export async function openGatewayPort(device: string): Promise<void> {
   const body = { device, board: 'unknown' };
   await askGateway('put', '/api/port', { body, withinMs: ANSWER_WITHIN_MS });

@@ -1,5 +1,5 @@
-// A robot at the gateway: intents become messages. Holds no queue: what may be done, and when, the gateway decides. Only what its last
-// word forbids already is not asked for. What it says back is shown by links/gatewaySnapshot.ts.
+// A robot at the gateway: intents become messages. Holds no queue: the gateway decides what may be done, and when. An intent
+// that its last snapshot forbids is not sent. Its answers are read by links/gatewaySnapshot.ts.
 
 import type { Clock } from '#shared/clock.ts';
 import { createLink } from '#shared/robot/link.ts';
@@ -50,7 +50,7 @@ export function createGatewayRobot({ url, clock, mayDrive = true }: GatewayRobot
   /** Why STOP was pressed here, where the gateway was not there to hear it. */
   let unheard: HaltReason | null = null;
   let batteryAsked: Promise<number> | null = null;
-  /** Comes when it is first asked for. */
+  /** Loaded when it is first needed. */
   let player: Promise<GatewayPlayer> | null = null;
   let playId = 0;
 
@@ -72,7 +72,7 @@ export function createGatewayRobot({ url, clock, mayDrive = true }: GatewayRobot
     failed: (error) => store.emit('problem', error),
   });
 
-  /** Of the page's lease, for what is asked now. */
+  /** Of the page's lease, for requests from now on. */
   async function begin(withinMs?: number): Promise<string> {
     await driving.begin(withinMs);
     return driving.nonce ?? '';
@@ -103,12 +103,12 @@ export function createGatewayRobot({ url, clock, mayDrive = true }: GatewayRobot
     link.lost(error);
   }
 
-  /** In the order of what was asked of it. */
+  /** In the order of the requests. */
   const withPlayer = (tell: (player: GatewayPlayer) => void): void =>
     void player?.then(tell, () => undefined);
   const stopPlaying = (): void => withPlayer((one) => one.stop());
 
-  /** It is tried again when it is asked for again. */
+  /** It is tried again with the next request. */
   function notLoaded(error: unknown): never {
     player = null;
     throw error;

@@ -1,4 +1,4 @@
-// A gateway for tests of the robot at it: a WebSocket that a test speaks through. Who asks to drive gets the lease; any other answer is
+// A gateway for tests of the robot at it: a WebSocket that a test speaks through. A client that requests to drive gets the lease; any other answer is
 // the test's. Both directions take `delayMs`.
 
 import { vi } from 'vitest';

@@ -22,9 +22,9 @@ const refusalText = ({ servo, position }: LimitRefusal): string =>
 
 /** Each gives what the board gets, or null where a limit forbids it. */
 export interface LimitGate {
-  targets(asked: readonly ServoTarget[]): readonly ServoTarget[] | null;
-  frames(asked: readonly Frame[]): readonly Frame[] | null;
-  groups(asked: readonly SlotGroup[]): readonly SlotGroup[] | null;
+  targets(requested: readonly ServoTarget[]): readonly ServoTarget[] | null;
+  frames(requested: readonly Frame[]): readonly Frame[] | null;
+  groups(requested: readonly SlotGroup[]): readonly SlotGroup[] | null;
   /** A packet written by hand is in the board's own figures already. */
   lets(packet: Uint8Array): boolean;
 }
@@ -33,7 +33,7 @@ export interface LimitGate {
  * What leaves is in the board's own figures and within the limits; the rest is refused with a notice. `refuse` gets the sentence for the person and gives back what takes it back.
  */
 export function createLimitGate(robot: () => Robot, refuse: (refusal: string) => () => void): LimitGate {
-  /** Of a hand that goes on beyond a limit, the latest word alone. */
+  /** Of a drag beyond a limit, only the latest refusal. */
   let shownRefusal: { readonly servo: number; takeBack(): void } | null = null;
 
   function takeBack(): void {
@@ -41,26 +41,26 @@ export function createLimitGate(robot: () => Robot, refuse: (refusal: string) =>
     shownRefusal = null;
   }
 
-  function targets(asked: readonly ServoTarget[]): readonly ServoTarget[] | null {
-    const refused = refusedTarget(robot(), asked);
+  function targets(requested: readonly ServoTarget[]): readonly ServoTarget[] | null {
+    const refused = refusedTarget(robot(), requested);
     if (refused !== null) {
       takeBack();
       shownRefusal = { servo: refused.servo.servo, takeBack: refuse(refusalText(refused)) };
       return null;
     }
-    if (asked.some(({ servo }) => servo === shownRefusal?.servo)) takeBack();
-    return onBoard(robot(), asked);
+    if (requested.some(({ servo }) => servo === shownRefusal?.servo)) takeBack();
+    return onBoard(robot(), requested);
   }
 
-  function frames(asked: readonly Frame[]): readonly Frame[] | null {
-    return allOrNone(asked, (frame) => {
+  function frames(requested: readonly Frame[]): readonly Frame[] | null {
+    return allOrNone(requested, (frame) => {
       const onIt = targets(frame.targets);
       return onIt === null ? null : { durationMs: frame.durationMs, targets: onIt };
     });
   }
 
-  function groups(asked: readonly SlotGroup[]): readonly SlotGroup[] | null {
-    return allOrNone(asked, (group) => {
+  function groups(requested: readonly SlotGroup[]): readonly SlotGroup[] | null {
+    return allOrNone(requested, (group) => {
       const onIt = frames(group.frames);
       return onIt === null ? null : { ...group, frames: onIt };
     });
@@ -80,9 +80,9 @@ export function createLimitGate(robot: () => Robot, refuse: (refusal: string) =>
 }
 
 /** Ends with the first that is refused: one sentence is enough. */
-function allOrNone<T, U>(asked: readonly T[], one: (item: T) => U | null): readonly U[] | null {
+function allOrNone<T, U>(requested: readonly T[], one: (item: T) => U | null): readonly U[] | null {
   const all: U[] = [];
-  for (const item of asked) {
+  for (const item of requested) {
     const given = one(item);
     if (given === null) return null;
     all.push(given);
@@ -149,7 +149,7 @@ export type Targets = (servo: number, sent: number | null, isQueued: boolean) =>
 interface TargetBook {
   wish(targets: readonly ServoTarget[]): void;
   clear(): void;
-  /** How many servos were asked for something that has not left yet, as far as they were looked at since. */
+  /** How many servos have a command that has not left yet, as far as they were looked at since. */
   waiting(): number;
   /** Of all servos at one moment. */
   targets(): Targets;

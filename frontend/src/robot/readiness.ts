@@ -1,4 +1,4 @@
-// Whether something may move or be asked of the board now, judged from one snapshot, with the reason where it may not.
+// Whether a motion or a query is allowed now, judged from one snapshot, with the reason where it may not.
 // Pure; the session refuses by itself, this only lets the panels say so beforehand.
 
 import { isWatching } from '#shared/robot/lease.ts';
@@ -16,7 +16,7 @@ export type Hindrance =
   | 'viewing'
   | 'busy';
 
-/** Where its servos stand can be asked of such a board. */
+/** Such a board reports the positions of its servos. */
 export function tellsPositions({ commands }: Family): boolean {
   return commands.includes('readPositions') || commands.includes('readAllPositions');
 }

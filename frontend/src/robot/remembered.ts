@@ -158,7 +158,7 @@ export function createLastPoses(storage: TextStorage, device: Device): LastPoses
 
   function keep(): void {
     if (latest === null) return;
-    // A group on the board goes on without a packet.
+    // A group on the board continues without a packet.
     if (latest.isMoving || latest.snapshot.waitingToStart.length > 0) robotSync.request();
     const before = store.getState();
     const after = withPose(before, latest, device.pose());
@@ -181,14 +181,14 @@ export function createLastPoses(storage: TextStorage, device: Device): LastPoses
 }
 
 /** The very same poses where they hold that already. */
-function withPose(poses: Poses, state: DeviceState, asked: readonly ServoTarget[]): Poses {
+function withPose(poses: Poses, state: DeviceState, requested: readonly ServoTarget[]): Poses {
   const name = remembered(state);
   const family = state.family.id;
   if (name === null || family === 'unknown') return poses;
   const saved = poses[name]?.family === family ? poses[name].positions : {};
   const { waitingToStart } = state.snapshot;
-  // What was asked of a servo that still waits for its first move has not happened.
-  const news = asked.filter(
+  // The command of a servo that still waits for its first move has not happened.
+  const news = requested.filter(
     ({ servo, position }) => !waitingToStart.includes(servo) && saved[servo] !== position,
   );
   if (news.length === 0) return poses;

@@ -43,7 +43,7 @@ export class GatewayProblem extends Error {
   constructor(
     readonly code: string | null,
     detail: string,
-    /** With `portBusy`: the programs that have the port, where its system tells. */
+    /** With `portBusy`: the programs that have the port, where its system reports them. */
     readonly heldBy: readonly string[] = [],
     options?: ErrorOptions,
   ) {
@@ -60,9 +60,9 @@ export const isWithoutGateway = (): boolean =>
 export async function request<P extends Path, V extends Verb<P>>(
   verb: V,
   path: P,
-  asked: Asked<P, V>,
+  requested: Asked<P, V>,
 ): Promise<unknown> {
-  const { withinMs, values = {}, body, query = {} } = asked as Plain;
+  const { withinMs, values = {}, body, query = {} } = requested as Plain;
   if (isWithoutGateway()) throw new GatewayProblem(null, 'this page is served without a gateway');
   const response = await fetch(addressOf(path, values, query), {
     method: verb.toUpperCase(),
@@ -96,8 +96,8 @@ function addressOf(path: string, values: object, query: object): string {
   const address = path
     .slice(1)
     .replace(/\{(\w+)\}/g, (_, name: string) => encodeURIComponent(String(known.get(name))));
-  const asked = new URLSearchParams(Object.entries(query).map(([name, value]) => [name, String(value)]));
-  return asked.size === 0 ? address : `${address}?${asked.toString()}`;
+  const requested = new URLSearchParams(Object.entries(query).map(([name, value]) => [name, String(value)]));
+  return requested.size === 0 ? address : `${address}?${requested.toString()}`;
 }
 
 export function isRecord(value: unknown): value is Record<string, unknown> {

@@ -62,7 +62,7 @@ const { unaskedAfterMs, unaskedLimit } = timings.battery;
 export type UnaskedAnswers = (traffic: Traffic) => void;
 
 /**
- * Notices battery answers that were not asked for here: then another program uses the same board, which neither a HID cable nor Bluetooth
+ * Notices battery answers that were not requested here: then another program uses the same board, which neither a HID cable nor Bluetooth
  * forbids. For one link; `found` is called once. Its twin is UnaskedAnswers of robot/board/readings.py.
  */
 export function createUnaskedAnswers(found: () => void): UnaskedAnswers {

@@ -54,7 +54,7 @@ later(loadHid);
 later(loadBluetooth);
 
 export function createWays({ clock, boards, storage, mayDrive, isWatched }: WaysOptions): Ways {
-  /** Asked who it is, and taken for what it was the last time. */
+  /** Identified, and assumed to be what it was the last time. */
   async function onCable(
     kind: WayKind,
     port: object,

@@ -26,18 +26,18 @@ export function NameField({
 }: NameFieldProps) {
   const field = useRef<HTMLInputElement>(null);
   /** The name applied last, so that leaving the field does not apply it again. */
-  const asked = useRef(name);
+  const requested = useRef(name);
 
   useLayoutEffect(() => {
-    asked.current = name;
+    requested.current = name;
     if (field.current !== null) field.current.value = name;
   }, [name]);
 
   function take(input: HTMLInputElement): void {
     const wanted = input.value.trim();
     if (wanted === '') input.value = name;
-    else if (wanted !== asked.current) {
-      asked.current = wanted;
+    else if (wanted !== requested.current) {
+      requested.current = wanted;
       onRename(wanted);
     }
   }

@@ -26,7 +26,7 @@ export function pressOnce(event: KeyboardEvent): void {
   if (event.repeat && event.key === 'Enter') event.preventDefault();
 }
 
-/** Created once, because the page asks on each drawing. */
+/** Created once, because the page reads it at each drawing. */
 let coarse: MediaQueryList | undefined;
 
 /** True if the main pointer is a finger. */

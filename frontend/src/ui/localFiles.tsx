@@ -59,7 +59,7 @@ export function FileZone({ hint, below, takesDrop = false, ...button }: FileZone
   );
 }
 
-/** Asks the person for a file, in the press of a button or menu. null: none was chosen. */
+/** Lets the person choose a file, in the press of a button or menu. null: none was chosen. */
 export function chooseFile(accept: string): Promise<File | null> {
   const input = document.createElement('input');
   Object.assign(input, { type: 'file', accept });

@@ -48,7 +48,7 @@ export type FrameCommand = Extract<Command, { kind: 'download' }>;
 
 export type CommandKind = Command['kind'];
 
-/** Neither moves anything nor changes what a group does: anybody may send it at any time. */
+/** Neither moves anything nor changes what a group does: any client may send it at any time. */
 const HARMLESS: readonly CommandKind[] = [
   'stop',
   'readBattery',

@@ -45,7 +45,7 @@ export interface Family {
   readonly answers: readonly CommandKind[];
   /**
    * Harmless questions that every such board answers, the cheapest first: the others may stay silent for good reasons. What
-   * tells the families apart (boards.md 2.5), and whether a board is still there.
+   * distinguishes the families (boards.md 2.5), and whether a board is still there.
    */
   readonly certainAnswers: readonly Question[];
   /** Reports of runs name slot and times (6 and 8 with LEN 5), whichever client began the run; otherwise they are empty. */
@@ -63,7 +63,7 @@ export interface Family {
   /** Pause the board needs between two packets, after the last byte has left the wire (S52, S54). */
   readonly serviceGapMs: number;
   readonly motion: MotionTraits;
-  /** What the board tells of more than this is not measured; null where no such ceiling is known. */
+  /** Reported values above this are not measured; null where no such ceiling is known. */
   readonly batteryCeilingMv: number | null;
   /** The button of the wireless pad that plays slot 0, 1 …; null: none does. */
   readonly padButtons: readonly (PadButton | null)[];
@@ -91,7 +91,7 @@ interface MotionTraits {
   readonly chainedSlot: number | null;
 }
 
-/** What may be asked of any board: it moves nothing, stores nothing and makes nothing drop. */
+/** Queries that any board may get: it moves nothing, stores nothing and makes nothing drop. */
 export type Question = Extract<CommandKind, 'readBattery' | 'readVersion' | 'readPositions'>;
 
 /** `unknown` until a board has been identified. */
@@ -148,7 +148,7 @@ export type SlotTrigger =
   | { readonly kind: 'chain'; readonly after: number };
 
 /**
- * What some board plays without being asked, or comes filled with from its maker: pad buttons and factory groups (S56, X8, boards.md
+ * What some board plays by itself, or comes filled with from its maker: pad buttons and factory groups (S56, X8, boards.md
  * chapter 9), the key and the slots that follow it by themselves (S49, S55). Of which board one has is not sure enough to differ.
  */
 const LIVE: readonly Range[] = [

@@ -33,7 +33,7 @@ export type Report =
   /** Well-formed on the wire, but not a report this family is known to send. */
   | { readonly kind: 'unknown'; readonly command: number; readonly params: Uint8Array };
 
-/** What the board drives, by the number it tells with its version. */
+/** What the board drives, by the number in its version report. */
 export const SERVO_TYPES = [null, 'us', 'steps'] as const;
 
 export type ReportKind = Report['kind'];

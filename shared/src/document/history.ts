@@ -1,7 +1,7 @@
 // Undo for any immutable value: references to the states before and after, each step with a label for people. A gesture is
 // a transaction: begin, preview as often as needed, then commit as one step or cancel. Knows nothing of what it holds.
 
-/** What a step is called, asked whenever it is shown: its language may have changed since. */
+/** What a step is called, read whenever it is shown: its language may have changed since. */
 export type Label = () => string;
 
 /** Steps stored; with structural sharing 1,000 states of the largest group cost a few megabytes. */
@@ -54,7 +54,7 @@ export function commit<T>(history: History<T>): History<T> {
     : step(settled, gesture.label, gesture.value, history.present);
 }
 
-/** What has happened elsewhere, as if it always had: no step of anybody here takes it back. */
+/** What has happened elsewhere, as if it always had: no undo here reverts it. */
 export function rebase<T>(history: History<T>, change: (value: T) => T): History<T> {
   const changed = (step: Step<T>): Step<T> => ({ ...step, value: change(step.value) });
   const { present, past, future, gesture } = history;

@@ -50,7 +50,7 @@ export interface Version {
   readonly atMs: number;
 }
 
-/** Everything rejects with a LibraryError. The writer names a new document, so that asking twice makes no second one. */
+/** Everything rejects with a LibraryError. The writer names a new document, so that a repeated request makes no second one. */
 export interface DocumentStore {
   readonly place: 'gateway' | 'browser';
   list(): Promise<Listing>;

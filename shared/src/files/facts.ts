@@ -16,7 +16,7 @@ interface FactsContext {
 }
 
 export function factsOf(group: ActionGroup, { updatedAtMs, robot }: FactsContext): GroupFacts {
-  // The middle tells groups apart: many begin and end at rest.
+  // The middle distinguishes groups: many begin and end at rest.
   const pose = poseAt(group.frames, Math.floor(group.frames.length / 2));
   return {
     kind: 'group',

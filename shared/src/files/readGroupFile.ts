@@ -1,4 +1,4 @@
-// A file of action groups, whatever its format, read as a whole or not at all. The content tells the format; where it does
+// A file of action groups, whatever its format, read as a whole or not at all. The content determines the format; where it does
 // not, the name does. Never throws. Bytes of text and databases are opened by what is handed in.
 
 import { emptyGroup, GROUP_NAME_LENGTH, type ActionGroup, groupFromText } from '../group/group.ts';

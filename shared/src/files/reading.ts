@@ -1,4 +1,4 @@
-// What reading a file of action groups comes to: groups with what is to be asked about them, or one problem with its place.
+// What reading a file of action groups comes to: groups with the questions about them, or one problem with its place.
 // Nothing is half read. Text in the encodings such files come in, and what numbers mean in either unit. Knows no format; the
 // sentences are the page's.
 

@@ -3,7 +3,7 @@
 // the group was made for, never converted.
 //
 // A frame is a moment, `durationMs` after the one before it, and a servo named in it has a key there. A servo that is not named
-// goes on towards its next key: its way spans the frames between. `easing` is how the servos keyed in a frame come into it.
+// continues towards its next key: its way spans the frames between. `easing` is how the servos keyed in a frame come into it.
 
 import * as v from 'valibot';
 import {
@@ -39,7 +39,7 @@ export const [FASTEST_BEAT_MS, SLOWEST_BEAT_MS] = [100, 4000] as const;
 const MAX_TAGS = 20;
 
 const frameSchema = v.strictObject({
-  /** Tells frames apart while they move about in the list; never used twice, means nothing outside the document. */
+  /** Distinguishes frames while they move about in the list; never used twice, means nothing outside the document. */
   id: runningId,
   durationMs: whole(0, 0xffff),
   /** In ascending servo order, each servo once. */

@@ -28,7 +28,7 @@ export interface PassageOptions {
 export interface Passage {
   /** The first one leads to where the passage begins. Empty where there is nothing to play. */
   readonly frames: readonly Frame[];
-  /** Repeated, it goes on with this one behind its last: 0 leads back. */
+  /** Repeated, it continues with this one behind its last: 0 leads back. */
   readonly loopFrom: 0 | 1;
   /** The way back is gentle: the robot ends elsewhere than it begins. */
   readonly returns: boolean;
@@ -45,7 +45,7 @@ interface Step {
   readonly beginMs: number;
   readonly endMs: number;
   readonly targets: readonly ServoTarget[];
-  /** Where the servos are that anybody knows of, before it. */
+  /** The known positions of servos before it. */
   readonly before: ReadonlyMap<number, number>;
 }
 

@@ -50,7 +50,7 @@ export function slotFor(own: number | null, known: KnownSlots, taken: readonly n
 const slotsFor = ({ min, max }: Range): readonly number[] =>
   Array.from({ length: max - min + 1 }, (_, index) => min + index).filter((slot) => !isLiveSlot(slot));
 
-// What becomes of groups on their way to the board, by the news of the download: the page that asked for them may have
+// What becomes of groups on their way to the board, by the news of the download: the page that requested them may have
 // been away.
 
 /** The latest download, by whichever client. */

@@ -28,7 +28,7 @@ const SHARES_LOOK = 0.35;
 
 const MM = 1000;
 
-/** Goes through the motion; yields now and then, so that whoever runs it can pause or end. In the order in which they begin. */
+/** Goes through the motion; yields now and then, so that the caller can pause or end. In the order in which they begin. */
 export function* collisions(
   model: LinkModel,
   motion: readonly TimedAngles[],

@@ -150,7 +150,7 @@ function ended(motion: Motion, board: KnownBoard): Motion {
 export const deadlines: Playback = {
   request,
   advance,
-  // The frame in progress goes on to its end (S50), and none begins behind it.
+  // The frame in progress continues to its end (S50), and none begins behind it.
   stop: (motion, atMs, { family }) => ({
     ...{ ...motion, run: null },
     tracks: stoppedBefore(motion.tracks, motion.recent, atMs, family),

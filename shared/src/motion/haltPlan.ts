@@ -1,4 +1,4 @@
-// What STOP can do about a motion: the move that holds the robot where it is, and what goes on in spite of it. Both come from
+// What STOP can do about a motion: the move that holds the robot where it is, and the motion that continues in spite of it. Both come from
 // one value, so that they cannot contradict each other. Knows the estimate; no clock, no link, no session.
 
 import timings from '../../protocol/timings.json' with { type: 'json' };
@@ -32,7 +32,7 @@ const STOP_OFFSETS_MS = Array.from(
 const STOP: Command = { kind: 'stop' };
 const STOP_MS = wireMs(4);
 
-/** As of the press of STOP at `nowMs`: the first hold, and what goes on behind the last one. */
+/** As of the press of STOP at `nowMs`: the first hold, and the motion that continues behind the last one. */
 export function haltPlan(motion: Motion, nowMs: number, board: KnownBoard): HaltPlan {
   const stoppedMs = nowMs + STOP_MS;
   const stopped = afterCommand(advance(motion, nowMs, board), STOP, stoppedMs, board);

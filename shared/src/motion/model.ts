@@ -180,7 +180,7 @@ export interface WayBefore {
   readonly durationMs: number;
 }
 
-/** Where the board said that a servo stood; `isCurrent`: as far as anybody can tell it stands there still. */
+/** Where the board said that a servo stood; `isCurrent`: as far as is known it stands there still. */
 export interface PositionBefore {
   readonly servo: number;
   readonly position: number;

@@ -183,7 +183,7 @@ function released(motion: Motion, servos: readonly number[]): Motion {
   return withoutServos(motion, servos);
 }
 
-/** Servos at rest stay; those under way freeze and jump (S29), but they arrive. A group goes on at an unknown time. */
+/** Servos at rest stay; those under way freeze and jump (S29), but they arrive. A group continues at an unknown time. */
 function deafened(motion: Motion, kind: Command['kind'], atMs: number): Motion {
   const deafUntilMs = atMs + LONGEST_DEAFNESS_MS;
   const deaf = { ...motion, deafUntilMs, answersOwed: answersTo(kind), mayHoldPacket: false };
@@ -297,7 +297,7 @@ export function farthestFrom(
   return Math.abs(to - track.to) + (max - min) * (1 - shareDone(track, nowMs));
 }
 
-/** Where a servo was last asked to be, or null when it never was. */
+/** The last commanded position of a servo, or null. */
 export function targetOf(motion: Motion, servo: number): number | null {
   const track = motion.tracks.get(servo);
   return track === undefined || track.toLeeway === Infinity ? null : track.to;

@@ -177,7 +177,7 @@ export const polled: Playback = {
   advance,
   stop,
   interrupt,
-  // It tells of no end (L6).
+  // It reports no end (L6).
   ended: (motion) => motion,
   passMs: (frames) => sum(frames, latestMs),
 };

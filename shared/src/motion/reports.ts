@@ -34,7 +34,7 @@ function afterAnswer(motion: Motion, kind: ReportKind, atMs: number, { family }:
   const index = motion.answersOwed.indexOf(kind);
   if (index < 0) return motion;
   const answersOwed = motion.answersOwed.toSpliced(index, 1);
-  // It took up what was asked behind the cut packet, so that one is over.
+  // It took up the command behind the cut packet, so that one is over.
   const answered = { ...motion, answersOwed, maySwallow: 0 };
   if (answersOwed.length > 0) return answered;
   const deafUntilMs = motion.mayHoldPacket ? atMs + family.serviceGapMs : -Infinity;
@@ -62,7 +62,7 @@ function lastFrameMs({ tracks }: Motion, atMs: number, { family: { motion } }: K
   return LAST_TICKS_MS + (motion.timing === 'shared' ? lastEndMs(tracks, atMs) - atMs : 0);
 }
 
-/** After the group was stopped, or is taken to have ended: its frame in progress goes on (S50). */
+/** After the group was stopped, or is taken to have ended: its frame in progress continues (S50). */
 export function afterCut(motion: Motion, atMs: number, board: KnownBoard): Motion {
   const current = advance(motion, atMs, board);
   return restless(current, { ...current, run: null }, atMs);

@@ -176,7 +176,7 @@ function contests(one: Order, other: Order, servo: number): boolean {
 }
 
 /**
- * After a stop at `atMs`: frames that began just before it may not have begun. Then what was under way goes on, and what stood still
+ * After a stop at `atMs`: frames that began just before it may not have begun. Then the motion under way continues, and what stood still
  * stands; that a hold would throw to where a frame has sent it that is too short to need one.
  */
 export function stoppedBefore(
@@ -225,7 +225,7 @@ function redirected(
   return { from, to, startMs: atMs, durationMs, fromLeeway, toLeeway: 0 };
 }
 
-/** Its way goes on as a guess. */
+/** Its motion continues as an estimate. */
 function guessed(track: Track | undefined, to: number, atMs: number, durationMs: number): Track {
   const from = track ? guessOf(track, atMs) : null;
   return { from, to, startMs: atMs, durationMs, fromLeeway: Infinity, toLeeway: Infinity };

@@ -1,4 +1,4 @@
-// How far a calibration has come, at which servo and step, and the same as a text that is stored until it goes on. Changes no robot.
+// How far a calibration has come, at which servo and step, and the same as a text that is stored until it continues. Changes no robot.
 
 import * as v from 'valibot';
 
@@ -28,7 +28,7 @@ interface Done {
   readonly step: CalibrationStep;
 }
 
-// How far the calibration of a robot has come, as a text that is stored until it goes on. What is none is not taken.
+// How far the calibration of a robot has come, as a text that is stored until it continues. What is none is not taken.
 
 /** Of which robot, by its number among those of this browser. */
 export interface StoredCalibration {
@@ -52,7 +52,7 @@ const storedSchema = v.strictObject({
 
 export const calibrationToText = (stored: StoredCalibration | null): string => JSON.stringify(stored);
 
-/** null where it tells of none. */
+/** null where it contains none. */
 export function calibrationFromText(text: string): StoredCalibration | null {
   try {
     return v.parse(storedSchema, JSON.parse(text));

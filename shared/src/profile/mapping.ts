@@ -19,7 +19,7 @@ const inputSchema = v.variant('kind', [
   v.strictObject({ kind: v.literal('key'), code: v.pipe(v.string(), v.minLength(1), v.maxLength(32)) }),
 ]);
 
-/** The fastest a servo may be asked to follow: any servo's whole range in less than a second. */
+/** The fastest a servo may follow: any servo's whole range in less than a second. */
 export const FASTEST_UNITS_PER_S = 3000;
 
 const actionSchema = v.variant('kind', [

@@ -19,7 +19,7 @@ import { sameTargets } from './poseShapes.ts';
 /** `home`: every servo at its home. `rest`: the pose marked as such, else home. */
 export const POSE_VERBS = ['home', 'rest'] as const;
 
-/** How long the way to a pose may be asked to take. */
+/** The range of durations of a move to a pose. */
 export const POSE_MS = { min: 0, max: 30_000 } as const;
 
 export const poseRefSchema = v.union([v.picklist(POSE_VERBS), runningId]);

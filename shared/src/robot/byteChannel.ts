@@ -12,7 +12,7 @@ export interface ChannelEvents {
   lost(error: LinkError): void;
   /** The device may be back: worth an attempt before the next one is due. Only while the channel is not open. */
   available(): void;
-  /** Another tab asks for the device. The robot is stopped meanwhile; then, or after a bounded time, the channel lets go of it. */
+  /** Another tab requests the device. The robot is stopped meanwhile; then, or after a bounded time, the channel lets go of it. */
   claimed(): Promise<void>;
 }
 

@@ -86,7 +86,7 @@ interface Receiver {
   reset(): void;
 }
 
-/** Feeds the decoder and tells it when the line is silent. */
+/** Feeds the decoder and notifies it of silence on the line. */
 export function createReceiver({ clock, family, report, noise }: ReceiverOptions): Receiver {
   const decoder = createDecoder((event) => {
     if (event.kind === 'packet') report(parseReport(event.packet, family()), event.bytes);

@@ -14,7 +14,7 @@ import type { Activity, DownloadProgress, SlotGroup } from './state.ts';
 
 /** What must outlive a robot's link: slots whose download was begun and not finished (S35). */
 export interface SlotMemory {
-  /** Asked when the link is ready, because only then it is certain which board is there. */
+  /** Read when the link is ready, because only then it is certain which board is there. */
   read(): readonly number[];
   /** All broken slots. Called before the first byte of a download leaves. Never throws. */
   write(brokenSlots: readonly number[]): void;
@@ -149,7 +149,7 @@ interface DownloadJob {
   readonly exchange: Exchange;
   /** How long from now answers to earlier packets may still come; 0 when every one was heard. */
   readonly owedForMs: number;
-  /** Asked between two frames. */
+  /** Checked between two frames. */
   isCancelled(): boolean;
   /** The first byte is about to leave: from here on the slot's old group is gone (S33, S35). */
   begun(): void;

@@ -43,7 +43,7 @@ export interface Driver {
   dropMoves(): boolean;
   /** A command's last bit left the wire just now. */
   applied(command: Command): void;
-  /** Ends what is under way here. What the board was asked and did not answer stays unknown. */
+  /** Ends what is under way here. Unanswered queries stay unknown. */
   drop(error: LinkError): void;
 }
 
@@ -67,7 +67,7 @@ export function createDriver(family: Family, options: DriverOptions): Driver {
     return player.drop() || wasWaiting;
   }
 
-  /** At rest only: a move that goes on or still waits for the wire would power the servos again (X7). */
+  /** At rest only: a move that continues or still waits for the wire would power the servos again (X7). */
   async function release(servos: readonly number[]): Promise<void> {
     requireAtRest(core);
     for (const command of releaseCommands(servos, servosPerMove, family)) await core.exchange.tell(command);
@@ -107,7 +107,7 @@ function isMotion(packet: Uint8Array | null): boolean {
 }
 
 export interface Readings {
-  /** Some boards are asked for all servos at once, whichever are listed. The answer is in `state.reported`. */
+  /** Some boards are queried for all servos at once, whichever are listed. The answer is in `state.reported`. */
   readPositions(servos: readonly number[]): Promise<void>;
   readVersion(): Promise<void>;
   readOffsets(): Promise<void>;
@@ -141,7 +141,7 @@ export function createReadings(core: Core): Readings {
   };
 }
 
-/** From the question's last bit: the board asks its servos one by one, then the answer needs its time on the wire. */
+/** From the query's last bit: the board queries its servos one by one, then the answer needs its time on the wire. */
 function positionsTimeoutMs(servoCount: number): number {
   return Math.ceil(POSITION_READ_MS * servoCount + wireMs(5 + 3 * servoCount)) + POSITION_MARGIN_MS;
 }
@@ -168,7 +168,7 @@ export function createBatteryReader(core: Core): () => Promise<number> {
 
   function countSilence(): void {
     const { battery } = core.store.state;
-    // Where every such board answers, silence says that the board is gone, not that it cannot tell.
+    // Where every such board answers, silence says that the board is gone, not that it has no battery report.
     if (core.family.certainAnswers.includes('readBattery')) return;
     silences += 1;
     if (silences < BATTERY_SILENT_LIMIT || battery.kind === 'silent') return;

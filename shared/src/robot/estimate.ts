@@ -56,7 +56,7 @@ export interface RobotEstimate {
   haltPlan(leaving: Command | null): HaltPlan;
   /** What holds the robot, as a move that begins to leave now, a gap behind a stop. */
   hold(): MoveCommand | null;
-  /** What goes on in spite of a STOP pressed then, whose last packet left just now. */
+  /** The motion that continues in spite of a STOP pressed then, whose last packet left just now. */
   unheldSince(pressedMs: number): Unheld | null;
   moving(): boolean;
   /** The group that runs is taken to have ended, without a word of the board. */
@@ -121,8 +121,8 @@ export function createRobotEstimate(family: Family, clock: Clock): RobotEstimate
 
   function othersMs({ targets }: MoveCommand): number {
     if (family.motion.timing !== 'shared') return 0;
-    const asked = targets.map(({ servo }) => servo);
-    return Math.ceil(remainingMs(withoutServos(now(), asked), clock.now()));
+    const requested = targets.map(({ servo }) => servo);
+    return Math.ceil(remainingMs(withoutServos(now(), requested), clock.now()));
   }
 
   return {

@@ -30,7 +30,7 @@ export function createGroups(core: Core, slotMemory: SlotMemory | undefined): Gr
   const storing = createStoring(core, slotMemory);
   const running = createRunning(clock, store, () => estimate);
   let stopping: Promise<void> | null = null;
-  /** Runs and stops asked for: a run that waits for a stop is overtaken by what is asked for behind it. */
+  /** Requested runs and stops: a run that waits for a stop is overtaken by a later request. */
   let asked = 0;
 
   /** Pressed again, it stops at once and again. Only behind all of it another group may begin. */

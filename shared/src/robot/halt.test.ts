@@ -271,9 +271,9 @@ describe('STOP', () => {
 
     test('stops it once more as soon as it answers', async () => {
       const rig = await createCutRig(4);
-      const asked = rig.session.readVersion();
+      const requested = rig.session.readVersion();
       await rig.clock.advance(1_000);
-      await asked;
+      await requested;
       expect(rig.heard.slice(-3).map(({ command }) => command.kind)).toEqual(['stop', 'stop', 'stop']);
       expect(rig.session.state.latch).toMatchObject({ stop: 'sent', unheld: { servos: [6] } });
     });
@@ -284,7 +284,7 @@ describe('STOP', () => {
     await knownAtRest(rig, 500);
     void rig.session.run(1, 0);
     await rig.clock.advance(300);
-    const asked = rig.session.readPositions([1, 2, 3, 4, 5, 6]);
+    const requested = rig.session.readPositions([1, 2, 3, 4, 5, 6]);
     await rig.clock.advance(25);
     // It waits in the only place where a packet can, so that the stops are dropped.
     rig.session.move([{ servo: 1, position: 510 }], 100);
@@ -294,7 +294,7 @@ describe('STOP', () => {
     expect(rig.channel.board.runningSlot()).toBe(1);
     expect(rig.session.state.latch?.unheld?.servos).toBeNull();
     await rig.clock.advance(600);
-    await asked.catch(() => undefined);
+    await requested.catch(() => undefined);
     expect(rig.channel.board.runningSlot()).toBeNull();
     expect(rig.session.state.latch).toMatchObject({ stop: 'confirmed' });
     expect(rig.ofKind('stop')).toHaveLength(6);

@@ -51,7 +51,7 @@ export interface HaltOptions {
   hold(): HaltPlan['hold'];
   /** As many as one packet holds. */
   servosPerMove(): number;
-  /** What goes on in spite of a STOP pressed then, whose last packet left just now. */
+  /** The motion that continues in spite of a STOP pressed then, whose last packet left just now. */
   unheldSince(pressedMs: number): Unheld | null;
   encoded(hold: NonNullable<HaltPlan['hold']>): Uint8Array;
   dropAll(error: LinkError): void;

@@ -16,7 +16,7 @@ const kindsHeard = ({ heard }: Rig): readonly string[] => [
   ...new Set(heard.map(({ command }) => command.kind)),
 ];
 
-const asked = (options: Parameters<typeof createRig>[0]): Promise<Rig> =>
+const requested = (options: Parameters<typeof createRig>[0]): Promise<Rig> =>
   createRig({ family: UNKNOWN_BOARD, identifies: true, ...options });
 
 const ANSWERS_LIKE: readonly (readonly [ProfileName, readonly FamilyId[]])[] = [
@@ -33,7 +33,7 @@ const ANSWERS_LIKE: readonly (readonly [ProfileName, readonly FamilyId[]])[] = [
 
 describe('an unknown board', () => {
   test.each(ANSWERS_LIKE)('%s answers like %s', async (profile, candidates) => {
-    const rig = await asked({ profile });
+    const rig = await requested({ profile });
     expect(rig.session.state.link).toEqual({ status: 'identifying' });
     await rig.clock.advance(3_000);
     expect(rig.session.state.identity.candidates).toEqual(candidates);
@@ -42,7 +42,7 @@ describe('an unknown board', () => {
   });
 
   test('gets nothing but stops, before and after it was asked', async () => {
-    const rig = await asked({ profile: 'openarm-new' });
+    const rig = await requested({ profile: 'openarm-new' });
     const { session, clock } = rig;
     const pressAll = async (): Promise<void> => {
       expect(() => session.move([{ servo: 1, position: 1500 }], 0)).toThrow();
@@ -63,7 +63,7 @@ describe('an unknown board', () => {
   });
 
   test('is ready as soon as a person has said which it is, without another question', async () => {
-    const rig = await asked({ profile: 'xarm' });
+    const rig = await requested({ profile: 'xarm' });
     await rig.clock.advance(3_000);
     const questions = rig.heard.length;
     await rig.session.choose(FAMILIES.xarm);
@@ -75,7 +75,7 @@ describe('an unknown board', () => {
   });
 
   test('is not taken for what its answers rule out', async () => {
-    const rig = await asked({ profile: 'learm-esp32' });
+    const rig = await requested({ profile: 'learm-esp32' });
     await rig.clock.advance(3_000);
     await rig.session.choose(FAMILIES['lsc-6']);
     expect(rig.session.state.link).toMatchObject({ status: 'refused', error: { code: 'wrongBoard' } });
@@ -84,14 +84,14 @@ describe('an unknown board', () => {
 
   test('that restarts in front of us is given the time to start', async () => {
     const pressK1 = { name: 'modeKey', afterMs: 3_100 } as const;
-    const rig = await asked({ profile: 'learm-esp32', onForMs: 0, faults: [pressK1] });
+    const rig = await requested({ profile: 'learm-esp32', onForMs: 0, faults: [pressK1] });
     await rig.clock.advance(6_000);
     expect(rig.session.state.identity.candidates).toEqual(['learm-esp32']);
     expect(rig.session.state.identity.evidence).toContainEqual(expect.objectContaining({ kind: 'noise' }));
   });
 
   test('a stop pressed meanwhile goes first, and the questions go on', async () => {
-    const rig = await asked({ profile: 'bus-ctrl' });
+    const rig = await requested({ profile: 'bus-ctrl' });
     await rig.clock.advance(205);
     void rig.session.halt();
     await rig.clock.advance(3_000);
@@ -102,7 +102,7 @@ describe('an unknown board', () => {
 
 describe('a line that sends everything back', () => {
   test('is named for what it is, and nothing is driven over it', async () => {
-    const rig = await asked({
+    const rig = await requested({
       profile: 'openarm-new',
       family: family('doc'),
       faults: [{ name: 'loopback' }],

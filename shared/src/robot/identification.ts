@@ -175,7 +175,7 @@ export function createIdentification(options: IdentificationOptions): Identifica
 
 interface HeartbeatOptions {
   readonly clock: Clock;
-  /** The question, or null while it may not be asked: no page is visible, something runs, no such board answers anything. */
+  /** The query, or null while it may not be sent: no page is visible, something runs, no such board answers anything. */
   question(): Question | null;
   /** Sends it and waits; false when no answer came, null when that is uncertain. */
   ask(question: Question): Promise<boolean | null>;
@@ -183,14 +183,14 @@ interface HeartbeatOptions {
 }
 
 interface Heartbeat {
-  /** `isGone`: it has been silent already, so it is asked more often. */
+  /** `isGone`: it has been silent already, so it is queried more often. */
   start(isGone: boolean): void;
   stop(): void;
   /** The board said something: no need to ask for a while. */
   heard(): void;
 }
 
-/** Asks an idle board whether it is still there, by the cheapest harmless question that such a board always answers. */
+/** Checks whether an idle board is still there, by the cheapest harmless query that such a board always answers. */
 function createHeartbeat({ clock, question, ask, gone }: HeartbeatOptions): Heartbeat {
   let runs = false;
   let misses = 0;
@@ -204,8 +204,8 @@ function createHeartbeat({ clock, question, ask, gone }: HeartbeatOptions): Hear
   }
 
   async function beat(mine: number): Promise<void> {
-    const asked = question();
-    const answered = asked && (await ask(asked));
+    const requested = question();
+    const answered = requested && (await ask(requested));
     if (mine !== life) return;
     if (answered === false) misses += 1;
     if (answered === false && misses === HEARTBEAT_MISSES) gone();

@@ -11,14 +11,14 @@ import type { SessionStore } from './store.ts';
 export interface MotionLatchOptions {
   readonly clock: Clock;
   readonly store: SessionStore;
-  /** Ends what waits or goes on here. */
+  /** Ends what waits or runs here. */
   drop(): void;
-  /** What goes on in spite of a STOP pressed then, whose last packet left just now. */
+  /** The motion that continues in spite of a STOP pressed then, whose last packet left just now. */
   unheldSince(pressedMs: number): Unheld | null;
 }
 
 export interface MotionLatch {
-  /** When the latest stop was asked for: what goes on is counted from then, also where the stop is sent once more. */
+  /** When the latest stop was requested: the remaining motion is counted from then, also where the stop is sent once more. */
   readonly pressedMs: number;
   /** Resolves when the latest stop has left or failed. */
   readonly settled: Promise<void>;
@@ -27,7 +27,7 @@ export interface MotionLatch {
   /** `confirmed` stays, whatever is said later. */
   change(change: Partial<Pick<Latch, 'stop' | 'unheld'>>): void;
   press(): void;
-  /** Notes how that stop ends; `undefined` where what goes on is not known with it. Rejects as it does. */
+  /** Notes how that stop ends; `undefined` where the remaining motion is not known with it. Rejects as it does. */
   follow(stopping: Promise<Unheld | null | undefined>): Promise<void>;
   /** Behind the stop under way, whose last hold would take back what is moved meanwhile. Rejects where another stop came. */
   release(elsewhere?: () => Promise<unknown>): Promise<void>;

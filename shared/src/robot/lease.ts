@@ -32,7 +32,7 @@ export interface Lease {
   /** Until then the driver may refuse the request; from when this arrived. */
   readonly grantedInMs: number | null;
   readonly mayDrive: boolean;
-  /** Without asking. */
+  /** Without a request. */
   readonly mayTake: boolean;
   /** Who granted it to this end, which drives; null where it was not granted. */
   readonly grantedBy: string | null;

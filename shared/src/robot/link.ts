@@ -70,7 +70,7 @@ export function createLink({ clock, open, close, changed }: LinkOptions): Link {
 
   function retry(): void {
     reconnect.rest();
-    // The failure is in the state; there is no caller to tell.
+    // The failure is in the state; no caller waits for it.
     connect().catch(() => undefined);
   }
 
@@ -151,7 +151,7 @@ interface ReconnectOptions {
 }
 
 interface Reconnect {
-  /** Waits for the next attempt; returns when it comes. `byTime` false: only when the device shows up, or a person asks. */
+  /** Waits for the next attempt; returns when it comes. `byTime` false: only when the device shows up, or a person requests it. */
   plan(byTime: boolean): number | null;
   /** Ends the waiting. */
   rest(): void;

@@ -1,5 +1,5 @@
 // Everything that can go wrong between a person and a board, as one union of codes. The page has one sentence for each
-// code that tells what to do; no code path may invent another. Knows no cable and no words.
+// code that determines the remedy; no code path may invent another. Knows no cable and no words.
 
 export const LINK_ERROR_CODES = [
   'closed', // the link is not open
@@ -13,7 +13,7 @@ export const LINK_ERROR_CODES = [
   'bluetoothOff', // this computer has no Bluetooth adapter, or it is off
   'otherDevice', // another device may stand where ours was: a person must choose
   'heldElsewhere', // another tab of this browser drives it
-  'movedAway', // another tab asked for it and was given it
+  'movedAway', // given to another tab that requested it
   'notChosen', // the person closed the chooser
   'unsupported', // this browser has no such device API
   'insecureAddress', // the page's address is no secure context
@@ -62,7 +62,7 @@ export const asLinkError = (error: unknown): LinkError =>
 
 export class LinkError extends Error {
   override readonly name = 'LinkError';
-  /** Of `portBusy`: the programs that have the port, where the gateway's system tells. */
+  /** Of `portBusy`: the programs that have the port, where the gateway's system reports them. */
   readonly heldBy: readonly string[];
   constructor(
     readonly code: LinkErrorCode,

@@ -25,13 +25,13 @@ import { OVERSLEPT_MS } from './timings.ts';
 export interface LocalRobotOptions {
   readonly channel: ByteChannel;
   readonly clock: Clock;
-  /** What the board is taken for, by a person or from memory. Without it the board is asked, and waits for `choose`. */
+  /** The assumed family of the board, by a person or from memory. Without it the board is identified, and waits for `choose`. */
   readonly family?: Family | undefined;
   /** Check `family` by harmless questions before anything moves, at each opening. Otherwise its word is enough. */
   readonly identifies?: boolean | undefined;
   /** Nothing can have moved it before: it begins with its link. */
   readonly isNew?: boolean | undefined;
-  /** Whether a page is visible: then an idle board is asked now and again whether it is still there. Absent: never. */
+  /** Whether a page is visible: then an idle board is checked from time to time. Absent: never. */
   readonly isWatched?: (() => boolean) | undefined;
   /** Without it broken slots are forgotten with the robot. */
   readonly slotMemory?: SlotMemory | undefined;
@@ -129,7 +129,7 @@ export function createLocalRobot(options: LocalRobotOptions): Robot {
     });
   }
 
-  /** What waited to leave does not any more; a group that the board plays goes on, and so does a download. */
+  /** What waited to leave does not any more; a group that the board plays continues, and so does a download. */
   function overslept(): void {
     const error = new LinkError('overslept', 'this computer or page slept');
     if (driver.dropMoves()) store.emit('problem', error);

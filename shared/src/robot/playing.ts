@@ -74,7 +74,7 @@ interface PlayerOptions {
   /** Until the last servo of the first frame may start. */
   startsWithinMs(first: Frame): number;
   move(frame: Frame): void;
-  /** The frame asked for has not left yet: another one would take its place. */
+  /** The requested frame has not left yet: another one would take its place. */
   isWaiting(frame: Frame): boolean;
   /** Frame `index` begins. */
   frameBegan(index: number): void;

@@ -19,7 +19,7 @@ export interface RawOperations {
   stop(): Promise<void>;
   release(servos: readonly number[]): Promise<void>;
   readBattery(): Promise<unknown>;
-  /** Values that wait for these servos do not leave any more: they were asked for before. */
+  /** Values that wait for these servos do not leave any more: they were requested before. */
   overtake(servos: readonly number[]): void;
   /** Any other packet, as a request. Resolves when it has left. */
   send(packet: Uint8Array): Promise<void>;

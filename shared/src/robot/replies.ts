@@ -67,7 +67,7 @@ interface Expectation {
 /** One waiter a kind. */
 export interface Replies {
   /**
-   * Throws `busy` while another waits for the same kind. Expect before asking: the answer may overtake the send. What
+   * Throws `busy` while another waits for the same kind. Call it before sending: the answer may overtake the send. What
    * comes before `earliestMs` cannot be the answer and stays unsolicited: a doubled one of the question before.
    */
   expect(kind: ReportKind, earliestMs?: number): Expectation;
@@ -100,7 +100,7 @@ export function createReplies(clock: Clock): Replies {
         else resolve(outcome);
       };
     });
-    // A waiter may be failed before anybody awaits it.
+    // A waiter may be failed before it is awaited.
     promise.catch(() => undefined);
     waiters.set(kind, waiter);
     return {

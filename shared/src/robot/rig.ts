@@ -29,13 +29,13 @@ export interface Rig {
   readonly session: Robot;
   readonly channel: SimulatedChannel;
   readonly heard: readonly HeardCommand[];
-  /** The session's computer sleeps, and no timer of it fires in time; the board goes on. */
+  /** The session's computer sleeps, and no timer of it fires in time; the board continues. */
   asleep(ms: number): Promise<void>;
   /** Heard commands of one kind, oldest first. */
   ofKind<K extends Command['kind']>(kind: K): readonly Extract<Command, { kind: K }>[];
 }
 
-/** Until that many servos, asked all at once for their first move, have surely arrived. */
+/** Until that many servos, commanded all at once to make their first move, have surely arrived. */
 export function firstMovesMs(servoCount: number): number {
   return (servoCount - 1) * FIRST_MOVE_STAGGER_MS + FIRST_MOVE_MS + 500;
 }

@@ -20,7 +20,7 @@ export interface Robot {
   leave(): void;
   /** Off: a lost link stays lost until `retryNow`. */
   setAutoReconnect(enabled: boolean): void;
-  /** Asks the board again who it is. */
+  /** Identifies the board again. */
   identify(): Promise<void>;
   /** A person says which board this is. Refused in the link's state where its answers say otherwise. */
   choose(family: Family): Promise<void>;
@@ -46,7 +46,7 @@ export interface Robot {
   readBattery(): Promise<number>;
   /** A packet written by hand, as it is. Rejects with what keeps this board from getting it: raw.ts. */
   sendRaw(packet: Uint8Array): Promise<void>;
-  /** Asks where these servos stand; the board's word is in `state.reported`. */
+  /** Reads the positions of these servos; the answer is in `state.reported`. */
   readPositions(servos: readonly number[]): Promise<void>;
   /** Into `state.version`. */
   readVersion(): Promise<void>;

@@ -87,7 +87,7 @@ export function requireRunnable(state: SessionState, slot: number, times: number
   if (state.activity.kind === 'playing') throw new LinkError('busy', 'the page is playing: stop it first');
 }
 
-/** Checks again who has been asked who it is: nothing may be under way. */
+/** Checks again after the identification: nothing may be under way. */
 export function requireIdle({ activity }: SessionState, { isMoving }: Pick<RestQuestions, 'isMoving'>): void {
   if (activity.kind !== 'idle' || isMoving())
     throw new LinkError('busy', 'the robot is moving: wait or stop it first');

@@ -1,5 +1,5 @@
-// Plays a scenario of shared/protocol/scenarios on a session in virtual time: what is asked and what the board says come in at their
-// times, what the session sends, tells and ends with is noted. README.md there says what an event is. Knows no file.
+// Plays a scenario of shared/protocol/scenarios on a session in virtual time: requests and reports come in at their
+// times, what the session sends, reports and ends with is noted. README.md there says what an event is. Knows no file.
 
 import { sleep } from '../clock.ts';
 import type { Frame, ServoTarget } from '../codec/commands.ts';
@@ -48,12 +48,12 @@ export interface Scenario {
   readonly name: string;
   /** What the board is taken for. */
   readonly family: BoardId;
-  /** The link opens at 0, and the board is asked who it is. Otherwise it has been open for a while, and the family's word is enough. */
+  /** The link opens at 0, and the board is identified. Otherwise it has been open for a while, and the family's word is enough. */
   readonly identifies?: true;
   readonly events: readonly ScenarioEvent[];
 }
 
-/** The part of the state that a scenario tells: each only when it has changed. */
+/** The part of the state that a scenario notes: each only when it has changed. */
 interface Shown {
   /** The status, and where it is refused the code. */
   readonly link?: string;
@@ -136,13 +136,13 @@ function begin(session: Robot, intent: Intent, id: number | null, note: (output:
   const end = (how: string): void => {
     if (id !== null) note({ ends: id, with: how });
   };
-  asked(session, intent).then(
+  requested(session, intent).then(
     () => end('done'),
     (error: unknown) => end(error instanceof LinkError ? error.code : String(error)),
   );
 }
 
-async function asked(session: Robot, intent: Intent): Promise<unknown> {
+async function requested(session: Robot, intent: Intent): Promise<unknown> {
   switch (intent.type) {
     case 'move':
       session.move(intent.targets, intent.durationMs);

@@ -12,7 +12,7 @@ import type { LinkError } from './linkError.ts';
 /** What hardware has not confirmed yet for some cable. */
 export type Withheld = 'download' | 'erase';
 
-/** Who asks for a stop: a person, or the battery's policy on this page. */
+/** Who requests a stop: a person, or the battery's policy on this page. */
 export type HaltReason = 'pressed' | 'battery';
 
 /** Why motion is refused without a stop from here: another screen's, no driver while the robot moved, or a link that was lost. */
@@ -77,10 +77,10 @@ export type Battery =
 export type LinkState =
   | { readonly status: 'closed' }
   | { readonly status: 'opening' }
-  /** The line is open, the board is being asked who it is. Nothing moves yet. */
+  /** The line is open, the board is being identified. Nothing moves yet. */
   | { readonly status: 'identifying' }
   | { readonly status: 'ready' }
-  /** The line is open, the board does not answer what such a board always answers: it may be off. It is asked again. */
+  /** The line is open, the board does not answer what such a board always answers: it may be off. It is queried again. */
   | { readonly status: 'stale'; readonly sinceMs: number }
   /** `retryAtMs` on the robot's clock; null where automatic reconnecting is switched off. */
   | { readonly status: 'lost'; readonly error: LinkError; readonly retryAtMs: number | null }
@@ -127,17 +127,17 @@ export interface SessionState {
   readonly link: LinkState;
   /** What the board is taken for; `UNKNOWN_BOARD` before that is known. */
   readonly family: Family;
-  /** Others may look on and drive, too, and what it was given goes on without this end. */
+  /** Others may look on and drive, too, and its work continues without this end. */
   readonly canShare: boolean;
   /** Commands that this link is not to carry, although the board may know them. */
   readonly withheld: readonly Withheld[];
-  /** What the board answered when it was asked who it is; empty where it was not asked. */
+  /** The answers of the board to identification; empty where it was not queried. */
   readonly identity: Identity;
   readonly latch: Latch | null;
   /** Who drives a robot that others can drive, too; null on a link of one's own. */
   readonly lease: Lease | null;
   readonly activity: Activity;
-  /** Asked to move, but it is unknown where they stand: they start one after another, in this order (safety.md). */
+  /** Commanded to move, but their positions are unknown: they start one after another, in this order (safety.md). */
   readonly waitingToStart: readonly number[];
   readonly battery: Battery;
   /** Where servos stand by the board's own word, the newest one for each servo number. */
@@ -157,15 +157,15 @@ export interface SessionState {
   readonly robotOnBoard: RobotOnBoard | null;
 }
 
-/** Where a servo is to be and where it is by now, as far as anybody knows: every input starts from here. */
+/** The commanded and the current position of a servo, as far as known: every input starts from here. */
 export interface ServoMotion {
-  /** Where it was last asked to be; at rest the board's own word takes its place. null before either. */
+  /** The last commanded position; at rest the board's report takes its place. null before either. */
   readonly target: number | null;
   /** The best known position: reported while nothing of ours has moved it since, else estimated. null while unknown. */
   readonly estimated: number | null;
   /**
-   * Left out unless both are the board's word. `commanded`: of a servo that holds what it was asked for, `untouched`: of one that was
-   * asked for nothing yet, `released`: of one without torque, which hands may have turned since.
+   * Left out unless both are the board's word. `commanded`: of a servo that holds its commanded position, `untouched`: of one that was
+   * not commanded yet, `released`: of one without torque, which hands may have turned since.
    */
   readonly reported?: 'commanded' | 'untouched' | 'released';
 }
@@ -174,7 +174,7 @@ export interface ServoMotion {
 export const startsKnown = ({ estimated, reported }: ServoMotion): boolean =>
   estimated !== null && reported !== 'released';
 
-/** It holds what it was asked for, or is on its way there. */
+/** It holds its commanded position, or is on its way there. */
 export const wasCommanded = ({ target, reported }: ServoMotion): boolean =>
   target !== null && (reported ?? 'commanded') === 'commanded';
 
@@ -192,7 +192,7 @@ export type Traffic = { readonly atMs: number; readonly bytes: Uint8Array } &
 export interface SessionEvents {
   state(state: SessionState): void;
   traffic(entry: Traffic): void;
-  /** Something asked for without waiting (a slider's move, a frame being played) could not be done. */
+  /** A request without an answer (a slider's move, a frame being played) could not be done. */
   problem(error: LinkError): void;
   /** Another client has resumed motion. */
   resumed(by: string): void;

@@ -79,13 +79,13 @@ function tooMuch({ known, steps }: StopHistory, { unheld }: StopOutcome): readon
   if (unheld.servos === null) return ['any servo'];
   const isRun = steps.some(({ kind }) => kind === 'run');
   const moves = steps.filter((step) => step.kind === 'move');
-  const asked = [...moves, ...(isRun ? known : [])];
+  const requested = [...moves, ...(isRun ? known : [])];
   const movable = new Set([
     ...SERVOS.slice(0, 2),
-    ...asked.flatMap(({ targets }) => targets.map(({ servo }) => servo)),
+    ...requested.flatMap(({ targets }) => targets.map(({ servo }) => servo)),
   ]);
   const isDeaf = steps.some(({ kind }) => kind === 'read');
-  const longestMs = Math.max(...asked.map(({ durationMs }) => durationMs), 0);
+  const longestMs = Math.max(...requested.map(({ durationMs }) => durationMs), 0);
   const limitMs = longestMs + SLOWEST_HOLD_MS + (isDeaf ? LONGEST_DEAFNESS_MS : 0);
   return [
     ...unheld.servos

@@ -51,7 +51,7 @@ const SAMPLE_MS = 5;
 /** Then the robot is looked at more seldom. */
 const CLOSELY_FOR_MS = 900;
 export const SELDOM_MS = 250;
-/** The longest flash work is over by then, and what it kept waiting has begun. */
+/** The longest flash work is over by then, and what waited for it has begun. */
 const DEAF_FOR_MS = 4_000;
 /** No move is longer. */
 const REST_MS = 36_000;

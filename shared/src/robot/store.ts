@@ -17,7 +17,7 @@ export interface SessionStore {
   emit<K extends 'traffic' | 'problem' | 'resumed'>(event: K, value: Parameters<SessionEvents[K]>[0]): void;
 }
 
-/** Before the board was asked anything about itself. */
+/** Before the first query. */
 export const NOTHING_READ: Pick<SessionState, 'reported' | 'version' | 'offsets'> = {
   reported: {},
   version: null,

@@ -3,7 +3,7 @@
 
 import type { Clock } from '../clock.ts';
 
-// Work that takes the board's processor time: yields how many milliseconds the main loop is blocked, then goes on.
+// Work that takes the board's processor time: yields how many milliseconds the main loop is blocked, then continues.
 // Bytes keep arriving meanwhile, because an interrupt takes them (S41).
 
 export type Work = Generator<number, void, undefined>;

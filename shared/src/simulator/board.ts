@@ -55,7 +55,7 @@ export interface Board {
   /** What flash holds at that place, committed or not; null where it cannot be played. */
   readonly storedFrame: (slot: number, frameIndex: number) => Frame | null;
   readonly snapshot: () => BoardSnapshot;
-  /** The cable comes off: bytes are lost in both directions, the board goes on. */
+  /** The cable comes off: bytes are lost in both directions, the board continues. */
   readonly unplug: () => void;
   readonly plugIn: () => void;
   /** Loses power for `offMs` (0: a reset) and starts anew; what flash holds stays. */
@@ -180,7 +180,7 @@ export function createBoard(options: BoardOptions): Board {
     };
   }
 
-  // Arms what is due without anybody's doing, for example the unplugging.
+  // Arms what is due without a call, for example the unplugging.
   turn(() => undefined);
   return {
     receive: (bytes) => turn(() => line.receive(bytes)),

@@ -8,7 +8,7 @@ import { createBoard, type Board, type BoardOptions } from './board.ts';
 
 export interface SimulatedChannel extends ByteChannel {
   readonly board: Board;
-  /** Pulls the cable: the link is lost and opening it fails until `plugIn`. The board itself goes on. */
+  /** Pulls the cable: the link is lost and opening it fails until `plugIn`. The board itself continues. */
   unplug(): void;
   plugIn(): void;
 }

@@ -51,7 +51,7 @@ function createSpeeds(): Speeds {
 const SET_SPEED = 11;
 const RELEASE = 20;
 const READ_POSITIONS = 21;
-/** Asking six servos takes up to 450 ms (X7). */
+/** Querying six servos takes up to 450 ms (X7). */
 const READ_POSITION_MS = 75;
 
 function closedHandlers(slot: Uint8Array, speeds: Speeds): Handlers {
@@ -105,7 +105,7 @@ export interface ClosedTraits {
   readonly start: number | null;
   /** This servo number means all of them. */
   readonly broadcast: number | null;
-  /** Its servos can be released and asked for their position (X7). */
+  /** Its servos can be released and queried for their position (X7). */
   readonly talksToServos: boolean;
 }
 

@@ -70,7 +70,7 @@ export function createPanel(start: (slot: number) => Work): Panel {
   };
 }
 
-// The receiver of a hand-held pad, asked bit by bit every 50 ms: the main loop does nothing else meanwhile, so ticks
+// The receiver of a hand-held pad, read bit by bit every 50 ms: the main loop does nothing else meanwhile, so ticks
 // and packets wait (S52).
 
 export interface PadPoll {

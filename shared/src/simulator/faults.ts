@@ -31,7 +31,7 @@ export type Fault =
   | { readonly name: 'brownOut'; readonly afterMs: number; readonly offMs: number }
   /** The line sends back what the host says, as joined wires or an adapter on its own do. */
   | { readonly name: 'loopback' }
-  /** The cable comes off; motion goes on. */
+  /** The cable comes off; motion continues. */
   | { readonly name: 'unplug'; readonly afterMs: number }
   /** After that many bytes on the wire, both directions counted together. */
   | { readonly name: 'unplug'; readonly atByte: number };

@@ -88,11 +88,11 @@ export interface GroupStore {
   readonly frameCount: (slot: number) => number;
   /** What flash holds there, whatever the count says: count, time lo, time hi, then (servo, pos lo, pos hi). */
   readFrame(slot: number, frameIndex: number): Uint8Array;
-  /** `payload` is asked only when the bytes go to the chip, after the erase (S10, S11). */
+  /** `payload` is called only when the bytes go to the chip, after the erase (S10, S11). */
   saveFrame(place: FramePlace, payload: () => Uint8Array): Work;
   /** Clears the counts of all groups; the frames stay (S19). */
   clearCounts(): Work;
-  /** Puts groups where none are, by slot and in no time: what was stored before anybody looked. */
+  /** Puts groups where none are, by slot and in no time: what was stored before the test. */
   preload(groups: ReadonlyMap<number, readonly Frame[]>): void;
 }
 

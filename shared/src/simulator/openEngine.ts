@@ -22,7 +22,7 @@ export interface OpenBuild {
   readonly answersBattery: boolean;
   /** Every accepted move and frame goes to the bus servos, too, entry by entry (S31). */
   readonly copiesToBus: boolean;
-  /** How long asking the receiver of a hand-held pad takes (S52), and whether it is asked where none was found. */
+  /** How long a query of the receiver of a hand-held pad takes (S52), and whether it is queried where none was found. */
   readonly padPollMs: number;
   readonly alwaysPolls: boolean;
 }

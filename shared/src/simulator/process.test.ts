@@ -91,7 +91,7 @@ test.skipIf(process.platform === 'win32')('a bus log that takes nothing holds up
   execFileSync('mkfifo', [log]);
   const reader = openSync(log, 'r+');
   const child = start('--stdio', '--baud', '0', '--bus-log', log);
-  for (let asked = 0; asked < 400; asked += 1) child.stdin.write(bytesOf(READ_BATTERY));
+  for (let requested = 0; requested < 400; requested += 1) child.stdin.write(bytesOf(READ_BATTERY));
   const answers = await firstBytes(child.stdout, 400 * 6);
   expect(answers.slice(-ANSWER.length)).toBe(ANSWER);
   closeSync(reader);

@@ -58,7 +58,7 @@ function leArm(traits: LearmTraits): BoardProfile {
 }
 
 export const PROFILES: Readonly<Record<ProfileName, BoardProfile>> = {
-  /** The ideal board of the protocol document: the open firmware that tells its battery, with any number of servos. */
+  /** The ideal board of the protocol document: the open firmware that reports its battery, with any number of servos. */
   doc: openFirmware({ ...NEW_BUILD, answersBattery: true, copiesToBus: false }, 32),
   'openarm-old': openFirmware(OLD_BUILD, 6),
   'openarm-new': openFirmware(NEW_BUILD, 6),

@@ -15,7 +15,7 @@ export const IS_EXHAUSTIVE = env.EXHAUSTIVE === '1' || TIMES > 1;
 /** What `npm test` tries of a longer table: enough to see each kind of fault, evenly spread. */
 const SAMPLE = 50;
 
-/** The seeds to try, below `count`: `sample` of them, or all, TIMES as many in a long run, or the one asked for. */
+/** The seeds to try, below `count`: `sample` of them, or all, TIMES as many in a long run, or the requested one. */
 export function seeds(count: number, sample = SAMPLE): readonly number[] {
   if (ONLY_SEED !== undefined) return [Number(ONLY_SEED)];
   const all = count * TIMES;

@@ -70,7 +70,7 @@ function grouped(entries: readonly PacketEntry[]): ReadonlyMap<string, readonly 
   return groups;
 }
 
-/** Command number and LEN: what tells kinds of packets apart on this wire. */
+/** Command number and LEN: distinguishes kinds of packets on this wire. */
 function kindOf({ bytes }: PacketEntry): string {
   return `${bytes[3] ?? ''}/${bytes.length}`;
 }

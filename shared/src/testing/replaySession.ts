@@ -16,7 +16,7 @@ import { createReceiver } from '../robot/channelLink.ts';
 import { createBoard, type BoardOptions } from '../simulator/board.ts';
 import type { ProfileName } from '../simulator/profileNames.ts';
 
-// Asks a session for what the host of a recording wanted.
+// Sends the requests of a recording's host to a session.
 
 type Perform<K extends Intent['kind']> = (intent: Extract<Intent, { kind: K }>) => Promise<unknown>;
 
@@ -48,7 +48,7 @@ function createHost(
   };
 }
 
-// A link whose other end is a recording: it gives what the board said, when the replay asks for it.
+// A link whose other end is a recording: it gives the board's bytes when the replay requests them.
 
 interface ReplayChannel extends ByteChannel {
   /** `whole` where they are packets, as the recording has them. */
@@ -94,7 +94,7 @@ function createReplayChannel(clock: Clock): ReplayChannel {
 
 interface Failure {
   readonly atMs: number;
-  /** What was asked for; `link` where nothing was asked. */
+  /** The request; `link` where there was none. */
   readonly what: string;
   readonly code: LinkErrorCode;
 }

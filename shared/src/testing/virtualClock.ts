@@ -1,5 +1,5 @@
 // A clock that moves only by `advance`. Lets tests and simulations play hours in milliseconds, in an exact and repeatable
-// order. Knows timers only; asks no platform for anything.
+// order. Knows timers only; calls no platform.
 
 import type { Clock } from '../clock.ts';
 

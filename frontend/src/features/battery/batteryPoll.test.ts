@@ -17,56 +17,56 @@ async function createTestPage(visible = () => true) {
   });
   const end = pollBattery(device, visible);
   device.attach(rig.session, { kind: 'simulated', label: 'Simulated board', isSimulated: true });
-  return { ...rig, device, end, asked: () => rig.ofKind('readBattery').length };
+  return { ...rig, device, end, requested: () => rig.ofKind('readBattery').length };
 }
 
 describe('the battery poll', () => {
   test('asks as soon as a link is ready, then every five seconds', async () => {
-    const { clock, asked, device } = await createTestPage();
+    const { clock, requested, device } = await createTestPage();
     await clock.advance(200);
-    expect(asked()).toBe(1);
+    expect(requested()).toBe(1);
     expect(device.store.getState().snapshot.battery).toMatchObject({ kind: 'read', batteryMv: 7500 });
     await clock.advance(10_000);
-    expect(asked()).toBe(3);
+    expect(requested()).toBe(3);
   });
 
   test('asks nothing while a group runs', async () => {
-    const { clock, asked, device } = await createTestPage();
+    const { clock, requested, device } = await createTestPage();
     device.download([{ slot: 1, frames: [{ durationMs: 20_000, targets: [{ servo: 1, position: 1500 }] }] }]);
     await clock.advance(3000);
     device.run(1, 1);
     await clock.advance(500);
-    const before = asked();
+    const before = requested();
     await clock.advance(12_000);
     expect(device.store.getState().snapshot.activity.kind).toBe('running');
-    expect(asked()).toBe(before);
+    expect(requested()).toBe(before);
   });
 
   test('asks nothing while a servo moves, and soon after a playing has ended', async () => {
-    const { clock, asked, device } = await createTestPage();
+    const { clock, requested, device } = await createTestPage();
     await clock.advance(1000);
     device.move([{ servo: 1, position: 1600 }], 12_000);
     await clock.advance(11_000);
-    expect(asked()).toBe(1);
+    expect(requested()).toBe(1);
     await clock.advance(9500);
-    const before = asked();
+    const before = requested();
     device.play([{ durationMs: 2000, targets: [{ servo: 1, position: 1700 }] }], 1, () => undefined);
     await clock.advance(3000);
     expect(device.store.getState().snapshot.activity.kind).toBe('idle');
-    expect(asked()).toBe(before + 1);
+    expect(requested()).toBe(before + 1);
   });
 
   test('asks nothing while the page is hidden, and nothing after its end', async () => {
     let visible = false;
-    const { clock, asked, end } = await createTestPage(() => visible);
+    const { clock, requested, end } = await createTestPage(() => visible);
     await clock.advance(12_000);
-    expect(asked()).toBe(0);
+    expect(requested()).toBe(0);
     visible = true;
     await clock.advance(5000);
-    expect(asked()).toBe(1);
+    expect(requested()).toBe(1);
     end();
     await clock.advance(20_000);
-    expect(asked()).toBe(1);
+    expect(requested()).toBe(1);
   });
 
   test('asks nothing of a robot at the gateway, which asks by itself', async () => {

@@ -1,4 +1,4 @@
-// "Something does not work?": what was looked at, what was found, what to do, and all of it as text to send to somebody who helps.
+// "Something does not work?": what was looked at, what was found, what to do, and all of it as text to send to a helper.
 
 import { useEffect, useState } from 'react';
 import { useDevice, useSnapshot, useStores } from '../stores.ts';

@@ -201,7 +201,7 @@ function otherPorts(here: Here): readonly GatewayPort[] {
   return here.state.gatewayPorts.filter((port) => !port.inUse || device === null);
 }
 
-/** What it is, and the short end of its path, which tells two of one kind apart. */
+/** What it is, and the short end of its path, which distinguishes two of one kind. */
 function nameOf({ device, description }: GatewayPort): string {
   const end = device.split('/').at(-1) ?? device;
   return `${description === '' ? words.connect.gateway.unnamed : description} (${end})`;

@@ -1,5 +1,5 @@
 // Looks for what keeps a robot from being connected: the browser, the address, devices that are allowed, and what the board has
-// sent so far. Facts in, findings out; asks the board nothing and moves nothing.
+// sent so far. Facts in, findings out; queries nothing and moves nothing.
 
 import timings from '../../../../shared/protocol/timings.json' with { type: 'json' };
 import { COMMAND_NUMBER } from '#shared/codec/commands.ts';
@@ -107,7 +107,7 @@ export function isReadable({ packets, noise }: Pick<Heard, 'packets' | 'noise'>)
 /** Bytes of one run of ones beside one run of zeros. */
 const RUNS = new Set(Array.from({ length: 9 }, (_, zeros) => [(0xff << zeros) & 0xff, 0xff >> zeros]).flat());
 
-/** Enough to tell what noise looks like. */
+/** Enough to recognise noise. */
 const NOISE_KEPT = 256;
 
 /** Since the link before this one ended. */
@@ -133,7 +133,7 @@ export function heardIn(traffic: TrafficLog): Heard {
 const isOfBattery = (entry: LogEntry['entry']): boolean =>
   'bytes' in entry && entry.bytes[3] === COMMAND_NUMBER.readBattery;
 
-/** What the browser has; asking for granted devices shows no chooser. */
+/** What the browser has; listing granted devices shows no chooser. */
 export async function interfacesHere(): Promise<Facts['interfaces']> {
   const [serial, hid, bluetooth] = await Promise.all([
     sightOf(navigator.serial, (serial) => serial.getPorts()),

@@ -177,15 +177,15 @@ export function PositionSlider({
   const input = useRef<HTMLInputElement>(null);
   const { min, max, home } = servo;
   const { device } = useStores();
-  const asked = (): number => targetOf(device, servo.servo) ?? guess ?? home;
+  const requested = (): number => targetOf(device, servo.servo) ?? guess ?? home;
   const write = (position: number): void => {
     if (input.current !== null) input.current.value = String(position);
   };
 
   const hold = useDrag(input, {
-    shown: asked,
+    shown: requested,
     drag: (position) => blocked || onDrag(position),
-    release: () => write(asked()),
+    release: () => write(requested()),
     pressTwice: () => blocked || onHome(),
   });
   useSaidTarget(servo.servo, (target) => {
@@ -195,7 +195,7 @@ export function PositionSlider({
 
   /** A blocked slider keeps the focus and its value. An input event without a pointer comes from Home or End. */
   function moved(element: HTMLInputElement): void {
-    if (blocked || hold.current === 'brushed') element.value = String(asked());
+    if (blocked || hold.current === 'brushed') element.value = String(requested());
     else if (hold.current === 'held') onDrag(element.valueAsNumber);
     else onLeap(element.valueAsNumber);
   }
@@ -204,7 +204,7 @@ export function PositionSlider({
     const change = keyStep(event, scale);
     if (change === 0) return;
     event.preventDefault();
-    if (!blocked) onMove(stepped(scale, asked(), change));
+    if (!blocked) onMove(stepped(scale, requested(), change));
   }
 
   return (
@@ -286,7 +286,7 @@ function keyStep({ key, shiftKey }: KeyboardEvent, { step, page, direction }: Sc
   return towards * direction;
 }
 
-// The estimated position as a number; the slider's own value text says what was asked.
+// The estimated position as a number; the slider's own value text says the commanded position.
 
 export function Estimate({ servo, scale }: { readonly servo: number; readonly scale: Scale }) {
   const { device } = useStores();

@@ -1,4 +1,4 @@
-// STOP: acts on press, never asks, present while a link exists. It lies in react-aria's top layer, above every dialog, so that no modal
+// STOP: acts on press, needs no confirmation, present while a link exists. It lies in react-aria's top layer, above every dialog, so that no modal
 // dialog hides it. A click without a pointer (detail 0) comes from a screen reader. Esc does the same anywhere, also in text fields and
 // dialogs.
 

@@ -113,9 +113,9 @@ describe('teaching by hand', () => {
     device.move([{ servo: 4, position: 500 }], 'hand');
     await draw(TWO_READS_MS);
     expect([isOn(), noticeTexts()]).toEqual([false, [words.teach.staysReleased]]);
-    const asked = kinds().filter((kind) => kind === 'readPositions').length;
+    const requested = kinds().filter((kind) => kind === 'readPositions').length;
     await draw(3000);
-    expect(kinds().filter((kind) => kind === 'readPositions')).toHaveLength(asked);
+    expect(kinds().filter((kind) => kind === 'readPositions')).toHaveLength(requested);
     expect(board.snapshot().targets).toEqual([400, 400, 400, 500, 400, 400]);
   });
 

@@ -161,10 +161,12 @@ interface PendingRequest {
 }
 
 /** Trusts that a result has the type that this module stored. */
-function done<T>(asked: PendingRequest): Promise<T> {
+function done<T>(requested: PendingRequest): Promise<T> {
   return new Promise((resolve, reject) => {
-    asked.addEventListener('success', () => resolve(asked.result as T));
-    asked.addEventListener('error', () => reject(asked.error ?? new Error('the browser’s database refused')));
+    requested.addEventListener('success', () => resolve(requested.result as T));
+    requested.addEventListener('error', () =>
+      reject(requested.error ?? new Error('the browser’s database refused')),
+    );
   });
 }
 

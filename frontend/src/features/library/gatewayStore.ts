@@ -59,8 +59,8 @@ export const gatewayStore: DocumentStore = {
   async write(id, { text, facts, expected, isRemoved }) {
     if (text.length > MAX_TEXT_LENGTH) throw new LibraryError('tooLarge', 'the text is too long');
     const body = { text, facts, expected, isRemoved };
-    const asked = { values: { document: id }, body };
-    const { revision } = await ask('put', '/api/library/{document}', writtenSchema, asked);
+    const requested = { values: { document: id }, body };
+    const { revision } = await ask('put', '/api/library/{document}', writtenSchema, requested);
     return revision;
   },
   remove: (ids) => send('post', '/api/library/remove', { body: { ids } }),

@@ -586,9 +586,9 @@ describe('files', () => {
     state.isAway = true;
     page.capture(1500);
     await page.later();
-    const noticeTexts = async (asked: Promise<unknown>): Promise<readonly string[]> => {
+    const noticeTexts = async (requested: Promise<unknown>): Promise<readonly string[]> => {
       for (const { id } of page.notices.store.getState()) page.notices.dismiss(id);
-      await asked;
+      await requested;
       return page.noticeTexts();
     };
     const away = libraryProblem('unreachable', '');

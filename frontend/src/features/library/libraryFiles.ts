@@ -40,7 +40,7 @@ export interface LibraryFilesOptions {
   settle(): Promise<void>;
 }
 
-/** After this time a notice says that the work goes on. */
+/** After this time a notice says that the work continues. */
 const PATIENCE_MS = 700;
 
 type Outcome = 'added' | 'changed' | 'same';

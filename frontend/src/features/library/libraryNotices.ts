@@ -1,4 +1,4 @@
-// What the library tells a person about its condition: failures, damaged files, and changes that are stored nowhere yet. Each condition
+// The notices of the library about its condition: failures, damaged files, and changes that are stored nowhere yet. Each condition
 // is reported once. Knows no document.
 
 import { asLibraryError, type LibraryErrorCode, type Listing } from '#shared/files/documentStore.ts';

@@ -33,34 +33,34 @@ export function createMemoryStore(place: DocumentStore['place'] = 'browser'): Do
   return {
     place,
     list: () =>
-      asked(() => ({ documents: [...documents].map(listed), damagedFile: null, changesLost: false })),
+      requested(() => ({ documents: [...documents].map(listed), damagedFile: null, changesLost: false })),
     read: (id) =>
-      asked(() => {
+      requested(() => {
         const { text, revision } = required(documents.get(id));
         return { text, revision };
       }),
     write: (id, writing) =>
-      asked(() => {
+      requested(() => {
         const revision = nextRevision(documents.get(id), writing);
         documents.set(id, { ...writing, revision });
         return revision;
       }),
-    remove: (ids) => asked(() => mark(ids, true)),
-    restore: (ids) => asked(() => mark(ids, false)),
+    remove: (ids) => requested(() => mark(ids, true)),
+    restore: (ids) => requested(() => mark(ids, false)),
     versions: (id) =>
-      asked(() =>
+      requested(() =>
         [...versionsOf(id).values()]
           .map(({ version }) => version)
           .sort((one, other) => one.atMs - other.atMs),
       ),
-    readVersion: (id, version) => asked(() => required(versionsOf(id).get(version)).text),
+    readVersion: (id, version) => requested(() => required(versionsOf(id).get(version)).text),
     keepVersion: (id, version, text) =>
-      asked(() => {
+      requested(() => {
         required(documents.get(id));
         versions.set(id, versionsOf(id).set(version.id, { version, text }));
       }),
     removeVersion: (id, version) =>
-      asked(() => {
+      requested(() => {
         required(versionsOf(id).get(version));
         versionsOf(id).delete(version);
       }),
@@ -68,4 +68,4 @@ export function createMemoryStore(place: DocumentStore['place'] = 'browser'): Do
 }
 
 /** Errors become rejections, as in the other stores. */
-const asked = <T>(work: () => T): Promise<T> => new Promise((resolve) => resolve(work()));
+const requested = <T>(work: () => T): Promise<T> => new Promise((resolve) => resolve(work()));

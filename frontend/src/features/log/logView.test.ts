@@ -31,14 +31,14 @@ describe('what is looked at', () => {
 
   test('grows with the log, and each entry is read once', () => {
     const { log, add } = createLog(3);
-    const asked: number[] = [];
-    const view = createLogView(log, ({ id }) => asked.push(id) > 0);
+    const requested: number[] = [];
+    const view = createLogView(log, ({ id }) => requested.push(id) > 0);
     let changes = 0;
     view.subscribe(() => (changes += 1));
     add();
     add();
     expect(times(view.getSnapshot().shown)).toEqual([1, 2, 3, 4, 5]);
-    expect(asked).toEqual([1, 2, 3, 4, 5]);
+    expect(requested).toEqual([1, 2, 3, 4, 5]);
     expect(changes).toBe(2);
   });
 

@@ -87,7 +87,7 @@ interface NameCardProps {
   onName(name: string): void;
 }
 
-/** Asks the guest of a link for a name. A suggestion is filled in, so that one press continues. */
+/** The guest of a link enters a name. A suggestion is filled in, so that one press continues. */
 export function NameCard({ suggested, problem, onName }: NameCardProps) {
   const [name, setName] = useState(suggested);
   return (
@@ -112,7 +112,7 @@ interface PairCardProps {
   onPair(wish: PairWish): void;
 }
 
-/** Asks an unpaired device for the eight digits of its invitation. A reload afterwards opens the dashboard. */
+/** On an unpaired device: the eight digits of its invitation. A reload afterwards opens the dashboard. */
 export function PairCard({ problem, overheard, suggested, onPair }: PairCardProps) {
   const [name, setName] = useState('');
   const [code, setCode] = useState('');

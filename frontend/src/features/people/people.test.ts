@@ -9,7 +9,7 @@ const HOLDS_MS = 120_000;
 /** A gateway as far as invitations go: what it was asked, and those it still holds. */
 function gateway() {
   let nextId = 1;
-  const asked: string[] = [];
+  const requested: string[] = [];
   const open = new Set<string>();
   /** Those whose digits were not guessed at too often. */
   const countsCodes = { is: true };
@@ -20,7 +20,7 @@ function gateway() {
       Promise.resolve({ people: [], openInvites: [...open], openCodes: countsCodes.is ? [...open] : [] }),
     invite({ role, name = '' }) {
       const id = String(nextId++);
-      asked.push(`invite ${role} ${name}`);
+      requested.push(`invite ${role} ${name}`);
       open.add(id);
       return Promise.resolve({
         id,
@@ -31,7 +31,7 @@ function gateway() {
       });
     },
     withdraw(id) {
-      asked.push(`withdraw ${id}`);
+      requested.push(`withdraw ${id}`);
       open.delete(id);
       return Promise.resolve();
     },
@@ -40,7 +40,7 @@ function gateway() {
     makeToken: ({ name }) => Promise.resolve({ id: 'token', token: `secret of ${name}` }),
     makeStopLink: () => Promise.resolve({ id: 'link', link: '#stop=x', picture: '' }),
   };
-  return { api, asked, open, countsCodes };
+  return { api, requested, open, countsCodes };
 }
 
 const settled = (): Promise<void> => new Promise((resolve) => setTimeout(resolve));
@@ -63,7 +63,7 @@ test('an invitation that was used is followed by a new one of that role, without
   await settled();
   robot.open.clear();
   await people.refresh();
-  expect(robot.asked).toEqual(['invite driver Ben', 'invite driver ']);
+  expect(robot.requested).toEqual(['invite driver Ben', 'invite driver ']);
   expect(people.store.getState().invitation).toMatchObject({ id: '2', role: 'driver' });
 });
 
@@ -75,7 +75,7 @@ test('digits that count no more, because others guessed, are not shown; the link
   robot.countsCodes.is = false;
   await people.refresh();
   expect(people.store.getState().invitation).toMatchObject({ id: '1', link: '#pair=1', code: null });
-  expect(robot.asked).toHaveLength(1);
+  expect(robot.requested).toHaveLength(1);
 });
 
 test('one that is over is not followed by another', async () => {
@@ -84,7 +84,7 @@ test('one that is over is not followed by another', async () => {
   robot.open.clear();
   nowMs = HOLDS_MS;
   await people.refresh();
-  expect(robot.asked).toHaveLength(1);
+  expect(robot.requested).toHaveLength(1);
 });
 
 test('a new invitation and the end of it take the one before back', async () => {
@@ -94,10 +94,10 @@ test('a new invitation and the end of it take the one before back', async () => 
   await settled();
   people.endInvitation();
   await settled();
-  expect(robot.asked).toEqual(['invite viewer ', 'withdraw 1', 'invite owner ', 'withdraw 2']);
+  expect(robot.requested).toEqual(['invite viewer ', 'withdraw 1', 'invite owner ', 'withdraw 2']);
   expect(people.store.getState().invitation).toBeNull();
   await people.refresh();
-  expect(robot.asked).toHaveLength(4);
+  expect(robot.requested).toHaveLength(4);
 });
 
 test('a token is shown until it is closed', async () => {
@@ -119,7 +119,7 @@ test('what the gateway refuses is reported with its reason', async () => {
 });
 
 test('a person who lets no one in says their own name, and hears when an owner changes it', async () => {
-  const { api, asked } = gateway();
+  const { api, requested } = gateway();
   const guest = { ...ANNA, you: BEN };
   const notices = { tell: (_tone: string, text: string) => void texts.push(text) };
   let now: Me | null = { ...guest, you: { ...BEN, name: 'Ben' } };
@@ -138,5 +138,5 @@ test('a person who lets no one in says their own name, and hears when an owner c
   now = null;
   await people.refresh();
   expect(people.store.getState().me?.you?.name).toBe('Benno');
-  expect([asked, texts]).toEqual([[], []]);
+  expect([requested, texts]).toEqual([[], []]);
 });

@@ -40,11 +40,11 @@ test.each([
   [false, 'DELETE api/people/dance'],
   [true, 'DELETE api/people/dance?continues=true'],
 ])('who is revoked takes the group along, or it goes on: %j', async (continues, expected) => {
-  const asked: string[] = [];
+  const requested: string[] = [];
   vi.stubGlobal('fetch', (url: string, { method }: { method: string }) => {
-    asked.push(`${method} ${url}`);
+    requested.push(`${method} ${url}`);
     return Promise.resolve(new Response(null, { status: 204 }));
   });
   await peopleApi.revoke('dance', continues);
-  expect(asked).toEqual([expected]);
+  expect(requested).toEqual([expected]);
 });

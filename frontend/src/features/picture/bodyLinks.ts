@@ -232,7 +232,7 @@ function hexapod(robot: Robot): readonly BodyLink[] {
   ];
 }
 
-/** Servos of a limb in a row; one that has more joints than are known goes on like the last. */
+/** Servos of a limb in a row; one that has more joints than are known continues like the last. */
 function limb(
   robot: Robot,
   chain: readonly RobotServo[],

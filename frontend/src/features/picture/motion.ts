@@ -32,10 +32,10 @@ export function motionsInFrame(device: Device): Motions {
 }
 
 function eachOnce(motion: Motions): Motions {
-  const asked = new Map<number, ServoMotion>();
+  const requested = new Map<number, ServoMotion>();
   return (servo) => {
-    const known = asked.get(servo) ?? motion(servo);
-    asked.set(servo, known);
+    const known = requested.get(servo) ?? motion(servo);
+    requested.set(servo, known);
     return known;
   };
 }

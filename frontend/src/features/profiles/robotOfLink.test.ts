@@ -37,12 +37,12 @@ function createGateway(clock: VirtualClock) {
   let refusal: LinkError | null = null;
   let answerMs = 0;
   return {
-    asked: [] as string[],
+    requested: [] as string[],
     document: () => document,
     refuseBy: (error: LinkError | null) => (refusal = error),
     answerAfter: (delayMs: number) => (answerMs = delayMs),
-    async put(this: { asked: string[] }, next: string, insteadOf: string | null): Promise<void> {
-      this.asked.push(next);
+    async put(this: { requested: string[] }, next: string, insteadOf: string | null): Promise<void> {
+      this.requested.push(next);
       await Promise.resolve();
       if (refusal !== null) throw refusal;
       if (next !== document && insteadOf !== document) throw new LinkError('gatewayRefused', FASTER);
@@ -99,7 +99,7 @@ describe('the robot of a shared board', () => {
     ];
     await clock.advance(1000);
     expect(gateway.document()).toBe('usual-doc');
-    expect(gateway.asked).toHaveLength(2);
+    expect(gateway.requested).toHaveLength(2);
     for (const screen of screens) {
       expect(screen.isTheBoards()).toBe(true);
       expect(screen.names()).toHaveLength(1);
@@ -167,7 +167,7 @@ describe('the robot of a shared board', () => {
     const teacher = createScreen(gateway, documentStore, clock);
     teacher.robots.add(() => 'add', { ...freshRobot('arm', 'doc'), name: 'Crane' });
     await clock.advance(1000);
-    const asked = gateway.asked.length;
+    const requested = gateway.requested.length;
     const viewer = createScreen(gateway, documentStore, clock, false);
     await clock.advance(1000);
     expect(viewer.inUse()).toBe('Crane');
@@ -178,7 +178,7 @@ describe('the robot of a shared board', () => {
     expect([viewer.inUse(), viewer.poses(), viewer.names()]).toEqual(['Crane', [], before]);
     expect(viewer.noticeTexts()[0]).toContain('Viewers');
     await clock.advance(1000);
-    expect(gateway.asked).toHaveLength(asked);
+    expect(gateway.requested).toHaveLength(requested);
   });
 
   test('what was put there stays at hand and is put once, however late the word about it comes', async () => {
@@ -188,8 +188,8 @@ describe('the robot of a shared board', () => {
     for (const wish of [() => undefined, () => one.robots.duplicate()]) {
       wish();
       const { id } = one.robots.current();
-      const asked = gateway.asked.length;
-      while (gateway.asked.length === asked) await clock.advance(1);
+      const requested = gateway.requested.length;
+      while (gateway.requested.length === requested) await clock.advance(1);
       for (const status of ['ready', 'identifying', 'ready'] as const) {
         one.change({ link: { status } });
         await clock.advance(5);
@@ -197,7 +197,7 @@ describe('the robot of a shared board', () => {
       }
       await clock.advance(1000);
       expect(one.isTheBoards()).toBe(true);
-      putTimes.push(gateway.asked.length - asked);
+      putTimes.push(gateway.requested.length - requested);
     }
     expect(putTimes).toEqual([1, 1]);
     expect(one.noticeTexts()).toEqual([]);
@@ -226,7 +226,7 @@ describe('the robot of a shared board', () => {
     const one = createScreen(gateway, documentStore, clock);
     one.change({ link: { status: 'identifying' } });
     await clock.advance(1000);
-    expect(gateway.asked).toEqual([]);
+    expect(gateway.requested).toEqual([]);
     one.change({ link: { status: 'ready' } });
     await clock.advance(1000);
     expect(one.isTheBoards()).toBe(true);
@@ -243,12 +243,12 @@ describe('the robot of a shared board', () => {
     const refusals = (): number =>
       screens.flatMap(({ noticeTexts }) => noticeTexts()).filter((text) => text.includes(FASTER)).length;
     for (const noticeTexts of [0, 1]) {
-      const asked = gateway.asked.length;
-      while (gateway.asked.length < asked + 2) await clock.advance(1);
+      const requested = gateway.requested.length;
+      while (gateway.requested.length < requested + 2) await clock.advance(1);
       for (const status of ['identifying', 'ready'] as const)
         for (const { change } of screens) change({ link: { status } });
       await clock.advance(1000);
-      expect(gateway.asked).toHaveLength(asked + 2);
+      expect(gateway.requested).toHaveLength(requested + 2);
       expect(screens.map(({ isTheBoards }) => isTheBoards())).toEqual([true, true]);
       // A wish that a person had is not lost without a word.
       expect(refusals()).toBe(noticeTexts);
@@ -260,10 +260,10 @@ describe('the robot of a shared board', () => {
     const { clock, gateway, documentStore } = lesson();
     gateway.refuseBy(new LinkError('gatewayRefused', FASTER));
     const one = createScreen(gateway, documentStore, clock);
-    while (gateway.asked.length === 0) await clock.advance(1);
+    while (gateway.requested.length === 0) await clock.advance(1);
     one.robots.duplicate();
     await clock.advance(1000);
-    expect(gateway.asked).toEqual(['usual-doc']);
+    expect(gateway.requested).toEqual(['usual-doc']);
     gateway.refuseBy(null);
     one.change({ robotOnBoard: { document: null } });
     await clock.advance(1000);
@@ -280,7 +280,7 @@ describe('the robot of a shared board', () => {
     await clock.advance(1000);
     expect(one.inUse()).toBe(before);
     expect(one.noticeTexts()).toHaveLength(1);
-    expect(gateway.asked.filter((document) => document !== 'usual-doc')).toHaveLength(1);
+    expect(gateway.requested.filter((document) => document !== 'usual-doc')).toHaveLength(1);
   });
 
   test('a link of its own asks nothing, and nothing is asked before it is ready', async () => {
@@ -288,11 +288,11 @@ describe('the robot of a shared board', () => {
     const screen = createScreen(gateway, documentStore, clock);
     screen.change({ link: { status: 'opening' } });
     await clock.advance(1000);
-    const asked = gateway.asked.length;
+    const requested = gateway.requested.length;
     screen.change({ link: { status: 'ready' }, robotOnBoard: null });
     screen.robots.add(() => 'add', { ...freshRobot('hand', 'doc'), name: 'Hand' });
     await clock.advance(1000);
-    expect(gateway.asked).toHaveLength(asked);
+    expect(gateway.requested).toHaveLength(requested);
     expect(screen.inUse()).toBe('Hand');
   });
 });

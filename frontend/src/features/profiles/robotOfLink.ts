@@ -31,7 +31,7 @@ export function followRobot(options: RobotOfLinkOptions): (snapshot: SessionStat
   let followed: string | null = null;
   let isOffering = false;
   /** The last request, which is not repeated: its answer may be on its way, or negative. */
-  let asked = '';
+  let requested = '';
   let waitsForLibrary = false;
   /** Number of the last request from here. */
   let echoes = 0;
@@ -52,8 +52,8 @@ export function followRobot(options: RobotOfLinkOptions): (snapshot: SessionStat
     const { id, robot } = robots.current();
     if (id === there || isOffering) return;
     const wish = `${id} ${document}`;
-    if (robot.board === board && mayWrite && mayResume(lease) && wish !== asked) void offer(id, document);
-    else if (there !== null) bounce(there, robot.board === board && wish !== asked);
+    if (robot.board === board && mayWrite && mayResume(lease) && wish !== requested) void offer(id, document);
+    else if (there !== null) bounce(there, robot.board === board && wish !== requested);
   }
 
   function bounce(there: number, isNews: boolean): void {
@@ -66,7 +66,7 @@ export function followRobot(options: RobotOfLinkOptions): (snapshot: SessionStat
 
   /** A new link reports the robot as well, and may get a new request. */
   function hear(word: RobotOnBoard | null): void {
-    if (link.status !== 'ready' || word?.document !== reported?.document) asked = '';
+    if (link.status !== 'ready' || word?.document !== reported?.document) requested = '';
     lastWord = reported = word;
     if (word?.document === followed) echoes += 1;
     if (word !== null) robotSync.refresh();
@@ -74,12 +74,12 @@ export function followRobot(options: RobotOfLinkOptions): (snapshot: SessionStat
 
   async function offer(id: number, insteadOf: string | null): Promise<void> {
     isOffering = true;
-    asked = `${id} ${insteadOf}`;
+    requested = `${id} ${insteadOf}`;
     try {
       const document = await robotSync.keep(id);
       waitsForLibrary = document === null;
       const isWanted = link.status === 'ready' && reported?.document === insteadOf;
-      if (!isWanted) asked = '';
+      if (!isWanted) requested = '';
       else if (document !== null && document !== insteadOf) {
         // Our own report is no news: a robot chosen meanwhile is the person's choice.
         followed = document;
@@ -107,7 +107,7 @@ export function followRobot(options: RobotOfLinkOptions): (snapshot: SessionStat
   });
   robots.store.subscribe(settle);
   robotSync.store.subscribe(() => {
-    if (waitsForLibrary) asked = '';
+    if (waitsForLibrary) requested = '';
     settle();
   });
   return (snapshot) => {

@@ -1,4 +1,4 @@
-// A browser's Bluetooth for tests, below the channel: one module with its service, and at each step an exception that a test asked
+// A browser's Bluetooth for tests, below the channel: one module with its service, and at each step an exception that a test requested
 // for, once, or a promise that never settles. Time is the test's.
 
 /** Where the browser may reject. */

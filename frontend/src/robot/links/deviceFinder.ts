@@ -1,10 +1,10 @@
-// Which of the browser's devices is ours: after a replug the browser hands out a new object for the same device, and tells little
+// Which of the browser's devices is ours: after a replug the browser hands out a new object for the same device, and reports little
 // more of it than its type. Knows what was there when ours went; opens nothing.
 
 import { LinkError } from '#shared/robot/linkError.ts';
 
 export interface DeviceFinder<T> {
-  /** Rejects with `portMissing`, and with `otherDevice` where only a person can tell. */
+  /** Rejects with `portMissing`, and with `otherDevice` where only a person can decide. */
   find(): Promise<T>;
   /** Ours has just gone, perhaps: whatever else is there now is another one for ever. */
   wentAway(): void;

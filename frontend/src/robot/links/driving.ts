@@ -12,7 +12,7 @@ export interface Driving {
   /** Of the latest tick. */
   readonly nonce: string | null;
   leaseChanged(state: LeaseState): void;
-  /** How many are at the gateway, this page among them, and what goes on without anybody. */
+  /** How many are at the gateway, this page among them, and what runs without a driver. */
   counted(clients: number, unattended: Unattended | null): void;
   ticked(nonce: string): void;
   /** Resolves when this page drives and its nonce is of now, no older than `withinMs`; rejects where another client drives. */

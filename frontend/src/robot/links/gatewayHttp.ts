@@ -7,10 +7,10 @@ import { GatewayProblem, request, type Asked, type Path, type Verb } from '../re
 export async function askGateway<P extends Path, V extends Verb<P>>(
   verb: V,
   path: P,
-  asked: Asked<P, V>,
+  requested: Asked<P, V>,
 ): Promise<unknown> {
   try {
-    return await request(verb, path, asked);
+    return await request(verb, path, requested);
   } catch (error) {
     if (!(error instanceof GatewayProblem)) throw error;
     const { code, message, heldBy } = error;

@@ -1,5 +1,5 @@
 // The gateway's downloads as this page sees them: begins one, hears how far the latest is, calls it off. The gateway stores by
-// itself and goes on when the page has gone. Knows jobs and their route; no socket.
+// itself and continues when the page is closed. Knows jobs and their route; no socket.
 
 import { fingerprintOf } from '#shared/group/fingerprint.ts';
 import { LinkError } from '#shared/robot/linkError.ts';

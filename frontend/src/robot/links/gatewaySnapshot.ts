@@ -1,5 +1,5 @@
 // What the gateway says, as the snapshot of its robot; the drawn estimate follows what it says has left and was heard. Knows the messages;
-// asks nothing of the gateway.
+// sends no request to the gateway.
 
 import type { Clock } from '#shared/clock.ts';
 import type { Command, Frame } from '#shared/codec/commands.ts';
@@ -39,7 +39,7 @@ export interface GatewaySnapshotOptions {
   readonly clock: Clock;
   readonly driving: Pick<Driving, 'lease' | 'leaseChanged' | 'counted'>;
   readonly slots: Pick<GatewaySlots, 'broken' | 'versions' | 'download' | 'jobChanged' | 'slotsChanged'>;
-  /** Moves that were asked for and have not left do not leave any more. */
+  /** Moves that were requested and have not left do not leave any more. */
   dropMoves(): void;
   /** Sends a STOP of this page that the gateway has not heard; false where there is none. */
   sendUnheardStop(): boolean;
@@ -173,7 +173,7 @@ export function createGatewaySnapshot(options: GatewaySnapshotOptions): GatewayS
     showPlay();
   }
 
-  /** The gateway asks the board who it is: its word counts. */
+  /** The gateway identifies the board: its result counts. */
   function showBoard({ board: id, identity, status, error }: BoardAtGateway): void {
     drive(id === 'unknown' ? UNKNOWN_BOARD : familyOf(id));
     store.update({ identity });
@@ -221,7 +221,7 @@ export function createGatewaySnapshot(options: GatewaySnapshotOptions): GatewayS
     else drop();
   }
 
-  /** What was asked for from here and has not left, or is not known to have ended. */
+  /** Requests from here and has not left, or is not known to have ended. */
   function drop(): void {
     options.dropMoves();
     running.forget();

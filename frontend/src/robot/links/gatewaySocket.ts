@@ -1,5 +1,5 @@
-// The line to the gateway's board: the WebSocket and the port behind it, messages there and back, what was asked by number and how it
-// ended. The socket stays open while that port is away, to hear of its return. Knows no robot.
+// The line to the gateway's board: the WebSocket and the port behind it, messages there and back, requests by number and their
+// results. The socket stays open while the port is away, to notice its return. Knows no robot.
 
 import { LinkError } from '#shared/robot/linkError.ts';
 import { refusal } from './gatewayHttp.ts';
@@ -62,7 +62,7 @@ export function createGatewaySocket(options: GatewaySocketOptions): GatewaySocke
   let socket: WebSocket | null = null;
   let port: PortState | null = null;
   let lastId = 0;
-  const asked = new Map<number, Waiter<Outcome>>();
+  const requested = new Map<number, Waiter<Outcome>>();
   const waiting = { halted: new Set(), released: new Set(), port: new Set() } satisfies Record<
     string,
     Waiters
@@ -84,8 +84,8 @@ export function createGatewaySocket(options: GatewaySocketOptions): GatewaySocke
   }
 
   function take(id: number): Waiter<Outcome> | undefined {
-    const waiter = asked.get(id);
-    asked.delete(id);
+    const waiter = requested.get(id);
+    requested.delete(id);
     return waiter;
   }
 
@@ -122,11 +122,11 @@ export function createGatewaySocket(options: GatewaySocketOptions): GatewaySocke
     else if (next.status !== 'opening') options.unavailable(portError(next));
   }
 
-  /** No answer will come to what was asked. */
+  /** No answer will come to the request. */
   function lost(error: LinkError): void {
     options.lost(error);
-    for (const waiter of asked.values()) waiter.reject(error);
-    asked.clear();
+    for (const waiter of requested.values()) waiter.reject(error);
+    requested.clear();
     for (const by of ['halted', 'released'] as const) settle(by, error);
   }
 
@@ -173,7 +173,7 @@ export function createGatewaySocket(options: GatewaySocketOptions): GatewaySocke
       return new Promise((resolve, reject) => {
         const id = (lastId += 1);
         post(message(id));
-        asked.set(id, { resolve, reject });
+        requested.set(id, { resolve, reject });
       });
     },
     answered(message, by) {

@@ -93,7 +93,7 @@ export function reportIn({ report, bytes }: ReceivedMessage): Report {
   return report.kind === 'unknown' ? { ...report, params: fromHex(bytes).slice(PARAMS_AT) } : report;
 }
 
-/** A board that is asked who it is gets questions that only others know. */
+/** A board that is being identified gets queries that only others know. */
 export function bytesForLog(command: Command, family: Family): Uint8Array | null {
   for (const one of [family, ...Object.values(FAMILIES)]) {
     try {

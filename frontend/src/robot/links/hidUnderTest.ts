@@ -14,7 +14,7 @@ export interface FakeBoard {
   say(bytes: readonly number[]): void;
   /** From now on it takes reports and never says so. */
   jam(): void;
-  /** What is open goes, and the browser tells it. */
+  /** What is open goes, and the browser reports it. */
   unplug(): void;
 }
 
@@ -24,18 +24,18 @@ export interface FakeHid {
   failOpen(name: string): void;
   /** A device that the page may see, as the browser reports it. */
   plugIn(productName?: string): FakeBoard;
-  /** What the chooser was asked for. */
-  readonly asked: HIDDeviceRequestOptions[];
+  /** The filters of the chooser. */
+  readonly requested: HIDDeviceRequestOptions[];
 }
 
 export function createHid(): FakeHid {
   const granted = new Set<HIDDevice>();
-  const asked: HIDDeviceRequestOptions[] = [];
+  const requested: HIDDeviceRequestOptions[] = [];
   let openFailure: string | null = null;
   const hid = Object.assign(new EventTarget(), {
     getDevices: () => Promise.resolve([...granted]),
     requestDevice(options: HIDDeviceRequestOptions) {
-      asked.push(options);
+      requested.push(options);
       return Promise.resolve([...granted].slice(0, 1));
     },
   });
@@ -46,7 +46,7 @@ export function createHid(): FakeHid {
 
   return {
     hid,
-    asked,
+    requested,
     failOpen: (name) => (openFailure = name),
     plugIn(productName = 'LOBOT') {
       const reports: Uint8Array[] = [];

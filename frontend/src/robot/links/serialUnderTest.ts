@@ -1,4 +1,4 @@
-// A browser's serial ports for tests, below the transport: real streams, and at each step an exception that a test asked
+// A browser's serial ports for tests, below the transport: real streams, and at each step an exception that a test requested
 // for, once. Also the locks and channels between the tabs of one browser. Time is the test's.
 
 import { sleep } from '#shared/clock.ts';
@@ -43,7 +43,7 @@ export interface FakePort {
 
 export interface FakeBrowser {
   failNext(step: Step, error: DOMException): void;
-  /** Failures that were asked for and have not come about. */
+  /** Failures that were requested and have not happened. */
   unmet(): readonly Step[];
   /** A device that the page may see, as the browser reports it. */
   plugIn(ids?: SerialPortInfo): FakePort;

@@ -1,4 +1,4 @@
-// A device that one tab of this browser has at a time, as a byte channel: takes the device's Web Lock, lets go of it for the tab that asks,
+// A device that one tab of this browser has at a time, as a byte channel: takes the device's Web Lock, lets go of it for the tab that requests it,
 // opens and closes one after the other. Knows no kind of device and no packets.
 
 import { sleep } from '#shared/clock.ts';
@@ -130,15 +130,15 @@ function createQueue(): (work: () => Promise<void>) => Promise<void> {
 }
 
 interface PortLock {
-  /** `asked` is called when another tab wants it. Rejects with `heldElsewhere`. */
-  take(asked: () => void): Promise<void>;
+  /** `requested` is called when another tab wants it. Rejects with `heldElsewhere`. */
+  take(requested: () => void): Promise<void>;
   /** Harmless when it is not held. */
   release(): void;
   /** Has the tab that holds it let go, and waits for that. Rejects with `heldElsewhere` when it does not. */
   askForIt(): Promise<void>;
 }
 
-/** A page that is being reloaded or has crashed, and a port that is being closed, let go a moment after the next one asks. */
+/** A page that is being reloaded or has crashed, and a port that is being closed, let go a moment after the next request. */
 const GRANT_WITHIN_MS = 1500;
 /** The other tab stops the robot and closes the port first: 2,000 and 1,250 ms at worst. */
 const YIELD_WITHIN_MS = 3500;
@@ -147,10 +147,10 @@ function createPortLock(name: string): PortLock {
   let release = (): void => undefined;
 
   return {
-    async take(asked) {
+    async take(requested) {
       const free = await hold(name, GRANT_WITHIN_MS);
       const channel = new BroadcastChannel(name);
-      channel.onmessage = asked;
+      channel.onmessage = requested;
       release = () => {
         channel.close();
         free();

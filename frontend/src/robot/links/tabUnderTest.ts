@@ -91,7 +91,7 @@ export function outcome({ session }: Tab): Outcome {
   return 'error' in link ? link.error.code : link.status;
 }
 
-/** The board is asked and answers: the way there and the way back are whole. */
+/** The board is queried and answers: the way there and the way back are whole. */
 export async function expectUse({ session }: Tab, port: Pick<FakePort, 'deliver'>): Promise<void> {
   const answer = session.readBattery();
   await pass(20);

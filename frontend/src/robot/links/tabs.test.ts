@@ -114,7 +114,7 @@ test('and may take the robot back', async () => {
   const first = await openReady(port);
   const second = openTab(port);
   await pass(TOLD_IN_TURN_MS);
-  for (const [asking, asked] of [
+  for (const [asking, requested] of [
     [second, first],
     [first, second],
   ] as const) {
@@ -122,7 +122,7 @@ test('and may take the robot back', async () => {
     await pass(1000);
     await taking;
     await pass(200);
-    expect([outcome(asking), outcome(asked)]).toEqual(['ready', 'movedAway']);
+    expect([outcome(asking), outcome(requested)]).toEqual(['ready', 'movedAway']);
   }
 });
 

@@ -29,7 +29,7 @@ export interface GrantedModule {
 
 export interface BluetoothHere {
   readonly obstacle: BluetoothObstacle | null;
-  /** Chosen before; opening them needs no chooser. Only few browsers tell. */
+  /** Chosen before; opening them needs no chooser. Only few browsers report them. */
   readonly granted: readonly GrantedModule[];
 }
 
@@ -75,7 +75,7 @@ export function createWebBluetoothChannel(module: BluetoothDevice): ByteChannel 
   });
 }
 
-/** Robots of a class bear one name: a piece of the browser's own number for it tells them apart. */
+/** Robots of a class bear one name: a piece of the browser's own number for it distinguishes them. */
 export function moduleLabel({ name, id }: BluetoothDevice): string {
   return `${name === undefined || name === '' ? 'Bluetooth' : name} ${id.replace(/\W/g, '').slice(0, 4)}`;
 }
@@ -142,7 +142,7 @@ async function openFailure(error: unknown): Promise<LinkErrorCode> {
   return (await hasAdapter()) ? 'moduleMissing' : 'bluetoothOff';
 }
 
-/** Older browsers do not tell: they have one until the opposite shows. */
+/** Older browsers do not report it: they have one until the opposite shows. */
 async function hasAdapter(): Promise<boolean> {
   try {
     return await within(MODULE.writeTimeoutMs, navigator.bluetooth.getAvailability());

@@ -218,5 +218,8 @@ test('the chooser lists boards, or every device, and says where nothing was chos
   await expect(chooseBoard()).rejects.toMatchObject({ code: 'notChosen' });
   const board = browser.plugIn();
   await expect(chooseBoard(true)).resolves.toBe(board.device);
-  expect(browser.asked).toEqual([{ filters: [{ vendorId: 0x0483, productId: 0x5750 }] }, { filters: [] }]);
+  expect(browser.requested).toEqual([
+    { filters: [{ vendorId: 0x0483, productId: 0x5750 }] },
+    { filters: [] },
+  ]);
 });

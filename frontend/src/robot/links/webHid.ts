@@ -65,7 +65,7 @@ export interface HidHere {
 }
 
 const { vendorId, productId, names: NAMES } = USB.hid;
-/** Commands of their own do these on HID, and only others' programs tell of those (docs/adr/0028). */
+/** Commands of their own do these on HID, and only other programs document those (docs/adr/0028). */
 export const HID_WITHHELD: readonly Withheld[] = ['download', 'erase'];
 
 export async function lookForHid(): Promise<HidHere> {
@@ -114,7 +114,7 @@ export function createWebHidChannel(chosen: HIDDevice): ByteChannel {
 const isLikely = ({ productName }: HIDDevice): boolean =>
   NAMES.some((name) => productName.toLowerCase().includes(name));
 
-/** The browser tells no more of a device, so two boards of a kind bear one name. */
+/** The browser reports no more of a device, so two boards of a kind bear one name. */
 const kindOf = ({ vendorId, productId, productName }: HIDDevice): string =>
   `${hex(vendorId)}:${hex(productId)} ${productName}`;
 

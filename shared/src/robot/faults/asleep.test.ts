@@ -65,11 +65,11 @@ describe('F23: after a sleep at any instant nothing moves that was asked before'
 
   test.each(['doc', 'lsc-24'] as const)('of a run that had not left (%s)', async (id) => {
     const rig = await createRig({ family: familyOf(id), profile: id });
-    const asked = [rig.session.readBattery(), rig.session.run(1, 1)].map((each) =>
+    const requested = [rig.session.readBattery(), rig.session.run(1, 1)].map((each) =>
       each.catch((error: unknown) => error),
     );
     expect(await sleepsAndWakes(rig)).toEqual([]);
-    expect((await Promise.all(asked))[1]).toMatchObject({ code: 'overslept' });
+    expect((await Promise.all(requested))[1]).toMatchObject({ code: 'overslept' });
     expect(rig.session.state.activity.kind).toBe('idle');
   });
 });

@@ -13,13 +13,13 @@ test('L1: it stands in its own reset pose and says that its servos are of the ot
 });
 
 test.each([
-  { servo: 1, asked: 100, ends: 200 },
-  { servo: 1, asked: 900, ends: 700 },
-  { servo: 2, asked: 0, ends: 125 },
-  { servo: 2, asked: 1000, ends: 875 },
-])('servo $servo asked for $asked stops at $ends (boards.md 2.1)', async ({ servo, asked, ends }) => {
+  { servo: 1, requested: 100, ends: 200 },
+  { servo: 1, requested: 900, ends: 700 },
+  { servo: 2, requested: 0, ends: 125 },
+  { servo: 2, requested: 1000, ends: 875 },
+])('servo $servo asked for $asked stops at $ends (boards.md 2.1)', async ({ servo, requested, ends }) => {
   const { exchange, pulses } = busLearm();
-  await exchange(move(100, [servo, asked]), 400);
+  await exchange(move(100, [servo, requested]), 400);
   expect(pulses(servo)).toEqual([ends]);
 });
 

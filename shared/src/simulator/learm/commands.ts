@@ -10,7 +10,7 @@ import type { Work } from '../agenda.ts';
 // The two LeArms as values: with PWM servos and with bus servos (boards.md chapter 4).
 
 export interface LearmTraits {
-  /** What it says of its servos when it is asked for its version (boards.md 2.3). */
+  /** Its servos, as its version report states them (boards.md 2.3). */
   readonly servoType: 1 | 2;
   /** Its first line of text (L1). */
   readonly greeting: string;
@@ -19,7 +19,7 @@ export interface LearmTraits {
   readonly gripper: { readonly min: number; readonly max: number };
   /** Where the servos go at power-up and after a reset (L1). */
   readonly resetPose: readonly number[];
-  /** PWM servos are asked whether they have arrived; of bus servos it counts the frame's time (L7). */
+  /** It checks whether PWM servos have arrived; of bus servos it counts the frame's time (L7). */
   readonly endsFrames: 'arrived' | 'counted';
 }
 
@@ -184,7 +184,7 @@ export function createLearmRunner({ now, frameCount, frame, issue, isOver }: Lea
   let pollMs = Infinity;
   let playing: Frame | null = null;
   let polls = 0;
-  /** The next run takes the killed one's frame for its own and goes on behind it (L11). */
+  /** The next run takes the killed one's frame for its own and continues behind it (L11). */
   let stale = false;
 
   function request(requestedSlot: number, times: number): void {

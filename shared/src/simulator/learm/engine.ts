@@ -171,7 +171,7 @@ export function createLearmEngine(traits: LearmTraits, parts: EngineParts): Engi
     takeByte: (byte) => {
       if (booted && !jammed && MODES[mode] === 'pc') takeByte(byte);
     },
-    // Of a jammed board nothing goes on but the pulses it last gave.
+    // A jammed board only continues its last pulses.
     sources: alive.map(({ dueMs, fire }) => ({ dueMs: () => (jammed ? Infinity : dueMs()), fire })),
     // Its pad does nothing in PC mode.
     press: () => undefined,

@@ -1,5 +1,5 @@
-// Puts a pose into the group as a frame, beside another one or at the end: one that is given, or that which the robot was asked for or
-// its board has said. The button that captures it says why it cannot while none is known. Moves nothing.
+// Puts a pose into the group as a frame, beside another one or at the end: a given one, the commanded one or
+// the one that the board reported. The button that captures it shows the reason while none is known. Moves nothing.
 
 import { tellsPositions } from '../../../robot/readiness.ts';
 import { type Stores, useDevice, useKnownFamily } from '../../stores.ts';

@@ -1,5 +1,5 @@
 // Playing the group: from the page, from where the playhead is, or by the board itself, which gets it first where it has not just
-// this. What goes on is said in a line that is always there.
+// this. The current activity is shown in a line that is always there.
 
 import { useShallow } from 'zustand/react/shallow';
 import type { SlotContent } from '#shared/group/slotBook.ts';

@@ -1,5 +1,5 @@
 // Keeping the last two minutes, whatever is written on now: they may have been moved by poses or a pad. What was recorded, by this or
-// on purpose, is asked about here.
+// on purpose, is confirmed here.
 
 import { useStore } from 'zustand';
 import type { Sample } from '#shared/group/simplify.ts';

@@ -22,7 +22,7 @@ interface BoardRunOptions {
   readonly view: View;
   /** Of the group at hand, in the library. */
   documentId(): string;
-  /** null: nothing goes on any more. */
+  /** null: nothing runs any more. */
   phase(next: 'storing' | 'running' | null): void;
 }
 

@@ -512,68 +512,68 @@ describe('playing on the board', () => {
       document.take(startHistory({ ...groupOf(frame(400, 1200)), name }));
       view.setState({ slot: 21 });
       const counts = () => [ofKind('download').length, ofKind('run').length];
-      const asked = () => replacing.store.getState().question?.conflicts[0] ?? null;
-      return { ...page, counts, asked };
+      const requested = () => replacing.store.getState().question?.conflicts[0] ?? null;
+      return { ...page, counts, requested };
     }
 
     for (const name of ['Bow', 'Wave'])
       test(`asks before “${name}” takes the place of “Wave”`, async () => {
-        const { playback, replacing, draw, counts, asked } = await pageWithAnother(name);
+        const { playback, replacing, draw, counts, requested } = await pageWithAnother(name);
         playback.runOnBoard();
         await draw(1000);
-        expect(asked()).toMatchObject({ name, record: { slot: 21, name: 'Wave' } });
+        expect(requested()).toMatchObject({ name, record: { slot: 21, name: 'Wave' } });
         expect(counts()).toEqual([3, 1]);
         replacing.answer('leave');
         await draw(1000);
-        expect([asked(), counts()]).toEqual([null, [3, 1]]);
+        expect([requested(), counts()]).toEqual([null, [3, 1]]);
         playback.runOnBoard();
         replacing.answer('replace');
         await draw(2000);
-        expect([asked(), counts()]).toEqual([null, [4, 2]]);
+        expect([requested(), counts()]).toEqual([null, [4, 2]]);
         playback.runOnBoard();
         await draw(1000);
-        expect([asked(), counts()]).toEqual([null, [4, 3]]);
+        expect([requested(), counts()]).toEqual([null, [4, 3]]);
       });
 
     test('asks again where the slot got still another one meanwhile', async () => {
-      const { playback, replacing, slots, draw, counts, asked } = await pageWithAnother('Bow');
+      const { playback, replacing, slots, draw, counts, requested } = await pageWithAnother('Bow');
       playback.runOnBoard();
       slots.download([{ slot: 21, name: 'Third', documentId: 'third', frames: [frame(500, 1300)] }]);
       await draw(2000);
       replacing.answer('replace');
       await draw(1000);
-      expect(asked()).toMatchObject({ record: { name: 'Third' } });
+      expect(requested()).toMatchObject({ record: { name: 'Third' } });
       expect(counts()).toEqual([4, 1]);
     });
 
     test('asks again where another client has stored something there meanwhile, and before', async () => {
-      const { share, othersStore, asked: stored } = createSharedSlots();
-      const { device, playback, replacing, draw, asked, phase } = await pageWithAnother('Bow', { share });
+      const { share, othersStore, requested: stored } = createSharedSlots();
+      const { device, playback, replacing, draw, requested, phase } = await pageWithAnother('Bow', { share });
       // A board that holds nothing never says that a run is over.
       device.stopGroup();
       await draw(1000);
       expect(phase()).toBeNull();
       playback.runOnBoard();
-      expect(asked()).toMatchObject({ slot: 21, record: { name: 'Wave' } });
+      expect(requested()).toMatchObject({ slot: 21, record: { name: 'Wave' } });
       othersStore(21, { version: 'of Bert', name: 'Nod' });
       replacing.answer('replace');
       await draw(1000);
-      expect(asked()).toMatchObject({ slot: 21, record: null, version: 'of Bert', held: 'Nod' });
+      expect(requested()).toMatchObject({ slot: 21, record: null, version: 'of Bert', held: 'Nod' });
       expect(stored).toHaveLength(1);
       replacing.answer('replace');
       await draw(1000);
-      expect(asked()).toBeNull();
+      expect(requested()).toBeNull();
       expect(stored.map(({ replaces }) => replaces)).toEqual(['', 'of Bert']);
     });
 
     test('of which an earlier version noted the name alone, it asks too', async () => {
-      const { playback, slots, draw, asked } = await pageWithAnother('Wave');
+      const { playback, slots, draw, requested } = await pageWithAnother('Wave');
       slots.store.setState(({ book }) => ({
         book: { ...book, stored: book.stored.map((record) => ({ ...record, documentId: null })) },
       }));
       playback.runOnBoard();
       await draw(1000);
-      expect(asked()).not.toBeNull();
+      expect(requested()).not.toBeNull();
     });
   });
 });

@@ -63,7 +63,7 @@ export interface Player {
   toggle(): void;
   /** Plays on the drawing alone, or pauses what plays. Needs no robot and moves none. */
   togglePreview(): void;
-  /** Downloads first where the board has not just this, and asks before another group goes for it. */
+  /** Downloads first where the board has not just this, and requests confirmation before another group is replaced. */
   runOnBoard(): void;
   /** Where it is; a group on the board ends after its frame in progress. */
   pause(): void;
@@ -85,7 +85,7 @@ export interface Playback {
   frame(): void;
   /** The page is not looked at any more. */
   hidden(): void;
-  /** The one player of this page; made when it is first asked for. */
+  /** The one player of this page; made when it is first needed. */
   player(make: (options: PlaybackOptions, store: StoreApi<PlaybackState>) => Player): Player;
 }
 

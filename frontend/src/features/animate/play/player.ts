@@ -59,7 +59,7 @@ function createPlayer(options: PlaybackOptions, store: StoreApi<PlaybackState>):
   setMuted();
   view.subscribe(setMuted);
 
-  /** null: nothing moves, or nobody knows yet when it will. */
+  /** null: nothing moves, or it is not known yet when it will. */
   function course(): Course | null {
     const { latch, waitingToStart } = device.store.getState().snapshot;
     if (latch !== null) return null;

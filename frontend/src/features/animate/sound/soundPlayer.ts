@@ -3,7 +3,7 @@
 
 import type { Clock } from '#shared/clock.ts';
 
-/** A group that is played: it is at `atMs` at the time `sinceMs` of the clock, which may be yet to come, and goes on steadily from there. */
+/** A group that is played: it is at `atMs` at the time `sinceMs` of the clock, which may be yet to come, and continues steadily from there. */
 export interface Course {
   readonly atMs: number;
   readonly sinceMs: number;
@@ -11,7 +11,7 @@ export interface Course {
   readonly rate: number;
   /** In ms of the group. */
   readonly untilMs: number;
-  /** Where it goes on at once then; null: nowhere, or not at once. */
+  /** Where it continues at once then; null: nowhere, or not at once. */
   readonly thenMs: number | null;
 }
 
@@ -39,7 +39,7 @@ export interface SoundPlayerOptions {
 
 /** Time the audio thread needs to begin something on its moment. */
 const SOON_S = 0.012;
-/** What goes on elsewhere is scheduled so long before. */
+/** Playback from another place is scheduled so long before. */
 const AHEAD_MS = 300;
 /** A larger gap between a motion and its sound is closed: one that is smaller is heard less than that. */
 const NEAR_MS = 10;

@@ -1,5 +1,5 @@
-// A field in place: a number or a text that the timeline asks for, beside what it is about. Enter and leaving the field take it,
-// Escape does not (and stops the robot, as everywhere). Before it is asked for, the value of the selected key stands there.
+// A field in place: a number or a text that the timeline requests, beside what it is about. Enter and leaving the field take it,
+// Escape does not (and stops the robot, as everywhere). Before it is requested, the value of the selected key stands there.
 // That one opens by a mere click on a key, so until something is written in it the hand is still on the keys: what writes no
 // number is for them.
 

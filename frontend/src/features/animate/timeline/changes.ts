@@ -71,7 +71,7 @@ const placedAt = (
     return position === null ? [] : [{ servo, position }];
   });
 
-/** On its way at that time; else where the robot was asked to be; null where neither is known. */
+/** On its way at that time; else the commanded position; null where neither is known. */
 function positionNow(context: TimelineContext, servo: number, atMs: number): number | null {
   const track = context.times.tracks.get(servo);
   const onItsWay = track === undefined ? null : positionAt(track, atMs);

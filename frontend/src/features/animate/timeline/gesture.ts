@@ -87,7 +87,7 @@ export function edits(
 ): Gesture {
   const { document } = press.stores;
   let hasBegun = false;
-  /** It was undone, or another edit has ended it: the hand goes on with nothing. */
+  /** It was undone, or another edit has ended it: the pointer continues with nothing. */
   const isTaken = (): boolean => hasBegun && document.store.getState().gesture === null;
   return {
     status,

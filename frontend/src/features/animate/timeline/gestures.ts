@@ -252,7 +252,7 @@ function panGesture(press: Press, context: TimelineContext): Gesture {
 
 export const panFrom = (press: Press): Gesture => panGesture(press, contextOf(press.stores));
 
-/** What a finger that rests for a while does when it goes on: a box. */
+/** What a finger that rests for a while does when it moves on: a box. */
 export function boxFrom(press: Press): Gesture {
   const context = contextOf(press.stores);
   return boxGesture(press, context, { kind: 'empty', row: null, atMs: 0 });

@@ -121,7 +121,7 @@ function takeUpFrame(stores: TimelineStores): void {
   if (!isTakenUp(context, selectedFrame)) showFrame(stores, selectedFrame);
 }
 
-/** Of a frame without keys the cursor alone can tell. */
+/** Of a frame without keys only the cursor is known. */
 function isTakenUp(context: TimelineContext, frame: number): boolean {
   const { selected, cursor } = context.state;
   if (shownKeys(context, frame).length === 0) return selected.size === 0 && cursor.frameId === frame;

@@ -75,7 +75,7 @@ function createEdgePan(host: EdgePanHost): EdgePan {
 }
 
 interface PointerHost {
-  /** What a press begins with; `isTouch` tells fingers from mice and pens. */
+  /** What a press begins with; `isTouch` distinguishes fingers from mice and pens. */
   press(spot: Spot, held: Held, isTouch: boolean): Press;
   pinch(before: readonly [Spot, Spot], now: readonly [Spot, Spot]): void;
   /** Through time. */
@@ -84,7 +84,7 @@ interface PointerHost {
   doubleClick(spot: Spot): void;
   /** A mouse is over the tracks and presses nothing; null: no longer. */
   hover(spot: Spot | null): void;
-  /** `tells`: where what is dragged is by now. */
+  /** `tells`: the current place of the dragged item. */
   say(status: StatusName | null, tells?: () => string): void;
 }
 
@@ -210,7 +210,7 @@ export function followPointer(tracks: HTMLElement, host: PointerHost): () => voi
         callOff();
         return;
       }
-      // A finger that rests also asks for a menu here; it gets ours when it is lifted.
+      // A finger that rests also requests a menu here; it gets ours when it is lifted.
       if (!(event instanceof PointerEvent && event.pointerType === 'touch')) host.openMenu(spotOf(event));
     },
     { signal },

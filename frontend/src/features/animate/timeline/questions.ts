@@ -1,4 +1,4 @@
-// What a person is asked for in place, one field at a time: what stands in it at first, and what is done with the answer.
+// The values that a person enters in place, one field at a time: what stands in it at first, and what is done with the answer.
 
 import { renameMarker, addMarker, setNote } from '#shared/group/frameEdits.ts';
 import { GROUP_NAME_LENGTH, NOTE_LENGTH } from '#shared/group/group.ts';

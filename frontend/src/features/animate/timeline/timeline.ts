@@ -116,7 +116,7 @@ export interface Cursor {
   readonly frameId: number | null;
 }
 
-/** A number or text that the person is asked for, in place. */
+/** A number or text that the person enters in place. */
 const QUESTIONS = [
   'value',
   'scaleTime',

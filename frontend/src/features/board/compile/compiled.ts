@@ -27,7 +27,7 @@ export interface CompiledStore {
   readonly store: StoreApi<CompiledState>;
   /** Of the group as it is now. */
   now(): CompiledGroup;
-  /** Of another group; one that was asked for before is not worked out again. */
+  /** Of another group; one that was requested before is not computed again. */
   of(group: ActionGroup, on: Pick<Source, 'family' | 'robot'>): CompiledGroup;
 }
 
@@ -39,7 +39,7 @@ export interface CompiledOptions {
   readonly device: Device;
   readonly robots: RobotStore;
   readonly clock: Clock;
-  /** Works a group out while the page goes on; left out: the page does it. */
+  /** Works a group out while the page continues; left out: the page does it. */
   compileElsewhere?(source: Source): Promise<CompileResult>;
 }
 

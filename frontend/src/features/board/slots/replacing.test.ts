@@ -88,10 +88,10 @@ test('no group goes from the board but by the answer that names it', async () =>
         const held = distinct(first).map(({ slot, position }) => groupAt(`held ${slot}`, slot, position));
         const { replacing, question, sent, draw, slots } = await openTestPage(...held);
         replacing.download(distinct(second).map(({ slot, position }) => groupAt('new', slot, position)));
-        const asked = question()?.conflicts.map(({ slot }) => slot) ?? [];
+        const requested = question()?.conflicts.map(({ slot }) => slot) ?? [];
         expect(question()?.free?.some(isLiveSlot) ?? false).toBe(false);
         await draw(100);
-        if (asked.length > 0) expect(sent()).toEqual([]);
+        if (requested.length > 0) expect(sent()).toEqual([]);
         replacing.answer(answered);
         await draw(8000);
         const { stored } = slots.store.getState().book;
@@ -100,10 +100,10 @@ test('no group goes from the board but by the answer that names it', async () =>
           return now?.frames[0]?.targets[0]?.position !== frames[0]?.targets[0]?.position;
         });
         expect(
-          gone.map(({ slot }) => slot).filter((slot) => answered !== 'replace' || !asked.includes(slot)),
+          gone.map(({ slot }) => slot).filter((slot) => answered !== 'replace' || !requested.includes(slot)),
         ).toEqual([]);
-        if (answered === 'leave' && asked.length > 0) expect(sent()).toEqual([]);
-        if (answered === 'free') for (const slot of sent()) expect(asked).not.toContain(slot);
+        if (answered === 'leave' && requested.length > 0) expect(sent()).toEqual([]);
+        if (answered === 'free') for (const slot of sent()) expect(requested).not.toContain(slot);
       },
     ),
     { numRuns: 12 * TIMES },

@@ -31,7 +31,7 @@ test('what does not fit, is empty or wants the slot of another is reported; the 
 test('of all groups those are taken that can go, each in its slot or a free one, and no two in the same', async () => {
   const { compiled, device, robots } = await createTestPage();
   const on = { family: device.store.getState().family, robot: robots.current().robot };
-  const asked = (documentId: string, slot: number | null, ...positions: readonly number[]) => {
+  const requested = (documentId: string, slot: number | null, ...positions: readonly number[]) => {
     const group = positions.reduce(
       (sum, position) => insertFrame(sum, 9, { durationMs: 400, targets: [{ servo: 1, position }] }),
       emptyGroup(documentId, 'us'),
@@ -41,8 +41,13 @@ test('of all groups those are taken that can go, each in its slot or a free one,
   const known = { book: EMPTY_SLOT_BOOK, versions: {}, broken: [], range: { min: 0, max: 23 } };
   const slotsOf = (all: readonly Wanted[]) => all.map(({ documentId, slot }) => `${documentId} ${slot}`);
   const { can, cannot } = thoseThatCan(
-    [asked('free', null, 1000), asked('far', null, 2600), asked('bow', 2, 1000), asked('second', 2, 1200)],
-    [{ ...asked('wave', 0, 1000), slot: 0 }],
+    [
+      requested('free', null, 1000),
+      requested('far', null, 2600),
+      requested('bow', 2, 1000),
+      requested('second', 2, 1200),
+    ],
+    [{ ...requested('wave', 0, 1000), slot: 0 }],
     (own, taken) => slotFor(own, known, taken),
   );
   expect(slotsOf(can)).toEqual(['bow 2', 'free 21']);

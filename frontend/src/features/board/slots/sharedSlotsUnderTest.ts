@@ -16,7 +16,7 @@ type SlotState = Pick<SessionState, 'slotVersions' | 'storedSlots' | 'lastDownlo
 export function createSharedSlots(before: SlotVersions = {}) {
   let versions = before;
   let changed = (): void => undefined;
-  const asked: SlotGroup[] = [];
+  const requested: SlotGroup[] = [];
 
   /** The robot, with the gateway's slots in place of its own. */
   function share(robot: Robot): Robot {
@@ -30,7 +30,7 @@ export function createSharedSlots(before: SlotVersions = {}) {
     }
 
     function download(groups: readonly SlotGroup[]): Promise<void> {
-      asked.push(...groups);
+      requested.push(...groups);
       if (groups.some(({ slot, replaces }) => replaces !== (versions[slot]?.version ?? '')))
         return Promise.reject(new LinkError('slotChanged', 'something else is there'));
       versions = { ...versions, ...Object.fromEntries(groups.map(stored)) };
@@ -62,7 +62,7 @@ export function createSharedSlots(before: SlotVersions = {}) {
   }
 
   return {
-    asked,
+    requested,
     share,
     versions: () => versions,
     /** Reported at once, or only to pages that connect later. */

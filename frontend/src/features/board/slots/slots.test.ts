@@ -195,11 +195,11 @@ describe('the slots of a board', () => {
   });
 
   test('what another client stores while it looks on does so at once, what one has seen is reported with a download', async () => {
-    const { share, othersStore, asked } = createSharedSlots({ 5: storedGroup({ version: 'of Bert' }) });
+    const { share, othersStore, requested } = createSharedSlots({ 5: storedGroup({ version: 'of Bert' }) });
     const { slots, stored, draw, noticeTexts } = await openTestPage(new Map(), { way: USB, share });
     slots.download([WAVE, BOW]);
     await draw(100);
-    expect(asked.map(({ slot, replaces }) => [slot, replaces])).toEqual([
+    expect(requested.map(({ slot, replaces }) => [slot, replaces])).toEqual([
       [5, 'of Bert'],
       [9, ''],
     ]);

@@ -17,7 +17,7 @@ import styles from './ThisBoard.module.css';
 import type { Family } from '#shared/codec/families.ts';
 import type { ServoOffset } from '#shared/codec/reports.ts';
 
-// What a board answered when it was asked who it is, a line for each question.
+// The answers of a board to the queries of its identity, a line for each query.
 
 const TRUTH: Readonly<Record<Evidence['kind'], Truth>> = {
   answered: 'confirmed',
@@ -39,7 +39,7 @@ export function EvidenceList({ evidence }: { readonly evidence: readonly Evidenc
   );
 }
 
-// Firmware and trims of boards that can tell them, once a person has asked.
+// Firmware and trims of boards that report them, on a person's request.
 
 export function BoardDetails() {
   const { device } = useStores();

@@ -1,5 +1,5 @@
 // Which board is this? What it answered, which boards answer like that, and the person's choice among them. Stands where the
-// servos will be until somebody has said so.
+// servos will be until a person has confirmed it.
 
 import { FAMILIES, type Family } from '#shared/codec/families.ts';
 import { fitOf, type Fit } from '#shared/robot/identity.ts';
@@ -33,7 +33,7 @@ export function WhichBoard() {
   );
 }
 
-/** There is nobody to ask before a port is open. */
+/** No board can be queried before a port is open. */
 function Unasked() {
   const { view } = useStores();
   return (

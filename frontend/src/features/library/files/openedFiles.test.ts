@@ -18,10 +18,10 @@ const groupIn = ({ name }: File): Reading => ({
 
 /** Reads when it is let. */
 function createPlace() {
-  const asked: (() => void)[] = [];
+  const requested: (() => void)[] = [];
   let stopped = 0;
   const files = createOpenedFiles({
-    read: (one) => new Promise((resolve) => asked.push(() => resolve(groupIn(one)))),
+    read: (one) => new Promise((resolve) => requested.push(() => resolve(groupIn(one)))),
     stop: () => (stopped += 1),
   });
   return {
@@ -29,11 +29,11 @@ function createPlace() {
     /** So many files, one after the other. */
     async letRead(count: number) {
       for (let read = 0; read < count; read += 1) {
-        asked.shift()?.();
+        requested.shift()?.();
         await new Promise((resolve) => setImmediate(resolve));
       }
     },
-    asked,
+    requested,
     stopped: () => stopped,
     names: () => files.store.getState().list.map(({ name }) => name),
     state: () => files.store.getState(),
@@ -44,11 +44,11 @@ const namesOf = (files: readonly File[]) => files.map(({ name }) => name);
 
 describe('reading', () => {
   test('is one file at a time, says how far it has come, and each is in the list as soon as it is read', async () => {
-    const { files, letRead, asked, names, state } = createPlace();
+    const { files, letRead, requested, names, state } = createPlace();
     files.open(MANY);
     expect(state().reading).toEqual({ done: 0, total: 103 });
     await letRead(3);
-    expect(asked).toHaveLength(1);
+    expect(requested).toHaveLength(1);
     expect(state().reading).toEqual({ done: 3, total: 103 });
     expect(names()).toEqual(['1.csv', '2.csv', '3.csv']);
     await letRead(100);

@@ -1,4 +1,4 @@
-// The robot in three dimensions, to look around it, to press a part and so select its servo, and to lead its limbs. Loaded when asked
+// The robot in three dimensions, to look around it, to press a part and so select its servo, and to lead its limbs. Loaded when requested
 // for: nothing else of the page knows three.js.
 
 import {

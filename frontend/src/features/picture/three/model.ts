@@ -13,7 +13,7 @@ import { createRing, type Ring } from './ring.ts';
 import { sizeOf, type Stage } from './stage.ts';
 import { jointName, TIP } from './urdf.ts';
 
-/** In board units: what no eye can tell apart in the picture. */
+/** In board units: differences that are invisible in the picture. */
 const SAME = 6;
 const ROOM = 1.05;
 

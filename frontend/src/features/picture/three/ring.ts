@@ -75,7 +75,7 @@ export function turnedBy(
   return (moved.x * x + moved.y * y) / perRadian ** 2;
 }
 
-/** Where what it carries goes on at 0, across its axis: there the knob is. */
+/** The direction of the next link at 0, across its axis: there the knob is. */
 function directionOf(joint: URDFJoint): { readonly toward: Vector3; readonly lengthM: number } {
   const next = firstJointBelow(joint)?.position ?? new Vector3(0, 0, RADIUS_M.least);
   const axis = joint.axis.clone().normalize();

@@ -1,4 +1,4 @@
-// The room the robot stands in: floor, light, camera, and the ways to look around. Draws a frame only when asked to. Knows no robot.
+// The scene around the robot: floor, light, camera, and the ways to look around. Draws a frame only on request. Knows no robot.
 
 import {
   Box3,
@@ -62,11 +62,11 @@ export function createStage(canvas: HTMLCanvasElement, beforeDraw: () => void): 
   grid.material = gridLine;
   scene.add(sun, new HemisphereLight('#ffffff', '#8a8a8a', 1.6), grid);
 
-  let asked = 0;
+  let requested = 0;
   function draw(): void {
-    if (asked !== 0) return;
-    asked = requestAnimationFrame(() => {
-      asked = 0;
+    if (requested !== 0) return;
+    requested = requestAnimationFrame(() => {
+      requested = 0;
       beforeDraw();
       renderer.render(scene, camera);
     });
@@ -132,7 +132,7 @@ export function createStage(canvas: HTMLCanvasElement, beforeDraw: () => void): 
     },
     paint: ({ line }) => void gridLine.color.set(line),
     dispose() {
-      cancelAnimationFrame(asked);
+      cancelAnimationFrame(requested);
       sizes.disconnect();
       controls.dispose();
       grid.geometry.dispose();

@@ -1,4 +1,4 @@
-// Asks whether the servo turned in the direction of the arrow: after a move home that is long enough, or after a small turn away from home
+// The person confirms whether the servo turned in the direction of the arrow: after a move home that is long enough, or after a small turn away from home
 // and back, towards the side with more room.
 
 import { useEffect, useRef, useState } from 'react';
@@ -96,7 +96,7 @@ function TurnAndAsk({ at: { robot, servo, accept }, away }: At & { readonly away
           </Answer>
         )}
       </div>
-      <p className={styles.asked}>{isAsked ? question[shows] : ''}</p>
+      <p className={styles.requested}>{isAsked ? question[shows] : ''}</p>
       <div className={styles.actions}>
         <Answer tone={isAsked ? 'primary' : 'plain'} isDisabled={!isAsked} onPress={answer(false)}>
           {words.calibration.same}

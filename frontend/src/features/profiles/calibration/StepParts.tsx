@@ -126,12 +126,12 @@ function useLimitsLifted(servo: number): void {
 
 /** The current question. It takes the focus when a step ends and its buttons disappear, so that the focus is not on a button that moves. */
 export function Ask({ children }: { readonly children: ReactNode }) {
-  const asked = useRef<HTMLParagraphElement>(null);
+  const requested = useRef<HTMLParagraphElement>(null);
   useLayoutEffect(() => {
-    if (document.activeElement?.contains(asked.current)) asked.current?.focus();
+    if (document.activeElement?.contains(requested.current)) requested.current?.focus();
   }, []);
   return (
-    <p ref={asked} className={styles.ask} tabIndex={-1}>
+    <p ref={requested} className={styles.ask} tabIndex={-1}>
       {children}
     </p>
   );
