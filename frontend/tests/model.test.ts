@@ -8,7 +8,7 @@ import type { Robot, RobotJoint } from '#shared/profile/robot.ts';
 import { changeServo } from '#shared/profile/robotEdits.ts';
 import { lastTarget, ofKind } from '../../e2e/fixtures/bus.ts';
 import * as robotDialog from '../../e2e/fixtures/robotDialog.ts';
-import { importedUrdf, linkName } from '../src/features/picture/three/importedUrdf.ts';
+import { importedUrdf, linkName } from '../src/features/picture/three/urdf.ts';
 import { ModelFileError, readModelFile } from '../src/features/picture/three/modelFile.ts';
 import { expect, here, test, type Dashboard } from './harness/test.ts';
 import { advance } from './harness/time.ts';

@@ -5,9 +5,8 @@ import { Box3, Mesh, type Object3D, Vector3 } from 'three';
 import type { Robot } from '#shared/profile/robot.ts';
 import { storedFile } from '../../../state/fileStore.ts';
 import { type Description, parseUrdf } from './figure.ts';
-import { importedUrdf, type LimbEnd, linkName, meshName } from './importedUrdf.ts';
 import { type ModelFile, readModelFile } from './modelFile.ts';
-import { urdfOf } from './urdf.ts';
+import { importedUrdf, type LimbEnd, linkName, meshName, urdfOf } from './urdf.ts';
 
 interface ShownModel {
   /** null: there is nothing to draw, or not yet. */
