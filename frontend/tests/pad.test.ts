@@ -211,6 +211,35 @@ test('pulling the pad while it is held ends the motion', async ({ dashboard, rob
   expect(await lastTarget(robot.bus, 1)).toBeLessThan(2500);
 });
 
+test('the stick moves the tip of the arm instead of a joint, and undo takes the choice back', async ({
+  dashboard,
+  robot,
+  page,
+}) => {
+  for (const [servo, position] of [
+    [3, 1500],
+    [4, 1900],
+    [5, 1900],
+    [6, 1500],
+  ] as const) {
+    await dashboard.type(dashboard.target(servo), position);
+    await expect(dashboard.estimate(servo)).toHaveText(`≈ ${position}`);
+  }
+  await switchOn(page);
+  await page.getByRole('radio', { name: 'Tip', exact: true }).check();
+  await expect(page.getByRole('switch', { name: 'Keep the end level' })).toBeVisible();
+  await pad.push(0);
+  await pad.hold();
+  await pad.push(1);
+  await poll(() => lastTarget(robot.bus, 6)).toBeGreaterThan(1520);
+  await pad.push(0);
+  await expectRest(robot.bus);
+  // Sideways in a straight line takes more than the base.
+  expect(await lastTarget(robot.bus, 5)).not.toBe(1900);
+  await dashboard.button('Undo: joints or tip').click();
+  await expect(page.getByRole('radio', { name: 'Joints', exact: true })).toBeChecked();
+});
+
 test('driving ends where the keys belong to buttons', async ({ dashboard, page }) => {
   await startDriving(dashboard);
   await page.getByRole('radio', { name: 'Buttons' }).check();

@@ -359,6 +359,7 @@ export interface Messages {
     readonly form: (values: { readonly input: string }) => string;
     readonly does: string;
     readonly actions: {
+      readonly tip: string;
       readonly rate: string;
       readonly position: string;
       readonly pose: string;
@@ -381,6 +382,9 @@ export interface Messages {
       readonly unbind: (values: { readonly input: string }) => string;
       readonly feel: string;
       readonly ready: string;
+      readonly moved: string;
+      readonly limb: string;
+      readonly level: string;
     };
     readonly feel: string;
     readonly speedPercent: string;
@@ -441,6 +445,21 @@ export interface Messages {
     readonly otherAxis: (values: { readonly index: number }) => string;
     readonly sameInput: (values: { readonly input: string; readonly one: string; readonly other: string }) => string;
     readonly sameInputTwice: (values: { readonly input: string; readonly one: string }) => string;
+    readonly moved: string;
+    readonly joints: string;
+    readonly tip: string;
+    readonly limb: string;
+    readonly tipLevel: string;
+    readonly short: string;
+    readonly noTip: string;
+    readonly tipAxis: string;
+    readonly tipSpeed: string;
+    readonly mmPerS: string;
+    readonly tipRows: {
+      readonly x: string;
+      readonly y: string;
+      readonly z: string;
+    };
   };
   readonly compile: {
     readonly fits: string;

@@ -21,6 +21,10 @@ const inputSchema = v.variant('kind', [
 
 /** The fastest a servo may follow: any servo's whole range in less than a second. */
 export const FASTEST_UNITS_PER_S = 3000;
+/** Of the end of a limb; a small arm crosses all of its reach in a second or two. */
+export const FASTEST_MM_PER_S = 300;
+/** Forward, left and up, as in URDF. */
+export const TIP_AXES = ['x', 'y', 'z'] as const;
 
 const actionSchema = v.variant('kind', [
   /** Turns on while the input is away from rest; at full deflection by so much, negative the other way. */
@@ -31,6 +35,12 @@ const actionSchema = v.variant('kind', [
   }),
   /** The input's way is the servo's range. */
   v.strictObject({ kind: v.literal('position'), servo, isReversed: v.boolean() }),
+  /** As a rate, of the end of a limb along a straight line. */
+  v.strictObject({
+    kind: v.literal('tip'),
+    axis: v.picklist(TIP_AXES),
+    mmPerS: whole(-FASTEST_MM_PER_S, FASTEST_MM_PER_S),
+  }),
   v.strictObject({
     kind: v.literal('pose'),
     pose: poseRefSchema,
@@ -57,9 +67,24 @@ const feelSchema = v.strictObject({
   speedPercent: whole(10, 100),
 });
 
+const bindingsSchema = v.pipe(v.array(bindingSchema), v.maxLength(256));
+
+const tipSchema = v.strictObject({
+  /** The bindings move the end of a limb, not its joints. */
+  isOn: v.boolean(),
+  /** The end stays level where the limb can. */
+  isLevel: v.boolean(),
+  /** The link at the end of the limb; absent: of the first one. */
+  limb: v.exactOptional(v.pipe(v.string(), v.minLength(1), v.maxLength(256))),
+  /** The bindings of the other choice: of the joints while it is on, else of the end. */
+  others: bindingsSchema,
+});
+
 const mappingSchema = v.strictObject({
-  bindings: v.pipe(v.array(bindingSchema), v.maxLength(256)),
+  bindings: bindingsSchema,
   feel: feelSchema,
+  /** Absent until it is used for the first time, and in older texts. */
+  tip: v.exactOptional(tipSchema),
 });
 
 export type Input = Readonly<v.InferOutput<typeof inputSchema>>;
@@ -72,6 +97,13 @@ export interface Binding {
 export interface Mapping {
   readonly bindings: readonly Binding[];
   readonly feel: Feel;
+  readonly tip?: TipChoice;
+}
+export interface TipChoice {
+  readonly isOn: boolean;
+  readonly isLevel: boolean;
+  readonly limb?: string;
+  readonly others: readonly Binding[];
 }
 
 /** The servo a binding turns; null where it does something else. */
@@ -227,4 +259,40 @@ export function readyMapping({ servos }: Robot): Mapping {
 
 export function usualUnitsPerS({ min, max }: { readonly min: number; readonly max: number }): number {
   return Math.max(1, Math.round(((max - min) * RANGE_PERCENT_PER_S) / 100));
+}
+
+export const isOfTip = ({ tip }: Mapping): boolean => tip?.isOn === true;
+
+/** The bindings move the end of a limb, or the joints; those of the other choice are stored until it is taken again. */
+export function choosingTip(mapping: Mapping, robot: Robot, isOn: boolean): Mapping {
+  const { bindings, tip } = mapping;
+  if (isOn === isOfTip(mapping)) return mapping;
+  return {
+    ...mapping,
+    bindings: tip?.others ?? readyBindings(robot, isOn),
+    tip: { isLevel: false, ...tip, isOn, others: bindings },
+  };
+}
+
+const READY_MM_PER_S = 80;
+/** The keys are those that turn base, shoulder and elbow otherwise. To the right is minus on the axis that goes left. */
+const TIP_WAYS: readonly (readonly [Input, (typeof TIP_AXES)[number], sign: 1 | -1])[] = [
+  [axis(1), 'x', -1],
+  [axis(0), 'y', -1],
+  [axis(3), 'z', -1],
+  [key('KeyY'), 'x', 1],
+  [key('KeyH'), 'x', -1],
+  [key('KeyJ'), 'y', 1],
+  [key('KeyU'), 'y', -1],
+  [key('KeyR'), 'z', 1],
+  [key('KeyF'), 'z', -1],
+];
+
+/** For the end of a limb: sticks and keys move it, the first two servos (of an arm, gripper and wrist) turn as ever. */
+export function readyBindings(robot: Robot, isTip: boolean): readonly Binding[] {
+  if (!isTip) return readyMapping(robot).bindings;
+  const moving = TIP_WAYS.map(([input, along, sign]): Binding => {
+    return { input, action: { kind: 'tip', axis: along, mmPerS: sign * READY_MM_PER_S } };
+  });
+  return [...readyMapping({ ...robot, servos: robot.servos.slice(0, 2) }).bindings, ...moving];
 }

@@ -268,3 +268,28 @@ test.each<Action>([
   rest();
   expect(frames(held, 5).flatMap(({ begun }) => begun)).toEqual([action]);
 });
+
+describe('the end of a limb', () => {
+  const tip = (axis: 'x' | 'y' | 'z', mmPerS: number): Action => ({ kind: 'tip', axis, mmPerS });
+
+  test('all that moves it adds up, at the speed of the feel, and is over when released', () => {
+    const { rest, frame } = drive(
+      [
+        [STICK, tip('x', 100)],
+        [KEY, tip('z', -40)],
+      ],
+      { speedPercent: 50 },
+    );
+    expect(rest().tip).toBeNull();
+    expect(frame({ ...HELD_KEY, axes: [-0.5] }).tip).toEqual([-25, 0, -20]);
+    expect(rest().tip).toBeNull();
+  });
+
+  test('an input that was held before it was seen at rest moves nothing, nor does the dead zone', () => {
+    const { rest, frame } = drive([[STICK, tip('y', 100)]], { deadZonePercent: 20 });
+    expect(frame(pushed(1)).tip).toBeNull();
+    rest();
+    expect(frame(pushed(0.2)).tip).toBeNull();
+    expect(frame(pushed(1)).tip).toEqual([0, 100, 0]);
+  });
+});

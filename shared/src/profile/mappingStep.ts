@@ -23,7 +23,7 @@ type ActionOf<Kind extends Action['kind']> = Extract<Action, { kind: Kind }>;
 /** Begun by a press, and done without a finger. */
 export type Begun = ActionOf<'pose' | 'run'>;
 
-interface ServoPlace {
+export interface ServoPlace {
   readonly target: number | null;
   readonly estimated: number | null;
 }
@@ -63,12 +63,17 @@ export interface Moment {
   readonly locked: readonly number[];
   /** Servos that are pushed on where they may be turned no further. */
   readonly atLimit: readonly number[];
+  /** Of the end of a limb; null: nothing moves it. */
+  readonly tip: TipSpeed | null;
 }
+
+/** In millimetres a second forward, left and up. */
+export type TipSpeed = readonly [x: number, y: number, z: number];
 
 /** How far a position input must be moved before it takes its servo along. */
 const PICK_UP = 0.1;
 /** A target runs ahead of its servo by no more than this share of the range, so that letting go is stopping. */
-const LEAD = 0.125;
+export const LEAD = 0.125;
 
 type Staying = 'unknown' | 'locked' | 'atLimit';
 
@@ -97,7 +102,18 @@ export function step(driven: Driven, inputs: Inputs, dtMs: number, before = AT_R
     unknown: staying('unknown'),
     locked: staying('locked'),
     atLimit: staying('atLimit'),
+    tip: tipSpeed(driven.mapping, held),
   };
+}
+
+function tipSpeed({ bindings, feel }: Mapping, held: readonly Held[]): TipSpeed | null {
+  const along = (axis: ActionOf<'tip'>['axis']): number =>
+    bindings.reduce((sum, { action }, at) => {
+      const movesIt = action.kind === 'tip' && action.axis === axis;
+      return movesIt ? sum + (action.mmPerS * feel.speedPercent * (held[at]?.value ?? 0)) / 100 : sum;
+    }, 0);
+  const speed: TipSpeed = [along('x'), along('y'), along('z')];
+  return speed.some((way) => way !== 0) ? speed : null;
 }
 
 const isBegun = (action: Action): action is Begun => action.kind === 'pose' || action.kind === 'run';
@@ -119,9 +135,10 @@ function hold(
     const from = wasAwake ? before.value : shareNow(driven, binding, action);
     return { isAwake, firstWay, value: isAwake ? smoothed(from, shaped(way, feel), dtMs, feel) : from };
   }
-  const wanted = action.kind === 'rate' ? shaped(way, feel) : Number(isPressed(input, inputs));
+  const isRate = action.kind === 'rate' || action.kind === 'tip';
+  const wanted = isRate ? shaped(way, feel) : Number(isPressed(input, inputs));
   const isAwake = wasAwake || wanted === 0;
-  if (!isAwake || action.kind !== 'rate') return { isAwake, firstWay, value: isAwake ? wanted : 0 };
+  if (!isAwake || !isRate) return { isAwake, firstWay, value: isAwake ? wanted : 0 };
   // Turning round begins at rest: nothing of the other direction is left.
   const from = wasAwake && before.value * wanted > 0 ? before.value : 0;
   return { isAwake, firstWay, value: smoothed(from, wanted, dtMs, feel) };

@@ -2,19 +2,23 @@
 
 import { useState } from 'react';
 import {
+  FASTEST_MM_PER_S,
   FASTEST_UNITS_PER_S,
+  TIP_AXES,
   type Action,
   type Binding,
   type Input,
+  isOfTip,
   usualUnitsPerS,
 } from '#shared/profile/mapping.ts';
 import { type PoseRef, POSE_MS } from '#shared/profile/pose.ts';
 import type { Robot } from '#shared/profile/robot.ts';
 import { GENTLE_MOVE_MS } from '../../robot/moves.ts';
 import { PoseSelect } from '../poses/PoseSelect.tsx';
-import { useDevice, useRobot, useStores } from '../stores.ts';
+import { useDevice, useMapping, useRobot, useStores } from '../stores.ts';
 import { Button } from '../../ui/Button.tsx';
 import { NumberField } from '../../ui/NumberField.tsx';
+import { Select } from '../../ui/Select.tsx';
 import { Toggle } from '../../ui/Toggle.tsx';
 import { inputName } from './rows.ts';
 import { servoLabel } from '../../i18n/sentences.ts';
@@ -30,6 +34,9 @@ export interface Draft {
   readonly servo: number;
   /** Always positive; `isReversed` is the direction. */
   readonly unitsPerS: number;
+  readonly axis: (typeof TIP_AXES)[number];
+  /** Always positive. */
+  readonly mmPerS: number;
   readonly isReversed: boolean;
   readonly slot: number;
   readonly pose: PoseRef;
@@ -45,7 +52,7 @@ export function draftFor(input: Input, { servos }: Robot): Draft {
 }
 
 /** Values for fields that the action does not have. */
-const NOT_SHOWN = { slot: 0, pose: 'home', durationMs: GENTLE_MOVE_MS } as const;
+const NOT_SHOWN = { axis: 'x', mmPerS: 80, slot: 0, pose: 'home', durationMs: GENTLE_MOVE_MS } as const;
 
 export function draftOf(at: number, { input, action }: Binding, robot: Robot): Draft {
   const draft = { ...draftFor(input, robot), at, kind: action.kind };
@@ -53,11 +60,15 @@ export function draftOf(at: number, { input, action }: Binding, robot: Robot): D
   if (action.kind === 'pose') return { ...draft, pose: action.pose, durationMs: action.durationMs };
   if (action.kind === 'stop') return draft;
   if (action.kind === 'position') return { ...draft, servo: action.servo, isReversed: action.isReversed };
+  if (action.kind === 'tip') {
+    const { axis, mmPerS } = action;
+    return { ...draft, axis, mmPerS: Math.abs(mmPerS), isReversed: mmPerS < 0 };
+  }
   const { servo, unitsPerS } = action;
   return { ...draft, servo, unitsPerS: Math.abs(unitsPerS), isReversed: unitsPerS < 0 };
 }
 
-/** Servos use a whole axis, other actions only the side that was pushed. */
+/** What moves a servo or a tip uses a whole axis, other actions only the side that was pushed. */
 function bindingFrom({ input, kind, ...draft }: Draft): Binding {
   const { servo, isReversed, slot, pose, durationMs } = draft;
   if (kind === 'run') return { input, action: { kind, slot } };
@@ -65,6 +76,10 @@ function bindingFrom({ input, kind, ...draft }: Draft): Binding {
   if (kind === 'stop') return { input, action: { kind } };
   const whole: Input = input.kind === 'axis' ? { ...input, side: 'whole' } : input;
   if (kind === 'position') return { input: whole, action: { kind, servo, isReversed } };
+  if (kind === 'tip') {
+    const mmPerS = isReversed ? -draft.mmPerS : draft.mmPerS;
+    return { input: whole, action: { kind, axis: draft.axis, mmPerS } };
+  }
   const unitsPerS = isReversed ? -draft.unitsPerS : draft.unitsPerS;
   return { input: whole, action: { kind, servo, unitsPerS } };
 }
@@ -76,14 +91,18 @@ interface BindingFormProps {
   onCancel(): void;
 }
 
-const KINDS: readonly Action['kind'][] = ['rate', 'position', 'pose', 'run', 'stop'];
+const KINDS: readonly Action['kind'][] = ['tip', 'rate', 'position', 'pose', 'run', 'stop'];
 
 export function BindingForm({ initial, onSave, onRemove, onCancel }: BindingFormProps) {
   const [draft, setDraft] = useState(initial);
   const { at, input, kind, isReversed } = draft;
   const change = (part: Partial<Draft>): void => setDraft({ ...draft, ...part });
+  const isTip = isOfTip(useMapping());
   // Releasing a key must never move a servo.
-  const kinds = KINDS.filter((one) => input.kind !== 'key' || one !== 'position');
+  const kinds = KINDS.filter((one) => {
+    if (one === 'tip') return isTip;
+    return input.kind !== 'key' || one !== 'position';
+  });
   const movesServo = kind === 'rate' || kind === 'position';
   const name = inputName(input);
   return (
@@ -111,7 +130,18 @@ export function BindingForm({ initial, onSave, onRemove, onCancel }: BindingForm
       </select>
       {movesServo && <ServoChoice servo={draft.servo} onChange={(servo) => change({ servo })} />}
       {kind === 'rate' && <Speed value={draft.unitsPerS} onChange={(unitsPerS) => change({ unitsPerS })} />}
-      {movesServo && (
+      {kind === 'tip' && (
+        <>
+          <Select
+            label={words.pad.tipAxis}
+            value={draft.axis}
+            options={TIP_AXES.map((axis) => ({ value: axis, label: words.robot3d.axes[axis] }))}
+            onChange={(axis) => change({ axis })}
+          />
+          <TipSpeedField value={draft.mmPerS} onChange={(mmPerS) => change({ mmPerS })} />
+        </>
+      )}
+      {(movesServo || kind === 'tip') && (
         <Toggle label={words.pad.reversed} isOn={isReversed} onChange={(on) => change({ isReversed: on })} />
       )}
       {kind === 'pose' && (
@@ -154,6 +184,22 @@ function ServoChoice({ servo, onChange }: { readonly servo: number; onChange(ser
         </option>
       ))}
     </select>
+  );
+}
+
+function TipSpeedField({ value, onChange }: FieldProps) {
+  const { notices } = useStores();
+  const range = { min: 1, max: FASTEST_MM_PER_S };
+  return (
+    <NumberField
+      label={words.pad.tipSpeed}
+      unit={words.pad.mmPerS}
+      step={5}
+      {...{ value, onChange, ...range }}
+      onRefused={(wanted) =>
+        notices.refuse(words.refused({ name: words.pad.tipSpeed, value: wanted, ...range }))
+      }
+    />
   );
 }
 

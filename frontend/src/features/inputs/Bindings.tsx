@@ -3,7 +3,14 @@
 
 import type { Label } from '#shared/document/history.ts';
 import { useEffect, useRef, useState } from 'react';
-import { type Binding, type Input, shaped, valueOf, readyMapping } from '#shared/profile/mapping.ts';
+import {
+  type Binding,
+  type Input,
+  isOfTip,
+  readyBindings,
+  shaped,
+  valueOf,
+} from '#shared/profile/mapping.ts';
 import { useMapping, usePoses, useRobot, useStores } from '../stores.ts';
 import { Button } from '../../ui/Button.tsx';
 import { useEachFrame } from '../../ui/useEachFrame.ts';
@@ -41,7 +48,7 @@ export function Bindings() {
         <Button
           tone="quiet"
           hint={words.pad.readyHint}
-          onPress={() => edit(() => words.pad.steps.ready, readyMapping(robot).bindings)}
+          onPress={() => edit(() => words.pad.steps.ready, readyBindings(robot, isOfTip(mapping)))}
         >
           {words.pad.ready}
         </Button>

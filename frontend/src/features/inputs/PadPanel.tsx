@@ -2,7 +2,14 @@
 
 import { useRef } from 'react';
 import { step } from '#shared/profile/mappingStep.ts';
-import { conflicts, type Conflict, type Mapping, servoBoundBy } from '#shared/profile/mapping.ts';
+import {
+  choosingTip,
+  conflicts,
+  type Conflict,
+  isOfTip,
+  type Mapping,
+  servoBoundBy,
+} from '#shared/profile/mapping.ts';
 import type { PoseBook } from '#shared/profile/pose.ts';
 import type { Robot } from '#shared/profile/robot.ts';
 import {
@@ -24,7 +31,9 @@ import { motionHindrance } from '../../robot/readiness.ts';
 import { isHeld } from '../servoView.ts';
 import { Button } from '../../ui/Button.tsx';
 import type { PanelParts } from '../../ui/Panel.tsx';
-import { Toggle } from '../../ui/Toggle.tsx';
+import { Choice, Toggle } from '../../ui/Toggle.tsx';
+import { laterComponent } from '../../ui/later.tsx';
+import { bodyLinks } from '../picture/bodyLinks.ts';
 import { UndoTools } from '../undo/UndoTools.tsx';
 import { servoLabel } from '../../i18n/sentences.ts';
 import { Bindings } from './Bindings.tsx';
@@ -173,6 +182,7 @@ function Content() {
         <Hint />
       </p>
       <FirstMoves />
+      <Moved />
       <div className={styles.top}>
         <PadPicture />
         <FeelControls />
@@ -180,6 +190,42 @@ function Content() {
       <Conflicts />
       <Bindings />
     </>
+  );
+}
+
+/** With three.js, which models are read by. */
+const TipControls = laterComponent(
+  async () => (await import('./TipControls.tsx')).TipControls,
+  'var(--control)',
+  'asked',
+);
+
+/** Whether the inputs move joints or the end of a limb; nothing to choose for robots without a limb that leads to a place. */
+function Moved() {
+  const { mappings } = useStores();
+  const robot = useRobot();
+  const isTip = isOfTip(useMapping());
+  const hasTip =
+    robot.model !== undefined || (bodyLinks(robot)?.some(({ joint }) => joint === 'tip') ?? false);
+  if (!hasTip && !isTip) return null;
+  return (
+    <div className={styles.moved}>
+      <Choice
+        label={words.pad.moved}
+        value={isTip ? 'tip' : 'joints'}
+        options={[
+          { value: 'joints', label: words.pad.joints },
+          { value: 'tip', label: words.pad.tip },
+        ]}
+        onChange={(chosen) =>
+          mappings.edit(
+            () => words.pad.steps.moved,
+            (mapping) => choosingTip(mapping, robot, chosen === 'tip'),
+          )
+        }
+      />
+      {isTip && <TipControls />}
+    </div>
   );
 }
 
@@ -213,11 +259,13 @@ function Tools() {
 function FirstMoves() {
   const { device } = useStores();
   const { servos } = useRobot();
-  const { bindings } = useMapping();
+  const mapping = useMapping();
+  const limb = usePad((state) => state.limb);
   const known = useDevice((state) => state.known);
   const isDriving = usePad((state) => state.isDriving);
   const view = useServoView((one) => one);
-  const bound = new Set(bindings.map(servoBoundBy));
+  const ofLimb = isOfTip(mapping) ? (limb?.servos ?? []) : [];
+  const bound = new Set([...mapping.bindings.map(servoBoundBy), ...ofLimb]);
   const unknown = servos.filter(
     ({ servo }) => bound.has(servo) && !known.includes(servo) && !isHeld(view, servo),
   );

@@ -1,13 +1,13 @@
 import { describe, expect, test } from 'vitest';
 import { step } from '#shared/profile/mappingStep.ts';
 import { FAMILIES } from '#shared/codec/families.ts';
-import type { Input } from '#shared/profile/mapping.ts';
+import { choosingTip, type Input } from '#shared/profile/mapping.ts';
 import { addPose } from '#shared/profile/pose.ts';
 import { createRig } from '#shared/robot/rig.ts';
 import { stayingSentence } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/words.ts';
 import { createDevice } from '../../robot/device.ts';
-import { createMappings, createPad, type Gamepadlike } from './pad.ts';
+import { createMappings, createPad, type Gamepadlike, type TipDriver } from './pad.ts';
 import { createNotices } from '../../state/notices.ts';
 import { createPoses } from '../poses/poses.ts';
 import { createView } from '../view.ts';
@@ -38,8 +38,11 @@ async function createTestPage({ drives = true } = {}) {
   const target = (servo = 1) => device.motion(servo).target ?? undefined;
 
   function hold(...pressed: readonly number[]): void {
+    push([0, 0, 0, 0], pressed);
+  }
+  function push(axes: readonly number[], pressed: readonly number[] = []): void {
     const value = (button: number) => ({ value: pressed.includes(button) ? 1 : 0 });
-    plugged = { ...STANDARD, axes: [0, 0, 0, 0], buttons: Array.from({ length: 17 }, (_, at) => value(at)) };
+    plugged = { ...STANDARD, axes, buttons: Array.from({ length: 17 }, (_, at) => value(at)) };
   }
   async function frames(ms: number): Promise<void> {
     for (let passed = 0; passed < ms; passed += 16) {
@@ -76,6 +79,7 @@ async function createTestPage({ drives = true } = {}) {
       movesIn,
       target,
       hold,
+      push,
       frames,
     },
     isDriving: () => pad.store.getState().isDriving,
@@ -231,6 +235,70 @@ describe('a button for a pose', () => {
     hold(X);
     expect(await movesIn(300)).toBe(0);
     expect(noticeTexts()).toEqual([words.poses.gone]);
+  });
+});
+
+describe('the end of a limb', () => {
+  /** Of a limb that is one servo: a unit a millimetre. */
+  async function pageWithTip() {
+    const page = await createTestPage({ drives: false });
+    const { robots, device, pad, mappings } = page;
+    const driver: TipDriver = {
+      ...{ robot: robots.current().robot, tip: 'grip', servos: [1] },
+      step(speed, dtMs) {
+        const at = device.motion(1).target;
+        if (speed === null || at === null) return { moves: [], unknown: [], isShort: false };
+        const position = Math.round(at + (speed[0] * dtMs) / 1000);
+        return { moves: [{ servo: 1, position }], unknown: [], isShort: position > 1600 };
+      },
+    };
+    mappings.edit(
+      () => 'tip',
+      (mapping) => choosingTip(mapping, robots.current().robot, true),
+    );
+    pad.lead(driver);
+    pad.drive(step);
+    await page.frames(50);
+    return { ...page, driver, limb: () => pad.store.getState().limb };
+  }
+
+  test('follows the left stick, and stops when it is released', async () => {
+    const { push, frames, target, movesIn } = await pageWithTip();
+    push([0, -1, 0, 0]);
+    await frames(1000);
+    expect(target()).toBeGreaterThan(1550);
+    push([0, 0, 0, 0]);
+    await frames(50);
+    expect(await movesIn(500)).toBe(0);
+  });
+
+  test('stays in the dead zone, and while driving is off', async () => {
+    const { push, pad, movesIn } = await pageWithTip();
+    push([0.1, -0.1, 0, 0.1]);
+    expect(await movesIn(300)).toBe(0);
+    pad.drive(null);
+    push([0, -1, 0, 0]);
+    expect(await movesIn(300)).toBe(0);
+  });
+
+  test('is reported where it cannot go on, until it is released', async () => {
+    const { push, frames, limb } = await pageWithTip();
+    push([0, -1, 0, 0]);
+    await frames(2500);
+    expect(limb()).toEqual({ tip: 'grip', servos: [1], isShort: true });
+    push([0, 0, 0, 0]);
+    await frames(100);
+    expect(limb()).toMatchObject({ isShort: false });
+  });
+
+  test('another profile ends driving: its joints are not the same', async () => {
+    const { robots, isDriving, limb } = await pageWithTip();
+    robots.edit(
+      () => 'rename',
+      (robot) => ({ ...robot, name: 'Other' }),
+    );
+    expect(isDriving()).toBe(false);
+    expect(limb()).toBeNull();
   });
 });
 

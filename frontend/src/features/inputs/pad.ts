@@ -6,6 +6,7 @@ import type { Clock } from '#shared/clock.ts';
 import {
   type Input,
   type Mapping,
+  isOfTip,
   isPressed,
   movedInput,
   NO_INPUTS,
@@ -14,8 +15,9 @@ import {
   mappingFromText,
   mappingToText,
 } from '#shared/profile/mapping.ts';
-import type { Begun, DriveState, step } from '#shared/profile/mappingStep.ts';
-import type { RobotServo } from '#shared/profile/robot.ts';
+import type { ServoTarget } from '#shared/codec/commands.ts';
+import type { Begun, DriveState, step, TipSpeed } from '#shared/profile/mappingStep.ts';
+import type { Robot, RobotServo } from '#shared/profile/robot.ts';
 import { servoLabel, stayingSentence, flawSentence } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/words.ts';
 import { isLocked } from '../servoView.ts';
@@ -43,6 +45,30 @@ export interface PadState {
   readonly isDriving: boolean;
   /** null without a pad. Browsers hide a pad until it is used. */
   readonly pad: { readonly name: string; readonly isStandard: boolean } | null;
+  /** The limb whose end the inputs move, where a mapping has that; null until its code is loaded. */
+  readonly limb: {
+    readonly tip: string;
+    readonly servos: readonly number[];
+    readonly isShort: boolean;
+  } | null;
+}
+
+/** Moves the end of one limb. Loaded with the choice of joints or tip. */
+export interface TipDriver {
+  /** The profile that it was made for. */
+  readonly robot: Robot;
+  /** The link at the end. */
+  readonly tip: string;
+  readonly servos: readonly number[];
+  /** `speed` null: at rest. */
+  step(speed: TipSpeed | null, dtMs: number): TipMoment;
+}
+
+export interface TipMoment {
+  readonly moves: readonly ServoTarget[];
+  readonly unknown: readonly number[];
+  /** It stays, because it would leave the line or the limits. */
+  readonly isShort: boolean;
 }
 
 export interface Pad {
@@ -53,6 +79,8 @@ export interface Pad {
   frame(): void;
   /** Starts driving with the code that maps inputs to moves; null ends it. */
   drive(by: typeof step | null): void;
+  /** Used until the profile changes. */
+  lead(by: TipDriver | null): void;
   /** True if a binding uses the key, so that the event must not go further. */
   keyDown(code: string, isRepeat: boolean): boolean;
   /** Releasing any key releases all, so that a missing keyup cannot leave one stuck. */
@@ -83,10 +111,11 @@ const RESERVED_KEY = /^(Escape|Tab|CapsLock|(Shift|Control|Alt|Meta)(Left|Right)
 
 export function createPad(options: PadOptions): Pad {
   const { device, robots, view, poses, mappings, notices, clock, readPads } = options;
-  const store = createStore<PadState>(() => ({ isDriving: false, pad: null }));
+  const store = createStore<PadState>(() => ({ isDriving: false, pad: null, limb: null }));
   const keys = new Set<string>();
   let inputs = NO_INPUTS;
   let takeStep: typeof step | null = null;
+  let tipDriver: TipDriver | null = null;
   let driven: DriveState | undefined;
   let lastMs = clock.now();
   let isAway = false;
@@ -105,6 +134,22 @@ export function createPad(options: PadOptions): Pad {
     driven = undefined;
     staying = [];
     keys.clear();
+    moveTip(null, 0);
+  }
+
+  function lead(by: TipDriver | null): void {
+    moveTip(null, 0);
+    tipDriver = by;
+    store.setState({ limb: by && { tip: by.tip, servos: by.servos, isShort: false } });
+  }
+
+  function moveTip(speed: TipSpeed | null, dtMs: number): Omit<TipMoment, 'isShort'> {
+    if (tipDriver === null) return { moves: [], unknown: [] };
+    const moment = tipDriver.step(speed, dtMs);
+    const { limb } = store.getState();
+    if (limb !== null && limb.isShort !== moment.isShort)
+      store.setState({ limb: { ...limb, isShort: moment.isShort } });
+    return moment;
   }
 
   function drive(by: typeof step | null): void {
@@ -183,15 +228,19 @@ export function createPad(options: PadOptions): Pad {
     };
     const moment = takeStep(driving, inputs, dtMs, driven);
     driven = moment.state;
-    if (moment.moves.length > 0) device.move(moment.moves, 'hand');
+    const tip = moveTip(moment.tip, dtMs);
+    const own = moment.moves.map(({ servo }) => servo);
+    const moves = [...moment.moves, ...tip.moves.filter(({ servo }) => !own.includes(servo))];
+    if (moves.length > 0) device.move(moves, 'hand');
     moment.begun.forEach(begin);
     const among = (servos: readonly number[], wanted: readonly number[]): readonly RobotServo[] =>
       robot.servos.filter(({ servo }) => servos.includes(servo) && !wanted.includes(servo));
-    for (const servo of among(moment.unknown, staying))
+    const unknown = [...moment.unknown, ...tip.unknown];
+    for (const servo of among(unknown, staying))
       notices.tell('warning', words.pad.unknown({ servo: servoLabel(servo) }));
     for (const servo of among(moment.locked, staying))
       notices.tell('info', stayingSentence([servoLabel(servo)]));
-    staying = [...moment.unknown, ...moment.locked];
+    staying = [...unknown, ...moment.locked];
     for (const servo of among(moment.atLimit, limited)) {
       notices.tell('info', words.pad.atLimit({ servo: servoLabel(servo), min: servo.min, max: servo.max }));
       limited = [...limited, servo.servo];
@@ -204,8 +253,10 @@ export function createPad(options: PadOptions): Pad {
   });
   let robotId = robots.current().id;
   robots.store.subscribe(() => {
-    const { id } = robots.current();
-    if (id !== robotId) drive(null);
+    const { id, robot } = robots.current();
+    const isStale = tipDriver !== null && tipDriver.robot !== robot;
+    if (id !== robotId || (isStale && isOfTip(mapping()))) drive(null);
+    if (isStale) lead(null);
     robotId = id;
   });
   // The indices now belong to other bindings.
@@ -229,6 +280,7 @@ export function createPad(options: PadOptions): Pad {
       else rest();
     },
     drive,
+    lead,
     keyDown(code, isRepeat) {
       if (RESERVED_KEY.test(code)) return false;
       if (listener !== null) {

@@ -51,9 +51,10 @@ function shortName(input: Input): string | null {
 /** Within its row an input needs only its name and direction. */
 export function chipText({ input, action }: Binding): string {
   const name = input.kind === 'key' ? keyName(input.code) : (shortName(input) ?? inputName(input));
-  if (action.kind !== 'rate') return name;
+  if (action.kind !== 'rate' && action.kind !== 'tip') return name;
   const isBothWays = input.kind === 'axis' && input.side === 'whole';
-  return isBothWays ? name : `${name} ${action.unitsPerS < 0 ? '−' : '+'}`;
+  const speed = action.kind === 'rate' ? action.unitsPerS : action.mmPerS;
+  return isBothWays ? name : `${name} ${speed < 0 ? '−' : '+'}`;
 }
 
 export interface Row {
@@ -68,6 +69,7 @@ export function rowTitle(binding: Binding, robot: Robot, book: PoseBook): string
   const servo = servoBoundBy(binding);
   if (servo !== null) return servoTitle(robot, servo);
   const { action } = binding;
+  if (action.kind === 'tip') return words.pad.tipRows[action.axis];
   if (action.kind === 'pose') return words.pad.poseRow({ pose: poseName(book, action.pose) });
   return action.kind === 'run' ? words.pad.slotRow({ slot: action.slot }) : words.pad.stopRow;
 }

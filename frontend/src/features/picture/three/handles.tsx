@@ -10,7 +10,7 @@ import { words } from '../../../i18n/whole.ts';
 import { Button } from '../../../ui/Button.tsx';
 import { NumberField } from '../../../ui/NumberField.tsx';
 import { freeOf, isLocked } from '../../servoView.ts';
-import { guessNow, useStores, type Stores } from '../../stores.ts';
+import { guessNow, usePad, useStores, type Stores } from '../../stores.ts';
 import { useMotions } from '../useMotions.ts';
 import {
   type LedLimb,
@@ -56,6 +56,7 @@ export function LimbHandle({ limb, isLevel, isBlocked, model, onElement }: LimbH
   const hold = useRef<Hold | null>(null);
   const [isHeld, setHeld] = useState(false);
   const [isShort, setShort] = useState(false);
+  const isShortByPad = usePad(({ limb: led }) => led?.tip === limb.tip && led.isShort);
 
   function press(event: PointerEvent<HTMLButtonElement>): void {
     const room = model();
@@ -107,7 +108,7 @@ export function LimbHandle({ limb, isLevel, isBlocked, model, onElement }: LimbH
       title={words.robot3d.handleHint}
       disabled={isBlocked}
       data-held={isHeld}
-      data-short={isShort}
+      data-short={isShort || isShortByPad}
       onPointerDown={press}
       onPointerMove={move}
       onPointerUp={release}
@@ -249,7 +250,7 @@ function lead(stores: Stores, leading: Leading, tip: Vec3, isLevel: boolean, how
 }
 
 /** By the servo before its end, or by the limb that people have named. */
-function nameOf({ servos }: LedLimb, robot: Robot): string {
+export function nameOf({ servos }: LedLimb, robot: Robot): string {
   const last = servoOf(robot, servos.at(-1) ?? 0);
   if (last === undefined) return '';
   return last.group === '' ? last.name : last.group;
