@@ -4,7 +4,7 @@ import { FRAME_ACTIONS, FRAME_KEYS } from '../src/features/animate/frames/frameA
 import { PLAY_ACTIONS } from '../src/features/animate/play/playActions.ts';
 import { TIMELINE_ACTIONS, TIMELINE_KEYS } from '../src/features/animate/timeline/timelineActions.ts';
 import { PAGE_ACTIONS } from '../src/app/pageActions.ts';
-import { chordText } from '../src/ui/chordText.ts';
+import { chordText } from '../src/ui/Hint.tsx';
 import type { Page } from './harness/page.ts';
 import { dashboardOf, expect, test } from './harness/test.ts';
 

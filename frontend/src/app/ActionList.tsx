@@ -6,7 +6,7 @@ import { Autocomplete, useFilter } from 'react-aria-components/Autocomplete';
 import { Header, Menu, MenuItem, MenuSection, Text } from 'react-aria-components/Menu';
 import { Input, SearchField } from 'react-aria-components/SearchField';
 import { useStores, type Stores } from '../features/stores.ts';
-import { chordText } from '../ui/chordText.ts';
+import { chordText } from '../ui/Hint.tsx';
 import { cx } from '../ui/cx.ts';
 import { Icon } from '../ui/Icon.tsx';
 import { words, type Words } from '../i18n/whole.ts';

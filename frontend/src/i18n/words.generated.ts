@@ -460,6 +460,32 @@ export interface Messages {
       readonly y: string;
       readonly z: string;
     };
+    readonly tilts: {
+      readonly sideways: {
+        readonly whole: string;
+        readonly minus: string;
+        readonly plus: string;
+        readonly sign: string;
+      };
+      readonly forward: {
+        readonly whole: string;
+        readonly minus: string;
+        readonly plus: string;
+        readonly sign: string;
+      };
+    };
+    readonly tilt: {
+      readonly title: string;
+      readonly hold: string;
+      readonly allow: string;
+      readonly hint: string;
+      readonly off: string;
+      readonly insecure: string;
+      readonly missing: string;
+      readonly permission: string;
+      readonly refused: string;
+      readonly silent: string;
+    };
   };
   readonly compile: {
     readonly fits: string;

@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest';
 import { chordOf, shortcutsOf } from './action.ts';
-import { chordText } from './chordText.ts';
+import { chordText } from './Hint.tsx';
 
 test('a key is named by what is held with it, Command like Ctrl, and Shift only where it makes no other sign', () => {
   const plain = { ctrlKey: false, metaKey: false, shiftKey: false, altKey: false };

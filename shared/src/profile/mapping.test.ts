@@ -52,6 +52,11 @@ const anyInput: fc.Arbitrary<Input> = fc.oneof(
     side: fc.constantFrom('whole' as const, 'plus' as const, 'minus' as const),
   }),
   fc.record({ kind: fc.constant('button' as const), index: fc.integer({ min: 0, max: 3 }) }),
+  fc.record({
+    kind: fc.constant('tilt' as const),
+    axis: fc.constantFrom('sideways' as const, 'forward' as const),
+    side: fc.constantFrom('whole' as const, 'plus' as const, 'minus' as const),
+  }),
   fc.record({ kind: fc.constant('key' as const), code: fc.constantFrom('KeyQ', 'KeyA') }),
 );
 const anyAction: fc.Arbitrary<Action> = fc.oneof(
@@ -192,6 +197,12 @@ describe('as text', () => {
     mappingToText(
       mappingOf({
         input: { kind: 'key', code: 'KeyQ' },
+        action: { kind: 'position', servo: 1, isReversed: false },
+      }),
+    ),
+    mappingToText(
+      mappingOf({
+        input: { kind: 'tilt', axis: 'forward', side: 'whole' },
         action: { kind: 'position', servo: 1, isReversed: false },
       }),
     ),

@@ -8,6 +8,8 @@ import type { Robot } from './robot.ts';
 
 /** Which part of an axis counts: all of it with its sign, or one side as if it were a button. */
 const SIDES = ['whole', 'minus', 'plus'] as const;
+/** To the right and away from the person. */
+const TILT_AXES = ['sideways', 'forward'] as const;
 
 const index = whole(0, 63);
 const servo = whole(1, 253);
@@ -15,6 +17,8 @@ const servo = whole(1, 253);
 const inputSchema = v.variant('kind', [
   v.strictObject({ kind: v.literal('axis'), index, side: v.picklist(SIDES) }),
   v.strictObject({ kind: v.literal('button'), index }),
+  /** Of a phone that is held like a tray, from how it was held when its tilt began to count. */
+  v.strictObject({ kind: v.literal('tilt'), axis: v.picklist(TILT_AXES), side: v.picklist(SIDES) }),
   /** A key by its place on the keyboard, as browsers call it, e.g. `KeyQ`. */
   v.strictObject({ kind: v.literal('key'), code: v.pipe(v.string(), v.minLength(1), v.maxLength(32)) }),
 ]);
@@ -52,9 +56,12 @@ const actionSchema = v.variant('kind', [
 
 const bindingSchema = v.pipe(
   v.strictObject({ input: inputSchema, action: actionSchema }),
-  // Letting go of a key must never be what moves a servo.
-  v.check(({ input, action }) => input.kind !== 'key' || action.kind !== 'position'),
+  v.check(({ input, action }) => action.kind !== 'position' || canPlace(input)),
 );
+
+/** Releasing a key, or the button that makes a tilt count, must never be what moves a servo. */
+export const canPlace = ({ kind }: { readonly kind: Input['kind'] }): boolean =>
+  kind === 'axis' || kind === 'button';
 
 const feelSchema = v.strictObject({
   /** So much of a stick's way counts as rest: worn sticks never come back to the very middle. */
@@ -141,8 +148,17 @@ function sharedServos(bindings: readonly Binding[]): readonly number[] {
 export function overlaps(one: Input, other: Input): boolean {
   if (one.kind === 'key' || other.kind === 'key')
     return one.kind === 'key' && other.kind === 'key' && one.code === other.code;
+  if (one.kind === 'tilt' || other.kind === 'tilt')
+    return one.kind === 'tilt' && other.kind === 'tilt' && one.axis === other.axis && areAlike(one, other);
   if (one.kind !== other.kind || one.index !== other.index) return false;
-  if (one.kind === 'button' || other.kind === 'button') return true;
+  return one.kind === 'button' || other.kind === 'button' || areAlike(one, other);
+}
+
+interface Sided {
+  readonly side: (typeof SIDES)[number];
+}
+
+function areAlike(one: Sided, other: Sided): boolean {
   return one.side === other.side || one.side === 'whole' || other.side === 'whole';
 }
 
@@ -167,18 +183,24 @@ export interface Inputs {
   readonly buttons: readonly number[];
   /** Codes of the keys that are down. */
   readonly keys: ReadonlySet<string>;
+  /** null: it does not count now. */
+  readonly tilt: Tilt | null;
 }
 
-export const NO_INPUTS: Inputs = { axes: [], buttons: [], keys: new Set() };
+/** -1 to 1 each. */
+export type Tilt = Readonly<Record<(typeof TILT_AXES)[number], number>>;
+
+export const NO_INPUTS: Inputs = { axes: [], buttons: [], keys: new Set(), tilt: null };
 
 /** From here on a button or half an axis counts as pressed. */
 const PRESSED = 0.5;
 
 /** How far an input is from rest, -1 to 1. What is not there rests. */
-export function valueOf(input: Input, { axes, buttons, keys }: Inputs): number {
+export function valueOf(input: Input, { axes, buttons, keys, tilt }: Inputs): number {
   if (input.kind === 'key') return keys.has(input.code) ? 1 : 0;
   if (input.kind === 'button') return clamped(buttons[input.index] ?? 0, 0, 1);
-  const way = clamped(axes[input.index] ?? 0, -1, 1);
+  const at = input.kind === 'tilt' ? tilt?.[input.axis] : axes[input.index];
+  const way = clamped(at ?? 0, -1, 1);
   if (input.side === 'whole') return way;
   return Math.max(0, input.side === 'plus' ? way : -way);
 }
@@ -186,14 +208,19 @@ export function valueOf(input: Input, { axes, buttons, keys }: Inputs): number {
 export const isPressed = (input: Input, inputs: Inputs): boolean =>
   Math.abs(valueOf(input, inputs)) > PRESSED;
 
-/** What a finger has moved on the pad since `before`: a button, or the half of an axis; null while nothing is clear. */
+/** What a person has moved since `before`: a button, or the half of an axis or tilt; null while nothing is clear. */
 export function movedInput(before: Inputs, now: Inputs): Input | null {
   const button = now.buttons.findIndex((value, at) => value - (before.buttons[at] ?? 0) > PRESSED);
   if (button >= 0) return { kind: 'button', index: button };
   const axis = now.axes.findIndex((value, at) => Math.abs(value - (before.axes[at] ?? 0)) > PRESSED);
-  if (axis < 0) return null;
+  if (axis < 0) return movedTilt(now);
   const side = (now.axes[axis] ?? 0) > (before.axes[axis] ?? 0) ? 'plus' : 'minus';
   return { kind: 'axis', index: axis, side };
+}
+
+function movedTilt({ tilt }: Inputs): Input | null {
+  const axis = TILT_AXES.find((one) => Math.abs(tilt?.[one] ?? 0) > PRESSED);
+  return axis === undefined ? null : { kind: 'tilt', axis, side: (tilt?.[axis] ?? 0) > 0 ? 'plus' : 'minus' };
 }
 
 /** An input's way as the person wants it felt: odd, growing, 0 in the dead zone, full at the end. */
@@ -230,6 +257,7 @@ const RANGE_PERCENT_PER_S = 40;
 const axis = (index: number): Input => ({ kind: 'axis', index, side: 'whole' });
 const button = (index: number): Input => ({ kind: 'button', index });
 const key = (code: string): Input => ({ kind: 'key', code });
+const tilt = (along: keyof Tilt): Input => ({ kind: 'tilt', axis: along, side: 'whole' });
 
 /** What turns the servo at that place of the list one way, and what the other; numbers are those of the standard pad. */
 const TURNS: readonly { readonly more: readonly Input[]; readonly less: readonly Input[] }[] = [
@@ -237,8 +265,8 @@ const TURNS: readonly { readonly more: readonly Input[]; readonly less: readonly
   { more: [button(5), key('KeyW')], less: [button(4), key('KeyS')] },
   { more: [axis(2), key('KeyE')], less: [key('KeyD')] },
   { more: [key('KeyR')], less: [axis(3), key('KeyF')] },
-  { more: [key('KeyY')], less: [axis(1), key('KeyH')] },
-  { more: [axis(0), key('KeyU')], less: [key('KeyJ')] },
+  { more: [tilt('forward'), key('KeyY')], less: [axis(1), key('KeyH')] },
+  { more: [axis(0), tilt('sideways'), key('KeyU')], less: [key('KeyJ')] },
 ];
 
 /** B on most pads, the circle on some. */
@@ -280,6 +308,8 @@ const TIP_WAYS: readonly (readonly [Input, (typeof TIP_AXES)[number], sign: 1 | 
   [axis(1), 'x', -1],
   [axis(0), 'y', -1],
   [axis(3), 'z', -1],
+  [tilt('forward'), 'x', 1],
+  [tilt('sideways'), 'y', -1],
   [key('KeyY'), 'x', 1],
   [key('KeyH'), 'x', -1],
   [key('KeyJ'), 'y', 1],

@@ -70,6 +70,24 @@ export interface Moment {
 /** In millimetres a second forward, left and up. */
 export type TipSpeed = readonly [x: number, y: number, z: number];
 
+/** Moves the end of one limb; who knows the limb brings it. */
+export interface TipDriver {
+  /** The profile that it was made for. */
+  readonly robot: Robot;
+  /** The link at the end. */
+  readonly tip: string;
+  readonly servos: readonly number[];
+  /** `speed` null: at rest. */
+  step(speed: TipSpeed | null, dtMs: number): TipMoment;
+}
+
+export interface TipMoment {
+  readonly moves: readonly ServoTarget[];
+  readonly unknown: readonly number[];
+  /** It stays, because it would leave the line or the limits. */
+  readonly isShort: boolean;
+}
+
 /** How far a position input must be moved before it takes its servo along. */
 const PICK_UP = 0.1;
 /** A target runs ahead of its servo by no more than this share of the range, so that letting go is stopping. */

@@ -7,6 +7,7 @@ import {
   TIP_AXES,
   type Action,
   type Binding,
+  canPlace,
   type Input,
   isOfTip,
   usualUnitsPerS,
@@ -47,7 +48,7 @@ export interface Draft {
 export function draftFor(input: Input, { servos }: Robot): Draft {
   const [first] = servos;
   const unitsPerS = first === undefined ? FASTEST_UNITS_PER_S : usualUnitsPerS(first);
-  const isReversed = input.kind === 'axis' && input.side === 'minus';
+  const isReversed = 'side' in input && input.side === 'minus';
   return { at: null, input, kind: 'rate', servo: first?.servo ?? 1, unitsPerS, isReversed, ...NOT_SHOWN };
 }
 
@@ -74,7 +75,7 @@ function bindingFrom({ input, kind, ...draft }: Draft): Binding {
   if (kind === 'run') return { input, action: { kind, slot } };
   if (kind === 'pose') return { input, action: { kind, pose, durationMs } };
   if (kind === 'stop') return { input, action: { kind } };
-  const whole: Input = input.kind === 'axis' ? { ...input, side: 'whole' } : input;
+  const whole: Input = 'side' in input ? { ...input, side: 'whole' } : input;
   if (kind === 'position') return { input: whole, action: { kind, servo, isReversed } };
   if (kind === 'tip') {
     const mmPerS = isReversed ? -draft.mmPerS : draft.mmPerS;
@@ -98,10 +99,9 @@ export function BindingForm({ initial, onSave, onRemove, onCancel }: BindingForm
   const { at, input, kind, isReversed } = draft;
   const change = (part: Partial<Draft>): void => setDraft({ ...draft, ...part });
   const isTip = isOfTip(useMapping());
-  // Releasing a key must never move a servo.
   const kinds = KINDS.filter((one) => {
     if (one === 'tip') return isTip;
-    return input.kind !== 'key' || one !== 'position';
+    return one !== 'position' || canPlace(input);
   });
   const movesServo = kind === 'rate' || kind === 'position';
   const name = inputName(input);

@@ -38,6 +38,7 @@ import { UndoTools } from '../undo/UndoTools.tsx';
 import { servoLabel } from '../../i18n/sentences.ts';
 import { Bindings } from './Bindings.tsx';
 import { FeelControls } from './FeelControls.tsx';
+import { TiltControls } from './TiltControls.tsx';
 import styles from './PadPanel.module.css';
 
 /** Conflicts between bindings, in words. */
@@ -183,6 +184,7 @@ function Content() {
       </p>
       <FirstMoves />
       <Moved />
+      {matchMedia('(any-pointer: coarse)').matches && <TiltControls />}
       <div className={styles.top}>
         <PadPicture />
         <FeelControls />

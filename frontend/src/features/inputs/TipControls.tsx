@@ -5,7 +5,13 @@ import { useEffect, useMemo } from 'react';
 import type { ServoTarget } from '#shared/codec/commands.ts';
 import { added, minus, lengthOf, scaled, type Vec3 } from '#shared/kinematics/model.ts';
 import type { TipChoice } from '#shared/profile/mapping.ts';
-import { LEAD, type ServoPlace, type TipSpeed } from '#shared/profile/mappingStep.ts';
+import {
+  LEAD,
+  type ServoPlace,
+  type TipDriver,
+  type TipMoment,
+  type TipSpeed,
+} from '#shared/profile/mappingStep.ts';
 import { type Robot, servoOf } from '#shared/profile/robot.ts';
 import { RANGE_MS } from '#shared/robot/timings.ts';
 import { words } from '../../i18n/whole.ts';
@@ -25,7 +31,6 @@ import {
 import { useModel } from '../picture/three/useModel.ts';
 import { isLocked } from '../servoView.ts';
 import { type Stores, useMapping, usePad, useRobot, useStores } from '../stores.ts';
-import type { TipDriver, TipMoment } from './pad.ts';
 import styles from './PadPanel.module.css';
 
 export interface Arm {

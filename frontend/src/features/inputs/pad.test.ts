@@ -1,13 +1,13 @@
 import { describe, expect, test } from 'vitest';
-import { step } from '#shared/profile/mappingStep.ts';
+import { step, type TipDriver } from '#shared/profile/mappingStep.ts';
 import { FAMILIES } from '#shared/codec/families.ts';
-import { choosingTip, type Input } from '#shared/profile/mapping.ts';
+import { choosingTip, type Input, type Tilt } from '#shared/profile/mapping.ts';
 import { addPose } from '#shared/profile/pose.ts';
 import { createRig } from '#shared/robot/rig.ts';
 import { stayingSentence } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/words.ts';
 import { createDevice } from '../../robot/device.ts';
-import { createMappings, createPad, type Gamepadlike, type TipDriver } from './pad.ts';
+import { createMappings, createPad, type Gamepadlike } from './pad.ts';
 import { createNotices } from '../../state/notices.ts';
 import { createPoses } from '../poses/poses.ts';
 import { createView } from '../view.ts';
@@ -236,6 +236,31 @@ describe('a button for a pose', () => {
     expect(await movesIn(300)).toBe(0);
     expect(noticeTexts()).toEqual([words.poses.gone]);
   });
+});
+
+test('a tilt moves its servo while it counts, and nothing once it does not', async () => {
+  const { pad, mappings, frames, target, movesIn } = await createTestPage();
+  mappings.edit(
+    () => 'bind',
+    (mapping) => ({
+      ...mapping,
+      bindings: [
+        {
+          input: { kind: 'tilt', axis: 'forward', side: 'whole' },
+          action: { kind: 'rate', servo: 1, unitsPerS: 800 },
+        },
+      ],
+    }),
+  );
+  let tilt: Tilt | null = null;
+  pad.tiltBy(() => tilt);
+  expect(await movesIn(300)).toBe(0);
+  tilt = { sideways: 1, forward: 0.6 };
+  await frames(500);
+  expect(target()).toBeGreaterThan(1600);
+  tilt = null;
+  await frames(50);
+  expect(await movesIn(500)).toBe(0);
 });
 
 describe('the end of a limb', () => {

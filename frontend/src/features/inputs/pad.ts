@@ -14,10 +14,10 @@ import {
   readyMapping,
   mappingFromText,
   mappingToText,
+  type Tilt,
 } from '#shared/profile/mapping.ts';
-import type { ServoTarget } from '#shared/codec/commands.ts';
-import type { Begun, DriveState, step, TipSpeed } from '#shared/profile/mappingStep.ts';
-import type { Robot, RobotServo } from '#shared/profile/robot.ts';
+import type { Begun, DriveState, step, TipDriver, TipMoment, TipSpeed } from '#shared/profile/mappingStep.ts';
+import type { RobotServo } from '#shared/profile/robot.ts';
 import { servoLabel, stayingSentence, flawSentence } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/words.ts';
 import { isLocked } from '../servoView.ts';
@@ -53,24 +53,6 @@ export interface PadState {
   } | null;
 }
 
-/** Moves the end of one limb. Loaded with the choice of joints or tip. */
-export interface TipDriver {
-  /** The profile that it was made for. */
-  readonly robot: Robot;
-  /** The link at the end. */
-  readonly tip: string;
-  readonly servos: readonly number[];
-  /** `speed` null: at rest. */
-  step(speed: TipSpeed | null, dtMs: number): TipMoment;
-}
-
-export interface TipMoment {
-  readonly moves: readonly ServoTarget[];
-  readonly unknown: readonly number[];
-  /** It stays, because it would leave the line or the limits. */
-  readonly isShort: boolean;
-}
-
 export interface Pad {
   readonly store: StoreApi<PadState>;
   /** The inputs in the last frame, for pictures. */
@@ -79,6 +61,8 @@ export interface Pad {
   frame(): void;
   /** Starts driving with the code that maps inputs to moves; null ends it. */
   drive(by: typeof step | null): void;
+  /** Called once a frame; null: there is no tilt that counts. */
+  tiltBy(read: (() => Tilt | null) | null): void;
   /** Used until the profile changes. */
   lead(by: TipDriver | null): void;
   /** True if a binding uses the key, so that the event must not go further. */
@@ -115,6 +99,7 @@ export function createPad(options: PadOptions): Pad {
   const keys = new Set<string>();
   let inputs = NO_INPUTS;
   let takeStep: typeof step | null = null;
+  let readTilt: (() => Tilt | null) | null = null;
   let tipDriver: TipDriver | null = null;
   let driven: DriveState | undefined;
   let lastMs = clock.now();
@@ -178,6 +163,7 @@ export function createPad(options: PadOptions): Pad {
       axes: pad?.axes ?? [],
       buttons: pad?.buttons.map(({ value }) => value) ?? [],
       keys: new Set(keys),
+      tilt: readTilt?.() ?? null,
     };
   }
 
@@ -280,6 +266,7 @@ export function createPad(options: PadOptions): Pad {
       else rest();
     },
     drive,
+    tiltBy: (read) => void (readTilt = read),
     lead,
     keyDown(code, isRepeat) {
       if (RESERVED_KEY.test(code)) return false;

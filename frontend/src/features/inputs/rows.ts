@@ -32,6 +32,7 @@ const keyName = (code: string): string => code.replace(/^(Key|Digit)/u, '');
 export function inputName(input: Input): string {
   const { buttons, axes, otherKey, otherButton, otherAxis } = words.pad;
   if (input.kind === 'key') return otherKey({ key: keyName(input.code) });
+  if (input.kind === 'tilt') return words.pad.tilts[input.axis][input.side];
   const { index } = input;
   if (input.kind === 'button') {
     const button = BUTTONS[index];
@@ -42,8 +43,9 @@ export function inputName(input: Input): string {
   return otherAxis({ index }) + { whole: '', minus: ' −', plus: ' +' }[input.side];
 }
 
-/** A symbol for a whole axis of a stick; null for other inputs. */
+/** A symbol for a whole axis of a stick or tilt; null for other inputs. */
 function shortName(input: Input): string | null {
+  if (input.kind === 'tilt' && input.side === 'whole') return words.pad.tilts[input.axis].sign;
   const axis = input.kind === 'axis' && input.side === 'whole' ? AXES[input.index] : undefined;
   return axis === undefined ? null : words.pad.axes[axis].sign;
 }
@@ -52,7 +54,7 @@ function shortName(input: Input): string | null {
 export function chipText({ input, action }: Binding): string {
   const name = input.kind === 'key' ? keyName(input.code) : (shortName(input) ?? inputName(input));
   if (action.kind !== 'rate' && action.kind !== 'tip') return name;
-  const isBothWays = input.kind === 'axis' && input.side === 'whole';
+  const isBothWays = 'side' in input && input.side === 'whole';
   const speed = action.kind === 'rate' ? action.unitsPerS : action.mmPerS;
   return isBothWays ? name : `${name} ${speed < 0 ? '−' : '+'}`;
 }
@@ -102,6 +104,6 @@ function rowId(binding: Binding, title: string): string {
   return servo === null ? title : servoRowId(servo);
 }
 
-const ORDER = ['axis', 'button', 'key'] as const;
+const ORDER = ['axis', 'tilt', 'button', 'key'] as const;
 
 const placeInRow = (binding: Binding | undefined): number => ORDER.indexOf(binding?.input.kind ?? 'key');

@@ -6,7 +6,7 @@ import { Popover } from 'react-aria-components/Popover';
 import { Separator } from 'react-aria-components/Separator';
 import { useServoView, useStores } from '../../stores.ts';
 import type { Action } from '../../../ui/action.ts';
-import { chordText } from '../../../ui/chordText.ts';
+import { chordText } from '../../../ui/Hint.tsx';
 import { hinted } from '../../../ui/hinting.ts';
 import { Icon } from '../../../ui/Icon.tsx';
 import { words } from '../../../i18n/whole.ts';
