@@ -22,8 +22,8 @@ export interface Later<Part> {
 
 const all: Later<unknown>[] = [];
 
-/** `guards`: safety comes before the rest. `asked`: large and rarely used, fetched only on demand. */
-type Rank = 'guards' | 'rest' | 'asked';
+/** `guards`: safety comes before the rest. `onDemand`: large and rarely used, fetched only on demand. */
+type Rank = 'guards' | 'rest' | 'onDemand';
 
 export function later<Part>(load: () => Promise<Part>, rank: Rank = 'rest'): Later<Part> {
   const store = createStore<Fetched<Part>>(() => ({ part: null, isMissing: false }));

@@ -199,7 +199,7 @@ function Content() {
 const TipControls = laterComponent(
   async () => (await import('./TipControls.tsx')).TipControls,
   'var(--control)',
-  'asked',
+  'onDemand',
 );
 
 /** Whether the inputs move joints or the end of a limb; nothing to choose for robots without a limb that leads to a place. */

@@ -112,12 +112,12 @@ function LeaseChip() {
   const isPhone = useLayout() === 'phone';
   if (lease === null || isAlone(lease)) return null;
   const leaseText = leaseTextOf(lease);
-  const isAsked = lease.drives && lease.requestedBy !== null;
-  const isFolded = isPhone && !isAsked && !isOneButton(lease, leaseText);
+  const isRequested = lease.drives && lease.requestedBy !== null;
+  const isFolded = isPhone && !isRequested && !isOneButton(lease, leaseText);
   return (
     <div
-      className={cx(styles.lease, isAsked && styles.asked)}
-      data-lease={isAsked ? 'asked' : 'said'}
+      className={cx(styles.lease, isRequested && styles.asked)}
+      data-lease={isRequested ? 'requested' : 'said'}
       role="group"
       aria-label={words.lease.label}
     >

@@ -133,5 +133,5 @@ export const LiveBones = laterComponent(async () => (await import('./LiveArm.tsx
 export const RobotView = laterComponent(
   async () => (await import('./three/RobotView.tsx')).RobotView,
   '0',
-  'asked',
+  'onDemand',
 );

@@ -20,7 +20,7 @@ import styles from './RobotEditor.module.css';
 const ModelEditor = laterComponent(
   async () => (await import('./ModelEditor.tsx')).ModelEditor,
   '160px',
-  'asked',
+  'onDemand',
 );
 
 /** The places of the servos on the drawing of the body, by drag or arrow keys. Moves nothing. */
