@@ -37,7 +37,9 @@ def hears_itself() -> bool:
 
 pytestmark = [
     pytest.mark.slow,
-    pytest.mark.skipif(sys.platform != "linux", reason="only Linux has a second loopback address unasked"),
+    pytest.mark.skipif(
+        sys.platform != "linux", reason="only Linux has a second loopback address without set-up"
+    ),
 ]
 
 

@@ -9,7 +9,7 @@ def silence(*asked_s: float, answered: int = BATTERY) -> Silence:
     watch = Silence()
     watch.heard(answered)
     for at_s in asked_s:
-        watch.asked(BATTERY, at_s)
+        watch.query_left(BATTERY, at_s)
     return watch
 
 
@@ -27,7 +27,7 @@ def test_any_report_ends_the_silence() -> None:
     watch = silence(1.0, 6.0)
     watch.heard(POSITIONS)
     assert not watch.is_silent(100.0)
-    watch.asked(BATTERY, 101.0)
+    watch.query_left(BATTERY, 101.0)
     assert not watch.is_silent(102.0)
 
 

@@ -28,7 +28,7 @@ test('a STOP on one screen stops the robot for both, and either may resume', asy
   await expect(other.notices).toContainText('Another window chose Resume');
 });
 
-test('what another browser stored in a slot is reported, and whether it is the group at hand', async ({
+test('what another browser stored in a slot is reported, and whether it is the open group', async ({
   dashboard,
   robot,
   browser,

@@ -118,7 +118,7 @@ def answered_at(host: str, addresses: list[str]) -> list[str]:
 
 def lan_addresses() -> list[str]:
     """This computer's IPv4 addresses that others may reach, for people to read. Never raises."""
-    import ifaddr  # here: a gateway for this computer alone asks for none
+    import ifaddr  # here: a gateway for this computer alone needs none
 
     try:
         adapters = list(ifaddr.get_adapters())

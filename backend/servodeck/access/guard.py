@@ -216,8 +216,8 @@ def is_upgrade(headers: Headers) -> bool:
 
 
 def judge_site(headers: list[tuple[bytes, bytes]]) -> None:
-    """A browser may leave Origin out of a plain GET, but says whether another site asks. Following a link is
-    fine.
+    """A browser may leave Origin out of a plain GET, but says whether the request comes from another
+    site. Following a link is fine.
     """
     site = only(headers, b"sec-fetch-site")
     if site in (None, b"same-origin", b"none") or only(headers, b"sec-fetch-mode") == b"navigate":

@@ -250,7 +250,7 @@ async def resume(request: Request, control: Controlled, caller: Annotated[Caller
 
 @api.get("/battery", dependencies=[VIEWER])
 async def battery(control: Controlled) -> Battery:
-    """Asks the board now; 504 where it does not answer."""
+    """Queries the board now; 504 where it does not answer."""
     return Battery(battery_mv=await control.board.battery.read())
 
 

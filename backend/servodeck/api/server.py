@@ -1,4 +1,4 @@
-"""Runs the gateway on a socket until it is asked to end, and ends it in order: the robot first, then the
+"""Runs the gateway on a socket until it is requested to end, and ends it in order: the robot first, then the
 clients.
 
 Knows uvicorn and signals, no message and no packet.
@@ -112,7 +112,7 @@ class Server(uvicorn.Server):
 
     async def _open_port(self) -> None:
         if self._device:
-            with contextlib.suppress(PortError):  # the state tells it, and the link tries again
+            with contextlib.suppress(PortError):  # the state says so, and the link tries again
                 await self._control.use_port(self._device)
 
     @contextlib.contextmanager

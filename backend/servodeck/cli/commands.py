@@ -114,7 +114,7 @@ def run(
     remote: Remote,
     slot: Annotated[int, typer.Argument(help="Slot of the board, from 0.")],
     times: Times = 1,
-    go_on: Annotated[
+    continue_for_s: Annotated[
         int | None,
         typer.Option(
             "--continue",
@@ -137,17 +137,21 @@ def run(
     as_json: AsJson = False,
 ) -> None:
     """Run a group of the board and wait for its end; Ctrl-C stops it. An endless run returns at once."""
-    if go_on is not None and timeout_s is not None:
+    if continue_for_s is not None and timeout_s is not None:
         fail("--timeout has no effect with --continue, which returns at once: leave out one of them.", USAGE)
-    if times == 0 and timeout_s is None and go_on is None:
-        go_on = LONGEST_ALONE_S
+    if times == 0 and timeout_s is None and continue_for_s is None:
+        continue_for_s = LONGEST_ALONE_S
     once_identified(remote)
-    body = {"times": times, "take": take, "continueForMs": None if go_on is None else go_on * 1000}
+    body = {
+        "times": times,
+        "take": take,
+        "continueForMs": None if continue_for_s is None else continue_for_s * 1000,
+    }
     answer = request(remote, "POST", f"/api/slots/{slot}/run", body)
     show(answer, as_json, lambda begun: f"Slot {slot}: {begun['outcome']}.")
-    if go_on is not None:
+    if continue_for_s is not None:
         if times == 0:
-            print(endless(slot, go_on), file=sys.stderr)
+            print(endless(slot, continue_for_s), file=sys.stderr)
         return
     limit_s = watch(remote, timeout_s)
     if limit_s is not None and times == 0:

@@ -1,6 +1,6 @@
 """The command that looks for what keeps a robot from being driven, and says what to do about it.
 
-Prints findings, the good ones too, so that all of it can be sent to a person who helps. Asks a board for its
+Prints findings, the good ones too, so that all of it can be sent to a person who helps. Reads a board's
 battery and moves nothing.
 """
 
@@ -77,7 +77,7 @@ def findings_of(remote: Remote, device: str, *, rates: bool) -> Iterator[Finding
         yield Finding("look", "brltty is installed and takes CH340 adapters away: sudo apt remove brltty")
     for port in ports:
         if owned is None or not is_same_port(port.device, owned):
-            yield from port_findings(port, is_asked=bool(device) or port.likely, rates=rates)
+            yield from port_findings(port, is_wanted=bool(device) or port.likely, rates=rates)
         else:
             yield Finding("ok", f"{name_of(port)} is the gateway's.")
             if rates and has_rates(owned):
@@ -114,12 +114,12 @@ def name_of(port: PortInfo) -> str:
     return f"{port.device} ({port.description})"
 
 
-def port_findings(port: PortInfo, *, is_asked: bool, rates: bool) -> Iterator[Finding]:
+def port_findings(port: PortInfo, *, is_wanted: bool, rates: bool) -> Iterator[Finding]:
     name = name_of(port)
     if problem := access_problem(name, port.device):
         yield Finding("look", problem)
         return
-    if not is_asked:
+    if not is_wanted:
         yield Finding("--", f"{name} is no usual cable of a board. To ask it: --port {port.device}")
         return
     try:
@@ -157,7 +157,7 @@ def heard_findings(name: str, heard: Heard, *, is_on_hid: bool) -> Iterator[Find
             f"{heard.battery_mv / 1000:.2f} V.",
         )
     elif heard.packets:
-        yield Finding("ok", f"A board sends on {name} and does not tell its battery, as some do not.")
+        yield Finding("ok", f"A board sends on {name} and does not report its battery, as some do not.")
     elif not heard.noise and is_on_hid:
         yield Finding(
             "look",

@@ -132,7 +132,7 @@ def play(
     remote: Remote,
     file: Annotated[Path, typer.Argument(help="A file with one group, as for `servodeck download`.")],
     times: Times = 1,
-    go_on: Annotated[
+    continue_for_s: Annotated[
         int | None,
         typer.Option(
             "--continue", metavar="SECONDS", help="Return at once and let it continue for at most this long."
@@ -143,10 +143,10 @@ def play(
 ) -> None:
     """Have the gateway play a group, frame by frame, and wait for its end; Ctrl-C stops it."""
     body: dict[str, Any] = {"frames": group_in(file)["frames"], "times": times, "take": take}
-    if go_on is not None:
-        body["continueForMs"] = min(go_on, LONGEST_ALONE_S) * 1000
+    if continue_for_s is not None:
+        body["continueForMs"] = min(continue_for_s, LONGEST_ALONE_S) * 1000
     state = request(remote, "POST", "/api/play", body)
-    if go_on is None:
+    if continue_for_s is None:
         state = watched(remote, state)
     show(state, as_json, play_words)
     if state["status"] == "ended":

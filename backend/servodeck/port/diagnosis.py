@@ -1,6 +1,6 @@
 """Looks at a port of this computer from outside: who may open it, who has it open, what a board on it says.
 
-Asks one harmless question, for the battery. Knows no gateway and no terminal.
+Sends one harmless query, for the battery. Knows no gateway and no terminal.
 """
 
 import os
@@ -37,7 +37,7 @@ class Access:
 class Heard:
     battery_mv: int | None = None
     answered_ms: float | None = None
-    """From the question to its answer, where the battery was asked for."""
+    """From the question to its answer, where the battery was read."""
     packets: int = 0
     noise: bytearray = field(default_factory=bytearray)
     """What is no packet."""
@@ -60,7 +60,7 @@ def access_to(device: str) -> Access:
 
 
 def listen(device: str) -> Heard:
-    """Opens the port, asks for the battery and listens for a second. Raises a PortError with a sentence."""
+    """Opens the port, reads the battery and listens for a second. Raises a PortError with a sentence."""
     port = open_port(device)
     try:
         asked_s = time.monotonic()

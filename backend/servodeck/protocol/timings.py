@@ -93,8 +93,8 @@ class Battery(NamedTuple):
     silent_limit: int
     every_ms: int
     after_run_ms: int
-    unasked_after_ms: int
-    unasked_limit: int
+    unsolicited_after_ms: int
+    unsolicited_limit: int
 
 
 class Read(NamedTuple):

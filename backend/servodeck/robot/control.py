@@ -48,7 +48,7 @@ from servodeck.robot.requests import Requests
 from servodeck.snapshots import JobState, PlayState, UnheldServos
 
 UNNAMED_PERSON = Cause("person")
-# Longer than a port takes to open and a LeArm to start and to be asked (L1).
+# Longer than a port takes to open and a LeArm to start and to be identified (L1).
 IDENTIFIED_WITHIN_S = 8.0
 
 

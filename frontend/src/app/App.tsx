@@ -1,4 +1,4 @@
-// Puts the panels together for the window at hand: side by side on a desktop, stacked on a tablet, one at a time on a
+// Puts the panels together for the size of the window: side by side on a desktop, stacked on a tablet, one at a time on a
 // phone. STOP stands outside of all of them.
 
 import { useEffect, useLayoutEffect, useRef, type UIEvent } from 'react';
@@ -76,7 +76,7 @@ function Dashboard({ page }: { readonly page: Page }) {
   const layout = useLayout();
   const { notices } = useStores();
   const isKiosk = useView((state) => state.kiosk === 'on');
-  const moveHere = (): void => void page.connector.moveHere().catch(notices.tellError);
+  const moveHere = (): void => void page.connector.moveHere().catch(notices.showError);
   return (
     <div className={styles.app} data-layout={layout}>
       <Unseen />

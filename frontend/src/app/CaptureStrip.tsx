@@ -1,4 +1,4 @@
-// Beside the sliders of a phone, where the action group and the poses are a tab away: the pose at hand as the next frame or
+// Beside the sliders of a phone, where the action group and the poses are a tab away: the current pose as the next frame or
 // as a pose, in one press. Says what was captured and offers to take it back.
 
 import { useIsUnidentified, useStores, type Stores } from '../features/stores.ts';
@@ -36,7 +36,7 @@ function Captures({ stores }: { readonly stores: Stores }) {
     const undo = (): void => {
       if (where.store.getState().present === present) where.undo();
     };
-    notices.tell('info', text, { label: words.actions.undo, act: undo });
+    notices.show('info', text, { label: words.actions.undo, act: undo });
   }
 
   return (

@@ -51,7 +51,7 @@ export function ConnectDialog({ connector }: { readonly connector: Connector }) 
   const close = (): void => view.setState({ connectOpen: false });
 
   useEffect(() => {
-    if (isOpen) connector.look().catch(notices.tellError);
+    if (isOpen) connector.look().catch(notices.showError);
   }, [isOpen, connector, notices]);
 
   return (

@@ -21,7 +21,7 @@ export async function workOffline({ notices, device }: OfflineOptions): Promise<
   workbox.addEventListener('waiting', ({ sw: newVersion }) => {
     if (newVersion === undefined) return;
     const offer = (text: string): void =>
-      notices.tell('warning', text, {
+      notices.show('warning', text, {
         label: words.site.update,
         act: () => {
           if (device.isAtRest()) void update();

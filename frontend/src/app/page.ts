@@ -124,12 +124,12 @@ export async function openPage({ me, problem }: Arrival): Promise<Page> {
     describeRobot: (body, board) =>
       void import('../features/connect/RobotQuestion.tsx').then(
         ({ takeUpKind }) => takeUpKind(robots, body, board),
-        notices.tellError,
+        notices.showError,
       ),
   });
-  if (problem !== null) notices.tell('warning', peopleProblem(problem.code, problem.message));
+  if (problem !== null) notices.show('warning', peopleProblem(problem.code, problem.message));
   if (me?.you) beginAnewAsAnother(device.store, me.you, () => location.reload());
-  connector.start().catch(notices.tellError);
+  connector.start().catch(notices.showError);
   const paused = (): void => {
     playback.hidden();
     macroRun.end();
@@ -147,7 +147,7 @@ export async function openPage({ me, problem }: Arrival): Promise<Page> {
   restoreSelection({ document: written, timeline, view });
   void import('../features/board/slots/othersGroups.ts').then(
     ({ findOthersGroups }) => findOthersGroups({ device, robots, slots, compiled, library, documentStore }),
-    notices.tellError,
+    notices.showError,
   );
   stores.view.subscribe(({ tab, kiosk }) => {
     if (tab === 'buttons' || kiosk === 'on') pad.drive(null);

@@ -39,7 +39,7 @@ export function createDocument(storage: TextStorage, notices: Notices, clock: Cl
       if (savingFailed) notices.takeBack(words.actions.notSaved);
       savingFailed = false;
     } catch {
-      if (!savingFailed) notices.tell('warning', words.actions.notSaved);
+      if (!savingFailed) notices.show('warning', words.actions.notSaved);
       savingFailed = true;
     }
   }
@@ -70,9 +70,9 @@ function load(storage: TextStorage, notices: Notices): ActionGroup {
     const read = groupFromText(text);
     if ('value' in read) return read.value;
     storage.setItem(REPLACED_KEY, text);
-    notices.tell('warning', words.actions.broken);
+    notices.show('warning', words.actions.broken);
   } catch {
-    notices.tell('warning', words.actions.notSaved);
+    notices.show('warning', words.actions.notSaved);
   }
   return fresh;
 }

@@ -220,7 +220,7 @@ export async function followLanguage({ view, notices, tags }: LanguageOptions): 
   async function follow(): Promise<void> {
     const { language } = view.getState();
     await speak(language === 'system' ? preferredLanguage(tags) : language).catch(() =>
-      notices.tell('warning', words.language.notLoaded),
+      notices.show('warning', words.language.notLoaded),
     );
   }
   view.subscribe((state, before) => {

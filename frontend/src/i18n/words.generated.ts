@@ -70,7 +70,7 @@ export interface Messages {
       readonly which: string;
       readonly changed: string;
     };
-    readonly unasked: string;
+    readonly notConnected: string;
     readonly choosePort: string;
     readonly beforehand: string;
     readonly evidence: string;

@@ -25,7 +25,7 @@ export interface BoardVerbs {
   /** `settled` hears whether the board said so. */
   erase(settled?: Settled): void;
   readBattery(): void;
-  /** Unasked, so its failure gives no notice: another screen's question may have met this one on the board (S52). */
+  /** Not requested by a person, so its failure gives no notice: another screen's question may have met this one on the board (S52). */
   watchBattery(): void;
   readPositions(servos: readonly number[], settled?: Settled): void;
   /** Firmware and trims, one question after the other. */
@@ -52,7 +52,7 @@ export interface BoardVerbsOptions {
   readonly gate: LimitGate;
   readonly notices: Notices;
   readonly lateNotices: LateNotices;
-  tellError(error: unknown): void;
+  showError(error: unknown): void;
 }
 
 export function createBoardVerbs({
@@ -60,7 +60,7 @@ export function createBoardVerbs({
   gate,
   notices,
   lateNotices,
-  tellError,
+  showError,
 }: BoardVerbsOptions): BoardVerbs {
   let mayBegin: RunGuard = () => true;
 
@@ -73,7 +73,7 @@ export function createBoardVerbs({
         settled(isDone !== false);
       },
       (error: unknown) => {
-        tellError(error);
+        showError(error);
         settled(false);
       },
     );
@@ -94,12 +94,12 @@ export function createBoardVerbs({
     const slots = groups.map(({ slot }) => slot);
     try {
       await current.download(groups);
-      notices.tell('info', downloadedSentence(slots));
+      notices.show('info', downloadedSentence(slots));
       return true;
     } catch (error) {
       if (!(error instanceof LinkError && error.code === 'cancelled')) throw error;
       const broken = slots.find((slot) => current.state.brokenSlots.includes(slot));
-      notices.tell('warning', downloadCancelled(broken ?? null));
+      notices.show('warning', downloadCancelled(broken ?? null));
       return false;
     }
   }
@@ -113,7 +113,7 @@ export function createBoardVerbs({
     run: (slot, times, settled) => attemptRun((current) => current.run(slot, times), settled),
     stopGroup: () => attempt((current) => current.stopGroup()),
     erase: (settled) =>
-      attempt((current) => current.erase().then(() => notices.tell('info', words.board.erased)), settled),
+      attempt((current) => current.erase().then(() => notices.show('info', words.board.erased)), settled),
     readBattery: () => attempt((current) => current.readBattery()),
     watchBattery: () =>
       void now()
@@ -123,7 +123,7 @@ export function createBoardVerbs({
     readDetails: () => attempt((current) => current.readVersion().then(() => current.readOffsets())),
     setSpeed: (slot, percent) =>
       attempt((current) =>
-        current.setSpeed(slot, percent).then(() => notices.tell('info', speedSent(slot, percent))),
+        current.setSpeed(slot, percent).then(() => notices.show('info', speedSent(slot, percent))),
       ),
     release: (servos, settled) => attempt((current) => current.release(servos), settled),
     download(groups, settled = () => undefined) {
@@ -146,8 +146,8 @@ export function createBoardVerbs({
           times,
           loopFrom,
         });
-        if (skippedFrames > 0) notices.tell('warning', words.play.skipped({ frames: skippedFrames }));
-        else if (lateFrames > 0) notices.tell('info', words.play.late({ frames: lateFrames, ms: latestMs }));
+        if (skippedFrames > 0) notices.show('warning', words.play.skipped({ frames: skippedFrames }));
+        else if (lateFrames > 0) notices.show('info', words.play.late({ frames: lateFrames, ms: latestMs }));
         return isWhole;
       }, settled);
     },

@@ -114,7 +114,7 @@ export function createConnector(options: ConnectorOptions): Connector {
   /** What is open already is left alone, and that is said: the browser's chooser does not know it. */
   async function openOnce<T extends object>(port: T, open: (port: T) => Promise<Opening>): Promise<void> {
     if (current?.port === port && current.robot.state.link.status === 'ready')
-      notices.tell('info', words.connect.isOpen({ label: current.way().label }));
+      notices.show('info', words.connect.isOpen({ label: current.way().label }));
     else chosen(await open(port));
   }
 
@@ -196,7 +196,7 @@ export function createConnector(options: ConnectorOptions): Connector {
     const last = recallWay(storage);
     if (last !== null) store.setState({ board: last.board });
     await look(options.isAtGateway ? SURE_WITHIN_MS : undefined);
-    void lookForPorts().catch(notices.tellError);
+    void lookForPorts().catch(notices.showError);
     const { gateway, granted, reconnects } = store.getState();
     const [port] = granted;
     const [board] = last?.kind === 'webHid' && reconnects ? await lookForBoards() : [];
@@ -216,7 +216,7 @@ export function createConnector(options: ConnectorOptions): Connector {
   async function offerLateGateway(): Promise<void> {
     if (!(await hasGateway(device.clock)) || current?.way().kind !== 'simulated') return;
     await look();
-    notices.tell('warning', words.link.gatewayAnswers, {
+    notices.show('warning', words.link.gatewayAnswers, {
       label: words.link.useGateway,
       act: () => chosen(ways.gateway()),
     });
@@ -274,7 +274,7 @@ export function createConnector(options: ConnectorOptions): Connector {
       const { chooseModule } = await loadBluetooth();
       await takeModule(await chooseModule());
     },
-    disconnect: () => void device.detach().catch(notices.tellError),
+    disconnect: () => void device.detach().catch(notices.showError),
     async moveHere() {
       await current?.robot.takeOver();
     },

@@ -390,8 +390,8 @@ describe('a device with a session', () => {
     const { notices, noticeTexts, draw, channel } = await createTestPage();
     channel.unplug();
     await draw(100);
-    notices.tellError(new LinkError('portBusy', '', { heldBy: ['minicom (7)'] }));
-    notices.tellError(new LinkError('noAnswer', ''));
+    notices.showError(new LinkError('portBusy', '', { heldBy: ['minicom (7)'] }));
+    notices.showError(new LinkError('noAnswer', ''));
     channel.plugIn();
     await draw(6000);
     expect(noticeTexts()).toEqual([errorSentence('noAnswer')]);

@@ -17,7 +17,7 @@ import { words } from '../i18n/words.ts';
 import { createBoardVerbs, type BoardVerbs, createLateNotices } from './boardVerbs.ts';
 import { createMovingWatch, createTargetBook, moveDurationMs, type Pace, createLimitGate } from './moves.ts';
 import type { Notices } from '../state/notices.ts';
-import { createTrafficLog, type TrafficLog, createUnaskedAnswers } from './traffic.ts';
+import { createTrafficLog, type TrafficLog, createUnsolicitedAnswers } from './traffic.ts';
 
 export type WayKind = 'webSerial' | 'webHid' | 'webBluetooth' | 'gateway' | 'simulated';
 
@@ -199,16 +199,16 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
 
   function noteResumed(by: string): void {
     saidOfResume = words.stop.resumed({ name: personName(by, store.getState().snapshot.lease?.you ?? '') });
-    notices.tell('info', saidOfResume);
+    notices.show('info', saidOfResume);
   }
 
   function noteProblem(error: unknown): void {
     forgetWishes();
-    tellError(error);
+    showError(error);
   }
 
-  function tellError(error: unknown): void {
-    notices.tellError(error);
+  function showError(error: unknown): void {
+    notices.showError(error);
     lateNotices.report(error);
   }
 
@@ -221,7 +221,7 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
       lateNotices.requested();
       return true;
     } catch (error) {
-      notices.tellError(error);
+      notices.showError(error);
       return false;
     }
   }
@@ -242,7 +242,7 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     await former?.close();
   }
 
-  const verbs = createBoardVerbs({ session: () => session, ...{ gate, notices, lateNotices, tellError } });
+  const verbs = createBoardVerbs({ session: () => session, ...{ gate, notices, lateNotices, showError } });
 
   return {
     ...verbs,
@@ -255,12 +255,12 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
       session.setAutoReconnect(autoReconnect);
       store.setState({ way });
       noteState(next.state);
-      const unasked = createUnaskedAnswers(() => notices.tell('warning', words.link.sharedBoard));
+      const unsolicited = createUnsolicitedAnswers(() => notices.show('warning', words.link.sharedBoard));
       unsubscribe = next.subscribe({
         state: noteState,
         traffic(entry) {
           traffic.add(entry, next.state.family.id);
-          unasked(entry);
+          unsolicited(entry);
         },
         problem: noteProblem,
         resumed: noteResumed,

@@ -8,7 +8,7 @@ export interface paths {
       path?: never;
       cookie?: never;
     };
-    /** Asks the board now */
+    /** Queries the board now */
     get: operations['gatewayBattery'];
     put?: never;
     post?: never;
@@ -1044,7 +1044,7 @@ export interface components {
     };
     /**
      * LinkState
-     * @description The link to the board: `identifying` while the board is asked, `stale` while it does not answer a
+     * @description The link to the board: `identifying` while it is queried, `stale` while it does not answer a
      *     question that such a board always answers, `refused` until a person says which board it is. `code` and
      *     `detail` say why it is not ready.
      */

@@ -25,7 +25,7 @@ type QueryOf<Operation> = Operation extends { parameters: { query?: infer Query 
 type BodyOf<Operation> = Operation extends { requestBody: infer Body } ? Json<Body> : never;
 
 /** What goes with a request: `values` for the names in its path, its body where it takes one. */
-export type Asked<P extends Path, V extends Verb<P>> = { readonly withinMs: number } & Needs<
+export type RequestOptions<P extends Path, V extends Verb<P>> = { readonly withinMs: number } & Needs<
   'values',
   ValuesIn<paths[P][V]>
 > &
@@ -60,7 +60,7 @@ export const isWithoutGateway = (): boolean =>
 export async function request<P extends Path, V extends Verb<P>>(
   verb: V,
   path: P,
-  requested: Asked<P, V>,
+  requested: RequestOptions<P, V>,
 ): Promise<unknown> {
   const { withinMs, values = {}, body, query = {} } = requested as Plain;
   if (isWithoutGateway()) throw new GatewayProblem(null, 'this page is served without a gateway');
@@ -112,7 +112,7 @@ interface RequestsOptions {
   unreadable(): Error;
 }
 
-type Given<P extends Path, V extends Verb<P>> = Omit<Asked<P, V>, 'withinMs'>;
+type Given<P extends Path, V extends Verb<P>> = Omit<RequestOptions<P, V>, 'withinMs'>;
 
 /** The requests of one part of the page, which has errors of its own. */
 export function requestsOf({ withinMs: usualMs, failed, unreadable }: RequestsOptions) {
@@ -122,7 +122,7 @@ export function requestsOf({ withinMs: usualMs, failed, unreadable }: RequestsOp
     given: Given<P, V>,
     withinMs = usualMs,
   ): Promise<unknown> {
-    return request(verb, path, { ...given, withinMs } as Asked<P, V>).catch((error: unknown) => {
+    return request(verb, path, { ...given, withinMs } as RequestOptions<P, V>).catch((error: unknown) => {
       throw error instanceof GatewayProblem ? failed(error, { cause: error }) : error;
     });
   }

@@ -57,15 +57,15 @@ export function createTrafficLog(): TrafficLog {
   };
 }
 
-const { unaskedAfterMs, unaskedLimit } = timings.battery;
+const { unsolicitedAfterMs, unsolicitedLimit } = timings.battery;
 
-export type UnaskedAnswers = (traffic: Traffic) => void;
+export type UnsolicitedAnswers = (traffic: Traffic) => void;
 
 /**
  * Notices battery answers that were not requested here: then another program uses the same board, which neither a HID cable nor Bluetooth
- * forbids. For one link; `found` is called once. Its twin is UnaskedAnswers of robot/board/readings.py.
+ * forbids. For one link; `found` is called once. Its twin is UnsolicitedAnswers of robot/board/readings.py.
  */
-export function createUnaskedAnswers(found: () => void): UnaskedAnswers {
+export function createUnsolicitedAnswers(found: () => void): UnsolicitedAnswers {
   let askedAtMs = -Infinity;
   let count = 0;
 
@@ -75,8 +75,8 @@ export function createUnaskedAnswers(found: () => void): UnaskedAnswers {
       return;
     }
     if (!('report' in traffic) || traffic.report.kind !== 'battery') return;
-    if (traffic.atMs - askedAtMs <= unaskedAfterMs) return;
+    if (traffic.atMs - askedAtMs <= unsolicitedAfterMs) return;
     count += 1;
-    if (count === unaskedLimit) found();
+    if (count === unsolicitedLimit) found();
   };
 }

@@ -15,27 +15,27 @@ function createTestPage() {
 describe('notices', () => {
   test('good news leaves by itself, bad news stays', async () => {
     const { clock, notices, noticeTexts } = createTestPage();
-    notices.tell('info', 'Slot 1 is downloaded.');
-    notices.tellError(new LinkError('noAnswer', 'silence'));
+    notices.show('info', 'Slot 1 is downloaded.');
+    notices.showError(new LinkError('noAnswer', 'silence'));
     await clock.advance(60_000);
     expect(noticeTexts()).toEqual([errorSentence('noAnswer')]);
   });
 
   test('the same thing is said once, and at most three things stand there', () => {
     const { notices, noticeTexts } = createTestPage();
-    for (const text of ['a', 'b', 'a', 'c', 'd']) notices.tell('warning', text);
+    for (const text of ['a', 'b', 'a', 'c', 'd']) notices.show('warning', text);
     expect(noticeTexts()).toEqual(['a', 'c', 'd']);
   });
 
   test('what the person called off is no failure', () => {
     const { notices, noticeTexts } = createTestPage();
-    notices.tellError(new LinkError('cancelled', 'called off'));
+    notices.showError(new LinkError('cancelled', 'called off'));
     expect(noticeTexts()).toEqual([]);
   });
 
   test('a defect of ours is named as one', () => {
     const { notices } = createTestPage();
-    notices.tellError(new TypeError('x is undefined'));
+    notices.showError(new TypeError('x is undefined'));
     expect(notices.store.getState()[0]).toMatchObject({
       tone: 'danger',
       text: errorSentence('internal', 'x is undefined'),
@@ -51,9 +51,9 @@ describe('notices', () => {
       servo: 3,
     });
     const failure = new LinkError('outOfRange', refusal.message, { cause: refusal });
-    notices.tellError(failure);
+    notices.showError(failure);
     await speak('zh');
-    notices.tellError(failure);
+    notices.showError(failure);
     await speak('en');
     expect(noticeTexts()).toEqual([
       'This value is out of range: the position of servo 3 is 2600, allowed is 500 to 2500.',
@@ -63,7 +63,7 @@ describe('notices', () => {
 
   test('a dismissed notice is gone', () => {
     const { notices, noticeTexts } = createTestPage();
-    notices.tell('warning', 'a');
+    notices.show('warning', 'a');
     notices.dismiss(notices.store.getState()[0]!.id);
     expect(noticeTexts()).toEqual([]);
   });

@@ -29,7 +29,7 @@ export interface Notices {
   /** The latest visual change in words, for screen readers. */
   readonly said: StoreApi<string>;
   say(text: string): void;
-  tell(tone: NoticeTone, text: string, action?: NoticeAction): void;
+  show(tone: NoticeTone, text: string, action?: NoticeAction): void;
   /** Says why a field rejects an input. Returns a function that removes the message. */
   refuse(text: string): () => void;
   /** Removes a message that no longer applies. */
@@ -37,7 +37,7 @@ export interface Notices {
   /** Removes the messages about such errors. */
   takeBackErrors(codes: readonly LinkErrorCode[]): void;
   /** Shows an error as a sentence. A cancelled operation is no error. */
-  tellError(error: unknown): void;
+  showError(error: unknown): void;
   dismiss(id: number): void;
 }
 
@@ -49,7 +49,7 @@ export function createNotices(clock: Clock): Notices {
   const said = createStore(() => '');
   let nextId = 1;
 
-  function show(next: Omit<Notice, 'id'>): void {
+  function add(next: Omit<Notice, 'id'>): void {
     const id = nextId++;
     remove(({ text }) => text === next.text);
     store.setState((notices) => [...notices, { id, ...next }].slice(-MAX_SHOWN), true);
@@ -60,24 +60,24 @@ export function createNotices(clock: Clock): Notices {
     store.setState((notices) => notices.filter((notice) => !isOld(notice)), true);
   }
 
-  const tell: Notices['tell'] = (tone, text, action) => show({ tone, text, action });
+  const show: Notices['show'] = (tone, text, action) => add({ tone, text, action });
   const dismiss = (shown: number): void => remove(({ id }) => id === shown);
   const takeBack = (old: string): void => remove(({ text }) => text === old);
 
   return {
-    ...{ store, said, tell, takeBack },
+    ...{ store, said, show, takeBack },
     refuse(text) {
-      tell('warning', text);
+      show('warning', text);
       return () => takeBack(text);
     },
     takeBackErrors: (codes) => remove(({ code }) => code !== undefined && codes.includes(code)),
     say: (text) => said.setState(text, true),
-    tellError(error) {
+    showError(error) {
       const { code, message, cause, heldBy } = asLinkError(error);
       const detail = cause instanceof RangeRefusal ? rangeText(cause) : message;
       if (code === 'cancelled') return;
       const text = linkSentence({ code, message: detail, heldBy });
-      show({ tone: code === 'internal' ? 'danger' : 'warning', text, code });
+      add({ tone: code === 'internal' ? 'danger' : 'warning', text, code });
     },
     dismiss,
   };

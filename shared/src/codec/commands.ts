@@ -1,5 +1,5 @@
 // What the host can ask of a board, as values. Knows no bytes, no board limits, no time: encode.ts turns these into
-// packets and refuses what the board at hand cannot take. Source: protocol document (boards.md section 1), and for what only
+// packets and refuses what the connected board cannot take. Source: protocol document (boards.md section 1), and for what only
 // some families have, section 2.3.
 
 /** One servo's target. `position` is in the board's unit: pulse width in µs, or steps of a bus servo. */

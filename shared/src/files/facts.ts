@@ -11,7 +11,7 @@ import { count, targetSchema, whole } from '../document/schema.ts';
 
 interface FactsContext {
   readonly updatedAtMs: number;
-  /** The robot at hand, for a group that does not say what it was made for. */
+  /** The current robot, for a group that does not say what it was made for. */
   readonly robot: string;
 }
 
@@ -74,7 +74,7 @@ const groupFactsSchema = v.strictObject({
   pose: v.pipe(v.array(targetSchema), v.maxLength(256)),
 });
 
-/** What its keeper goes by itself: limits and poses are as the board counts. */
+/** For the person who stores it: limits and poses in the units of the board. */
 const robotFactsSchema = v.strictObject({
   kind: v.literal('robot'),
   name,

@@ -1,4 +1,4 @@
-// What of a group does not fit the board and robot at hand, and frames filled as other programs play them. What does not fit is
+// What of a group does not fit the current board and robot, and frames filled as other programs play them. What does not fit is
 // listed, never changed: that is the person's to decide. Knows groups, robots and family rows; no file.
 
 import type { Frame } from '../codec/commands.ts';

@@ -182,7 +182,7 @@ describe('the word of a gateway that sees all downloads', () => {
     book.stored.map(({ slot, fingerprint }) => [slot, versionOf(fingerprint)]),
   );
 
-  test('says of what others have stored whether it is the group at hand, an earlier one of it, or another', () => {
+  test('says of what others have stored whether it is the open group, an earlier one of it, or another', () => {
     const group = { documentId: 'id of Wave', fingerprint: fingerprintOf(WAVE) };
     const contentOfVersion = (stored: ReturnType<typeof versionOf>) =>
       contentOf(book, { ...NOW, versions: { 8: stored } }, 8, group);

@@ -123,7 +123,7 @@ export interface SlotsNow {
   readonly versions: StoredVersions;
 }
 
-/** `group` is the one at hand, null where it cannot be on this board. */
+/** `group` is the open one, null where it cannot be on this board. */
 export function contentOf(
   book: SlotBook,
   { broken, arriving, versions }: SlotsNow,

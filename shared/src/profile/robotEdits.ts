@@ -155,7 +155,7 @@ export function isServoDone(calibration: Calibration, servo: RobotServo): boolea
   return stepsOf(servo).every((step) => isDone(calibration, servo.servo, step));
 }
 
-/** The end at hand is here. With the other one found before, the two are taken as they lie: a servo may sit the other way round. */
+/** This end of the range is here. With the other one found before, the two are taken as they lie: a servo may sit the other way round. */
 export function endFound(
   robot: Robot,
   { found }: Calibration,
@@ -183,13 +183,13 @@ function otherEnd(found: FoundEnd | undefined, servo: number, end: End): FoundEn
   return found?.servo === servo && found.end !== end ? found : null;
 }
 
-/** The step at hand is done; on to the next one that is not. With everything done it stays at the last one. */
+/** The current step is done; on to the next one that is not. With everything done it stays at the last one. */
 export function stepDone(robot: Robot, calibration: Calibration): Calibration {
   const { servo, step } = calibration;
   return onward(robot, { ...calibration, done: [...calibration.done, { servo, step }] });
 }
 
-/** Everything about the servo at hand is as it should be. */
+/** Everything about the current servo is as it should be. */
 export function servoDone(robot: Robot, calibration: Calibration): Calibration {
   const servo = servoOf(robot, calibration.servo);
   const steps = servo === undefined ? [] : stepsOf(servo).map((step) => ({ servo: servo.servo, step }));

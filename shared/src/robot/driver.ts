@@ -70,7 +70,7 @@ export function createDriver(family: Family, options: DriverOptions): Driver {
   /** At rest only: a move that continues or still waits for the wire would power the servos again (X7). */
   async function release(servos: readonly number[]): Promise<void> {
     requireAtRest(core);
-    for (const command of releaseCommands(servos, servosPerMove, family)) await core.exchange.tell(command);
+    for (const command of releaseCommands(servos, servosPerMove, family)) await core.exchange.send(command);
   }
 
   return {

@@ -31,7 +31,7 @@ export function createGroups(core: Core, slotMemory: SlotMemory | undefined): Gr
   const running = createRunning(clock, store, () => estimate);
   let stopping: Promise<void> | null = null;
   /** Requested runs and stops: a run that waits for a stop is overtaken by a later request. */
-  let asked = 0;
+  let requests = 0;
 
   /** Pressed again, it stops at once and again. Only behind all of it another group may begin. */
   async function end(): Promise<void> {
@@ -46,20 +46,21 @@ export function createGroups(core: Core, slotMemory: SlotMemory | undefined): Gr
   }
 
   function stop(): Promise<void> {
-    asked += 1;
+    requests += 1;
     return end();
   }
 
   async function run(slot: number, times: number): Promise<void> {
     requireRunnable(store.state, slot, times);
-    asked += 1;
-    const mine = asked;
+    requests += 1;
+    const mine = requests;
     if (stopping !== null || store.state.activity.kind === 'running') {
       // One that left between the repeats of a stop would be ended by the last one.
       await (stopping ?? end());
       // STOP may have been pressed meanwhile.
       requireReleased(store.state);
-      if (mine !== asked) throw new LinkError('cancelled', 'another group or a stop was asked for meanwhile');
+      if (mine !== requests)
+        throw new LinkError('cancelled', 'another group or a stop was requested meanwhile');
     }
     running.began(slot, times, 'requested');
     try {
@@ -72,7 +73,7 @@ export function createGroups(core: Core, slotMemory: SlotMemory | undefined): Gr
   }
 
   async function begin(command: Command): Promise<void> {
-    if (!family.answers.includes('run')) return exchange.tell(command);
+    if (!family.answers.includes('run')) return exchange.send(command);
     await exchange.ask(command, 'runAccepted', RUN_TIMEOUT_MS);
     running.confirm('acknowledged');
   }
@@ -96,7 +97,7 @@ export function createGroups(core: Core, slotMemory: SlotMemory | undefined): Gr
   /** Without an answer, and never repeated by itself: it changes a group that runs (safety.md section 4, class C). */
   async function setSpeed(slot: number | null, percent: number): Promise<void> {
     requireReleased(store.state);
-    await exchange.tell({ kind: 'setSpeed', slot, percent });
+    await exchange.send({ kind: 'setSpeed', slot, percent });
   }
 
   return {

@@ -13,7 +13,7 @@ import { BABBLE_LIMIT } from './timings.ts';
 
 export interface Exchange {
   /** Sends a command the board does not answer. */
-  tell(command: Command): Promise<void>;
+  send(command: Command): Promise<void>;
   /** Sends a command and waits for its report. Rejects with `noAnswer` after `timeoutMs` from its last bit. */
   ask(command: Command, answer: ReportKind, timeoutMs: number): Promise<Report>;
   /** Resolves when no such report has come for `quietMs`. Rejects with `noAnswer` where they do not end. */
@@ -37,7 +37,7 @@ export function createExchange(family: Family, clock: Clock, queue: Queue, repli
   }
 
   return {
-    async tell(command) {
+    async send(command) {
       await queue.request(encodeOrRefuse(command, family));
     },
     async ask(command, answer, timeoutMs) {

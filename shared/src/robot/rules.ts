@@ -98,7 +98,7 @@ function notReady(link: LinkState): LinkError {
   if (link.status === 'lost') return new LinkError('lost', 'the link is gone');
   if (link.status === 'stale') return new LinkError('boardSilent', 'the board does not answer');
   return link.status === 'identifying'
-    ? new LinkError('busy', 'the board is being asked who it is')
+    ? new LinkError('busy', 'the board is being identified')
     : new LinkError('closed', 'the link is not open');
 }
 

@@ -76,7 +76,7 @@ class Activity:
         if packet.number == STOP:
             self._stop_again.stopped(at_s)
         elif packet.is_harmless:
-            self._silence.asked(packet.number, at_s)
+            self._silence.query_left(packet.number, at_s)
         elif not is_halting:
             self._stop_again.void()
         self.follow_run()
@@ -141,25 +141,25 @@ ANSWER_S = 0.5  # the longest answer, that for six positions, takes 450 ms (X7)
 class Silence:
     def __init__(self) -> None:
         self._answered: set[int] = set()
-        self._asked_s: float | None = None
+        self._queried_s: float | None = None
         self._misses = 0
 
-    def asked(self, command: int, at_s: float) -> None:
+    def query_left(self, command: int, at_s: float) -> None:
         """The last bit of that question leaves at `at_s`."""
         is_due = self._is_due(at_s)
-        if command in self._answered and (self._asked_s is None or is_due):
+        if command in self._answered and (self._queried_s is None or is_due):
             self._misses += is_due
-            self._asked_s = at_s
+            self._queried_s = at_s
 
     def heard(self, command: int) -> None:
         self._answered.add(command)
-        self._asked_s, self._misses = None, 0
+        self._queried_s, self._misses = None, 0
 
     def is_silent(self, now: float) -> bool:
         return self._misses + self._is_due(now) >= HEARTBEAT.misses
 
     def _is_due(self, now: float) -> bool:
-        return self._asked_s is not None and now - self._asked_s >= ANSWER_S
+        return self._queried_s is not None and now - self._queried_s >= ANSWER_S
 
 
 class StopAgain:

@@ -320,7 +320,7 @@ class Board:
             return
         self.activity.left(packet, command, at_s, is_halting=self.link.wire().is_halting)
         if isinstance(command, ReadBattery):
-            self.battery.asked(at_s)
+            self.battery.query_left(at_s)
         self.jobs.left(command, at_s, self.link.place)
         is_opening = packet.number == STOP and owner is self
         if not is_opening:  # which ends no motion of a client

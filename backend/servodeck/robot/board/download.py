@@ -228,7 +228,7 @@ class Download:
 
     async def _silence(self, quiet_s: float) -> None:
         for _ in range(DOWNLOAD.babble_limit + 1):
-            if not await self._replies.unasked(quiet_s, FrameStored):
+            if not await self._replies.unsolicited(quiet_s, FrameStored):
                 return
         raise NoAnswerError("The board keeps repeating an acknowledgement.")
 

@@ -1,5 +1,5 @@
-"""Identifies the board for the whole life of a link: asks it at each opening, compares the answers with the
-family that it is taken for, takes the choice of a person, and watches it while idle. Twin of
+"""Identifies the board for the whole life of a link: queries it at each opening, compares the answers with
+the family that it is taken for, takes the choice of a person, and watches it while idle. Twin of
 shared/src/robot/identification.ts.
 
 Decides when a board is ready, and after how many questions it is gone; the questions and their meaning are
@@ -214,7 +214,7 @@ class Identification:
     def _heartbeat_question(self) -> Question | None:
         if not self._identifies:
             return None
-        # A board that is silent is asked also where no client looks: one may come over HTTP.
+        # A board that is silent is queried also while no client looks: one may come over HTTP.
         may_ask = self._board.may_ask() or (self.state.status == "stale" and self._board.is_idle())
         return next(iter(self.claim.certain_answers), None) if may_ask else None
 
@@ -255,7 +255,7 @@ class Heartbeat:
         self._polling: asyncio.Task[None] | None = None
 
     def start(self, *, is_gone: bool) -> None:
-        """`is_gone`: it has been silent already, so it is asked more often."""
+        """`is_gone`: it has been silent already, so it is queried more often."""
         self.stop()
         self._runs = True
         self._misses = HEARTBEAT.misses if is_gone else 0
@@ -269,7 +269,7 @@ class Heartbeat:
             self._polling.cancel()
 
     def heard(self) -> None:
-        """The board sent a report: it need not be asked for a while."""
+        """The board sent a report: no query is needed for a while."""
         self._misses = 0
         if self._runs:
             self._wait()

@@ -65,7 +65,7 @@ answers so.
 
 
 def candidates_of(evidence: Sequence[Evidence]) -> list[str]:
-    """Families that answer like this; none where it was not asked."""
+    """Families that answer like this; none where it was not queried."""
     if not evidence:
         return []
     return [
@@ -145,7 +145,7 @@ QUESTIONS: Mapping[Question, QuestionPacket] = {
 }
 
 SendQuestion = Callable[[Question], Awaitable[Report | None]]
-"""Puts it to the board once. None where no answer came; raises where it could not be asked."""
+"""Puts it to the board once. None where no answer came; raises if it cannot be sent."""
 
 
 async def identify(
@@ -182,4 +182,4 @@ async def identify(
 
 def is_echo(data: bytes) -> bool:
     """The received bytes contain one of our own questions."""
-    return any(asked.packet.data in data for asked in QUESTIONS.values())
+    return any(query.packet.data in data for query in QUESTIONS.values())

@@ -3,8 +3,8 @@ a question is under way share its answer. Twin of shared/src/robot/readings.ts.
 
 The battery is read when a board becomes ready, soon after something has ended, and every few seconds while
 nothing moves: on some boards any packet disturbs what runs, and under load the voltage sags anyway. A board
-that stayed silent is asked again only on request. Knows the questions and how long each may take; no client,
-and not how a packet leaves.
+that stayed silent is queried again only on request. Knows the questions and how long each may take; no
+client, and not how a packet leaves.
 """
 
 import asyncio
@@ -56,7 +56,7 @@ class ReadableBoard(Protocol):
     def family(self) -> Family: ...
 
     def put_question(self, question: Command) -> Left:
-        """Puts it on the wire. Raises what keeps it from being asked."""
+        """Puts it on the wire. Raises the reason if it cannot leave."""
 
 
 class Readings:
@@ -74,8 +74,8 @@ class Readings:
         self._under_way: dict[Key, asyncio.Task[None]] = {}
 
     async def read(self, what: Reading, servos: Sequence[int] = ()) -> None:
-        """Returns when the board has answered; the report goes to every client. A second caller that asks the
-        same meanwhile shares the answer. Raises NoAnswerError, and whatever prevents the question.
+        """Returns when the board has answered; the report goes to every client. A second caller that requests
+        the same meanwhile shares the answer. Raises NoAnswerError, and whatever prevents the question.
         """
         key = (what, tuple(servos))
         if key not in self._under_way:
@@ -84,12 +84,12 @@ class Readings:
         await asyncio.shield(self._under_way[key])
 
     async def answer_to(self, question: Question) -> Report | None:
-        """Asks once, to learn which board it is or whether it is still there. None where no answer came;
-        raises what keeps it from being asked.
+        """Sends the query once, to learn which board it is or whether it is still there. None where no answer
+        came; raises the reason if it cannot be sent.
         """
         if question == "readBattery" and self._board.identification.state.status != "identifying":
             try:
-                return Battery(await self._battery.read())  # shared with others that ask at the same time
+                return Battery(await self._battery.read())  # shared with others that read at the same time
             except NoAnswerError:
                 return None
         packet, answer = QUESTIONS[question].packet, QUESTIONS[question].answer
@@ -127,7 +127,7 @@ class Readings:
 
 
 def positions_s(servo_count: int) -> float:
-    """The board asks its servos one by one, then the answer needs its time on the wire."""
+    """The board reads its servos one by one, then the answer needs its time on the wire."""
     answer_ms = wire_s(5 + 3 * servo_count) * 1000
     return (math.ceil(READ.position_ms * servo_count + answer_ms) + READ.margin_ms) / 1000
 
@@ -160,25 +160,25 @@ class BatteryReader:
         self._replies = replies
         self._now = now
         self._silences = 0
-        self._unasked = UnaskedAnswers()
+        self._unsolicited = UnsolicitedAnswers()
         self._polls = polls
         self._timer: asyncio.TimerHandle | None = None
         self._poll: asyncio.Task[None] | None = None
         self._question: asyncio.Task[int] | None = None
 
     def port_opened(self) -> None:
-        self._unasked = UnaskedAnswers()
+        self._unsolicited = UnsolicitedAnswers()
 
-    def asked(self, at_s: float) -> None:
+    def query_left(self, at_s: float) -> None:
         """The last bit of the question leaves then."""
-        self._unasked.asked(at_s)
+        self._unsolicited.query_left(at_s)
 
     def heard(self, report: Report) -> None:
         if isinstance(report, Battery):
             self.newest = BatteryReading(report.battery_mv, self._now())
             self._silences, self.is_silent = 0, False
             self._board.battery_changed()
-            if self._unasked.answered(self._now()):
+            if self._unsolicited.answered(self._now()):
                 facts = {"device": self._board.link.place}
                 log.warning("the board answers another program, too; close it", extra={"facts": facts})
 
@@ -198,7 +198,7 @@ class BatteryReader:
         return BatteryRead(battery_mv=newest.battery_mv, age_ms=round((self._now() - newest.at_s) * 1000))
 
     async def read(self) -> int:
-        """In mV. A caller that asks while a question is under way shares its answer."""
+        """In mV. A caller that reads while a query is under way shares its answer."""
         if self._question is None:
             self._question = asyncio.create_task(self._read())
             self._question.add_done_callback(self._read_done)
@@ -214,7 +214,7 @@ class BatteryReader:
         return report.battery_mv
 
     def _count_silence(self) -> None:
-        # Where every such board answers, silence says that the board is gone, not that it cannot tell.
+        # Where every such board answers, silence says that the board is gone, not that it cannot report it.
         if "readBattery" in self._board.family.certain_answers:
             return
         self._silences += 1
@@ -261,26 +261,26 @@ class BatteryReader:
             self._poll = asyncio.create_task(self._poll_once())
 
     async def _poll_once(self) -> None:
-        with contextlib.suppress(GatewayError):  # a silence is counted where it is asked
+        with contextlib.suppress(GatewayError):  # a silence is counted where the query is sent
             await self.read()
 
 
-class UnaskedAnswers:
-    """Notices battery answers that were not asked for here, for one opening of the port: then another program
-    uses the same board, which neither a HID cable nor Bluetooth forbids. Twin of
+class UnsolicitedAnswers:
+    """Notices battery answers that no query from here requested, for one opening of the port: then another
+    program uses the same board, which neither a HID cable nor Bluetooth forbids. Twin of
     frontend/src/robot/traffic.ts.
     """
 
     def __init__(self) -> None:
-        self._asked_s = -math.inf
+        self._queried_s = -math.inf
         self._count = 0
 
-    def asked(self, at_s: float) -> None:
-        self._asked_s = at_s
+    def query_left(self, at_s: float) -> None:
+        self._queried_s = at_s
 
     def answered(self, at_s: float) -> bool:
         """True once, when it is sure enough."""
-        if at_s - self._asked_s <= BATTERY.unasked_after_ms / 1000:
+        if at_s - self._queried_s <= BATTERY.unsolicited_after_ms / 1000:
             return False
         self._count += 1
-        return self._count == BATTERY.unasked_limit
+        return self._count == BATTERY.unsolicited_limit

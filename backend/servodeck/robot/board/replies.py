@@ -38,7 +38,7 @@ class Replies:
                 expected.answer.set_result(report)
 
     async def ask(self, put: Callable[[], Left], wait_s: float, *kinds: type[Report]) -> Report | None:
-        """As `to`, once all that was asked before has been answered or given up. `put` puts the question on
+        """As `to`, once all earlier queries have been answered or given up. `put` puts the question on
         the wire.
         """
         async with self.asking:
@@ -55,7 +55,7 @@ class Replies:
             await left
             return await within(wait_s, answer)
 
-    async def unasked(self, wait_s: float, *kinds: type[Report]) -> Report | None:
+    async def unsolicited(self, wait_s: float, *kinds: type[Report]) -> Report | None:
         """As `to`, without a question."""
         with self._expecting(kinds, -inf) as answer:
             return await within(wait_s, answer)

@@ -28,16 +28,16 @@ export const MESSAGES: readonly Exhibit[] = [
   {
     name: 'Message',
     content: <Messages />,
-    stores: () => prepared(({ notices }) => notices.tell('warning', words.timeline.held.locked)),
+    stores: () => prepared(({ notices }) => notices.show('warning', words.timeline.held.locked)),
   },
   {
     name: 'Message to act on, others waiting',
     content: <Messages />,
     stores: () =>
       prepared(({ notices }) => {
-        notices.tell('danger', errorSentence('internal', ''));
-        notices.tell('warning', words.timeline.held.locked);
-        notices.tell('warning', words.library.removed({ name: 'Wave' }), {
+        notices.show('danger', errorSentence('internal', ''));
+        notices.show('warning', words.timeline.held.locked);
+        notices.show('warning', words.library.removed({ name: 'Wave' }), {
           ...{ label: words.library.undo, act: () => undefined },
         });
       }),

@@ -1,4 +1,4 @@
-// Motions to try on a simulated robot, one press each: an example becomes the group at hand, as one step, and is played.
+// Motions to try on a simulated robot, one press each: an example becomes the open group, as one step, and is played.
 
 import { examplesFor, type ExampleId } from '#shared/group/examples/examples.ts';
 import { useStore } from 'zustand';

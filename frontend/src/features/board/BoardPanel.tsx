@@ -40,7 +40,7 @@ function RunControl() {
   );
   const run = (): void => {
     runAsChosen({ device, view }, slot, times);
-    if (isEmpty) notices.tell('info', words.board.runsNothing({ slot }));
+    if (isEmpty) notices.show('info', words.board.runsNothing({ slot }));
   };
   return (
     <>
@@ -156,7 +156,7 @@ const BoardDetails = laterComponent(async () => (await import('./BoardDetails.ts
 interface BoardPanelProps {
   /** The strip and the details fill the column around them: the strip stays in sight, the details scroll. */
   readonly isSpread?: boolean;
-  /** How the group at hand fits the board. */
+  /** How the open group fits the board. */
   readonly fit: ReactNode;
 }
 

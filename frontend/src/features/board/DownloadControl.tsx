@@ -54,7 +54,7 @@ export function DownloadControl() {
     const { name } = group.source.group;
     const [problem] = obstacles(group.report, 'board');
     const { openId: documentId } = library.store.getState();
-    if (problem !== undefined) return notices.tell('warning', problemText(problem, group.source));
+    if (problem !== undefined) return notices.show('warning', problemText(problem, group.source));
     replacing.download([{ slot, name, documentId, frames: group.frames }], {
       // The page keeps showing this slot, also if the download breaks it.
       began: ([stored]) => view.setState({ slot: stored?.slot ?? slot }),

@@ -178,7 +178,7 @@ function KeyField({ macro: { id, name, key } }: MacroProps) {
       (page) => changeMacro(page, id, { key: wanted }),
     );
     if (loser !== undefined && wanted !== null)
-      notices.tell('info', words.macros.keyTaken({ key: wanted.toUpperCase(), from: loser.name }));
+      notices.show('info', words.macros.keyTaken({ key: wanted.toUpperCase(), from: loser.name }));
   };
   /** Runs before the key presses the button. Esc, which is STOP as well, ends the waiting. */
   const listen = (event: KeyboardEvent): void => {
@@ -188,7 +188,7 @@ function KeyField({ macro: { id, name, key } }: MacroProps) {
     const wanted = macroKey(event.nativeEvent);
     if (wanted !== null) setKey(wanted);
     else if (event.key === 'Escape') setListening(false);
-    else if (!event.repeat && !HELD_WITH_OTHERS.has(event.key)) notices.tell('info', words.macros.keyUnfit);
+    else if (!event.repeat && !HELD_WITH_OTHERS.has(event.key)) notices.show('info', words.macros.keyUnfit);
   };
   return (
     <div className={styles.row} onKeyDownCapture={listen} onBlur={() => setListening(false)}>

@@ -153,7 +153,7 @@ export function createMacroRun({ device, poses, robots, notices, clock }: MacroR
       if (store.getState() !== null) return;
       const reason = obstacle(macro);
       if (reason === null) begin(macro, 0);
-      else notices.tell('warning', reason);
+      else notices.show('warning', reason);
     },
     end() {
       if (store.getState() === null) return;

@@ -40,8 +40,8 @@ export function ConnectWays({ connector, onDone }: ConnectWaysProps) {
       isReady={useSnapshot(({ link }) => link.status === 'ready')}
       actions={connector}
       // Closes at once for what cannot fail here, after the work for what can.
-      onChoose={(work) => void Promise.resolve(work()).then(onDone, notices.tellError)}
-      onLook={() => void connector.look().catch(notices.tellError)}
+      onChoose={(work) => void Promise.resolve(work()).then(onDone, notices.showError)}
+      onLook={() => void connector.look().catch(notices.showError)}
     />
   );
 }

@@ -61,7 +61,7 @@ function Findings({ state, actions }: DoctorProps) {
       (rate) => setFound(rate ?? 'none'),
       (error: unknown) => {
         setFound(null);
-        notices.tellError(error);
+        notices.showError(error);
       },
     );
   };

@@ -107,7 +107,7 @@ export function CopyButton({ text, label, done }: CopyButtonProps) {
   const { notices } = useStores();
   if (!window.isSecureContext) return null;
   const copy = (): void =>
-    void navigator.clipboard.writeText(text).then(() => notices.tell('info', done), notices.tellError);
+    void navigator.clipboard.writeText(text).then(() => notices.show('info', done), notices.showError);
   return (
     <Button tone="quiet" icon="copy" onPress={copy}>
       {label}

@@ -201,7 +201,7 @@ function TargetField(props: TargetFieldProps) {
     const met = servoOf(robots.current().robot, first);
     if (met === undefined) return;
     const read = scaleOf(met, device.store.getState().family, view.getState().positionsIn);
-    notices.tell(
+    notices.show(
       'warning',
       words.servoPanel.stoppedBy({ name: servoLabel(met), min: read.text(met.min), max: read.text(met.max) }),
     );

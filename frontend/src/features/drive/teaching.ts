@@ -61,7 +61,7 @@ export function createTeaching({ device, robots, notices }: TeachingOptions): Te
 
   function endReleased(): void {
     off();
-    notices.tell('warning', words.teach.staysReleased);
+    notices.show('warning', words.teach.staysReleased);
   }
 
   function begin(): void {
@@ -116,7 +116,7 @@ export function createTeaching({ device, robots, notices }: TeachingOptions): Te
       ({ servo }) => motion(servo).reported !== 'commanded' && !held.some((target) => target.servo === servo),
     );
     if (beyond.length > 0)
-      notices.tell(
+      notices.show(
         'warning',
         words.teach.notHeld({ names: words.numbers.formatNames(beyond.map(servoLabel)) }),
       );

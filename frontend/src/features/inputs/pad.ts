@@ -176,7 +176,7 @@ export function createPad(options: PadOptions): Pad {
     rest();
     if (isGone && store.getState().isDriving) {
       drive(null);
-      notices.tell('warning', words.pad.gone);
+      notices.show('warning', words.pad.gone);
     }
   }
 
@@ -223,12 +223,12 @@ export function createPad(options: PadOptions): Pad {
       robot.servos.filter(({ servo }) => servos.includes(servo) && !wanted.includes(servo));
     const unknown = [...moment.unknown, ...tip.unknown];
     for (const servo of among(unknown, staying))
-      notices.tell('warning', words.pad.unknown({ servo: servoLabel(servo) }));
+      notices.show('warning', words.pad.unknown({ servo: servoLabel(servo) }));
     for (const servo of among(moment.locked, staying))
-      notices.tell('info', stayingSentence([servoLabel(servo)]));
+      notices.show('info', stayingSentence([servoLabel(servo)]));
     staying = [...unknown, ...moment.locked];
     for (const servo of among(moment.atLimit, limited)) {
-      notices.tell('info', words.pad.atLimit({ servo: servoLabel(servo), min: servo.min, max: servo.max }));
+      notices.show('info', words.pad.atLimit({ servo: servoLabel(servo), min: servo.min, max: servo.max }));
       limited = [...limited, servo.servo];
     }
   }
@@ -293,7 +293,7 @@ export function createPad(options: PadOptions): Pad {
   };
 }
 
-// What pad and keys do to the robot at hand; a robot without an entry has its ready mapping. Moves nothing; pad.ts does what a
+// What pad and keys do to the current robot; a robot without an entry has its ready mapping. Moves nothing; pad.ts does what a
 // mapping says.
 
 export function createMappings(

@@ -22,7 +22,7 @@ function LibraryFiles({ onDone }: { onDone(): void }) {
   const isEmpty = useLibrary(({ documents }) => documents.every(({ isRemoved }) => isRemoved));
 
   const take = ([file]: readonly File[]): void =>
-    void file?.text().then(files.importText, () => notices.tell('warning', words.library.unreadableFile));
+    void file?.text().then(files.importText, () => notices.show('warning', words.library.unreadableFile));
 
   async function save(): Promise<void> {
     const text = await files.exportText();

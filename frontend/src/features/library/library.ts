@@ -167,7 +167,7 @@ export function createLibrary(options: LibraryOptions): Library {
       );
       put(copyId, groupToText(shown()));
     } else put(copyId, groupToText(rename(ours, copy)));
-    notices.tell('warning', words.library.conflict({ name: ours.name, copy }));
+    notices.show('warning', words.library.conflict({ name: ours.name, copy }));
   }
 
   /** The group with its unsaved changes, if any; otherwise from the document store. */
@@ -266,7 +266,7 @@ export function createLibrary(options: LibraryOptions): Library {
     await (await options.documentStore).remove([id]);
     if (wasOpen) create();
     const undo = (): void => void attempt(restore(id).then(() => (wasOpen ? open(id) : undefined)));
-    notices.tell('info', words.library.removed({ name }), { label: words.library.undo, act: undo });
+    notices.show('info', words.library.removed({ name }), { label: words.library.undo, act: undo });
     await refresh();
   }
 
@@ -285,7 +285,7 @@ export function createLibrary(options: LibraryOptions): Library {
     notifySaved();
     if (!(await flush())) return;
     if (waiting.length > 0)
-      notices.tell(
+      notices.show(
         'info',
         words.library.recovered({
           names: words.numbers.formatNames(waiting.map(({ text }) => groupOf(text).name)),

@@ -58,9 +58,9 @@ export function createLibraryFiles(options: LibraryFilesOptions): LibraryFiles {
     const lost = read.flatMap((one) => one.lost);
     const [first] = lost;
     if (bundled.length === 0 && first !== undefined) throw first.error;
-    notices.tell('info', words.library.exported({ count: bundled.length }));
+    notices.show('info', words.library.exported({ count: bundled.length }));
     if (first !== undefined)
-      notices.tell(
+      notices.show(
         'warning',
         words.library.notExported({ names: words.numbers.formatNames(lost.map(({ name }) => name)) }),
       );
@@ -82,7 +82,7 @@ export function createLibraryFiles(options: LibraryFilesOptions): LibraryFiles {
     // So far all imported documents are in the trash: now they appear together, or not at all.
     await documentStore.restore(staged);
     const count = (outcome: Outcome): number => outcomes.filter((one) => one === outcome).length;
-    notices.tell(
+    notices.show(
       'info',
       words.library.imported({ added: count('added'), changed: count('changed'), same: count('same') }),
     );
@@ -118,7 +118,7 @@ export function createLibraryFiles(options: LibraryFilesOptions): LibraryFiles {
     async importText(text) {
       const read = libraryFromText(text);
       if ('problem' in read)
-        notices.tell('warning', words.library.notImported({ flaw: flawSentence(read.problem) }));
+        notices.show('warning', words.library.notImported({ flaw: flawSentence(read.problem) }));
       else await whileReported(take(read.value.documents)).catch(tellNotImported);
     },
   };
@@ -126,7 +126,7 @@ export function createLibraryFiles(options: LibraryFilesOptions): LibraryFiles {
   /** The document store may take long. */
   async function whileReported(taking: Promise<void>): Promise<void> {
     const waiting = words.library.importWaits;
-    const leave = options.clock.after(PATIENCE_MS, () => notices.tell('warning', waiting));
+    const leave = options.clock.after(PATIENCE_MS, () => notices.show('warning', waiting));
     await taking.finally(() => {
       leave();
       notices.takeBack(waiting);
@@ -135,7 +135,7 @@ export function createLibraryFiles(options: LibraryFilesOptions): LibraryFiles {
 
   function tellNotImported(error: unknown): void {
     const { code, message } = asLibraryError(error);
-    notices.tell('warning', words.library.importFailed({ problem: libraryProblem(code, message) }));
+    notices.show('warning', words.library.importFailed({ problem: libraryProblem(code, message) }));
   }
 }
 

@@ -30,13 +30,13 @@ export function createLibraryNotices(notices: Notices): LibraryNotices {
 
   function tell(error: unknown): void {
     const { code, message } = asLibraryError(error);
-    notices.tell('warning', libraryProblem(code, message));
+    notices.show('warning', libraryProblem(code, message));
   }
 
   /** Every change is for a moment only in this page; it matters while the library is away. */
   function tellUnstored(): void {
     if (isOutboxStored || !isAway) notices.takeBack(words.library.notHeldHere);
-    else notices.tell('warning', words.library.notHeldHere);
+    else notices.show('warning', words.library.notHeldHere);
   }
 
   return {
@@ -50,7 +50,7 @@ export function createLibraryNotices(notices: Notices): LibraryNotices {
       if (changesLost) damage.push(words.library.changesLost);
       for (const text of damage.filter((one) => !damageShown.has(one))) {
         damageShown.add(text);
-        notices.tell('warning', text);
+        notices.show('warning', text);
       }
     },
     setOutboxStored(isStored) {

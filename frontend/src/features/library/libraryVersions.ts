@@ -76,7 +76,7 @@ export function createLibraryVersions(options: LibraryVersionsOptions): LibraryV
 
   function tellUndoably(text: string, undo: () => Promise<void>): void {
     const act = (): void => void attempt(undo().then(refresh));
-    notices.tell('info', text, { label: words.library.undo, act });
+    notices.show('info', text, { label: words.library.undo, act });
   }
 
   async function restoreVersion(id: string, { id: version, name }: Version): Promise<void> {

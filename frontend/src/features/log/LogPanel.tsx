@@ -144,8 +144,8 @@ export function LogPanel({ onFold }: { readonly onFold?: () => void }) {
   };
   const copy = (entry: LogEntry): void => {
     copyText(lineText(entry)).then(
-      () => notices.tell('info', words.log.copied),
-      () => notices.tell('warning', words.log.notCopied),
+      () => notices.show('info', words.log.copied),
+      () => notices.show('warning', words.log.notCopied),
     );
   };
 

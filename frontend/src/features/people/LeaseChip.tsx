@@ -219,12 +219,12 @@ function PassesIn({ lease: { grantedInMs, hasRequested } }: { readonly lease: Le
 /** Shows a notice when another person hands the robot to this page without a request. Returns a function that ends it. */
 export function tellHandedOver(
   store: Pick<Device['store'], 'subscribe'>,
-  notices: Pick<Notices, 'tell'>,
+  notices: Pick<Notices, 'show'>,
 ): () => void {
   return store.subscribe(({ snapshot: { lease } }, { snapshot: before }) => {
     const giver = lease?.grantedBy ?? null;
     if (lease !== null && giver !== null && giver !== before.lease?.grantedBy)
-      notices.tell('info', words.lease.given({ name: personName(giver, lease.you) }));
+      notices.show('info', words.lease.given({ name: personName(giver, lease.you) }));
   });
 }
 

@@ -30,7 +30,7 @@ test('the person who gets the robot is shown who gave it, once', () => {
       snapshot: INITIAL_STATE,
     },
   }));
-  tellHandedOver(store, { tell: (_tone, text) => void texts.push(text) });
+  tellHandedOver(store, { show: (_tone, text) => void texts.push(text) });
   const given = { ...OURS, grantedBy: 'Anna' };
   const theirs = { ...OURS, driver: 'Anna', drives: false };
   for (const lease of [OURS, given, { ...given, others: 3 }, theirs, OURS, null, given]) {

@@ -54,7 +54,7 @@ beforeEach(() => {
   nowMs = 0;
   texts = [];
   robot = gateway();
-  const notices = { tell: (_tone: string, text: string) => void texts.push(text) };
+  const notices = { show: (_tone: string, text: string) => void texts.push(text) };
   people = createPeople({ api: robot.api, me: ANNA, notices, now: () => nowMs });
 });
 
@@ -121,7 +121,7 @@ test('what the gateway refuses is reported with its reason', async () => {
 test('a person who lets no one in says their own name, and hears when an owner changes it', async () => {
   const { api, requested } = gateway();
   const guest = { ...ANNA, you: BEN };
-  const notices = { tell: (_tone: string, text: string) => void texts.push(text) };
+  const notices = { show: (_tone: string, text: string) => void texts.push(text) };
   let now: Me | null = { ...guest, you: { ...BEN, name: 'Ben' } };
   people = createPeople({
     api: { ...api, me: () => Promise.resolve(now) },

@@ -94,7 +94,7 @@ export type PeopleWishes = Omit<PeopleStore, 'store' | 'refresh'>;
 interface PeopleOptions {
   readonly api: PeopleApi;
   readonly me: Me | null;
-  readonly notices: Pick<Notices, 'tell'>;
+  readonly notices: Pick<Notices, 'show'>;
   now(): number;
 }
 
@@ -103,9 +103,9 @@ export const managesPeople = (me: Me | null): boolean => me?.mode !== 'local' &&
 export function createPeople({ api, me, notices, now }: PeopleOptions): PeopleStore {
   const store = createStore<PeopleState>(() => ({ me, people: [], invitation: null, shown: null }));
 
-  const tellError = (error: unknown): void => {
+  const showError = (error: unknown): void => {
     if (!(error instanceof PeopleError)) throw error;
-    notices.tell('danger', peopleProblem(error.code, error.message));
+    notices.show('danger', peopleProblem(error.code, error.message));
   };
 
   function known(you: You): void {
@@ -135,7 +135,7 @@ export function createPeople({ api, me, notices, now }: PeopleOptions): PeopleSt
   }
 
   function act(work: () => Promise<void>): void {
-    work().then(refresh).catch(tellError);
+    work().then(refresh).catch(showError);
   }
 
   async function withdraw(): Promise<void> {
@@ -147,7 +147,7 @@ export function createPeople({ api, me, notices, now }: PeopleOptions): PeopleSt
 
   return {
     store,
-    refresh: () => refresh().catch(tellError),
+    refresh: () => refresh().catch(showError),
     sayName: (name) => act(async () => known(await api.sayName(name))),
     invite: (role, name) =>
       act(async () => {

@@ -85,13 +85,13 @@ function Shapes() {
     const { targets, held } = shape(robot, pose?.targets ?? []);
     edit(label, (book, id) => setPose(book, id, targets));
     if (held.length > 0)
-      notices.tell('warning', words.poses.held({ names: words.numbers.formatNames(held.map(servoLabel)) }));
+      notices.show('warning', words.poses.held({ names: words.numbers.formatNames(held.map(servoLabel)) }));
   };
 
   const addToGroup = (): void => {
     if (pose === undefined) return;
     putFrame({ document, view }, 'after', pose, () => words.poses.steps.addToGroup({ name: pose.name }));
-    notices.tell('info', words.poses.added({ name: pose.name }), {
+    notices.show('info', words.poses.added({ name: pose.name }), {
       label: words.poses.openGroup,
       act: () => view.setState({ tab: 'actions', authoring: 'group' }),
     });
@@ -104,7 +104,7 @@ function Shapes() {
       () => words.macros.edits.add({ name }),
       (page) => addMacro(page, name, [{ kind: 'pose', pose: id, durationMs: GENTLE_MOVE_MS }]),
     );
-    notices.tell('info', words.poses.buttonMade({ name }));
+    notices.show('info', words.poses.buttonMade({ name }));
   };
 
   return (

@@ -182,7 +182,7 @@ function PoseFiles() {
   const input = useRef<HTMLInputElement>(null);
 
   function take(files: FileList | null): void {
-    files?.[0]?.text().then(poses.importText, () => notices.tell('warning', words.poses.unreadableFile));
+    files?.[0]?.text().then(poses.importText, () => notices.show('warning', words.poses.unreadableFile));
   }
 
   return (

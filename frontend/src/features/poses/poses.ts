@@ -78,7 +78,7 @@ export function createPoses({ storage, notices, robots, device, view }: PosesOpt
     const staying = stayingOf({ view, robots }, targets);
     const free = freeOf({ view, robots }, targets);
     const isGone = free.length > 0 && device.move(free, durationMs);
-    if (staying !== null && (isGone || free.length === 0)) notices.tell('info', staying);
+    if (staying !== null && (isGone || free.length === 0)) notices.show('info', staying);
     return isGone;
   }
 
@@ -98,7 +98,7 @@ export function createPoses({ storage, notices, robots, device, view }: PosesOpt
     const targets = imported.poses.flatMap((pose) => pose.targets);
     const unknown = unknownServos(robots.current().robot, targets);
     if (unknown.length > 0)
-      notices.tell('warning', words.poses.unknownServos({ servos: words.numbers.formatList(unknown) }));
+      notices.show('warning', words.poses.unknownServos({ servos: words.numbers.formatList(unknown) }));
   }
 
   return {
@@ -117,7 +117,7 @@ export function createPoses({ storage, notices, robots, device, view }: PosesOpt
     },
     apply(ref, durationMs) {
       const targets = targetsOf(ref);
-      if (targets === null) notices.tell('warning', words.poses.gone);
+      if (targets === null) notices.show('warning', words.poses.gone);
       if (targets === null || !go(targets, durationMs)) return false;
       const name = poseName(present(), ref);
       book.edit(
@@ -135,7 +135,7 @@ export function createPoses({ storage, notices, robots, device, view }: PosesOpt
         'problem' in read
           ? words.poses.importFailed({ flaw: flawSentence(read.problem) })
           : flawOfImport(read.value);
-      if (problem !== null) notices.tell('warning', problem);
+      if (problem !== null) notices.show('warning', problem);
       else if ('value' in read) take(read.value);
     },
   };

@@ -95,7 +95,7 @@ export function createRobotDocument<T>(options: RobotDocumentOptions<T>): RobotD
     try {
       storage.setItem(`${key}.${id}`, toText(value));
     } catch {
-      notices.tell('warning', options.notSaved());
+      notices.show('warning', options.notSaved());
     }
   }
 
@@ -148,7 +148,7 @@ export function createRobotDocument<T>(options: RobotDocumentOptions<T>): RobotD
     if (why === null) return false;
     const { present } = document.store.getState();
     if (sharedText(edit(present)) === sharedText(present)) return false;
-    notices.tell('warning', why);
+    notices.show('warning', why);
     return true;
   }
 
@@ -174,9 +174,9 @@ function load<T>(options: RobotDocumentOptions<T>, { id: owner, robot }: OwnRobo
     const read = options.fromText(text);
     if ('value' in read) return read.value;
     storage.setItem(`${key}.${owner}.unreadable`, text);
-    notices.tell('warning', options.unreadable(read.problem));
+    notices.show('warning', options.unreadable(read.problem));
   } catch {
-    notices.tell('warning', options.notSaved());
+    notices.show('warning', options.notSaved());
   }
   return empty;
 }

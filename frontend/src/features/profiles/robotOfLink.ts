@@ -57,7 +57,7 @@ export function followRobot(options: RobotOfLinkOptions): (snapshot: SessionStat
   }
 
   function bounce(there: number, isNews: boolean): void {
-    if (isNews) notices.tell('warning', whyNot());
+    if (isNews) notices.show('warning', whyNot());
     robots.takeUp(there);
   }
 
@@ -90,7 +90,7 @@ export function followRobot(options: RobotOfLinkOptions): (snapshot: SessionStat
       }
     } catch (error) {
       followed = insteadOf;
-      if (insteadOf !== null) notices.tellError(error);
+      if (insteadOf !== null) notices.showError(error);
       // Another page was faster: waits for its report before a new request.
       else if (reported?.document === null) reported = null;
     } finally {

@@ -165,7 +165,7 @@ export function createRobotSync(options: RobotSyncOptions): RobotSync {
   function keepBoth({ robot }: OwnRobot, ours: Kit): void {
     const name = longerName(robot.name, words.robots.otherVersion);
     take(null, { ...ours, robot: robotToText({ ...robot, name }) });
-    notices.tell('warning', words.robots.conflict({ name: robot.name, copy: name }));
+    notices.show('warning', words.robots.conflict({ name: robot.name, copy: name }));
   }
 
   /** False after a conflict, which must be resolved first. */
@@ -209,7 +209,7 @@ export function createRobotSync(options: RobotSyncOptions): RobotSync {
       if (isNew && known.has(one.id)) added.push(one.robot.name);
     }
     if (added.length > 0 && store.getState().place === null && documentStore.place === 'gateway')
-      notices.tell('info', words.robots.addedToLibrary({ names: words.numbers.formatNames(added) }));
+      notices.show('info', words.robots.addedToLibrary({ names: words.numbers.formatNames(added) }));
     await removeGone(documentStore);
     if (failures.length > 0) throw failures[0];
     return isWhole;
@@ -264,7 +264,7 @@ export function createRobotSync(options: RobotSyncOptions): RobotSync {
       code === 'tooLarge'
         ? words.robots.tooLarge
         : words.robots.notInLibrary({ problem: libraryProblem(code, message) });
-    notices.tell('warning', text);
+    notices.show('warning', text);
   }
 
   const lookNow = (): Promise<boolean> => (turn = turn.then(attempt));

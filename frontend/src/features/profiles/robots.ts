@@ -70,7 +70,7 @@ export function createRobots(storage: TextStorage, notices: Notices): RobotStore
     try {
       storage.setItem(KEY, toText(next.present));
     } catch {
-      notices.tell('warning', words.robots.notSaved);
+      notices.show('warning', words.robots.notSaved);
     }
   }
 
@@ -86,15 +86,15 @@ export function createRobots(storage: TextStorage, notices: Notices): RobotStore
   /** Loads the sentences on demand: edits are rarely refused. */
   function tellFlaw(flaw: RobotFlaw): void {
     void import('../../i18n/robotFlaws.ts').then(
-      ({ robotFlawSentence }) => notices.tell('warning', robotFlawSentence(flaw)),
-      notices.tellError,
+      ({ robotFlawSentence }) => notices.show('warning', robotFlawSentence(flaw)),
+      notices.showError,
     );
   }
 
   /** Shows a notice. */
   function isRefused(next?: Robot): boolean {
     const why = refusal(next);
-    if (why !== null) notices.tell('warning', why);
+    if (why !== null) notices.show('warning', why);
     return why !== null;
   }
 
@@ -246,9 +246,9 @@ function load(storage: TextStorage, notices: Notices): Robots {
     const robots = fromText(text);
     if (robots !== null) return robots;
     storage.setItem(REPLACED_KEY, text);
-    notices.tell('warning', words.robots.unreadable);
+    notices.show('warning', words.robots.unreadable);
   } catch {
-    notices.tell('warning', words.robots.notSaved);
+    notices.show('warning', words.robots.notSaved);
   }
   return fresh;
 }

@@ -349,7 +349,7 @@ export interface PortState {
   retryInMs: number | null;
 }
 /**
- * The link to the board: `identifying` while the board is asked, `stale` while it does not answer a
+ * The link to the board: `identifying` while it is queried, `stale` while it does not answer a
  * question that such a board always answers, `refused` until a person says which board it is. `code` and
  * `detail` say why it is not ready.
  */

@@ -45,7 +45,7 @@ function circumstancesOf(round: number): Circumstances {
 }
 
 /** Does to each acknowledgement what its outcome says; takes whole packets, so that a outcome strikes one at a time. */
-function withFates(
+function withLosses(
   channel: ByteChannel,
   clock: Clock,
   { lateMs, doubledAfterMs }: Circumstances,
@@ -84,22 +84,22 @@ async function storeUnder(outcomes: readonly Outcome[], circumstances: Circumsta
   const clock = createVirtualClock();
   const simulated = createSimulatedChannel(clock, { onForMs: 60_000 });
   let acks = 0;
-  const channel = withFates(simulated, clock, circumstances, () => outcomes[acks++] ?? 'kept');
+  const channel = withLosses(simulated, clock, circumstances, () => outcomes[acks++] ?? 'kept');
   const session = createLocalRobot({ channel, isNew: true, family: family('doc'), clock });
   await session.open();
   let outcome: unknown = 'hangs';
   /** What the board had committed when the session said so, not some time later. */
-  let countWhenTold = 0;
+  let countAtResult = 0;
   session.download([{ slot, frames }]).then(
     () => {
       outcome = 'stored';
-      countWhenTold = simulated.board.frameCount(slot);
+      countAtResult = simulated.board.frameCount(slot);
     },
     (error: unknown) => (outcome = error),
   );
   await clock.advance(120_000);
   if (outcome === 'stored') {
-    expect(countWhenTold).toBe(frames.length);
+    expect(countAtResult).toBe(frames.length);
     expect(frames.map((_, at) => simulated.board.storedFrame(slot, at))).toEqual(frames);
     expect(session.state.brokenSlots).toEqual([]);
   } else {

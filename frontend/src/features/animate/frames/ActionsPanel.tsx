@@ -162,7 +162,7 @@ function OtherBoard() {
   if (!isOther) return null;
   const convert = (): void => {
     const converted = convertGroup(document.store.getState().present, unit);
-    if (converted === null) notices.tell('warning', words.actions.notConverted);
+    if (converted === null) notices.show('warning', words.actions.notConverted);
     else
       document.edit(
         () => words.actions.steps.convert,

@@ -25,7 +25,7 @@ import {
 
 export interface FrameContext {
   readonly stores: TimelineStores;
-  /** The frame at hand; null: none. */
+  /** The current frame; null: none. */
   readonly id: number | null;
   /** It and those that are selected with it. */
   readonly ids: FrameIds;
@@ -79,7 +79,7 @@ function load({ stores, id }: FrameContext): void {
   const free = freeOf(stores, frame.targets);
   const staying = stayingOf(stores, frame.targets);
   if (free.length > 0) stores.device.move(free, Math.max(frame.durationMs, GENTLE_MOVE_MS));
-  if (staying !== null) stores.notices.tell('info', staying);
+  if (staying !== null) stores.notices.show('info', staying);
 }
 
 function update({ stores, id }: FrameContext): void {

@@ -127,13 +127,13 @@ export function cut(stores: TimelineStores, ids: FrameIds): Clip | null {
 
 /** Behind those that are selected, else at the end. All of it or nothing: what the robot must not do is not pasted. */
 export function paste(stores: TimelineStores, clip: Clip | null): void {
-  if (clip === null) return stores.notices.tell('info', words.actions.nothingToPaste);
+  if (clip === null) return stores.notices.show('info', words.actions.nothingToPaste);
   const context = contextOf(stores);
   const index = numbersOf(stores, chosenFrames(stores)).at(-1) ?? context.group.frames.length;
   const pasted = pasteFrames(context.group, clip, index, { rangeOf: (servo) => rangeOf(context, servo) });
   const [problem] = pasted.problems;
   if (problem !== undefined)
-    return stores.notices.tell('warning', notPasted(problem, namesIn(context.robot)));
+    return stores.notices.show('warning', notPasted(problem, namesIn(context.robot)));
   add(
     stores,
     () => words.actions.steps.paste({ count: clip.moments.length }),

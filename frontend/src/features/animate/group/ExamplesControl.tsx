@@ -1,4 +1,4 @@
-// Groups to begin with, as pictures; the one that is chosen takes the place of the group at hand, as one step.
+// Groups to begin with, as pictures; the one that is chosen takes the place of the open group, as one step.
 
 import { useState } from 'react';
 import { exampleGroup, examplesFor, type ExampleId } from '#shared/group/examples/examples.ts';
@@ -46,7 +46,7 @@ export function ExampleList({ onChosen }: { onChosen(): void }) {
   );
 }
 
-/** It takes the place of the group at hand, as one step. */
+/** It takes the place of the open group, as one step. */
 export function takeExample({ document, view, playhead, robots }: Stores, id: ExampleId): void {
   const name = words.examples.names[id];
   const group = exampleGroup(id, robots.current().robot, name);

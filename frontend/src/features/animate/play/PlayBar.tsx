@@ -31,7 +31,7 @@ import { Toggle } from '../../../ui/Toggle.tsx';
 import { words } from '../../../i18n/whole.ts';
 import styles from './PlayBar.module.css';
 
-// What plays the group at hand; it is there from the first panel on that has buttons for it.
+// What plays the open group; it is there from the first panel on that has buttons for it.
 
 const usePlayer = (): Player => playerOf(useStores().playback);
 

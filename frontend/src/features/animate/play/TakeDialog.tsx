@@ -12,7 +12,7 @@ import { laterComponent } from '../../../ui/later.tsx';
 // What was recorded is offered to become keys; where nothing moved, that is said.
 
 export function offer({ notices, tape }: Pick<Stores, 'notices' | 'tape'>, taken: readonly Sample[]): void {
-  if (taken.length === 0) notices.tell('info', words.record.nothing);
+  if (taken.length === 0) notices.show('info', words.record.nothing);
   tape.store.setState({ taken });
 }
 

@@ -20,7 +20,7 @@ interface BoardRunOptions {
   readonly place: GroupPlace;
   readonly replacing: Replacing;
   readonly view: View;
-  /** Of the group at hand, in the library. */
+  /** Of the open group, in the library. */
   documentId(): string;
   /** null: nothing runs any more. */
   phase(next: 'storing' | 'running' | null): void;

@@ -502,7 +502,7 @@ describe('playing on the board', () => {
   });
 
   describe('where the slot holds another group', () => {
-    /** The first group is in slot 21, the second one at hand is to go there. */
+    /** The first group is in slot 21, the second one, now open, is to go there. */
     async function pageWithAnother(name: string, board: Parameters<typeof createTestPage>[1] = {}) {
       const page = await pageWith(WAVE, board);
       const { playback, document, opened, view, replacing, ofKind, draw } = page;

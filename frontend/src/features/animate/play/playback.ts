@@ -100,7 +100,7 @@ export interface PlaybackOptions {
   readonly view: View;
   readonly playhead: Playhead;
   readonly robots: RobotStore;
-  /** Of the group at hand, in the library. */
+  /** Of the open group, in the library. */
   documentId(): string;
 }
 

@@ -1,4 +1,4 @@
-// Plays the group at hand, from the page or on the board, and says where it is: what is played is what compile makes of it, by
+// Plays the open group, from the page or on the board, and says where it is: what is played is what compile makes of it, by
 // either way. One thing at a time; STOP, a lost link and a hidden page end it. Knows no panel.
 
 import { problemText } from '../../board/compile/problems.tsx';
@@ -98,7 +98,7 @@ function createPlayer(options: PlaybackOptions, store: StoreApi<PlaybackState>):
             ? null
             : problemText(problem, group.source);
     if (reason === null) return group;
-    notices.tell('warning', reason);
+    notices.show('warning', reason);
     return null;
   }
 

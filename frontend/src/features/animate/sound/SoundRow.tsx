@@ -106,7 +106,7 @@ function SoundMenu({ sound, onTap, ...menu }: SoundMenuProps & Pick<ChoiceMenuPr
         name: words.sound.find,
         act: () =>
           track.beats === null
-            ? stores.notices.tell('info', words.sound.noneFound)
+            ? stores.notices.show('info', words.sound.noneFound)
             : setBeats(stores, track.beats),
       },
       tap: { name: words.sound.tap, act: onTap },

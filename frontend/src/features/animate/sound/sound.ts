@@ -72,7 +72,7 @@ function createSound({ document, notices }: SoundStores): Sound {
 
   async function take(file: File): Promise<void> {
     const flaw = file.size > MOST_BYTES ? words.sound.tooLarge : await taken(file);
-    if (flaw !== null) notices.tell('warning', flaw);
+    if (flaw !== null) notices.show('warning', flaw);
   }
 
   /** Says why not, or null. */

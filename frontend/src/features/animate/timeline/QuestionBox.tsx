@@ -9,7 +9,7 @@ import { type Ask, selectedKeys } from './timeline.ts';
 import { cx } from '../../../ui/cx.ts';
 import { isTouch } from '../../../ui/inputEvents.ts';
 import { words } from '../../../i18n/whole.ts';
-import { answer, ASKED } from './questions.ts';
+import { answer, QUESTIONS } from './questions.ts';
 import { contextOf, type ShownContext, useTimelineContext } from './context.ts';
 import { endOfFrame } from '#shared/group/groupTimes.ts';
 import { sizesNow } from './trackCanvas.ts';
@@ -27,7 +27,7 @@ export interface AskBoxProps {
 export function AskBox(props: AskBoxProps) {
   const question = useTimeline((state) => state.question);
   const hasOne = useTimeline(({ selected }) => selected.size === 1);
-  if (question !== null) return <Asked key={question} ask={question} {...props} />;
+  if (question !== null) return <QuestionForm key={question} ask={question} {...props} />;
   return hasOne ? <KeyValue /> : null;
 }
 
@@ -46,11 +46,11 @@ function KeyValue() {
   );
 }
 
-function Asked({ ask, onClose, onPass }: AskBoxProps & { readonly ask: Ask }) {
+function QuestionForm({ ask, onClose, onPass }: AskBoxProps & { readonly ask: Ask }) {
   const stores = useStores();
   const place = placeOf(useTimelineContext());
   const context = contextOf(stores);
-  const asked = ASKED[ask];
+  const form = QUESTIONS[ask];
   const field = useRef<HTMLInputElement>(null);
   // Not sooner: as long as a menu is closing, nothing beside it takes the focus.
   useEffect(() => field.current?.focus(), []);
@@ -62,22 +62,22 @@ function Asked({ ask, onClose, onPass }: AskBoxProps & { readonly ask: Ask }) {
     if (stores.timeline.getState().question !== ask) return;
     close();
     const problem = answer(contextOf(stores), ask, text);
-    if (problem !== null) stores.notices.tell('warning', problem);
+    if (problem !== null) stores.notices.show('warning', problem);
   };
   /** A suggested number is taken by Enter alone; leaving the field cancels it. */
-  const isLeftAlone = (text: string): boolean => asked.kind === 'number' && text === asked.initial(context);
+  const isLeftAlone = (text: string): boolean => form.kind === 'number' && text === form.initial(context);
   return (
     <div className={styles.box} style={place ?? {}}>
       <input
         ref={field}
         type="text"
-        className={asked.kind === 'text' ? styles.text : styles.number}
-        inputMode={asked.kind === 'text' ? 'text' : 'decimal'}
+        className={form.kind === 'text' ? styles.text : styles.number}
+        inputMode={form.kind === 'text' ? 'text' : 'decimal'}
         aria-label={words.timeline.questions[ask]}
         title={ask === 'value' ? words.timeline.changes : words.timeline.questions[ask]}
         autoComplete="off"
-        maxLength={asked.kind === 'text' ? asked.maxLength : 8}
-        defaultValue={context.state.typed || asked.initial(context)}
+        maxLength={form.kind === 'text' ? form.maxLength : 8}
+        defaultValue={context.state.typed || form.initial(context)}
         onFocus={({ target }) => context.state.typed === '' && target.select()}
         onBlur={({ target }) => (isLeftAlone(target.value) ? close() : take(target.value))}
         onKeyDown={(event) => {
@@ -88,7 +88,7 @@ function Asked({ ask, onClose, onPass }: AskBoxProps & { readonly ask: Ask }) {
           onPass(event);
         }}
       />
-      {asked.kind === 'number' && <span className={styles.unit}>{asked.unit(context)}</span>}
+      {form.kind === 'number' && <span className={styles.unit}>{form.unit(context)}</span>}
     </div>
   );
 }

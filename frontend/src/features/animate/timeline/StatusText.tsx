@@ -60,17 +60,19 @@ function NudgeTools({ context }: { readonly context: ShownContext }) {
 
 export interface Said {
   readonly status: StatusName | null;
-  readonly tells: (() => string) | undefined;
+  readonly describe: (() => string) | undefined;
 }
 
-export const StatusText = memo(function StatusText({ status, tells }: Said) {
+export const StatusText = memo(function StatusText({ status, describe }: Said) {
   const context = useTimelineContext();
   const stores = useStores();
   const hidden = useServoView((view) => view.hidden.length);
   return (
     <div className={styles.line}>
       <p className={styles.text}>
-        {tells !== undefined && <LiveText className={styles.dragged} text={tells} eachMs={READABLE_MS} />}
+        {describe !== undefined && (
+          <LiveText className={styles.dragged} text={describe} eachMs={READABLE_MS} />
+        )}
         {textOf(context, status)}
       </p>
       {isTouch() && <NudgeTools context={context} />}

@@ -124,9 +124,9 @@ export const Timeline = memo(function Timeline() {
         Object.assign(menuSpot.current.style, { left: `${x}px`, top: `${y}px` });
         openMenu('keys', menuSpot.current);
       },
-      say: (status, tells) =>
+      say: (status, describe) =>
         setSaid((before) =>
-          before.status === status && before.tells === tells ? before : { status, tells },
+          before.status === status && before.describe === describe ? before : { status, describe },
         ),
     });
   }, [stores, openMenu]);
@@ -246,7 +246,7 @@ function Stage({ children }: { readonly children: ReactNode }) {
   );
 }
 
-const SAYS_NOTHING: Said = { status: null, tells: undefined };
+const SAYS_NOTHING: Said = { status: null, describe: undefined };
 
 function areThere<Parts extends object>(
   parts: Parts,

@@ -38,11 +38,11 @@ export function setKeys(context: TimelineContext): void {
 export function setKeysAt(context: TimelineContext, servos: readonly number[], atMs: number): void {
   const free = servos.filter((servo) => !isHeld(context.servoView, servo));
   if (free.length === 0)
-    return context.stores.notices.tell('warning', words.timeline.status[whyHeld(context, servos)]);
+    return context.stores.notices.show('warning', words.timeline.status[whyHeld(context, servos)]);
   const known = placedAt(free, (servo) => positionNow(context, servo, atMs));
   const placed = known.length > 0 ? known : placedAt(free, (servo) => homeOf(context, servo));
   if (placed.length === 0)
-    return context.stores.notices.tell(
+    return context.stores.notices.show(
       'info',
       words.actions.otherUnit({ unit: words.units[context.group.unit] }),
     );
@@ -78,7 +78,7 @@ function positionNow(context: TimelineContext, servo: number, atMs: number): num
   return onItsWay ?? (countsAlike(context) ? context.stores.device.motion(servo).target : null);
 }
 
-/** null where the robot at hand counts otherwise, or knows no such servo. */
+/** null where the current robot counts otherwise, or knows no such servo. */
 const homeOf = (context: TimelineContext, servo: number): number | null =>
   countsAlike(context) ? (servoOf(context.robot, servo)?.home ?? null) : null;
 
@@ -139,7 +139,7 @@ export function cut(context: TimelineContext): Clip | null {
 }
 
 export function paste(context: TimelineContext, clip: Clip | null): void {
-  if (clip === null) return context.stores.notices.tell('info', words.timeline.nothingToPaste);
+  if (clip === null) return context.stores.notices.show('info', words.timeline.nothingToPaste);
   const { playheadMs, ripples } = context.state;
   put(
     context,
@@ -185,7 +185,7 @@ function put(
 ): void {
   const [problem] = problems;
   if (problem !== undefined)
-    context.stores.notices.tell('warning', notPasted(problem, namesIn(context.robot)));
+    context.stores.notices.show('warning', notPasted(problem, namesIn(context.robot)));
   else apply(context, { label, edit: () => group, selects });
 }
 
@@ -219,9 +219,9 @@ function reversedRefs(
 export function mirrorFrames(context: TimelineContext): void {
   const frameIds = selectedFrames(context);
   const { group, held } = mirror(context.group, context.robot, frameIds);
-  if (group === context.group) context.stores.notices.tell('info', words.timeline.nothingToMirror);
+  if (group === context.group) context.stores.notices.show('info', words.timeline.nothingToMirror);
   if (held.length > 0)
-    context.stores.notices.tell(
+    context.stores.notices.show(
       'warning',
       heldAtLimit(held.map(({ servo }) => servoName(context.robot, servo))),
     );

@@ -43,7 +43,7 @@ export interface TimelineContext {
   readonly times: GroupTimes;
   readonly state: TimelineState;
   readonly rows: readonly Row[];
-  /** They count as the group does; `isOther`: not as the board at hand does. */
+  /** They count as the group does; `isOther`: not as the connected board does. */
   readonly robot: Robot;
   readonly family: Family;
   readonly isOther: boolean;
@@ -157,7 +157,7 @@ const sameCursor = (before: Cursor, after: Cursor = before): Cursor =>
 export function hasChangeable(context: TimelineContext): boolean {
   if (changeable(context).length > 0) return true;
   if (context.state.selected.size > 0)
-    context.stores.notices.tell('warning', words.timeline.held[whyHeld(context)]);
+    context.stores.notices.show('warning', words.timeline.held[whyHeld(context)]);
   return false;
 }
 

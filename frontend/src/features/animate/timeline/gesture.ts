@@ -60,7 +60,7 @@ export interface Gesture {
   /** Past an end of the tracks these go on below it. */
   readonly leadsOn?: 'throughTime' | 'throughRowsToo';
   /** Where what is dragged is by now. */
-  tells?(): string;
+  describe?(): string;
   move(spot: Spot, held: Held): void;
   /** `isClick`: the pointer never left its place. */
   end(isClick: boolean): void;
@@ -78,7 +78,7 @@ export function edits(
   status: StatusName,
   label: Label,
   moved: (spot: Spot, held: Held) => ((group: ActionGroup) => ActionGroup) | null,
-  rest: Pick<Gesture, 'tells'> & {
+  rest: Pick<Gesture, 'describe'> & {
     shown?(): void;
     clicked?(): void;
     ended?(): void;
@@ -92,7 +92,7 @@ export function edits(
   return {
     status,
     leadsOn: 'throughTime',
-    ...(rest.tells === undefined ? {} : { tells: rest.tells }),
+    ...(rest.describe === undefined ? {} : { describe: rest.describe }),
     move(spot, held) {
       const edit = isTaken() ? null : moved(spot, held);
       if (edit === null) return;

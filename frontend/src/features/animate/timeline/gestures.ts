@@ -76,8 +76,8 @@ function scrubGesture(press: Press, context: TimelineContext, atMs: number): Ges
       const wanted = onRaster(press, context, msAt(time, x), held);
       return { playheadMs: Math.max(0, Math.ceil(fromMs), Math.min(Math.floor(toMs), wanted)) };
     });
-  const tells = (): string => playheadText(press.stores);
-  return { status: 'scrub', leadsOn: 'throughTime', tells, move, end: nothing, cancel: nothing };
+  const describe = (): string => playheadText(press.stores);
+  return { status: 'scrub', leadsOn: 'throughTime', describe, move, end: nothing, cancel: nothing };
 }
 
 function rangeGesture(press: Press, context: TimelineContext, fromMs: number): Gesture {
@@ -93,7 +93,7 @@ function rangeGesture(press: Press, context: TimelineContext, fromMs: number): G
         .toSorted((a, b) => a - b);
       timeline.setState({ range: { fromMs: first, toMs: last } });
     },
-    tells: () => rangeText(press.stores),
+    describe: () => rangeText(press.stores),
     end: (isClick) => isClick && timeline.setState({ range: null }),
     cancel: () => timeline.setState({ range: before }),
   };
@@ -112,7 +112,7 @@ function markerGesture(press: Press, context: TimelineContext, id: number): Gest
       const target = to(spot, held);
       return (group) => moveMarker(group, id, target);
     },
-    { tells: () => markerText(press.stores, id) },
+    { describe: () => markerText(press.stores, id) },
   );
 }
 
@@ -135,7 +135,7 @@ function durationGesture(
       return (group) =>
         setDuration(group, frameId, Math.min(longest, Math.max(0, durationMs)), { ripple: ripples });
     },
-    { tells: () => frameText(press.stores, frameId) },
+    { describe: () => frameText(press.stores, frameId) },
   );
 }
 
@@ -166,7 +166,7 @@ function stretchGesture(
       };
     },
     {
-      tells: () =>
+      describe: () =>
         words.timeline.draggedStretch({
           ...{ share: factor, length: instantText(Math.round((span.toMs - span.fromMs) * factor)) },
         }),
@@ -184,7 +184,7 @@ function headGesture(press: Press, context: TimelineContext, frameId: number): G
   else selectFrame(context, frameId, 'replaces');
   return {
     status: 'box',
-    tells: () => boxText(press.stores),
+    describe: () => boxText(press.stores),
     move(spot) {
       const now = contextOf(press.stores);
       const hit = hitAt(sceneOf(now, press.sizes), { ...spot, y: press.spot.y });
@@ -205,7 +205,7 @@ function boxGesture(press: Press, context: TimelineContext, { row }: Hit & { kin
   return {
     status: 'box',
     leadsOn: isOnRows ? 'throughRowsToo' : 'throughTime',
-    tells: () => boxText(stores),
+    describe: () => boxText(stores),
     move(spot) {
       // Where it was begun: the tracks may have scrolled.
       const { time, scrollTop } = stores.timeline.getState();
@@ -293,7 +293,7 @@ function keyGesture(press: Press, scene: Scene, hit: Hit & { kind: 'key' }): Ges
       };
     },
     {
-      tells: () => keyText(stores, cursorAfter(context, refs, moved), hit.atMs),
+      describe: () => keyText(stores, cursorAfter(context, refs, moved), hit.atMs),
       shown: () => stores.timeline.setState({ selected: keySet(moved) }),
       clicked() {
         if (!wasSelected || held.shift) return;

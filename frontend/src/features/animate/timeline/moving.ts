@@ -151,7 +151,7 @@ export function goToMarker(context: TimelineContext): void {
       ? markers.find(({ atMs }) => atMs >= context.state.playheadMs)
       : markers[markers.indexOf(selected) + 1];
   const marker = next ?? markers[0];
-  if (marker === undefined) return context.stores.notices.tell('info', words.timeline.noMarker);
+  if (marker === undefined) return context.stores.notices.show('info', words.timeline.noMarker);
   showMarker(context, marker);
 }
 

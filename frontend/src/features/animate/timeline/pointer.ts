@@ -84,8 +84,8 @@ interface PointerHost {
   doubleClick(spot: Spot): void;
   /** A mouse is over the tracks and presses nothing; null: no longer. */
   hover(spot: Spot | null): void;
-  /** `tells`: the current place of the dragged item. */
-  say(status: StatusName | null, tells?: () => string): void;
+  /** `describe`: the current place of the dragged item. */
+  say(status: StatusName | null, describe?: () => string): void;
 }
 
 /** Less is a click. */
@@ -141,7 +141,7 @@ export function followPointer(tracks: HTMLElement, host: PointerHost): () => voi
     hasRested = false;
     press = host.press(spotOf(event), heldOf(event), isTouch);
     gesture = isPan ? panFrom(press) : gestureOf(press);
-    host.say(gesture.status, gesture.tells);
+    host.say(gesture.status, gesture.describe);
     if (isTouch) rest = setTimeout(rested, REST_MS);
   }
 
@@ -171,7 +171,7 @@ export function followPointer(tracks: HTMLElement, host: PointerHost): () => voi
   function draw(from: Press): void {
     gesture?.cancel();
     gesture = boxFrom(from);
-    host.say(gesture.status, gesture.tells);
+    host.say(gesture.status, gesture.describe);
   }
 
   function pinch(id: number, spot: Spot): void {

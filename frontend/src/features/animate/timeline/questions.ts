@@ -71,7 +71,7 @@ interface TextAsk {
   take(context: TimelineContext, text: string): void;
 }
 
-export const ASKED: Readonly<Record<Ask, NumberAsk | TextAsk>> = {
+export const QUESTIONS: Readonly<Record<Ask, NumberAsk | TextAsk>> = {
   value: {
     kind: 'number',
     unit: (context) => scaleAtCursor(context).unit,
@@ -96,7 +96,7 @@ export const ASKED: Readonly<Record<Ask, NumberAsk | TextAsk>> = {
     initial: () => '500',
     take(context, durationMs) {
       const next = insertTime(context.group, context.state.playheadMs, durationMs);
-      if (next === context.group) context.stores.notices.tell('info', words.timeline.nothingBehind);
+      if (next === context.group) context.stores.notices.show('info', words.timeline.nothingBehind);
       else apply(context, { label: () => words.timeline.steps.insertTime, edit: () => next });
     },
   },
@@ -155,20 +155,20 @@ function scalingTime(fixed: KeyStretch['fixed']): NumberAsk {
 
 /** The answer taken; what is wrong with it where it cannot be. */
 export function answer(context: TimelineContext, ask: Ask, text: string): string | null {
-  const asked = ASKED[ask];
-  if (asked.kind === 'text') {
-    asked.take(context, text.trim());
+  const question = QUESTIONS[ask];
+  if (question.kind === 'text') {
+    question.take(context, text.trim());
     return null;
   }
-  const decimals = asked.decimals?.(context) ?? 0;
+  const decimals = question.decimals?.(context) ?? 0;
   const change = ask === 'value' ? changeIn(text, decimals) : null;
   if (change !== null) return setValues(context, change);
   const value = numberIn(text, decimals);
-  const { min, max } = asked.range(context);
+  const { min, max } = question.range(context);
   if (Number.isNaN(value)) return null;
   if (value < min || value > max)
     return words.refused({ name: words.timeline.questions[ask], value, min, max });
-  asked.take(context, value);
+  question.take(context, value);
   return null;
 }
 
@@ -207,7 +207,7 @@ function swing(context: TimelineContext, percent: number): void {
     return position < min || position > max;
   });
   if (beyond !== undefined)
-    return context.stores.notices.tell(
+    return context.stores.notices.show(
       'warning',
       words.timeline.swingsTooFar({ name: servoName(context.robot, beyond.servo) }),
     );

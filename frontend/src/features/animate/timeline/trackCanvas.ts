@@ -141,7 +141,7 @@ interface CanvasParts {
 
 interface CanvasHost {
   openMenu(spot: Spot): void;
-  say(status: StatusName | null, tells?: () => string): void;
+  say(status: StatusName | null, describe?: () => string): void;
 }
 
 export const sizesNow = (heights: Heights): Sizes => sizesOf(isTouch(), heights);

@@ -36,7 +36,7 @@ export function markText(atMs: number, stepMs: number): string {
 
 export const instantText = (atMs: number): string => words.timeline.instant({ seconds: secondsText(atMs) });
 
-// Positions as the person reads them: in the units of the group, or in degrees where the robot at hand counts in the
+// Positions as the person reads them: in the units of the group, or in degrees where the current robot counts in the
 // same.
 
 type Reader = Pick<TimelineContext, 'robot' | 'family' | 'positionsIn'> & {

@@ -73,7 +73,7 @@ export function createSlots({ device, robots, notices, storage, today }: SlotsOp
     try {
       storage.setItem(key, slotBookToText(book));
     } catch {
-      notices.tell('warning', words.slots.notSaved);
+      notices.show('warning', words.slots.notSaved);
     }
   }
 
@@ -163,7 +163,7 @@ export function createSlots({ device, robots, notices, storage, today }: SlotsOp
     keep(next);
     const arrived = book.begun.filter((record) => next.stored.includes(record)).map(({ slot }) => slot);
     if (arrived.length === 0 || next.begun.length > 0 || isAsking) return;
-    notices.tell(
+    notices.show(
       'info',
       downloadedSentence(latest !== null && concerns(latest, book) ? latest.slots : arrived),
     );

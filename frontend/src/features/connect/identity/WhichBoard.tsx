@@ -15,16 +15,16 @@ import styles from './WhichBoard.module.css';
 export function WhichBoard() {
   const link = useSnapshot((snapshot) => snapshot.link);
   const isAsking = link.status === 'identifying';
-  const isUnasked = useSnapshot(({ identity }) => identity.evidence.length === 0);
+  const isUnsolicited = useSnapshot(({ identity }) => identity.evidence.length === 0);
   const isChanged = link.status === 'refused' && link.error.code === 'wrongBoard';
-  const title = isChanged ? 'changed' : isAsking || !isUnasked ? 'which' : 'none';
+  const title = isChanged ? 'changed' : isAsking || !isUnsolicited ? 'which' : 'none';
   return (
     <Panel title={words.identity.title[title]}>
       <div className={styles.work}>
         {isAsking ? (
           <p className={styles.lead}>{words.identity.asking}</p>
-        ) : isUnasked ? (
-          <Unasked />
+        ) : isUnsolicited ? (
+          <NotConnected />
         ) : (
           <Answered />
         )}
@@ -34,11 +34,11 @@ export function WhichBoard() {
 }
 
 /** No board can be queried before a port is open. */
-function Unasked() {
+function NotConnected() {
   const { view } = useStores();
   return (
     <>
-      <p className={styles.lead}>{words.identity.unasked}</p>
+      <p className={styles.lead}>{words.identity.notConnected}</p>
       <div>
         <Button tone="primary" icon="plug" onPress={() => view.setState({ connectOpen: true })}>
           {words.identity.choosePort}

@@ -295,7 +295,7 @@ function Save({ format }: { readonly format: SaveFormat }) {
       <div>
         <Button
           icon="save"
-          onPress={() => void save().catch(() => notices.tell('warning', words.files.saveFailed))}
+          onPress={() => void save().catch(() => notices.show('warning', words.files.saveFailed))}
         >
           {words.files.saveVerb({ name: fileNameOf(group, EXTENSIONS[format]) })}
         </Button>

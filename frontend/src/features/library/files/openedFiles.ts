@@ -36,7 +36,7 @@ export async function takeGroups(
     added += 1;
     onTaken(added);
   }
-  if (added > 0) stores.notices.tell('info', words.files.inLibrary({ count: added }));
+  if (added > 0) stores.notices.show('info', words.files.inLibrary({ count: added }));
 }
 
 export interface OpenedFile extends AnsweredFile {

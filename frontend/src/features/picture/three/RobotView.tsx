@@ -237,7 +237,7 @@ function touchingIn(
   return new Set(places.flatMap(({ servos }) => servos));
 }
 
-/** Of the group at hand, while it is what is worked on; after an edit when there is time. */
+/** Of the open group, while it is what is worked on; after an edit when there is time. */
 function usePaths(limbs: readonly LedLimb[]): readonly (readonly PathPoint[])[] {
   const robot = useRobot();
   const group = useDeferredValue(useGroup());

@@ -36,7 +36,7 @@ export interface Model {
   select(servo: number | null): void;
   /** Weak outlines of the frames before and after the playhead. */
   showNeighbours(poses: Neighbours): void;
-  /** The ways of its limbs through the group at hand. */
+  /** The ways of its limbs through the open group. */
   showPaths(paths: readonly (readonly PathPoint[])[]): void;
   dispose(): void;
 }

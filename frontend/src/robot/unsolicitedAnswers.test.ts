@@ -1,6 +1,6 @@
 import { expect, test, vi } from 'vitest';
 import type { Traffic } from '#shared/robot/state.ts';
-import { createUnaskedAnswers } from './traffic.ts';
+import { createUnsolicitedAnswers } from './traffic.ts';
 
 const BYTES = new Uint8Array();
 const requested = (atMs: number): Traffic => ({
@@ -12,7 +12,7 @@ const answered = (atMs: number): Traffic => ({
 
 const found = (...passed: readonly Traffic[]): number => {
   const tell = vi.fn();
-  passed.forEach(createUnaskedAnswers(tell));
+  passed.forEach(createUnsolicitedAnswers(tell));
   return tell.mock.calls.length;
 };
 
