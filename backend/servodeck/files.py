@@ -177,18 +177,19 @@ def read(file: Path) -> Memory:
         return Memory()
 
 
-def storage_error(error: sqlite3.Error) -> StorageError:
-    """For a SQLite file of the data folder: the library, or the list of paired devices."""
+def storage_error(error: sqlite3.Error, file: str) -> StorageError:
+    """`file`: the name of a SQLite file in the data folder, the library or the list of paired devices."""
     code = sqlite_code(error)
     if code == sqlite3.SQLITE_FULL:
         return StorageFullError("The disk of the data folder is full. Nothing that was stored is lost.")
     if code in (sqlite3.SQLITE_BUSY, sqlite3.SQLITE_LOCKED):
-        return StorageBusyError("Another program is using the file. Try again.")
+        return StorageBusyError(f"Another program is using {file}. Try again.")
     if code == sqlite3.SQLITE_READONLY:
         return StorageError(
-            "A file in the data folder cannot be written: it or its disk is read-only. Nothing in it is lost."
+            f"{file} in the data folder cannot be written: it or its disk is read-only. "
+            "Nothing in it is lost."
         )
-    return StorageError(f"A file in the data folder cannot be used: {error}.")
+    return StorageError(f"{file} in the data folder cannot be used: {error}.")
 
 
 def sqlite_code(error: sqlite3.Error) -> int:

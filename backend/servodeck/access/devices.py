@@ -182,7 +182,7 @@ class DeviceFile:
                 with closing(self._open()) as db:
                     write(db, devices())
             except sqlite3.Error as error:
-                raise storage_error(error) from error
+                raise storage_error(error, FILE) from error
             except OSError as error:
                 raise self._unusable(error) from error
 

@@ -317,7 +317,7 @@ PROBLEMS: dict[ErrorCode, str] = {
     "slotBroken": "Slot 5 holds half a group: download it again.",
     "slotChanged": "Something else was stored in slot 5 in the meantime.",
     "storageBusy": "The library is busy.",
-    "storageFailed": "A file in the data folder cannot be used: disk I/O error.",
+    "storageFailed": "library.sqlite in the data folder cannot be used: disk I/O error.",
     "storageFull": "The disk is full.",
     "wrongBoard": "The answers of the board do not match lsc-6.",
     "tooMany": "Dance sends too many requests: try again in 0.4 s.",

@@ -17,6 +17,7 @@ from servodeck.errors import ConflictError, DamagedTextError, ForbiddenError, No
 from servodeck.files import sqlite_code, storage_error
 from servodeck.library.library_file import (
     FACTS_SUM,
+    FILE,
     STEPS,
     TEXT_SUM,
     VERSION_SUM,
@@ -207,7 +208,7 @@ class Library:
             except sqlite3.Error as error:
                 if sqlite_code(error) not in PASSING:
                     self._forget()
-                raise storage_error(error) from error
+                raise storage_error(error, FILE) from error
 
     def _open(self) -> sqlite3.Connection:
         db, damaged_file, changes_lost = open_library(self.folder, self._steps)

@@ -176,4 +176,4 @@ def keep_damaged(path: Path) -> str:
 
 
 def damaged_or(error: sqlite3.Error) -> Exception:
-    return DamagedError(str(error)) if sqlite_code(error) in DAMAGED else storage_error(error)
+    return DamagedError(str(error)) if sqlite_code(error) in DAMAGED else storage_error(error, FILE)
