@@ -294,6 +294,8 @@ test('in every state what is pressed is large enough for a finger, and the bar i
 test('on a large touch screen rows of the timeline stay in sight, and Play does', async ({ page, url }) => {
   await page.setViewportSize({ width: 1366, height: 820 });
   await page.goto(url);
+  await dashboardOf(page).button('Begin with an example').click();
+  await page.getByRole('list', { name: 'Examples' }).getByRole('button').first().click();
   for (const part of [
     page.getByRole('rowheader', { name: 'Gripper' }),
     dashboardOf(page).button('Play'),

@@ -104,6 +104,44 @@ test('each workspace has its own work, and a slot is one press from the timeline
   await expect(workspace(page, 'Drive')).toBeChecked();
 });
 
+test('the timeline has the full width, with the robot above it, until the sliders are wanted', async ({
+  dashboard,
+  page,
+}) => {
+  await page.setViewportSize({ width: 1280, height: 720 });
+  const rows = page.getByRole('region', { name: 'Timeline' });
+  const width = async (): Promise<number> => (await rows.boundingBox()).width;
+  await expect(dashboard.slider(1)).toBeVisible();
+  await dashboard.button('Use the full width').click();
+  await poll(width).toBeGreaterThan(1200);
+  await expect(dashboard.slider(1)).toHaveCount(0);
+  const robot = page.getByRole('region', { name: 'Arm' });
+  const height = async (): Promise<number> => Math.round((await robot.boundingBox()).height);
+  const before = await height();
+  await page.getByRole('separator', { name: 'Height of the robot' }).focus();
+  await page.keyboard.press('ArrowDown');
+  await poll(height).toBe(before + 16);
+  await page.reload();
+  await poll(height).toBe(before + 16);
+  await dashboard.button('Show the sliders').click();
+  await expect(dashboard.slider(1)).toBeVisible();
+});
+
+test('what plays a group stands above its ruler, from the first frame on', async ({ dashboard, page }) => {
+  const player = page.getByRole('group', { name: 'Play the group' });
+  await expect(dashboard.capture).toBeVisible();
+  await expect(player).toHaveCount(0);
+  await dashboard.type(dashboard.target(6), 1800);
+  await expect(dashboard.estimate(6)).toHaveText('≈ 1800');
+  await dashboard.capture.click();
+  const bottomOf = async (part: typeof player): Promise<number> => {
+    const { y, height } = await part.boundingBox();
+    return y + height;
+  };
+  const { y } = await page.getByRole('region', { name: 'Timeline' }).boundingBox();
+  expect(await bottomOf(player)).toBeLessThanOrEqual(y);
+});
+
 test('the cards of frames fold away, and the timeline has their room', async ({ dashboard, page }) => {
   await dashboard.type(dashboard.target(6), 1800);
   await expect(dashboard.estimate(6)).toHaveText('≈ 1800');

@@ -9,9 +9,10 @@ import { FilesArea } from '../features/library/files/FilesArea.tsx';
 import type { ViewState } from '../features/view.ts';
 import { later, Missing, usePart, type Later } from '../ui/later.tsx';
 import { Panel, type PanelParts } from '../ui/Panel.tsx';
-import { Button } from '../ui/Button.tsx';
+import { Button, IconButton } from '../ui/Button.tsx';
 import { cx } from '../ui/cx.ts';
 import { PART } from '../ui/focus.ts';
+import { useLayout } from '../ui/useLayout.ts';
 import panel from '../ui/Panel.module.css';
 import styles from './Authoring.module.css';
 
@@ -21,15 +22,38 @@ function AuthoringTabs() {
   const authoring = useView((state) => state.authoring);
   const isDriving = usePad((state) => state.isDriving);
   return (
-    <Choice
-      label={words.authoring.label}
-      value={authoring}
-      options={[
-        { value: 'group', label: words.authoring.group },
-        { value: 'poses', label: words.authoring.poses },
-        { value: 'pad', label: isDriving ? words.authoring.padDriving : words.authoring.pad },
-      ]}
-      onChange={(chosen) => view.setState({ authoring: chosen })}
+    <>
+      <Choice
+        label={words.authoring.label}
+        value={authoring}
+        options={[
+          { value: 'group', label: words.authoring.group },
+          { value: 'poses', label: words.authoring.poses },
+          { value: 'pad', label: isDriving ? words.authoring.padDriving : words.authoring.pad },
+        ]}
+        onChange={(chosen) => view.setState({ authoring: chosen })}
+      />
+      <WidthButton />
+    </>
+  );
+}
+
+/** The robot above the timeline leaves room for its rows, but not for the cards as well. */
+function WidthButton() {
+  const { view } = useStores();
+  const isFull = useView(({ animateWith }) => animateWith === 'robot');
+  if (useLayout() !== 'desktop') return null;
+  return (
+    <IconButton
+      icon={isFull ? 'tune' : 'width'}
+      label={isFull ? words.authoring.besideSliders : words.authoring.fullWidth}
+      onPress={() =>
+        view.setState(
+          isFull
+            ? { animateWith: 'sliders', frameCards: 'shown' }
+            : { animateWith: 'robot', frameCards: 'folded' },
+        )
+      }
     />
   );
 }

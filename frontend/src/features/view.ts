@@ -24,8 +24,8 @@ export type LanguageChoice = 'system' | Language;
 export type PositionsIn = 'board' | 'degrees';
 /** A list, the places on the body, or the robot in three dimensions. */
 export type ServoLayout = 'list' | 'body' | 'model';
-/** The sizes that splitters set: of the sliders beside the robot, of what stands below it, of the sliders beside the timeline, of the log. */
-export const SPLITS = ['driveSide', 'driveBelow', 'animateSide', 'boardLog'] as const;
+/** The sizes that splitters set: of the sliders beside the robot, of what stands below it, of the sliders beside the timeline or the robot above it, of the log. */
+export const SPLITS = ['driveSide', 'driveBelow', 'animateSide', 'animateAbove', 'boardLog'] as const;
 export type Split = (typeof SPLITS)[number];
 export type LogKind = 'move' | 'group' | 'battery' | 'link' | 'noise';
 
@@ -53,6 +53,8 @@ export interface ViewState {
   readonly logKinds: readonly LogKind[];
   /** The cards of frames below the timeline of a wide screen. */
   readonly frameCards: 'shown' | 'folded';
+  /** What a desktop has with the timeline in Animate: the sliders beside it, or the robot above it, so that it has the full width. */
+  readonly animateWith: 'sliders' | 'robot';
   readonly selectedFrame: number | null;
   /** Each press adds a frame or key to the selection or removes it, for fingers, which have no Ctrl key. */
   readonly addsToSelection: boolean;
@@ -110,6 +112,7 @@ const REMEMBERED: { readonly [K in keyof ViewState]?: Memory<ViewState[K]> } = {
   picture: choice('browser', 'servodeck.picture', ['auto', 'drawing', 'body', 'model']),
   authoring: choice('tab', 'servodeck.authoring', ['group', 'poses', 'pad']),
   frameCards: choice('browser', 'servodeck.frameCards', ['shown', 'folded']),
+  animateWith: choice('browser', 'servodeck.animateWith', ['sliders', 'robot']),
   sound: choice('browser', 'servodeck.sound', ['on', 'muted']),
   driveBelow: choice('tab', 'servodeck.driveBelow', ['none', 'poses', 'pad']),
   splits: { by: 'browser', key: 'servodeck.splits', toText: JSON.stringify, fromText: splitsFromText },
@@ -142,6 +145,7 @@ export const INITIAL_VIEW: ViewState = {
   logOpen: false,
   logKinds: ['move', 'group', 'battery', 'link', 'noise'],
   frameCards: 'shown',
+  animateWith: 'sliders',
   selectedFrame: null,
   addsToSelection: false,
   sound: 'on',

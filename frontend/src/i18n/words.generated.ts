@@ -24,6 +24,7 @@ export interface Messages {
       readonly driveSide: string;
       readonly driveBelow: string;
       readonly animateSide: string;
+      readonly animateAbove: string;
       readonly boardLog: string;
     };
     readonly try: string;
@@ -330,6 +331,8 @@ export interface Messages {
     readonly poses: string;
     readonly pad: string;
     readonly padDriving: string;
+    readonly fullWidth: string;
+    readonly besideSliders: string;
   };
   readonly pad: {
     readonly notSaved: string;

@@ -18,6 +18,7 @@ const PATHS = {
   earlier: 'M10 3L5 8l5 5',
   later: 'M6 3l5 5-5 5',
   up: 'M3 10l5-5 5 5',
+  width: 'M2 8h12M5 5L2 8l3 3M11 5l3 3-3 3',
   down: 'M3 6l5 5 5-5',
   download: 'M8 2.5v7.5M4.5 7L8 10.5 11.5 7M3 13.5h10',
   file: 'M4 2h5l3 3v9H4zM9 2v3h3',

@@ -1,12 +1,14 @@
-// Two workspaces of a wide screen that have the board's panels: Animate, with the timeline, its frames and the sliders beside them; and Board,
-// with the battery and the log of packets.
+// Two workspaces of a wide screen that have the board's panels: Animate, with the timeline, its frames and the sliders beside or the robot
+// above them; and Board, with the battery and the log of packets.
 
 import { Authoring } from '../Authoring.tsx';
 import { LivePanel, Split, sized } from './parts.tsx';
 import { CompileRow } from '../../features/animate/group/CompileRow.tsx';
 import { BatteryPanel } from '../../features/battery/BatteryPanel.tsx';
 import { BoardPanel } from '../../features/board/BoardPanel.tsx';
-import { useView } from '../../features/stores.ts';
+import { RobotPanel } from '../../features/drive/RobotPanel.tsx';
+import { useIsUnidentified, useView } from '../../features/stores.ts';
+import { cx } from '../../ui/cx.ts';
 import { useLayout } from '../../ui/useLayout.ts';
 import styles from './Workspaces.module.css';
 import { LogPanel } from '../../features/log/LogPanel.tsx';
@@ -15,16 +17,36 @@ import panel from '../../ui/Panel.module.css';
 const SIDE = { min: 400, max: 720 };
 /** As Workspaces.module.css has it. */
 const usualSide = (): number => Math.round(Math.min(560, Math.max(500, innerWidth * 0.362)));
+const ABOVE = { min: 120, max: 640 };
+/** Likewise. */
+const usualAbove = (): number => Math.round(Math.min(320, Math.max(160, innerHeight * 0.24)));
 
 export function AnimateWork() {
   const isDesktop = useLayout() === 'desktop';
   const splits = useView((state) => state.splits);
+  const isWanted = useView(({ animateWith }) => animateWith === 'robot');
+  // Which board it is has to be chosen first.
+  const isFull = !useIsUnidentified() && isDesktop && isWanted;
   return (
-    <main className={styles.animate} style={sized('--side', splits.animateSide)}>
-      <div className={styles.side}>
-        <LivePanel />
-      </div>
-      {isDesktop && <Split name="animateSide" between="columns" isBefore usual={usualSide()} {...SIDE} />}
+    <main
+      className={cx(styles.animate, isFull && styles.full)}
+      style={isFull ? sized('--above', splits.animateAbove) : sized('--side', splits.animateSide)}
+    >
+      {isFull ? (
+        <>
+          <div className={styles.robot}>
+            <RobotPanel isPreview />
+          </div>
+          <Split name="animateAbove" between="rows" isBefore usual={usualAbove()} {...ABOVE} />
+        </>
+      ) : (
+        <>
+          <div className={styles.side}>
+            <LivePanel />
+          </div>
+          {isDesktop && <Split name="animateSide" between="columns" isBefore usual={usualSide()} {...SIDE} />}
+        </>
+      )}
       <div className={styles.authoring} data-column>
         <div className={styles.work}>
           <Authoring />

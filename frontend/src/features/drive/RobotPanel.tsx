@@ -50,8 +50,14 @@ function usePicture(): Picture {
 
 const SHOWN = { drawing: Body, body: BodyMap, model: RobotView };
 
-/** `children`: at its foot, beside the legend. */
-export function RobotPanel({ children }: { readonly children?: ReactNode }) {
+interface RobotPanelProps {
+  /** Above the timeline: without a legend, so that the picture has the room. */
+  readonly isPreview?: boolean;
+  /** At its foot, beside the legend. */
+  readonly children?: ReactNode;
+}
+
+export function RobotPanel({ isPreview = false, children }: RobotPanelProps) {
   const { view } = useStores();
   const robot = useRobot();
   const picture = usePicture();
@@ -72,10 +78,12 @@ export function RobotPanel({ children }: { readonly children?: ReactNode }) {
       <div className={styles.picture}>
         <Shown />
       </div>
-      <div className={styles.foot}>
-        {children}
-        <Legend />
-      </div>
+      {!isPreview && (
+        <div className={styles.foot}>
+          {children}
+          <Legend />
+        </div>
+      )}
     </Panel>
   );
 }

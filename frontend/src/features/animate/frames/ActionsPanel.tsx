@@ -1,5 +1,5 @@
-// The action group being written: its name, its keys over time, its frames, and what can be done with them. A phone shows the
-// frames first, and what begins one right below them. Edits go to the document alone; the robot moves only by Play and by loading a
+// The action group being written: its name, what plays it, its keys over time, its frames, and what can be done with them. A phone shows
+// the frames first, and what begins one right below them. Edits go to the document alone; the robot moves only by Play and by loading a
 // pose.
 
 import { Fragment } from 'react';
@@ -132,15 +132,23 @@ function Content() {
   const isPainted = useIsPainted();
   const timeline = <Timeline key="timeline" />;
   const capture = <CaptureBar key="capture" />;
-  const tools = <FrameTools key="tools" />;
+  const tools = isEmpty ? null : <FrameTools key="tools" />;
+  const play = isEmpty ? null : <PlayBar key="play" />;
   const frames = (
     <Fragment key="frames">
       {isEmpty ? <Empty /> : !isFolded && <FrameStrip />}
-      {isPhone ? [capture, tools] : [tools, capture]}
-      <PlayBar />
+      {isPhone ? (
+        [capture, tools, play]
+      ) : (
+        <div className={styles.foot}>
+          {tools}
+          {capture}
+        </div>
+      )}
     </Fragment>
   );
-  const inOrder = isPhone ? [frames, timeline] : [timeline, frames];
+  const first = isPhone ? frames : [play, timeline];
+  const second = isPhone ? timeline : frames;
   return (
     <>
       <OtherBoard />
@@ -149,7 +157,8 @@ function Content() {
           <BodyPicture />
         </div>
       )}
-      {isPainted ? inOrder : [inOrder[0], <div key="rest" className={styles.rest} />]}
+      {first}
+      {isPainted ? second : <div className={styles.rest} />}
     </>
   );
 }
