@@ -41,6 +41,7 @@ ErrorCode = Literal[
     "conflict",
     "tooLarge",
     "tooMany",
+    "cameraFailed",
     "storageFull",
     "storageBusy",
     "storageFailed",
@@ -288,6 +289,13 @@ class ConflictError(GatewayError):
 
     code: ClassVar[ErrorCode] = "conflict"
     status: ClassVar[int] = 412
+
+
+class CameraError(GatewayError):
+    """A camera at the gateway does not answer, or sends no picture that a page shows."""
+
+    code: ClassVar[ErrorCode] = "cameraFailed"
+    status: ClassVar[int] = 502
 
 
 class StorageError(GatewayError):

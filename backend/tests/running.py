@@ -4,7 +4,7 @@ import asyncio
 import os
 import socket
 import time
-from collections.abc import AsyncIterator, Callable
+from collections.abc import AsyncIterator, Callable, Sequence
 from contextlib import asynccontextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -17,6 +17,7 @@ from servodeck.access.addresses import Access
 from servodeck.access.devices import Devices, NoDeviceStore
 from servodeck.access.entrance import Entrance
 from servodeck.api.app import create_app
+from servodeck.api.cameras import Camera
 from servodeck.api.library import robots_in
 from servodeck.api.page import STATIC
 from servodeck.api.server import Server
@@ -95,6 +96,7 @@ async def server_on(
     device: str | None = DEVICE,
     make_access: Callable[[int], Access] = addresses.local,
     library: Library = NO_LIBRARY,
+    cameras: Sequence[Camera] = (),
 ) -> AsyncIterator[Running]:
     """A real server on a free port."""
     listener = socket.create_server(("127.0.0.1", 0))
@@ -102,7 +104,8 @@ async def server_on(
     control = Control(ports, time.monotonic, "doc", device, read_robot=robots_in(library))
     ready = asyncio.Event()
     entrance = entrance_to(make_access(port))
-    server = Server(create_app(control, library, entrance), control, device, ready.set)
+    app = create_app(control, library, entrance, cameras=cameras)
+    server = Server(app, control, device, ready.set)
     life = asyncio.create_task(server.serve([listener]))
     await ready.wait()
     try:

@@ -30,6 +30,8 @@ ROLES: dict[tuple[str, str], Role | None] = {
     ("GET", "/metrics"): "viewer",
     ("GET", "/api/status"): "viewer",
     ("GET", "/api/battery"): "viewer",
+    ("GET", "/api/cameras"): "viewer",
+    ("GET", "/api/cameras/{camera_id}/stream"): "viewer",
     ("GET", "/api/poses"): "viewer",
     ("GET", "/api/events"): "viewer",
     ("GET", "/api/library"): "viewer",

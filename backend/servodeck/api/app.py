@@ -10,7 +10,7 @@ import contextlib
 from collections.abc import AsyncIterator, Awaitable, Callable, Sequence
 from http import HTTPStatus
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from fastapi import APIRouter, FastAPI, Request
 from fastapi.exceptions import RequestValidationError
@@ -33,6 +33,9 @@ from servodeck.library.library import Library
 from servodeck.robot.control import Control
 from servodeck.robot.scripts import Scripts
 from servodeck.threads import in_thread
+
+if TYPE_CHECKING:
+    from servodeck.api.cameras import Camera
 
 CODE_OF_STATUS: dict[int, ErrorCode] = {
     403: "forbidden",
@@ -74,6 +77,12 @@ def motion() -> tuple[APIRouter, ...]:
     return motion_api, poses_api, jobs_api, play_api
 
 
+def cameras() -> tuple[APIRouter, ...]:
+    from servodeck.api.cameras import cameras_api
+
+    return (cameras_api,)
+
+
 def people() -> tuple[APIRouter, ...]:
     from servodeck.api.people import people_api
 
@@ -91,6 +100,7 @@ PARTS = (
     Part(robot, frozenset({"status", "ports", "port", "board", "stop", "resume", "battery", "events", "ws"})),
     Part(people, frozenset({"me", "pair", "people", "invites", "tokens", "stop-links"})),
     Part(library, frozenset({"library", "robot"})),
+    Part(cameras, frozenset({"cameras"})),
     Part(
         motion, frozenset({"move", "slots", "erase", "lease", "driver", "poses", "download", "jobs", "play"})
     ),
@@ -136,12 +146,20 @@ def add_routes(app: FastAPI, *routers: APIRouter) -> None:
     app.router.routes[at:at] = [route for router in routers for route in router.routes]
 
 
-def create_app(control: Control, library: Library, entrance: Entrance, static: Path = STATIC) -> Guard:
+def create_app(
+    control: Control,
+    library: Library,
+    entrance: Entrance,
+    static: Path = STATIC,
+    cameras: Sequence["Camera"] = (),
+) -> Guard:
     """The gateway with that entrance and the page built into `static`."""
     app = app_without_state()
     app.state.control = control
     app.state.scripts = Scripts(control, entrance.still_lets_in)
     app.state.library = library
+    app.state.cameras = tuple(cameras)
+    app.state.open_streams = 0
     app.state.loop_delay = LoopDelay(sign_of_life())
     app.state.disk = Disk(library.folder, control.now)
     app.state.entrance = entrance

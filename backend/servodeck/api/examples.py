@@ -142,6 +142,10 @@ EXAMPLES: dict[tuple[str, str], Example] = {
     ("GET", "/api/events"): Example(
         'data: {"type": "state", "board": "doc", "latch": true}\n\n', errors=("busy",)
     ),
+    ("GET", "/api/cameras"): Example([{"id": 0, "name": "Bench"}]),
+    ("GET", "/api/cameras/{camera_id}/stream"): Example(
+        "--frame\r\nContent-Type: image/jpeg\r\n\r\n", errors=("notFound", "busy", "cameraFailed")
+    ),
     ("GET", "/api/battery"): Example({"batteryMv": 7500}, errors=("closed", "lost", "noAnswer")),
     ("POST", "/api/stop"): Example(
         {"latch": True, "halted": True, "unheld": None}, errors=("closed", "lost")
@@ -296,6 +300,7 @@ PROBLEMS: dict[ErrorCode, str] = {
     "busy": "A group runs for up to 4.2 s more: wait, or release the lease to end it.",
     "cancelled": "The robot was stopped or taken over before all packets were sent.",
     "closed": "No serial port is open.",
+    "cameraFailed": "The camera Bench does not answer: timed out. Check that it is on, and its address.",
     "conflict": "Another client has changed this document since it was read.",
     "echo": "The line returns what is sent: RX and TX may be connected to each other.",
     "forbidden": "Dance is a viewer; this needs the role driver.",

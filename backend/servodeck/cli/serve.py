@@ -9,7 +9,7 @@ import os
 import socket
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -25,6 +25,7 @@ from servodeck.protocol.families import FAMILIES, UNKNOWN
 if TYPE_CHECKING:
     from servodeck.access.addresses import Access
     from servodeck.access.entrance import Entrance
+    from servodeck.api.cameras import Camera
     from servodeck.library.library import Library
     from servodeck.robot.profile import ReadFacts
     from servodeck.snapshots import RobotFacts
@@ -108,6 +109,10 @@ def serve(
             help=f"Board family: {', '.join(FAMILIES)}. Default: the last one, else it is identified."
         ),
     ] = "",
+    camera: Annotated[
+        list[str],
+        typer.Option(help="NAME=URL of a camera that sends motion JPEG, for the page. May be repeated."),
+    ] = [],  # noqa: B006 (typer copies it)
     simulated: Annotated[bool, typer.Option("--simulated", help="The device is a simulated board.")] = False,
     data: Annotated[
         Path | None,
@@ -201,7 +206,7 @@ def serve(
         if sys.stdout.isatty() if open_page is None else open_page:
             show(url)
 
-    app = create_app(control, library, entrance)
+    app = create_app(control, library, entrance, cameras=cameras_from(camera))
     server = Server(app, control, device, ready)
     if exit_with_stdin:
         leave_with_stdin(server.leave)
@@ -241,6 +246,20 @@ def entrance_to(where: "Access", folder: Path) -> "Entrance":
         return Entrance(where, Devices(store, wall_clock_ms), time.monotonic)
     except StorageError as error:
         fail(error.detail)
+
+
+def cameras_from(texts: Sequence[str]) -> "list[Camera]":
+    if not texts:
+        return []
+    from servodeck.api.cameras import parse_camera
+
+    found = []
+    for text in texts:
+        try:
+            found.append(parse_camera(text))
+        except ValueError as error:
+            fail(f"--camera {text} is not valid: {error}.", USAGE)
+    return found
 
 
 def parse_public_url(url: str) -> "Access":

@@ -1,0 +1,165 @@
+"""The cameras of the gateway: their list, and the stream of each, relayed to clients that may view.
+Motion JPEG; anything else is refused.
+
+Knows the addresses of cameras and HTTP as a client; no robot, and nothing of a picture. Reads in a thread for
+each viewer, no faster than the viewer does: on the event loop a STOP would wait for it.
+"""
+
+import asyncio
+import base64
+import contextlib
+import threading
+import time
+from collections.abc import AsyncIterator, Callable
+from dataclasses import dataclass
+from typing import Annotated, Any
+from urllib.parse import unquote, urlsplit, urlunsplit
+
+from fastapi import Request as Requested
+from starlette.responses import StreamingResponse
+
+from servodeck.api.routes import VIEWER, entrance_in, routes
+from servodeck.callers import Caller
+from servodeck.errors import BusyError, CameraError, NotFoundError
+from servodeck.schema import Message
+from servodeck.threads import in_thread
+
+KINDS = ("multipart/x-mixed-replace", "image/jpeg")
+# A camera that sends nothing for so long is gone.
+SILENT_S = 10.0
+CHUNK_BYTES = 32 * 1024
+# Read ahead of a slow viewer.
+WAITING_CHUNKS = 4
+MOST_STREAMS = 12
+# A viewer whose access is revoked loses the picture within that time.
+CHECK_EACH_S = 1.0
+
+
+@dataclass(frozen=True)
+class Camera:
+    name: str
+    url: str
+
+
+class CameraName(Message):
+    """`id`: its place in the list that the gateway was started with."""
+
+    id: int
+    name: str
+
+
+def parse_camera(text: str) -> Camera:
+    """`NAME=URL`, or a URL alone. Raises ValueError with the reason."""
+    name, separator, url = text.partition("=")
+    if not separator or "://" in name:
+        name, url = "", text
+    parts = urlsplit(url)
+    if parts.scheme not in ("http", "https") or not parts.hostname:
+        raise ValueError("it takes an address that begins with http:// or https://")
+    return Camera(name.strip() or parts.hostname, url)
+
+
+cameras_api = routes("/api/cameras", "cameras")
+
+
+@cameras_api.get("", dependencies=[VIEWER])
+async def list_cameras(request: Requested) -> list[CameraName]:
+    """The cameras at the gateway."""
+    return [CameraName(id=index, name=one.name) for index, one in enumerate(cameras_in(request))]
+
+
+@cameras_api.get(
+    "/{camera_id}/stream",
+    response_class=StreamingResponse,
+    responses={200: {"content": {"multipart/x-mixed-replace": {}}}},
+)
+async def stream(request: Requested, camera_id: int, caller: Annotated[Caller, VIEWER]) -> StreamingResponse:
+    """The stream of a camera as motion JPEG, for as long as the client reads it. 502 if the camera does not
+    answer or sends something else, 429 while too many streams are open.
+    """
+    cameras, state = cameras_in(request), request.app.state
+    if not 0 <= camera_id < len(cameras):
+        raise NotFoundError("There is no such camera.")
+    if state.open_streams >= MOST_STREAMS:
+        raise BusyError(f"{MOST_STREAMS} camera streams are open already. Close one of them, then try again.")
+    state.open_streams += 1
+    try:
+        source = await in_thread(lambda: opened(cameras[camera_id]), close)
+    except BaseException:
+        state.open_streams -= 1
+        raise
+    return StreamingResponse(
+        relayed(source, state, lambda: entrance_in(request).still_lets_in(caller)),
+        media_type=source.headers["Content-Type"],
+    )
+
+
+def cameras_in(request: Requested) -> tuple[Camera, ...]:
+    cameras: tuple[Camera, ...] = request.app.state.cameras
+    return cameras
+
+
+def opened(camera: Camera) -> Any:
+    """Blocks. Raises CameraError."""
+    from urllib.request import Request, urlopen  # takes as long to load as all routes
+
+    parts = urlsplit(camera.url)
+    headers = {}
+    if parts.username is not None:
+        pair = f"{unquote(parts.username)}:{unquote(parts.password or '')}"
+        headers["Authorization"] = "Basic " + base64.b64encode(pair.encode()).decode()
+    host = parts.netloc.rpartition("@")[2]
+    request = Request(urlunsplit(parts._replace(netloc=host)), headers=headers)
+    try:
+        answer = urlopen(request, timeout=SILENT_S)
+    except (OSError, ValueError) as error:
+        advice = "Check that it is on, and its address."
+        raise CameraError(f"The camera {camera.name} does not answer: {error}. {advice}") from error
+    kind = answer.headers.get_content_type()
+    if kind not in KINDS:
+        answer.close()
+        advice = "Use an address of it that sends motion JPEG."
+        raise CameraError(f"The camera {camera.name} sends {kind}. {advice}")
+    return answer
+
+
+def close(source: Any) -> None:
+    with contextlib.suppress(OSError):
+        source.close()
+
+
+async def relayed(source: Any, state: Any, may_view: Callable[[], bool]) -> AsyncIterator[bytes]:
+    """Ends with the camera, with the viewer, or with the access of the viewer."""
+    loop = asyncio.get_running_loop()
+    chunks: asyncio.Queue[bytes] = asyncio.Queue()
+    room = threading.Semaphore(WAITING_CHUNKS)
+    has_ended = threading.Event()
+
+    def read() -> None:
+        chunk = b""
+        with contextlib.suppress(OSError, ValueError, RuntimeError):  # gone, closed, or the loop has ended
+            while not has_ended.is_set():
+                chunk = source.read1(CHUNK_BYTES)
+                loop.call_soon_threadsafe(chunks.put_nowait, chunk)
+                if not chunk:
+                    break
+                room.acquire()
+        if chunk:
+            with contextlib.suppress(RuntimeError):
+                loop.call_soon_threadsafe(chunks.put_nowait, b"")
+        close(source)
+
+    threading.Thread(target=read, name="camera", daemon=True).start()
+    checked_s = time.monotonic()
+    try:
+        while chunk := await chunks.get():
+            if time.monotonic() - checked_s > CHECK_EACH_S:
+                checked_s = time.monotonic()
+                if not may_view():
+                    return
+            yield chunk
+            room.release()
+    finally:
+        has_ended.set()
+        room.release()
+        state.open_streams -= 1

@@ -1,0 +1,177 @@
+"""Cameras of the gateway: a real one on a socket, its pictures through a real server."""
+
+import asyncio
+import contextlib
+import threading
+from collections.abc import AsyncIterator, Iterator
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+from httpx2 import AsyncClient
+
+from servodeck.api.cameras import CHUNK_BYTES, MOST_STREAMS, WAITING_CHUNKS, Camera, parse_camera, relayed
+from servodeck.errors import PortMissingError
+from tests.fake_port import FakePorts
+from tests.running import server_on
+
+pytestmark = pytest.mark.slow
+
+BOUNDARY = "frame"
+FRAME = b"\xff\xd8" + bytes(2000) + b"\xff\xd9"
+PART = (
+    b"--frame\r\nContent-Type: image/jpeg\r\nContent-Length: "
+    + str(len(FRAME)).encode()
+    + b"\r\n\r\n"
+    + FRAME
+)
+SECRET = "Basic dXNlcjpwQHNz"  # user:p@ss
+
+
+class Picture(BaseHTTPRequestHandler):
+    """`/endless`: frames until the viewer leaves; `/three`: three of them; `/page`: no picture."""
+
+    def do_GET(self) -> None:
+        if self.path == "/secret" and self.headers["Authorization"] != SECRET:
+            self.send_error(401)
+            return
+        self.send_response(200)
+        kind = "text/html" if self.path == "/page" else f"multipart/x-mixed-replace; boundary={BOUNDARY}"
+        self.send_header("Content-Type", kind)
+        self.end_headers()
+        count = 0
+        with contextlib.suppress(OSError):
+            while self.path == "/endless" or count < 3:
+                self.wfile.write(PART)
+                count += 1
+
+    def log_message(self, *_: Any) -> None:
+        pass
+
+
+@pytest.fixture
+def source() -> Iterator[str]:
+    server = ThreadingHTTPServer(("127.0.0.1", 0), Picture)
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    yield f"http://127.0.0.1:{server.server_address[1]}"
+    server.shutdown()
+    server.server_close()
+
+
+@contextlib.asynccontextmanager
+async def gateway(*cameras: Camera) -> AsyncIterator[AsyncClient]:
+    nowhere = FakePorts(PortMissingError("There is none."))
+    async with (
+        server_on(nowhere, None, cameras=cameras) as running,
+        AsyncClient(base_url=f"http://{running.host}") as client,
+    ):
+        yield client
+
+
+async def test_a_picture_goes_through_as_it_comes(source: str) -> None:
+    async with gateway(Camera("Bench", f"{source}/three"), Camera("Hall", f"{source}/endless")) as client:
+        listed = await client.get("/api/cameras")
+        assert listed.json() == [{"id": 0, "name": "Bench"}, {"id": 1, "name": "Hall"}]
+        answer = await client.get("/api/cameras/0/stream")
+        assert answer.headers["content-type"] == f"multipart/x-mixed-replace; boundary={BOUNDARY}"
+        assert answer.content == PART * 3
+
+
+async def test_a_viewer_that_leaves_makes_room_for_the_next(source: str) -> None:
+    async with gateway(Camera("Hall", f"{source}/endless")) as client, asyncio.timeout(20):
+        for _ in range(2):
+            async with contextlib.AsyncExitStack() as viewers:
+                # Held, because a reader that is thrown away ends its answer.
+                readers = [await first_chunk_of(viewers, client) for _ in range(MOST_STREAMS)]
+                one_more = await client.get("/api/cameras/0/stream")
+                assert (one_more.status_code, one_more.json()["code"]) == (429, "busy")
+                assert len(readers) == MOST_STREAMS
+            while await status_of_stream(client) != 200:  # noqa: ASYNC110 (nothing says that the gateway has noticed)
+                await asyncio.sleep(0.02)
+
+
+async def first_chunk_of(viewers: contextlib.AsyncExitStack, client: AsyncClient) -> AsyncIterator[bytes]:
+    answer = await viewers.enter_async_context(client.stream("GET", "/api/cameras/0/stream"))
+    assert answer.status_code == 200
+    reader = answer.aiter_bytes()
+    assert await anext(reader)
+    return reader
+
+
+async def status_of_stream(client: AsyncClient) -> int:
+    async with client.stream("GET", "/api/cameras/0/stream") as answer:
+        return answer.status_code
+
+
+async def test_what_is_no_picture_is_refused_with_the_reason(source: str) -> None:
+    cameras = (Camera("Page", f"{source}/page"), Camera("Gone", "http://127.0.0.1:9/"))
+    async with gateway(*cameras) as client:
+        page, gone = [await client.get(f"/api/cameras/{index}/stream") for index in (0, 1)]
+        assert (page.status_code, page.json()["code"]) == (502, "cameraFailed")
+        assert "sends text/html" in page.json()["detail"]
+        assert (gone.status_code, gone.json()["code"]) == (502, "cameraFailed")
+        assert (await client.get("/api/cameras/2/stream")).status_code == 404
+
+
+async def test_a_name_and_password_in_the_address_go_to_the_camera_alone(source: str) -> None:
+    address = source.replace("//", "//user:p%40ss@")
+    async with gateway(Camera("Door", f"{address}/secret")) as client:
+        assert (await client.get("/api/cameras/0/stream")).content == PART * 3
+        assert "p@ss" not in (await client.get("/api/cameras")).text
+
+
+class Endless:
+    """A source that counts what was read of it."""
+
+    def __init__(self) -> None:
+        self.reads = 0
+        self.is_closed = threading.Event()
+
+    def read1(self, size: int) -> bytes:
+        self.reads += 1
+        return bytes(size)
+
+    def close(self) -> None:
+        self.is_closed.set()
+
+
+async def test_nothing_is_read_that_a_slow_viewer_does_not_take() -> None:
+    source, state = Endless(), SimpleNamespace(open_streams=1)
+    chunks = relayed(source, state, lambda: True)
+    assert len(await anext(chunks)) == CHUNK_BYTES
+    await asyncio.sleep(0.2)
+    assert source.reads <= WAITING_CHUNKS + 1
+    await chunks.aclose()
+    assert state.open_streams == 0
+    assert await asyncio.to_thread(source.is_closed.wait, 2)
+
+
+async def test_a_viewer_that_may_view_no_longer_loses_the_picture(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("servodeck.api.cameras.CHECK_EACH_S", 0.05)
+    source, state, may_view = Endless(), SimpleNamespace(open_streams=1), True
+    chunks = relayed(source, state, lambda: may_view)
+    await anext(chunks)
+    may_view = False
+    async with asyncio.timeout(2):
+        async for _ in chunks:
+            pass
+    assert await asyncio.to_thread(source.is_closed.wait, 2)
+
+
+@pytest.mark.parametrize(
+    ("text", "name", "url"),
+    [
+        ("Bench=http://cam.local:8081/stream", "Bench", "http://cam.local:8081/stream"),
+        ("http://cam.local/?action=stream", "cam.local", "http://cam.local/?action=stream"),
+        (" Front door =https://u:p@10.0.0.2/x?a=b", "Front door", "https://u:p@10.0.0.2/x?a=b"),
+    ],
+)
+def test_a_camera_is_a_name_and_an_address(text: str, name: str, url: str) -> None:
+    assert parse_camera(text) == Camera(name, url)
+
+
+@pytest.mark.parametrize("text", ["", "Bench", "file:///etc/passwd", "Bench=rtsp://cam/1", "Bench=http://"])
+def test_anything_else_is_no_camera(text: str) -> None:
+    with pytest.raises(ValueError, match="http://"):
+        parse_camera(text)
