@@ -63,7 +63,7 @@ async def test_every_answer_carries_the_security_headers() -> None:
             assert headers["referrer-policy"] == "no-referrer"
             assert headers["cross-origin-opener-policy"] == "same-origin"
             assert headers["cross-origin-resource-policy"] == "same-origin"
-            assert headers["permissions-policy"] == "serial=(self), hid=(self)"
+            assert headers["permissions-policy"] == "serial=(self), hid=(self), camera=(self)"
         refused = await client.get("/api/health", headers={"host": "evil.example"})
         assert refused.status_code == 403
         assert refused.json()["code"] == "forbidden"

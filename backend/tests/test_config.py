@@ -84,6 +84,7 @@ def test_a_variable_may_name_the_file(tmp_path: Path) -> None:
         ("config = 'x'", "config is no option."),
         ("open_page = true", "open_page is no option."),
         ("serial = ['a', 'b']", "serial takes one value"),
+        ("camera = [1]", "camera takes a text, or a list of texts"),
         ("serial = ", "is no TOML file"),
         ("open = 'perhaps'", "'--open'"),
     ],
@@ -107,6 +108,22 @@ def test_a_file_that_is_named_has_to_be_there() -> None:
     result = show("--config", str(NOWHERE))
     assert result.exit_code == 2
     assert "cannot be read" in result.stderr
+
+
+@pytest.mark.parametrize(
+    ("arguments", "text", "cameras"),
+    [
+        (("--camera", "A=http://a/", "--camera", "B=http://b/"), "", ["A=http://a/", "B=http://b/"]),
+        ((), 'camera = "Front door=http://a/"', ["Front door=http://a/"]),
+        ((), 'camera = ["A=http://a/", "B=http://b/"]', ["A=http://a/", "B=http://b/"]),
+    ],
+)
+def test_an_option_that_is_repeated_is_a_list_in_a_file(
+    arguments: Sequence[str], text: str, cameras: list[str], tmp_path: Path
+) -> None:
+    file = write(tmp_path / "some.toml", text)
+    shown = show(*arguments, "--config", file).stdout
+    assert tomllib.loads(shown)["camera"] == cameras
 
 
 def test_the_output_can_be_saved_as_a_file(tmp_path: Path) -> None:

@@ -70,7 +70,7 @@ FIXED_HEADERS = {
     "Cross-Origin-Opener-Policy": "same-origin",
     "Cross-Origin-Resource-Policy": "same-origin",
     # Web Bluetooth is left to the own origin by default; a browser without it warns of its name at each load.
-    "Permissions-Policy": "serial=(self), hid=(self)",
+    "Permissions-Policy": "serial=(self), hid=(self), camera=(self)",
 }
 
 

@@ -114,13 +114,21 @@ def opened(camera: Camera) -> Any:
         answer = urlopen(request, timeout=SILENT_S)
     except (OSError, ValueError) as error:
         advice = "Check that it is on, and its address."
-        raise CameraError(f"The camera {camera.name} does not answer: {error}. {advice}") from error
+        raise CameraError(
+            f"The camera {camera.name} does not answer: {reason_in(error)}. {advice}"
+        ) from error
     kind = answer.headers.get_content_type()
     if kind not in KINDS:
         answer.close()
         advice = "Use an address of it that sends motion JPEG."
         raise CameraError(f"The camera {camera.name} sends {kind}. {advice}")
     return answer
+
+
+def reason_in(error: Exception) -> str:
+    """In the words of the system, or of the camera's server."""
+    cause = getattr(error, "reason", error)
+    return str(getattr(cause, "strerror", None) or cause)
 
 
 def close(source: Any) -> None:

@@ -198,7 +198,11 @@ def take_file(context: typer.Context, path: Path | None) -> Path | None:
     options = {name: key for key, name in names_of(context) if name not in FILE_KEYS_LEFT_OUT}
     values = read_file(named)
     refuse_unknown(values, options, str(named))
-    context.default_map = {options[name]: value for name, value in values.items()}
+    repeated = {option.name for option in context.command.params if getattr(option, "multiple", False)}
+    context.default_map = {
+        options[name]: file_value(named, name, value, is_repeated=options[name] in repeated)
+        for name, value in values.items()
+    }
     return named
 
 
@@ -206,15 +210,23 @@ def read_file(path: Path) -> dict[str, Any]:
     import tomllib  # most starts have no file
 
     try:
-        values = tomllib.loads(path.read_text("utf-8"))
+        return tomllib.loads(path.read_text("utf-8"))
     except OSError as error:
         raise typer.BadParameter(f"{path} cannot be read: {error.strerror}.") from error
     except ValueError as error:  # no TOML, or no UTF-8
         raise typer.BadParameter(f"{path} is no TOML file: {error}.") from error
-    for name, value in values.items():
-        if not isinstance(value, str | bool | int):
-            raise typer.BadParameter(f"{path}: {name} takes one value, a text or true or false.")
-    return values
+
+
+def file_value(path: Path, name: str, value: object, *, is_repeated: bool) -> object:
+    """As the option takes it: a list of texts where it may be repeated, else one value."""
+    if is_repeated:
+        texts = value if isinstance(value, list) else [value]
+        if all(isinstance(text, str) for text in texts):
+            return texts
+        raise typer.BadParameter(f"{path}: {name} takes a text, or a list of texts.")
+    if not isinstance(value, str | bool | int):
+        raise typer.BadParameter(f"{path}: {name} takes one value, a text or true or false.")
+    return value
 
 
 def settings_of(context: typer.Context) -> Iterator[Setting]:
@@ -235,7 +247,7 @@ def toml_line(setting: Setting) -> str:
     name, value, origin = setting
     if value is None:
         return f"# {name}: not set"
-    text = json.dumps(value if isinstance(value, bool | int) else str(value), ensure_ascii=False)
+    text = json.dumps(value if isinstance(value, bool | int | list) else str(value), ensure_ascii=False)
     return f"{name} = {text}  # {origin}"
 
 

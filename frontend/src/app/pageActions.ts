@@ -6,7 +6,7 @@ import { KEEP_LAST } from '../features/animate/play/TakeDialog.tsx';
 import { STOP } from '../features/drive/StopButton.tsx';
 import type { Stores } from '../features/stores.ts';
 import { workedOn } from '../features/view.ts';
-import { REDO, UNDO, type Written } from '../features/undo/undoActions.ts';
+import { REDO, UNDO, type Written } from '../features/undo/UndoTools.tsx';
 import { actionOf, chordOf, type Action } from '../ui/action.ts';
 import { isTextField } from '../ui/inputEvents.ts';
 import { goToPart } from '../ui/focus.ts';

@@ -64,7 +64,9 @@ export interface ViewState {
   readonly positionsIn: PositionsIn;
   readonly servoLayout: ServoLayout;
   /** The robot in Drive, on a wide screen; `auto`: the model, where the machine draws one fast. */
-  readonly picture: 'auto' | 'drawing' | 'body' | 'model';
+  readonly picture: 'auto' | 'drawing' | 'body' | 'model' | 'camera';
+  /** The name of the camera at the gateway that was chosen last. */
+  readonly camera: string;
   readonly selectedPose: number | null;
   /** The duration of a move to a pose. */
   readonly poseMs: number;
@@ -109,12 +111,13 @@ const REMEMBERED: { readonly [K in keyof ViewState]?: Memory<ViewState[K]> } = {
   kiosk: choice('browser', 'servodeck.kiosk', ['on', 'off']),
   servoLayout: choice('browser', 'servodeck.servoLayout', ['list', 'body', 'model']),
   tab: choice('tab', 'servodeck.tab', ['live', 'actions', 'board', 'log', 'buttons']),
-  picture: choice('browser', 'servodeck.picture', ['auto', 'drawing', 'body', 'model']),
+  picture: choice('browser', 'servodeck.picture', ['auto', 'drawing', 'body', 'model', 'camera']),
   authoring: choice('tab', 'servodeck.authoring', ['group', 'poses', 'pad']),
   frameCards: choice('browser', 'servodeck.frameCards', ['shown', 'folded']),
   animateWith: choice('browser', 'servodeck.animateWith', ['sliders', 'robot']),
   sound: choice('browser', 'servodeck.sound', ['on', 'muted']),
   driveBelow: choice('tab', 'servodeck.driveBelow', ['none', 'poses', 'pad']),
+  camera: { by: 'browser', key: 'servodeck.camera', toText: String, fromText: String },
   splits: { by: 'browser', key: 'servodeck.splits', toText: JSON.stringify, fromText: splitsFromText },
   calibration: {
     ...{ by: 'tab', key: 'servodeck.calibration' },
@@ -153,6 +156,7 @@ export const INITIAL_VIEW: ViewState = {
   positionsIn: 'board',
   servoLayout: 'list',
   picture: 'auto',
+  camera: '',
   selectedPose: null,
   poseMs: GENTLE_MOVE_MS,
   selectedButton: null,

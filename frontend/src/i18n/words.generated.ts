@@ -19,6 +19,7 @@ export interface Messages {
     readonly robot: string;
     readonly picture: string;
     readonly drawing: string;
+    readonly camera: string;
     readonly below: string;
     readonly splits: {
       readonly driveSide: string;
@@ -324,6 +325,24 @@ export interface Messages {
     readonly missingHint: string;
     readonly modelMissing: (values: { readonly file: string }) => string;
     readonly belowFloor: (values: { readonly seconds: string }) => string;
+  };
+  readonly camera: {
+    readonly choice: string;
+    readonly picture: (values: { readonly name: string }) => string;
+    readonly here: string;
+    readonly useHere: string;
+    readonly none: string;
+    readonly noneHint: string;
+    readonly noGateway: string;
+    readonly waiting: string;
+    readonly figures: (values: { readonly rate: number; readonly ms: number }) => string;
+    readonly ageHint: string;
+    readonly again: string;
+    readonly ended: string;
+    readonly unreachable: string;
+    readonly refused: string;
+    readonly noneHere: string;
+    readonly insecure: string;
   };
   readonly authoring: {
     readonly label: string;

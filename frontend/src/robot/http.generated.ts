@@ -35,6 +35,40 @@ export interface paths {
     patch?: never;
     trace?: never;
   };
+  '/api/cameras': {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    /** The cameras at the gateway */
+    get: operations['camerasListCameras'];
+    put?: never;
+    post?: never;
+    delete?: never;
+    options?: never;
+    head?: never;
+    patch?: never;
+    trace?: never;
+  };
+  '/api/cameras/{camera_id}/stream': {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    /** The stream of a camera as motion JPEG, for as long as the client reads it */
+    get: operations['camerasStream'];
+    put?: never;
+    post?: never;
+    delete?: never;
+    options?: never;
+    head?: never;
+    patch?: never;
+    trace?: never;
+  };
   '/api/download': {
     parameters: {
       query?: never;
@@ -674,6 +708,16 @@ export interface components {
       board: string;
     };
     /**
+     * CameraName
+     * @description `id`: its place in the list that the gateway was started with.
+     */
+    CameraName: {
+      /** Id */
+      id: number;
+      /** Name */
+      name: string;
+    };
+    /**
      * Candidate
      * @description A connected client that may drive.
      */
@@ -958,6 +1002,7 @@ export interface components {
             | 'conflict'
             | 'tooLarge'
             | 'tooMany'
+            | 'cameraFailed'
             | 'storageFull'
             | 'storageBusy'
             | 'storageFailed'
@@ -1085,6 +1130,7 @@ export interface components {
             | 'conflict'
             | 'tooLarge'
             | 'tooMany'
+            | 'cameraFailed'
             | 'storageFull'
             | 'storageBusy'
             | 'storageFailed'
@@ -1313,6 +1359,7 @@ export interface components {
             | 'conflict'
             | 'tooLarge'
             | 'tooMany'
+            | 'cameraFailed'
             | 'storageFull'
             | 'storageBusy'
             | 'storageFailed'
@@ -1432,6 +1479,7 @@ export interface components {
             | 'conflict'
             | 'tooLarge'
             | 'tooMany'
+            | 'cameraFailed'
             | 'storageFull'
             | 'storageBusy'
             | 'storageFailed'
@@ -1531,6 +1579,7 @@ export interface components {
         | 'conflict'
         | 'tooLarge'
         | 'tooMany'
+        | 'cameraFailed'
         | 'storageFull'
         | 'storageBusy'
         | 'storageFailed'
@@ -1849,6 +1898,7 @@ export type Battery = components['schemas']['Battery'];
 export type BatteryAge = components['schemas']['BatteryAge'];
 export type BatteryReport = components['schemas']['BatteryReport'];
 export type BoardChoice = components['schemas']['BoardChoice'];
+export type CameraName = components['schemas']['CameraName'];
 export type Candidate = components['schemas']['Candidate'];
 export type Device = components['schemas']['Device'];
 export type DocumentIds = components['schemas']['DocumentIds'];
@@ -1956,6 +2006,48 @@ export interface operations {
         };
         content: {
           'application/json': components['schemas']['Status'];
+        };
+      };
+    };
+  };
+  camerasListCameras: {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    requestBody?: never;
+    responses: {
+      /** @description Successful Response */
+      200: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content: {
+          'application/json': components['schemas']['CameraName'][];
+        };
+      };
+    };
+  };
+  camerasStream: {
+    parameters: {
+      query?: never;
+      header?: never;
+      path: {
+        camera_id: number;
+      };
+      cookie?: never;
+    };
+    requestBody?: never;
+    responses: {
+      /** @description Successful Response */
+      200: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content: {
+          'multipart/x-mixed-replace': unknown;
         };
       };
     };

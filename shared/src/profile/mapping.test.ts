@@ -4,8 +4,6 @@ import { evenly } from '../testing/cases.ts';
 import {
   conflicts,
   overlaps,
-  choosingTip,
-  readyBindings,
   servoBoundBy,
   type Action,
   type Binding,
@@ -13,14 +11,13 @@ import {
   type Mapping,
   movedInput,
   NO_INPUTS,
-  shaped,
-  smoothed,
   valueOf,
   READY_FEEL,
   readyMapping,
   mappingFromText,
   mappingToText,
 } from './mapping.ts';
+import { shaped, smoothed } from './mappingStep.ts';
 import { readyRobot } from './readyRobots.ts';
 
 const names = { robot: 'Arm', role: (role: string) => role, limb: (limb: string) => limb };
@@ -209,24 +206,5 @@ describe('as text', () => {
     mappingToText(mappingOf()).replace('"version": 1', '"version": 2'),
   ])('what is no mapping of ours is distinguished: %s', (text) => {
     expect(mappingFromText(text)).toHaveProperty('problem');
-  });
-});
-
-describe('joints or tip', () => {
-  test('each choice has its own bindings, and both are stored', () => {
-    const joints = readyMapping(ARM);
-    const tip = choosingTip(joints, ARM, true);
-    expect(tip.bindings).toEqual(readyBindings(ARM, true));
-    const changed = { ...tip, bindings: tip.bindings.slice(1) };
-    const back = choosingTip(changed, ARM, false);
-    expect(back.bindings).toEqual(joints.bindings);
-    expect(choosingTip(back, ARM, true)).toEqual(changed);
-    expect(mappingFromText(mappingToText(back))).toEqual({ value: back });
-  });
-
-  test('the ready bindings of the tip do nothing twice, and stop as ever', () => {
-    const bindings = readyBindings(ARM, true);
-    expect(conflicts(mappingOf(...bindings))).toEqual([]);
-    expect(bindings.some(({ action }) => action.kind === 'stop')).toBe(true);
   });
 });

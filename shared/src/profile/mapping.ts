@@ -223,24 +223,6 @@ function movedTilt({ tilt }: Inputs): Input | null {
   return axis === undefined ? null : { kind: 'tilt', axis, side: (tilt?.[axis] ?? 0) > 0 ? 'plus' : 'minus' };
 }
 
-/** An input's way as the person wants it felt: odd, growing, 0 in the dead zone, full at the end. */
-export function shaped(way: number, { deadZonePercent, curvePercent }: Feel): number {
-  const dead = deadZonePercent / 100;
-  const past = Math.max(0, Math.abs(way) - dead) / (1 - dead);
-  const bend = curvePercent / 100;
-  return Math.sign(way) * ((1 - bend) * past + bend * past ** 3);
-}
-
-/** Nearer than this is there: an exponential approach would never end. */
-const ARRIVED = 1e-3;
-
-/** From `from` towards `to`, never past it. */
-export function smoothed(from: number, to: number, dtMs: number, { smoothingMs }: Feel): number {
-  if (smoothingMs === 0) return to;
-  const next = from + (to - from) * (1 - Math.exp(-dtMs / smoothingMs));
-  return Math.abs(to - next) < ARRIVED ? to : next;
-}
-
 export function clamped(value: number, min: number, max: number): number {
   return Math.min(max, Math.max(min, value));
 }
@@ -290,39 +272,3 @@ export function usualUnitsPerS({ min, max }: { readonly min: number; readonly ma
 }
 
 export const isOfTip = ({ tip }: Mapping): boolean => tip?.isOn === true;
-
-/** The bindings move the end of a limb, or the joints; those of the other choice are stored until it is taken again. */
-export function choosingTip(mapping: Mapping, robot: Robot, isOn: boolean): Mapping {
-  const { bindings, tip } = mapping;
-  if (isOn === isOfTip(mapping)) return mapping;
-  return {
-    ...mapping,
-    bindings: tip?.others ?? readyBindings(robot, isOn),
-    tip: { isLevel: false, ...tip, isOn, others: bindings },
-  };
-}
-
-const READY_MM_PER_S = 80;
-/** The keys are those that turn base, shoulder and elbow otherwise. To the right is minus on the axis that goes left. */
-const TIP_WAYS: readonly (readonly [Input, (typeof TIP_AXES)[number], sign: 1 | -1])[] = [
-  [axis(1), 'x', -1],
-  [axis(0), 'y', -1],
-  [axis(3), 'z', -1],
-  [tilt('forward'), 'x', 1],
-  [tilt('sideways'), 'y', -1],
-  [key('KeyY'), 'x', 1],
-  [key('KeyH'), 'x', -1],
-  [key('KeyJ'), 'y', 1],
-  [key('KeyU'), 'y', -1],
-  [key('KeyR'), 'z', 1],
-  [key('KeyF'), 'z', -1],
-];
-
-/** For the end of a limb: sticks and keys move it, the first two servos (of an arm, gripper and wrist) turn as ever. */
-export function readyBindings(robot: Robot, isTip: boolean): readonly Binding[] {
-  if (!isTip) return readyMapping(robot).bindings;
-  const moving = TIP_WAYS.map(([input, along, sign]): Binding => {
-    return { input, action: { kind: 'tip', axis: along, mmPerS: sign * READY_MM_PER_S } };
-  });
-  return [...readyMapping({ ...robot, servos: robot.servos.slice(0, 2) }).bindings, ...moving];
-}

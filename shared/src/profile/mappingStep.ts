@@ -8,11 +8,10 @@ import type { ServoTarget } from '../codec/commands.ts';
 import {
   type Action,
   type Binding,
+  type Feel,
   type Mapping,
   clamped,
   isPressed,
-  shaped,
-  smoothed,
   valueOf,
   type Inputs,
 } from './mapping.ts';
@@ -242,4 +241,22 @@ function shareNow({ robot, place }: Driven, { input }: Binding, action: ActionOf
   const along = ((target ?? estimated ?? min) - min) / (max - min);
   const share = action.isReversed ? 1 - along : along;
   return isSigned(input) ? share * 2 - 1 : share;
+}
+
+/** An input's way as the person wants it felt: odd, growing, 0 in the dead zone, full at the end. */
+export function shaped(way: number, { deadZonePercent, curvePercent }: Feel): number {
+  const dead = deadZonePercent / 100;
+  const past = Math.max(0, Math.abs(way) - dead) / (1 - dead);
+  const bend = curvePercent / 100;
+  return Math.sign(way) * ((1 - bend) * past + bend * past ** 3);
+}
+
+/** Nearer than this is there: an exponential approach would never end. */
+const ARRIVED = 1e-3;
+
+/** From `from` towards `to`, never past it. */
+export function smoothed(from: number, to: number, dtMs: number, { smoothingMs }: Feel): number {
+  if (smoothingMs === 0) return to;
+  const next = from + (to - from) * (1 - Math.exp(-dtMs / smoothingMs));
+  return Math.abs(to - next) < ARRIVED ? to : next;
 }

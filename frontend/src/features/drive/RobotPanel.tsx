@@ -19,7 +19,7 @@ export const BodyMap = laterComponent(async () => (await import('../picture/Body
 
 type Picture = Exclude<ViewState['picture'], 'auto'>;
 
-const PICTURES = ['model', 'drawing', 'body'] as const;
+const PICTURES = ['model', 'drawing', 'body', 'camera'] as const;
 
 /** A body that is not described has no model. */
 const picturesOf = (body: BodyKind): readonly Picture[] =>
@@ -48,7 +48,14 @@ function usePicture(): Picture {
   return picturesOf(body).includes(wanted) ? wanted : 'drawing';
 }
 
-const SHOWN = { drawing: Body, body: BodyMap, model: RobotView };
+/** Large and not always wanted. */
+const CameraView = laterComponent(
+  async () => (await import('../camera/CameraView.tsx')).CameraView,
+  '100%',
+  'onDemand',
+);
+
+const SHOWN = { drawing: Body, body: BodyMap, model: RobotView, camera: CameraView };
 
 interface RobotPanelProps {
   /** Above the timeline: without a legend, so that the picture has the room. */
@@ -81,7 +88,7 @@ export function RobotPanel({ isPreview = false, children }: RobotPanelProps) {
       {!isPreview && (
         <div className={styles.foot}>
           {children}
-          <Legend />
+          {picture !== 'camera' && <Legend />}
         </div>
       )}
     </Panel>
@@ -89,7 +96,9 @@ export function RobotPanel({ isPreview = false, children }: RobotPanelProps) {
 }
 
 const labelOf = (picture: Picture): string =>
-  picture === 'drawing' ? words.workspace.drawing : words.servoPanel.layouts[picture];
+  picture === 'drawing' || picture === 'camera'
+    ? words.workspace[picture]
+    : words.servoPanel.layouts[picture];
 
 const COMPUTED = ['commanded', 'estimated', 'unknown'] as const;
 const ALL = ['commanded', 'estimated', 'confirmed', 'unknown'] as const;

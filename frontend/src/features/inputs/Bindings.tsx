@@ -3,19 +3,13 @@
 
 import type { Label } from '#shared/document/history.ts';
 import { useEffect, useRef, useState } from 'react';
-import {
-  type Binding,
-  type Input,
-  isOfTip,
-  readyBindings,
-  shaped,
-  valueOf,
-} from '#shared/profile/mapping.ts';
+import { type Binding, type Input, isOfTip, valueOf } from '#shared/profile/mapping.ts';
+import { shaped } from '#shared/profile/mappingStep.ts';
 import { useMapping, usePoses, useRobot, useStores } from '../stores.ts';
 import { Button } from '../../ui/Button.tsx';
 import { useEachFrame } from '../../ui/useEachFrame.ts';
 import { pressOnce } from '../../ui/inputEvents.ts';
-import { inputName, chipText, rowsOf } from './rows.ts';
+import { inputName, chipText, readyBindings, rowsOf } from './rows.ts';
 import { words } from '../../i18n/whole.ts';
 import { BindingForm, draftFor, draftOf, type Draft } from './BindingForm.tsx';
 import styles from './Bindings.module.css';

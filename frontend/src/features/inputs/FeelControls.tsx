@@ -1,7 +1,8 @@
 // Speed, dead zone, curve and smoothing of the inputs, with a small plot of the resulting curve. A drag is one undo step.
 
 import { useRef, useState } from 'react';
-import { type Feel, shaped } from '#shared/profile/mapping.ts';
+import type { Feel } from '#shared/profile/mapping.ts';
+import { shaped } from '#shared/profile/mappingStep.ts';
 import { useMapping, usePad, useStores } from '../stores.ts';
 import { useEachFrame } from '../../ui/useEachFrame.ts';
 import { words } from '../../i18n/whole.ts';

@@ -2,14 +2,7 @@
 
 import { useRef } from 'react';
 import { step } from '#shared/profile/mappingStep.ts';
-import {
-  choosingTip,
-  conflicts,
-  type Conflict,
-  isOfTip,
-  type Mapping,
-  servoBoundBy,
-} from '#shared/profile/mapping.ts';
+import { conflicts, type Conflict, isOfTip, type Mapping, servoBoundBy } from '#shared/profile/mapping.ts';
 import type { PoseBook } from '#shared/profile/pose.ts';
 import type { Robot } from '#shared/profile/robot.ts';
 import {
@@ -23,7 +16,7 @@ import {
   useSnapshot,
 } from '../stores.ts';
 import { Mark } from '../../ui/Chip.tsx';
-import { inputName, rowTitle, servoTitle } from './rows.ts';
+import { choosingTip, inputName, rowTitle, servoTitle } from './rows.ts';
 import { words } from '../../i18n/whole.ts';
 import { useEachFrame } from '../../ui/useEachFrame.ts';
 import { GENTLE_MOVE_MS } from '../../robot/moves.ts';

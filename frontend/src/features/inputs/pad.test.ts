@@ -1,13 +1,14 @@
 import { describe, expect, test } from 'vitest';
 import { step, type TipDriver } from '#shared/profile/mappingStep.ts';
 import { FAMILIES } from '#shared/codec/families.ts';
-import { choosingTip, type Input, type Tilt } from '#shared/profile/mapping.ts';
+import type { Input, Tilt } from '#shared/profile/mapping.ts';
 import { addPose } from '#shared/profile/pose.ts';
 import { createRig } from '#shared/robot/rig.ts';
 import { stayingSentence } from '../../i18n/sentences.ts';
 import { words } from '../../i18n/words.ts';
 import { createDevice } from '../../robot/device.ts';
 import { createMappings, createPad, type Gamepadlike } from './pad.ts';
+import { choosingTip } from './rows.ts';
 import { createNotices } from '../../state/notices.ts';
 import { createPoses } from '../poses/poses.ts';
 import { createView } from '../view.ts';

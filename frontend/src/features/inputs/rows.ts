@@ -1,6 +1,15 @@
-// The rows of the table of bindings, and the names of inputs: a row per servo of the robot, then the other bindings. Pure.
+// The rows of the table of bindings, and the names of inputs: a row per servo of the robot, then the other bindings; and the bindings that
+// a robot begins with, of its joints or of the end of a limb. Pure.
 
-import { type Binding, type Input, servoBoundBy, type Mapping } from '#shared/profile/mapping.ts';
+import {
+  type Binding,
+  type Input,
+  isOfTip,
+  type Mapping,
+  readyMapping,
+  servoBoundBy,
+  type TIP_AXES,
+} from '#shared/profile/mapping.ts';
 import type { PoseBook } from '#shared/profile/pose.ts';
 import { servoOf, type Robot } from '#shared/profile/robot.ts';
 import { words } from '../../i18n/whole.ts';
@@ -107,3 +116,42 @@ function rowId(binding: Binding, title: string): string {
 const ORDER = ['axis', 'tilt', 'button', 'key'] as const;
 
 const placeInRow = (binding: Binding | undefined): number => ORDER.indexOf(binding?.input.kind ?? 'key');
+
+/** The bindings move the end of a limb, or the joints; those of the other choice are stored until it is taken again. */
+export function choosingTip(mapping: Mapping, robot: Robot, isOn: boolean): Mapping {
+  const { bindings, tip } = mapping;
+  if (isOn === isOfTip(mapping)) return mapping;
+  return {
+    ...mapping,
+    bindings: tip?.others ?? readyBindings(robot, isOn),
+    tip: { isLevel: false, ...tip, isOn, others: bindings },
+  };
+}
+
+const READY_MM_PER_S = 80;
+const axis = (index: number): Input => ({ kind: 'axis', index, side: 'whole' });
+const tilt = (along: 'forward' | 'sideways'): Input => ({ kind: 'tilt', axis: along, side: 'whole' });
+const key = (code: string): Input => ({ kind: 'key', code });
+/** The keys are those that turn base, shoulder and elbow otherwise. To the right is minus on the axis that goes left. */
+const TIP_WAYS: readonly (readonly [Input, (typeof TIP_AXES)[number], sign: 1 | -1])[] = [
+  [axis(1), 'x', -1],
+  [axis(0), 'y', -1],
+  [axis(3), 'z', -1],
+  [tilt('forward'), 'x', 1],
+  [tilt('sideways'), 'y', -1],
+  [key('KeyY'), 'x', 1],
+  [key('KeyH'), 'x', -1],
+  [key('KeyJ'), 'y', 1],
+  [key('KeyU'), 'y', -1],
+  [key('KeyR'), 'z', 1],
+  [key('KeyF'), 'z', -1],
+];
+
+/** For the end of a limb: sticks and keys move it, the first two servos (of an arm, gripper and wrist) turn as before. */
+export function readyBindings(robot: Robot, isTip: boolean): readonly Binding[] {
+  if (!isTip) return readyMapping(robot).bindings;
+  const moving = TIP_WAYS.map(([input, along, sign]): Binding => {
+    return { input, action: { kind: 'tip', axis: along, mmPerS: sign * READY_MM_PER_S } };
+  });
+  return [...readyMapping({ ...robot, servos: robot.servos.slice(0, 2) }).bindings, ...moving];
+}

@@ -3,7 +3,7 @@
 import { useRef, useState, type CSSProperties, type KeyboardEvent } from 'react';
 import type { BodyKind, RobotServo } from '#shared/profile/robot.ts';
 import { runByKey } from '../../ui/action.ts';
-import { UNDO_ACTIONS } from '../undo/undoActions.ts';
+import { UNDO_ACTIONS } from '../undo/UndoTools.tsx';
 import { useRobot, useServoView, useStores } from '../stores.ts';
 import { Toggle } from '../../ui/Toggle.tsx';
 import { UndoTools } from '../undo/UndoTools.tsx';

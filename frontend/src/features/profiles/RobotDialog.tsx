@@ -6,7 +6,7 @@ import { useRobot, useStores, useView } from '../stores.ts';
 import { Icon } from '../../ui/Icon.tsx';
 import { pressOnce } from '../../ui/inputEvents.ts';
 import { words } from '../../i18n/words.ts';
-import { UNDO_ACTIONS } from '../undo/undoActions.ts';
+import { UNDO_ACTIONS } from '../undo/UndoTools.tsx';
 import { runByKey } from '../../ui/action.ts';
 import type { ViewState } from '../view.ts';
 import { Dialog } from '../../ui/Dialog.tsx';

@@ -14,7 +14,7 @@ import { words } from '../../i18n/whole.ts';
 import { ReachBar } from './RobotPicture.tsx';
 import styles from './ServoTable.module.css';
 import { actionOf } from '../../ui/action.ts';
-import { UNDO_ACTIONS } from '../undo/undoActions.ts';
+import { UNDO_ACTIONS } from '../undo/UndoTools.tsx';
 
 export type ColumnId = 'servo' | 'name' | 'group' | 'min' | 'home' | 'max' | 'trim' | 'degreesPerUnit';
 

@@ -1,8 +1,8 @@
-// What the browser provides to the pure file readers: the text decoder, and SQLite for .d6a files, a WebAssembly file of this page that
-// is fetched when the first such file is opened or saved. Knows tables, no action group.
+// Reads a file with what the browser provides to the pure file readers: the text decoder, and SQLite for .d6a files, a WebAssembly file of
+// this page that is fetched when the first such file is opened or saved. Knows tables, no action group.
 
-import type { Means } from '#shared/files/readGroupFile.ts';
-import { Unreadable, type Decode } from '#shared/files/reading.ts';
+import { MAX_FILE_BYTES, readGroupFile, type Means } from '#shared/files/readGroupFile.ts';
+import { Unreadable, type Decode, type Problem, type Reading } from '#shared/files/reading.ts';
 import { INDEX_COLUMN, type Sheet } from '#shared/files/csv.ts';
 import type { MakeDatabase } from '#shared/files/writeGroupFile.ts';
 import { MAX_FRAMES } from '#shared/group/group.ts';
@@ -119,3 +119,18 @@ async function load(): Promise<Sqlite> {
   ]);
   return start({ locateFile: () => address });
 }
+
+const means = fileMeans(loadSqlite);
+
+/** Of any known format; in the worker, or in the page if there is none. Never rejects. */
+export async function readFile(file: File): Promise<Reading> {
+  if (file.size > MAX_FILE_BYTES) return problem('tooLarge');
+  try {
+    const bytes = new Uint8Array(await file.arrayBuffer());
+    return await readGroupFile({ name: file.name, bytes }, means);
+  } catch {
+    return problem('unreadable');
+  }
+}
+
+const problem = (code: Problem['code']): Reading => ({ problem: { code, place: null, found: '' } });

@@ -188,7 +188,7 @@ export function createFileReader(): FileReader {
   }
 
   return {
-    read: (file) => read(file).catch(async () => (await import('./readFile.ts')).readFile(file)),
+    read: (file) => read(file).catch(async () => (await import('./means.ts')).readFile(file)),
     stop() {
       started?.worker.terminate();
       started = null;

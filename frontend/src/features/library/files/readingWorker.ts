@@ -1,6 +1,6 @@
 // The worker that reads files: each message is a file, each answer its content.
 
-import { readFile } from './readFile.ts';
+import { readFile } from './means.ts';
 
 addEventListener('message', ({ data: file, ports: [port] }: MessageEvent<File>) => {
   void readFile(file).then((reading) => port?.postMessage(reading));

@@ -2,7 +2,7 @@ import { expect, test } from 'vitest';
 import { actionOf } from '../../ui/action.ts';
 import { createUndoable } from '../../state/store.ts';
 import { words } from '../../i18n/words.ts';
-import { REDO, UNDO } from './undoActions.ts';
+import { REDO, UNDO } from './UndoTools.tsx';
 
 test('undo and redo answer to the keys of every system', () => {
   const action = (key: string, more = {}) =>

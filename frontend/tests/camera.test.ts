@@ -1,0 +1,84 @@
+// The picture of a camera beside the sliders: one of the gateway's, and the way to it where there is none.
+
+import { expect, test } from './harness/test.ts';
+
+const withoutGateway = window.fetch;
+
+test.afterEach(() => {
+  window.fetch = withoutGateway;
+});
+
+/** A picture of that size as a part of motion JPEG. */
+async function partOf(width: number, height: number): Promise<Uint8Array> {
+  const canvas = new OffscreenCanvas(width, height);
+  canvas.getContext('2d')?.fillRect(0, 0, 1, 1);
+  const picture = new Uint8Array(await (await canvas.convertToBlob({ type: 'image/jpeg' })).arrayBuffer());
+  const head = `--frame\r\nContent-Type: image/jpeg\r\nContent-Length: ${picture.length}\r\n\r\n`;
+  return new Uint8Array([...new TextEncoder().encode(head), ...picture, 13, 10]);
+}
+
+interface Source {
+  send(part: Uint8Array): void;
+  end(): void;
+}
+
+/** The gateway's cameras; each stream that is opened goes to `opened`. */
+function serveCameras(names: readonly string[], opened: (path: string, source: Source) => void): void {
+  const headers = { 'content-type': 'multipart/x-mixed-replace; boundary=frame' };
+  window.fetch = (input, init) => {
+    const { pathname } = new URL(input instanceof Request ? input.url : input, location.href);
+    if (pathname === '/api/cameras')
+      return Promise.resolve(Response.json(names.map((name, id) => ({ id, name }))));
+    if (!pathname.startsWith('/api/cameras/')) return withoutGateway(input, init);
+    const body = new ReadableStream<Uint8Array>({
+      start: (stream) => {
+        const source = { send: (part: Uint8Array) => stream.enqueue(part), end: () => stream.close() };
+        opened(pathname, source);
+      },
+    });
+    return Promise.resolve(new Response(body, { headers }));
+  };
+}
+
+test.describe('in Drive', () => {
+  test.override({ workspace: 'live' });
+
+  test('the picture of a camera at the gateway comes, its end is said, and it is tried again', async ({
+    dashboard,
+    page,
+  }) => {
+    const streams: [string, Source][] = [];
+    serveCameras(['Bench', 'Door'], (...stream) => streams.push(stream));
+    await page.getByRole('radio', { name: 'Camera' }).check();
+    const picture = page.getByRole('img', { name: 'Picture of the camera Bench' });
+    const size = () =>
+      picture.evaluate((element) => {
+        const { width, height } = element as unknown as HTMLCanvasElement;
+        return [width, height];
+      });
+    await expect(page.getByText('Waiting for the first picture')).toBeVisible();
+    streams[0]?.[1].send(await partOf(64, 48));
+    await expect(page.getByText(/^\d+ pictures?\/s, newest [\d,]+\sms ago$/)).toBeVisible();
+    expect(await size()).toEqual([64, 48]);
+    await expect(dashboard.slider(1)).toBeEnabled();
+
+    streams[0]?.[1].end();
+    await expect(page.getByText('The camera’s stream has ended.')).toBeVisible();
+    await dashboard.button('Try again').click();
+    streams[1]?.[1].send(await partOf(32, 24));
+    await expect(page.getByText(/newest/)).toBeVisible();
+    expect(await size()).toEqual([32, 24]);
+
+    await page.getByRole('combobox', { name: 'Camera' }).selectOption('Door');
+    await expect(page.getByRole('img', { name: 'Picture of the camera Door' })).toBeVisible();
+    expect(streams.map(([path]) => path)).toEqual([0, 0, 1].map((id) => `/api/cameras/${id}/stream`));
+  });
+
+  test('without a camera the page says how the gateway gets one', async ({ dashboard, page }) => {
+    serveCameras([], () => undefined);
+    await page.getByRole('radio', { name: 'Camera' }).check();
+    await expect(page.getByText('No camera yet')).toBeVisible();
+    await expect(page.getByText(/^servodeck serve --camera /)).toBeVisible();
+    await expect(dashboard.button('Use this computer’s camera')).toBeEnabled();
+  });
+});
