@@ -26,6 +26,22 @@ test('speeds and current are shown by a key, follow an edit, and are hidden agai
 
   await dashboard.type(dashboard.frameTime(3), 60);
   await expect(servo('Gripper')).toContainText('300 of 257°/s');
+
+  await dashboard.type(dashboard.field('Current of the supply, in amperes'), 0.4);
+  await expect(servo('All together')).toContainText('0.5 of 0.4 A');
   await dashboard.button('Hide speed and current').click();
   await expect(speeds).toBeHidden();
+});
+
+test('staggered starts lower the peak of the current, as one step', async ({ dashboard, page }) => {
+  await dashboard.button('Examples').click();
+  await page.getByRole('list', { name: 'Examples' }).getByRole('button', { name: /^Bow/ }).click();
+  const { grid } = timelineOf(page);
+  await grid.press('v');
+  await dashboard.button('Stagger').click();
+  await expect(dashboard.notices).toContainText(
+    /Each servo begins \d+ ms after the one before: [\d.]+ A, now [\d.]+ A\./,
+  );
+  await dashboard.button('Undo: stagger').click();
+  await expect(dashboard.button('Undo: example Bow')).toBeEnabled();
 });

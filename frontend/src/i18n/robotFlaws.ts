@@ -3,6 +3,7 @@
 import {
   BATTERY_KINDS,
   BATTERY_MV,
+  SUPPLY_MA,
   BATTERY_POLICIES,
   BODIES,
   NAME_LENGTH,
@@ -69,5 +70,6 @@ const CHOICES: Readonly<Partial<Record<RobotField, readonly string[]>>> = {
 
 function wantedText(field: RobotField): string {
   const choices = (CHOICES[field] ?? []).join(words.comma);
-  return say(words.robotFields[field], { most: NAME_LENGTH, ...BATTERY_MV, choices });
+  const range = field === 'supplyMa' ? SUPPLY_MA : BATTERY_MV;
+  return say(words.robotFields[field], { most: NAME_LENGTH, ...range, choices });
 }

@@ -2253,6 +2253,20 @@ export interface Messages {
     readonly current: (values: { readonly amps: string }) => string;
     readonly degrees: (values: { readonly fastest: number; readonly limit: number }) => string;
     readonly close: string;
+    readonly ofSupply: (values: { readonly amps: string; readonly supply: string }) => string;
+    readonly supply: string;
+    readonly supplyField: string;
+    readonly supplyHint: string;
+    readonly amperes: string;
+    readonly unknown: string;
+    readonly stagger: string;
+    readonly staggerHint: string;
+    readonly staggered: (values: { readonly ms: number; readonly before: string; readonly after: string }) => string;
+    readonly noStagger: string;
+    readonly steps: {
+      readonly supply: string;
+      readonly stagger: string;
+    };
   };
   readonly sound: {
     readonly row: string;
@@ -2423,6 +2437,7 @@ export interface Messages {
     readonly thresholds: string;
     readonly warnMv: (values: { readonly min: number; readonly max: number }) => string;
     readonly alarmMv: (values: { readonly min: number; readonly max: number }) => string;
+    readonly supplyMa: (values: { readonly min: number; readonly max: number }) => string;
     readonly servo: string;
     readonly group: (values: { readonly most: number }) => string;
     readonly min: string;

@@ -3,7 +3,7 @@ import { describe, expect, test } from 'vitest';
 import { emptyGroup, totalDurationMs, type ActionGroup, type Easing } from './group.ts';
 import { insertFrame } from './groupEdits.ts';
 import { refsOf, shapeOf, someGroup, someRefs, withGroup } from '../testing/groups.ts';
-import { boundedMove, deleteKeys, moveKeys, scaleAmplitude, setKey } from './keyEdits.ts';
+import { boundedMove, deleteKeys, moveKeys, scaleAmplitude, setKey, stagger } from './keyEdits.ts';
 import { setDuration } from './timeEdits.ts';
 import { frameEnds, keysAt, positionAt, tracksOf, type KeyRef } from './tracks.ts';
 
@@ -160,6 +160,44 @@ describe('with ripple', () => {
           );
         },
       ),
+    );
+  });
+});
+
+describe('servos that begin one after another', () => {
+  const spaced = someGroup({ durationMs: fc.integer({ min: 1, max: 900 }), easings: ['linear'] });
+
+  test('do the same as before, each so much later, and stay at their first keys until then', () => {
+    fc.assert(
+      fc.property(spaced, fc.integer({ min: 1, max: 300 }), fc.subarray(SERVOS), (group, stepMs, free) => {
+        const [before, after] = [group, stagger(group, stepMs, (servo) => free.includes(servo))].map((one) =>
+          tracksOf(one),
+        );
+        let delayMs = 0;
+        for (const [servo, track] of before!) {
+          const first = track.keys[0]!;
+          const last = track.keys.at(-1)!;
+          const isMoved =
+            free.includes(servo) && track.keys.some(({ position }) => position !== first.position);
+          const byMs = isMoved ? delayMs : 0;
+          if (isMoved) delayMs += stepMs;
+          const later = after!.get(servo)!;
+          for (const share of [0, 0.2, 0.5, 0.9, 1]) {
+            const atMs = first.atMs + (last.atMs - first.atMs) * share;
+            expect(positionAt(later, atMs + byMs)).toBeCloseTo(positionAt(track, atMs)!, 6);
+            expect(positionAt(later, first.atMs + byMs * share)).toBeCloseTo(first.position, 6);
+          }
+        }
+      }),
+    );
+  });
+
+  test('with no time between them nothing changes', () => {
+    fc.assert(
+      fc.property(someGroup(), (group) => {
+        expect(stagger(group, 0, () => true)).toBe(group);
+        expect(stagger(group, 50, () => false)).toBe(group);
+      }),
     );
   });
 });

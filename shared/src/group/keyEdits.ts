@@ -6,7 +6,7 @@ import { changed, sameList, samePose } from './groupEdits.ts';
 import { momentsOf, newMoment, placed, wholeMs, withMoments, type Moment } from './moments.ts';
 import { lifted, servosByFrame } from './keyRanges.ts';
 import { closeFrames, setDuration, type Ripple } from './timeEdits.ts';
-import type { KeyRef } from './tracks.ts';
+import { tracksOf, type KeyRef } from './tracks.ts';
 
 /** What the document can write down; what a board takes is far less. */
 const LARGEST_POSITION = 0xffff;
@@ -112,6 +112,26 @@ function rippled(group: ActionGroup, refs: readonly KeyRef[], deltaMs: number): 
   return first === undefined
     ? group
     : setDuration(group, first.id, Math.max(0, first.durationMs + deltaMs), { ripple: true });
+}
+
+/**
+ * The servos begin one after another: of those that move, in the order of their numbers, each one does `stepMs` later what it does. Until then
+ * it stays at its first key; the group takes that much longer. The others, and those that are not `free`, stay as they are.
+ */
+export function stagger(group: ActionGroup, stepMs: number, isFree: (servo: number) => boolean): ActionGroup {
+  const moving = [...tracksOf(group)].filter(
+    ([servo, { keys }]) => isFree(servo) && keys.some(({ position }) => position !== keys[0]?.position),
+  );
+  return moving.reduce((before, [servo], index) => delayed(before, servo, index * stepMs), group);
+}
+
+function delayed(group: ActionGroup, servo: number, byMs: number): ActionGroup {
+  const [first, second, ...others] = tracksOf(group).get(servo)?.keys ?? [];
+  if (first === undefined || second === undefined || byMs === 0) return group;
+  const later = moveKeys(group, [second, ...others], { deltaMs: byMs, deltaPosition: 0 }, { ripple: false });
+  return second.atMs === first.atMs || second.position === first.position
+    ? later
+    : setKey(later, servo, first.atMs + byMs, first.position);
 }
 
 /** About where each servo's swing grows or shrinks: the mean of its keys among those, or the positions given. */

@@ -3,7 +3,10 @@ import fc from 'fast-check';
 import { FAMILIES } from '../codec/families.ts';
 import { readyRobot } from '../profile/readyRobots.ts';
 import { evenly } from '../testing/cases.ts';
-import { loadOf } from './load.ts';
+import { compile } from './compile.ts';
+import { emptyGroup } from './group.ts';
+import { insertFrame } from './groupEdits.ts';
+import { loadOf, staggered } from './load.ts';
 
 const family = FAMILIES.doc;
 const robot = readyRobot('arm', 'doc', { robot: 'Arm', role: (role) => role, limb: (limb) => limb });
@@ -63,4 +66,31 @@ test('the current grows with the speed and with the servos that turn, and no ser
       expect(both - 20).toBeCloseTo(2 * (one - 20));
     }),
   );
+});
+
+/** Every servo of the arm from one end to the other and back, with a rest at each end. */
+function swing(easing: 'inOut' | 'linear') {
+  const pose = (position: number) => robot.servos.map(({ servo }) => ({ servo, position }));
+  return [1500, 1000, 1000, 2000, 2000].reduce(
+    (group, position, index) =>
+      insertFrame(group, index, { durationMs: 600, targets: pose(position), easing }),
+    emptyGroup('Swing', 'us'),
+  );
+}
+
+test('servos that begin one after another take less current at once, as said', () => {
+  const all = { ...options, maxErrorUnits: 5, isFree: () => true };
+  const found = staggered(swing('inOut'), all);
+  expect(found).not.toBeNull();
+  const { group, beforeMa, afterMa, stepMs } = found!;
+  expect(afterMa).toBeLessThan(beforeMa * 0.95);
+  expect(stepMs).toBeGreaterThan(0);
+  const { frames } = compile(group, all);
+  expect(loadOf(frames, options).mostMa).toBe(afterMa);
+});
+
+test('where it would not help the group stays as it is', () => {
+  const none = { ...options, maxErrorUnits: 5, isFree: () => false };
+  expect(staggered(swing('inOut'), none)).toBeNull();
+  expect(staggered(emptyGroup('Nothing', 'us'), { ...none, isFree: () => true })).toBeNull();
 });

@@ -1,10 +1,13 @@
-// How fast compiled frames turn each servo, beside what it can do, and about how much current all of them take together. The first frame
-// is left out: where the servos come from is not known. Knows no page.
+// How fast compiled frames turn each servo, beside what it can do, and about how much current all of them take together; and whether they
+// take less if the servos begin one after another. The first frame is left out: where the servos come from is not known. Knows no page.
 
 import type { Frame } from '../codec/commands.ts';
 import type { Family } from '../codec/families.ts';
 import { DEGREES_PER_UNIT } from '../profile/readyRobots.ts';
 import { servoOf, type Robot } from '../profile/robot.ts';
+import { compile } from './compile.ts';
+import type { ActionGroup } from './group.ts';
+import { stagger } from './keyEdits.ts';
 
 /** Between two frames all servos turn evenly. */
 export interface LoadSpan {
@@ -95,4 +98,38 @@ function currentOf(
     const share = Math.min(1, (speeds.get(servo) ?? 0) / (limits.get(servo) ?? Infinity));
     return sum + CURRENT_MA.rest + CURRENT_MA.turning * share;
   }, 0);
+}
+
+export interface Staggered {
+  readonly group: ActionGroup;
+  readonly stepMs: number;
+  /** The most that all servos take together, before and after. */
+  readonly beforeMa: number;
+  readonly afterMa: number;
+}
+
+interface StaggerOptions extends LoadOptions {
+  readonly maxErrorUnits: number;
+  isFree(servo: number): boolean;
+}
+
+const STAGGER_STEPS_MS = [20, 40, 60, 80, 100, 150, 200, 300];
+/** A peak that falls by less is not worth a longer group, nor one that falls so little more a longer step. */
+const WORTHWHILE = 0.05;
+
+/** The shortest step with about the lowest peak; null where none lowers it. */
+export function staggered(
+  group: ActionGroup,
+  { maxErrorUnits, isFree, ...options }: StaggerOptions,
+): Staggered | null {
+  const mostOf = (one: ActionGroup): number =>
+    loadOf(compile(one, { ...options, maxErrorUnits }).frames, options).mostMa;
+  const beforeMa = mostOf(group);
+  const tried = STAGGER_STEPS_MS.map((stepMs): Staggered => {
+    const later = stagger(group, stepMs, isFree);
+    return { group: later, stepMs, beforeMa, afterMa: mostOf(later) };
+  });
+  const lowest = Math.min(...tried.map(({ afterMa }) => afterMa));
+  if (lowest >= beforeMa * (1 - WORTHWHILE)) return null;
+  return tried.find(({ afterMa }) => afterMa <= lowest + beforeMa * WORTHWHILE) ?? null;
 }

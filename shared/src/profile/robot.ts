@@ -12,7 +12,7 @@ import { FAMILIES, positionRange, type FamilyId, type Range } from '../codec/fam
 
 const ROBOT_FIELDS = [
   ...(['robot', 'name', 'board', 'body', 'servos'] as const),
-  ...(['battery', 'batteryCare', 'policy', 'thresholds', 'warnMv', 'alarmMv'] as const),
+  ...(['battery', 'batteryCare', 'policy', 'thresholds', 'warnMv', 'alarmMv', 'supplyMa'] as const),
   ...(['servo', 'group', 'min', 'max', 'home', 'trim'] as const),
   ...(['isReversed', 'degreesPerUnit', 'mirror', 'place', 'joint', 'homeDegrees'] as const),
   ...(['model', 'id', 'fileName', 'end'] as const),
@@ -70,6 +70,9 @@ export const TRIM: Range = { min: -125, max: 125 };
 /** From a USB port to a pack of three full cells. */
 export const BATTERY_MV: Range = { min: 4000, max: 13_000 };
 
+/** From a USB port to a large pack. */
+export const SUPPLY_MA: Range = { min: 100, max: 60_000 };
+
 const name = v.pipe(v.string(), v.trim(), v.minLength(1), v.maxLength(NAME_LENGTH));
 const whole = (range: Range) => v.pipe(v.number(), v.integer(), v.minValue(range.min), v.maxValue(range.max));
 const position = whole({ min: 0, max: 2500 });
@@ -117,6 +120,8 @@ const batteryCareSchema = v.strictObject({
   policy: v.picklist(BATTERY_POLICIES),
   /** In millivolts; null: as usual for what feeds it. */
   thresholds: v.nullable(v.strictObject({ warnMv: whole(BATTERY_MV), alarmMv: whole(BATTERY_MV) })),
+  /** The current that the battery or adapter can give, in milliamperes; absent: unknown. */
+  supplyMa: v.exactOptional(whole(SUPPLY_MA)),
 });
 
 export const robotSchema = v.strictObject({

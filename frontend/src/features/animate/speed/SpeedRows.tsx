@@ -3,15 +3,18 @@
 
 import { memo, type ReactNode, useMemo } from 'react';
 import { createStore, type StoreApi, useStore } from 'zustand';
-import { type GroupLoad, loadOf } from '#shared/group/load.ts';
+import { type GroupLoad, loadOf, staggered } from '#shared/group/load.ts';
+import { type Robot, SUPPLY_MA } from '#shared/profile/robot.ts';
 import { RANGE_MS } from '#shared/robot/timings.ts';
 import { servoName } from '../../../i18n/sentences.ts';
 import { words } from '../../../i18n/whole.ts';
-import { IconButton } from '../../../ui/Button.tsx';
+import { Button, IconButton } from '../../../ui/Button.tsx';
+import { NumberField } from '../../../ui/NumberField.tsx';
 import { Mark } from '../../../ui/Chip.tsx';
 import { cx } from '../../../ui/cx.ts';
 import { Canvas, type Pen } from '../../picture/Canvas.tsx';
-import { type Stores, useCompiled, useStores } from '../../stores.ts';
+import { type Stores, useCompiled, useRobot, useStores } from '../../stores.ts';
+import { isLocked } from '../../servoView.ts';
 import type { TimeView } from '../timeline/timeline.ts';
 import { xOf } from '../timeline/timeScale.ts';
 import styles from './SpeedRows.module.css';
@@ -48,11 +51,16 @@ function Shown({ children }: { readonly children: ReactNode }) {
     [frames, robot, family, group],
   );
   const rows = load.servos.length + 1;
+  const { supplyMa } = useRobot().batteryCare;
   return (
     <section className={styles.area} aria-label={words.speed.title}>
       <header className={styles.top}>
         <h3 className={styles.title}>{words.speed.title}</h3>
         <p className={styles.hint}>{words.speed.hint}</p>
+        <SupplyField />
+        <Button tone="quiet" hint={words.speed.staggerHint} onPress={() => stagger(stores)}>
+          {words.speed.stagger}
+        </Button>
         <IconButton icon="close" label={words.speed.close} onPress={() => toggleSpeed(stores)} />
       </header>
       <div className={styles.scroller} tabIndex={0}>
@@ -60,7 +68,12 @@ function Shown({ children }: { readonly children: ReactNode }) {
           <ul className={styles.heads}>
             <li className={cx(styles.head, styles.sum)}>
               <span className={styles.name}>{words.speed.together}</span>
-              <span className={styles.figure}>{words.speed.current({ amps: amps(load.mostMa) })}</span>
+              <span className={styles.figure}>
+                {supplyMa !== undefined && load.mostMa > supplyMa && <Mark truth="warning" />}
+                {supplyMa === undefined
+                  ? words.speed.current({ amps: amps(load.mostMa) })
+                  : words.speed.ofSupply({ amps: amps(load.mostMa), supply: amps(supplyMa) })}
+              </span>
             </li>
             {load.servos.map(({ servo, fastest, limit }) => (
               <li key={servo} className={styles.head}>
@@ -75,7 +88,7 @@ function Shown({ children }: { readonly children: ReactNode }) {
           <div className={styles.track} style={{ height: `calc(${rows} * var(--row))` }}>
             <Canvas
               className={styles.canvas}
-              shown={() => [load, stores.timeline.getState().time] as const}
+              shown={() => [load, stores.timeline.getState().time, supplyMa] as const}
               paint={paintLoad}
             />
             {children}
@@ -88,11 +101,68 @@ function Shown({ children }: { readonly children: ReactNode }) {
 
 const amps = (milliamperes: number): string => (milliamperes / 1000).toFixed(1);
 
+function SupplyField() {
+  const { robots, notices } = useStores();
+  const { supplyMa } = useRobot().batteryCare;
+  const range = { min: SUPPLY_MA.min / 1000, max: SUPPLY_MA.max / 1000 };
+  const set = (amperes: number): void =>
+    void robots.edit(
+      () => words.speed.steps.supply,
+      (robot): Robot => ({
+        ...robot,
+        batteryCare: { ...robot.batteryCare, supplyMa: Math.round(amperes * 1000) },
+      }),
+    );
+  return (
+    <span className={styles.supply} title={words.speed.supplyHint}>
+      <span aria-hidden="true">{words.speed.supply}</span>
+      <NumberField
+        label={words.speed.supplyField}
+        value={supplyMa === undefined ? null : supplyMa / 1000}
+        placeholder={words.speed.unknown}
+        step={0.5}
+        decimals={1}
+        start={2}
+        size="small"
+        unit={words.speed.amperes}
+        {...range}
+        onChange={set}
+        onRefused={(value) =>
+          notices.refuse(words.refused({ name: words.speed.supplyField, value, ...range }))
+        }
+      />
+    </span>
+  );
+}
+
+/** One step of the history. */
+function stagger(stores: Stores): void {
+  const { document, compiled, notices } = stores;
+  const { robot, family, maxErrorUnits } = compiled.store.getState().latest.source;
+  const found = staggered(document.store.getState().present, {
+    ...{ robot, family, maxErrorUnits, rangeMs: RANGE_MS },
+    isFree: (servo) => !isLocked(stores, servo),
+  });
+  if (found === null) return notices.show('info', words.speed.noStagger);
+  document.edit(
+    () => words.speed.steps.stagger,
+    () => found.group,
+  );
+  const { stepMs, beforeMa, afterMa } = found;
+  notices.show('info', words.speed.staggered({ ms: stepMs, before: amps(beforeMa), after: amps(afterMa) }));
+}
+
 const GAP_PX = 3;
 const STRIPE_PX = 4;
 
-/** The sum first, then a row for each servo: as high as the share of what it can do, striped where that is more. */
-function paintLoad({ ctx, look, size }: Pen, [load, time]: readonly [GroupLoad, TimeView]): void {
+/**
+ * The sum first, beside what the supply gives where that is known, else beside its peak; then a row for each servo: as high as the share of
+ * what it can do, striped where that is more.
+ */
+function paintLoad(
+  { ctx, look, size }: Pen,
+  [load, time, supplyMa]: readonly [GroupLoad, TimeView, number | undefined],
+): void {
   const { spans, servos, mostMa } = load;
   const rowPx = size.height / (servos.length + 1);
   const most = rowPx - GAP_PX;
@@ -105,17 +175,17 @@ function paintLoad({ ctx, look, size }: Pen, [load, time]: readonly [GroupLoad, 
       const height = Math.max(1, most * Math.min(1, share));
       return [left, (row + 1) * rowPx - height, right - left, height];
     };
-    ctx.fillStyle = look.estimated;
-    if (mostMa > 0) ctx.fillRect(...bar(0, currentMa / mostMa));
-    for (const [index, { servo, limit }] of servos.entries()) {
-      const share = (speeds.get(servo) ?? 0) / limit;
-      if (share === 0) continue;
-      ctx.fillStyle = share > 1 ? look.warning : look.commanded;
-      const [x, y, width, height] = bar(index + 1, share);
-      if (share <= 1) ctx.fillRect(x, y, width, height);
-      else
-        for (let at = x; at < x + width; at += 2 * STRIPE_PX)
-          ctx.fillRect(at, y, Math.min(STRIPE_PX, x + width - at), height);
-    }
+    const draw = (row: number, share: number, colour: string): void => {
+      if (share === 0) return;
+      ctx.fillStyle = share > 1 ? look.warning : colour;
+      const [x, y, width, height] = bar(row, share);
+      if (share <= 1) return ctx.fillRect(x, y, width, height);
+      for (let at = x; at < x + width; at += 2 * STRIPE_PX)
+        ctx.fillRect(at, y, Math.min(STRIPE_PX, x + width - at), height);
+    };
+    const fullMa = supplyMa ?? mostMa;
+    if (fullMa > 0) draw(0, currentMa / fullMa, look.estimated);
+    for (const [index, { servo, limit }] of servos.entries())
+      draw(index + 1, (speeds.get(servo) ?? 0) / limit, look.commanded);
   }
 }
