@@ -116,6 +116,8 @@ interface StaggerOptions extends LoadOptions {
 const STAGGER_STEPS_MS = [20, 40, 60, 80, 100, 150, 200, 300];
 /** A peak that falls by less is not worth a longer group, nor one that falls so little more a longer step. */
 const WORTHWHILE = 0.05;
+/** Less is within the estimate. */
+const LEAST_MA = 50;
 
 /** The shortest step with about the lowest peak; null where none lowers it. */
 export function staggered(
@@ -130,6 +132,6 @@ export function staggered(
     return { group: later, stepMs, beforeMa, afterMa: mostOf(later) };
   });
   const lowest = Math.min(...tried.map(({ afterMa }) => afterMa));
-  if (lowest >= beforeMa * (1 - WORTHWHILE)) return null;
+  if (beforeMa - lowest < Math.max(LEAST_MA, beforeMa * WORTHWHILE)) return null;
   return tried.find(({ afterMa }) => afterMa <= lowest + beforeMa * WORTHWHILE) ?? null;
 }

@@ -201,19 +201,27 @@ export function ServosPanel({ isBesideRobot = false }: ServosPanelProps) {
           ) : (
             <div className={styles.map}>{layout === 'body' ? <BodyMap /> : <RobotView />}</div>
           )}
-          <div className={styles.line}>
-            <Legend />
-            <UnitChoice />
-          </div>
+          {!isPhone && <LegendLine />}
         </>
       )}
       <SelectionBar
         hint={isTeaching ? words.teach.on : isPhone && why !== '' ? why : words.servoPanel.selectHint}
       />
       {layout === 'list' ? <ServoList /> : <CurrentServo />}
+      {isPhone && <LegendLine />}
       <MoveTimeControl />
       <ServoTalk />
     </Panel>
+  );
+}
+
+/** On a phone below the sliders, of which one more is in sight then. */
+function LegendLine() {
+  return (
+    <div className={styles.line}>
+      <Legend />
+      <UnitChoice />
+    </div>
   );
 }
 
