@@ -24,7 +24,6 @@ import type { Activity, Battery, LatchReason, LinkState } from '#shared/robot/st
 import type { GatewaySlots } from './gatewaySlots.ts';
 import type { Said } from './gatewaySocket.ts';
 import {
-  batteryOf,
   boardOf,
   bytesForLog,
   LATCHED_BY,
@@ -33,7 +32,7 @@ import {
   type BoardAtGateway,
 } from './gatewayValues.ts';
 import type { Driving } from './driving.ts';
-import type { PlayState, StateMessage } from './messages.generated.ts';
+import type { BatteryMessage, PlayState, StateMessage } from './messages.generated.ts';
 
 export interface GatewaySnapshotOptions {
   readonly clock: Clock;
@@ -336,4 +335,9 @@ export function createGatewaySnapshot(options: GatewaySnapshotOptions): GatewayS
       showStoredSlots();
     },
   };
+}
+
+function batteryOf(battery: BatteryMessage['battery'], nowMs: number): Battery {
+  if (battery.kind !== 'read') return battery;
+  return { kind: 'read', batteryMv: battery.batteryMv, atMs: nowMs - battery.ageMs };
 }

@@ -7,13 +7,11 @@ import { FAMILIES, type BoardId, type Family } from '#shared/codec/families.ts';
 import { fromHex, toHex } from '#shared/codec/packet.ts';
 import { commandIn } from '#shared/codec/parse.ts';
 import type { Report } from '#shared/codec/reports.ts';
-import type { Battery } from '#shared/robot/state.ts';
 import type { Identity } from '#shared/robot/identity.ts';
 import { LinkError } from '#shared/robot/linkError.ts';
 import type { LatchReason } from '#shared/robot/state.ts';
 import { refusal } from './gatewayHttp.ts';
 import type {
-  BatteryMessage,
   FrameBody,
   MotionState,
   PortState,
@@ -56,11 +54,6 @@ export function boardOf({ board, link, identity }: Omit<StateMessage, 'type'>): 
 export function isHarmlessPacket(packet: Uint8Array): boolean {
   const command = commandIn(packet);
   return command !== null && isHarmless(command);
-}
-
-export function batteryOf(battery: BatteryMessage['battery'], nowMs: number): Battery {
-  if (battery.kind !== 'read') return battery;
-  return { kind: 'read', batteryMv: battery.batteryMv, atMs: nowMs - battery.ageMs };
 }
 
 export function motionBefore(
