@@ -10,7 +10,7 @@ import base64
 import contextlib
 import threading
 import time
-from collections.abc import AsyncIterator, Callable
+from collections.abc import AsyncGenerator, Callable
 from dataclasses import dataclass
 from typing import Annotated, Any
 from urllib.parse import unquote, urlsplit, urlunsplit
@@ -136,7 +136,7 @@ def close(source: Any) -> None:
         source.close()
 
 
-async def relayed(source: Any, state: Any, may_view: Callable[[], bool]) -> AsyncIterator[bytes]:
+async def relayed(source: Any, state: Any, may_view: Callable[[], bool]) -> AsyncGenerator[bytes]:
     """Ends with the camera, with the viewer, or with the access of the viewer."""
     loop = asyncio.get_running_loop()
     chunks: asyncio.Queue[bytes] = asyncio.Queue()

@@ -2,8 +2,6 @@ import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import { evenly } from '../testing/cases.ts';
 import {
-  conflicts,
-  overlaps,
   servoBoundBy,
   type Action,
   type Binding,
@@ -17,7 +15,7 @@ import {
   mappingFromText,
   mappingToText,
 } from './mapping.ts';
-import { shaped, smoothed } from './mappingStep.ts';
+import { conflicts, overlaps, shaped, smoothed } from './mappingStep.ts';
 import { readyRobot } from './readyRobots.ts';
 
 const names = { robot: 'Arm', role: (role: string) => role, limb: (limb: string) => limb };

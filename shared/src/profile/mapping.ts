@@ -7,7 +7,7 @@ import { whole, readVersioned, versionedSchema, versionedText, type Read } from 
 import type { Robot } from './robot.ts';
 
 /** Which part of an axis counts: all of it with its sign, or one side as if it were a button. */
-const SIDES = ['whole', 'minus', 'plus'] as const;
+export const SIDES = ['whole', 'minus', 'plus'] as const;
 /** To the right and away from the person. */
 const TILT_AXES = ['sideways', 'forward'] as const;
 
@@ -116,50 +116,6 @@ export interface TipChoice {
 /** The servo a binding turns; null where it does something else. */
 export function servoBoundBy({ action }: Binding): number | null {
   return 'servo' in action ? action.servo : null;
-}
-
-/** Bindings are named by their place in the list. */
-export type Conflict =
-  | { readonly kind: 'sameInput'; readonly one: number; readonly other: number }
-  /** A position and anything else on one servo: they pull it back and forth. Speeds just add up. */
-  | { readonly kind: 'sharedServo'; readonly servo: number };
-
-/** What the person should know; nothing of it is forbidden. */
-export function conflicts({ bindings }: Mapping): readonly Conflict[] {
-  const sameInputs = bindings.flatMap(({ input }, one) =>
-    bindings.flatMap(({ input: second }, other): readonly Conflict[] =>
-      other > one && overlaps(input, second) ? [{ kind: 'sameInput', one, other }] : [],
-    ),
-  );
-  return [
-    ...sameInputs,
-    ...sharedServos(bindings).map((shared): Conflict => ({ kind: 'sharedServo', servo: shared })),
-  ];
-}
-
-function sharedServos(bindings: readonly Binding[]): readonly number[] {
-  const positioned = bindings.flatMap(({ action }) => (action.kind === 'position' ? [action.servo] : []));
-  return [...new Set(positioned)].filter(
-    (wanted) => bindings.filter((binding) => servoBoundBy(binding) === wanted).length > 1,
-  );
-}
-
-/** Whether one movement of a finger would trigger both. */
-export function overlaps(one: Input, other: Input): boolean {
-  if (one.kind === 'key' || other.kind === 'key')
-    return one.kind === 'key' && other.kind === 'key' && one.code === other.code;
-  if (one.kind === 'tilt' || other.kind === 'tilt')
-    return one.kind === 'tilt' && other.kind === 'tilt' && one.axis === other.axis && areAlike(one, other);
-  if (one.kind !== other.kind || one.index !== other.index) return false;
-  return one.kind === 'button' || other.kind === 'button' || areAlike(one, other);
-}
-
-interface Sided {
-  readonly side: (typeof SIDES)[number];
-}
-
-function areAlike(one: Sided, other: Sided): boolean {
-  return one.side === other.side || one.side === 'whole' || other.side === 'whole';
 }
 
 // A mapping as text with a version, and back; for storage. Reading trusts nothing.

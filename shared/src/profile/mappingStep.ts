@@ -1,5 +1,5 @@
-// One moment of driving: what inputs, bindings and the time since the last moment make of each servo. Pure; knows neither pad nor
-// session.
+// One moment of driving: what inputs, bindings and the time since the last moment make of each servo; and which bindings get in each
+// other's way. Pure; knows neither pad nor session.
 //
 // An input acts only once it was seen at rest (a position: once it was moved), so that neither switching on nor plugging in
 // moves anything. AT_REST forgets what was seen: after it every input has to begin anew.
@@ -9,6 +9,9 @@ import {
   type Action,
   type Binding,
   type Feel,
+  type Input,
+  servoBoundBy,
+  type SIDES,
   type Mapping,
   clamped,
   isPressed,
@@ -259,4 +262,48 @@ export function smoothed(from: number, to: number, dtMs: number, { smoothingMs }
   if (smoothingMs === 0) return to;
   const next = from + (to - from) * (1 - Math.exp(-dtMs / smoothingMs));
   return Math.abs(to - next) < ARRIVED ? to : next;
+}
+
+/** Bindings are named by their place in the list. */
+export type Conflict =
+  | { readonly kind: 'sameInput'; readonly one: number; readonly other: number }
+  /** A position and anything else on one servo: they pull it back and forth. Speeds just add up. */
+  | { readonly kind: 'sharedServo'; readonly servo: number };
+
+/** What the person should know; nothing of it is forbidden. */
+export function conflicts({ bindings }: Mapping): readonly Conflict[] {
+  const sameInputs = bindings.flatMap(({ input }, one) =>
+    bindings.flatMap(({ input: second }, other): readonly Conflict[] =>
+      other > one && overlaps(input, second) ? [{ kind: 'sameInput', one, other }] : [],
+    ),
+  );
+  return [
+    ...sameInputs,
+    ...sharedServos(bindings).map((shared): Conflict => ({ kind: 'sharedServo', servo: shared })),
+  ];
+}
+
+function sharedServos(bindings: readonly Binding[]): readonly number[] {
+  const positioned = bindings.flatMap(({ action }) => (action.kind === 'position' ? [action.servo] : []));
+  return [...new Set(positioned)].filter(
+    (wanted) => bindings.filter((binding) => servoBoundBy(binding) === wanted).length > 1,
+  );
+}
+
+/** Whether one movement of a finger would trigger both. */
+export function overlaps(one: Input, other: Input): boolean {
+  if (one.kind === 'key' || other.kind === 'key')
+    return one.kind === 'key' && other.kind === 'key' && one.code === other.code;
+  if (one.kind === 'tilt' || other.kind === 'tilt')
+    return one.kind === 'tilt' && other.kind === 'tilt' && one.axis === other.axis && areAlike(one, other);
+  if (one.kind !== other.kind || one.index !== other.index) return false;
+  return one.kind === 'button' || other.kind === 'button' || areAlike(one, other);
+}
+
+interface Sided {
+  readonly side: (typeof SIDES)[number];
+}
+
+function areAlike(one: Sided, other: Sided): boolean {
+  return one.side === other.side || one.side === 'whole' || other.side === 'whole';
 }

@@ -1,8 +1,8 @@
 // The panel for driving by keys and pad: the switch, the picture of the pad, the feel and the bindings.
 
 import { useRef } from 'react';
-import { step } from '#shared/profile/mappingStep.ts';
-import { conflicts, type Conflict, isOfTip, type Mapping, servoBoundBy } from '#shared/profile/mapping.ts';
+import { conflicts, type Conflict, step } from '#shared/profile/mappingStep.ts';
+import { isOfTip, type Mapping, servoBoundBy } from '#shared/profile/mapping.ts';
 import type { PoseBook } from '#shared/profile/pose.ts';
 import type { Robot } from '#shared/profile/robot.ts';
 import {

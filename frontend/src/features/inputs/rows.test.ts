@@ -1,7 +1,8 @@
 // The table of bindings: who has a row of his own.
 
 import { describe, expect, test } from 'vitest';
-import { conflicts, mappingFromText, mappingToText, readyMapping } from '#shared/profile/mapping.ts';
+import { mappingFromText, mappingToText, readyMapping } from '#shared/profile/mapping.ts';
+import { conflicts } from '#shared/profile/mappingStep.ts';
 import { EMPTY_BOOK } from '#shared/profile/pose.ts';
 import { readyRobot } from '#shared/profile/readyRobots.ts';
 import { robotNames, servoLabel } from '../../i18n/sentences.ts';
