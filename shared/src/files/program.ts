@@ -217,7 +217,7 @@ def main():
             play(port)
         except KeyboardInterrupt:
             send(port, STOP)
-            print("Ended. The last move goes on to its end.")
+            print("Ended. The last move continues to its end.")
 
 
 if __name__ == "__main__":

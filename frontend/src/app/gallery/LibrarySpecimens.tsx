@@ -32,7 +32,7 @@ async function fill({ library, document, robots }: Stores): Promise<void> {
           })),
         }));
         const tagged = { ...rename(empty, name), tags: TAGS[index] ?? [] };
-        const robot = index === 1 ? 'A robot of somebody else' : robots.current().robot.name;
+        const robot = index === 1 ? 'A robot of another person' : robots.current().robot.name;
         return frames.reduce<ActionGroup>((group, frame, at) => insertFrame(group, at, frame), {
           ...tagged,
           robot,

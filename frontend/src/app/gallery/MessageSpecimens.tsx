@@ -43,7 +43,7 @@ export const MESSAGES: readonly Exhibit[] = [
       }),
   },
   {
-    name: 'Owner of a shared robot, asked',
+    name: 'Owner of a shared robot, question',
     content: <TopBar onMoveHere={() => undefined} />,
     stores: () =>
       prepared(

@@ -111,7 +111,7 @@ export function frozenSession(
 }
 
 const none = () => Promise.reject(new PeopleError('unreachable', ''));
-const NOBODY: PeopleApi = {
+const NO_PEOPLE: PeopleApi = {
   ...{ me: () => Promise.resolve(null), sayName: none },
   ...{ list: none, invite: none, withdraw: none, change: none, revoke: none },
   ...{ makeToken: none, makeStopLink: none },
@@ -156,7 +156,7 @@ export function specimenStores(
     blend: createBlend({ device, robots, view }),
     teaching: createTeaching({ device, robots, notices }),
     timeline,
-    people: createPeople({ api: NOBODY, me: null, notices, now: pageClock.now }),
+    people: createPeople({ api: NO_PEOPLE, me: null, notices, now: pageClock.now }),
     ...{ compiled, slots, place, replacing, playhead },
     collisions: createCollisions(compiled, () => Promise.resolve(() => Promise.resolve([]))),
     tape: createMotionTape({ device, robots, clock: pageClock }),

@@ -7,7 +7,7 @@ import type { ServoView } from '../../features/servoView.ts';
 import type { ViewState } from '../../features/view.ts';
 
 /** The longest name: 64 characters. */
-export const LONG_NAME = 'The very long name of a thing that somebody liked to call it so.';
+export const LONG_NAME = 'The very long name of a thing that a person chose for it.';
 
 export interface ServoSpecimen {
   /** With names in the language in use. */

@@ -161,7 +161,7 @@ export const SPECIMENS: readonly Specimen[] = [
     ...WITH_MESSAGES,
   },
   {
-    name: 'LeArm, asked',
+    name: 'LeArm, question',
     board: 'learm-esp32',
     nickname: 'Shelf arm',
     state: {

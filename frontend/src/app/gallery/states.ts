@@ -57,16 +57,16 @@ const PRESENT: Lease['candidates'] = [
 /** The lease as each of the people sees it. */
 export const LEASES: Readonly<Record<string, Lease>> = {
   'You drive': LEASE,
-  'You drive, asked': { ...LEASE, requestedBy: 'Bert', grantedInMs: 5000 },
+  'You drive, requested': { ...LEASE, requestedBy: 'Bert', grantedInMs: 5000 },
   'You drive, others may': { ...LEASE, candidates: PRESENT },
   'You drive, handed over': { ...LEASE, you: 'Bert', driver: 'Bert', grantedBy: 'Anna', candidates: PRESENT },
   'Another drives': WATCHED,
-  'Another drives, asked': { ...WATCHED, requestedBy: 'Bert', hasRequested: true, grantedInMs: 5000 },
+  'Another drives, requested': { ...WATCHED, requestedBy: 'Bert', hasRequested: true, grantedInMs: 5000 },
   'Another drives, yours to take': { ...WATCHED, mayTake: true, candidates: PRESENT },
   'Another window drives, yours to take': { ...WATCHED, driver: 'Cleo', mayTake: true },
   'No driver': { ...WATCHED, driver: null },
   'You drive, it may go on': { ...LEASE, unattended: ALONE },
-  'It goes on alone': { ...WATCHED, driver: null, others: 0, unattended: ALONE },
+  'It continues unattended': { ...WATCHED, driver: null, others: 0, unattended: ALONE },
   'Looking on only': { ...WATCHED, driver: null, mayDrive: false },
 };
 

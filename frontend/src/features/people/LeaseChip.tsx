@@ -116,7 +116,7 @@ function LeaseChip() {
   const isFolded = isPhone && !isRequested && !isOneButton(lease, leaseText);
   return (
     <div
-      className={cx(styles.lease, isRequested && styles.asked)}
+      className={cx(styles.lease, isRequested && styles.requested)}
       data-lease={isRequested ? 'requested' : 'said'}
       role="group"
       aria-label={words.lease.label}
