@@ -1,6 +1,6 @@
 // The picture of a camera beside the sliders: one of the gateway's, and the way to it where there is none.
 
-import { expect, test } from './harness/test.ts';
+import { expect, poll, test } from './harness/test.ts';
 
 const withoutGateway = window.fetch;
 
@@ -57,6 +57,8 @@ test.describe('in Drive', () => {
         return [width, height];
       });
     await expect(page.getByText('Waiting for the first picture')).toBeVisible();
+    const opened = () => Promise.resolve(streams.length);
+    await poll(opened).toBe(1);
     streams[0]?.[1].send(await partOf(64, 48));
     await expect(page.getByText(/^\d+ pictures?\/s, newest [\d,]+\sms ago$/)).toBeVisible();
     expect(await size()).toEqual([64, 48]);
@@ -65,12 +67,14 @@ test.describe('in Drive', () => {
     streams[0]?.[1].end();
     await expect(page.getByText('The camera’s stream has ended.')).toBeVisible();
     await dashboard.button('Try again').click();
+    await poll(opened).toBe(2);
     streams[1]?.[1].send(await partOf(32, 24));
     await expect(page.getByText(/newest/)).toBeVisible();
     expect(await size()).toEqual([32, 24]);
 
     await page.getByRole('combobox', { name: 'Camera' }).selectOption('Door');
     await expect(page.getByRole('img', { name: 'Picture of the camera Door' })).toBeVisible();
+    await poll(opened).toBe(3);
     expect(streams.map(([path]) => path)).toEqual([0, 0, 1].map((id) => `/api/cameras/${id}/stream`));
   });
 
