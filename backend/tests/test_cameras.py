@@ -4,6 +4,7 @@ import asyncio
 import contextlib
 import threading
 from collections.abc import AsyncIterator, Iterator
+from http.client import IncompleteRead
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from types import SimpleNamespace
 from typing import Any
@@ -30,15 +31,21 @@ SECRET = "Basic dXNlcjpwQHNz"  # user:p@ss
 
 
 class Picture(BaseHTTPRequestHandler):
-    """`/endless`: frames until the viewer leaves; `/three`: three of them; `/page`: no picture."""
+    """`/endless`: frames until the viewer leaves; `/three`: three of them; `/page`, `/still`: no motion JPEG;
+    `/rtsp`: no HTTP.
+    """
 
     def do_GET(self) -> None:
         if self.path == "/secret" and self.headers["Authorization"] != SECRET:
             self.send_error(401)
             return
+        if self.path == "/rtsp":
+            self.wfile.write(b"RTSP/1.0 400 Bad Request\r\n\r\n")
+            return
         self.send_response(200)
-        kind = "text/html" if self.path == "/page" else f"multipart/x-mixed-replace; boundary={BOUNDARY}"
-        self.send_header("Content-Type", kind)
+        motion = f"multipart/x-mixed-replace; boundary={BOUNDARY}"
+        kinds = {"/page": "text/html", "/still": "image/jpeg"}
+        self.send_header("Content-Type", kinds.get(self.path, motion))
         self.end_headers()
         count = 0
         with contextlib.suppress(OSError):
@@ -105,13 +112,14 @@ async def status_of_stream(client: AsyncClient) -> int:
 
 
 async def test_what_is_no_picture_is_refused_with_the_reason(source: str) -> None:
-    cameras = (Camera("Page", f"{source}/page"), Camera("Gone", "http://127.0.0.1:9/"))
-    async with gateway(*cameras) as client:
-        page, gone = [await client.get(f"/api/cameras/{index}/stream") for index in (0, 1)]
-        assert (page.status_code, page.json()["code"]) == (502, "cameraFailed")
-        assert "sends text/html" in page.json()["detail"]
-        assert (gone.status_code, gone.json()["code"]) == (502, "cameraFailed")
-        assert (await client.get("/api/cameras/2/stream")).status_code == 404
+    addresses = (f"{source}/page", f"{source}/still", f"{source}/rtsp", "http://127.0.0.1:9/")
+    reasons = ("sends text/html", "sends image/jpeg", "does not answer: RTSP/1.0 400", "does not answer")
+    async with gateway(*(Camera("Bench", address) for address in addresses)) as client:
+        for index, reason in enumerate(reasons):
+            answer = await client.get(f"/api/cameras/{index}/stream")
+            assert (answer.status_code, answer.json()["code"]) == (502, "cameraFailed")
+            assert reason in answer.json()["detail"]
+        assert (await client.get(f"/api/cameras/{len(addresses)}/stream")).status_code == 404
 
 
 async def test_a_name_and_password_in_the_address_go_to_the_camera_alone(source: str) -> None:
@@ -156,6 +164,30 @@ async def test_a_viewer_that_may_view_no_longer_loses_the_picture(monkeypatch: p
     async with asyncio.timeout(2):
         async for _ in chunks:
             pass
+    assert await asyncio.to_thread(source.is_closed.wait, 2)
+
+
+class Broken(Endless):
+    """A source that fails from its `good + 1`-th read on."""
+
+    def __init__(self, good: int, error: Exception) -> None:
+        super().__init__()
+        self.good, self.error = good, error
+
+    def read1(self, size: int) -> bytes:
+        if self.reads == self.good:
+            raise self.error
+        return super().read1(size)
+
+
+@pytest.mark.parametrize("good", [0, 1])
+@pytest.mark.parametrize("error", [TimeoutError(), IncompleteRead(b"")])  # silent; cut between two chunks
+async def test_a_camera_that_fails_ends_the_picture(good: int, error: Exception) -> None:
+    source, state = Broken(good, error), SimpleNamespace(open_streams=1)
+    async with asyncio.timeout(2):
+        chunks = [chunk async for chunk in relayed(source, state, lambda: True)]
+    assert len(chunks) == good
+    assert state.open_streams == 0
     assert await asyncio.to_thread(source.is_closed.wait, 2)
 
 

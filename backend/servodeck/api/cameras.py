@@ -12,6 +12,7 @@ import threading
 import time
 from collections.abc import AsyncGenerator, Callable
 from dataclasses import dataclass
+from http.client import HTTPException
 from typing import Annotated, Any
 from urllib.parse import unquote, urlsplit, urlunsplit
 
@@ -24,7 +25,7 @@ from servodeck.errors import BusyError, CameraError, NotFoundError
 from servodeck.schema import Message
 from servodeck.threads import in_thread
 
-KINDS = ("multipart/x-mixed-replace", "image/jpeg")
+KIND = "multipart/x-mixed-replace"
 # A camera that sends nothing for so long is gone.
 SILENT_S = 10.0
 CHUNK_BYTES = 32 * 1024
@@ -112,13 +113,13 @@ def opened(camera: Camera) -> Any:
     request = Request(urlunsplit(parts._replace(netloc=host)), headers=headers)
     try:
         answer = urlopen(request, timeout=SILENT_S)
-    except (OSError, ValueError) as error:
+    except (OSError, ValueError, HTTPException) as error:
         advice = "Check that it is on, and its address."
         raise CameraError(
             f"The camera {camera.name} does not answer: {reason_in(error)}. {advice}"
         ) from error
     kind = answer.headers.get_content_type()
-    if kind not in KINDS:
+    if kind != KIND:
         answer.close()
         advice = "Use an address of it that sends motion JPEG."
         raise CameraError(f"The camera {camera.name} sends {kind}. {advice}")
@@ -128,7 +129,7 @@ def opened(camera: Camera) -> Any:
 def reason_in(error: Exception) -> str:
     """In the words of the system, or of the camera's server."""
     cause = getattr(error, "reason", error)
-    return str(getattr(cause, "strerror", None) or cause)
+    return str(getattr(cause, "strerror", None) or cause).strip()
 
 
 def close(source: Any) -> None:
@@ -144,17 +145,13 @@ async def relayed(source: Any, state: Any, may_view: Callable[[], bool]) -> Asyn
     has_ended = threading.Event()
 
     def read() -> None:
-        chunk = b""
-        with contextlib.suppress(OSError, ValueError, RuntimeError):  # gone, closed, or the loop has ended
-            while not has_ended.is_set():
-                chunk = source.read1(CHUNK_BYTES)
+        # Silent, cut, closed, or the loop has ended.
+        with contextlib.suppress(OSError, HTTPException, ValueError, RuntimeError):
+            while not has_ended.is_set() and (chunk := source.read1(CHUNK_BYTES)):
                 loop.call_soon_threadsafe(chunks.put_nowait, chunk)
-                if not chunk:
-                    break
                 room.acquire()
-        if chunk:
-            with contextlib.suppress(RuntimeError):
-                loop.call_soon_threadsafe(chunks.put_nowait, b"")
+        with contextlib.suppress(RuntimeError):
+            loop.call_soon_threadsafe(chunks.put_nowait, b"")
         close(source)
 
     threading.Thread(target=read, name="camera", daemon=True).start()
