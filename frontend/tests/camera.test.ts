@@ -20,6 +20,8 @@ async function partOf(width: number, height: number): Promise<Uint8Array> {
 interface Source {
   send(part: Uint8Array): void;
   end(): void;
+  /** The page reads it no further. */
+  isLeft(): boolean;
 }
 
 /** The gateway's cameras; each stream that is opened goes to `opened`. */
@@ -32,8 +34,11 @@ function serveCameras(names: readonly string[], opened: (path: string, source: S
     if (!pathname.startsWith('/api/cameras/')) return withoutGateway(input, init);
     const body = new ReadableStream<Uint8Array>({
       start: (stream) => {
-        const source = { send: (part: Uint8Array) => stream.enqueue(part), end: () => stream.close() };
-        opened(pathname, source);
+        opened(pathname, {
+          send: (part) => stream.enqueue(part),
+          end: () => stream.close(),
+          isLeft: () => init?.signal?.aborted === true,
+        });
       },
     });
     return Promise.resolve(new Response(body, { headers }));
@@ -75,6 +80,9 @@ test.describe('in Drive', () => {
     await page.getByRole('combobox', { name: 'Camera' }).selectOption('Door');
     await expect(page.getByRole('img', { name: 'Picture of the camera Door' })).toBeVisible();
     await poll(opened).toBe(3);
+    streams[2]?.[1].send(new TextEncoder().encode(`--frame\r\n${'x'.repeat(5000)}`));
+    await expect(page.getByText('The camera’s stream cannot be read.')).toBeVisible();
+    expect(streams[2]?.[1].isLeft()).toBe(true);
     expect(streams.map(([path]) => path)).toEqual([0, 0, 1].map((id) => `/api/cameras/${id}/stream`));
   });
 
@@ -83,6 +91,7 @@ test.describe('in Drive', () => {
     await page.getByRole('radio', { name: 'Camera' }).check();
     await expect(page.getByText('No camera yet')).toBeVisible();
     await expect(page.getByText(/^servodeck serve --camera /)).toBeVisible();
+    await expect(dashboard.button('Copy command')).toBeEnabled();
     await expect(dashboard.button('Use this computer’s camera')).toBeEnabled();
   });
 });

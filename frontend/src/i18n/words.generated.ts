@@ -339,6 +339,7 @@ export interface Messages {
     readonly ageHint: string;
     readonly again: string;
     readonly ended: string;
+    readonly unreadable: string;
     readonly unreachable: string;
     readonly refused: string;
     readonly noneHere: string;

@@ -10,6 +10,7 @@ import { Button } from '../../ui/Button.tsx';
 import { LiveText } from '../../ui/LiveText.tsx';
 import { EmptyState } from '../../ui/Panel.tsx';
 import { Select } from '../../ui/Select.tsx';
+import { CopyButton } from '../connect/PortGuide.tsx';
 import { useStores, useView } from '../stores.ts';
 import { boundaryIn, createPartReader } from './mjpeg.ts';
 import styles from './CameraView.module.css';
@@ -76,7 +77,12 @@ function NoCamera({ onHere }: { onHere(): void }) {
       className={styles.none}
       action={
         <>
-          {!isWithoutGateway() && <code className={styles.command}>{COMMAND}</code>}
+          {!isWithoutGateway() && (
+            <>
+              <code className={styles.command}>{COMMAND}</code>
+              <CopyButton text={COMMAND} label={words.guide.copy} done={words.guide.copied} />
+            </>
+          )}
           <Button onPress={onHere}>{words.camera.useHere}</Button>
         </>
       }
@@ -116,7 +122,10 @@ function AtGateway({ camera: { id, name } }: { readonly camera: Cameras[number] 
       noteArrival(arrivals);
       if (await draw(picture, canvas)) watched.setState({ isShown: true });
     }).catch((error: unknown) => {
-      if (!leaving.signal.aborted) watched.setState({ problem: reasonIn(error) });
+      if (leaving.signal.aborted) return;
+      watched.setState({ problem: reasonIn(error) });
+      // What is no stream of pictures is read no further.
+      leaving.abort();
     });
     return () => leaving.abort();
   }, [id, attempt, watched, arrivals]);
@@ -193,8 +202,11 @@ async function refusalIn(answer: Response): Promise<GatewayProblem> {
   );
 }
 
-const reasonIn = (error: unknown): string =>
-  error instanceof GatewayProblem ? error.message : words.camera.unreachable;
+function reasonIn(error: unknown): string {
+  if (error instanceof GatewayProblem) return error.message;
+  // As `fetch` and its readers report a network that fails.
+  return error instanceof TypeError ? words.camera.unreachable : words.camera.unreadable;
+}
 
 /** False where it is no picture. */
 async function draw(picture: Blob, canvas: RefObject<HTMLCanvasElement | null>): Promise<boolean> {
