@@ -292,14 +292,37 @@ def test_decode_says_what_a_packet_means() -> None:
     assert run("decode", "55", "55", "08", "03", "01", "E8", "03", "01", "D0", "07").stdout == (
         "move servo 1 to 2000 in 1000 ms\n"
     )
-    assert "battery 7500 mV" in run("decode", "--report", "5555040f4c1d").stdout
-    assert json.loads(run("decode", "--json", "55550207").stdout) == {
-        "packet": "55550207",
-        "text": "stop the running group after the frame in progress",
-    }
+    assert run("decode", "5555040f4c1d").stdout == "battery 7500 mV\n"
+    lines = run("decode", "--json", "01", "5555080301E80301D007", "5555040F3831").stdout.splitlines()
+    assert [json.loads(line) for line in lines] == [
+        {"noise": "01"},
+        {
+            "packet": "5555080301e80301d007",
+            "command": {
+                "kind": "move",
+                "durationMs": 1000,
+                "targets": [{"servo": 1, "position": 2000}],
+            },
+            "reports": [],
+            "text": "move servo 1 to 2000 in 1000 ms",
+        },
+        {
+            "packet": "5555040f3831",
+            "command": None,
+            "reports": [{"kind": "battery", "batteryMv": 12600}],
+            "text": "battery 12600 mV",
+        },
+    ]
 
 
-@pytest.mark.parametrize(("text", "code"), [("zz", 2), ("555", 2), ("555502", 1), ("5555020755", 1)])
+def test_decode_reads_a_file(tmp_path: Path) -> None:
+    file = tmp_path / "export.csv"
+    file.write_text("Time,Value\n0.1,0x55\n0.2,0x55\n0.3,0x02\n0.4,0x0F\n")
+    assert run("decode", "--file", str(file)).stdout == "ask for the battery voltage\n"
+    assert run("decode").exit_code == 2
+
+
+@pytest.mark.parametrize(("text", "code"), [("zz", 2), ("555", 2), ("555502", 1), ("01", 1)])
 def test_decode_tells_what_is_no_packet(text: str, code: int) -> None:
     result = run("decode", text)
     assert result.exit_code == code

@@ -1,11 +1,17 @@
-"""Packets in words, as the command line and the log tell them."""
-
-from typing import Any
+"""Packets in words, as the command line prints them."""
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from servodeck.errors import MalformedError
-from servodeck.protocol.describe import describe
+from servodeck.protocol.describe import bytes_in, pieces_of
+
+FROM_BOARD = "; from a board: "
+
+
+def words_of(text: str) -> list[str]:
+    return [piece.text for piece in pieces_of(bytes_in(text))]
 
 
 @pytest.mark.parametrize(
@@ -30,11 +36,12 @@ from servodeck.protocol.describe import describe
         ("55 55 02 01", "ask for the version"),
         ("55 55 02 0D", "ask for the positions of all servos"),
         ("55 55 02 02", "ask for the offsets"),
-        ("55 55 04 63 01 02", "no known command: CMD 99, parameters 01 02"),
+        ("55 55 04 63 01 02", "unknown: CMD 99, parameters 01 02"),
     ],
 )
 def test_a_command_in_words(packet: str, words: str) -> None:
-    assert describe(bytes.fromhex(packet), "command") == words
+    (text,) = words_of(packet)
+    assert text.partition(FROM_BOARD)[0] == words
 
 
 @pytest.mark.parametrize(
@@ -60,15 +67,45 @@ def test_a_command_in_words(packet: str, words: str) -> None:
         ),
         ("55 55 04 01 02 03", "version 3, bus servos"),
         ("55 55 04 01 09 03", "version 3, servos of type 9"),
-        ("55 55 02 0B", "no known report: CMD 11, no parameters"),
+        ("55 55 02 0B", "unknown: CMD 11, no parameters"),
     ],
 )
 def test_a_report_in_words(packet: str, words: str) -> None:
-    assert describe(bytes.fromhex(packet), "report") == words
+    (text,) = words_of(packet)
+    assert text.split(FROM_BOARD)[-1] == words
 
 
-@pytest.mark.parametrize("direction", ["command", "report"])
-def test_words_need_exactly_one_packet(direction: Any) -> None:
-    with pytest.raises(MalformedError) as caught:
-        describe(b"\x55\x55\x02\x07\x55", direction)
-    assert caught.value.code == "malformed"
+@pytest.mark.parametrize(
+    "text",
+    [
+        "5555020F 5555040F3831",
+        "55,55,02,0f, 55,55,04,0f,38,31",
+        "0x55, 0x55, 0x2, 0xF, 0X55 0x55 0x04 0x0F 0x38 0x31",
+        r"\x55\x55\x02\x0f\x55\x55\x04\x0f\x38\x31",
+        "Time [s],Value\n0.01,0x55\n0.02,0x55\n0.03,0x02\n0.04,0x0F\n1.01,0x55 0x55 0x04 0x0F 0x38 0x31",
+    ],
+)
+def test_bytes_are_read_as_people_paste_them(text: str) -> None:
+    assert words_of(text) == ["ask for the battery voltage", "battery 12600 mV"]
+
+
+@pytest.mark.parametrize("text", ["zz", "555", "55 5G", "0x55 0x1FF"])
+def test_what_is_no_byte_is_named(text: str) -> None:
+    with pytest.raises(MalformedError, match=r"no hex byte"):
+        bytes_in(text)
+
+
+def test_what_is_between_packets_is_shown() -> None:
+    assert words_of("01 02 55 55 55 02 06 FF") == [
+        "no packet: 01 02 55",
+        "run command taken",
+        "no packet: FF",
+    ]
+
+
+@given(
+    st.lists(st.sampled_from(["5555020F", "5555040F3831", "55550506080100", "00", "55", "FFFE", "555508"]))
+)
+def test_no_byte_is_lost(parts: list[str]) -> None:
+    data = bytes.fromhex("".join(parts))
+    assert b"".join(piece.data for piece in pieces_of(data)) == data

@@ -5,7 +5,7 @@ codes; the work is done elsewhere.
 import json
 import subprocess
 from dataclasses import asdict, fields
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -29,7 +29,7 @@ from servodeck.cli.serve import new_program
 from servodeck.errors import MalformedError
 from servodeck.port.hid import UDEV_RULE, UDEV_RULE_FILE
 from servodeck.port.ports import PortInfo, list_devices
-from servodeck.protocol.describe import describe
+from servodeck.protocol.describe import Piece, bytes_in, pieces_of
 
 # The gateway listens for modules that long before it answers, and a busy computer needs a moment more.
 SCAN_WAIT_S = 15.0
@@ -120,19 +120,36 @@ def modules_heard() -> list[PortInfo]:
 
 @app.command()
 def decode(
-    hex_bytes: Annotated[list[str], typer.Argument(metavar="HEX...", help="Bytes, e.g. 55 55 02 07")],
-    report: Annotated[bool, typer.Option("--report", help="The packet comes from the board.")] = False,
-    as_json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
+    text: Annotated[
+        list[str] | None, typer.Argument(metavar="HEX...", help="Bytes, e.g. 55 55 02 07")
+    ] = None,
+    file: Annotated[
+        typer.FileText | None,
+        typer.Option(help="A file with the bytes, such as the export of a logic analyser; - for stdin."),
+    ] = None,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON, an object for each packet.")] = False,
 ) -> None:
-    """Explain a packet in words."""
+    """Explain packets in words: those of a host, those of a board, and what is between them."""
+    if not text and file is None:
+        fail("Give the bytes, or --file FILE.", USAGE)
     try:
-        packet = bytes.fromhex(" ".join(hex_bytes))
-        words = describe(packet, "report" if report else "command")
-    except ValueError:
-        fail("Expected hex digits, two for each byte.", USAGE)
+        pieces = list(pieces_of(bytes_in(" ".join(text or ()) if file is None else file.read())))
     except MalformedError as error:
-        fail(str(error))
-    print(json.dumps({"packet": packet.hex(), "text": words}) if as_json else words)
+        fail(str(error), USAGE)
+    if not any(piece.is_packet for piece in pieces):
+        fail("No packet is in these bytes: 55 55, LEN, CMD, LEN - 2 more.")
+    for piece in pieces:
+        print(json.dumps(facts_of(piece)) if as_json else piece.text)
+
+
+def facts_of(piece: Piece) -> dict[str, Any]:
+    from servodeck.packet_models import command_model, report_model  # with pydantic, which text does not need
+
+    if not piece.is_packet:
+        return {"noise": piece.data.hex()}
+    command = piece.command and command_model(piece.command).model_dump(by_alias=True)
+    reports = [report_model(report).model_dump(by_alias=True) for report in piece.reports]
+    return {"packet": piece.data.hex(), "command": command, "reports": reports, "text": piece.text}
 
 
 def main() -> None:

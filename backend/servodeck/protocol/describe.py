@@ -1,11 +1,17 @@
-"""Packets in plain English, for `servodeck decode`. Knows the meaning of the bytes on every board."""
+"""Packets in plain English, for `servodeck decode`: the bytes in a pasted text, the packets among them, and
+the meaning of each, from a host and from a board. Knows the meaning of the bytes on every board.
+"""
 
-from typing import Literal, assert_never
+import re
+from collections.abc import Iterator
+from typing import assert_never
 
 from servodeck.errors import MalformedError
-from servodeck.protocol.decoder import Packet
+from servodeck.protocol.decoder import COMMAND_AT, HEADER, LENGTH_AT, Packet
+from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.packets import (
     parse_command,
+    parse_report,
     read_offsets,
     read_position_entries,
     read_positions,
@@ -24,24 +30,92 @@ from servodeck.protocol.values import (
     ReadPositions,
     ReadVersion,
     Release,
+    Report,
     Run,
     ServoTarget,
     SetSpeed,
     Stop,
+    UnknownReport,
 )
+from servodeck.value import value
 
 SERVOS = {1: "PWM servos", 2: "bus servos"}
 
 
-def describe(packet: bytes, direction: Literal["command", "report"]) -> str:
-    """One packet in plain English. Raises MalformedError where the bytes are not exactly one packet."""
-    whole = whole_packet(packet)
-    if whole is None:
-        raise MalformedError("The bytes are not exactly one packet: 55 55, LEN, CMD, LEN - 2 more.")
-    if direction == "report":
-        return describe_report(whole)
-    command = parse_command(packet)
-    return describe_command(command) if command else f"no known command: {whole_words(whole)}"
+HEADERS = bytes((HEADER, HEADER))
+TOKEN = re.compile(r"[^\s,;|]+")
+
+
+@value
+class Piece:
+    """A packet with its meanings, or bytes that belong to none. `reports`: of the families that send it."""
+
+    data: bytes
+    command: Command | None
+    reports: tuple[Report, ...]
+    text: str
+    is_packet: bool = True
+
+
+def bytes_in(text: str) -> bytes:
+    """The hex bytes of a pasted text, with or without spaces and commas. If bytes are marked by 0x, the
+    rest, such as the times of a logic analyser, is left out. Raises MalformedError.
+    """
+    tokens = TOKEN.findall(text.replace("\\x", " 0x"))
+    marked = [token[2:].zfill(2) for token in tokens if token[:2].lower() == "0x"]
+    data = bytearray()
+    for token in marked or tokens:
+        try:
+            data += bytes.fromhex(token)
+        except ValueError:
+            raise MalformedError(f"{token} is no hex byte. Expected two digits for each byte.") from None
+    return bytes(data)
+
+
+def pieces_of(data: bytes) -> Iterator[Piece]:
+    """Packets in either direction, and the bytes between them. Nothing more is to come."""
+    noise_from = at = 0
+    while at < len(data):
+        piece = packet_at(data, at)
+        if piece is None:
+            at += 1
+            continue
+        if noise_from < at:
+            yield noise(data[noise_from:at])
+        yield piece
+        noise_from = at = at + len(piece.data)
+    if noise_from < at:
+        yield noise(data[noise_from:at])
+
+
+def noise(data: bytes) -> Piece:
+    return Piece(data, None, (), f"no packet: {data.hex(' ').upper()}", is_packet=False)
+
+
+def packet_at(data: bytes, at: int) -> Piece | None:
+    """One with a known meaning, or an unknown one that is followed by another or by nothing."""
+    if data[at : at + 2] != HEADERS or at + COMMAND_AT >= len(data):
+        return None
+    end = at + data[at + LENGTH_AT] + 2
+    packet = whole_packet(data[at:end])
+    if packet is None:
+        return None
+    piece = explained(data[at:end], packet)
+    is_known = piece.command is not None or describe_report(packet) is not None
+    return piece if is_known or data[end : end + 2] in (b"", HEADERS[:1], HEADERS) else None
+
+
+def explained(data: bytes, packet: Packet) -> Piece:
+    command = parse_command(data)
+    reports = (parse_report(packet, family) for family in FAMILIES.values())
+    known = tuple(dict.fromkeys(one for one in reports if not isinstance(one, UnknownReport)))
+    from_board = describe_report(packet)
+    from_host = describe_command(command) if command else None
+    if from_host and from_board:
+        text = f"{from_host}; from a board: {from_board}"
+    else:
+        text = from_host or from_board or f"unknown: {whole_words(packet)}"
+    return Piece(data, command, known, text)
 
 
 def describe_command(command: Command) -> str:
@@ -105,8 +179,8 @@ def times_words(times: int) -> str:
     return {0: "until stopped", 1: "once"}.get(times, f"{times} times")
 
 
-def describe_report(packet: Packet) -> str:
-    """Without a family, so what means opposite things says both."""
+def describe_report(packet: Packet) -> str | None:
+    """Without a family, so what means opposite things says both. None where no board sends it."""
     params = packet.params
     match packet.command, len(params):
         case 6, 0:
@@ -123,7 +197,7 @@ def describe_report(packet: Packet) -> str:
             return f"battery {read_uint16(params, 0)} mV"
         case 25, 0:
             return "download frame handled"
-    return describe_family_report(packet) or f"no known report: {whole_words(packet)}"
+    return describe_family_report(packet)
 
 
 def describe_family_report(packet: Packet) -> str | None:
