@@ -12,7 +12,15 @@ from typing import Any
 import pytest
 from httpx2 import AsyncClient
 
-from servodeck.api.cameras import CHUNK_BYTES, MOST_STREAMS, WAITING_CHUNKS, Camera, parse_camera, relayed
+from servodeck.api.cameras import (
+    CHUNK_BYTES,
+    MOST_STREAMS,
+    WAITING_CHUNKS,
+    Camera,
+    Relay,
+    parse_camera,
+    relayed,
+)
 from servodeck.errors import PortMissingError
 from tests.fake_port import FakePorts
 from tests.running import server_on
@@ -27,12 +35,13 @@ PART = (
     + b"\r\n\r\n"
     + FRAME
 )
+MOVED = {"/moved": "/three", "/away": "http://localhost:{port}/three"}
 SECRET = "Basic dXNlcjpwQHNz"  # user:p@ss
 
 
 class Picture(BaseHTTPRequestHandler):
     """`/endless`: frames until the viewer leaves; `/three`: three of them; `/page`, `/still`: no motion JPEG;
-    `/rtsp`: no HTTP.
+    `/rtsp`: no HTTP; `/moved`, `/away`: three are at another address, on this host or another.
     """
 
     def do_GET(self) -> None:
@@ -41,6 +50,13 @@ class Picture(BaseHTTPRequestHandler):
             return
         if self.path == "/rtsp":
             self.wfile.write(b"RTSP/1.0 400 Bad Request\r\n\r\n")
+            return
+        if self.path in MOVED:
+            self.send_response(302)
+            self.send_header(
+                "Location", MOVED[self.path].format(port=self.headers["Host"].rpartition(":")[2])
+            )
+            self.end_headers()
             return
         self.send_response(200)
         motion = f"multipart/x-mixed-replace; boundary={BOUNDARY}"
@@ -132,6 +148,8 @@ async def test_a_name_and_password_in_the_address_go_to_the_camera_alone(source:
 class Endless:
     """A source that counts what was read of it."""
 
+    headers = {"Content-Type": "multipart/x-mixed-replace; boundary=frame"}  # noqa: RUF012
+
     def __init__(self) -> None:
         self.reads = 0
         self.is_closed = threading.Event()
@@ -145,20 +163,40 @@ class Endless:
 
 
 async def test_nothing_is_read_that_a_slow_viewer_does_not_take() -> None:
-    source, state = Endless(), SimpleNamespace(open_streams=1)
-    chunks = relayed(source, state, lambda: True)
+    source = Endless()
+    chunks = relayed(source, lambda: True)
     assert len(await anext(chunks)) == CHUNK_BYTES
     await asyncio.sleep(0.2)
     assert source.reads <= WAITING_CHUNKS + 1
     await chunks.aclose()
-    assert state.open_streams == 0
     assert await asyncio.to_thread(source.is_closed.wait, 2)
+
+
+async def test_a_viewer_that_leaves_before_the_first_byte_holds_no_place() -> None:
+    async def left() -> dict[str, str]:
+        return {"type": "http.disconnect"}
+
+    async def send(_: object) -> None:
+        await asyncio.sleep(0)
+
+    state = SimpleNamespace(open_streams=1)
+    scope = {"type": "http", "asgi": {"spec_version": "2.3"}}
+    async with asyncio.timeout(2):
+        await Relay(Endless(), state, lambda: True)(scope, left, send)
+    assert state.open_streams == 0
+
+
+async def test_a_camera_leads_to_another_address_on_its_own_host_only(source: str) -> None:
+    async with gateway(Camera("Bench", f"{source}/moved"), Camera("Door", f"{source}/away")) as client:
+        assert (await client.get("/api/cameras/0/stream")).content == PART * 3
+        away = await client.get("/api/cameras/1/stream")
+        assert (away.status_code, away.json()["code"]) == (502, "cameraFailed")
 
 
 async def test_a_viewer_that_may_view_no_longer_loses_the_picture(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("servodeck.api.cameras.CHECK_EACH_S", 0.05)
-    source, state, may_view = Endless(), SimpleNamespace(open_streams=1), True
-    chunks = relayed(source, state, lambda: may_view)
+    source, may_view = Endless(), True
+    chunks = relayed(source, lambda: may_view)
     await anext(chunks)
     may_view = False
     async with asyncio.timeout(2):
@@ -183,11 +221,10 @@ class Broken(Endless):
 @pytest.mark.parametrize("good", [0, 1])
 @pytest.mark.parametrize("error", [TimeoutError(), IncompleteRead(b"")])  # silent; cut between two chunks
 async def test_a_camera_that_fails_ends_the_picture(good: int, error: Exception) -> None:
-    source, state = Broken(good, error), SimpleNamespace(open_streams=1)
+    source = Broken(good, error)
     async with asyncio.timeout(2):
-        chunks = [chunk async for chunk in relayed(source, state, lambda: True)]
+        chunks = [chunk async for chunk in relayed(source, lambda: True)]
     assert len(chunks) == good
-    assert state.open_streams == 0
     assert await asyncio.to_thread(source.is_closed.wait, 2)
 
 

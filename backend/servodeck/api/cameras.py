@@ -18,6 +18,7 @@ from urllib.parse import unquote, urlsplit, urlunsplit
 
 from fastapi import Request as Requested
 from starlette.responses import StreamingResponse
+from starlette.types import Receive, Scope, Send
 
 from servodeck.api.routes import VIEWER, entrance_in, routes
 from servodeck.callers import Caller
@@ -89,10 +90,21 @@ async def stream(request: Requested, camera_id: int, caller: Annotated[Caller, V
     except BaseException:
         state.open_streams -= 1
         raise
-    return StreamingResponse(
-        relayed(source, state, lambda: entrance_in(request).still_lets_in(caller)),
-        media_type=source.headers["Content-Type"],
-    )
+    return Relay(source, state, lambda: entrance_in(request).still_lets_in(caller))
+
+
+class Relay(StreamingResponse):
+    """Its place is free again when it ends, also if its viewer leaves before the first byte."""
+
+    def __init__(self, source: Any, state: Any, may_view: Callable[[], bool]) -> None:
+        super().__init__(relayed(source, may_view), media_type=source.headers["Content-Type"])
+        self._state = state
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        try:
+            await super().__call__(scope, receive, send)
+        finally:
+            self._state.open_streams -= 1
 
 
 def cameras_in(request: Requested) -> tuple[Camera, ...]:
@@ -102,7 +114,19 @@ def cameras_in(request: Requested) -> tuple[Camera, ...]:
 
 def opened(camera: Camera) -> Any:
     """Blocks. Raises CameraError."""
-    from urllib.request import Request, urlopen  # takes as long to load as all routes
+    from urllib.request import (
+        HTTPRedirectHandler,
+        Request,
+        build_opener,
+    )  # takes as long to load as all routes
+
+    class SameHost(HTTPRedirectHandler):
+        """A password goes to its camera alone."""
+
+        def redirect_request(self, req: Request, *answer: Any) -> Request | None:
+            *_, address = answer
+            is_same = urlsplit(address)[:2] == urlsplit(req.full_url)[:2]
+            return super().redirect_request(req, *answer) if is_same else None
 
     parts = urlsplit(camera.url)
     headers = {}
@@ -112,7 +136,7 @@ def opened(camera: Camera) -> Any:
     host = parts.netloc.rpartition("@")[2]
     request = Request(urlunsplit(parts._replace(netloc=host)), headers=headers)
     try:
-        answer = urlopen(request, timeout=SILENT_S)
+        answer = build_opener(SameHost).open(request, timeout=SILENT_S)
     except (OSError, ValueError, HTTPException) as error:
         advice = "Check that it is on, and its address."
         raise CameraError(
@@ -137,7 +161,7 @@ def close(source: Any) -> None:
         source.close()
 
 
-async def relayed(source: Any, state: Any, may_view: Callable[[], bool]) -> AsyncGenerator[bytes]:
+async def relayed(source: Any, may_view: Callable[[], bool]) -> AsyncGenerator[bytes]:
     """Ends with the camera, with the viewer, or with the access of the viewer."""
     loop = asyncio.get_running_loop()
     chunks: asyncio.Queue[bytes] = asyncio.Queue()
@@ -167,4 +191,3 @@ async def relayed(source: Any, state: Any, may_view: Callable[[], bool]) -> Asyn
     finally:
         has_ended.set()
         room.release()
-        state.open_streams -= 1
