@@ -179,11 +179,12 @@ async def test_a_viewer_that_leaves_before_the_first_byte_holds_no_place() -> No
     async def send(_: object) -> None:
         await asyncio.sleep(0)
 
-    state = SimpleNamespace(open_streams=1)
+    camera, state = Endless(), SimpleNamespace(open_streams=1)
     scope = {"type": "http", "asgi": {"spec_version": "2.3"}}
     async with asyncio.timeout(2):
-        await Relay(Endless(), state, lambda: True)(scope, left, send)
+        await Relay(camera, state, lambda: True)(scope, left, send)
     assert state.open_streams == 0
+    assert await asyncio.to_thread(camera.is_closed.wait, 2)
 
 
 async def test_a_camera_leads_to_another_address_on_its_own_host_only(source: str) -> None:

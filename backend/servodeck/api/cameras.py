@@ -97,14 +97,23 @@ class Relay(StreamingResponse):
     """Its place is free again when it ends, also if its viewer leaves before the first byte."""
 
     def __init__(self, source: Any, state: Any, may_view: Callable[[], bool]) -> None:
-        super().__init__(relayed(source, may_view), media_type=source.headers["Content-Type"])
-        self._state = state
+        super().__init__(self._chunks(may_view), media_type=source.headers["Content-Type"])
+        self._source, self._state = source, state
+        self._is_read = False
+
+    async def _chunks(self, may_view: Callable[[], bool]) -> AsyncGenerator[bytes]:
+        self._is_read = True
+        async with contextlib.aclosing(relayed(self._source, may_view)) as chunks:
+            async for chunk in chunks:
+                yield chunk
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         try:
             await super().__call__(scope, receive, send)
         finally:
             self._state.open_streams -= 1
+            if not self._is_read:  # else its thread closes it
+                close(self._source)
 
 
 def cameras_in(request: Requested) -> tuple[Camera, ...]:
@@ -114,11 +123,9 @@ def cameras_in(request: Requested) -> tuple[Camera, ...]:
 
 def opened(camera: Camera) -> Any:
     """Blocks. Raises CameraError."""
-    from urllib.request import (
-        HTTPRedirectHandler,
-        Request,
-        build_opener,
-    )  # takes as long to load as all routes
+    # They take as long to load as all routes.
+    from urllib.error import HTTPError
+    from urllib.request import HTTPRedirectHandler, Request, build_opener
 
     class SameHost(HTTPRedirectHandler):
         """A password goes to its camera alone."""
@@ -138,6 +145,8 @@ def opened(camera: Camera) -> Any:
     try:
         answer = build_opener(SameHost).open(request, timeout=SILENT_S)
     except (OSError, ValueError, HTTPException) as error:
+        if isinstance(error, HTTPError):
+            error.close()
         advice = "Check that it is on, and its address."
         raise CameraError(
             f"The camera {camera.name} does not answer: {reason_in(error)}. {advice}"
