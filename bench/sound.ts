@@ -11,7 +11,7 @@ import type { Figure } from './figure.ts';
 import { openDashboard, withBoard, withPage } from './station.ts';
 import { percentile } from './statistics.ts';
 
-const STARTS = amount(24, 2);
+const STARTS = amount(10, 2);
 const LIMIT_MS = 20;
 const FRAME_MS = 500;
 /** Of servo 1, by which a frame is known on the bus. */
