@@ -86,6 +86,22 @@ test.describe('in Drive', () => {
     expect(streams.map(([path]) => path)).toEqual([0, 0, 1].map((id) => `/api/cameras/${id}/stream`));
   });
 
+  test('a gateway that refuses says why, and is not taken for one without cameras', async ({
+    dashboard,
+    page,
+  }) => {
+    window.fetch = (input, init) =>
+      new URL(input instanceof Request ? input.url : input, location.href).pathname === '/api/cameras'
+        ? Promise.resolve(Response.json({ code: 'tooMany', detail: 'Try again in 1 s.' }, { status: 429 }))
+        : withoutGateway(input, init);
+    await page.getByRole('radio', { name: 'Camera' }).check();
+    await expect(page.getByText('Try again in 1 s.')).toBeVisible();
+    await expect(page.getByText('No camera yet')).toHaveCount(0);
+    serveCameras([], () => undefined);
+    await dashboard.button('Try again').click();
+    await expect(page.getByText('No camera yet')).toBeVisible();
+  });
+
   test('without a camera the page says how the gateway gets one', async ({ dashboard, page }) => {
     serveCameras([], () => undefined);
     await page.getByRole('radio', { name: 'Camera' }).check();

@@ -73,7 +73,9 @@ def bytes_in(text: str) -> bytes:
 
 
 def pieces_of(data: bytes) -> Iterator[Piece]:
-    """Packets in either direction, and the bytes between them. Nothing more is to come."""
+    """Packets in either direction, and the bytes between them. Nothing more is to come. Not by the Decoder,
+    which knows the packets of one direction and takes unknown ones for noise.
+    """
     noise_from = at = 0
     while at < len(data):
         piece = packet_at(data, at)

@@ -19,28 +19,39 @@ const LIST_WITHIN_MS = 5000;
 const listSchema = v.array(v.object({ id: v.number(), name: v.string() }));
 type Cameras = v.InferOutput<typeof listSchema>;
 
-/** The camera of this computer in the choice, and in what is remembered of it. */
+/** This computer's camera, in the choice. */
 const HERE = 'here';
 
+/** None where no gateway answers; rejects with the reason where one refuses. */
 async function listCameras(): Promise<Cameras> {
   if (isWithoutGateway()) return [];
-  const list = v.safeParse(listSchema, await request('get', '/api/cameras', { withinMs: LIST_WITHIN_MS }));
-  return list.success ? list.output : [];
+  try {
+    return v.parse(listSchema, await request('get', '/api/cameras', { withinMs: LIST_WITHIN_MS }));
+  } catch (error) {
+    if (error instanceof GatewayProblem && error.code === null) return [];
+    throw error;
+  }
 }
 
 export function CameraView() {
   const { view } = useStores();
   const chosen = useView(({ camera }) => camera);
   const [cameras, setCameras] = useState<Cameras | null>(null);
+  const [problem, setProblem] = useState<string | null>(null);
   // This computer's camera is switched on by a press only, not by a reload.
   const [isHere, setIsHere] = useState(false);
-  useEffect(() => {
-    // A page without a gateway has none of its cameras.
-    void listCameras()
-      .catch(() => [])
-      .then(setCameras);
-  }, []);
-  if (cameras === null) return <div className={styles.view} />;
+  const list = (): void =>
+    void listCameras().then(setCameras, (error: unknown) => setProblem(reasonIn(error)));
+  useEffect(list, []);
+  if (cameras === null) {
+    const again = (): void => {
+      setProblem(null);
+      list();
+    };
+    return (
+      <div className={styles.view}>{problem !== null && <Problem text={problem} onAgain={again} />}</div>
+    );
+  }
 
   const camera = cameras.find(({ name }) => name === chosen) ?? cameras[0];
   const takeHere = (): void => setIsHere(true);
@@ -87,6 +98,25 @@ function NoCamera({ onHere }: { onHere(): void }) {
         </>
       }
     />
+  );
+}
+
+interface ProblemProps {
+  readonly text: string;
+  /** Left out where trying again cannot help. */
+  onAgain?(): void;
+}
+
+function Problem({ text, onAgain }: ProblemProps) {
+  return (
+    <div className={styles.problem} role="status">
+      <p>{text}</p>
+      {onAgain !== undefined && (
+        <Button icon="refresh" onPress={onAgain}>
+          {words.camera.again}
+        </Button>
+      )}
+    </div>
   );
 }
 
@@ -146,12 +176,7 @@ function AtGateway({ camera: { id, name } }: { readonly camera: Cameras[number] 
           )}
         </p>
       ) : (
-        <div className={styles.problem} role="status">
-          <p>{problem}</p>
-          <Button icon="refresh" onPress={() => setAttempt(attempt + 1)}>
-            {words.camera.again}
-          </Button>
-        </div>
+        <Problem text={problem} onAgain={() => setAttempt(attempt + 1)} />
       )}
     </>
   );
@@ -223,9 +248,7 @@ async function draw(picture: Blob, canvas: RefObject<HTMLCanvasElement | null>):
 /** The browser requests permission. Switched off when it is left. */
 function Here() {
   const video = useRef<HTMLVideoElement>(null);
-  const [problem, setProblem] = useState<string | null>(() =>
-    isSecureContext ? null : words.camera.insecure,
-  );
+  const [problem, setProblem] = useState<string | null>(null);
   const [attempt, setAttempt] = useState(0);
   useEffect(() => {
     let isLeft = false;
@@ -247,20 +270,16 @@ function Here() {
       stop();
     };
   }, [attempt]);
+  if (!isSecureContext) return <Problem text={words.camera.insecure} />;
   return problem === null ? (
     <video ref={video} className={styles.picture} aria-label={words.camera.here} autoPlay muted playsInline />
   ) : (
-    <div className={styles.problem} role="status">
-      <p>{problem}</p>
-      <Button
-        icon="refresh"
-        onPress={() => {
-          setProblem(null);
-          setAttempt(attempt + 1);
-        }}
-      >
-        {words.camera.again}
-      </Button>
-    </div>
+    <Problem
+      text={problem}
+      onAgain={() => {
+        setProblem(null);
+        setAttempt(attempt + 1);
+      }}
+    />
   );
 }

@@ -58,9 +58,11 @@ function Shown({ children }: { readonly children: ReactNode }) {
         <h3 className={styles.title}>{words.speed.title}</h3>
         <p className={styles.hint}>{words.speed.hint}</p>
         <SupplyField />
-        <Button tone="quiet" hint={words.speed.staggerHint} onPress={() => stagger(stores)}>
-          {words.speed.stagger}
-        </Button>
+        {group.unit === family.unit && (
+          <Button tone="quiet" hint={words.speed.staggerHint} onPress={() => stagger(stores)}>
+            {words.speed.stagger}
+          </Button>
+        )}
         <IconButton icon="close" label={words.speed.close} onPress={() => toggleSpeed(stores)} />
       </header>
       <div className={styles.scroller} tabIndex={0}>
