@@ -249,6 +249,20 @@ async def test_a_slider_of_its_driver_moves_meanwhile_and_the_next_frame_takes_t
         assert (await answer(anna))["play"]["skippedFrames"] == 0
 
 
+@in_virtual_time
+async def test_a_servo_that_no_frame_names_is_the_sliders_throughout_also_where_frames_name_none() -> None:
+    async with driven() as (control, port, anna):
+        control.driving.act(anna, "request")
+        ask(anna, [frame(200), frame(300, s2=2000), frame(250)])
+        await asyncio.sleep(1.6)
+        await anna.send(MOVE)
+        await asyncio.sleep(3)
+        targets = [(to.servo, to.position) for _, move in moves(port) for to in move.targets]
+        assert sorted(targets) == [(1, 2000), (2, 2000)]
+        played = (await answer(anna))["play"]
+        assert (played["status"], played["skippedFrames"], played["frameCount"]) == ("done", 0, 3)
+
+
 async def presses_stop(control: Control, _: FakePort, anna: Client) -> None:
     take(StopMessage(type="stop"), Client(control, Caller("v", "Vera", "viewer")), control)
 

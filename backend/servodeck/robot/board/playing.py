@@ -165,6 +165,8 @@ class Playing:
     def _move(self, frame: Frame, *, is_lead: bool) -> None:
         request = self._request = MoveRequest(self, self._target_leaves)
         try:
+            if not frame.targets:  # of a lead that names no servo nothing leaves at which it could be judged
+                self._judge_begun()
             self._moves.put(frame.targets, frame.duration_ms, request)
         except GatewayError as error:
             self._over(self, error)
@@ -172,12 +174,15 @@ class Playing:
             request.left.add_done_callback(lambda left: self._left(left, is_lead=is_lead))
 
     def _target_leaves(self, target: ServoTarget, _starts: bool) -> None:
-        self._judge(not self._has_begun)
-        self._has_begun = True
+        self._judge_begun()
         if target.servo in self._lead:
             self._lead.discard(target.servo)
             if not self._lead:  # the way to the first frame leaves whole only now, and is not to be cut short
                 self._deadline_ms = max(self._deadline_ms, self._now_ms() + self._lead_ms)
+
+    def _judge_begun(self) -> None:
+        self._judge(not self._has_begun)
+        self._has_begun = True
 
     def _left(self, left: Left, *, is_lead: bool) -> None:
         """The way to the first frame is what makes the others gentle: without it none of them leaves."""
