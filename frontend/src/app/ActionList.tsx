@@ -14,6 +14,7 @@ import field from '../ui/Field.module.css';
 import styles from './ActionList.module.css';
 import { FRAME_ACTIONS, FRAME_KEYS, frameContextOf } from '../features/animate/frames/frameActions.ts';
 import { PLAY_ACTIONS } from '../features/animate/play/playActions.ts';
+import { RECORD_OVER } from '../features/animate/play/recordOver.ts';
 import { contextOf } from '../features/animate/timeline/context.ts';
 import {
   COLOUR_ACTIONS,
@@ -166,7 +167,7 @@ export const ACTION_PLACES: readonly ActionPlace[] = [
   {
     ...{ id: 'timeline', keys: [...TIMELINE_KEYS, MENU_KEYS] },
     actions: (stores) => [
-      ...listed(PLAY_ACTIONS, () => stores, isOpen(stores, 'group')),
+      ...listed([...PLAY_ACTIONS, RECORD_OVER], () => stores, isOpen(stores, 'group')),
       ...listed(
         [...Object.values(TIMELINE_ACTIONS), ...EASING_ACTIONS, ...COLOUR_ACTIONS],
         () => contextOf(stores),

@@ -3,7 +3,7 @@
 
 import { useEffect, useLayoutEffect, useRef, type UIEvent } from 'react';
 import { useStore } from 'zustand';
-import { CaptureStrip } from './CaptureStrip.tsx';
+import { CaptureStrip } from '../features/animate/frames/CaptureButton.tsx';
 import { useBatteryTab } from '../features/battery/BatteryReadout.tsx';
 import { motionsInFrame } from '../features/picture/motion.ts';
 import { ConnectDialog, ActionsDialog, LibraryDialog, ReplaceDialog } from './dialogs.tsx';

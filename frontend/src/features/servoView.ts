@@ -21,6 +21,8 @@ export interface ServoView {
   readonly muted: readonly number[];
   /** Servos that a recording stores; see `recorded`. */
   readonly armed: readonly number[];
+  /** Servos that are recorded over the motion now; if not empty, the motion has all others, and they count as locked. */
+  readonly overdubbed: readonly number[];
   /** Groups of which only the header is shown. */
   readonly folded: readonly string[];
   readonly together: Together;
@@ -36,6 +38,7 @@ const FRESH: ServoView = {
   hidden: [],
   muted: [],
   armed: [],
+  overdubbed: [],
   folded: [],
   together: 'straight',
   weights: {},
@@ -49,8 +52,13 @@ export function servoViewFor(view: ServoView, robotId: number): ServoView {
 }
 
 /** True if the controls of the servo panel must not move it. */
-export function isHeld({ locked, solo }: Pick<ServoView, 'locked' | 'solo'>, servo: number): boolean {
-  return locked.includes(servo) || (solo.length > 0 && !solo.includes(servo));
+export function isHeld(
+  { locked, solo, overdubbed }: Pick<ServoView, 'locked' | 'solo' | 'overdubbed'>,
+  servo: number,
+): boolean {
+  return (
+    locked.includes(servo) || [solo, overdubbed].some((only) => only.length > 0 && !only.includes(servo))
+  );
 }
 
 /** True if playing from the page sends nothing to it. */

@@ -573,6 +573,7 @@ export interface Messages {
       readonly leading: string;
       readonly returning: string;
       readonly playing: (values: { readonly share: number }) => string;
+      readonly recording: string;
       readonly storing: string;
       readonly running: string;
       readonly previewing: string;
@@ -794,6 +795,14 @@ export interface Messages {
     readonly insert: string;
     readonly over: string;
     readonly overHint: string;
+    readonly overMotion: {
+      readonly begin: string;
+      readonly end: string;
+      readonly hint: string;
+      readonly needsArmed: string;
+      readonly done: (values: { readonly keys: number }) => string;
+      readonly dropped: string;
+    };
     readonly replace: string;
     readonly append: string;
     readonly name: (values: { readonly time: string }) => string;

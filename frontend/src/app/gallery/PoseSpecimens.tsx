@@ -3,7 +3,7 @@
 import type { ReactNode } from 'react';
 import { addMacro, changeMacro } from '#shared/profile/macroEdits.ts';
 import { addPose, markApplied, markRest, type PoseBook } from '#shared/profile/pose.ts';
-import { CaptureStrip } from '../CaptureStrip.tsx';
+import { CaptureStrip } from '../../features/animate/frames/CaptureButton.tsx';
 import { ButtonsPage } from '../../features/buttons/ButtonsPage.tsx';
 import { Kiosk } from '../Kiosk.tsx';
 import { BlendBar } from '../../features/poses/BlendBar.tsx';

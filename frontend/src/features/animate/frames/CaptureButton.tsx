@@ -1,11 +1,14 @@
 // Puts a pose into the group as a frame, beside another one or at the end: a given one, the commanded one or
-// the one that the board reported. The button that captures it shows the reason while none is known. Moves nothing.
+// the one that the board reported. The button that captures it shows the reason while none is known, as does the strip beside a phone's
+// sliders. Moves nothing.
 
 import { tellsPositions } from '../../../robot/readiness.ts';
-import { type Stores, useDevice, useKnownFamily } from '../../stores.ts';
+import { type Stores, useDevice, useIsUnidentified, useKnownFamily, useStores } from '../../stores.ts';
 import { Button, type ButtonProps } from '../../../ui/Button.tsx';
 import { words } from '../../../i18n/words.ts';
+import type { Undoable } from '../../../state/store.ts';
 import styles from './CaptureButton.module.css';
+import stripStyles from './CaptureStrip.module.css';
 import { insertFrame } from '#shared/group/groupEdits.ts';
 import type { ActionGroup } from '#shared/group/group.ts';
 import type { ServoTarget } from '#shared/codec/commands.ts';
@@ -57,4 +60,50 @@ export function putFrame(
   const durationMs = (frames[index - 1] ?? frames[0])?.durationMs ?? USUAL_FRAME_MS;
   document.edit(step, (group) => insertFrame(group, index, { durationMs, targets }, unit));
   view.setState({ selectedFrame: nextId });
+}
+
+// Beside the sliders of a phone, where the action group and the poses are a tab away: the current pose as the next frame or
+// as a pose, in one press. Says what was captured and offers to take it back.
+
+export function CaptureStrip() {
+  const stores = useStores();
+  const isKnown = useKnowsPose();
+  const unknown = useUnknownText();
+  if (useIsUnidentified()) return null;
+  return (
+    <section className={stripStyles.strip} aria-label={words.actions.captureHere}>
+      {isKnown ? <Captures stores={stores} /> : <p className={stripStyles.hint}>{unknown}</p>}
+    </section>
+  );
+}
+
+function Captures({ stores }: { readonly stores: Stores }) {
+  const { document, poses, notices } = stores;
+
+  const frame = (): void => {
+    captureFrame(stores, 'end');
+    const { frames } = document.store.getState().present;
+    tell(words.actions.captured({ number: frames.length }), document);
+  };
+  const pose = (): void => tell(words.poses.captured({ name: poses.capture() }), poses.book);
+
+  /** What was written on top meanwhile is not taken back. */
+  function tell(text: string, where: Pick<Undoable<unknown>, 'store' | 'undo'>): void {
+    const { present } = where.store.getState();
+    const undo = (): void => {
+      if (where.store.getState().present === present) where.undo();
+    };
+    notices.show('info', text, { label: words.actions.undo, act: undo });
+  }
+
+  return (
+    <>
+      <Button wide tone="primary" icon="plus" hint={words.actions.captureEndHint} onPress={frame}>
+        {words.actions.capture}
+      </Button>
+      <Button wide icon="plus" hint={words.poses.captureHint} onPress={pose}>
+        {words.poses.capture}
+      </Button>
+    </>
+  );
 }

@@ -86,13 +86,14 @@ const END_ICONS = {
   leading: 'pause',
   returning: 'pause',
   playing: 'pause',
+  recording: 'end',
   storing: 'end',
   running: 'end',
 } as const;
 
 function endWord(phase: keyof typeof END_ICONS): string {
   if (phase === 'storing') return words.play.cancel;
-  return phase === 'running' ? words.play.end : words.play.pause;
+  return phase === 'running' || phase === 'recording' ? words.play.end : words.play.pause;
 }
 
 /** As the one to play. */

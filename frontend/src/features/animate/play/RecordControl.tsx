@@ -1,12 +1,25 @@
-// Recording by hand: on purpose, from a press to the next one, or after the fact, what moved in the last two minutes.
+// Recording by hand: on purpose, from a press to the next one, over the motion that plays meanwhile, or after the fact, what moved in
+// the last two minutes.
 
 import { useStore } from 'zustand';
 import { recorded } from '../../servoView.ts';
-import { servoViewOf, useRobot, useServoView, useStores, type Stores } from '../../stores.ts';
+import {
+  servoViewOf,
+  useDevice,
+  useDocument,
+  usePlayback,
+  useRobot,
+  useServoView,
+  useSnapshot,
+  useStores,
+  type Stores,
+} from '../../stores.ts';
+import { startHindrance } from '../../../robot/readiness.ts';
 import { Button, ActionButton } from '../../../ui/Button.tsx';
 import { useNow } from '../../../ui/useEachFrame.ts';
 import { say } from '../../../i18n/sentences.ts';
 import { words } from '../../../i18n/whole.ts';
+import { RECORD_OVER } from './recordOver.ts';
 import { KEEP_LAST, offer } from './TakeDialog.tsx';
 
 export function RecordControl() {
@@ -27,7 +40,32 @@ export function RecordControl() {
         shown={stores}
         context={() => stores}
       />
+      <RecordOver />
     </>
+  );
+}
+
+/** There once rows are armed. */
+function RecordOver() {
+  const stores = useStores();
+  const isShown = useServoView(({ armed, overdubbed }) => armed.length + overdubbed.length > 0);
+  const isOn = useServoView(({ overdubbed }) => overdubbed.length > 0);
+  usePlayback(({ phase }) => phase === null);
+  useDocument(({ present }) => `${present.unit} ${present.frames.length === 0}`);
+  useSnapshot(startHindrance);
+  useDevice(({ family }) => family);
+  if (!isShown) return null;
+  const may = RECORD_OVER.enabled(stores);
+  return (
+    <Button
+      tone={isOn ? 'plain' : 'quiet'}
+      icon={isOn ? 'end' : RECORD_OVER.icon}
+      hint={words.record.overMotion.hint}
+      whyNot={may === true ? undefined : may}
+      onPress={() => RECORD_OVER.run(stores)}
+    >
+      {RECORD_OVER.label(stores)}
+    </Button>
   );
 }
 

@@ -2,13 +2,8 @@
 // they go: a new group, the end of the open one, or the playhead.
 
 import { type CSSProperties, useMemo, useState } from 'react';
-import { copyFrames, pasteKeys } from '#shared/group/clip.ts';
 import type { ActionGroup } from '#shared/group/group.ts';
-import { insertFrame } from '#shared/group/groupEdits.ts';
-import { timesOf } from '#shared/group/groupTimes.ts';
-import { deleteKeys } from '#shared/group/keyEdits.ts';
 import { simplify, type Sample } from '#shared/group/simplify.ts';
-import { insertTime } from '#shared/group/timeEdits.ts';
 import { type Robot, servoOf } from '#shared/profile/robot.ts';
 import { GENTLE_MOVE_MS } from '../../../robot/moves.ts';
 import { recorded } from '../../servoView.ts';
@@ -17,6 +12,7 @@ import { Button } from '../../../ui/Button.tsx';
 import { NumberField } from '../../../ui/NumberField.tsx';
 import { Toggle } from '../../../ui/Toggle.tsx';
 import { words } from '../../../i18n/whole.ts';
+import { appended, inserted, keyCountOf, over, USUAL_ERROR } from './recordOver.ts';
 import field from '../../../ui/Field.module.css';
 import styles from './Take.module.css';
 
@@ -25,8 +21,6 @@ export interface TakeProps {
   onClose(): void;
 }
 
-/** An error that is not seen in a motion by hand. */
-const USUAL_ERROR = { us: 10, steps: 4 } as const;
 const MOST_ERROR = 200;
 
 export function Take({ samples, onClose }: TakeProps) {
@@ -51,7 +45,7 @@ export function Take({ samples, onClose }: TakeProps) {
     () => simplify(taken, { name: '', unit, maxErrorUnits, leadMs: GENTLE_MOVE_MS }),
     [taken, unit, maxErrorUnits],
   );
-  const keyCount = group.frames.reduce((sum, { targets }) => sum + targets.length, 0);
+  const keyCount = keyCountOf(group);
   const use = (step: keyof typeof words.record.steps, edit: (before: ActionGroup) => ActionGroup): void => {
     document.edit(() => words.record.steps[step], edit);
     view.setState({ selectedFrame: null, tab: 'actions', authoring: 'group' });
@@ -114,37 +108,6 @@ const named = (group: ActionGroup): ActionGroup => ({
 function lengthOf(samples: readonly Sample[]): number {
   return (samples.at(-1)?.atMs ?? 0) - (samples[0]?.atMs ?? 0);
 }
-
-/** Behind a gentle way from where the group ends; an empty one takes the unit. */
-function appended(before: ActionGroup, { frames, unit }: ActionGroup): ActionGroup {
-  if (before.frames.length > 0 && before.unit !== unit) return before;
-  return frames.reduce((sum, frame) => insertFrame(sum, sum.frames.length, frame, unit), before);
-}
-
-/** Behind a gentle way from the pose there; what is behind comes so much later. */
-function inserted(before: ActionGroup, take: ActionGroup, atMs: number): ActionGroup {
-  const clip = clipOf(take);
-  const room = insertTime(before, atMs, clip.leadMs);
-  return pasteKeys(room, clip, atMs + clip.leadMs, { ripple: true }).group;
-}
-
-/** In place of what its servos do there; all else stays at its time. */
-function over(before: ActionGroup, take: ActionGroup, atMs: number): ActionGroup {
-  const clip = clipOf(take);
-  const servos = new Set(take.frames.flatMap(({ targets }) => targets.map(({ servo }) => servo)));
-  const untilMs = atMs + (clip.moments.at(-1)?.atMs ?? 0);
-  const replaced = [...timesOf(before).tracks]
-    .filter(([servo]) => servos.has(servo))
-    .flatMap(([, { keys }]) => keys.filter((key) => key.atMs >= atMs && key.atMs <= untilMs));
-  const cleared = deleteKeys(before, replaced, { ripple: false });
-  return pasteKeys(cleared, clip, atMs, { ripple: false }).group;
-}
-
-const clipOf = (take: ActionGroup) =>
-  copyFrames(
-    take,
-    take.frames.map(({ id }) => id),
-  );
 
 /** Since the recording began. */
 interface Part {

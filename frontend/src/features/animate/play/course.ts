@@ -4,6 +4,7 @@
 import type { Passage } from '#shared/group/passage.ts';
 import { FIRST_MOVE_MS } from '#shared/robot/timings.ts';
 import type { Course } from '../sound/soundPlayer.ts';
+import type { PlayedSpan } from './playback.ts';
 
 /** What plays from the page: which frame of its passage began when. */
 export interface PagePlay {
@@ -26,6 +27,12 @@ export function pageAt({ passage, index, beganMs, isLead }: PagePlay, nowMs: num
   const from = index === 0 ? (isLead ? to : beginMs) : (atMs[index - 1] ?? 0);
   const share = durationMs === 0 ? 1 : Math.min(1, (nowMs - beganMs) / durationMs);
   return from + (to - from) * share;
+}
+
+/** From the frame that begins now. */
+export function spanOf({ passage: { atMs }, index, beganMs, speedPercent }: PagePlay): PlayedSpan {
+  const fromMs = atMs[index - 1] ?? 0;
+  return { fromMs, toMs: atMs.at(-1) ?? fromMs, beganMs, rate: speedPercent / 100 };
 }
 
 /** The way to the first pose ends where the passage begins. What the sound has before that is heard on the way, so that it is there in time. */

@@ -19,6 +19,8 @@ export interface MotionTape {
   record(): void;
   /** What these servos did since `record`, from the first motion to the last. */
   end(servos: readonly number[]): readonly Sample[];
+  /** What these servos did from then until now, where they stood at both ends included; empty: none of them moved. */
+  since(fromMs: number, servos: readonly number[]): readonly Sample[];
   /** What every servo did, as far as the tape goes back. */
   takeThat(): readonly Sample[];
 }
@@ -92,12 +94,28 @@ export function createMotionTape({ device, robots, clock }: MotionTapeOptions): 
       const own = moments.filter(({ atMs }) => atMs >= recordingSinceMs);
       return samplesOf(fromFirstMotion(own)).filter(({ servo }) => servos.includes(servo));
     },
+    since(sinceMs, servos) {
+      sample();
+      const nowMs = clock.now();
+      const fromMs = Math.max(sinceMs, nowMs - TAPE_MS);
+      const during = moments.filter(({ atMs }) => atMs > fromMs);
+      const atBegin = moments.findLast(({ atMs }) => atMs <= fromMs) ?? during[0];
+      if (atBegin === undefined || last === null) return [];
+      const whole = [{ ...atBegin, atMs: fromMs }, ...during, { ...last, atMs: nowMs }];
+      const own = samplesOf(whole).filter(({ servo }) => servos.includes(servo));
+      return servos.some((servo) => hasMoved(own, servo)) ? own : [];
+    },
     takeThat: () => samplesOf(moments),
   };
 }
 
 const samplesOf = (moments: readonly Moment[]): readonly Sample[] =>
   moments.flatMap(({ atMs, pose }) => [...pose].map(([servo, position]) => ({ atMs, servo, position })));
+
+function hasMoved(samples: readonly Sample[], servo: number): boolean {
+  const own = samples.filter((one) => one.servo === servo);
+  return own.some(({ position }) => position !== own[0]?.position);
+}
 
 function fromFirstMotion(moments: readonly Moment[]): readonly Moment[] {
   const first = moments.findIndex(({ pose }, index) => {

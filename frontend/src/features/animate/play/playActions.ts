@@ -20,7 +20,7 @@ const each = (...reasons: readonly (true | string)[]): true | string =>
   reasons.find((reason) => reason !== true) ?? true;
 
 /** `true`: something of the group can be sent now. */
-function maySend(context: PlayContext): true | string {
+export function maySend(context: PlayContext): true | string {
   const { snapshot, family } = context.device.store.getState();
   const { unit } = context.document.store.getState().present;
   const hindrance = startHindrance(snapshot);

@@ -36,8 +36,15 @@ export function createPlayhead(timeline: Timeline): Playhead {
   };
 }
 
-/** `leading`: gently on the way to the first pose. `returning`: gently back there, in a loop. `storing`: the board gets the group first. `previewing`: only on the drawing. */
-export type PlaybackPhase = 'leading' | 'returning' | 'playing' | 'storing' | 'running' | 'previewing';
+/** `leading`: gently on the way to the first pose. `returning`: gently back there, in a loop. `storing`: the board gets the group first. `previewing`: only on the drawing. `recording`: servos that are not played are recorded. */
+export type PlaybackPhase =
+  | 'leading'
+  | 'returning'
+  | 'playing'
+  | 'recording'
+  | 'storing'
+  | 'running'
+  | 'previewing';
 
 export interface PlaybackState {
   readonly speedPercent: number;
@@ -54,11 +61,28 @@ interface NextPlay {
   readonly times: number;
 }
 
+/** The part of the group that was played, without the way to its first pose. */
+export interface PlayedSpan {
+  readonly fromMs: number;
+  readonly toMs: number;
+  /** On the clock. */
+  readonly beganMs: number;
+  /** Of the group a millisecond. */
+  readonly rate: number;
+}
+
+/** Servos that are left to the user while all others play, once. */
+export interface Overdub {
+  readonly servos: readonly number[];
+  /** null: a stop, a lost link or a hidden page ended it, another group was opened, or it did not begin. Otherwise it is over or was paused. */
+  ended(span: PlayedSpan | null): void;
+}
+
 export interface Player {
   set(change: Partial<Pick<PlaybackState, 'speedPercent' | 'loops' | 'isLive'>>): void;
   /** What playing would do now. */
   next(): NextPlay;
-  play(): void;
+  play(overdub?: Overdub): void;
   /** Plays, or pauses what plays. */
   toggle(): void;
   /** Plays on the drawing alone, or pauses what plays. Needs no robot and moves none. */

@@ -24,8 +24,8 @@ export interface PlayedPart {
   part(): { readonly fromMs: number; readonly toMs: number };
   /** As often as the group is run on its board; from within it, the rest once. 0: until stopped. */
   passes(): number;
-  /** What goes to the robot of it. */
-  passage(group: CompiledGroup): Passage;
+  /** What goes to the robot of it; these servos are left out. */
+  passage(group: CompiledGroup, without?: readonly number[]): Passage;
   /** Of the servos that hear of it. */
   poseAt(atMs: number): FollowedPose;
 }
@@ -71,11 +71,11 @@ export function createPlayedPart(options: PlayedPartOptions): PlayedPart {
     return !isSilent(servoViewFor(view.getState().servos, robots.current().id), servo);
   }
 
-  const heard = (frame: Frame): Frame => ({ ...frame, targets: frame.targets.filter(isSent) });
-
-  function passage({ frames, source }: CompiledGroup): Passage {
+  function passage({ frames, source }: CompiledGroup, without: readonly number[] = []): Passage {
     const range = playhead.range();
-    return passageOf(frames.map(heard), {
+    const isPlayed = (target: ServoTarget): boolean => isSent(target) && !without.includes(target.servo);
+    const played = frames.map((frame): Frame => ({ ...frame, targets: frame.targets.filter(isPlayed) }));
+    return passageOf(played, {
       fromMs: within() ?? range?.fromMs ?? 0,
       toMs: range?.toMs ?? null,
       seam: seamOf(source.family),

@@ -14,6 +14,7 @@ import {
   boardCourse,
   pageAt,
   pageCourse,
+  spanOf,
   type PagePlay,
   previewAt,
   previewCourse,
@@ -24,8 +25,17 @@ import { type Course, createSoundPlayer, groupAt } from '../sound/soundPlayer.ts
 import { obstacles, type CompiledGroup } from '../../board/compile/compiled.ts';
 import { createFollower } from '../../../robot/follower.ts';
 import { createPlayedPart } from './playedPart.ts';
-import type { Playback, PlaybackOptions, PlaybackPhase, PlaybackState, Player } from './playback.ts';
+import type {
+  Overdub,
+  PlayedSpan,
+  Playback,
+  PlaybackOptions,
+  PlaybackPhase,
+  PlaybackState,
+  Player,
+} from './playback.ts';
 import { endsMotion, startHindrance } from '../../../robot/readiness.ts';
+import { servoViewFor } from '../../servoView.ts';
 
 export const SPEED_PERCENT = { min: 10, max: 200 } as const;
 
@@ -41,9 +51,11 @@ function createPlayer(options: PlaybackOptions, store: StoreApi<PlaybackState>):
     ...{ device, document, view, playhead, robots },
     chosen: () => store.getState(),
   });
-  let following: PagePlay | null = null;
+  let following: (PagePlay & { readonly isOverdubbed: boolean }) | null = null;
   let previewing: PreviewPlay | null = null;
   let listening: Course | null = null;
+  let span: PlayedSpan | null = null;
+  let isPaused = false;
 
   const { store: soundStore } = soundOf({ document, notices });
   const sound = createSoundPlayer({
@@ -102,17 +114,20 @@ function createPlayer(options: PlaybackOptions, store: StoreApi<PlaybackState>):
     return null;
   }
 
-  function play(): void {
+  function play(overdub?: Overdub): void {
     const group = playable('page');
     if (group === null) return;
     store.setState({ isLive: false });
-    const passage = playedPart.passage(group);
-    const times = playedPart.passes();
+    const passage = playedPart.passage(group, overdub?.servos);
+    const times = overdub === undefined ? playedPart.passes() : 1;
     const { speedPercent } = store.getState();
+    const playedId = options.documentId();
     following = {
       ...{ passage, index: 0, beganMs: clock.now(), isLead: true, isUnderWay: false },
-      ...{ speedPercent, passesLeft: times },
+      ...{ speedPercent, passesLeft: times, isOverdubbed: overdub !== undefined },
     };
+    [span, isPaused] = [null, false];
+    if (overdub !== undefined) showOverdubbed(overdub.servos);
     phase('leading');
     sound.wake();
     playhead.show(passage.atMs[0] ?? 0);
@@ -121,8 +136,17 @@ function createPlayer(options: PlaybackOptions, store: StoreApi<PlaybackState>):
       following = null;
       phase(null);
       playSound();
+      if (overdub === undefined) return;
+      showOverdubbed([]);
+      const isUsable = (isDone || isPaused) && options.documentId() === playedId;
+      overdub.ended(span !== null && isUsable ? { ...span, toMs: playhead.at() } : null);
     };
     device.play(passage.frames, times, ended, passage.loopFrom);
+  }
+
+  function showOverdubbed(overdubbed: readonly number[]): void {
+    const { id } = robots.current();
+    view.setState({ servos: { ...servoViewFor(view.getState().servos, id), robotId: id, overdubbed } });
   }
 
   function preview(): void {
@@ -164,8 +188,10 @@ function createPlayer(options: PlaybackOptions, store: StoreApi<PlaybackState>):
 
   function pause(): void {
     if (previewing !== null) endPreview();
-    else if (following !== null) device.stopPlaying();
-    else if (activity().kind === 'downloading') slots.cancel();
+    else if (following !== null) {
+      isPaused = true;
+      device.stopPlaying();
+    } else if (activity().kind === 'downloading') slots.cancel();
     else if (activity().kind === 'running') device.stopGroup();
   }
 
@@ -196,7 +222,8 @@ function createPlayer(options: PlaybackOptions, store: StoreApi<PlaybackState>):
       const began = { index: next.frameIndex, beganMs: clock.now(), isUnderWay: true };
       following = { ...following, ...began, isLead, passesLeft };
       const isBack = following.passage.returns && next.frameIndex === 0;
-      phase(isLead ? 'leading' : isBack ? 'returning' : 'playing');
+      if (!isLead) span ??= spanOf(following);
+      phase(isLead ? 'leading' : isBack ? 'returning' : following.isOverdubbed ? 'recording' : 'playing');
     }
     if (next.kind !== 'idle' || store.getState().phase !== 'running') return;
     phase(null);

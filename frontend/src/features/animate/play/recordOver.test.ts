@@ -1,0 +1,192 @@
+import { describe, expect, test } from 'vitest';
+import { startHistory } from '#shared/document/history.ts';
+import { emptyGroup, totalDurationMs } from '#shared/group/group.ts';
+import { insertFrame, type NewFrame } from '#shared/group/groupEdits.ts';
+import { positionAt, tracksOf } from '#shared/group/tracks.ts';
+import { createTestPage } from '../../pageUnderTest.ts';
+import { freeOf } from '../../servoView.ts';
+import { editServoView } from '../../stores.ts';
+import { RECORD_OVER } from './recordOver.ts';
+
+const frame = (durationMs: number, one: number, two: number): NewFrame => ({
+  durationMs,
+  targets: [
+    { servo: 1, position: one },
+    { servo: 2, position: two },
+  ],
+});
+
+/** Servo 1 goes to and fro each second, servo 2 stands at 1200. */
+const WAVE = [
+  frame(500, 1000, 1200),
+  ...[1600, 1000, 1600, 1000].map((one) => frame(1000, one, 1200)),
+].reduce((group, each) => insertFrame(group, group.frames.length, each), emptyGroup('Wave', 'us'));
+
+const LEAD_MS = 1500;
+
+async function armed(servos: readonly number[] = [2]) {
+  const page = await createTestPage();
+  page.document.edit(
+    () => 'write',
+    () => WAVE,
+  );
+  page.device.move(
+    [
+      { servo: 1, position: 1000 },
+      { servo: 2, position: 1500 },
+    ],
+    500,
+  );
+  await page.draw(3000);
+  editServoView(page, (view) => ({ ...view, armed: servos }));
+  const group = () => page.document.store.getState().present;
+  return {
+    ...page,
+    group,
+    press: () => RECORD_OVER.run(page),
+    move: (position: number, durationMs: number) => page.device.move([{ servo: 2, position }], durationMs),
+    at: (servo: number, atMs: number) => positionAt(tracksOf(group()).get(servo)!, atMs),
+    keysOf: (servo: number) =>
+      tracksOf(group())
+        .get(servo)!
+        .keys.map(({ atMs, position }) => [atMs, position]),
+  };
+}
+
+describe('recording over the motion', () => {
+  test('plays the others and leaves the armed servo to the user, whose motion replaces its keys in one step', async () => {
+    const page = await armed();
+    page.playhead.go(1000);
+    const before = page.group();
+    const sentBefore = page.moves().length;
+    page.press();
+    await page.draw(LEAD_MS + 500);
+    expect(page.playback.store.getState().phase).toBe('recording');
+    page.move(2000, 1000);
+    await page.draw(4000);
+    expect(page.playback.store.getState().phase).toBeNull();
+
+    const targets = page
+      .moves()
+      .slice(sentBefore)
+      .flatMap((move) => move.targets);
+    expect(targets.filter(({ servo }) => servo === 2)).toEqual([{ servo: 2, position: 2000 }]);
+    expect(targets.filter(({ servo }) => servo === 1).map(({ position }) => position)).toEqual([
+      1300, 1600, 1000, 1600, 1000,
+    ]);
+    for (const [atMs, position] of [
+      [500, 1200],
+      [1000, 1500],
+      [1400, 1500],
+      [2000, 1750],
+      [2600, 2000],
+      [4500, 2000],
+    ] as const)
+      expect(Math.abs((page.at(2, atMs) ?? NaN) - position), `at ${atMs}`).toBeLessThanOrEqual(45);
+    for (const atMs of [500, 1000, 1250, 1500, 2200, 3333, 4500])
+      expect(page.at(1, atMs)).toBeCloseTo(positionAt(tracksOf(before).get(1)!, atMs) ?? NaN, 0);
+    expect(page.keysOf(2).length).toBeLessThan(9);
+    expect(totalDurationMs(page.group().frames)).toBe(4500);
+
+    page.document.undo();
+    expect(page.group()).toBe(before);
+  });
+
+  test('what plays is locked meanwhile: a move of both moves only the armed servo', async () => {
+    const page = await armed();
+    const both = [1, 2].map((servo) => ({ servo, position: 1700 }));
+    page.press();
+    await page.draw(200);
+    expect(freeOf(page, both)).toEqual([{ servo: 2, position: 1700 }]);
+    await page.draw(LEAD_MS + 5000);
+    expect(freeOf(page, both)).toEqual(both);
+  });
+
+  test('at half the speed it is at the same place of the group', async () => {
+    const page = await armed();
+    page.playback.set({ speedPercent: 50 });
+    page.playhead.go(1000);
+    page.press();
+    await page.draw(LEAD_MS + 1000);
+    page.move(2000, 2000);
+    await page.draw(9000);
+    expect(Math.abs((page.at(2, 2000) ?? NaN) - 1750)).toBeLessThanOrEqual(45);
+    expect(page.at(2, 4500)).toBe(2000);
+  });
+
+  test('ended with the button it replaces as much as was played, and the marked part ends it by itself', async () => {
+    const page = await armed();
+    page.press();
+    await page.draw(LEAD_MS + 500);
+    page.move(2000, 300);
+    await page.draw(1000);
+    page.press();
+    await page.draw(1000);
+    expect(page.at(2, 1900)).toBe(2000);
+    const later = page.keysOf(2).filter(([atMs]) => (atMs ?? 0) > 2050);
+    expect(later).toEqual([
+      [2500, 1200],
+      [3500, 1200],
+      [4500, 1200],
+    ]);
+
+    page.timeline.setState({ range: { fromMs: 3000, toMs: 4000 } });
+    page.press();
+    await page.draw(LEAD_MS + 200);
+    page.move(1000, 300);
+    await page.draw(1500);
+    expect(page.at(2, 4000)).toBe(1000);
+    expect(page.keysOf(2).filter(([atMs]) => (atMs ?? 0) < 3000 || (atMs ?? 0) > 4000)).toEqual([
+      ...page.keysOf(2).filter(([atMs]) => (atMs ?? 0) < 2100),
+      [2500, 1200],
+      [4500, 1200],
+    ]);
+  });
+
+  test.for([
+    ['Stop', (page) => page.device.halt()],
+    ['a lost link', (page) => page.session.close()],
+    ['a hidden page', (page) => page.playback.hidden()],
+    ['another group', (page) => page.opened.setState({ openId: 'other' })],
+  ] as readonly (readonly [string, (page: Awaited<ReturnType<typeof armed>>) => unknown])[])(
+    '%s ends both; the group is unchanged, and the tape still has the motion',
+    async ([name, end]) => {
+      const page = await armed();
+      const before = page.group();
+      page.press();
+      await page.draw(LEAD_MS + 500);
+      page.move(2000, 300);
+      await page.draw(700);
+      void end(page);
+      await page.draw(6000);
+      expect(page.playback.store.getState().phase).toBeNull();
+      expect(page.group()).toBe(before);
+      expect(page.noticeTexts().join(), name).toContain('ended early');
+      expect(freeOf(page, [{ servo: 1, position: 1700 }])).toHaveLength(1);
+      expect(page.tape.takeThat().some(({ servo, position }) => servo === 2 && position === 2000)).toBe(true);
+    },
+  );
+
+  test('where no armed servo moved it changes nothing and says so; without armed rows it does not begin', async () => {
+    const page = await armed();
+    const before = page.group();
+    page.press();
+    await page.draw(LEAD_MS + 6000);
+    expect(page.group()).toBe(before);
+    expect(page.noticeTexts()).toContain('Nothing moved.');
+    editServoView(page, (view) => ({ ...view, armed: [] }));
+    expect(RECORD_OVER.enabled(page)).toBe('Arm a row first, in its menu.');
+  });
+
+  test('with every row armed nothing is sent, and the playhead still runs for the recording', async () => {
+    const page = await armed([1, 2]);
+    const sentBefore = page.moves().length;
+    page.document.store.setState(startHistory(WAVE));
+    page.press();
+    await page.draw(LEAD_MS + 1000);
+    expect(page.moves()).toHaveLength(sentBefore);
+    page.move(2000, 500);
+    await page.draw(5000);
+    expect([page.at(1, 4500), page.at(2, 4500)]).toEqual([1000, 2000]);
+  });
+});
