@@ -5,8 +5,7 @@ import { duplicateKeys } from '#shared/group/clip.ts';
 import { compile } from '#shared/group/compile.ts';
 import { emptyGroup, type ActionGroup } from '#shared/group/group.ts';
 import { insertFrame } from '#shared/group/groupEdits.ts';
-import { deleteKeys, moveKeys, scaleAmplitude, setKey } from '#shared/group/keyEdits.ts';
-import { setEasing } from '#shared/group/frameEdits.ts';
+import { deleteKeys, moveKeys, scaleAmplitude, setEasing, setKey } from '#shared/group/keyEdits.ts';
 import { deleteTime, insertTime, reverse, stretch } from '#shared/group/timeEdits.ts';
 import { tracksOf, type KeyRef } from '#shared/group/tracks.ts';
 import { family } from '#shared/codec/families.ts';
@@ -79,7 +78,12 @@ function editsOf(refs: readonly KeyRef[]): Readonly<Record<string, Edit>> {
     'time deleted': (group) => deleteTime(group, range),
     'time stretched': (group) => stretch(group, range, 1.5, { ripple: true }),
     'time reversed': (group) => reverse(group, range),
-    'one easing set': (group) => setEasing(group, [100], 'out'),
+    'one easing set': (group) =>
+      setEasing(
+        group,
+        refsOf(group).filter(({ frameId }) => frameId === 100),
+        'out',
+      ),
   };
 }
 

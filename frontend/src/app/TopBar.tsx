@@ -9,7 +9,7 @@ import { nameOf } from '../robot/remembered.ts';
 import { RobotButton } from '../features/profiles/RobotDialog.tsx';
 import { BatteryReadout } from '../features/battery/BatteryReadout.tsx';
 import { IconButton } from '../ui/Button.tsx';
-import { PeopleButton } from '../features/people/PeopleDialog.tsx';
+import { titleFor } from '../features/people/people.ts';
 import { boardName } from '../i18n/sentences.ts';
 import { LinkChip, StatusLine, type StatusLineProps } from '../features/connect/StatusLine.tsx';
 import { ActionsButton } from './dialogs.tsx';
@@ -107,4 +107,18 @@ function ThemeButton() {
   const stores = useStores();
   const icon = THEME_ICONS[useView((state) => state.theme)];
   return <IconButton icon={icon} label={THEME.label(stores)} onPress={() => THEME.run(stores)} />;
+}
+
+function PeopleButton() {
+  const { people, view } = useStores();
+  const me = useStore(people.store, (state) => state.me);
+  if (me === null || me.mode === 'local') return null;
+  return (
+    <IconButton
+      icon="people"
+      label={titleFor(me)}
+      aria-haspopup="dialog"
+      onPress={() => view.setState({ peopleOpen: true })}
+    />
+  );
 }

@@ -1,4 +1,4 @@
-// Dialogs whose content is fetched when it is needed: connecting, the library, and the list of all actions with its button. A chosen action
+// Dialogs whose content is fetched when it is needed: connecting, the library, people, and the list of all actions with its button. A chosen action
 // runs once the dialog is closed, so that a field which it opens gets the focus.
 
 import { useEffect, useRef } from 'react';
@@ -70,6 +70,15 @@ const ReplaceQuestion = laterComponent(
 export function ReplaceDialog() {
   const { replacing } = useStores();
   return useStore(replacing.store, ({ question }) => question !== null) && <ReplaceQuestion />;
+}
+
+const PeopleView = laterComponent(
+  async () => (await import('../features/people/PeopleDialog.tsx')).PeopleDialog,
+  '0',
+);
+
+export function PeopleDialog() {
+  return useView((state) => state.peopleOpen) && <PeopleView />;
 }
 
 const LibraryView = laterComponent(

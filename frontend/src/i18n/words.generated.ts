@@ -536,6 +536,7 @@ export interface Messages {
       readonly tooShort: (values: { readonly name: string; readonly frame: number; readonly leastMs: number }) => string;
       readonly tooFast: (values: { readonly name: string; readonly atMs: number; readonly degreesPerS: number; readonly limit: number }) => string;
       readonly deviation: (values: { readonly name: string; readonly atMs: number; readonly error: string; readonly allowed: string }) => string;
+      readonly swing: (values: { readonly name: string; readonly frame: number; readonly position: number; readonly min: number; readonly max: number }) => string;
     };
     readonly worst: (values: { readonly error: string; readonly degrees: string; readonly name: string; readonly atMs: number }) => string;
   };
@@ -2059,6 +2060,8 @@ export interface Messages {
       readonly out: string;
       readonly inOut: string;
       readonly hold: string;
+      readonly overshoot: string;
+      readonly windUp: string;
     };
     readonly easing: string;
     readonly colours: {
@@ -2114,6 +2117,8 @@ export interface Messages {
       readonly ticksAfter: string;
       readonly pageBefore: string;
       readonly pageAfter: string;
+      readonly curve: string;
+      readonly smooth: string;
     };
     readonly markerVerbs: {
       readonly marker: string;
@@ -2185,6 +2190,7 @@ export interface Messages {
       readonly insertTime: string;
       readonly note: string;
       readonly marker: string;
+      readonly curve: string;
     };
     readonly percent: string;
     readonly newMarker: (values: { readonly number: number }) => string;
@@ -2210,6 +2216,8 @@ export interface Messages {
       readonly moveMarker: string;
       readonly renameMarker: string;
       readonly deleteMarker: string;
+      readonly curve: string;
+      readonly smooth: string;
     };
     readonly draggedEnd: (values: { readonly frame: number; readonly durationMs: number; readonly at: string }) => string;
     readonly draggedMarker: (values: { readonly text: string; readonly at: string }) => string;
@@ -2236,6 +2244,7 @@ export interface Messages {
       readonly rested: string;
       readonly locked: string;
       readonly beside: string;
+      readonly curve: string;
     };
     readonly markerSelected: (values: { readonly about: string; readonly tickMs: number }) => string;
     readonly byTouch: {
@@ -2255,6 +2264,8 @@ export interface Messages {
       readonly position: (values: { readonly name: string; readonly position: number; readonly min: number; readonly max: number }) => string;
     };
     readonly heldAtLimit: (values: { readonly count: number; readonly names: string }) => string;
+    readonly curve: (values: { readonly handles: string }) => string;
+    readonly notACurve: (values: { readonly min: number; readonly max: number }) => string;
   };
   readonly speed: {
     readonly title: string;

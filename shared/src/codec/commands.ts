@@ -82,7 +82,7 @@ export const COMMAND_NUMBER: Readonly<Record<CommandKind, number>> = {
 };
 
 /** Targets in ascending servo order, each servo once; the last one given wins. */
-export function sortedTargets(targets: readonly ServoTarget[]): readonly ServoTarget[] {
+export function sortedTargets<T extends ServoTarget>(targets: readonly T[]): readonly T[] {
   const byServo = new Map(targets.map((target) => [target.servo, target]));
   return [...byServo.values()].sort((one, other) => one.servo - other.servo);
 }

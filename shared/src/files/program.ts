@@ -5,7 +5,7 @@ import type { Frame } from '../codec/commands.ts';
 import { encodeCommand } from '../codec/encode.ts';
 import type { Family } from '../codec/families.ts';
 import { compile } from '../group/compile.ts';
-import { type ActionGroup, maxErrorOf, totalDurationMs } from '../group/group.ts';
+import { type ActionGroup, isStraight, maxErrorOf, totalDurationMs } from '../group/group.ts';
 import { onBoard, type Robot } from '../profile/robot.ts';
 import { filled, misfitsOf, type Misfit } from './fit.ts';
 import { fileNameOf } from './fileName.ts';
@@ -37,7 +37,7 @@ export function programOf(
 
 /** A curve takes as many straight ways as this page would play it in; straight ways stay the frames they are. */
 function straightened(group: ActionGroup, family: Family): readonly Frame[] {
-  return group.frames.every(({ easing }) => easing === 'linear')
+  return group.frames.every(isStraight)
     ? filled(group).frames
     : compile(group, { family, maxErrorUnits: maxErrorOf(group, family) }).frames;
 }

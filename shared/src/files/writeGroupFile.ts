@@ -1,7 +1,7 @@
 // A group as a file of any format, and what that format cannot hold. Databases are made by what is handed in.
 
 import type { Family } from '../codec/families.ts';
-import { type ActionGroup, groupToFile } from '../group/group.ts';
+import { type ActionGroup, groupToFile, isStraight } from '../group/group.ts';
 import type { Robot } from '../profile/robot.ts';
 import { arduinoOf, programOf, type Program, pythonOf } from './program.ts';
 import { writeCsv, sheetOf, type Sheet } from './csv.ts';
@@ -93,7 +93,7 @@ export function lossesIn(format: SaveFormat, group: ActionGroup): readonly Loss[
   const { completed, lacking } = filled(group);
   const isProgram = format === 'python' || format === 'arduino';
   const found: Readonly<Record<LossCode, boolean | readonly number[]>> = {
-    easings: isProgram ? [] : frames.flatMap(({ easing }, index) => (easing === 'linear' ? [] : [index + 1])),
+    easings: isProgram ? [] : frames.flatMap((frame, index) => (isStraight(frame) ? [] : [index + 1])),
     marks:
       sound !== undefined ||
       markers.length > 0 ||

@@ -6,9 +6,10 @@ import { FAMILIES, family } from '../codec/families.ts';
 import { readyRobot, type RobotNames } from '../profile/readyRobots.ts';
 import { compile } from './compile.ts';
 import { rangeOf, type CompileOptions, type CompileProblem } from './compileReport.ts';
-import { EASINGS, emptyGroup, totalDurationMs, type ActionGroup, type Easing } from './group.ts';
+import { EASINGS, type Easing } from './curves.ts';
+import { emptyGroup, totalDurationMs, type ActionGroup } from './group.ts';
 import { insertFrame } from './groupEdits.ts';
-import { someGroup } from '../testing/groups.ts';
+import { ANY_EASING, someGroup } from '../testing/groups.ts';
 import { positionAt, tracksOf } from './tracks.ts';
 
 const DOC = family('doc');
@@ -16,7 +17,8 @@ const TICK_MS = 20;
 /** Where a servo may be whose position is unknown. */
 const ANYWHERE = -5000;
 const onTicks = fc.integer({ min: 1, max: 60 }).map((ticks) => ticks * TICK_MS);
-const SMOOTH = EASINGS.filter((easing) => easing !== 'hold');
+const OVERSHOOT = [0.34, 1.56, 0.64, 1] as const;
+const SMOOTH = ANY_EASING.filter((easing) => easing !== 'hold');
 const NAMES: RobotNames = { robot: 'Mine', role: (role, servo) => `${role} ${servo}`, limb: (limb) => limb };
 /** Fast enough for anything: what servos can follow is another matter. */
 const FREE = { family: DOC, degreesPerS: Infinity };
@@ -81,15 +83,16 @@ describe('a compiled group', () => {
         }
         expect(report.shiftedMs).toBe(0);
         expect(worst).toBeLessThanOrEqual((report.worst?.units ?? 0) + 1e-6);
-        if (report.problems.length === 0) expect(worst).toBeLessThanOrEqual(maxErrorUnits + 1e-5);
-        else expect(report.problems).toMatchObject([{ kind: 'deviation', units: report.worst!.units }]);
+        const own = report.problems.filter(({ kind }) => kind !== 'swing');
+        if (own.length === 0) expect(worst).toBeLessThanOrEqual(maxErrorUnits + 1e-5);
+        else expect(own).toMatchObject([{ kind: 'deviation', units: report.worst!.units }]);
         expect(totalDurationMs(frames)).toBe(totalDurationMs(group.frames));
       }),
     );
   });
 
   test('has a servo that holds within the bound too, but for the last tick, in which it jumps', () => {
-    const any = someGroup({ easings: EASINGS, durationMs: onTicks });
+    const any = someGroup({ durationMs: onTicks });
     fc.assert(
       fc.property(any, fc.integer({ min: 1, max: 60 }), (group, maxErrorUnits) => {
         const { frames, report } = compile(group, { ...FREE, maxErrorUnits });
@@ -121,6 +124,7 @@ describe('a compiled group', () => {
             { family: own, maxErrorUnits: 8, degreesPerS: Infinity },
           );
           fc.pre(frames.length > 0 && frames.length <= own.framesPerGroup);
+          fc.pre(!kindsOf(report.problems).includes('swing'));
           let bytes = 0;
           for (const [frameIndex, frame] of frames.entries()) {
             expect(frame.durationMs % own.motion.tickMs).toBe(0);
@@ -211,6 +215,17 @@ describe('a compiled group', () => {
       expect(compile(groupOf([[100, { 1: 1000 }, easing]]), { ...FREE, maxErrorUnits: 1 }).frames).toEqual([
         { durationMs: 100, targets: [{ servo: 1, position: 1000 }] },
       ]);
+  });
+
+  test('says where a curve swings past the end of a range, with the key and how far', () => {
+    const group = groupOf([
+      [1000, { 1: 500, 2: 1500 }],
+      [3000, { 1: 1500, 2: 2450 }, OVERSHOOT],
+    ]);
+    const { report } = compile(group, { family: DOC, maxErrorUnits: 5 });
+    expect(report.problems).toEqual([
+      { kind: 'swing', servo: 2, frameId: 2, position: 2543, min: 500, max: 2500 },
+    ]);
   });
 
   test('takes a time that is longer than a frame in several', () => {

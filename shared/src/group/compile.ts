@@ -19,7 +19,7 @@ import {
   type Deviation,
   type Straight,
 } from './courses.ts';
-import { totalDurationMs, type ActionGroup } from './group.ts';
+import { isStraight, totalDurationMs, type ActionGroup, type GroupFrame } from './group.ts';
 import { tracksOf } from './tracks.ts';
 
 export interface Compiled {
@@ -35,7 +35,7 @@ export function compile(group: ActionGroup, options: CompileOptions): Compiled {
   const endMs = onGrid(totalDurationMs(group.frames), stepMs);
   const isDirect = isTakenAsItIs(group, tracks.size, family);
   const { frames, worst } = isDirect
-    ? { frames: group.frames.map(({ durationMs, targets }) => ({ durationMs, targets })), worst: null }
+    ? { frames: group.frames.map(plain), worst: null }
     : fitted(courses, endMs, { stepMs, maxErrorUnits, longestMs: family.durationMs.max });
   const report = reportOf({
     group,
@@ -47,6 +47,11 @@ export function compile(group: ActionGroup, options: CompileOptions): Compiled {
   return { frames, report };
 }
 
+const plain = ({ durationMs, targets }: GroupFrame): Frame => ({
+  durationMs,
+  targets: targets.map(({ servo, position }) => ({ servo, position })),
+});
+
 const exact = (course: Course): Course => ({ ...course, missed: [], shiftedMs: 0 });
 
 /** Each frame is a whole pose, reached straight, in a time the board keeps. */
@@ -55,12 +60,12 @@ function isTakenAsItIs({ frames }: ActionGroup, servoCount: number, family: Fami
   return (
     frames.length <= framesPerGroup &&
     frames.every(
-      ({ durationMs, targets, easing }) =>
-        targets.length === servoCount &&
-        easing === 'linear' &&
-        durationMs % motion.tickMs === 0 &&
-        durationMs >= shortestMoveMs &&
-        durationMs <= allowed.max,
+      (frame) =>
+        frame.targets.length === servoCount &&
+        isStraight(frame) &&
+        frame.durationMs % motion.tickMs === 0 &&
+        frame.durationMs >= shortestMoveMs &&
+        frame.durationMs <= allowed.max,
     )
   );
 }

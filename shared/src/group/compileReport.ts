@@ -6,8 +6,8 @@ import { positionRange, type Family, type Range } from '../codec/families.ts';
 import { wireMs } from '../codec/packet.ts';
 import { DEGREES_PER_UNIT } from '../profile/readyRobots.ts';
 import { servoOf, type Robot } from '../profile/robot.ts';
-import { type Course, type Leg, ROUNDING, type Deviation } from './courses.ts';
-import { CURVES } from './tracks.ts';
+import { type Course, type Leg, ROUNDING, turnsOf, type Deviation } from './courses.ts';
+import { curveOf, type Easing } from './curves.ts';
 import { totalDurationMs, type ActionGroup } from './group.ts';
 
 /** Common servos of these robots need 0.2 s for 60 degrees, some a little less. */
@@ -29,6 +29,10 @@ export type CompileProblem =
   | { readonly kind: 'unit'; readonly group: ActionGroup['unit']; readonly board: ActionGroup['unit'] }
   | ({ readonly kind: 'servo'; readonly servo: number } & Range)
   | ({ readonly kind: 'position'; readonly servo: number; readonly frameId: number } & Range & {
+        readonly position: number;
+      })
+  /** On its way to its key: the curve goes past an end of the servo's range. */
+  | ({ readonly kind: 'swing'; readonly servo: number; readonly frameId: number } & Range & {
         readonly position: number;
       })
   /** In a frame of the compiled group. */
@@ -142,6 +146,7 @@ function courseProblems({ courses, options }: CompiledParts): CompileProblem[] {
     }));
     if (servo < family.servo.min || servo > family.servo.max)
       problems.push({ kind: 'servo', servo, ...family.servo });
+    else problems.push(...swings(servo, legs, rangeOf(servo, family, options.robot)));
     const fastest = fastestOf(legs);
     const degreesPerS = fastest === null ? 0 : speedOf(fastest) * degreesPerUnit(servo, options) * 1000;
     if (fastest !== null && degreesPerS > limit)
@@ -156,6 +161,19 @@ function courseProblems({ courses, options }: CompiledParts): CompileProblem[] {
   });
 }
 
+/** A key beyond the range is a problem of its own. */
+function swings(servo: number, legs: readonly Leg[], range: Range): CompileProblem[] {
+  return legs.flatMap((leg) => {
+    const { min, max } = range;
+    const [low, high] = [Math.min(min, leg.from, leg.to), Math.max(max, leg.from, leg.to)];
+    return turnsOf(leg)
+      .map(Math.round)
+      .filter((position) => position < low || position > high)
+      .slice(0, 1)
+      .map((position) => ({ kind: 'swing', servo, frameId: leg.frameId, position, min, max }));
+  });
+}
+
 /** Jumps are to be as fast as can be. */
 function fastestOf(legs: readonly Leg[]): Leg | null {
   return legs
@@ -165,5 +183,18 @@ function fastestOf(legs: readonly Leg[]): Leg | null {
 
 /** In units a millisecond. */
 function speedOf({ fromMs, toMs, from, to, easing }: Leg): number {
-  return (Math.abs(to - from) / (toMs - fromMs)) * CURVES[easing].steepest;
+  return (Math.abs(to - from) / (toMs - fromMs)) * steepest(easing);
+}
+
+/** A slope that would be endless is that of the mean over so much of the time. */
+const SLOPE_STEPS = 64;
+
+/** The greatest slope. */
+function steepest(easing: Easing): number {
+  if (typeof easing === 'string') return easing === 'linear' ? 1 : 2;
+  const { at } = curveOf(easing);
+  const slopes = Array.from({ length: SLOPE_STEPS }, (_, step) =>
+    Math.abs(at((step + 1) / SLOPE_STEPS) - at(step / SLOPE_STEPS)),
+  );
+  return SLOPE_STEPS * Math.max(...slopes);
 }

@@ -2,8 +2,8 @@
 // way misses it, exactly. Continuous from the beginning of the group to its end. Knows a board's time; no frame.
 
 import type { Family } from '../codec/families.ts';
-import { CURVES, type Key, type Track, type Tracks } from './tracks.ts';
-import type { Easing } from './group.ts';
+import { curveOf, type Easing } from './curves.ts';
+import type { Key, Track, Tracks } from './tracks.ts';
 
 export interface Leg {
   readonly fromMs: number;
@@ -11,6 +11,8 @@ export interface Leg {
   readonly from: number;
   readonly to: number;
   readonly easing: Easing;
+  /** The one whose key it leads to. */
+  readonly frameId: number;
   /** As fast as the servo can: how long that takes is not specified. */
   readonly isJump: boolean;
 }
@@ -56,7 +58,8 @@ function courseOf({ servo, keys }: Track, stepMs: number, start: number | undefi
   let at: Place = { atMs: 0, position: start ?? (atOnce ?? reached[0])?.position ?? 0 };
   const legs = reached.flatMap((key, index) => {
     const to = { atMs: tickOf(key), position: key.position };
-    const way = legsTo(at, to, isUnknown && index === 0 ? 'linear' : key.easing, stepMs);
+    const easing = isUnknown && index === 0 ? 'linear' : key.easing;
+    const way = legsTo(at, to, { easing, frameId: key.frameId }, stepMs);
     at = to;
     return way;
   });
@@ -74,9 +77,14 @@ interface Place {
 }
 
 /** A servo that holds stays until one step before the end. */
-function legsTo(from: Place, { atMs, position }: Place, easing: Easing, stepMs: number): Leg[] {
-  const way = { fromMs: from.atMs, toMs: atMs, from: from.position, to: position, easing, isJump: false };
-  if (easing !== 'hold') return [way];
+function legsTo(
+  from: Place,
+  { atMs, position }: Place,
+  how: Pick<Leg, 'easing' | 'frameId'>,
+  stepMs: number,
+): Leg[] {
+  const way = { fromMs: from.atMs, toMs: atMs, from: from.position, to: position, ...how, isJump: false };
+  if (how.easing !== 'hold') return [way];
   const jumpMs = atMs - stepMs;
   const jump: Leg = { ...way, fromMs: jumpMs, easing: 'linear', isJump: true };
   const rest: Leg = { ...way, toMs: jumpMs, to: from.position, easing: 'linear' };
@@ -89,7 +97,17 @@ export function courseAt({ legs, restPosition }: Course, atMs: number): number {
 }
 
 function legAt({ fromMs, toMs, from, to, easing }: Leg, atMs: number): number {
-  return from + (to - from) * CURVES[easing].at((atMs - fromMs) / (toMs - fromMs));
+  return from + (to - from) * curveOf(easing).at((atMs - fromMs) / (toMs - fromMs));
+}
+
+/** Where it turns round on its way, because its curve swings past an end. */
+export function turnsOf(leg: Leg): readonly number[] {
+  const { fromMs, toMs, easing } = leg;
+  return typeof easing === 'string'
+    ? []
+    : curveOf(easing)
+        .asSteepAs(0)
+        .map((share) => legAt(leg, fromMs + share * (toMs - fromMs)));
 }
 
 /** The first leg that ends later. */
@@ -104,8 +122,8 @@ function legAfter(legs: readonly Leg[], atMs: number): number {
   return low;
 }
 
-// How far a straight way misses a servo's course, exactly: courses are lines and parabolas, so what counts are the
-// ends of their legs and where a leg is as steep as the way.
+// How far a straight way misses a servo's course, exactly: what counts are the ends of a course's legs and where a leg is as
+// steep as the way.
 
 /** Of fractions: a miss that is less is none. */
 export const ROUNDING = 1e-6;
@@ -155,7 +173,7 @@ function turns(
   untilMs: number,
 ): number[] {
   const lengthMs = toMs - fromMs;
-  const steep = to === from ? [] : CURVES[easing].asSteepAs((slope * lengthMs) / (to - from));
+  const steep = to === from ? [] : curveOf(easing).asSteepAs((slope * lengthMs) / (to - from));
   const within = steep.map((share) => fromMs + share * lengthMs).filter((at) => at > sinceMs && at < untilMs);
   return [sinceMs, ...within, untilMs];
 }

@@ -8,7 +8,6 @@ import { copyKeys, duplicateKeys, pasteKeys } from './clip.ts';
 import {
   mirror,
   setColour,
-  setEasing,
   setNote,
   addMarker,
   deleteMarker,
@@ -18,7 +17,15 @@ import {
 import { flawOfGroup, groupSchema, type ActionGroup } from './group.ts';
 import { setMeta } from './groupEdits.ts';
 import { sampled, someGroup, someRange, someRefs, withGroup } from '../testing/groups.ts';
-import { deleteKeys, moveKeys, scaleAmplitude, setKey, setPositions } from './keyEdits.ts';
+import {
+  deleteKeys,
+  moveKeys,
+  scaleAmplitude,
+  setEasing,
+  setKey,
+  setPositions,
+  smoothKeys,
+} from './keyEdits.ts';
 import { reverseKeys } from './keyRanges.ts';
 import {
   deleteTime,
@@ -37,6 +44,7 @@ const HUMANOID = readyRobot('humanoid16', 'lsc-16', NAMES);
 const SERVOS = [1, 2, 3, 4, 5, 6];
 const STAY = { ripple: false };
 const RIPPLE = { ripple: true };
+const OVERSHOOT = [0.34, 1.56, 0.64, 1] as const;
 
 interface Chance {
   readonly refs: readonly KeyRef[];
@@ -62,6 +70,8 @@ const KEY_EDITS: Readonly<Record<string, Edit>> = {
       group,
       refs.map((ref) => ({ ...ref, position: delta })),
     ),
+  setEasing: (group, { refs, ripple }) => setEasing(group, refs, ripple ? 'inOut' : OVERSHOOT),
+  smoothKeys: (group, { refs }) => smoothKeys(group, refs),
   deleteKeys: (group, { refs }) => deleteKeys(group, refs, STAY),
   scaleAmplitude: (group, { refs, factor }) => scaleAmplitude(group, refs, factor, 'mean'),
   pasteKeys: (group, { refs, fromMs }) => pasteKeys(group, copyKeys(group, refs), fromMs, STAY).group,
@@ -82,7 +92,6 @@ const OTHER_EDITS: Readonly<Record<string, Edit>> = {
   stretch: (group, { fromMs, toMs, factor, ripple }) => stretch(group, { fromMs, toMs }, factor, { ripple }),
   scaleTime: (group, { factor }) => scaleTime(group, factor),
   reverse: (group, { fromMs, toMs }) => reverse(group, { fromMs, toMs }),
-  setEasing: (group, { frameId }) => setEasing(group, [frameId], 'inOut'),
   setNote: (group, { frameId }) => setNote(group, frameId, 'A note'),
   setColour: (group, { frameId }) => setColour(group, [frameId, frameId + 1], 'plum'),
   mirror: (group, { frameId }) => mirror(group, HUMANOID, [frameId, frameId + 1]).group,

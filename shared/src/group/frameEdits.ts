@@ -1,17 +1,13 @@
-// Edits of whole frames that leave their times alone (easing, note, colour, left and right), of markers, and a whole group in the other
+// Edits of whole frames that leave their times alone (note, colour, left and right), of markers, and a whole group in the other
 // unit. Pure functions, the very same object where nothing changes. What left and right is, the robot profile says.
 
 import { rescaled } from '../profile/units.ts';
 import type { Colour } from '../document/schema.ts';
 import { mirroredTargets } from '../profile/poseShapes.ts';
 import type { Robot, RobotServo } from '../profile/robot.ts';
-import { MOST_ERROR_UNITS, type ActionGroup, type Easing, type GroupFrame, type Marker } from './group.ts';
+import { MOST_ERROR_UNITS, type ActionGroup, type GroupFrame, type Marker } from './group.ts';
 import { changed, sameList, samePose } from './groupEdits.ts';
 import { wholeMs } from './moments.ts';
-
-export function setEasing(group: ActionGroup, frameIds: readonly number[], easing: Easing): ActionGroup {
-  return changeFrames(group, frameIds, (frame) => changed(frame, { easing }));
-}
 
 export function setNote(group: ActionGroup, frameId: number, note: string): ActionGroup {
   return changeFrames(group, [frameId], (frame) => changed(frame, { note }));
@@ -97,7 +93,7 @@ export function convertGroup(group: ActionGroup, unit: ActionGroup['unit']): Act
   const per = Math.abs(rescaled(1, group.unit, unit) - rescaled(0, group.unit, unit));
   const frames = group.frames.map((frame) => ({
     ...frame,
-    targets: frame.targets.map(({ servo, position }) => ({ servo, position: at(position) })),
+    targets: frame.targets.map((target) => ({ ...target, position: at(target.position) })),
   }));
   return {
     ...group,

@@ -3,7 +3,8 @@
 // the group was made for, never converted.
 //
 // A frame is a moment, `durationMs` after the one before it, and a servo named in it has a key there. A servo that is not named
-// continues towards its next key: its way spans the frames between. `easing` is how the servos keyed in a frame come into it.
+// continues towards its next key: its way spans the frames between. `easing` is how the servos keyed in a frame come into it, and a
+// servo may come in its own way.
 
 import * as v from 'valibot';
 import {
@@ -20,11 +21,8 @@ import {
   type Read,
 } from '../document/schema.ts';
 import type { Frame, ServoTarget } from '../codec/commands.ts';
+import { easingSchema, type Easing } from './curves.ts';
 import type { Family } from '../codec/families.ts';
-
-/** `hold`: stays at the key before and jumps at the end, as fast as the servo can. */
-export const EASINGS = ['linear', 'in', 'out', 'inOut', 'hold'] as const;
-export type Easing = (typeof EASINGS)[number];
 
 export const GROUP_NAME_LENGTH = 64;
 export const NOTE_LENGTH = 200;
@@ -38,13 +36,19 @@ const MAX_MARKERS = 1000;
 export const [FASTEST_BEAT_MS, SLOWEST_BEAT_MS] = [100, 4000] as const;
 const MAX_TAGS = 20;
 
+const keySchema = v.strictObject({
+  ...targetSchema.entries,
+  /** Left out: as the frame says. */
+  easing: v.exactOptional(easingSchema),
+});
+
 const frameSchema = v.strictObject({
   /** Distinguishes frames while they move about in the list; never used twice, means nothing outside the document. */
   id: runningId,
   durationMs: whole(0, 0xffff),
   /** In ascending servo order, each servo once. */
-  targets: v.array(targetSchema),
-  easing: v.picklist(EASINGS),
+  targets: v.array(keySchema),
+  easing: easingSchema,
   note: v.pipe(v.string(), v.maxLength(NOTE_LENGTH)),
   colour: v.nullable(v.picklist(COLOURS)),
 });
@@ -95,7 +99,21 @@ export const groupSchema = v.strictObject({
 export type GroupSound = Readonly<v.InferOutput<typeof soundSchema>>;
 export type Marker = Readonly<v.InferOutput<typeof markerSchema>>;
 
-export type GroupFrame = Readonly<Omit<v.InferOutput<typeof frameSchema>, 'targets'>> & Frame;
+/** A servo's place in a frame, and how it comes there where it does not come as the frame says. */
+export type KeyTarget = ServoTarget & { readonly easing?: Easing };
+
+export type GroupFrame = Readonly<Omit<v.InferOutput<typeof frameSchema>, 'targets' | 'easing'>> & {
+  readonly easing: Easing;
+  readonly targets: readonly KeyTarget[];
+};
+
+/** A servo's own way, else that of its frame. */
+export const easingOf = (target: KeyTarget, frame: Pick<GroupFrame, 'easing'>): Easing =>
+  target.easing ?? frame.easing;
+
+/** No servo comes in along a curve. */
+export const isStraight = (frame: GroupFrame): boolean =>
+  frame.easing === 'linear' && frame.targets.every((target) => easingOf(target, frame) === 'linear');
 
 export type ActionGroup = Readonly<Omit<v.InferOutput<typeof groupSchema>, 'frames' | 'markers' | 'tags'>> & {
   readonly frames: readonly GroupFrame[];

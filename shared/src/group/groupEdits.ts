@@ -2,7 +2,8 @@
 // very same object, so that a history can leave it out. Frames are named by id, places by index.
 
 import { type Frame, type ServoTarget, sortedTargets } from '../codec/commands.ts';
-import { GROUP_NAME_LENGTH, type ActionGroup, type GroupFrame } from './group.ts';
+import { sameEasing, type Easing } from './curves.ts';
+import { GROUP_NAME_LENGTH, type ActionGroup, type GroupFrame, type KeyTarget } from './group.ts';
 
 /** As much of the name as one may be long. */
 export function rename(group: ActionGroup, name: string): ActionGroup {
@@ -97,12 +98,13 @@ export function moveFrames(
   return changed(group, { frames: sameList(group.frames, others.toSpliced(at, 0, ...block)) });
 }
 
-/** Replaces the frame's pose. */
+/** Replaces the frame's pose; servos come in as before. */
 export function setTargets(group: ActionGroup, id: number, targets: readonly ServoTarget[]): ActionGroup {
-  const sorted = sortedTargets(targets);
-  return changeFrame(group, id, (frame) =>
-    samePose(frame.targets, sorted) ? frame : { ...frame, targets: sorted },
-  );
+  return changeFrame(group, id, (frame) => {
+    const own = new Map(frame.targets.map((target) => [target.servo, target]));
+    const next = sortedTargets(targets).map((target) => ({ ...own.get(target.servo), ...target }));
+    return samePose(frame.targets, next) ? frame : { ...frame, targets: next };
+  });
 }
 
 /** -1 where there is no such frame. */
@@ -118,12 +120,19 @@ function changeFrame(group: ActionGroup, id: number, change: (frame: GroupFrame)
   return after === before ? group : { ...group, frames: group.frames.with(index, after) };
 }
 
-/** Both in ascending servo order. */
-export function samePose(one: readonly ServoTarget[], other: readonly ServoTarget[]): boolean {
+/** Both in ascending servo order; how the servos come there too. */
+export function samePose(one: readonly KeyTarget[], other: readonly KeyTarget[]): boolean {
   return (
     one.length === other.length &&
     one.every(
-      (target, index) => target.servo === other[index]?.servo && target.position === other[index].position,
+      (target, index) =>
+        target.servo === other[index]?.servo &&
+        target.position === other[index].position &&
+        sameOwnEasing(target.easing, other[index].easing),
     )
   );
 }
+
+/** Of two keys; undefined: as their frame. */
+export const sameOwnEasing = (one: Easing | undefined, other: Easing | undefined): boolean =>
+  one === other || (one !== undefined && other !== undefined && sameEasing(one, other));

@@ -1,7 +1,8 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import { COLOURS } from '../document/schema.ts';
-import { EASINGS, emptyGroup, type ActionGroup, groupFromText, groupToText } from './group.ts';
+import { EASINGS } from './curves.ts';
+import { emptyGroup, type ActionGroup, groupFromText, groupToText } from './group.ts';
 import { insertFrame } from './groupEdits.ts';
 
 const frames = fc.array(

@@ -1,6 +1,6 @@
 // A group's frames as keys in time, worked out once for each state of them: tracks, ends, places by id.
 
-import type { GroupFrame } from './group.ts';
+import { easingOf, type GroupFrame } from './group.ts';
 import { sameList } from './groupEdits.ts';
 import {
   arePlacedAlike,
@@ -82,7 +82,7 @@ export function keysOfFrame(
   if (frame === undefined || atMs === undefined) return [];
   return frame.targets
     .filter(({ servo }) => servos.includes(servo))
-    .map((target) => ({ ...target, frameId, atMs, easing: frame.easing }));
+    .map((target) => ({ ...target, frameId, atMs, easing: easingOf(target, frame) }));
 }
 
 export function keyOf(times: GroupTimes, ref: KeyRef): Key | undefined {

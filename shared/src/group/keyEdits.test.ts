@@ -1,9 +1,19 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
-import { emptyGroup, totalDurationMs, type ActionGroup, type Easing } from './group.ts';
+import type { Easing } from './curves.ts';
+import { emptyGroup, totalDurationMs, type ActionGroup } from './group.ts';
 import { insertFrame } from './groupEdits.ts';
 import { refsOf, shapeOf, someGroup, someRefs, withGroup } from '../testing/groups.ts';
-import { boundedMove, deleteKeys, moveKeys, scaleAmplitude, setKey, stagger } from './keyEdits.ts';
+import {
+  boundedMove,
+  deleteKeys,
+  moveKeys,
+  scaleAmplitude,
+  setEasing,
+  setKey,
+  smoothKeys,
+  stagger,
+} from './keyEdits.ts';
 import { setDuration } from './timeEdits.ts';
 import { frameEnds, keysAt, positionAt, tracksOf, type KeyRef } from './tracks.ts';
 
@@ -199,5 +209,77 @@ describe('servos that begin one after another', () => {
         expect(stagger(group, 50, () => false)).toBe(group);
       }),
     );
+  });
+});
+
+describe('how keys are come to', () => {
+  const base = [
+    [1000, { 1: 1000, 2: 1000 }],
+    [1000, { 1: 1500, 2: 1500 }],
+    [1000, { 1: 2000, 2: 1000 }],
+  ] as const;
+  const OVERSHOOT = [0.34, 1.56, 0.64, 1] as const;
+  type Row = readonly [durationMs: number, positions: Readonly<Record<number, number>>];
+  const groupOf = (...rows: readonly Row[]): ActionGroup =>
+    rows.reduce<ActionGroup>(
+      (group, [durationMs, positions], index) =>
+        insertFrame(group, index, {
+          durationMs,
+          targets: Object.entries(positions).map(([servo, position]) => ({ servo: Number(servo), position })),
+        }),
+      emptyGroup('Wave', 'us'),
+    );
+  const into = (group: ActionGroup, servo: number) =>
+    tracksOf(group)
+      .get(servo)
+      ?.keys.map(({ easing }) => easing);
+
+  test('changes for one servo alone, and the frame says what all of its keys share', () => {
+    const group = groupOf(...base);
+    const one = setEasing(group, [{ frameId: 2, servo: 1 }], OVERSHOOT);
+    expect(into(one, 1)).toEqual(['linear', OVERSHOOT, 'linear']);
+    expect(into(one, 2)).toEqual(['linear', 'linear', 'linear']);
+    const both = setEasing(one, [{ frameId: 2, servo: 2 }], OVERSHOOT);
+    expect(both.frames[1]).toMatchObject({ easing: OVERSHOOT, targets: [{ servo: 1 }, { servo: 2 }] });
+    expect(both.frames[1]?.targets.some((target) => 'easing' in target)).toBe(false);
+    expect(setEasing(one, [{ frameId: 2, servo: 1 }], [...OVERSHOOT])).toBe(one);
+    expect(setEasing(one, [{ frameId: 2, servo: 1 }], 'linear')).toEqual(group);
+  });
+
+  test('goes along with a key that comes to a frame of another easing', () => {
+    const group = setEasing(groupOf(...base), [{ frameId: 2, servo: 1 }], OVERSHOOT);
+    const moved = moveKeys(
+      group,
+      [{ frameId: 2, servo: 1 }],
+      { deltaMs: 1000, deltaPosition: 0 },
+      { ripple: false },
+    );
+    expect(into(moved, 1)).toEqual(['linear', OVERSHOOT]);
+    expect(into(setKey(moved, 1, 3000, 1200), 1)).toEqual(['linear', OVERSHOOT]);
+  });
+
+  test('smoothed: passes at one speed, and never beyond a key', () => {
+    const positions = fc.array(fc.integer({ min: 500, max: 2500 }), { minLength: 2, maxLength: 6 });
+    fc.assert(
+      fc.property(positions, fc.integer({ min: 20, max: 2000 }), (places, stepMs) => {
+        const group = groupOf(...places.map((at, index) => [stepMs * (index + 1), { 1: at }] as const));
+        const track = tracksOf(smoothKeys(group, refsOf(group))).get(1)!;
+        for (const [index, key] of track.keys.entries()) {
+          const next = track.keys[index + 1];
+          if (next === undefined) continue;
+          for (let share = 0; share <= 1; share += 0.05) {
+            const at = positionAt(track, key.atMs + share * (next.atMs - key.atMs))!;
+            expect(at).toBeGreaterThanOrEqual(Math.min(key.position, next.position) - 1e-6);
+            expect(at).toBeLessThanOrEqual(Math.max(key.position, next.position) + 1e-6);
+          }
+        }
+      }),
+    );
+    const straight = smoothKeys(groupOf([1000, { 1: 1000 }], [1000, { 1: 1500 }], [1000, { 1: 2000 }]), [
+      { frameId: 2, servo: 1 },
+    ]);
+    const track = tracksOf(straight).get(1)!;
+    const speedAt = (atMs: number) => positionAt(track, atMs + 1)! - positionAt(track, atMs - 1)!;
+    expect(speedAt(1990)).toBeCloseTo(speedAt(2010), 1);
   });
 });

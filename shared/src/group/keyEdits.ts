@@ -1,12 +1,21 @@
 // Edits of single keys, as pure functions: (group, arguments) → group, the very same object where nothing changes. Servos that
-// are not named go on exactly as they did. What shifts time for everybody is timeEdits.ts.
+// are not named continue exactly as before. What shifts time for all servos is timeEdits.ts.
 
-import type { ActionGroup, GroupFrame } from './group.ts';
+import {
+  HIGHEST_HANDLE,
+  LOWEST_HANDLE,
+  sameEasing,
+  curveOf,
+  type Bezier,
+  type Easing,
+  type NamedEasing,
+} from './curves.ts';
+import { easingOf, type ActionGroup, type GroupFrame, type KeyTarget } from './group.ts';
 import { changed, sameList, samePose } from './groupEdits.ts';
-import { momentsOf, newMoment, placed, wholeMs, withMoments, type Moment } from './moments.ts';
+import { momentsOf, newMoment, placed, wholeMs, withMoments, withOwnEasing, type Moment } from './moments.ts';
 import { lifted, servosByFrame } from './keyRanges.ts';
 import { closeFrames, setDuration, type Ripple } from './timeEdits.ts';
-import { tracksOf, type KeyRef } from './tracks.ts';
+import { tracksOf, type Key, type KeyRef, type Track } from './tracks.ts';
 
 /** What the document can write down; what a board takes is far less. */
 const LARGEST_POSITION = 0xffff;
@@ -16,13 +25,15 @@ const wholePosition = (position: number): number =>
 
 /**
  * The servo is at `position` at `atMs`. Where no frame ends there, one begins and ends there now, and comes in as the one it
- * was cut from.
+ * was cut from; a key that is there comes in as before.
  */
 export function setKey(group: ActionGroup, servo: number, atMs: number, position: number): ActionGroup {
   const moments = momentsOf(group);
   const at = wholeMs(atMs);
-  const { easing = 'linear' } = moments.find((moment) => moment.atMs >= at)?.frame ?? {};
-  const targets = [{ servo, position: wholePosition(position) }];
+  const there = moments.findLast((moment) => moment.atMs === at);
+  const { easing = 'linear' } = (there ?? moments.find((moment) => moment.atMs > at))?.frame ?? {};
+  const before = there?.frame.targets.find((target) => target.servo === servo);
+  const targets = [{ ...before, servo, position: wholePosition(position) }];
   return withMoments(
     group,
     placed(moments, at, targets, (own) => newMoment(at, own, { easing })),
@@ -96,7 +107,7 @@ export function moveKeys(
   // A frame that loses all its keys goes along with the first of them, so that it keeps its name.
   const staying = remaining.filter(({ frame }) => !vacated.has(frame.id));
   const moved = keys.reduce<readonly Moment[]>((moments, { atMs, frame, targets }) => {
-    const there = targets.map(({ servo, position }) => ({ servo, position: position + deltaPosition }));
+    const there = targets.map((target) => atPosition(target, target.position + deltaPosition));
     return placed(moments, atMs + deltaMs, there, (own) =>
       vacated.has(frame.id)
         ? { atMs, frame: { ...frame, targets: own } }
@@ -166,14 +177,138 @@ function changePositions(
   change: (position: number, servo: number, frame: GroupFrame) => number,
 ): ActionGroup {
   const chosen = servosByFrame(refs);
-  const frames = group.frames.map((frame) => {
+  return changeFrames(group, (frame) => {
     const servos = chosen.get(frame.id);
     if (servos === undefined) return frame;
     const targets = frame.targets.map((target) => {
       const { servo, position } = target;
-      return servos.has(servo) ? { servo, position: wholePosition(change(position, servo, frame)) } : target;
+      return servos.has(servo) ? atPosition(target, wholePosition(change(position, servo, frame))) : target;
     });
     return samePose(frame.targets, targets) ? frame : { ...frame, targets };
   });
-  return changed(group, { frames: sameList(group.frames, frames) });
+}
+
+/** Written out: spread takes several times as long, and there may be thousands. */
+function atPosition({ servo, easing }: KeyTarget, position: number): KeyTarget {
+  return easing === undefined ? { servo, position } : { servo, position, easing };
+}
+
+function changeFrames(group: ActionGroup, change: (frame: GroupFrame) => GroupFrame): ActionGroup {
+  return changed(group, { frames: sameList(group.frames, group.frames.map(change)) });
+}
+
+// How servos come into their keys.
+
+export function setEasing(group: ActionGroup, refs: readonly KeyRef[], easing: Easing): ActionGroup {
+  const chosen = servosByFrame(refs);
+  return changeEasings(group, chosen, ({ servo, frameId, easing: before }) =>
+    chosen.get(frameId)?.has(servo) === true ? easing : before,
+  );
+}
+
+/** Where all keys of a frame are come to alike, its frame says so; else it says what it said. */
+function changeEasings(
+  group: ActionGroup,
+  frames: { has(frameId: number): boolean },
+  change: (key: KeyRef & Pick<Key, 'easing'>) => Easing,
+): ActionGroup {
+  return changeFrames(group, (frame) => {
+    if (!frames.has(frame.id)) return frame;
+    const easings = frame.targets.map((target) =>
+      change({ servo: target.servo, frameId: frame.id, easing: easingOf(target, frame) }),
+    );
+    const [first = frame.easing] = easings;
+    const isOne = easings.every((one) => sameEasing(one, first)) && !sameEasing(first, frame.easing);
+    const easing = isOne ? first : frame.easing;
+    const targets = frame.targets.map((target, index) =>
+      withOwnEasing(target, easings[index] ?? easing, easing),
+    );
+    return changed(frame, { easing, targets: sameList(frame.targets, targets) });
+  });
+}
+
+/**
+ * The servo passes these keys without a change of speed, and never swings past one: it stops where the motion turns round, at the first
+ * and at the last key (after Fritsch and Carlson, 1980). The other end of each way stays as it is.
+ */
+export function smoothKeys(group: ActionGroup, refs: readonly KeyRef[]): ActionGroup {
+  const chosen = servosByFrame(refs);
+  const isChosen = ({ frameId, servo }: KeyRef): boolean => chosen.get(frameId)?.has(servo) === true;
+  const curves = new Map<string, Easing>();
+  const frames = new Set<number>();
+  for (const { keys } of tracksOf(group).values()) {
+    const speeds = keys.map((key, index) => (isChosen(key) ? speedThrough(keys, index) : null));
+    for (const [index, to] of keys.entries()) {
+      const from = keys[index - 1];
+      const [begin, end] = [speeds[index - 1] ?? null, speeds[index] ?? null];
+      if (from === undefined || (begin === null && end === null)) continue;
+      frames.add(to.frameId);
+      curves.set(nameOf(to.frameId, to.servo), smoothWay(from, to, begin, end));
+    }
+  }
+  return changeEasings(
+    group,
+    frames,
+    ({ frameId, servo, easing }) => curves.get(nameOf(frameId, servo)) ?? easing,
+  );
+}
+
+/** In units a millisecond: between the speeds of the ways before and behind it, no more than three times the slower one. */
+function speedThrough(keys: readonly Key[], index: number): number {
+  const [before, key, next] = [keys[index - 1], keys[index], keys[index + 1]];
+  if (before === undefined || key === undefined || next === undefined) return 0;
+  const [beforeMs, nextMs] = [key.atMs - before.atMs, next.atMs - key.atMs];
+  if (beforeMs === 0 || nextMs === 0) return 0;
+  const [one, other] = [(key.position - before.position) / beforeMs, (next.position - key.position) / nextMs];
+  if (one * other <= 0) return 0;
+  const [weight, otherWeight] = [2 * nextMs + beforeMs, nextMs + 2 * beforeMs];
+  return (weight + otherWeight) / (weight / one + otherWeight / other);
+}
+
+const THIRD = 1 / 3;
+
+/** null: as it was at that end. */
+function smoothWay(from: Key, to: Key, begin: number | null, end: number | null): Easing {
+  const [lengthMs, way] = [to.atMs - from.atMs, to.position - from.position];
+  const before = handlesOf(to.easing) ?? [THIRD, THIRD, 1 - THIRD, 1 - THIRD];
+  if (lengthMs === 0 || way === 0) return to.easing;
+  const rise = (speed: number): number => handleWay((speed * THIRD * lengthMs) / way);
+  return [
+    ...(begin === null ? ([before[0], before[1]] as const) : ([handleTime(THIRD), rise(begin)] as const)),
+    ...(end === null
+      ? ([before[2], before[3]] as const)
+      : ([handleTime(1 - THIRD), handleWay(1 - rise(end))] as const)),
+  ];
+}
+
+const rounded = (share: number): number => Math.round(share * 1000) / 1000;
+
+/** A handle as a document has it: a share of the time, and of the way. */
+export const handleTime = (share: number): number => rounded(Math.min(1, Math.max(0, share)));
+export const handleWay = (share: number): number =>
+  rounded(Math.min(HIGHEST_HANDLE, Math.max(LOWEST_HANDLE, share)));
+
+/** Where the handles of a curve that has a name are: exactly, but for `inOut`, which is two parabolas. */
+const HANDLES_OF: Readonly<Record<Exclude<NamedEasing, 'hold'>, Bezier>> = {
+  linear: [1 / 3, 1 / 3, 2 / 3, 2 / 3],
+  in: [1 / 3, 0, 2 / 3, 1 / 3],
+  out: [1 / 3, 2 / 3, 2 / 3, 1],
+  inOut: [0.455, 0.03, 0.515, 0.955],
+};
+
+/** null: a jump has none. */
+export function handlesOf(easing: Easing): Bezier | null {
+  if (typeof easing !== 'string') return easing;
+  return easing === 'hold' ? null : HANDLES_OF[easing];
+}
+
+/** The lowest and the highest position, where its curves swing beyond its keys too. */
+export function extentOf({ keys }: Track): readonly [lowest: number, highest: number] {
+  const positions = keys.flatMap((key, index) => {
+    const from = keys[index - 1]?.position ?? key.position;
+    const turns = typeof key.easing === 'string' ? [] : curveOf(key.easing).asSteepAs(0);
+    const swings = turns.map((share) => curveOf(key.easing).at(share));
+    return [key.position, ...swings.map((share) => from + share * (key.position - from))];
+  });
+  return [Math.min(...positions), Math.max(...positions)];
 }

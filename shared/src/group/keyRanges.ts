@@ -1,9 +1,9 @@
 // The chosen keys in the opposite order, or slower or faster together; every other key stays where it is. Where all keys of that
 // time are chosen its markers and pauses go along, as in any edit of time. Pure.
 
-import { type ServoTarget, sortedTargets } from '../codec/commands.ts';
-import { type ActionGroup, type GroupFrame } from './group.ts';
-import { momentsOf, withTargets, type Moment, newMoment, withMoments, wholeMs } from './moments.ts';
+import { sortedTargets } from '../codec/commands.ts';
+import type { ActionGroup, GroupFrame, KeyTarget } from './group.ts';
+import { carried, momentsOf, withTargets, type Moment, newMoment, withMoments, wholeMs } from './moments.ts';
 import {
   type TimeRange,
   backwards,
@@ -20,7 +20,7 @@ import type { KeyRef } from './tracks.ts';
 interface LiftedKeys {
   readonly atMs: number;
   readonly frame: GroupFrame;
-  readonly targets: readonly ServoTarget[];
+  readonly targets: readonly KeyTarget[];
 }
 
 interface Lifted {
@@ -85,21 +85,22 @@ function merged(before: readonly Moment[], keys: Lifted['keys'], vacated: Lifted
       placeAt.set(atMs, moments.length);
       moments.push(movedFrame(frame, targets, atMs, vacated.has(frame.id)));
     } else {
-      const all = sortedTargets([...there.frame.targets, ...targets]);
+      const arriving = carried(targets, frame.easing, there.frame.easing);
+      const all = sortedTargets([...there.frame.targets, ...arriving]);
       moments[place] = { ...there, frame: { ...there.frame, targets: all } };
     }
   }
   return { staying: moments.slice(0, before.length), added: moments.slice(before.length) };
 }
 
-function isInOne(some: readonly ServoTarget[], others: readonly ServoTarget[]): boolean {
+function isInOne(some: readonly KeyTarget[], others: readonly KeyTarget[]): boolean {
   const servos = new Set(some.map(({ servo }) => servo));
   return others.some(({ servo }) => servos.has(servo));
 }
 
 const movedFrame = (
   frame: GroupFrame,
-  targets: readonly ServoTarget[],
+  targets: readonly KeyTarget[],
   atMs: number,
   isVacated: boolean,
 ): Moment =>
@@ -109,7 +110,7 @@ const movedFrame = (
 // other key stays where it is. Where all keys of that time are chosen its markers and pauses go along, as in any edit
 // of time.
 
-/** `refs` name keys of the group, each once. A key that comes to a frame of other keys comes in as they do: a frame has one easing. */
+/** `refs` name keys of the group, each once. Each way between two of them is gone as before, the other way round. */
 export function reverseKeys(group: ActionGroup, refs: readonly KeyRef[]): ActionGroup {
   const ends = keyedEnds(group);
   // Thousands of keys, mostly all of them: nothing has to be lifted.
@@ -120,11 +121,13 @@ export function reverseKeys(group: ActionGroup, refs: readonly KeyRef[]): Action
   const range = { fromMs: first.atMs, toMs: last.atMs };
   if (!hasOthers(remaining, range)) return reverse(group, range);
   if (range.fromMs === range.toMs) return group;
-  const frames = backwards(keys.map(({ frame }) => frame));
-  const reversed = keys.toReversed().map(({ atMs, frame, targets }, index) => ({
-    ...{ atMs: range.fromMs + range.toMs - atMs, targets },
-    frame: frames[index] ?? frame,
-  }));
+  const frames = backwards(keys.map(({ frame, targets }) => ({ ...frame, targets })));
+  const reversed = keys.toReversed().flatMap(({ atMs }, index) => {
+    const frame = frames[index];
+    return frame === undefined
+      ? []
+      : { atMs: range.fromMs + range.toMs - atMs, frame, targets: frame.targets };
+  });
   const staying = remaining.filter(({ frame }) => !vacated.has(frame.id));
   const all = merged(staying, reversed, vacated);
   return withMoments(group, [...all.staying, ...all.added]);

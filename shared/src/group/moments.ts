@@ -1,9 +1,10 @@
 // A group's frames as moments on the clock, and back: edits that move things in time do so here, where no frame depends on the
 // one before it. Knows no servo's motion.
 
-import { type ServoTarget, sortedTargets } from '../codec/commands.ts';
-import { type ActionGroup, type GroupFrame } from './group.ts';
-import { changed, sameList, samePose } from './groupEdits.ts';
+import { sortedTargets } from '../codec/commands.ts';
+import type { ActionGroup, GroupFrame, KeyTarget } from './group.ts';
+import { sameEasing, type Easing } from './curves.ts';
+import { changed, sameList, sameOwnEasing, samePose } from './groupEdits.ts';
 
 export interface Moment {
   readonly atMs: number;
@@ -24,7 +25,7 @@ export function momentsOf({ frames }: ActionGroup): readonly Moment[] {
 /** What is not said of its frame is plain: without note and colour. */
 export function newMoment(
   atMs: number,
-  targets: readonly ServoTarget[],
+  targets: readonly KeyTarget[],
   look: Pick<GroupFrame, 'easing'> & Partial<Pick<GroupFrame, 'note' | 'colour'>>,
 ): Moment {
   return { atMs, frame: { id: UNNUMBERED, durationMs: 0, targets, note: '', colour: null, ...look } };
@@ -68,22 +69,36 @@ function sameFrame(before: GroupFrame | undefined, after: GroupFrame): GroupFram
 }
 
 /**
- * Puts keys at an instant: into the moment that is there, where they take the place of their servos' keys, or into a new one
- * made of `made`.
+ * Puts keys at an instant: into the moment that is there, where they take the place of their servos' keys and come in as they would
+ * in the one made of `made`, or into that one.
  */
 export function placed(
   moments: readonly Moment[],
   atMs: number,
-  targets: readonly ServoTarget[],
-  made: (targets: readonly ServoTarget[]) => Moment,
+  targets: readonly KeyTarget[],
+  made: (targets: readonly KeyTarget[]) => Moment,
 ): readonly Moment[] {
   const index = moments.findLastIndex((moment) => moment.atMs === atMs);
   const there = moments[index];
   if (there === undefined) return [...moments, { ...made(targets), atMs }];
-  const merged = sortedTargets([...there.frame.targets, ...targets]);
-  return moments.with(index, withTargets(there, merged));
+  const arriving = carried(targets, made(targets).frame.easing, there.frame.easing);
+  return moments.with(index, withTargets(there, sortedTargets([...there.frame.targets, ...arriving])));
 }
 
-export function withTargets({ atMs, frame }: Moment, targets: readonly ServoTarget[]): Moment {
+export function withTargets({ atMs, frame }: Moment, targets: readonly KeyTarget[]): Moment {
   return { atMs, frame: { ...frame, targets } };
+}
+
+/** Keys that leave a frame for one of another easing: each comes in as before. */
+export function carried(targets: readonly KeyTarget[], from: Easing, to: Easing): readonly KeyTarget[] {
+  if (sameEasing(from, to)) return targets;
+  return targets.map((target) => withOwnEasing(target, target.easing ?? from, to));
+}
+
+/** In a frame that comes in so; the very same key where that changes nothing. */
+export function withOwnEasing(target: KeyTarget, easing: Easing, frameEasing: Easing): KeyTarget {
+  const own = sameEasing(easing, frameEasing) ? undefined : easing;
+  if (sameOwnEasing(target.easing, own)) return target;
+  const { servo, position } = target;
+  return own === undefined ? { servo, position } : { servo, position, easing: own };
 }

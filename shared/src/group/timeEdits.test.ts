@@ -1,7 +1,8 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import { evenly } from '../testing/cases.ts';
-import { EASINGS, emptyGroup, totalDurationMs } from './group.ts';
+import { EASINGS } from './curves.ts';
+import { emptyGroup, totalDurationMs } from './group.ts';
 import { frozen, shapeOf, someGroup, someRange, withGroup } from '../testing/groups.ts';
 import { setKey } from './keyEdits.ts';
 import {

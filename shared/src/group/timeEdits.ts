@@ -1,10 +1,10 @@
 // Edits of a group's time: frames and stretches of it take longer or shorter, go or turn round. Pure functions, the very same
 // object where nothing changes. Markers go along with what they stand on. Knows no key's position.
 
-import { BACKWARDS } from './tracks.ts';
-import type { ActionGroup, GroupFrame, Marker } from './group.ts';
-import { indexOfFrame } from './groupEdits.ts';
-import { momentsOf, wholeMs, withMoments, type Moment } from './moments.ts';
+import { sameEasing, type Easing } from './curves.ts';
+import { easingOf, type ActionGroup, type GroupFrame, type Marker } from './group.ts';
+import { indexOfFrame, sameList } from './groupEdits.ts';
+import { momentsOf, wholeMs, withMoments, withOwnEasing, type Moment } from './moments.ts';
 
 export interface Ripple {
   /** Everything behind goes along; otherwise it stays at its time. */
@@ -123,7 +123,7 @@ export function scaleTime(group: ActionGroup, factor: number): ActionGroup {
 
 /**
  * The keys of the range come in the opposite order. Each way is gone as before, the other way round; how a servo comes into the
- * range stays. Exact where the servos are keyed in all frames of it: a frame has one easing.
+ * range stays.
  */
 export function reverse(group: ActionGroup, { fromMs, toMs }: TimeRange): ActionGroup {
   const isWithin = (atMs: number): boolean => atMs >= fromMs && atMs <= toMs;
@@ -139,13 +139,42 @@ export function reverse(group: ActionGroup, { fromMs, toMs }: TimeRange): Action
   return withMoments(group, all, { markers: markersAt(group.markers, turned) });
 }
 
-/** Frames in the opposite order, each with the easing of the way that is then gone to it; the very same where that is the one it has. */
+/** Frames in the opposite order, each key with the easing of the way that is then gone to it; the very same where nothing is other than before. */
 export function backwards(frames: readonly GroupFrame[]): readonly GroupFrame[] {
+  const [first] = frames;
+  if (first === undefined || frames.every((frame) => isReversible(frame, first.easing)))
+    return frames.toReversed();
+  const into = firstEasings(frames);
+  const behind = new Map<number, Easing>();
   return frames.toReversed().map((frame, index) => {
-    const behind = frames[frames.length - index];
-    const easing = behind === undefined ? (frames[0] ?? frame).easing : BACKWARDS[behind.easing];
-    return easing === frame.easing ? frame : { ...frame, easing };
+    const next = frames[frames.length - index];
+    const easing = next === undefined ? first.easing : reversedEasing(next.easing);
+    const targets = frame.targets.map((target) => {
+      const gone = behind.get(target.servo);
+      const own = gone === undefined ? into.get(target.servo) : reversedEasing(gone);
+      behind.set(target.servo, easingOf(target, frame));
+      return withOwnEasing(target, own ?? easing, easing);
+    });
+    const sameTargets = sameList(frame.targets, targets);
+    return easing === frame.easing && sameTargets === frame.targets
+      ? frame
+      : { ...frame, easing, targets: sameTargets };
   });
+}
+
+/** All keys come in alike, and that way is the same from both ends. */
+const isReversible = ({ easing, targets }: GroupFrame, alike: Easing): boolean =>
+  sameEasing(easing, alike) &&
+  sameEasing(easing, reversedEasing(easing)) &&
+  targets.every((target) => target.easing === undefined);
+
+/** How each servo comes to its first key. */
+function firstEasings(frames: readonly GroupFrame[]): ReadonlyMap<number, Easing> {
+  const easings = new Map<number, Easing>();
+  for (const frame of frames)
+    for (const target of frame.targets)
+      if (!easings.has(target.servo)) easings.set(target.servo, easingOf(target, frame));
+  return easings;
 }
 
 /** Every moment and marker that stays, at its new time. */
@@ -175,3 +204,15 @@ function markersAt(markers: readonly Marker[], at: (atMs: number) => number): re
     return atMs === marker.atMs ? marker : { ...marker, atMs };
   });
 }
+
+/** The same way seen from its end. A jump has no other end. */
+export function reversedEasing(easing: Easing): Easing {
+  if (typeof easing !== 'string') {
+    const [x1, y1, x2, y2] = easing;
+    return [mirrored(x2), mirrored(y2), mirrored(x1), mirrored(y1)];
+  }
+  return easing === 'in' ? 'out' : easing === 'out' ? 'in' : easing;
+}
+
+/** Twice is as before, in spite of what numbers round. */
+const mirrored = (share: number): number => Math.round((1 - share) * 1e6) / 1e6;

@@ -1,51 +1,9 @@
 // An action group seen servo by servo: the keys of each, how it comes into them, and where it is between them. Numbers stay
 // unrounded; what a board makes of them is compile.ts. Knows no board.
 
-import type { Easing, ActionGroup, GroupFrame } from './group.ts';
+import { curveOf, sameEasing, type Easing } from './curves.ts';
+import { easingOf, type ActionGroup, type GroupFrame } from './group.ts';
 import type { Frame } from '../codec/commands.ts';
-
-// How a servo comes into its key, as curves from (0, 0) to (1, 1). Each is a line or a parabola, so that what a
-// straight way misses of it is known exactly.
-
-interface Curve {
-  /** The share of the way that is done after `share` of the time. */
-  at(share: number): number;
-  /** Where within the time it is just as steep as a straight way of `slope`: there it is farthest from such a way. */
-  asSteepAs(slope: number): readonly number[];
-  /** The greatest slope. */
-  readonly steepest: number;
-}
-
-const into: Curve = {
-  at: (share) => share * share,
-  asSteepAs: (slope) => [slope / 2],
-  steepest: 2,
-};
-
-export const CURVES: Readonly<Record<Easing, Curve>> = {
-  linear: { at: (share) => share, asSteepAs: () => [], steepest: 1 },
-  in: into,
-  out: {
-    at: (share) => 1 - into.at(1 - share),
-    asSteepAs: (slope) => [1 - slope / 2],
-    steepest: 2,
-  },
-  inOut: {
-    at: (share) => (share < 0.5 ? into.at(2 * share) / 2 : 1 - into.at(2 - 2 * share) / 2),
-    asSteepAs: (slope) => [slope / 4, 1 - slope / 4],
-    steepest: 2,
-  },
-  hold: { at: (share) => (share < 1 ? 0 : 1), asSteepAs: () => [], steepest: Infinity },
-};
-
-/** The same way seen from its end. A jump has no other end. */
-export const BACKWARDS: Readonly<Record<Easing, Easing>> = {
-  linear: 'linear',
-  in: 'out',
-  out: 'in',
-  inOut: 'inOut',
-  hold: 'hold',
-};
 
 /** A key's name in the document. */
 export interface KeyRef {
@@ -140,7 +98,10 @@ export function isPlacedAlike(one: GroupFrame, other: GroupFrame): boolean {
     one.durationMs === other.durationMs &&
     one.easing === other.easing &&
     one.targets.length === other.targets.length &&
-    one.targets.every(({ servo }, index) => servo === other.targets[index]?.servo)
+    one.targets.every(
+      ({ servo, easing }, index) =>
+        servo === other.targets[index]?.servo && easing === other.targets[index].easing,
+    )
   );
 }
 
@@ -164,13 +125,11 @@ export function keyIn(tracks: Tracks, { frameId, servo }: KeyRef, atMs: number):
   return keys[placeOfKey(keys, frameId, atMs)];
 }
 
-function addKeys(
-  keys: Map<number, Key[]>,
-  { id: frameId, easing, targets }: GroupFrame,
-  atMs: number,
-  before: Tracks,
-): void {
-  for (const { servo, position } of targets) {
+function addKeys(keys: Map<number, Key[]>, frame: GroupFrame, atMs: number, before: Tracks): void {
+  const frameId = frame.id;
+  for (const target of frame.targets) {
+    const { servo, position } = target;
+    const easing = easingOf(target, frame);
     const own = keys.get(servo) ?? [];
     if (own.length === 0) keys.set(servo, own);
     const there = before.get(servo)?.keys[own.length];
@@ -178,7 +137,7 @@ function addKeys(
       there?.frameId === frameId &&
       there.atMs === atMs &&
       there.position === position &&
-      there.easing === easing;
+      sameEasing(there.easing, easing);
     own.push(isSame ? there : { frameId, servo, atMs, position, easing });
   }
 }
@@ -199,7 +158,7 @@ export function positionAt({ keys }: Track, atMs: number, startPosition?: number
   const to = keys[reached];
   if (from === null || to === undefined) return from?.position ?? null;
   const share = (atMs - from.atMs) / (to.atMs - from.atMs);
-  return from.position + (to.position - from.position) * CURVES[to.easing].at(Math.max(0, share));
+  return from.position + (to.position - from.position) * curveOf(to.easing).at(Math.max(0, share));
 }
 
 const startOf = (position: number | undefined) => (position === undefined ? null : { atMs: 0, position });

@@ -7,8 +7,8 @@
 import { type ServoTarget, sortedTargets } from '../codec/commands.ts';
 import { degreesOf, mirrored, positionOf, servoOf, type Robot, type RobotServo } from './robot.ts';
 
-export interface Reshaped {
-  readonly targets: readonly ServoTarget[];
+export interface Reshaped<T extends ServoTarget = ServoTarget> {
+  readonly targets: readonly T[];
   /** Servos that would have had to go beyond their limits, and now stand at them. */
   readonly held: readonly RobotServo[];
 }
@@ -23,7 +23,7 @@ export function homeTargets(robot: Robot): readonly ServoTarget[] {
   return sortedTargets(robot.servos.map(({ servo, home }) => ({ servo, position: home })));
 }
 
-export function mirroredTargets(robot: Robot, targets: readonly ServoTarget[]): Reshaped {
+export function mirroredTargets<T extends ServoTarget>(robot: Robot, targets: readonly T[]): Reshaped<T> {
   return reshaped(robot, targets, (from, at) => {
     const to = from.mirror === null ? undefined : servoOf(robot, from.mirror);
     return to === undefined
@@ -47,18 +47,18 @@ interface Turned {
 }
 
 /** Servos that the robot does not have stay as they are. */
-function reshaped(
+function reshaped<T extends ServoTarget>(
   robot: Robot,
-  targets: readonly ServoTarget[],
+  targets: readonly T[],
   turn: (servo: RobotServo, at: number) => Turned,
-): Reshaped {
+): Reshaped<T> {
   const held: RobotServo[] = [];
   const turned = targets.map((target) => {
     const servo = servoOf(robot, target.servo);
     if (servo === undefined) return target;
     const { to, wanted, position } = turn(servo, target.position);
     if (wanted !== position) held.push(to);
-    return { servo: to.servo, position };
+    return { ...target, servo: to.servo, position };
   });
   return { targets: sortedTargets(turned), held };
 }

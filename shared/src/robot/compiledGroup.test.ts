@@ -4,6 +4,7 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import { compile } from '../group/compile.ts';
+import { EASINGS } from '../group/curves.ts';
 import { totalDurationMs, type ActionGroup } from '../group/group.ts';
 import { someGroup } from '../testing/groups.ts';
 import { positionAt, tracksOf, type Track } from '../group/tracks.ts';
@@ -31,10 +32,12 @@ const someDuration = fc.oneof(
   fc.integer({ min: 1, max: 25 }).map((ticks) => ticks * TICK_MS),
   fc.integer({ min: 45, max: 700 }),
 );
-const motions = someGroup({ durationMs: someDuration, least: 2 }).map((group): ActionGroup => ({
-  ...group,
-  markers: [],
-}));
+const motions = someGroup({ durationMs: someDuration, least: 2, easings: EASINGS }).map(
+  (group): ActionGroup => ({
+    ...group,
+    markers: [],
+  }),
+);
 
 describe.each(STRAIGHT)('a group compiled for $profile', ({ family, profile }) => {
   test('is played as the document has it, within the bound that the report states and one tick', async () => {

@@ -3,8 +3,10 @@
 
 import fc from 'fast-check';
 import { COLOURS } from '../document/schema.ts';
-import { EASINGS, emptyGroup, type ActionGroup, type Easing, type GroupSound } from '../group/group.ts';
+import { EASINGS, type Easing } from '../group/curves.ts';
+import { easingOf, emptyGroup, type ActionGroup, type GroupSound } from '../group/group.ts';
 import { insertFrame } from '../group/groupEdits.ts';
+import { withOwnEasing } from '../group/moments.ts';
 import { addMarker } from '../group/frameEdits.ts';
 import type { TimeRange } from '../group/timeEdits.ts';
 import { frameEnds, positionAt, tracksOf, type KeyRef, type Tracks } from '../group/tracks.ts';
@@ -32,17 +34,36 @@ const SOUND: GroupSound = {
   beats: { firstMs: 120.5, everyMs: 483.871 },
 };
 
+/** Those with a name, and curves that swing past one end, past both, start or end at once. */
+export const ANY_EASING: readonly Easing[] = [
+  ...EASINGS,
+  [0.34, 1.56, 0.64, 1],
+  [0.36, 0, 0.66, -0.56],
+  [0.3, -2, 0.7, 3],
+  [0, 1, 1, 0],
+  [1, 0, 0, 1],
+  [0, 0, 1, 1],
+];
+
+function someKey(servo: number, positions: fc.Arbitrary<number>, easings: readonly Easing[]) {
+  const own = fc.oneof(
+    { weight: 3, arbitrary: fc.constant({}) },
+    { weight: 1, arbitrary: fc.constantFrom(...easings).map((easing) => ({ easing })) },
+  );
+  return fc.tuple(positions, own).map(([position, easing]) => ({ servo, position, ...easing }));
+}
+
 export function someGroup({
   servos = SERVOS,
   isFull = false,
   durationMs = fc.oneof(fc.integer({ min: 0, max: 1500 }), fc.constantFrom(0, 20, 100, 500)),
-  easings = EASINGS,
+  easings = ANY_EASING,
   positions = fc.integer({ min: 500, max: 2500 }),
   least = 0,
 }: GroupTraits = {}): fc.Arbitrary<ActionGroup> {
   const targets = fc
     .subarray([...servos], { minLength: isFull ? servos.length : 0 })
-    .chain((named) => fc.tuple(...named.map((servo) => positions.map((position) => ({ servo, position })))));
+    .chain((named) => fc.tuple(...named.map((servo) => someKey(servo, positions, easings))));
   const frame = fc.record({
     durationMs,
     targets,
@@ -50,10 +71,14 @@ export function someGroup({
     note: fc.constantFrom('', '', '', 'Wait for it'),
     colour: fc.constantFrom(null, null, null, ...COLOURS),
   });
+  const tidy = frame.map((one) => ({
+    ...one,
+    targets: one.targets.map((target) => withOwnEasing(target, easingOf(target, one), one.easing)),
+  }));
   const marker = fc.record({ atMs: fc.integer({ min: 0, max: 8000 }), text: fc.string({ maxLength: 8 }) });
   return fc
     .tuple(
-      fc.array(frame, { minLength: least, maxLength: 8 }),
+      fc.array(tidy, { minLength: least, maxLength: 8 }),
       fc.array(marker, { maxLength: 3 }),
       fc.constantFrom({}, {}, { sound: SOUND }),
     )

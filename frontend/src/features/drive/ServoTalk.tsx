@@ -1,11 +1,11 @@
-// Reading positions, releasing servos and posing them by hand. Shown only on boards that can do it; most cannot.
+// Reading positions, releasing servos and posing them by hand, on boards that tell positions; most do not.
 
-import { mayAsk, startHindrance, tellsPositions } from '../../robot/readiness.ts';
+import { mayAsk, startHindrance } from '../../robot/readiness.ts';
 import { canTeach } from './teaching.ts';
 import { useIsTeaching, useKnownFamily, useRobot, useSnapshot, useStores } from '../stores.ts';
 import { Button } from '../../ui/Button.tsx';
 import { Confirm } from '../../ui/Confirm.tsx';
-import { words } from '../../i18n/words.ts';
+import { words } from '../../i18n/whole.ts';
 import styles from './ServoTalk.module.css';
 
 export function ServoTalk() {
@@ -14,7 +14,6 @@ export function ServoTalk() {
   const isTeaching = useIsTeaching();
   const isAllowed = useSnapshot((snapshot) => mayAsk(snapshot, family)) && !isTeaching;
   const servos = useRobot().servos.map(({ servo }) => servo);
-  if (!tellsPositions(family)) return null;
   return (
     <div className={styles.talk}>
       <Button

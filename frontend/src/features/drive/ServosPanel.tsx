@@ -4,6 +4,7 @@
 import { useState } from 'react';
 import { type BodyKind, servoOf } from '#shared/profile/robot.ts';
 import {
+  useKnownFamily,
   useStores,
   useRobot,
   useServoView,
@@ -17,7 +18,7 @@ import { LiveText } from '../../ui/LiveText.tsx';
 import { words } from '../../i18n/words.ts';
 import { SharedSheet } from '../picture/SharedSheet.tsx';
 import { ServoRow } from './ServoRow.tsx';
-import { motionHindrance } from '../../robot/readiness.ts';
+import { motionHindrance, tellsPositions } from '../../robot/readiness.ts';
 import { Choice } from '../../ui/Toggle.tsx';
 import { select, type ServoView } from '../servoView.ts';
 import { Button } from '../../ui/Button.tsx';
@@ -31,7 +32,6 @@ import { cx } from '../../ui/cx.ts';
 import { Panel } from '../../ui/Panel.tsx';
 import { useLayout } from '../../ui/useLayout.ts';
 import { ServoList } from './ServoList.tsx';
-import { ServoTalk } from './ServoTalk.tsx';
 import { useServoMoves } from './useServoMoves.ts';
 import selectionBarStyles from './SelectionBar.module.css';
 import styles from './ServosPanel.module.css';
@@ -170,6 +170,8 @@ function MoveTimeControl() {
   );
 }
 
+const ServoTalk = laterComponent(async () => (await import('./ServoTalk.tsx')).ServoTalk, '3rem');
+
 interface ServosPanelProps {
   /** The robot stands in a panel of its own beside this one. */
   readonly isBesideRobot?: boolean;
@@ -177,6 +179,7 @@ interface ServosPanelProps {
 
 export function ServosPanel({ isBesideRobot = false }: ServosPanelProps) {
   const hindrance = useSnapshot(motionHindrance);
+  const tells = tellsPositions(useKnownFamily());
   const chosen = useServoLayout();
   const layout = isBesideRobot ? 'list' : chosen;
   const isPhone = useLayout() === 'phone';
@@ -210,7 +213,7 @@ export function ServosPanel({ isBesideRobot = false }: ServosPanelProps) {
       {layout === 'list' ? <ServoList /> : <CurrentServo />}
       {isPhone && <LegendLine />}
       <MoveTimeControl />
-      <ServoTalk />
+      {tells && <ServoTalk />}
     </Panel>
   );
 }

@@ -2,34 +2,13 @@
 
 import { useEffect } from 'react';
 import { useStore } from 'zustand';
-import { managesPeople } from './people.ts';
-import type { Me } from '../../robot/http.generated.ts';
+import { managesPeople, titleFor } from './people.ts';
+import { OwnView, PeopleView } from './PeopleView.tsx';
 import { useSnapshot, useStores, useView } from '../stores.ts';
-import { IconButton } from '../../ui/Button.tsx';
 import { Dialog } from '../../ui/Dialog.tsx';
-import { laterComponent } from '../../ui/later.tsx';
-import { words } from '../../i18n/words.ts';
-
-const OwnView = laterComponent(async () => (await import('./PeopleView.tsx')).OwnView, '40vh');
-const PeopleView = laterComponent(async () => (await import('./PeopleView.tsx')).PeopleView, '40vh');
+import { words } from '../../i18n/whole.ts';
 
 const LOOK_EACH_MS = 1500;
-
-export function PeopleButton() {
-  const { people, view } = useStores();
-  const me = useStore(people.store, (state) => state.me);
-  if (me === null || me.mode === 'local') return null;
-  return (
-    <IconButton
-      icon="people"
-      label={titleFor(me)}
-      aria-haspopup="dialog"
-      onPress={() => view.setState({ peopleOpen: true })}
-    />
-  );
-}
-
-const titleFor = (me: Me | null): string => (managesPeople(me) ? words.people.title : words.people.own.title);
 
 export function PeopleDialog() {
   const { people, view, device } = useStores();

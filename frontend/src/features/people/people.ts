@@ -100,6 +100,9 @@ interface PeopleOptions {
 
 export const managesPeople = (me: Me | null): boolean => me?.mode !== 'local' && me?.you?.role === 'owner';
 
+export const titleFor = (me: Me | null): string =>
+  managesPeople(me) ? words.people.title : words.people.own.title;
+
 export function createPeople({ api, me, notices, now }: PeopleOptions): PeopleStore {
   const store = createStore<PeopleState>(() => ({ me, people: [], invitation: null, shown: null }));
 

@@ -81,7 +81,7 @@ function Shapes() {
       (book, id) => setPose(book, id, device.pose(), unit),
     );
 
-  const reshape = (label: PoseLabel, shape: typeof mirroredTargets) => (): void => {
+  const reshape = (label: PoseLabel, shape: typeof flippedTargets) => (): void => {
     const { targets, held } = shape(robot, pose?.targets ?? []);
     edit(label, (book, id) => setPose(book, id, targets));
     if (held.length > 0)

@@ -1,7 +1,7 @@
 // What an example is made of, before there is a robot, and examples for any servos in a row: small turns about home. Knows no servo's
 // limits.
 
-import type { Easing } from '../group.ts';
+import type { Easing } from '../curves.ts';
 
 /** By servo number: -1 is as far as it turns one way from home, 1 the other way. */
 export type Turns = Readonly<Record<number, number>>;

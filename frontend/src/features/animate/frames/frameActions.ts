@@ -76,8 +76,9 @@ const all =
 function load({ stores, id }: FrameContext): void {
   const frame = groupOf({ stores }).frames.find((one) => one.id === id);
   if (frame === undefined) return;
-  const free = freeOf(stores, frame.targets);
-  const staying = stayingOf(stores, frame.targets);
+  const targets = frame.targets.map(({ servo, position }) => ({ servo, position }));
+  const free = freeOf(stores, targets);
+  const staying = stayingOf(stores, targets);
   if (free.length > 0) stores.device.move(free, Math.max(frame.durationMs, GENTLE_MOVE_MS));
   if (staying !== null) stores.notices.show('info', staying);
 }

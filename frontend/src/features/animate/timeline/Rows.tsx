@@ -10,8 +10,8 @@ import { useWords } from '../../../i18n/words.ts';
 import { nameOfKey } from './valueText.ts';
 import { keysOfFrame, timesOf, type GroupTimes } from '#shared/group/groupTimes.ts';
 import { RowHead } from './RowHead.tsx';
-import { type PlacedRow, keysInRow, type Row, type Sizes, within } from './rows.ts';
-import { keyY, placedInSight } from './scene.ts';
+import { type PlacedRow, keysInRow, keyY, type Row, type Sizes, within } from './rows.ts';
+import { placedInSight } from './scene.ts';
 import { seenSpan, xOf } from './timeScale.ts';
 import styles from './Rows.module.css';
 

@@ -86,7 +86,15 @@ export const StatusText = memo(function StatusText({ status, describe }: Said) {
 });
 
 /** Fingers hold no keys down. */
-const ABOUT_KEYS = new Set<StatusName>(['move', 'box', 'scrub', 'duration', 'stretch', 'stretchBack']);
+const ABOUT_KEYS = new Set<StatusName>([
+  'move',
+  'box',
+  'scrub',
+  'duration',
+  'stretch',
+  'stretchBack',
+  'curve',
+]);
 
 function textOf(context: ShownContext, status: StatusName | null): string {
   const { state, family } = context;

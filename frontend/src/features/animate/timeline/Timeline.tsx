@@ -80,7 +80,9 @@ export const Timeline = memo(function Timeline() {
   const columns = useDocument(({ present }) => present.frames.length);
   const isTall = useTimeline((state) => state.isTall);
   const large = useTimeline((state) => state.large);
-  const sizes = sizesNow({ isTall, large });
+  // The height of the tracks counts for a row that is open large alone.
+  const heightPx = useTimeline((state) => (state.large === null ? 0 : state.heightPx));
+  const sizes = sizesNow({ isTall, large, heightPx });
   const totalPx = topOfRows(sizes) + heightOf(placedRows(rows.slice(1), sizes));
   const openMenu = useCallback((kind: OpenMenu['kind'], anchor: Element | null) => {
     setMenu({ kind, anchor: { current: anchor } });

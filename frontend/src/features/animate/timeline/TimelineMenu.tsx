@@ -97,7 +97,7 @@ function KeysMenu({ onClose }: { onClose(): void }) {
         {items(CHANGES)}
       </Submenu>
       <Submenu label={words.timeline.easing} isDisabled={context.state.selected.size === 0} onClose={onClose}>
-        {choiceItems(EASING_ACTIONS)}
+        {[...choiceItems(EASING_ACTIONS), ...items(['smooth', 'curve'])]}
       </Submenu>
       <Submenu label={words.timeline.colour} isDisabled={context.state.selected.size === 0} onClose={onClose}>
         {choiceItems(COLOUR_ACTIONS)}

@@ -3,7 +3,7 @@
 import { memo, type ReactNode } from 'react';
 import { useShallow } from 'zustand/react/shallow';
 import { Toolbar } from 'react-aria-components/Toolbar';
-import type { Easing } from '#shared/group/group.ts';
+import { sameEasing } from '#shared/group/curves.ts';
 import { useStores, useView, useDocument, useTimeline } from '../../stores.ts';
 import { words } from '../../../i18n/whole.ts';
 import { IconButton, ActionIconButton } from '../../../ui/Button.tsx';
@@ -12,6 +12,7 @@ import { type KeySet, selectedKeys } from './timeline.ts';
 import { useWords } from '../../../i18n/words.ts';
 import { contextOf } from './context.ts';
 import { type GroupTimes, timesOf } from '#shared/group/groupTimes.ts';
+import { EASING_CHOICES, type EasingName } from './valueText.ts';
 import { EASING_ACTIONS, TIMELINE_ACTIONS, type TimelineActionName } from './timelineActions.ts';
 import addsSwitchStyles from './AddsSwitch.module.css';
 import { InLanguage } from '../../../ui/InLanguage.tsx';
@@ -95,13 +96,13 @@ function TimelineButton({ name }: { readonly name: TimelineActionName }) {
   );
 }
 
-/** Of the frames with selected keys; empty where they differ. */
+/** Of the selected keys; empty where they differ, or have a curve of their own. */
 function EasingChoice() {
   const stores = useStores();
   const selected = useTimeline((state) => state.selected);
   const value = useDocument(({ present }) => commonEasing(timesOf(present), selected));
   return (
-    <Select<Easing | ''>
+    <Select<EasingName | ''>
       label={words.timeline.easing}
       value={value}
       isDisabled={selected.size === 0}
@@ -114,10 +115,11 @@ function EasingChoice() {
   );
 }
 
-function commonEasing(times: GroupTimes, selected: KeySet): Easing | '' {
+function commonEasing(times: GroupTimes, selected: KeySet): EasingName | '' {
   const keys = selectedKeys(times, selected);
-  const easing = keys[0]?.easing ?? '';
-  return keys.every((key) => key.easing === easing) ? easing : '';
+  const common = EASING_CHOICES.find(({ easing }) => sameEasing(easing, keys[0]?.easing ?? 'linear'));
+  const isOne = common !== undefined && keys.every((key) => sameEasing(key.easing, common.easing));
+  return keys.length > 0 && isOne ? common.name : '';
 }
 
 interface ToggleButtonProps {

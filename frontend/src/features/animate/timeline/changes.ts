@@ -2,9 +2,9 @@
 
 import type { Colour } from '#shared/document/schema.ts';
 import { duplicateKeys, copyKeys, pasteKeys, type Clip, type Pasted } from '#shared/group/clip.ts';
-import { mirror, setColour, setEasing, deleteMarker } from '#shared/group/frameEdits.ts';
-import type { Easing } from '#shared/group/group.ts';
-import { deleteKeys, setKey } from '#shared/group/keyEdits.ts';
+import type { Easing } from '#shared/group/curves.ts';
+import { mirror, setColour, deleteMarker } from '#shared/group/frameEdits.ts';
+import { deleteKeys, setEasing, setKey, smoothKeys } from '#shared/group/keyEdits.ts';
 import type { ServoTarget } from '#shared/codec/commands.ts';
 import { reverseKeys } from '#shared/group/keyRanges.ts';
 import { deleteTime } from '#shared/group/timeEdits.ts';
@@ -15,6 +15,7 @@ import { keySet, NO_KEYS, selectedKeys } from './timeline.ts';
 import { isHeld } from '../../servoView.ts';
 import { namesIn, servoName } from '../../../i18n/sentences.ts';
 import { notPasted } from './clipText.ts';
+import type { EasingName } from './valueText.ts';
 import { words } from '../../../i18n/whole.ts';
 import {
   apply,
@@ -228,11 +229,21 @@ export function mirrorFrames(context: TimelineContext): void {
   apply(context, { label: () => words.timeline.steps.mirror, edit: () => group });
 }
 
-export function ease(context: TimelineContext, easing: Easing): void {
-  const frames = selectedFrames(context);
+export function ease(context: TimelineContext, name: EasingName, easing: Easing): void {
+  const refs = changeable(context);
+  if (!hasChangeable(context)) return;
   apply(context, {
-    label: () => words.timeline.easings[easing],
-    edit: (group) => setEasing(group, frames, easing),
+    label: () => words.timeline.easings[name],
+    edit: (group) => setEasing(group, refs, easing),
+  });
+}
+
+export function smooth(context: TimelineContext): void {
+  if (!hasChangeable(context)) return;
+  const refs = changeable(context);
+  apply(context, {
+    label: () => words.timeline.steps.smooth,
+    edit: (group) => smoothKeys(group, refs),
   });
 }
 

@@ -1,6 +1,7 @@
 import { expect, test } from 'vitest';
 import { copyFrames, copyKeys } from '#shared/group/clip.ts';
-import { setColour, setEasing, setNote } from '#shared/group/frameEdits.ts';
+import { setColour, setNote } from '#shared/group/frameEdits.ts';
+import { setEasing } from '#shared/group/keyEdits.ts';
 import { clipFromText, clipToText } from './clipText.ts';
 import { smallGroup } from './timelineUnderTest.ts';
 
@@ -13,7 +14,14 @@ test('copied keys come back from the text that stands for them', () => {
     { frameId: 3, servo: 1 },
     { frameId: 3, servo: 3 },
   ];
-  const clip = copyKeys(setEasing(smallGroup(), [3], 'hold'), refs);
+  const clip = copyKeys(
+    setEasing(
+      smallGroup(),
+      refs.filter(({ frameId }) => frameId === 3),
+      'hold',
+    ),
+    refs,
+  );
   expect(fromElsewhere(clipToText(clip))).toEqual(clip);
 });
 

@@ -2,7 +2,8 @@ import { expect, test } from 'vitest';
 import { startHistory } from '#shared/document/history.ts';
 import { rangeOf } from './context.ts';
 import { scaleAt } from './valueText.ts';
-import { keyY, sceneOf } from './scene.ts';
+import { keyY } from './rows.ts';
+import { sceneOf } from './scene.ts';
 import { sizesOf } from './rows.ts';
 import { createTestTimeline, smallGroup } from './timelineUnderTest.ts';
 

@@ -7,8 +7,7 @@ import type { Label } from '#shared/document/history.ts';
 import type { SelectMode } from './timeline.ts';
 import type { Words } from '../../../i18n/whole.ts';
 import type { TimelineContext, TimelineStores } from './context.ts';
-import type { Spot } from './scene.ts';
-import type { Sizes } from './rows.ts';
+import type { Sizes, Spot } from './rows.ts';
 import { msAt } from './timeScale.ts';
 
 // Where a thing that is dragged in time comes to rest: at something near, else on the board's own raster.

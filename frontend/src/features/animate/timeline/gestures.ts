@@ -30,7 +30,6 @@ import {
   hitAt,
   keysInBox,
   type Hit,
-  type Spot,
   sceneOf,
   wholeSceneOf,
   hasAll,
@@ -41,7 +40,8 @@ import { pressFrame } from './inStep.ts';
 import { cursorAfter, stretchingOf, copyOf, moveOf } from './moving.ts';
 import { timesOf } from '#shared/group/groupTimes.ts';
 import { lookAt, selectFrame, setTime } from './looking.ts';
-import { topOfRows } from './rows.ts';
+import { topOfRows, type Spot } from './rows.ts';
+import { curveGesture } from './curveHandles.ts';
 import { msAt, panned, seenSpan, xOf } from './timeScale.ts';
 
 export function gestureOf(press: Press): Gesture {
@@ -61,6 +61,8 @@ export function gestureOf(press: Press): Gesture {
       return headGesture(press, context, hit.frameId);
     case 'handle':
       return stretchGesture(press, context, hit);
+    case 'curve':
+      return curveGesture(press, context, hit.handle);
     case 'key':
       return keyGesture(press, scene, hit);
     case 'empty':

@@ -1,12 +1,14 @@
 // Draws the tracks on a canvas: only what is seen, all of it at once. Draws what it is given; changes nothing.
 
-import { type Key, CURVES, positionAt } from '#shared/group/tracks.ts';
+import { curveOf } from '#shared/group/curves.ts';
+import { type Key, positionAt } from '#shared/group/tracks.ts';
 import { keyName } from './timeline.ts';
-import { handleX, HANDLES, stretchOf, keyY, type Scene } from './scene.ts';
+import { handleX, HANDLES, stretchOf, type Scene } from './scene.ts';
+import { curveHandles } from './curveHandles.ts';
 import { type Brush, paintHeads, paintMarkers } from './paintHeads.ts';
 import type { Look } from '../../picture/Canvas.tsx';
 import { changedStretch, isWithin, wholeOf, type Stretch } from './repaint.ts';
-import { keysInRow, type PlacedRow, topOfRows, within } from './rows.ts';
+import { keysInRow, keyY, type PlacedRow, topOfRows, within } from './rows.ts';
 import { msAt, seenSpan, xOf } from './timeScale.ts';
 import { keysOfFrame } from '#shared/group/groupTimes.ts';
 
@@ -126,6 +128,24 @@ function paintRow(brush: Brush, placed: PlacedRow, { left, right }: Stretch): vo
     if (key !== undefined) paintKey(brush, placed, key, isCrowded(scene, keys, index));
   }
   ctx.globalAlpha = 1;
+  if (placed.range !== null) paintCurveHandles(brush);
+}
+
+const HANDLE_PX = 4.5;
+
+/** Of the selected keys, on a line to their key. */
+function paintCurveHandles({ ctx, look, scene }: Brush): void {
+  for (const { spot, keySpot } of curveHandles(scene)) {
+    ctx.beginPath();
+    ctx.moveTo(keySpot.x, keySpot.y);
+    ctx.lineTo(spot.x, spot.y);
+    stroke(ctx, look['ink-dim'], 1);
+    ctx.beginPath();
+    ctx.arc(spot.x, spot.y, HANDLE_PX, 0, 2 * Math.PI);
+    ctx.fillStyle = look.panel;
+    ctx.fill();
+    stroke(ctx, look.ink, 1.5);
+  }
 }
 
 const GRAPH_LINES = 4;
@@ -179,7 +199,7 @@ function paintWay(
     const [before, key] = [keys[index - 1], keys[index]];
     if (key === undefined) continue;
     if (before === undefined || index === from) ctx.moveTo(...at(key));
-    else lineTo(ctx, key, at(before), at(key));
+    else lineTo(ctx, key, at(before), at(key), placed);
   }
   const last = keys[to - 1];
   if (to >= keys.length && last !== undefined) ctx.lineTo(widthPx, at(last)[1]);
@@ -187,13 +207,21 @@ function paintWay(
 
 type Point = readonly [x: number, y: number];
 
-function lineTo(ctx: CanvasRenderingContext2D, { easing }: Key, [fromX, fromY]: Point, [x, y]: Point): void {
+/** A curve that swings beyond what the row shows stays at its edge. */
+function lineTo(
+  ctx: CanvasRenderingContext2D,
+  { easing }: Key,
+  [fromX, fromY]: Point,
+  [x, y]: Point,
+  { top, height }: PlacedRow,
+): void {
   if (easing === 'hold') ctx.lineTo(x, fromY);
   else if (easing !== 'linear' && y !== fromY) {
     const steps = Math.min(MOST_CURVE_STEPS, Math.ceil((x - fromX) / CURVE_STEP_PX));
     for (let step = 1; step < steps; step++) {
       const share = step / steps;
-      ctx.lineTo(fromX + (x - fromX) * share, fromY + (y - fromY) * CURVES[easing].at(share));
+      const curveY = fromY + (y - fromY) * curveOf(easing).at(share);
+      ctx.lineTo(fromX + (x - fromX) * share, Math.min(top + height - 2, Math.max(top + 2, curveY)));
     }
   }
   ctx.lineTo(x, y);

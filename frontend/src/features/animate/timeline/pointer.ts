@@ -1,10 +1,9 @@
 // The pointer on the tracks, whatever it is: one press at a time becomes a gesture, two fingers zoom and pan, a finger that rests opens the
 // menu or, dragged on, draws a box; the middle button pans. Escape, a lost pointer and a lost window call a gesture off. Knows no edits.
 
-import type { Spot } from './scene.ts';
 import type { Gesture, Held, Press, StatusName } from './gesture.ts';
 import { boxFrom, gestureOf, panFrom } from './gestures.ts';
-import { topOfRows } from './rows.ts';
+import { topOfRows, type Spot } from './rows.ts';
 
 // Tracks that scroll below what is dragged past one of their ends, the faster the farther: through time, and some
 // through the rows too.

@@ -2,7 +2,8 @@
 
 import { renameMarker, addMarker, setNote } from '#shared/group/frameEdits.ts';
 import { GROUP_NAME_LENGTH, NOTE_LENGTH } from '#shared/group/group.ts';
-import { scaleAmplitude, setPositions } from '#shared/group/keyEdits.ts';
+import { HIGHEST_HANDLE, LOWEST_HANDLE, type Bezier } from '#shared/group/curves.ts';
+import { handlesOf, scaleAmplitude, setEasing, setPositions } from '#shared/group/keyEdits.ts';
 import type { KeyStretch } from '#shared/group/keyRanges.ts';
 import { insertTime } from '#shared/group/timeEdits.ts';
 import { numberIn } from '../../../ui/NumberField.tsx';
@@ -20,7 +21,7 @@ import {
 } from './context.ts';
 import { keyOf, spanOf, timesOf } from '#shared/group/groupTimes.ts';
 import { stretchingOf } from './moving.ts';
-import { scaleAt } from './valueText.ts';
+import { handlesText, scaleAt } from './valueText.ts';
 
 // A number that is typed with a sign before it: not a new one, but what becomes of the one that is there. A minus
 // alone begins a number below zero.
@@ -48,6 +49,23 @@ function changeIn(text: string, decimals: 0 | 1): ((value: number) => number) | 
   const isWanted = written !== '' && Number.isFinite(by) && !(name === '/' && by === 0);
   return isWanted ? (BY[name]?.(by) ?? null) : null;
 }
+
+/** Two handles, as `cubic-bezier()` in CSS has them, with or without commas; null where it is none. */
+function curveIn(text: string): Bezier | null {
+  const [x1, y1, x2, y2, ...more] = text
+    .replaceAll(/cubic-bezier|[(),;]/gu, ' ')
+    .trim()
+    .split(/\s+/u)
+    .map((one) => Number(one.replace('−', '-')));
+  if (x1 === undefined || y1 === undefined || x2 === undefined || y2 === undefined) return null;
+  const isCurve =
+    more.length === 0 &&
+    [x1, x2].every((share) => share >= 0 && share <= 1) &&
+    [y1, y2].every((share) => share >= LOWEST_HANDLE && share <= HIGHEST_HANDLE);
+  return isCurve ? [x1, y1, x2, y2] : null;
+}
+
+const STRAIGHT: Bezier = [0, 0, 1, 1];
 
 interface Range {
   readonly min: number;
@@ -98,6 +116,26 @@ export const QUESTIONS: Readonly<Record<Ask, NumberAsk | TextAsk>> = {
       const next = insertTime(context.group, context.state.playheadMs, durationMs);
       if (next === context.group) context.stores.notices.show('info', words.timeline.nothingBehind);
       else apply(context, { label: () => words.timeline.steps.insertTime, edit: () => next });
+    },
+  },
+  curve: {
+    kind: 'text',
+    maxLength: 40,
+    initial: (context) => handlesText(handlesOf(changeableAtCursor(context)?.easing ?? 'linear') ?? STRAIGHT),
+    take(context, text) {
+      if (!hasChangeable(context)) return;
+      const curve = curveIn(text);
+      const refs = changeable(context);
+      if (curve !== null)
+        apply(context, {
+          label: () => words.timeline.steps.curve,
+          edit: (group) => setEasing(group, refs, curve),
+        });
+      else
+        context.stores.notices.show(
+          'warning',
+          words.timeline.notACurve({ min: LOWEST_HANDLE, max: HIGHEST_HANDLE }),
+        );
     },
   },
   note: {

@@ -6,7 +6,7 @@ import type { ServoView } from '../../servoView.ts';
 import { ALL_ROW, type LargeRow } from './timeline.ts';
 import type { Key } from '#shared/group/tracks.ts';
 import type { GroupTimes } from '#shared/group/groupTimes.ts';
-import type { Range } from '#shared/codec/families.ts';
+import { positionRange, type Family, type Range } from '#shared/codec/families.ts';
 
 export interface Row {
   readonly id: string;
@@ -76,6 +76,7 @@ export interface RowHeights {
   readonly summary: number;
   readonly servo: number;
   readonly large: LargeRow | null;
+  readonly largePx: number;
 }
 
 export interface PlacedRow {
@@ -92,7 +93,7 @@ export function placedRows(rows: readonly Row[], heights: RowHeights): readonly 
   return rows.map((row) => {
     const large = row.kind === 'servo' && row.servos[0] === heights.large?.servo ? heights.large : null;
     const usual = row.kind === 'servo' ? heights.servo : heights.summary;
-    const height = large === null ? usual : LARGE_PX;
+    const height = large === null ? usual : heights.largePx;
     const placed = { row, top, height, range: large };
     top += height;
     return placed;
@@ -129,16 +130,21 @@ export interface Sizes extends RowHeights {
 const FINE = { ruler: 22, heads: 22, summary: 26, servo: 28, reach: 8 };
 const COARSE = { ruler: 44, heads: 44, summary: 44, servo: 44, reach: 22 };
 const TALL_PX = 104;
-const LARGE_PX = 220;
+/** All of it in sight, but no lower than a curve can be read in. */
+const [LEAST_LARGE_PX, LARGE_PX] = [120, 220];
 
 export interface Heights {
   readonly isTall: boolean;
   readonly large: LargeRow | null;
+  /** Of the tracks; 0 before they are drawn. */
+  readonly heightPx?: number;
 }
 
-export function sizesOf(isCoarse: boolean, { isTall, large }: Heights): Sizes {
+export function sizesOf(isCoarse: boolean, { isTall, large, heightPx = 0 }: Heights): Sizes {
   const sizes = isCoarse ? COARSE : FINE;
-  return { ...sizes, large, ...(isTall && { servo: TALL_PX }) };
+  const seenPx = heightPx === 0 ? LARGE_PX : heightPx - sizes.ruler - sizes.heads - sizes.summary;
+  const largePx = Math.max(LEAST_LARGE_PX, Math.min(LARGE_PX, seenPx));
+  return { ...sizes, large, largePx, ...(isTall && { servo: TALL_PX }) };
 }
 
 export const topOfAll = ({ ruler, heads }: Sizes): number => ruler + heads;
@@ -194,4 +200,30 @@ function firstFrom(keys: readonly { readonly atMs: number }[], atMs: number): nu
     else high = middle;
   }
   return low;
+}
+
+const INSET_PX = 7;
+
+/** What the row's height stands for. */
+function rangeOfRow({ servo, servos }: Row, family: Family): Range {
+  return servo ?? positionRange(family, servos[0] ?? 0);
+}
+
+/** What is beyond the row's range stands at its edge. */
+export function keyY({ row, top, height, range }: PlacedRow, position: number, family: Family): number {
+  if (row.kind !== 'servo') return top + height / 2;
+  const { min, max } = range ?? rangeOfRow(row, family);
+  const share = Math.min(1, Math.max(0, (position - min) / (max - min)));
+  return top + INSET_PX + (1 - share) * (height - 2 * INSET_PX);
+}
+
+/** Above and below the row too. */
+export function positionAtY({ row, top, height, range }: PlacedRow, y: number, family: Family): number {
+  const { min, max } = range ?? rangeOfRow(row, family);
+  return max - ((y - top - INSET_PX) / (height - 2 * INSET_PX)) * (max - min);
+}
+
+export interface Spot {
+  readonly x: number;
+  readonly y: number;
 }

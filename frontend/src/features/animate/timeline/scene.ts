@@ -5,6 +5,8 @@ import type { KeyRef } from '#shared/group/tracks.ts';
 import { type GroupTimes, keysOfFrame, spanOf } from '#shared/group/groupTimes.ts';
 import {
   keysInRow,
+  keyY,
+  type Spot,
   type PlacedRow,
   type Row,
   topOfRows,
@@ -15,9 +17,10 @@ import {
   topOfAll,
 } from './rows.ts';
 import { msAt, xOf, type Span } from './timeScale.ts';
+import { curveHandleAt, type CurveHandle } from './curveHandles.ts';
 import type { CollisionPlace } from '#shared/kinematics/collision.ts';
 import type { Marker } from '#shared/group/group.ts';
-import { positionRange, type Family, type Range } from '#shared/codec/families.ts';
+import type { Family } from '#shared/codec/families.ts';
 import { isHeld, isSilent } from '../../servoView.ts';
 import type { TimelineContext } from './context.ts';
 
@@ -26,6 +29,7 @@ export type Hit =
   | { readonly kind: 'marker'; readonly id: number; readonly atMs: number }
   | { readonly kind: 'edge'; readonly frameId: number; readonly atMs: number }
   | { readonly kind: 'head'; readonly frameId: number }
+  | { readonly kind: 'curve'; readonly handle: CurveHandle }
   /** One of the ends of the selected stretch. */
   | { readonly kind: 'handle'; readonly end: StretchEnd; readonly span: Span }
   | {
@@ -37,11 +41,6 @@ export type Hit =
     }
   | { readonly kind: 'empty'; readonly row: PlacedRow | null; readonly atMs: number };
 
-export interface Spot {
-  readonly x: number;
-  readonly y: number;
-}
-
 export function hitAt(scene: Scene, { x, y }: Spot): Hit {
   const { sizes, state } = scene;
   const atMs = msAt(state.time, x);
@@ -49,6 +48,8 @@ export function hitAt(scene: Scene, { x, y }: Spot): Hit {
   if (y < sizes.ruler + sizes.heads) return onHeads(scene, x, atMs);
   const row = rowAt(scene, y);
   const handle = row === scene.all ? handleAt(scene, x) : null;
+  const curve = curveHandleAt(scene, { x, y });
+  if (curve !== null) return { kind: 'curve', handle: curve };
   return handle ?? (row === null ? null : keyAt(scene, row, { x, y })) ?? { kind: 'empty', row, atMs };
 }
 
@@ -286,17 +287,3 @@ function rowsInSight(
 const placedAll = (row: Row, sizes: Sizes): PlacedRow => ({
   ...{ row, top: topOfAll(sizes), height: sizes.summary, range: null },
 });
-
-const INSET_PX = 7;
-
-/** What the row's height stands for. */
-function rangeOfRow({ servo, servos }: Row, family: Family): Range {
-  return servo ?? positionRange(family, servos[0] ?? 0);
-}
-
-export function keyY({ row, top, height, range }: PlacedRow, position: number, family: Family): number {
-  if (row.kind !== 'servo') return top + height / 2;
-  const { min, max } = range ?? rangeOfRow(row, family);
-  const share = Math.min(1, Math.max(0, (position - min) / (max - min)));
-  return top + INSET_PX + (1 - share) * (height - 2 * INSET_PX);
-}

@@ -123,6 +123,7 @@ const QUESTIONS = [
   'scaleTimeBack',
   'scaleAmplitude',
   'insertTime',
+  'curve',
   'note',
   'marker',
 ] as const;

@@ -10,7 +10,8 @@ import { keepInStep } from './inStep.ts';
 import { TIMELINE_ACTIONS } from './timelineActions.ts';
 import { createTestTimeline } from './timelineUnderTest.ts';
 import { sizesOf } from './rows.ts';
-import { keyY, sceneOf } from './scene.ts';
+import { keyY } from './rows.ts';
+import { sceneOf } from './scene.ts';
 
 test('what cannot be done says why, and its key does nothing', async () => {
   const { key, select, steps, context } = await createTestTimeline();

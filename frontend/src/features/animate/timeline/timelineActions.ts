@@ -4,7 +4,6 @@
 import { chordOf, runByKey, type Action, type KeyUse, type Pressed } from '../../../ui/action.ts';
 import { words, type Words } from '../../../i18n/whole.ts';
 import { COLOURS, type Colour } from '#shared/document/schema.ts';
-import { EASINGS, type Easing } from '#shared/group/group.ts';
 import {
   colour,
   copy,
@@ -18,12 +17,14 @@ import {
   selectAll,
   selectNone,
   setKeys,
+  smooth,
   turnRound,
 } from './changes.ts';
 import { soundOf } from '../sound/sound.ts';
 import { toggleSpeed } from '../speed/SpeedRows.tsx';
 import { editServoView } from '../../stores.ts';
 import { toggled } from '../../servoView.ts';
+import { extentOf } from '#shared/group/keyEdits.ts';
 import { rangeOf, rowOf, type TimelineContext } from './context.ts';
 import type { Row } from './rows.ts';
 import {
@@ -42,6 +43,7 @@ import {
 } from './looking.ts';
 import { goToMarker, nudge, nudgeMarker } from './moving.ts';
 import { mayBeNegative } from './questions.ts';
+import { EASING_CHOICES, type EasingName } from './valueText.ts';
 import type { Ask, TimelineState } from './timeline.ts';
 
 export type TimelineActionName = keyof Words['timeline']['verbs'];
@@ -85,6 +87,8 @@ const ACTIONS: Readonly<Record<TimelineActionName, Own>> = {
   scaleTime: { icon: 'tune', keys: ['s'], needs: 'keys', run: asking('scaleTime') },
   scaleTimeBack: { icon: 'tune', keys: ['Shift+s'], needs: 'keys', run: asking('scaleTimeBack') },
   scaleAmplitude: { icon: 'tune', keys: ['a'], needs: 'keys', run: asking('scaleAmplitude') },
+  curve: { icon: 'live', keys: ['e'], needs: 'keys', run: asking('curve') },
+  smooth: { icon: 'live', keys: ['Shift+e'], needs: 'keys', run: smooth },
   note: { icon: 'edit', keys: ['n'], needs: 'keys', run: asking('note') },
   marker: { icon: 'marker', keys: ['m'], run: asking('marker') },
   sound: { icon: 'upload', keys: [], run: ({ stores }) => void soundOf(stores).choose() },
@@ -151,16 +155,16 @@ export interface ChoiceAction<Choice> extends Action<TimelineContext, Shown> {
 
 const needsKeys = (shown: Shown): true | string => enabled('keys', shown);
 
-const easingWord = (easing: Easing): string => words.timeline.easings[easing];
+const easingWord = (name: EasingName): string => words.timeline.easings[name];
 
-const toEasing = (choice: Easing): ChoiceAction<Easing> => ({
-  ...{ id: `easing-${choice}`, icon: 'tune', keys: [], enabled: needsKeys, choice },
-  label: () => words.timeline.setEasing({ easing: easingWord(choice) }),
-  shortLabel: () => easingWord(choice),
-  run: (context) => ease(context, choice),
+const toEasing = ({ name, easing }: (typeof EASING_CHOICES)[number]): ChoiceAction<EasingName> => ({
+  ...{ id: `easing-${name}`, icon: 'tune', keys: [], enabled: needsKeys, choice: name },
+  label: () => words.timeline.setEasing({ easing: easingWord(name) }),
+  shortLabel: () => easingWord(name),
+  run: (context) => ease(context, name, easing),
 });
 
-export const EASING_ACTIONS: readonly ChoiceAction<Easing>[] = EASINGS.map(toEasing);
+export const EASING_ACTIONS: readonly ChoiceAction<EasingName>[] = EASING_CHOICES.map(toEasing);
 
 const colourWord = (one: Colour | null): string =>
   one === null ? words.timeline.noColour : words.timeline.colours[one];
@@ -220,7 +224,8 @@ function toggleLarge(context: TimelineContext): void {
   if (row?.kind !== 'servo' || servo === undefined) return;
   if (isLarge(context)) return stores.timeline.setState({ large: null });
   const allowed = rangeOf(context, servo);
-  const positions = (times.tracks.get(servo)?.keys ?? []).map(({ position }) => position);
+  const track = times.tracks.get(servo);
+  const positions = track === undefined ? [] : extentOf(track);
   const [low, high] = [Math.min(...positions), Math.max(...positions)];
   const beside = Math.max(LEAST_UNITS, (high - low) * BESIDE_SHARE);
   const fitted = {

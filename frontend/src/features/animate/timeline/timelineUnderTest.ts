@@ -10,8 +10,8 @@ import { createView } from '../../view.ts';
 import { contextOf, select } from './context.ts';
 import type { Held } from './gesture.ts';
 import { gestureOf } from './gestures.ts';
-import { keyY, sceneOf } from './scene.ts';
-import { type Sizes, sizesOf } from './rows.ts';
+import { sceneOf } from './scene.ts';
+import { keyY, type Sizes, sizesOf } from './rows.ts';
 import { pressInTimeline } from './timelineActions.ts';
 import { xOf } from './timeScale.ts';
 

@@ -5,8 +5,8 @@ import type { CollisionPlace } from '#shared/kinematics/collision.ts';
 import { collisionText } from '../../board/compile/problems.tsx';
 import { contextOf, type TimelineStores, rowOf, select } from './context.ts';
 import type { StatusName } from './gesture.ts';
-import { hasAll, hitAt, type Hit, type Spot, type CompiledTrack, sceneOf, type Scene } from './scene.ts';
-import { type Heights, placedRows, scrolledTo, type Sizes, sizesOf, topOfRows } from './rows.ts';
+import { hasAll, hitAt, type Hit, type CompiledTrack, sceneOf, type Scene } from './scene.ts';
+import { type Heights, placedRows, scrolledTo, type Sizes, sizesOf, type Spot, topOfRows } from './rows.ts';
 import { ALL_ROW, keySet, selectedKeys } from './timeline.ts';
 import { setKeysAt } from './changes.ts';
 import { lookOf, SCHEMES, type Look } from '../../picture/Canvas.tsx';
@@ -66,6 +66,7 @@ const HOVERS: Readonly<Record<Hit['kind'], Hover>> = {
   edge: { status: 'duration', cursor: 'col-resize' },
   head: { status: 'box', cursor: 'pointer' },
   handle: { status: 'stretch', cursor: 'col-resize' },
+  curve: { status: 'curve', cursor: 'grab' },
   key: { status: 'move', cursor: 'move' },
   empty: { status: 'nothing', cursor: 'crosshair' },
 };

@@ -1,14 +1,24 @@
 // Times and values on the timeline as text, also those of what is dragged. Changes nothing.
 
 import { beatNear } from '#shared/group/beats.ts';
+import { EASINGS, sameEasing, type Bezier, type Easing } from '#shared/group/curves.ts';
 import type { ActionGroup } from '#shared/group/group.ts';
+import { handlesOf } from '#shared/group/keyEdits.ts';
 import { servoOf } from '#shared/profile/robot.ts';
-import { words } from '../../../i18n/whole.ts';
+import { words, type Words } from '../../../i18n/whole.ts';
 import { inUnits, scaleOf, type Scale } from '../../drive/scale.ts';
 import { rangeOf, type TimelineContext, contextOf, type TimelineStores } from './context.ts';
 import type { Cursor } from './timeline.ts';
 import { keysOfFrame, endOfFrame } from '#shared/group/groupTimes.ts';
 import type { Row } from './rows.ts';
+
+/** Curves that have a name. */
+export const EASING_CHOICES: readonly { readonly name: EasingName; readonly easing: Easing }[] = [
+  ...EASINGS.map((name) => ({ name, easing: name })),
+  { name: 'overshoot', easing: [0.34, 1.56, 0.64, 1] },
+  { name: 'windUp', easing: [0.36, 0, 0.66, -0.56] },
+];
+export type EasingName = keyof Words['timeline']['easings'];
 
 const formats = [0, 1, 2, 3].map(
   (decimals) =>
@@ -98,11 +108,22 @@ export function nameOfKey(
   if (row.kind === 'servo' && key !== undefined)
     return words.timeline.key({
       ...{ row: name, at: instantText(key.atMs), position: scaleAt(context, key.servo).text(key.position) },
-      easing: words.timeline.easings[key.easing],
+      easing: easingText(key.easing),
     });
   const at = instantText(times.ends[place] ?? 0);
   return words.timeline.summary({ row: name, frame: place + 1, at, count: keys.length });
 }
+
+/** By its name where it has one, else by its numbers. */
+export function easingText(easing: Easing): string {
+  const name = EASING_CHOICES.find((one) => sameEasing(one.easing, easing))?.name;
+  if (name !== undefined) return words.timeline.easings[name];
+  const [x1 = 0, y1 = 0, x2 = 0, y2 = 0] = handlesOf(easing) ?? [];
+  return words.timeline.curve({ handles: handlesText([x1, y1, x2, y2]) });
+}
+
+export const handlesText = (handles: Bezier): string =>
+  handles.map((share) => String(Math.round(share * 1000) / 1000)).join(' ');
 
 /** The key under the hand, how far it has come in time, and how many come along. */
 export function keyText(stores: TimelineStores, cursor: Cursor, fromMs: number): string {

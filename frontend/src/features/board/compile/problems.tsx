@@ -19,7 +19,8 @@ export function problemText(problem: CompileProblem, { group, robot }: Source): 
     case 'servo':
       return reasons.servo({ ...problem, name: nameOf(problem.servo) });
     case 'position':
-      return reasons.position({
+    case 'swing':
+      return reasons[problem.kind]({
         ...problem,
         name: nameOf(problem.servo),
         frame: frameNumber(problem.frameId),
