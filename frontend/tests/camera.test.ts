@@ -65,7 +65,7 @@ test.describe('in Drive', () => {
     const opened = () => Promise.resolve(streams.length);
     await poll(opened).toBe(1);
     streams[0]?.[1].send(await partOf(64, 48));
-    await expect(page.getByText(/^\d+ pictures?\/s, newest [\d,]+\sms ago$/)).toBeVisible();
+    await expect(page.getByText(/^Newest picture [\d,]+\sms ago$/)).toBeVisible();
     expect(await size()).toEqual([64, 48]);
     await expect(dashboard.slider(1)).toBeEnabled();
 
@@ -74,7 +74,7 @@ test.describe('in Drive', () => {
     await dashboard.button('Try again').click();
     await poll(opened).toBe(2);
     streams[1]?.[1].send(await partOf(32, 24));
-    await expect(page.getByText(/newest/)).toBeVisible();
+    await expect(page.getByText(/^Newest picture/)).toBeVisible();
     expect(await size()).toEqual([32, 24]);
 
     await page.getByRole('combobox', { name: 'Camera' }).selectOption('Door');
@@ -109,5 +109,28 @@ test.describe('in Drive', () => {
     await expect(page.getByText(/^servodeck serve --camera /)).toBeVisible();
     await expect(dashboard.button('Copy command')).toBeEnabled();
     await expect(dashboard.button('Use this computer’s camera')).toBeEnabled();
+  });
+});
+
+test.describe('on a phone', () => {
+  test.override({ workspace: 'live', viewport: { width: 390, height: 844 } });
+
+  test('the camera stands above the sliders in place of the drawing, and above the frames, too', async ({
+    dashboard,
+    page,
+  }) => {
+    const streams: Source[] = [];
+    serveCameras(['Bench'], (_, source) => streams.push(source));
+    await dashboard.button('Camera').click();
+    await expect(page.getByRole('img', { name: 'Picture of the camera Bench' })).toBeVisible();
+    await dashboard.type(dashboard.target(1), 1500);
+    await expect(dashboard.estimate(1)).toHaveText('≈ 1500');
+    await page.getByRole('tab', { name: 'Animate' }).click();
+    await poll(() => Promise.resolve(streams.length)).toBe(2);
+    streams[1]?.send(await partOf(64, 48));
+    await expect(page.getByText(/^Newest picture/)).toBeVisible();
+    expect(streams[0]?.isLeft()).toBe(true);
+    await dashboard.button('Camera').click();
+    await expect(page.getByRole('img', { name: 'Picture of the camera Bench' })).toBeHidden();
   });
 });

@@ -3,7 +3,6 @@
 
 import { useEffect, useLayoutEffect, useRef, type UIEvent } from 'react';
 import { useStore } from 'zustand';
-import { CaptureStrip } from '../features/animate/frames/CaptureButton.tsx';
 import { useBatteryTab } from '../features/battery/BatteryReadout.tsx';
 import { motionsInFrame } from '../features/picture/motion.ts';
 import { ConnectDialog, ActionsDialog, LibraryDialog, PeopleDialog, ReplaceDialog } from './dialogs.tsx';
@@ -57,6 +56,10 @@ const CompileRow = laterComponent(
 const LogDrawer = laterComponent(
   async () => (await import('../features/log/LogDrawer.tsx')).LogDrawer,
   'var(--control)',
+);
+const CaptureStrip = laterComponent(
+  async () => (await import('../features/animate/frames/CaptureButton.tsx')).CaptureStrip,
+  'calc(var(--control) + var(--s2))',
 );
 const Kiosk = laterComponent(async () => (await import('./Kiosk.tsx')).Kiosk, '100%');
 

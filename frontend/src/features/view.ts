@@ -22,8 +22,8 @@ export type Theme = 'system' | 'light' | 'dark';
 export type LanguageChoice = 'system' | Language;
 /** `board`: the units of the board, microseconds or steps. */
 export type PositionsIn = 'board' | 'degrees';
-/** A list, the places on the body, or the robot in three dimensions. */
-export type ServoLayout = 'list' | 'body' | 'model';
+/** A list, the places on the body, the robot in three dimensions, or a camera above the list. */
+export type ServoLayout = 'list' | 'body' | 'model' | 'camera';
 /** The sizes that splitters set: of the sliders beside the robot, of what stands below it, of the sliders beside the timeline or the robot above it, of the log. */
 export const SPLITS = ['driveSide', 'driveBelow', 'animateSide', 'animateAbove', 'boardLog'] as const;
 export type Split = (typeof SPLITS)[number];
@@ -67,6 +67,8 @@ export interface ViewState {
   readonly picture: 'auto' | 'drawing' | 'body' | 'model' | 'camera';
   /** The name of the camera at the gateway that was chosen last. */
   readonly camera: string;
+  /** This computer's camera is shown; switched on by a press only, so a reload forgets it. */
+  readonly cameraHere: boolean;
   readonly selectedPose: number | null;
   /** The duration of a move to a pose. */
   readonly poseMs: number;
@@ -109,7 +111,7 @@ const REMEMBERED: { readonly [K in keyof ViewState]?: Memory<ViewState[K]> } = {
   language: choice('browser', 'servodeck.language', ['system', ...LANGUAGE_CODES]),
   positionsIn: choice('browser', 'servodeck.positionsIn', ['board', 'degrees']),
   kiosk: choice('browser', 'servodeck.kiosk', ['on', 'off']),
-  servoLayout: choice('browser', 'servodeck.servoLayout', ['list', 'body', 'model']),
+  servoLayout: choice('browser', 'servodeck.servoLayout', ['list', 'body', 'model', 'camera']),
   tab: choice('tab', 'servodeck.tab', ['live', 'actions', 'board', 'log', 'buttons']),
   picture: choice('browser', 'servodeck.picture', ['auto', 'drawing', 'body', 'model', 'camera']),
   authoring: choice('tab', 'servodeck.authoring', ['group', 'poses', 'pad']),
@@ -157,6 +159,7 @@ export const INITIAL_VIEW: ViewState = {
   servoLayout: 'list',
   picture: 'auto',
   camera: '',
+  cameraHere: false,
   selectedPose: null,
   poseMs: GENTLE_MOVE_MS,
   selectedButton: null,

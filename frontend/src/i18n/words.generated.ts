@@ -336,6 +336,7 @@ export interface Messages {
     readonly noGateway: string;
     readonly waiting: string;
     readonly figures: (values: { readonly rate: number; readonly ms: number }) => string;
+    readonly newest: (values: { readonly ms: number }) => string;
     readonly ageHint: string;
     readonly again: string;
     readonly ended: string;

@@ -64,6 +64,7 @@ const PATHS = {
   duplicate: 'M2.5 8L5 5.5 7.5 8 5 10.5zM8.5 8L11 5.5 13.5 8 11 10.5z',
   marker: 'M4 13.5v-11h8.5l-2 3 2 3H4',
   fit: 'M2.5 3v10M13.5 3v10M5 8h6M6.5 6L4.5 8l2 2M9.5 6l2 2-2 2',
+  camera: 'M2 5h3l1-1.5h4L11 5h3v8H2zM8 6.5a2.2 2.2 0 1 0 0 4.4 2.2 2.2 0 0 0 0-4.4z',
   mute: 'M3 6h2l3-2.5v9L5 10H3zM10.5 6l3 4M13.5 6l-3 4',
   erase: 'M2.5 13.5h11M5 11l-2-2 6-6 4 4-4 4z',
 } as const;

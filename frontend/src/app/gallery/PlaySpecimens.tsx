@@ -1,4 +1,4 @@
-// Compiling and playing a group, and the board's slots, in their states.
+// Compiling and playing a group, the board's slots, and the camera beside the motion, in their states.
 
 import type { ReactNode } from 'react';
 import { insertFrame, setMeta, type NewFrame } from '#shared/group/groupEdits.ts';
@@ -6,10 +6,13 @@ import { EMPTY_SLOT_BOOK, withStored } from '#shared/group/slotBook.ts';
 import { CompileRow } from '../../features/animate/group/CompileRow.tsx';
 import { BoardPanel } from '../../features/board/BoardPanel.tsx';
 import { PlayBar } from '../../features/animate/play/PlayBar.tsx';
+import { type CameraAccess, CameraView } from '../../features/camera/CameraView.tsx';
+import { GatewayProblem } from '../../robot/request.ts';
 import { ReplaceContent } from '../../features/board/slots/ReplaceQuestion.tsx';
 import { SlotBoard } from '../../features/board/slots/SlotBoard.tsx';
 import { editServoView, type Stores } from '../../features/stores.ts';
 import { standing, type Exhibit } from './exhibit.ts';
+import styles from './Gallery.module.css';
 
 const frame = (durationMs: number, position: number, easing: 'linear' | 'inOut' = 'linear'): NewFrame => ({
   ...{ durationMs, easing },
@@ -122,12 +125,60 @@ const CASES: readonly Case[] = [
   },
 ];
 
+/** A room with a window, as a camera has it. */
+function drawn(): HTMLCanvasElement {
+  const canvas = document.createElement('canvas');
+  Object.assign(canvas, { width: 640, height: 480 });
+  const pen = canvas.getContext('2d');
+  const parts = {
+    '#6b7480': [0, 0, 640, 480],
+    '#dfe7ee': [360, 50, 200, 150],
+    '#3d3a36': [0, 380, 640, 100],
+  };
+  for (const [colour, [x = 0, y = 0, width = 0, height = 0]] of Object.entries(parts)) {
+    if (pen !== null) pen.fillStyle = colour;
+    pen?.fillRect(x, y, width, height);
+  }
+  return canvas;
+}
+
+const picture = (): Promise<Blob | null> => new Promise((resolve) => drawn().toBlob(resolve, 'image/jpeg'));
+
+const BENCH: CameraAccess = {
+  list: () => Promise.resolve([{ id: 0, name: 'Bench' }]),
+  async watch(_id, _signal, show) {
+    const shown = await picture();
+    if (shown !== null) await show(shown);
+    return new Promise(() => undefined);
+  },
+  openHere: () => Promise.resolve(drawn().captureStream()),
+};
+
+const DEAD = 'The camera Bench does not answer: timed out. Check that it is switched on.';
+
+const CAMERAS: Readonly<Record<string, ReactNode>> = {
+  'Camera, none': <CameraView access={{ ...BENCH, list: () => Promise.resolve([]) }} />,
+  'Camera, of this computer': <CameraView access={BENCH} />,
+  'Camera, of the gateway': <CameraView access={BENCH} />,
+  'Camera, awaited': <CameraView access={{ ...BENCH, watch: () => new Promise(() => undefined) }} />,
+  'Camera, dead': (
+    <CameraView
+      access={{ ...BENCH, watch: () => Promise.reject(new GatewayProblem('cameraFailed', DEAD)) }}
+    />
+  ),
+  'Camera, refused here': (
+    <CameraView
+      access={{ ...BENCH, openHere: () => Promise.reject(new DOMException('', 'NotAllowedError')) }}
+    />
+  ),
+};
+
 function AnotherGroupInSlot() {
   const conflict = { slot: 8, record: null, version: undefined, held: 'Bow', heldId: 'bow', name: 'Wave' };
   return <ReplaceContent question={{ conflicts: [conflict], free: [21] }} />;
 }
 
-export const PLAYING: readonly Exhibit[] = CASES.map(({ name, panel, isInDialog = false, prepare }) => ({
+const played: readonly Exhibit[] = CASES.map(({ name, panel, isInDialog = false, prepare }) => ({
   ...{ name, content: panel, isInDialog },
   stores() {
     const stores = standing({});
@@ -135,3 +186,15 @@ export const PLAYING: readonly Exhibit[] = CASES.map(({ name, panel, isInDialog 
     return stores;
   },
 }));
+
+const seen: readonly Exhibit[] = Object.entries(CAMERAS).map(([name, view]) => ({
+  name,
+  content: <div className={styles.camera}>{view}</div>,
+  stores() {
+    const stores = standing({});
+    stores.view.setState({ cameraHere: name.endsWith('here') || name.endsWith('computer') });
+    return stores;
+  },
+}));
+
+export const PLAYING: readonly Exhibit[] = [...played, ...seen];

@@ -2,47 +2,45 @@
 // and how old the newest one is. Knows no robot; moves nothing.
 
 import { useEffect, useRef, useState, type RefObject } from 'react';
-import * as v from 'valibot';
 import { createStore, useStore } from 'zustand';
 import { words } from '../../i18n/whole.ts';
-import { GatewayProblem, isWithoutGateway, request } from '../../robot/request.ts';
+import { isWithoutGateway } from '../../robot/request.ts';
 import { Button } from '../../ui/Button.tsx';
 import { LiveText } from '../../ui/LiveText.tsx';
 import { EmptyState } from '../../ui/Panel.tsx';
 import { Select } from '../../ui/Select.tsx';
 import { CopyButton } from '../connect/PortGuide.tsx';
 import { useStores, useView } from '../stores.ts';
-import { boundaryIn, createPartReader } from './mjpeg.ts';
+import { type Arrivals, type Cameras, createArrivals, listCameras, reasonIn, watch } from './cameras.ts';
 import styles from './CameraView.module.css';
-
-const LIST_WITHIN_MS = 5000;
-const listSchema = v.array(v.object({ id: v.number(), name: v.string() }));
-type Cameras = v.InferOutput<typeof listSchema>;
 
 /** This computer's camera, in the choice. */
 const HERE = 'here';
 
-/** None where no gateway answers; rejects with the reason where one refuses. */
-async function listCameras(): Promise<Cameras> {
-  if (isWithoutGateway()) return [];
-  try {
-    return v.parse(listSchema, await request('get', '/api/cameras', { withinMs: LIST_WITHIN_MS }));
-  } catch (error) {
-    if (error instanceof GatewayProblem && error.code === null) return [];
-    throw error;
-  }
+/** Where pictures come from. */
+export interface CameraAccess {
+  /** At the gateway. */
+  list(): Promise<Cameras>;
+  /** Until it ends; rejects with what ended it. */
+  watch: typeof watch;
+  /** The browser requests permission. */
+  openHere(): Promise<MediaStream>;
 }
 
-export function CameraView() {
+const ACCESS: CameraAccess = {
+  ...{ list: listCameras, watch },
+  openHere: () => navigator.mediaDevices.getUserMedia({ video: true }),
+};
+
+export function CameraView({ access = ACCESS }: { readonly access?: CameraAccess }) {
   const { view } = useStores();
   const chosen = useView(({ camera }) => camera);
   const [cameras, setCameras] = useState<Cameras | null>(null);
   const [problem, setProblem] = useState<string | null>(null);
-  // This computer's camera is switched on by a press only, not by a reload.
-  const [isHere, setIsHere] = useState(false);
+  const isHere = useView(({ cameraHere }) => cameraHere);
   const list = (): void =>
-    void listCameras().then(setCameras, (error: unknown) => setProblem(reasonIn(error)));
-  useEffect(list, []);
+    void access.list().then(setCameras, (error: unknown) => setProblem(reasonIn(error)));
+  useEffect(list, [access]);
   if (cameras === null) {
     const again = (): void => {
       setProblem(null);
@@ -54,11 +52,15 @@ export function CameraView() {
   }
 
   const camera = cameras.find(({ name }) => name === chosen) ?? cameras[0];
-  const takeHere = (): void => setIsHere(true);
+  const takeHere = (): void => view.setState({ cameraHere: true });
   if (!isHere && camera === undefined) return <NoCamera onHere={takeHere} />;
   return (
     <div className={styles.view}>
-      {isHere ? <Here /> : camera !== undefined && <AtGateway key={camera.id} camera={camera} />}
+      {isHere ? (
+        <Here open={access.openHere} />
+      ) : (
+        camera !== undefined && <AtGateway key={camera.id} camera={camera} watch={access.watch} />
+      )}
       <div className={styles.choice}>
         <Select
           label={words.camera.choice}
@@ -68,7 +70,7 @@ export function CameraView() {
             { value: HERE, label: words.camera.here },
           ]}
           onChange={(value) => {
-            setIsHere(value === HERE);
+            view.setState({ cameraHere: value === HERE });
             const next = cameras.find(({ id }) => String(id) === value);
             if (next !== undefined) view.setState({ camera: next.name });
           }}
@@ -126,30 +128,23 @@ interface Watched {
   readonly isShown: boolean;
 }
 
-/** Of what has arrived; times as `performance.now()`. */
-interface Arrivals {
-  readonly times: number[];
+interface AtGatewayProps extends Pick<CameraAccess, 'watch'> {
+  readonly camera: Cameras[number];
 }
 
-const RATE_OVER_MS = 2000;
-
-function noteArrival({ times }: Arrivals): void {
-  const now = performance.now();
-  times.push(now);
-  while ((times[0] ?? now) < now - RATE_OVER_MS) times.shift();
-}
-
-function AtGateway({ camera: { id, name } }: { readonly camera: Cameras[number] }) {
+function AtGateway({ camera: { id, name }, watch: follow }: AtGatewayProps) {
   const canvas = useRef<HTMLCanvasElement>(null);
-  const [arrivals] = useState<Arrivals>({ times: [] });
+  const arrivals = useRef<Arrivals | null>(null);
   const [watched] = useState(() => createStore<Watched>(() => ({ problem: null, isShown: false })));
   const [attempt, setAttempt] = useState(0);
   const { problem, isShown } = useStore(watched);
   useEffect(() => {
     const leaving = new AbortController();
+    const counted = createArrivals();
+    arrivals.current = counted;
     watched.setState({ problem: null, isShown: false });
-    watch(id, leaving.signal, async (picture) => {
-      noteArrival(arrivals);
+    follow(id, leaving.signal, async (picture) => {
+      counted.note(performance.now());
       if (await draw(picture, canvas)) watched.setState({ isShown: true });
     }).catch((error: unknown) => {
       if (leaving.signal.aborted) return;
@@ -158,7 +153,7 @@ function AtGateway({ camera: { id, name } }: { readonly camera: Cameras[number] 
       leaving.abort();
     });
     return () => leaving.abort();
-  }, [id, attempt, watched, arrivals]);
+  }, [id, attempt, watched, follow]);
   return (
     <>
       <canvas
@@ -167,70 +162,26 @@ function AtGateway({ camera: { id, name } }: { readonly camera: Cameras[number] 
         role="img"
         aria-label={words.camera.picture({ name })}
       />
-      {problem === null ? (
-        <p className={styles.facts}>
-          {isShown ? (
-            <LiveText isSilent eachMs={500} text={() => figuresOf(arrivals)} title={words.camera.ageHint} />
-          ) : (
-            words.camera.waiting
-          )}
-        </p>
-      ) : (
-        <Problem text={problem} onAgain={() => setAttempt(attempt + 1)} />
-      )}
+      {problem !== null && <Problem text={problem} onAgain={() => setAttempt(attempt + 1)} />}
+      <p className={styles.facts}>
+        {isShown && problem === null && (
+          <LiveText
+            isSilent
+            eachMs={500}
+            text={() => figuresOf(arrivals.current)}
+            title={words.camera.ageHint}
+          />
+        )}
+        {!isShown && problem === null && words.camera.waiting}
+      </p>
     </>
   );
 }
 
-function figuresOf({ times }: Arrivals): string {
-  const now = performance.now();
-  const recent = times.filter((time) => time > now - RATE_OVER_MS).length;
-  return words.camera.figures({
-    rate: Math.round((recent * 1000) / RATE_OVER_MS),
-    ms: Math.round(Math.max(0, now - (times.at(-1) ?? now))),
-  });
-}
-
-/** Until it ends; rejects with what ended it. A picture that comes while another one is drawn replaces the one that waits. */
-async function watch(id: number, signal: AbortSignal, show: (picture: Blob) => Promise<void>): Promise<void> {
-  const answer = await fetch(`api/cameras/${id}/stream`, { signal });
-  const boundary = boundaryIn(answer.headers.get('content-type') ?? '');
-  if (!answer.ok || answer.body === null || boundary === null) throw await refusalIn(answer);
-  const parts = createPartReader(boundary);
-  let newest: Blob | null = null;
-  let isShowing = false;
-  const showNewest = async (): Promise<void> => {
-    if (isShowing) return;
-    isShowing = true;
-    for (let picture = newest; picture !== null; picture = newest) {
-      newest = null;
-      await show(picture);
-    }
-    isShowing = false;
-  };
-  const reader = answer.body.getReader();
-  for (let chunk = await reader.read(); !chunk.done; chunk = await reader.read()) {
-    const last = parts.push(chunk.value).at(-1);
-    if (last === undefined) continue;
-    newest = new Blob([last], { type: 'image/jpeg' });
-    void showNewest();
-  }
-  throw new GatewayProblem(null, words.camera.ended);
-}
-
-async function refusalIn(answer: Response): Promise<GatewayProblem> {
-  const said: unknown = await answer.json().catch(() => null);
-  const detail = v.safeParse(v.object({ code: v.string(), detail: v.string() }), said);
-  return new GatewayProblem(
-    detail.success ? detail.output.code : null,
-    detail.success ? detail.output.detail : words.camera.unreachable,
-  );
-}
-
-function reasonIn(error: unknown): string {
-  if (error instanceof GatewayProblem) return error.message;
-  // As `fetch` and its readers report a network that fails.
-  return error instanceof TypeError ? words.camera.unreachable : words.camera.unreadable;
+function figuresOf(arrivals: Arrivals | null): string {
+  if (arrivals === null) return '';
+  const { rate, ageMs } = arrivals.figures(performance.now());
+  return rate === null ? words.camera.newest({ ms: ageMs }) : words.camera.figures({ rate, ms: ageMs });
 }
 
 /** False where it is no picture. */
@@ -245,8 +196,8 @@ async function draw(picture: Blob, canvas: RefObject<HTMLCanvasElement | null>):
   return true;
 }
 
-/** The browser requests permission. Switched off when it is left. */
-function Here() {
+/** Switched off when it is left. */
+function Here({ open: openHere }: { open: CameraAccess['openHere'] }) {
   const video = useRef<HTMLVideoElement>(null);
   const [problem, setProblem] = useState<string | null>(null);
   const [attempt, setAttempt] = useState(0);
@@ -256,7 +207,7 @@ function Here() {
     const stop = (): void => stream?.getTracks().forEach((track) => track.stop());
     async function open(): Promise<void> {
       try {
-        stream = await navigator.mediaDevices.getUserMedia({ video: true });
+        stream = await openHere();
         if (isLeft) stop();
         else if (video.current !== null) video.current.srcObject = stream;
       } catch (error) {
@@ -269,17 +220,28 @@ function Here() {
       isLeft = true;
       stop();
     };
-  }, [attempt]);
-  if (!isSecureContext) return <Problem text={words.camera.insecure} />;
-  return problem === null ? (
-    <video ref={video} className={styles.picture} aria-label={words.camera.here} autoPlay muted playsInline />
-  ) : (
-    <Problem
-      text={problem}
-      onAgain={() => {
-        setProblem(null);
-        setAttempt(attempt + 1);
-      }}
-    />
+  }, [attempt, openHere]);
+  const again = (): void => {
+    setProblem(null);
+    setAttempt(attempt + 1);
+  };
+  return (
+    <>
+      {!isSecureContext ? (
+        <Problem text={words.camera.insecure} />
+      ) : problem === null ? (
+        <video
+          ref={video}
+          className={styles.picture}
+          aria-label={words.camera.here}
+          autoPlay
+          muted
+          playsInline
+        />
+      ) : (
+        <Problem text={problem} onAgain={again} />
+      )}
+      <p className={styles.facts} />
+    </>
   );
 }

@@ -9,7 +9,7 @@ import { Panel } from '../../ui/Panel.tsx';
 import { Choice } from '../../ui/Toggle.tsx';
 import { Body, RobotView } from '../picture/Body.tsx';
 import { useRobot, useStores, useView, useIsGuessing, useKnownFamily } from '../stores.ts';
-import type { ViewState } from '../view.ts';
+import type { ServoLayout, ViewState } from '../view.ts';
 import styles from './RobotPanel.module.css';
 import { tellsPositions } from '../../robot/readiness.ts';
 import { Chip } from '../../ui/Chip.tsx';
@@ -49,7 +49,7 @@ function usePicture(): Picture {
 }
 
 /** Large and not always wanted. */
-const CameraView = laterComponent(
+export const CameraView = laterComponent(
   async () => (await import('../camera/CameraView.tsx')).CameraView,
   '100%',
   'onDemand',
@@ -95,7 +95,7 @@ export function RobotPanel({ isPreview = false, children }: RobotPanelProps) {
   );
 }
 
-const labelOf = (picture: Picture): string =>
+export const labelOf = (picture: Picture | ServoLayout): string =>
   picture === 'drawing' || picture === 'camera'
     ? words.workspace[picture]
     : words.servoPanel.layouts[picture];

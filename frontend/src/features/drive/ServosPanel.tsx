@@ -21,11 +21,11 @@ import { ServoRow } from './ServoRow.tsx';
 import { motionHindrance, tellsPositions } from '../../robot/readiness.ts';
 import { Choice } from '../../ui/Toggle.tsx';
 import { select, type ServoView } from '../servoView.ts';
-import { Button } from '../../ui/Button.tsx';
+import { Button, IconButton } from '../../ui/Button.tsx';
 import { laterComponent } from '../../ui/later.tsx';
 import { NumberField } from '../../ui/NumberField.tsx';
 import { Body, RobotView } from '../picture/Body.tsx';
-import { BodyMap, Legend, UnitChoice } from './RobotPanel.tsx';
+import { BodyMap, CameraView, labelOf, Legend, UnitChoice } from './RobotPanel.tsx';
 import type { ServoLayout } from '../view.ts';
 import { GENTLE_MOVE_MS } from '../../robot/moves.ts';
 import { cx } from '../../ui/cx.ts';
@@ -184,12 +184,14 @@ export function ServosPanel({ isBesideRobot = false }: ServosPanelProps) {
   const layout = isBesideRobot ? 'list' : chosen;
   const isPhone = useLayout() === 'phone';
   const isTeaching = useIsTeaching();
+  const isListed = layout === 'list' || layout === 'camera';
+  const Picture = { list: Body, body: BodyMap, model: RobotView, camera: CameraView }[layout];
   const why = hindrance === null ? '' : words.servos.blocked[hindrance];
   return (
     <Panel
       title={words.servos.title}
       note={isPhone ? '' : why}
-      className={cx(styles.panel, layout === 'list' && !isBesideRobot && styles.listed)}
+      className={cx(styles.panel, isListed && !isBesideRobot && styles.listed)}
       tools={
         <>
           {isBesideRobot ? <UnitChoice /> : <LayoutChoice />}
@@ -199,10 +201,13 @@ export function ServosPanel({ isBesideRobot = false }: ServosPanelProps) {
     >
       {!isBesideRobot && (
         <>
-          {layout === 'list' ? (
+          {layout === 'list' && !isPhone ? (
             <Body />
           ) : (
-            <div className={styles.map}>{layout === 'body' ? <BodyMap /> : <RobotView />}</div>
+            <div className={isListed ? styles.picture : styles.map}>
+              <Picture />
+              {isListed && isPhone && <CameraSwitch />}
+            </div>
           )}
           {!isPhone && <LegendLine />}
         </>
@@ -210,7 +215,7 @@ export function ServosPanel({ isBesideRobot = false }: ServosPanelProps) {
       <SelectionBar
         hint={isTeaching ? words.teach.on : isPhone && why !== '' ? why : words.servoPanel.selectHint}
       />
-      {layout === 'list' ? <ServoList /> : <CurrentServo />}
+      {isListed ? <ServoList /> : <CurrentServo />}
       {isPhone && <LegendLine />}
       <MoveTimeControl />
       {tells && <ServoTalk />}
@@ -228,26 +233,45 @@ function LegendLine() {
   );
 }
 
-const LAYOUTS = ['list', 'body', 'model'] as const;
+const LAYOUTS = ['list', 'body', 'model', 'camera'] as const;
 
 /** A body without a description has no model. */
 const layoutsOf = (body: BodyKind): readonly ServoLayout[] =>
   LAYOUTS.filter((layout) => layout !== 'model' || body !== 'plain');
 
-function useServoLayout(): ServoLayout {
+export function useServoLayout(): ServoLayout {
   const { body } = useRobot();
   const layout = useView((state) => state.servoLayout);
   return layoutsOf(body).includes(layout) ? layout : 'list';
 }
 
+/** On the picture of a phone, which has no room for one more layout. */
+export function CameraSwitch() {
+  const { view } = useStores();
+  const isOn = useServoLayout() === 'camera';
+  return (
+    <span className={styles.switch}>
+      <IconButton
+        icon="camera"
+        label={words.workspace.camera}
+        aria-pressed={isOn}
+        onPress={() => view.setState({ servoLayout: isOn ? 'list' : 'camera' })}
+      />
+    </span>
+  );
+}
+
 function LayoutChoice() {
   const { view } = useStores();
   const { body } = useRobot();
+  const isPhone = useLayout() === 'phone';
+  const layout = useServoLayout();
+  const options = layoutsOf(body).filter((value) => !isPhone || value !== 'camera');
   return (
     <Choice
       label={words.servoPanel.layout}
-      value={useServoLayout()}
-      options={layoutsOf(body).map((value) => ({ value, label: words.servoPanel.layouts[value] }))}
+      value={isPhone && layout === 'camera' ? 'list' : layout}
+      options={options.map((value) => ({ value, label: labelOf(value) }))}
       onChange={(servoLayout) => view.setState({ servoLayout })}
     />
   );

@@ -24,6 +24,9 @@ import { ExamplesControl } from '../group/ExamplesControl.tsx';
 import { RecordControl } from '../play/RecordControl.tsx';
 import { CaptureButton, captureFrame, useKnowsPose } from './CaptureButton.tsx';
 import { BodyPicture } from '../../picture/Body.tsx';
+import { CameraView } from '../../drive/RobotPanel.tsx';
+import { CameraSwitch, useServoLayout } from '../../drive/ServosPanel.tsx';
+import { cx } from '../../../ui/cx.ts';
 import { EmptyState, type PanelParts } from '../../../ui/Panel.tsx';
 import { useIsPainted } from '../../../ui/useInFrame.ts';
 import { useLayout } from '../../../ui/useLayout.ts';
@@ -152,14 +155,21 @@ function Content() {
   return (
     <>
       <OtherBoard />
-      {isPhone && (
-        <div className={styles.body}>
-          <BodyPicture />
-        </div>
-      )}
+      {isPhone && <PhonePicture />}
       {first}
       {isPainted ? second : <div className={styles.rest} />}
     </>
+  );
+}
+
+/** A camera where it stands above the sliders, too. */
+function PhonePicture() {
+  const isCamera = useServoLayout() === 'camera';
+  return (
+    <div className={cx(styles.body, isCamera && styles.camera)}>
+      {isCamera ? <CameraView /> : <BodyPicture />}
+      <CameraSwitch />
+    </div>
   );
 }
 

@@ -5,7 +5,7 @@
 import { tellsPositions } from '../../../robot/readiness.ts';
 import { type Stores, useDevice, useIsUnidentified, useKnownFamily, useStores } from '../../stores.ts';
 import { Button, type ButtonProps } from '../../../ui/Button.tsx';
-import { words } from '../../../i18n/words.ts';
+import { words } from '../../../i18n/whole.ts';
 import type { Undoable } from '../../../state/store.ts';
 import styles from './CaptureButton.module.css';
 import stripStyles from './CaptureStrip.module.css';

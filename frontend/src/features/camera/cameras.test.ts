@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest';
 import fc from 'fast-check';
-import { boundaryIn, createPartReader } from './mjpeg.ts';
+import { boundaryIn, createArrivals, createPartReader } from './cameras.ts';
 
 const picture = fc.uint8Array({ minLength: 1, maxLength: 300 });
 
@@ -62,4 +62,17 @@ test('the boundary is read as cameras write it', () => {
   expect(boundaryIn('multipart/x-mixed-replace; charset=x; boundary="a b"')).toBe('a b');
   expect(boundaryIn('image/jpeg')).toBeNull();
   expect(boundaryIn('multipart/x-mixed-replace')).toBeNull();
+});
+
+test('the rate is known once it was counted for two seconds, and is no lower before', () => {
+  const arrivals = createArrivals();
+  expect(arrivals.figures(0)).toEqual({ rate: null, ageMs: 0 });
+  for (let atMs = 10_000; atMs < 12_000; atMs += 40) {
+    arrivals.note(atMs);
+    expect(arrivals.figures(atMs + 15)).toEqual({ rate: null, ageMs: 15 });
+  }
+  arrivals.note(12_000);
+  expect(arrivals.figures(12_000)).toEqual({ rate: 25, ageMs: 0 });
+  expect(arrivals.figures(13_000)).toEqual({ rate: 13, ageMs: 1000 });
+  expect(arrivals.figures(15_000)).toEqual({ rate: 0, ageMs: 3000 });
 });
