@@ -12,6 +12,7 @@ from fastapi import Depends, Path, Request
 from pydantic import Field
 from starlette.requests import HTTPConnection
 
+from servodeck.api.once import KEYED, KeyedRoute
 from servodeck.api.routes import DRIVER, OWNER, VIEWER, Controlled, routes
 from servodeck.api.websocket import play as play_for_page
 from servodeck.callers import Caller
@@ -92,7 +93,7 @@ async def scripts_of(connection: HTTPConnection) -> Scripts:
 
 Scripted = Annotated[Scripts, Depends(scripts_of)]
 Driving = Annotated[Caller, DRIVER]
-motion_api = routes("/api", "motion")
+motion_api = routes("/api", "motion", KeyedRoute)
 
 
 async def once_identified(request: Request, control: Controlled) -> None:
@@ -105,9 +106,10 @@ async def once_identified(request: Request, control: Controlled) -> None:
 
 
 ONCE_IDENTIFIED = [Depends(once_identified)]
+KEYED_ONCE_IDENTIFIED = [KEYED, *ONCE_IDENTIFIED]
 
 
-@motion_api.post("/move", dependencies=ONCE_IDENTIFIED)
+@motion_api.post("/move", dependencies=KEYED_ONCE_IDENTIFIED)
 async def move(wish: MoveWish, request: Request, caller: Driving, scripts: Scripted) -> MoveBegun:
     """Moves servos together. Answers when the last packet has left the wire; `overInMs` later the servos have
     arrived. Servos of unknown position take at least 1500 ms and start one after another.
@@ -133,7 +135,7 @@ async def begin_move(
     return MoveBegun(packets=moved.packets, over_in_ms=moved.over_in_ms, first_moves=list(moved.first_moves))
 
 
-@motion_api.post("/slots/{slot}/run", dependencies=ONCE_IDENTIFIED)
+@motion_api.post("/slots/{slot}/run", dependencies=KEYED_ONCE_IDENTIFIED)
 async def run(
     slot: Annotated[int, Path(ge=0, le=255)], caller: Driving, scripts: Scripted, wish: RunWish = ONCE
 ) -> RunBegun:
@@ -180,7 +182,7 @@ class ApplyWish(Message):
 
 
 GENTLY = ApplyWish()
-poses_api = routes("/api/poses", "poses")
+poses_api = routes("/api/poses", "poses", KeyedRoute)
 
 
 @poses_api.get("", dependencies=[VIEWER])
@@ -190,7 +192,7 @@ async def list_poses(control: Controlled) -> Poses:
     return Poses(robot=facts.name, poses=facts.poses) if facts else Poses(robot="", poses=[])
 
 
-@poses_api.post("/{pose}/apply", dependencies=ONCE_IDENTIFIED)
+@poses_api.post("/{pose}/apply", dependencies=KEYED_ONCE_IDENTIFIED)
 async def apply(
     pose: Annotated[str, Path(min_length=1, max_length=64)],
     request: Request,
@@ -250,10 +252,10 @@ class DownloadWish(Message):
     take: Take = False
 
 
-jobs_api = routes("/api", "jobs")
+jobs_api = routes("/api", "jobs", KeyedRoute)
 
 
-@jobs_api.post("/download", status_code=202, dependencies=ONCE_IDENTIFIED)
+@jobs_api.post("/download", status_code=202, dependencies=KEYED_ONCE_IDENTIFIED)
 async def download(
     wish: DownloadWish,
     caller: Annotated[Caller, DRIVER],
@@ -304,10 +306,10 @@ class PlayWish(PlayIntent):
     take: Take = False
 
 
-play_api = routes("/api", "play")
+play_api = routes("/api", "play", KeyedRoute)
 
 
-@play_api.post("/play", status_code=202, dependencies=ONCE_IDENTIFIED)
+@play_api.post("/play", status_code=202, dependencies=KEYED_ONCE_IDENTIFIED)
 async def play(
     wish: PlayWish, caller: Annotated[Caller, DRIVER], control: Controlled, scripts: Scripted
 ) -> PlayState:

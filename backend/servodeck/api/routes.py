@@ -155,13 +155,13 @@ def operation_id(route: APIRoute) -> str:
     return to_camel(f"{route.tags[0]}_{route.name}")
 
 
-def routes(prefix: str, about: str) -> APIRouter:
+def routes(prefix: str, about: str, route_class: type[ApiRoute] = ApiRoute) -> APIRouter:
     """For our own page and for scripts; every refusal is a Problem, as openapi.py describes."""
     return APIRouter(
         prefix=prefix,
         tags=[about],
         generate_unique_id_function=operation_id,
-        route_class=ApiRoute,
+        route_class=route_class,
     )
 
 

@@ -2055,7 +2055,10 @@ export interface operations {
   jobsDownload: {
     parameters: {
       query?: never;
-      header?: never;
+      header?: {
+        /** @description Of this request, by the client. A repeat within ten minutes gets the first answer. */
+        'idempotency-key'?: string | null;
+      };
       path?: never;
       cookie?: never;
     };
@@ -2528,7 +2531,10 @@ export interface operations {
   motionMove: {
     parameters: {
       query?: never;
-      header?: never;
+      header?: {
+        /** @description Of this request, by the client. A repeat within ten minutes gets the first answer. */
+        'idempotency-key'?: string | null;
+      };
       path?: never;
       cookie?: never;
     };
@@ -2645,7 +2651,10 @@ export interface operations {
   playPlay: {
     parameters: {
       query?: never;
-      header?: never;
+      header?: {
+        /** @description Of this request, by the client. A repeat within ten minutes gets the first answer. */
+        'idempotency-key'?: string | null;
+      };
       path?: never;
       cookie?: never;
     };
@@ -2795,7 +2804,10 @@ export interface operations {
   posesApply: {
     parameters: {
       query?: never;
-      header?: never;
+      header?: {
+        /** @description Of this request, by the client. A repeat within ten minutes gets the first answer. */
+        'idempotency-key'?: string | null;
+      };
       path: {
         pose: string;
       };
@@ -2863,7 +2875,10 @@ export interface operations {
   motionRun: {
     parameters: {
       query?: never;
-      header?: never;
+      header?: {
+        /** @description Of this request, by the client. A repeat within ten minutes gets the first answer. */
+        'idempotency-key'?: string | null;
+      };
       path: {
         slot: number;
       };
