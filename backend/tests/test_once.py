@@ -77,9 +77,9 @@ async def test_a_key_with_another_body_or_address_is_refused_with_a_code() -> No
     async with script() as here:
         await post(here, "move", "a", TO_2000)
         other = await post(here, "move", "a", TO_2000 | {"timeMs": 1600})
-        assert refusal(other) == (412, "conflict")
+        assert refusal(other) == (422, "malformed")
         assert "Idempotency-Key" in other.json()["detail"]
-        assert refusal(await post(here, "slots/8/run", "a", TO_2000)) == (412, "conflict")
+        assert refusal(await post(here, "slots/8/run", "a", TO_2000)) == (422, "malformed")
         assert here.sent() == [move(1500, s1=2000)]
 
 

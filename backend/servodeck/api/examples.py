@@ -154,12 +154,12 @@ EXAMPLES: dict[tuple[str, str], Example] = {
     ("POST", "/api/move"): Example(
         {"packets": 1, "overInMs": 1500, "firstMoves": [1]},
         {"timeMs": 1500, "positions": {"1": 1500, "2": 900}, "take": False},
-        (*ON_THE_WIRE, "conflict", "cancelled"),
+        (*ON_THE_WIRE, "cancelled"),
     ),
     ("POST", "/api/slots/{slot}/run"): Example(
         {"outcome": "acknowledged"},
         {"times": 2, "continueForMs": 60000, "take": False},
-        (*ON_THE_WIRE, "conflict", "slotBroken"),
+        (*ON_THE_WIRE, "slotBroken"),
     ),
     ("POST", "/api/download"): Example(
         JOB,
@@ -179,7 +179,7 @@ EXAMPLES: dict[tuple[str, str], Example] = {
             "nonce": None,
             "take": False,
         },
-        (*ON_THE_WIRE, "conflict", "slotChanged", "notFound", "cancelled"),
+        (*ON_THE_WIRE, "slotChanged", "notFound", "cancelled"),
     ),
     ("POST", "/api/play"): Example(
         PLAY,
@@ -195,7 +195,7 @@ EXAMPLES: dict[tuple[str, str], Example] = {
             "continueForMs": 60000,
             "take": False,
         },
-        (*ON_THE_WIRE, "conflict", "cancelled"),
+        (*ON_THE_WIRE, "cancelled"),
     ),
     ("DELETE", "/api/play"): Example(
         PLAY | {"status": "ended", "code": "cancelled", "detail": "The group was stopped."}
@@ -216,7 +216,7 @@ EXAMPLES: dict[tuple[str, str], Example] = {
     ("POST", "/api/poses/{pose}/apply"): Example(
         {"packets": 1, "overInMs": 1500, "firstMoves": []},
         {"timeMs": 1500, "take": False},
-        (*ON_THE_WIRE, "conflict", "cancelled", "notFound"),
+        (*ON_THE_WIRE, "cancelled", "notFound"),
     ),
     ("PUT", "/api/robot"): Example(
         None,

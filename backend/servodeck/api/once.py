@@ -20,7 +20,7 @@ from starlette.requests import Request
 from starlette.responses import Response
 
 from servodeck.api.routes import ApiRoute, BodyRequest
-from servodeck.errors import BusyError, ConflictError, GatewayError
+from servodeck.errors import BusyError, GatewayError, MalformedError
 
 KEY = "idempotency-key"
 REMEMBERED_S = 600.0
@@ -92,12 +92,12 @@ class Answers:
         request: Request,
         do: Callable[[Request], Awaitable[Response]],
     ) -> Response:
-        """Raises ConflictError for a key that was used with another request, BusyError for too many keys."""
+        """Raises MalformedError for a key that was used with another request, BusyError for too many keys."""
         text = f"{request.method} {request.url.path}\n".encode() + await request.body()
         body = sha256(text).digest()
         while known := self._find(caller, key):
             if known.body != body:
-                raise ConflictError("This Idempotency-Key was used with another request: take a new one.")
+                raise MalformedError("This Idempotency-Key was used with another request: take a new one.")
             if known.ended and known.waiting is not None:
                 known.waiting.append(request)
                 await known.ended.wait()
