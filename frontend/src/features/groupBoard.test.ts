@@ -1,3 +1,4 @@
+import { compileSource } from './board/compile/compileSource.ts';
 import { expect, test } from 'vitest';
 import { insertFrame } from '#shared/group/groupEdits.ts';
 import { FAMILIES, UNKNOWN_BOARD } from '#shared/codec/families.ts';
@@ -14,6 +15,6 @@ test('without a known board a group is judged by the one that the robot is descr
     () => 'fill',
     (group) => insertFrame(group, 0, { durationMs: 500, targets: POSE }),
   );
-  const { source, report } = compiled.now();
+  const { source, report } = compiled.now(compileSource);
   expect([source.family, report.problems]).toEqual([FAMILIES['lsc-16'], []]);
 });

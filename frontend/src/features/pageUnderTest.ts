@@ -1,5 +1,6 @@
 // The page's stores with a simulated board in virtual time, for tests; assembled as in app/page.ts.
 
+import { compileSource } from './board/compile/compileSource.ts';
 import { createStore } from 'zustand/vanilla';
 import { FAMILIES } from '#shared/codec/families.ts';
 import { createRig } from '#shared/robot/rig.ts';
@@ -42,7 +43,10 @@ export async function createTestPage(
   const device = createDevice({ family: FAMILIES.doc, clock, notices, robots });
   const document = createDocument(storage, notices, clock);
   const view = createView({ browser: storage, tab: storage });
-  const compiled = createCompiled({ document, device, robots, clock });
+  const compiled = createCompiled({
+    ...{ document, device, robots, clock },
+    compileElsewhere: (source) => Promise.resolve(compileSource(source)),
+  });
   const slots = createSlots({ device, robots, notices, storage, today: () => clock.now() });
   const timeline = createTimeline();
   const playhead = createPlayhead(timeline);

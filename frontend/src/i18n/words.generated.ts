@@ -531,13 +531,15 @@ export interface Messages {
     readonly reasons: {
       readonly unit: (values: { readonly group: string; readonly board: string }) => string;
       readonly servo: (values: { readonly name: string; readonly min: number; readonly max: number }) => string;
-      readonly position: (values: { readonly name: string; readonly frame: number; readonly position: number; readonly min: number; readonly max: number }) => string;
+      readonly position: (values: { readonly name: string; readonly place: string; readonly position: number; readonly min: number; readonly max: number }) => string;
       readonly tooManyServos: (values: { readonly frame: number; readonly count: number; readonly limit: number }) => string;
       readonly tooManyFrames: (values: { readonly count: number; readonly limit: number }) => string;
-      readonly tooShort: (values: { readonly name: string; readonly frame: number; readonly leastMs: number }) => string;
+      readonly tooShort: (values: { readonly name: string; readonly place: string; readonly leastMs: number }) => string;
       readonly tooFast: (values: { readonly name: string; readonly atMs: number; readonly degreesPerS: number; readonly limit: number }) => string;
       readonly deviation: (values: { readonly name: string; readonly atMs: number; readonly error: string; readonly allowed: string }) => string;
-      readonly swing: (values: { readonly name: string; readonly frame: number; readonly position: number; readonly min: number; readonly max: number }) => string;
+      readonly swing: (values: { readonly name: string; readonly place: string; readonly position: number; readonly min: number; readonly max: number }) => string;
+      readonly inFrame: (values: { readonly frame: number }) => string;
+      readonly inBlock: (values: { readonly name: string }) => string;
     };
     readonly worst: (values: { readonly error: string; readonly degrees: string; readonly name: string; readonly atMs: number }) => string;
   };
@@ -2120,6 +2122,7 @@ export interface Messages {
       readonly pageAfter: string;
       readonly curve: string;
       readonly smooth: string;
+      readonly block: string;
     };
     readonly markerVerbs: {
       readonly marker: string;
@@ -2520,6 +2523,34 @@ export interface Messages {
       readonly frames: string;
       readonly poses: string;
       readonly buttons: string;
+    };
+  };
+  readonly blocks: {
+    readonly row: string;
+    readonly name: string;
+    readonly newName: (values: { readonly number: number }) => string;
+    readonly made: (values: { readonly name: string }) => string;
+    readonly about: (values: { readonly name: string; readonly from: string; readonly to: string; readonly times: number }) => string;
+    readonly startsAt: (values: { readonly name: string; readonly at: string }) => string;
+    readonly times: (values: { readonly times: number }) => string;
+    readonly settings: (values: { readonly name: string }) => string;
+    readonly fields: {
+      readonly times: string;
+      readonly speedPercent: string;
+      readonly blendInMs: string;
+      readonly blendOutMs: string;
+    };
+    readonly duplicate: string;
+    readonly unpack: string;
+    readonly unpackHint: string;
+    readonly delete: string;
+    readonly steps: {
+      readonly make: string;
+      readonly move: string;
+      readonly change: string;
+      readonly duplicate: string;
+      readonly unpack: string;
+      readonly delete: string;
     };
   };
 }

@@ -1,6 +1,7 @@
 // A group as a file of any format, and what that format cannot hold. Databases are made by what is handed in.
 
 import type { Family } from '../codec/families.ts';
+import { flattened } from '../group/blockEdits.ts';
 import { type ActionGroup, groupToFile, isStraight } from '../group/group.ts';
 import type { Robot } from '../profile/robot.ts';
 import { arduinoOf, programOf, type Program, pythonOf } from './program.ts';
@@ -33,17 +34,19 @@ export type MakeDatabase = (sheet: Sheet) => Promise<Uint8Array<ArrayBuffer>>;
 /** Misfits only where nothing was written: a program must not send what cannot be, a .rob file has 40 servos of a bus, in steps. */
 export async function writeGroupFile(
   format: SaveFormat,
-  group: ActionGroup,
+  saved: ActionGroup,
   { family, robot }: Board,
   makeDatabase: MakeDatabase,
 ): Promise<SavedFile | { readonly misfits: readonly Misfit[] }> {
+  // No other format knows blocks.
+  const group = flattened(saved);
   const whole: ActionGroup = { ...group, frames: filledFrames(group) };
   const program = (write: (program: Program) => string) => {
     const made = programOf(group, family, robot);
     return 'misfits' in made ? made : write(made.program);
   };
   const written = await {
-    json: () => groupToFile(group),
+    json: () => groupToFile(saved),
     xml: () => writeXml(whole),
     d6a: () => makeDatabase(sheetOf(whole)),
     rob: () => robOf(whole),
@@ -87,8 +90,9 @@ export interface Loss {
 }
 
 /** Said before saving, so that it is no surprise later. */
-export function lossesIn(format: SaveFormat, group: ActionGroup): readonly Loss[] {
+export function lossesIn(format: SaveFormat, saved: ActionGroup): readonly Loss[] {
   if (format === 'json') return [];
+  const group = flattened(saved);
   const { frames, markers, robot, tags, times, sound } = group;
   const { completed, lacking } = filled(group);
   const isProgram = format === 'python' || format === 'arduino';

@@ -84,8 +84,9 @@ export function pasteKeys(
       placed(all, at + afterMs, targets, (own) => newMoment(at, own, look)),
     momentsOf(room),
   );
-  const { markers } = room;
-  const pasted = withMoments(group, moments, clip.moments.length === 0 ? {} : { unit: clip.unit, markers });
+  const { markers, blocks } = room;
+  const marks = { markers, ...(blocks && { blocks }) };
+  const pasted = withMoments(group, moments, clip.moments.length === 0 ? {} : { unit: clip.unit, ...marks });
   return judged(group, pasted, clip, rangeOf);
 }
 

@@ -19,8 +19,8 @@ import {
   type Deviation,
   type Straight,
 } from './courses.ts';
-import { isStraight, totalDurationMs, type ActionGroup, type GroupFrame } from './group.ts';
-import { tracksOf } from './tracks.ts';
+import { blocksOf, motionLengthMs, motionTracks } from './blocks.ts';
+import { isStraight, type ActionGroup, type GroupFrame } from './group.ts';
 
 export interface Compiled {
   readonly frames: readonly Frame[];
@@ -30,9 +30,9 @@ export interface Compiled {
 export function compile(group: ActionGroup, options: CompileOptions): Compiled {
   const { family, maxErrorUnits, start = new Map<number, number>() } = options;
   const stepMs = gridMs(family);
-  const tracks = tracksOf(group);
+  const tracks = motionTracks(group);
   const courses = coursesOf(tracks, stepMs, start);
-  const endMs = onGrid(totalDurationMs(group.frames), stepMs);
+  const endMs = onGrid(motionLengthMs(group), stepMs);
   const isDirect = isTakenAsItIs(group, tracks.size, family);
   const { frames, worst } = isDirect
     ? { frames: group.frames.map(plain), worst: null }
@@ -55,9 +55,11 @@ const plain = ({ durationMs, targets }: GroupFrame): Frame => ({
 const exact = (course: Course): Course => ({ ...course, missed: [], shiftedMs: 0 });
 
 /** Each frame is a whole pose, reached straight, in a time the board keeps. */
-function isTakenAsItIs({ frames }: ActionGroup, servoCount: number, family: Family): boolean {
+function isTakenAsItIs(group: ActionGroup, servoCount: number, family: Family): boolean {
+  const { frames } = group;
   const { motion, shortestMoveMs, durationMs: allowed, framesPerGroup } = family;
   return (
+    blocksOf(group).length === 0 &&
     frames.length <= framesPerGroup &&
     frames.every(
       (frame) =>

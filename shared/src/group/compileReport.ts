@@ -7,6 +7,7 @@ import { wireMs } from '../codec/packet.ts';
 import { DEGREES_PER_UNIT } from '../profile/readyRobots.ts';
 import { servoOf, type Robot } from '../profile/robot.ts';
 import { type Course, type Leg, ROUNDING, turnsOf, type Deviation } from './courses.ts';
+import { blocksOf } from './blocks.ts';
 import { curveOf, type Easing } from './curves.ts';
 import { totalDurationMs, type ActionGroup } from './group.ts';
 
@@ -28,6 +29,7 @@ export interface CompileOptions {
 export type CompileProblem =
   | { readonly kind: 'unit'; readonly group: ActionGroup['unit']; readonly board: ActionGroup['unit'] }
   | ({ readonly kind: 'servo'; readonly servo: number } & Range)
+  /** A `frameId` below zero is of a block, as in blocks.ts. */
   | ({ readonly kind: 'position'; readonly servo: number; readonly frameId: number } & Range & {
         readonly position: number;
       })
@@ -127,8 +129,11 @@ function problemsOf(parts: CompiledParts): readonly CompileProblem[] {
   return problems;
 }
 
-function keyProblems({ frames }: ActionGroup, { family, robot }: CompileOptions): CompileProblem[] {
-  return frames.flatMap(({ id: frameId, targets }) =>
+function keyProblems(group: ActionGroup, { family, robot }: CompileOptions): CompileProblem[] {
+  const blocks = blocksOf(group).flatMap(({ id, moments }) =>
+    moments.map(({ targets }) => ({ id: -id, targets })),
+  );
+  return [...group.frames, ...blocks].flatMap(({ id: frameId, targets }) =>
     targets.flatMap(({ servo, position }): CompileProblem[] => {
       if (servo < family.servo.min || servo > family.servo.max) return [];
       const range = rangeOf(servo, family, robot);

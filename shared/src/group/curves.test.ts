@@ -2,8 +2,16 @@ import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import { evenly } from '../testing/cases.ts';
 import { ANY_EASING } from '../testing/groups.ts';
-import { curveOf, EASINGS, HIGHEST_HANDLE, LOWEST_HANDLE, sameEasing, type Bezier } from './curves.ts';
-import { handlesOf } from './keyEdits.ts';
+import {
+  curveOf,
+  EASINGS,
+  handlesOf,
+  HIGHEST_HANDLE,
+  LOWEST_HANDLE,
+  partOf,
+  sameEasing,
+  type Bezier,
+} from './curves.ts';
 import { reversedEasing } from './timeEdits.ts';
 
 const shares = evenly(0, 1);
@@ -83,6 +91,30 @@ describe('a curve by its handles', () => {
     const decimals = easing === 'inOut' ? 1 : 6;
     for (let step = 0; step <= 50; step++)
       expect(handles.at(step / 50)).toBeCloseTo(curve.at(step / 50), decimals);
+  });
+
+  test('cut in two at any time is gone as before', () => {
+    const mild = fc.double({ min: 0, max: 1, noNaN: true });
+    const easings = fc.oneof(
+      fc.tuple(time, mild, time, mild),
+      fc.constantFrom(...NAMES.filter((easing) => easing !== 'inOut')),
+    );
+    fc.assert(
+      fc.property(easings, fc.double({ min: 0.05, max: 0.95, noNaN: true }), shares, (easing, at, share) => {
+        const whole = curveOf(easing);
+        const cutAt = whole.at(at);
+        // Steep to the side of a height of nearly nothing, no handle that a document takes says it.
+        fc.pre(cutAt > 0.3 && cutAt < 0.7);
+        const [before, behind] = (['before', 'behind'] as const).map((side) =>
+          curveOf(partOf(easing, at, side)),
+        );
+        expect(cutAt * before!.at(share)).toBeCloseTo(whole.at(at * share), 1);
+        expect(cutAt + (1 - cutAt) * behind!.at(share)).toBeCloseTo(whole.at(at + (1 - at) * share), 1);
+      }),
+    );
+    const [one, other] = (['before', 'behind'] as const).map((side) => partOf('in', 0.5, side));
+    expect(curveOf(one!).at(0.5)).toBeCloseTo(0.25, 3);
+    expect(curveOf(other!).at(0.5)).toBeCloseTo((0.75 ** 2 - 0.25) / 0.75, 3);
   });
 
   test('is the same by its numbers', () => {

@@ -109,3 +109,54 @@ export function sameEasing(one: Easing, other: Easing): boolean {
   if (typeof one === 'string' || typeof other === 'string') return one === other;
   return one.every((value, index) => value === other[index]);
 }
+
+/** Where the handles of a curve that has a name are: exactly, but for `inOut`, which is two parabolas. */
+const HANDLES_OF: Readonly<Record<Exclude<NamedEasing, 'hold'>, Bezier>> = {
+  linear: [1 / 3, 1 / 3, 2 / 3, 2 / 3],
+  in: [1 / 3, 0, 2 / 3, 1 / 3],
+  out: [1 / 3, 2 / 3, 2 / 3, 1],
+  inOut: [0.455, 0.03, 0.515, 0.955],
+};
+
+/** null: a jump has none. */
+export function handlesOf(easing: Easing): Bezier | null {
+  if (typeof easing !== 'string') return easing;
+  return easing === 'hold' ? null : HANDLES_OF[easing];
+}
+
+const rounded = (share: number): number => Math.round(share * 1000) / 1000;
+
+/** A handle as a document has it: a share of the time, and of the way. */
+export const handleTime = (share: number): number => rounded(Math.min(1, Math.max(0, share)));
+export const handleWay = (share: number): number =>
+  rounded(Math.min(HIGHEST_HANDLE, Math.max(LOWEST_HANDLE, share)));
+
+// A way that is cut in two at an instant continues as before, as near as handles with three decimals are.
+
+/** After de Casteljau. */
+export function partOf(easing: Easing, share: number, side: 'before' | 'behind'): Easing {
+  const whole = easing === 'linear' ? null : handlesOf(easing);
+  if (whole === null || share <= 0 || share >= 1) return easing;
+  const [x1, y1, x2, y2] = whole;
+  const t = whereAt(cubic(x1, x2), share);
+  const [xs, ys] = [split([0, x1, x2, 1], t)[side], split([0, y1, y2, 1], t)[side]];
+  const [width, height] = [xs[3] - xs[0], ys[3] - ys[0]];
+  if (width < LEAST || Math.abs(height) < LEAST) return 'linear';
+  const scaled = (index: 1 | 2): [number, number] => [
+    handleTime((xs[index] - xs[0]) / width),
+    handleWay((ys[index] - ys[0]) / height),
+  ];
+  return [...scaled(1), ...scaled(2)];
+}
+
+const LEAST = 1e-6;
+
+type Four = readonly [number, number, number, number];
+
+function split([a, b, c, d]: Four, t: number): Readonly<Record<'before' | 'behind', Four>> {
+  const mid = (one: number, other: number): number => one + (other - one) * t;
+  const [ab, bc, cd] = [mid(a, b), mid(b, c), mid(c, d)];
+  const [abc, bcd] = [mid(ab, bc), mid(bc, cd)];
+  const at = mid(abc, bcd);
+  return { before: [a, ab, abc, at], behind: [at, bcd, cd, d] };
+}

@@ -2,6 +2,7 @@
 // so that two groups with one fingerprint move alike. Guards against mistakes, not against malice. Knows no board.
 
 import type { Frame } from '../codec/commands.ts';
+import { onBoard, type Robot } from '../profile/robot.ts';
 
 // Frames as numbers one after the other, and back: what is the same is the same to the last number, and numbers go
 // from one thread to another without a copy of each frame.
@@ -31,6 +32,13 @@ export function framesOf(numbers: ArrayLike<number>): readonly Frame[] {
 /** FNV-1a, 32 bits, from two beginnings: 64 bits, as hex. */
 export function fingerprintOf(frames: readonly Frame[]): string {
   return fingerprintOfNumbers(numbersOf(frames));
+}
+
+/** Another trim makes another motion of the same frames. */
+export function boardFingerprint(robot: Robot, frames: readonly Frame[]): string {
+  return fingerprintOf(
+    frames.map(({ durationMs, targets }) => ({ durationMs, targets: onBoard(robot, targets) })),
+  );
 }
 
 export function fingerprintOfNumbers(words: Iterable<number>): string {

@@ -5,7 +5,7 @@ import { rescaled } from '../profile/units.ts';
 import type { Colour } from '../document/schema.ts';
 import { mirroredTargets } from '../profile/poseShapes.ts';
 import type { Robot, RobotServo } from '../profile/robot.ts';
-import { MOST_ERROR_UNITS, type ActionGroup, type GroupFrame, type Marker } from './group.ts';
+import { MOST_ERROR_UNITS, type ActionGroup, type GroupFrame, type KeyTarget, type Marker } from './group.ts';
 import { changed, sameList, samePose } from './groupEdits.ts';
 import { wholeMs } from './moments.ts';
 
@@ -87,17 +87,21 @@ function withMarkers(group: ActionGroup, markers: readonly Marker[]): ActionGrou
 export function convertGroup(group: ActionGroup, unit: ActionGroup['unit']): ActionGroup | null {
   if (group.unit === unit) return group;
   const at = (position: number): number => Math.round(rescaled(position, group.unit, unit));
-  const isTooLow = group.frames.some(({ targets }) => targets.some(({ position }) => at(position) < 0));
+  const keyed = [...group.frames, ...(group.blocks ?? []).flatMap(({ moments }) => moments)];
+  const isTooLow = keyed.some(({ targets }) => targets.some(({ position }) => at(position) < 0));
   if (isTooLow) return null;
   const { maxErrorUnits } = group;
   const per = Math.abs(rescaled(1, group.unit, unit) - rescaled(0, group.unit, unit));
-  const frames = group.frames.map((frame) => ({
-    ...frame,
-    targets: frame.targets.map((target) => ({ ...target, position: at(target.position) })),
-  }));
+  const converted = <T extends { readonly targets: readonly KeyTarget[] }>(one: T): T => ({
+    ...one,
+    targets: one.targets.map((target) => ({ ...target, position: at(target.position) })),
+  });
+  const frames = group.frames.map(converted);
+  const blocks = group.blocks?.map((block) => ({ ...block, moments: block.moments.map(converted) }));
   return {
     ...group,
     ...{ unit, frames },
+    ...(blocks && { blocks }),
     ...(maxErrorUnits !== undefined && {
       maxErrorUnits: Math.min(MOST_ERROR_UNITS, Math.max(1, Math.round(maxErrorUnits * per))),
     }),

@@ -60,6 +60,31 @@ const markerSchema = v.strictObject({
   text: v.pipe(v.string(), v.maxLength(NOTE_LENGTH)),
 });
 
+export const MOST_TIMES = 100;
+export const [SLOWEST_PERCENT, FASTEST_PERCENT] = [10, 400] as const;
+const MAX_BLOCKS = 200;
+
+/** Motion on a track of its own, above the keys: blocks.ts says what it does. */
+const blockSchema = v.strictObject({
+  id: runningId,
+  name: v.pipe(v.string(), v.maxLength(GROUP_NAME_LENGTH)),
+  /** Since the group began. */
+  startMs: whole(0, MAX_MS),
+  times: whole(1, MOST_TIMES),
+  speedPercent: whole(SLOWEST_PERCENT, FASTEST_PERCENT),
+  /** How long its servos take to its first keys, and from its last ones back to what they do without it. */
+  blendInMs: whole(0, 0xffff),
+  blendOutMs: whole(0, 0xffff),
+  /** From its last keys to its first ones, where it is repeated. */
+  gapMs: whole(0, 0xffff),
+  /** In the order of time, the first one at 0. */
+  moments: v.pipe(
+    v.array(v.strictObject({ atMs: whole(0, MAX_MS), easing: easingSchema, targets: v.array(keySchema) })),
+    v.minLength(1),
+    v.maxLength(MAX_FRAMES),
+  ),
+});
+
 /** A sound that is played along. */
 const soundSchema = v.strictObject({
   ...fileReference.entries,
@@ -94,9 +119,14 @@ export const groupSchema = v.strictObject({
   /** The next unused id of a frame or marker: an undone frame comes back as itself. */
   nextId: runningId,
   sound: v.exactOptional(soundSchema),
+  blocks: v.exactOptional(v.pipe(v.array(blockSchema), v.maxLength(MAX_BLOCKS))),
 });
 
 export type GroupSound = Readonly<v.InferOutput<typeof soundSchema>>;
+export type BlockMoment = Readonly<{ atMs: number; easing: Easing; targets: readonly KeyTarget[] }>;
+export type Block = Readonly<Omit<v.InferOutput<typeof blockSchema>, 'moments'>> & {
+  readonly moments: readonly BlockMoment[];
+};
 export type Marker = Readonly<v.InferOutput<typeof markerSchema>>;
 
 /** A servo's place in a frame, and how it comes there where it does not come as the frame says. */
@@ -115,7 +145,10 @@ export const easingOf = (target: KeyTarget, frame: Pick<GroupFrame, 'easing'>): 
 export const isStraight = (frame: GroupFrame): boolean =>
   frame.easing === 'linear' && frame.targets.every((target) => easingOf(target, frame) === 'linear');
 
-export type ActionGroup = Readonly<Omit<v.InferOutput<typeof groupSchema>, 'frames' | 'markers' | 'tags'>> & {
+export type ActionGroup = Readonly<
+  Omit<v.InferOutput<typeof groupSchema>, 'frames' | 'markers' | 'tags' | 'blocks'>
+> & {
+  readonly blocks?: readonly Block[];
   readonly frames: readonly GroupFrame[];
   readonly markers: readonly Marker[];
   readonly tags: readonly string[];
@@ -126,13 +159,23 @@ export function emptyGroup(name: string, unit: ActionGroup['unit']): ActionGroup
 }
 
 /** What no shape can say is wrong, as a sentence; null where nothing is. */
-export function flawOfGroup({ frames, markers, nextId }: ActionGroup): TextFlaw | null {
-  const ids = [...frames, ...markers].map((one) => one.id);
+export function flawOfGroup({ frames, markers, blocks = [], nextId }: ActionGroup): TextFlaw | null {
+  const ids = [...frames, ...markers, ...blocks].map((one) => one.id);
   if (new Set(ids).size < ids.length || ids.some((one) => one >= nextId))
     return { code: 'sameNumber', at: '' };
   const index = frames.findIndex(({ targets }) => !isAscending(targets));
-  return index === -1 ? null : { code: 'servoOrder', at: String(index + 1) };
+  if (index !== -1) return { code: 'servoOrder', at: String(index + 1) };
+  const block = blocks.findIndex((one) => !isInOrder(one));
+  return block === -1 ? null : { code: 'badValue', at: `blocks.${block}` };
 }
+
+/** Its repeats together are no more keys than a group may have frames. */
+const isInOrder = ({ moments, times }: Block): boolean =>
+  moments[0]?.atMs === 0 &&
+  moments.length * times <= MAX_FRAMES &&
+  moments.every(
+    ({ atMs, targets }, index) => atMs >= (moments[index - 1]?.atMs ?? 0) && isAscending(targets),
+  );
 
 const isAscending = (targets: readonly ServoTarget[]): boolean =>
   targets.slice(1).every(({ servo }, index) => servo > (targets[index]?.servo ?? servo));

@@ -1,6 +1,7 @@
 // A group's frames as keys in time, worked out once for each state of them: tracks, ends, places by id.
 
-import { easingOf, type GroupFrame } from './group.ts';
+import { motionLengthMs } from './blocks.ts';
+import { easingOf, type ActionGroup, type Block, type GroupFrame } from './group.ts';
 import { sameList } from './groupEdits.ts';
 import {
   arePlacedAlike,
@@ -24,6 +25,7 @@ interface Places {
   readonly servos: readonly number[];
   /** When each frame is done. */
   readonly ends: readonly number[];
+  /** Of all of it, its blocks too. */
   readonly lengthMs: number;
   /** A frame's place in the list by its id. */
   readonly places: ReadonlyMap<number, number>;
@@ -32,7 +34,21 @@ interface Places {
 const known = new WeakMap<readonly GroupFrame[], GroupTimes>();
 let latest: GroupTimes | undefined;
 
-export function timesOf({ frames }: { readonly frames: readonly GroupFrame[] }): GroupTimes {
+/** Blocks may last longer than the frames. */
+const longer = new WeakMap<GroupTimes, { readonly blocks: readonly Block[]; readonly times: GroupTimes }>();
+
+export function timesOf(group: Pick<ActionGroup, 'frames' | 'blocks'>): GroupTimes {
+  const times = timesOfFrames(group);
+  const { blocks } = group;
+  if (blocks === undefined) return times;
+  const before = longer.get(times);
+  if (before?.blocks === blocks) return before.times;
+  const made = { ...times, lengthMs: motionLengthMs(group) };
+  longer.set(times, { blocks, times: made });
+  return made;
+}
+
+function timesOfFrames({ frames }: Pick<ActionGroup, 'frames'>): GroupTimes {
   const before = known.get(frames);
   if (before !== undefined) return before;
   const times =

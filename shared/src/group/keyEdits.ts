@@ -1,15 +1,7 @@
 // Edits of single keys, as pure functions: (group, arguments) → group, the very same object where nothing changes. Servos that
 // are not named continue exactly as before. What shifts time for all servos is timeEdits.ts.
 
-import {
-  HIGHEST_HANDLE,
-  LOWEST_HANDLE,
-  sameEasing,
-  curveOf,
-  type Bezier,
-  type Easing,
-  type NamedEasing,
-} from './curves.ts';
+import { curveOf, handlesOf, handleTime, handleWay, sameEasing, type Easing } from './curves.ts';
 import { easingOf, type ActionGroup, type GroupFrame, type KeyTarget } from './group.ts';
 import { changed, sameList, samePose } from './groupEdits.ts';
 import { momentsOf, newMoment, placed, wholeMs, withMoments, withOwnEasing, type Moment } from './moments.ts';
@@ -279,27 +271,6 @@ function smoothWay(from: Key, to: Key, begin: number | null, end: number | null)
       ? ([before[2], before[3]] as const)
       : ([handleTime(1 - THIRD), handleWay(1 - rise(end))] as const)),
   ];
-}
-
-const rounded = (share: number): number => Math.round(share * 1000) / 1000;
-
-/** A handle as a document has it: a share of the time, and of the way. */
-export const handleTime = (share: number): number => rounded(Math.min(1, Math.max(0, share)));
-export const handleWay = (share: number): number =>
-  rounded(Math.min(HIGHEST_HANDLE, Math.max(LOWEST_HANDLE, share)));
-
-/** Where the handles of a curve that has a name are: exactly, but for `inOut`, which is two parabolas. */
-const HANDLES_OF: Readonly<Record<Exclude<NamedEasing, 'hold'>, Bezier>> = {
-  linear: [1 / 3, 1 / 3, 2 / 3, 2 / 3],
-  in: [1 / 3, 0, 2 / 3, 1 / 3],
-  out: [1 / 3, 2 / 3, 2 / 3, 1],
-  inOut: [0.455, 0.03, 0.515, 0.955],
-};
-
-/** null: a jump has none. */
-export function handlesOf(easing: Easing): Bezier | null {
-  if (typeof easing !== 'string') return easing;
-  return easing === 'hold' ? null : HANDLES_OF[easing];
 }
 
 /** The lowest and the highest position, where its curves swing beyond its keys too. */

@@ -8,7 +8,7 @@ import {
   type TimeRange,
   backwards,
   reverse,
-  shiftMarkersBehind,
+  shiftBehind,
   stretch,
   stretchBack,
   type Ripple,
@@ -176,9 +176,7 @@ export function stretchKeys(group: ActionGroup, refs: readonly KeyRef[], wanted:
   const all = merged(staying, stretched, vacated);
   // One that meets another of its servo stands on the side it came from.
   const moments = fixed === 'first' ? [...all.added, ...all.staying] : [...all.staying, ...all.added];
-  return withMoments(group, moments, {
-    markers: shiftMarkersBehind(group.markers, toMs, growthMs),
-  });
+  return withMoments(group, moments, shiftBehind(group, toMs, growthMs));
 }
 
 /** As much of it as there is room for. */

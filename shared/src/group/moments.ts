@@ -41,7 +41,7 @@ export const wholeMs = (atMs: number): number => Math.max(0, Math.round(atMs));
 export function withMoments(
   group: ActionGroup,
   moments: readonly Moment[],
-  change: Partial<Pick<ActionGroup, 'markers' | 'unit'>> = {},
+  change: Partial<Pick<ActionGroup, 'markers' | 'unit' | 'blocks'>> = {},
 ): ActionGroup {
   const before = new Map(group.frames.map((frame) => [frame.id, frame]));
   const frames: GroupFrame[] = [];

@@ -2,8 +2,16 @@
 // object where nothing changes. Markers go along with what they stand on. Knows no key's position.
 
 import { sameEasing, type Easing } from './curves.ts';
-import { easingOf, type ActionGroup, type GroupFrame, type Marker } from './group.ts';
-import { indexOfFrame, sameList } from './groupEdits.ts';
+import {
+  easingOf,
+  FASTEST_PERCENT,
+  SLOWEST_PERCENT,
+  type ActionGroup,
+  type Block,
+  type GroupFrame,
+  type Marker,
+} from './group.ts';
+import { changed, indexOfFrame, sameList } from './groupEdits.ts';
 import { momentsOf, wholeMs, withMoments, withOwnEasing, type Moment } from './moments.ts';
 
 export interface Ripple {
@@ -33,8 +41,7 @@ export function moveBoundary(
   const moments = momentsOf(group);
   const moved = moments.map((moment, other) => (isMoved(other) ? later(moment, byMs) : moment));
   const endMs = moments[index]?.atMs ?? 0;
-  const markers = ripple ? markersAt(group.markers, (atMs) => shifted(atMs, endMs, byMs)) : group.markers;
-  return withMoments(group, moved, { markers });
+  return withMoments(group, moved, ripple ? marksAt(group, (atMs) => shifted(atMs, endMs, byMs)) : {});
 }
 
 /** What stood within the time that is gone stands at its end. */
@@ -73,9 +80,11 @@ export function closeFrames(
 ): ActionGroup {
   const soonerMs = timeOf(group, gone);
   const moved = left.map((moment) => later(moment, -soonerMs(moment.atMs)));
-  return withMoments(group, moved, {
-    markers: markersAt(group.markers, (atMs) => atMs - soonerMs(atMs)),
-  });
+  return withMoments(
+    group,
+    moved,
+    marksAt(group, (atMs) => atMs - soonerMs(atMs)),
+  );
 }
 
 /** How much of the time before an instant these frames take. */
@@ -118,8 +127,19 @@ export function stretchBack(group: ActionGroup, { fromMs, toMs }: TimeRange, fac
 
 /** The whole group takes `factor` times as long. */
 export function scaleTime(group: ActionGroup, factor: number): ActionGroup {
-  return retimed(group, (atMs) => atMs * Math.max(0, factor));
+  const scaled = retimed(group, (atMs) => atMs * Math.max(0, factor));
+  const blocks = scaled.blocks?.map((block) => changed<Block>(block, scaledBlock(block, factor)));
+  return blocks === undefined ? scaled : changed(scaled, { blocks: sameList(scaled.blocks ?? [], blocks) });
 }
+
+const scaledBlock = ({ speedPercent, blendInMs, blendOutMs }: Block, factor: number): Partial<Block> => ({
+  speedPercent: Math.min(
+    FASTEST_PERCENT,
+    Math.max(SLOWEST_PERCENT, Math.round(speedPercent / Math.max(0.01, factor))),
+  ),
+  blendInMs: wholeMs(blendInMs * factor),
+  blendOutMs: wholeMs(blendOutMs * factor),
+});
 
 /**
  * The keys of the range come in the opposite order. Each way is gone as before, the other way round; how a servo comes into the
@@ -185,18 +205,22 @@ function retimed(
 ): ActionGroup {
   const moments = momentsOf(group).filter(stays);
   const moved = moments.map((moment) => ({ ...moment, atMs: wholeMs(at(moment.atMs)) }));
-  const markers = markersAt(group.markers.filter(stays), at);
-  return withMoments(group, moved, { markers });
+  return withMoments(group, moved, marksAt({ ...group, markers: group.markers.filter(stays) }, at));
 }
 
 const later = (moment: Moment, byMs: number): Moment => ({ ...moment, atMs: moment.atMs + byMs });
 
-/** Those behind an instant come so much later. */
-export const shiftMarkersBehind = (
-  markers: readonly Marker[],
-  instantMs: number,
-  byMs: number,
-): readonly Marker[] => markersAt(markers, (atMs) => (atMs > instantMs ? atMs + byMs : atMs));
+/** Markers and blocks behind an instant come so much later. */
+export const shiftBehind = (group: ActionGroup, instantMs: number, byMs: number): Marks =>
+  marksAt(group, (atMs) => (atMs > instantMs ? atMs + byMs : atMs));
+
+type Marks = Partial<Pick<ActionGroup, 'markers' | 'blocks'>>;
+
+/** A block moves as its beginning does, and lasts as long as before. */
+function marksAt({ markers, blocks }: ActionGroup, at: (atMs: number) => number): Marks {
+  const moved = blocks?.map((block) => changed<Block>(block, { startMs: wholeMs(at(block.startMs)) }));
+  return { markers: markersAt(markers, at), ...(blocks && moved && { blocks: sameList(blocks, moved) }) };
+}
 
 function markersAt(markers: readonly Marker[], at: (atMs: number) => number): readonly Marker[] {
   return markers.map((marker) => {

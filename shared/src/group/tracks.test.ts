@@ -11,12 +11,12 @@ import {
   repositioned,
   tracksOf,
 } from './tracks.ts';
-import type { Easing } from './curves.ts';
+import { handlesOf, type Easing } from './curves.ts';
 import { easingOf, emptyGroup, totalDurationMs } from './group.ts';
 import { insertFrame, setTargets } from './groupEdits.ts';
 import { setDuration } from './timeEdits.ts';
 import { ANY_EASING, someGroup } from '../testing/groups.ts';
-import { handlesOf, setEasing, setPositions } from './keyEdits.ts';
+import { setEasing, setPositions } from './keyEdits.ts';
 
 type Row = readonly [durationMs: number, targets: Readonly<Record<number, number>>, easing?: Easing];
 

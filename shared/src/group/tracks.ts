@@ -164,7 +164,7 @@ export function positionAt({ keys }: Track, atMs: number, startPosition?: number
 const startOf = (position: number | undefined) => (position === undefined ? null : { atMs: 0, position });
 
 /** How many keys have come by then. */
-function keysUntil(keys: readonly Key[], atMs: number): number {
+export function keysUntil(keys: readonly Key[], atMs: number): number {
   let low = 0;
   let high = keys.length;
   while (low < high) {

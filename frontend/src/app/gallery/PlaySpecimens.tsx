@@ -1,5 +1,6 @@
 // Compiling and playing a group, the board's slots, and the camera beside the motion, in their states.
 
+import { compileSource } from '../../features/board/compile/compileSource.ts';
 import type { ReactNode } from 'react';
 import { insertFrame, setMeta, type NewFrame } from '#shared/group/groupEdits.ts';
 import { EMPTY_SLOT_BOOK, withStored } from '#shared/group/slotBook.ts';
@@ -25,12 +26,12 @@ function write({ document, compiled }: Stores, ...frames: readonly NewFrame[]): 
     (group) =>
       frames.reduce((sum, each) => insertFrame(sum, sum.frames.length, each), { ...group, name: 'Wave' }),
   );
-  compiled.now();
+  compiled.now(compileSource);
 }
 
 function fill(stores: Stores): void {
   write(stores, frame(400, 900), frame(900, 1900));
-  const { frames, fingerprint } = stores.compiled.now();
+  const { frames, fingerprint } = stores.compiled.now(compileSource);
   const stored = {
     name: 'Wave',
     documentId: stores.library.store.getState().openId,

@@ -1,5 +1,6 @@
 // One state in the gallery: its name, its content and its stores, with a frozen robot that does nothing.
 
+import { compileSource } from '../../features/board/compile/compileSource.ts';
 import type { ReactNode } from 'react';
 import type { DocumentStore } from '#shared/files/documentStore.ts';
 import { FAMILIES, type FamilyId, type Family } from '#shared/codec/families.ts';
@@ -130,7 +131,10 @@ export function specimenStores(
   const poses = createPoses({ storage: NO_STORAGE, notices, robots, device, view });
   const mappings = createMappings(NO_STORAGE, notices, robots);
   const document = createDocument(NO_STORAGE, notices, pageClock);
-  const compiled = createCompiled({ document, device, robots, clock: pageClock });
+  const compiled = createCompiled({
+    ...{ document, device, robots, clock: pageClock },
+    compileElsewhere: (source) => Promise.resolve(compileSource(source)),
+  });
   const slots = createSlots({ device, robots, notices, storage: NO_STORAGE, today: Date.now });
   const timeline = createTimeline();
   const playhead = createPlayhead(timeline);

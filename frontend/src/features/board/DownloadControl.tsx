@@ -1,5 +1,6 @@
 // Downloads the compiled group to the chosen slot and shows the progress.
 
+import { compileSource } from './compile/compileSource.ts';
 import { problemText } from './compile/problems.tsx';
 import { isWatching } from '#shared/robot/lease.ts';
 import { useSnapshot, useStores, useCompiled, useDevice, useDocument, useSlot } from '../stores.ts';
@@ -50,7 +51,7 @@ export function DownloadControl() {
   const sameUnit = useDevice((state) => state.family.unit === unit);
   const mayStart = useSnapshot((snapshot) => startHindrance(snapshot) === null);
   const download = (): void => {
-    const group = compiled.now();
+    const group = compiled.now(compileSource);
     const { name } = group.source.group;
     const [problem] = obstacles(group.report, 'board');
     const { openId: documentId } = library.store.getState();

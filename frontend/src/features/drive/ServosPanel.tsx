@@ -190,7 +190,6 @@ export function ServosPanel({ isBesideRobot = false }: ServosPanelProps) {
   return (
     <Panel
       title={words.servos.title}
-      note={isPhone ? '' : why}
       className={cx(styles.panel, isListed && !isBesideRobot && styles.listed)}
       tools={
         <>
@@ -212,9 +211,7 @@ export function ServosPanel({ isBesideRobot = false }: ServosPanelProps) {
           {!isPhone && <LegendLine />}
         </>
       )}
-      <SelectionBar
-        hint={isTeaching ? words.teach.on : isPhone && why !== '' ? why : words.servoPanel.selectHint}
-      />
+      <SelectionBar hint={isTeaching ? words.teach.on : why !== '' ? why : words.servoPanel.selectHint} />
       {isListed ? <ServoList /> : <CurrentServo />}
       {isPhone && <LegendLine />}
       <MoveTimeControl />

@@ -1,6 +1,7 @@
 // What the picture of the robot shows as it changes, without React: targets and estimates of servos, read once per frame, and the preview:
 // the pose at the playhead of the timeline, or of a blend of poses. Moves nothing.
 
+import { motionTracks } from '#shared/group/blocks.ts';
 import type { Motions, ServoMotion } from '#shared/robot/state.ts';
 import type { Device } from '../../robot/device.ts';
 import { currentFrame, useFollow, HEARD_EACH_MS, useEachFrame } from '../../ui/useEachFrame.ts';
@@ -97,7 +98,7 @@ function previewOf(stores: Stores): Pose | null {
 /** Of the group that is open, in the unit of the board; null where it has no frames. */
 export function poseOfGroup(stores: Stores, atMs: number): Pose | null {
   const group = stores.document.store.getState().present;
-  const pose = poseAtMs(timesOf(group).tracks, atMs);
+  const pose = poseAtMs(motionTracks(group, timesOf(group).tracks), atMs);
   const view = servoViewOf(stores);
   const { unit } = knownFamily(stores.device.store.getState().family, stores.robots.current().robot);
   return pose.size === 0

@@ -3,7 +3,7 @@
 // pose.
 
 import { Fragment } from 'react';
-import { totalDurationMs } from '#shared/group/group.ts';
+import { motionLengthMs } from '#shared/group/blocks.ts';
 import { indexOfFrame, rename } from '#shared/group/groupEdits.ts';
 import { convertGroup } from '#shared/group/frameEdits.ts';
 import {
@@ -88,7 +88,7 @@ function CaptureBar() {
 
 function Total() {
   const count = useDocument(({ present }) => present.frames.length);
-  const totalMs = useDocument(({ present }) => totalDurationMs(present.frames));
+  const totalMs = useDocument(({ present }) => motionLengthMs(present));
   return (
     <p className={captureBarStyles.total}>{count === 0 ? '' : words.actions.total({ count, ms: totalMs })}</p>
   );

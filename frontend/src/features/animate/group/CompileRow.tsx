@@ -1,6 +1,7 @@
 // What the group becomes on the board: whether it fits, what it costs, how far off it is and where, and what does not fit. A click
 // on a place goes there.
 
+import { blockIdOf, blocksOf } from '#shared/group/blocks.ts';
 import { collisionText, problemText } from '../../board/compile/problems.tsx';
 import { useState } from 'react';
 import type { CompileProblem } from '#shared/group/compileReport.ts';
@@ -37,13 +38,18 @@ function goToPlace(stores: Stores, place: Place, group: ActionGroup): void {
   stores.view.setState({ tab: 'actions', authoring: 'group' });
   if ('servo' in place) editServoView(stores, (view) => select(view, [place.servo]));
   const key = keyOf(place, group);
+  const block = 'frameId' in place ? blockOf(place, group) : undefined;
   if (key !== null) showKey(stores, key);
+  else if (block !== undefined) stores.playhead.show(block.startMs);
   else if ('atMs' in place) stores.playhead.show(Math.round(place.atMs));
 }
 
+const blockOf = ({ frameId }: Pick<KeyRef, 'frameId'>, group: ActionGroup) =>
+  blocksOf(group).find(({ id }) => id === blockIdOf(frameId));
+
 /** Of a way that is too fast the key where it ends. */
 function keyOf(place: Place, group: ActionGroup): KeyRef | null {
-  if ('frameId' in place) return place;
+  if ('frameId' in place) return blockIdOf(place.frameId) === null ? place : null;
   if (!('kind' in place) || place.kind !== 'tooFast') return null;
   const { servo, atMs } = place;
   const keys = tracksOf(group).get(servo)?.keys ?? [];

@@ -1,3 +1,4 @@
+import { compileSource } from '../../board/compile/compileSource.ts';
 import { describe, expect, test } from 'vitest';
 import { emptyGroup, type ActionGroup } from '#shared/group/group.ts';
 import { insertFrame, setMeta, type NewFrame } from '#shared/group/groupEdits.ts';
@@ -223,7 +224,7 @@ describe('playing from the page', () => {
       expect(Math.abs(channel.board.pulse(1) - wanted)).toBeLessThanOrEqual(8 + 35);
       await draw(20);
     }
-    expect(compiled.now().frames.length).toBeGreaterThan(4);
+    expect(compiled.now(compileSource).frames.length).toBeGreaterThan(4);
   });
 
   test('muted rows are not sent, nor those beside one that plays alone; time goes on without them', async () => {

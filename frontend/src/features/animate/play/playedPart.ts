@@ -1,8 +1,8 @@
 // What playing means now: which part of the group, from where, how often, and which servos hear of it. Plays nothing.
 
-import { totalDurationMs } from '#shared/group/group.ts';
+import { motionLengthMs, motionTracks } from '#shared/group/blocks.ts';
 import { passageOf, type Passage, type PassageOptions } from '#shared/group/passage.ts';
-import { poseAtMs, tracksOf } from '#shared/group/tracks.ts';
+import { poseAtMs } from '#shared/group/tracks.ts';
 import type { Frame, ServoTarget } from '#shared/codec/commands.ts';
 import type { Family } from '#shared/codec/families.ts';
 import { startsKnown } from '#shared/robot/state.ts';
@@ -57,8 +57,7 @@ export function createPlayedPart(options: PlayedPartOptions): PlayedPart {
   }
 
   function part(): { readonly fromMs: number; readonly toMs: number } {
-    const { frames } = document.store.getState().present;
-    return playhead.range() ?? { fromMs: 0, toMs: totalDurationMs(frames) };
+    return playhead.range() ?? { fromMs: 0, toMs: motionLengthMs(document.store.getState().present) };
   }
 
   function passes(): number {
@@ -88,7 +87,7 @@ export function createPlayedPart(options: PlayedPartOptions): PlayedPart {
   }
 
   function poseAt(atMs: number): FollowedPose {
-    const pose = poseAtMs(tracksOf(document.store.getState().present), atMs);
+    const pose = poseAtMs(motionTracks(document.store.getState().present), atMs);
     return new Map(
       [...pose].flatMap(([servo, position]) => (isSent({ servo }) ? [[servo, Math.round(position)]] : [])),
     );

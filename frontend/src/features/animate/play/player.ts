@@ -1,6 +1,7 @@
 // Plays the open group, from the page or on the board, and says where it is: what is played is what compile makes of it, by
 // either way. One thing at a time; STOP, a lost link and a hidden page end it. Knows no panel.
 
+import { compileSource } from '../../board/compile/compileSource.ts';
 import { problemText } from '../../board/compile/problems.tsx';
 import type { StoreApi } from 'zustand/vanilla';
 import { totalDurationMs } from '#shared/group/group.ts';
@@ -99,7 +100,7 @@ function createPlayer(options: PlaybackOptions, store: StoreApi<PlaybackState>):
   /** What may be played now; else null, and a notice says why. */
   function playable(by: 'page' | 'board'): CompiledGroup | null {
     const hindrance = startHindrance(device.store.getState().snapshot);
-    const group = compiled.now();
+    const group = compiled.now(compileSource);
     const [problem] = obstacles(group.report, by);
     const reason =
       hindrance !== null

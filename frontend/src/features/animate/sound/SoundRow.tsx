@@ -1,30 +1,21 @@
 // The row of the group's sound above the tracks: its loudness and beats over the same time as the keys. It is dragged, or moved with the arrow
 // keys, to begin earlier or later; what else can be done with it is in its menu.
 
-import {
-  type KeyboardEvent,
-  memo,
-  type PointerEvent,
-  type ReactNode,
-  useEffect,
-  useRef,
-  useState,
-} from 'react';
+import { type KeyboardEvent, memo, type ReactNode, useEffect, useRef, useState } from 'react';
 import { useStore } from 'zustand';
-import { bpmOf } from '#shared/group/beats.ts';
+import { bpmOf, tappedBeats } from '#shared/group/beats.ts';
 import type { GroupSound } from '#shared/group/group.ts';
 import { words } from '../../../i18n/whole.ts';
 import { Button, IconButton } from '../../../ui/Button.tsx';
 import { ChoiceMenu, type ChoiceMenuProps } from '../../../ui/ChoiceMenu.tsx';
 import { Canvas, type Pen } from '../../picture/Canvas.tsx';
-import { useDocument, useGroupBoard, useStores, useView } from '../../stores.ts';
-import { contextOf } from '../timeline/context.ts';
-import { restingPlace } from '../timeline/gesture.ts';
+import { useDocument, useStores, useView } from '../../stores.ts';
 import type { TimeView } from '../timeline/timeline.ts';
 import { msAt, xOf } from '../timeline/timeScale.ts';
+import { useTimeDrag } from '../timeline/useTimeDrag.ts';
 import { instantText } from '../timeline/valueText.ts';
 import { changeTempo, removeSound, setBeats, soundMoved, soundOf, type SoundState } from './sound.ts';
-import { TapTempo } from './TapTempo.tsx';
+import { playerOf } from '../play/player.ts';
 import styles from './SoundRow.module.css';
 
 /** `children`: what is drawn over it, as over the tracks. */
@@ -146,86 +137,99 @@ function Missing({ sound }: { readonly sound: GroupSound }) {
   );
 }
 
-const FAR = 10;
-
 /** All of the row: dragged, it moves the sound. */
 function Handle({ sound }: { readonly sound: GroupSound }) {
-  const stores = useStores();
-  const { document, notices, timeline } = stores;
-  const { tickMs } = useGroupBoard().family.motion;
-  const from = useRef<{ readonly atMs: number; readonly startMs: number; hasMoved: boolean } | null>(null);
-  const label = (): string => words.sound.steps.move;
-  const at = words.sound.startsAt({ file: sound.fileName, at: instantText(sound.startMs) });
-
-  const msUnder = ({ clientX, currentTarget }: PointerEvent): number =>
-    msAt(timeline.getState().time, clientX - currentTarget.getBoundingClientRect().left);
-
-  function move(event: PointerEvent): void {
-    const begun = from.current;
-    if (begun === null) return;
-    const wanted = begun.startMs + msUnder(event) - begun.atMs;
-    const startMs = restingPlace(contextOf(stores), wanted, event.altKey);
-    if (!begun.hasMoved && startMs === begun.startMs) return;
-    if (!begun.hasMoved) document.begin(label);
-    begun.hasMoved = true;
-    document.preview(soundMoved(startMs));
-  }
-
-  function end(commits: boolean): void {
-    if (from.current?.hasMoved === true) {
-      if (commits) document.commit();
-      else document.cancel();
-    }
-    from.current = null;
-  }
-
-  function key(event: KeyboardEvent): void {
-    const ticks = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
-    if (ticks === undefined) return;
-    event.preventDefault();
-    const startMs = sound.startMs + ticks * tickMs * (event.shiftKey ? FAR : 1);
-    document.edit(label, soundMoved(startMs));
-    notices.say(words.sound.startsAt({ file: sound.fileName, at: instantText(startMs) }));
-  }
-
-  useEffect(() => {
-    const callOff = (): void => end(false);
-    const escape = ({ key: name }: globalThis.KeyboardEvent): void => {
-      if (name === 'Escape') callOff();
-    };
-    window.addEventListener('blur', callOff);
-    window.addEventListener('keydown', escape, { capture: true });
-    return () => {
-      window.removeEventListener('blur', callOff);
-      window.removeEventListener('keydown', escape, { capture: true });
-    };
+  const { notices } = useStores();
+  const { fileName: file, startMs } = sound;
+  const drag = useTimeDrag({
+    startMs,
+    label: () => words.sound.steps.move,
+    moved: soundMoved,
+    onStep: (next) => notices.say(words.sound.startsAt({ file, at: instantText(next) })),
   });
-
   return (
     <div
+      {...drag}
       className={styles.handle}
       role="slider"
       tabIndex={0}
       aria-label={words.sound.start}
       aria-valuemin={-MOST_MS}
       aria-valuemax={MOST_MS}
-      aria-valuenow={sound.startMs}
-      aria-valuetext={at}
-      onKeyDown={key}
-      onPointerDown={(event) => {
-        if (event.button !== 0) return end(false);
-        event.currentTarget.setPointerCapture(event.pointerId);
-        from.current = { atMs: msUnder(event), startMs: sound.startMs, hasMoved: false };
-      }}
-      onPointerMove={move}
-      onPointerUp={() => end(true)}
-      onPointerCancel={() => end(false)}
+      aria-valuenow={startMs}
+      aria-valuetext={words.sound.startsAt({ file, at: instantText(startMs) })}
     />
   );
 }
 
 /** What a screen reader takes for the ends. */
 const MOST_MS = 3_600_000;
+
+// Beats from taps: the person hears the sound, taps on each beat, and takes what comes of it. Where nothing plays, the sound plays alone.
+
+interface TapTempoProps {
+  /** Of the sound, in the group. */
+  readonly startMs: number;
+  onClose(): void;
+}
+
+function TapTempo({ startMs, onClose }: TapTempoProps) {
+  const stores = useStores();
+  const player = playerOf(stores.playback);
+  const [tapsMs, setTaps] = useState<readonly number[]>([]);
+  const beats = tappedBeats(tapsMs);
+  const button = useRef<HTMLButtonElement>(null);
+
+  // Not sooner: as long as a menu is closing, nothing beside it takes the focus.
+  useEffect(() => button.current?.focus(), []);
+
+  useEffect(() => {
+    player.listen(true);
+    return () => player.listen(false);
+  }, [player]);
+
+  function tap(): void {
+    const atMs = player.heardAt();
+    if (atMs !== null) setTaps((before) => [...before, atMs - startMs]);
+  }
+
+  /** At once: a click comes when the key goes up. */
+  function key(event: KeyboardEvent): void {
+    if (event.key !== ' ' && event.key !== 'Enter') return;
+    event.preventDefault();
+    if (event.type === 'keydown' && !event.repeat) tap();
+  }
+
+  return (
+    <div className={styles.taps} role="group" aria-label={words.sound.tap}>
+      <button
+        type="button"
+        ref={button}
+        className={styles.tap}
+        onPointerDown={(event) => event.button === 0 && tap()}
+        onKeyDown={key}
+        onKeyUp={key}
+      >
+        {words.sound.tapHere}
+      </button>
+      <p className={styles.tapped} role="status">
+        {beats === null ? words.sound.tapHint : words.sound.tapped({ bpm: Math.round(bpmOf(beats)) })}
+      </p>
+      <Button
+        isDisabled={beats === null}
+        onPress={() => {
+          setBeats(stores, beats);
+          onClose();
+        }}
+      >
+        {words.sound.take}
+      </Button>
+      <Button tone="quiet" onPress={onClose}>
+        {words.sound.cancel}
+      </Button>
+    </div>
+  );
+}
 
 function Wave({ sound }: { readonly sound: GroupSound }) {
   const stores = useStores();

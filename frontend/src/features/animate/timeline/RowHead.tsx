@@ -1,5 +1,6 @@
 // What stands at the left of a row: its name, its position at the playhead, and what is done to it.
 
+import { motionTracks } from '#shared/group/blocks.ts';
 import { memo } from 'react';
 import { positionAt } from '#shared/group/tracks.ts';
 import { MovingLabel } from '../../picture/MovingText.tsx';
@@ -90,7 +91,7 @@ export const RowHead = memo(function RowHead({ row, isAtCursor, openRowMenu }: R
 function valueText(stores: Stores, servo: number): string {
   const { timeline, document, view } = stores;
   const { present: group } = document.store.getState();
-  const track = timesOf(group).tracks.get(servo);
+  const track = motionTracks(group, timesOf(group).tracks).get(servo);
   const position = track === undefined ? null : positionAt(track, timeline.getState().playheadMs);
   if (position === null) return '';
   const { family, robot } = groupBoardOf(stores);

@@ -24,6 +24,7 @@ import { copy, cut, paste } from './changes.ts';
 import { clipFromText, clipToText } from './clipText.ts';
 import { contextOf, useRows } from './context.ts';
 import { keepInStep } from './inStep.ts';
+import { BlockRow } from '../blocks/BlockRow.tsx';
 import { bringToLife, sizesNow } from './trackCanvas.ts';
 import { Minimap } from './Minimap.tsx';
 import { heightOf, placedRows, topOfRows } from './rows.ts';
@@ -188,6 +189,9 @@ export const Timeline = memo(function Timeline() {
       <SoundRow>
         <PlayheadLine />
       </SoundRow>
+      <BlockRow>
+        <PlayheadLine />
+      </BlockRow>
       <div
         ref={scroller}
         className={styles.scroller}

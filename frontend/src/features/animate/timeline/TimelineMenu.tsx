@@ -30,7 +30,7 @@ export interface OpenMenu {
 }
 
 const SECTIONS: readonly (readonly TimelineActionName[])[] = [
-  ['setKey', 'editValue', 'marker', 'sound'],
+  ['setKey', 'editValue', 'block', 'marker', 'sound'],
   ['cut', 'copy', 'paste', 'duplicate', 'remove', 'removeTime'],
 ];
 /** Behind a word of their own: all in one list are higher than a small window. */

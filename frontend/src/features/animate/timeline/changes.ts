@@ -2,6 +2,8 @@
 
 import type { Colour } from '#shared/document/schema.ts';
 import { duplicateKeys, copyKeys, pasteKeys, type Clip, type Pasted } from '#shared/group/clip.ts';
+import { makeBlock } from '#shared/group/blockEdits.ts';
+import { blocksOf, motionTracks } from '#shared/group/blocks.ts';
 import type { Easing } from '#shared/group/curves.ts';
 import { mirror, setColour, deleteMarker } from '#shared/group/frameEdits.ts';
 import { deleteKeys, setEasing, setKey, smoothKeys } from '#shared/group/keyEdits.ts';
@@ -74,7 +76,7 @@ const placedAt = (
 
 /** On its way at that time; else the commanded position; null where neither is known. */
 function positionNow(context: TimelineContext, servo: number, atMs: number): number | null {
-  const track = context.times.tracks.get(servo);
+  const track = motionTracks(context.group, context.times.tracks).get(servo);
   const onItsWay = track === undefined ? null : positionAt(track, atMs);
   return onItsWay ?? (countsAlike(context) ? context.stores.device.motion(servo).target : null);
 }
@@ -236,6 +238,16 @@ export function ease(context: TimelineContext, name: EasingName, easing: Easing)
     label: () => words.timeline.easings[name],
     edit: (group) => setEasing(group, refs, easing),
   });
+}
+
+/** The keys of these servos from the first to the last of the selected ones. */
+export function block(context: TimelineContext): void {
+  if (!hasChangeable(context)) return;
+  const name = words.blocks.newName({ number: blocksOf(context.group).length + 1 });
+  const made = makeBlock(context.group, changeable(context), name);
+  if (made === null) return;
+  apply(context, { label: () => words.blocks.steps.make, edit: () => made });
+  context.stores.notices.say(words.blocks.made({ name }));
 }
 
 export function smooth(context: TimelineContext): void {

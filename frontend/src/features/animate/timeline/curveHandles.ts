@@ -1,9 +1,9 @@
 // The handles of curves in the row that is open large: those of the selected keys, before and behind each. Where they are, and what
 // dragging one does. Knows no other row.
 
-import type { Bezier } from '#shared/group/curves.ts';
+import { handlesOf, handleTime, handleWay, type Bezier } from '#shared/group/curves.ts';
 import type { ActionGroup } from '#shared/group/group.ts';
-import { handlesOf, handleTime, handleWay, setEasing } from '#shared/group/keyEdits.ts';
+import { setEasing } from '#shared/group/keyEdits.ts';
 import type { Key } from '#shared/group/tracks.ts';
 import { words } from '../../../i18n/whole.ts';
 import { isHeld } from '../../servoView.ts';

@@ -1,5 +1,6 @@
 // Draws the tracks on a canvas: only what is seen, all of it at once. Draws what it is given; changes nothing.
 
+import { blockMs, servosOf } from '#shared/group/blocks.ts';
 import { curveOf } from '#shared/group/curves.ts';
 import { type Key, positionAt } from '#shared/group/tracks.ts';
 import { keyName } from './timeline.ts';
@@ -115,21 +116,44 @@ function paintRow(brush: Brush, placed: PlacedRow, { left, right }: Stretch): vo
   const { ctx, look, scene } = brush;
   const { state, times, muted } = scene;
   const keys = keysInRow(placed.row, times);
-  const [from, to] = within(keys, msAt(state.time, left), msAt(state.time, right));
-  if (placed.range !== null) paintGraph(brush, placed, keys);
-  ctx.globalAlpha = muted.has(placed.row.id) ? 0.4 : 1;
-  if (placed.row.kind === 'servo' && keys.length > 0) {
-    paintWay(brush, placed, keys, from, to);
+  const seen = (all: readonly Key[]) => within(all, msAt(state.time, left), msAt(state.time, right));
+  const [from, to] = seen(keys);
+  const moved = motionIn(scene, placed) ?? keys;
+  paintBlocks(brush, placed);
+  if (placed.range !== null) paintGraph(brush, placed, moved);
+  const alpha = muted.has(placed.row.id) ? 0.4 : 1;
+  ctx.globalAlpha = alpha;
+  if (placed.row.kind === 'servo' && moved.length > 0) {
+    paintWay(brush, placed, moved, ...seen(moved));
     stroke(ctx, look.commanded, 1.5);
-    paintLeadIn(brush, placed, keys[0]);
+    paintLeadIn(brush, placed, moved[0]);
   }
   for (let index = from; index < to; index++) {
     const key = keys[index];
-    if (key !== undefined) paintKey(brush, placed, key, isCrowded(scene, keys, index));
+    if (key === undefined) continue;
+    // A block does something else there.
+    if (moved !== keys && positionAt({ servo: key.servo, keys: moved }, key.atMs) !== key.position)
+      ctx.globalAlpha = alpha * COVERED_ALPHA;
+    paintKey(brush, placed, key, isCrowded(scene, keys, index));
+    ctx.globalAlpha = alpha;
   }
   ctx.globalAlpha = 1;
   if (placed.range !== null) paintCurveHandles(brush);
 }
+
+/** Where a block says what the servo does. */
+function paintBlocks({ ctx, look, scene }: Brush, { row, top, height }: PlacedRow): void {
+  if (row.kind !== 'servo') return;
+  const { time } = scene.state;
+  for (const block of scene.blocks.filter((one) => servosOf(one).includes(row.servos[0] ?? -1)))
+    fill(ctx, look.commanded, 0.12, xOf(time, block.startMs), top, blockMs(block) / time.msPerPx, height - 1);
+}
+
+const COVERED_ALPHA = 0.3;
+
+/** What the servo of the row does, with the blocks; null in rows of several. */
+const motionIn = ({ motion }: Scene, { row }: PlacedRow): readonly Key[] | null =>
+  row.kind === 'servo' ? (motion.get(row.servos[0] ?? -1)?.keys ?? null) : null;
 
 const HANDLE_PX = 4.5;
 
@@ -160,7 +184,7 @@ function paintGraph(brush: Brush, placed: PlacedRow, keys: readonly Key[]): void
     fill(ctx, look.line, 0.7, 0, Math.round(placed.top + (placed.height * line) / GRAPH_LINES), widthPx, 1);
   const [first] = keys;
   if (compiled === null || first === undefined) return;
-  const track = scene.times.tracks.get(first.servo);
+  const track = scene.motion.get(first.servo);
   const fromX = Math.max(0, xOf(state.time, first.atMs));
   const edge = (units: number, step: number, x: number, endX: number): void => {
     for (; step > 0 ? x <= endX : x >= endX; x += step) {

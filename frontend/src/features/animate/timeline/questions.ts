@@ -2,8 +2,8 @@
 
 import { renameMarker, addMarker, setNote } from '#shared/group/frameEdits.ts';
 import { GROUP_NAME_LENGTH, NOTE_LENGTH } from '#shared/group/group.ts';
-import { HIGHEST_HANDLE, LOWEST_HANDLE, type Bezier } from '#shared/group/curves.ts';
-import { handlesOf, scaleAmplitude, setEasing, setPositions } from '#shared/group/keyEdits.ts';
+import { handlesOf, HIGHEST_HANDLE, LOWEST_HANDLE, type Bezier } from '#shared/group/curves.ts';
+import { scaleAmplitude, setEasing, setPositions } from '#shared/group/keyEdits.ts';
 import type { KeyStretch } from '#shared/group/keyRanges.ts';
 import { insertTime } from '#shared/group/timeEdits.ts';
 import { numberIn } from '../../../ui/NumberField.tsx';

@@ -64,6 +64,7 @@ function isSameButKeys(before: Scene, after: Scene): boolean {
   return (
     before.family === after.family &&
     before.markers === after.markers &&
+    before.blocks.length + after.blocks.length === 0 && // one covers more than the key that changed
     before.compiled === after.compiled &&
     before.collisions === after.collisions &&
     STATE.every((name) => before.state[name] === after.state[name]) &&

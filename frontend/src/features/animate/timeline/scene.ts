@@ -1,7 +1,8 @@
 // The tracks as a scene: everything on them with its geometry, for painting, and what is under the pointer, for gestures. Pure.
 
 import { type KeySet, selectedKeys, type TimelineState, ALL_ROW } from './timeline.ts';
-import type { KeyRef } from '#shared/group/tracks.ts';
+import { blocksOf, motionTracks } from '#shared/group/blocks.ts';
+import type { KeyRef, Tracks } from '#shared/group/tracks.ts';
 import { type GroupTimes, keysOfFrame, spanOf } from '#shared/group/groupTimes.ts';
 import {
   keysInRow,
@@ -19,7 +20,7 @@ import {
 import { msAt, xOf, type Span } from './timeScale.ts';
 import { curveHandleAt, type CurveHandle } from './curveHandles.ts';
 import type { CollisionPlace } from '#shared/kinematics/collision.ts';
-import type { Marker } from '#shared/group/group.ts';
+import type { Block, Marker } from '#shared/group/group.ts';
 import type { Family } from '#shared/codec/families.ts';
 import { isHeld, isSilent } from '../../servoView.ts';
 import type { TimelineContext } from './context.ts';
@@ -214,6 +215,9 @@ export interface CompiledTrack {
 export interface Scene {
   readonly state: TimelineState;
   readonly times: GroupTimes;
+  /** What the servos do, with the blocks; the times' own tracks where there are none. */
+  readonly motion: Tracks;
+  readonly blocks: readonly Block[];
   readonly markers: readonly Marker[];
   readonly family: Family;
   readonly sizes: Sizes;
@@ -243,6 +247,8 @@ export function sceneOf(context: TimelineContext, sizes: Sizes): Scene {
     new Set(rows.filter((row) => row.kind === 'servo' && row.servos.some(test)).map(({ id }) => id));
   return {
     ...{ state, times, family, sizes, markers: group.markers },
+    motion: motionTracks(group, times.tracks),
+    blocks: blocksOf(group),
     ...{ widthPx: state.widthPx, heightPx: state.heightPx },
     all: placedAll(all, sizes),
     rows: rowsInSight(rest, state, sizes),

@@ -5,6 +5,7 @@ import { chordOf, runByKey, type Action, type KeyUse, type Pressed } from '../..
 import { words, type Words } from '../../../i18n/whole.ts';
 import { COLOURS, type Colour } from '#shared/document/schema.ts';
 import {
+  block,
   colour,
   copy,
   cut,
@@ -87,6 +88,7 @@ const ACTIONS: Readonly<Record<TimelineActionName, Own>> = {
   scaleTime: { icon: 'tune', keys: ['s'], needs: 'keys', run: asking('scaleTime') },
   scaleTimeBack: { icon: 'tune', keys: ['Shift+s'], needs: 'keys', run: asking('scaleTimeBack') },
   scaleAmplitude: { icon: 'tune', keys: ['a'], needs: 'keys', run: asking('scaleAmplitude') },
+  block: { icon: 'frames', keys: ['b'], needs: 'keys', run: block },
   curve: { icon: 'live', keys: ['e'], needs: 'keys', run: asking('curve') },
   smooth: { icon: 'live', keys: ['Shift+e'], needs: 'keys', run: smooth },
   note: { icon: 'edit', keys: ['n'], needs: 'keys', run: asking('note') },

@@ -1,9 +1,8 @@
 // Times and values on the timeline as text, also those of what is dragged. Changes nothing.
 
 import { beatNear } from '#shared/group/beats.ts';
-import { EASINGS, sameEasing, type Bezier, type Easing } from '#shared/group/curves.ts';
+import { EASINGS, handlesOf, sameEasing, type Bezier, type Easing } from '#shared/group/curves.ts';
 import type { ActionGroup } from '#shared/group/group.ts';
-import { handlesOf } from '#shared/group/keyEdits.ts';
 import { servoOf } from '#shared/profile/robot.ts';
 import { words, type Words } from '../../../i18n/whole.ts';
 import { inUnits, scaleOf, type Scale } from '../../drive/scale.ts';

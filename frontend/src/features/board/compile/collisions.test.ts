@@ -1,3 +1,4 @@
+import { compileSource } from './compileSource.ts';
 import { expect, test } from 'vitest';
 import type { CollisionPlace } from '#shared/kinematics/collision.ts';
 import { insertFrame } from '#shared/group/groupEdits.ts';
@@ -22,7 +23,7 @@ async function openTestPage() {
       (group) =>
         insertFrame(group, group.frames.length, { durationMs: 800, targets: [{ servo: 1, position }] }),
     );
-    page.compiled.now();
+    page.compiled.now(compileSource);
     await page.clock.advance(0);
   };
   return { ...page, checks, add, places: () => collisions.getState().places };

@@ -2,9 +2,8 @@
 
 import { compile, type Compiled } from '#shared/group/compile.ts';
 import type { ActionGroup } from '#shared/group/group.ts';
-import { onBoard, type Robot } from '#shared/profile/robot.ts';
-import { fingerprintOf } from '#shared/group/fingerprint.ts';
-import type { Frame } from '#shared/codec/commands.ts';
+import type { Robot } from '#shared/profile/robot.ts';
+import { boardFingerprint } from '#shared/group/fingerprint.ts';
 import type { Family } from '#shared/codec/families.ts';
 
 export interface Source {
@@ -22,11 +21,4 @@ export interface CompileResult extends Compiled {
 export function compileSource({ group, ...options }: Source): CompileResult {
   const { frames, report } = compile(group, options);
   return { frames, report, fingerprint: boardFingerprint(options.robot, frames) };
-}
-
-/** Another trim makes another motion of the same frames. */
-export function boardFingerprint(robot: Robot, frames: readonly Frame[]): string {
-  return fingerprintOf(
-    frames.map(({ durationMs, targets }) => ({ durationMs, targets: onBoard(robot, targets) })),
-  );
 }

@@ -1,5 +1,5 @@
 // The open group as the board would get it, with what does not fit: compiled in a worker between gestures, because a large group takes as long as
-// ten frames of the screen, or at once where it is about to be sent. Moves nothing.
+// ten frames of the screen, or at once by the compiler that comes with the modules that send. Moves nothing.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { CompileProblem } from '#shared/group/compileReport.ts';
@@ -9,7 +9,7 @@ import type { Device } from '../../../robot/device.ts';
 import { type Document, knownFamily } from '../../groupDocument.ts';
 import type { RobotStore } from '../../profiles/robots.ts';
 import { setChanged } from '../../../state/store.ts';
-import { compileSource, type Source, type CompileResult } from './compileSource.ts';
+import type { Source, CompileResult } from './compileSource.ts';
 import { framesOf } from '#shared/group/fingerprint.ts';
 import type { Answer, Order } from './compileWorker.ts';
 
@@ -25,11 +25,13 @@ export interface CompiledState {
 
 export interface CompiledStore {
   readonly store: StoreApi<CompiledState>;
-  /** Of the group as it is now. */
-  now(): CompiledGroup;
+  /** Of the group as it is now. `compile` is `compileSource`, which the first load leaves out. */
+  now(compile: Compile): CompiledGroup;
   /** Of another group; one that was requested before is not computed again. */
-  of(group: ActionGroup, on: Pick<Source, 'family' | 'robot'>): CompiledGroup;
+  of(group: ActionGroup, on: Pick<Source, 'family' | 'robot'>, compile: Compile): CompiledGroup;
 }
+
+type Compile = (source: Source) => CompileResult;
 
 /** After the last change: a typing hand is faster. */
 const QUIET_MS = 250;
@@ -39,8 +41,8 @@ export interface CompiledOptions {
   readonly device: Device;
   readonly robots: RobotStore;
   readonly clock: Clock;
-  /** Works a group out while the page continues; left out: the page does it. */
-  compileElsewhere?(source: Source): Promise<CompileResult>;
+  /** Compiles a group while the page continues. */
+  compileElsewhere(source: Source): Promise<CompileResult>;
 }
 
 export function createCompiled({
@@ -59,36 +61,46 @@ export function createCompiled({
     const family = knownFamily(device.store.getState().family, robot);
     return sourceOf(document.store.getState().present, { family, robot });
   }
-  const store = createStore<CompiledState>(() => ({ latest: compiled(wanted()), isFresh: true }));
+  const store = createStore<CompiledState>(() => ({ latest: nothingOf(wanted()), isFresh: true }));
 
-  const isLatest = (source: Source): boolean => isSame(source, store.getState().latest.source);
+  /** The first one of a group with frames is still to come. */
+  let isMade = wanted().group.frames.length === 0;
 
-  function now(): CompiledGroup {
+  const isLatest = (source: Source): boolean => isMade && isSame(source, store.getState().latest.source);
+
+  function put(latest: CompiledGroup): void {
+    isMade = true;
+    store.setState({ latest, isFresh: true });
+  }
+
+  function now(compile: Compile): CompiledGroup {
     cancelTimer();
     const source = wanted();
-    if (!isLatest(source)) store.setState({ latest: compiled(source), isFresh: true });
+    if (!isLatest(source)) put({ source, ...compile(source) });
     else setChanged(store, { isFresh: true });
     return store.getState().latest;
   }
 
   /** One at a time; what has changed meanwhile is worked out next. */
   async function workOut(): Promise<void> {
-    if (compileElsewhere === undefined) return void now();
     if (isBusy) return;
     isBusy = true;
     const source = wanted();
-    const result = await compileElsewhere(source).catch(() => compileSource(source));
+    const result = await compileElsewhere(source)
+      .catch(async () => (await import('./compileSource.ts')).compileSource(source))
+      .catch(() => null);
     isBusy = false;
-    if (isSame(source, wanted()) && !isLatest(source))
-      store.setState({ latest: { source, ...result }, isFresh: true });
+    // Neither can be had: the next change tries again.
+    if (result === null) return;
+    if (isSame(source, wanted()) && !isLatest(source)) put({ source, ...result });
     else touched();
   }
 
-  function of(group: ActionGroup, on: Pick<Source, 'family' | 'robot'>): CompiledGroup {
+  function of(group: ActionGroup, on: Pick<Source, 'family' | 'robot'>, compile: Compile): CompiledGroup {
     const source = sourceOf(group, on);
     const before = others.get(group);
     if (before !== undefined && isSame(source, before.source)) return before;
-    const made = compiled(source);
+    const made = { source, ...compile(source) };
     others.set(group, made);
     return made;
   }
@@ -108,6 +120,8 @@ export function createCompiled({
     if (family !== before.family) touched();
   });
 
+  touched();
+
   return { store, now, of };
 }
 
@@ -115,7 +129,14 @@ const sourceOf = (group: ActionGroup, { family, robot }: Pick<Source, 'family' |
   ...{ group, family, robot, maxErrorUnits: maxErrorOf(group, family) },
 });
 
-const compiled = (source: Source): CompiledGroup => ({ source, ...compileSource(source) });
+/** Before the first one is there. */
+const nothingOf = (source: Source): CompiledGroup => ({
+  ...{ source, frames: [], fingerprint: '' },
+  report: {
+    ...{ frameCount: 0, frameLimit: source.family.framesPerGroup, durationMs: 0, bytes: 0, downloadMs: null },
+    ...{ worst: null, shiftedMs: 0, problems: [] },
+  },
+});
 
 const isSame = (one: Source, other: Source): boolean =>
   (Object.keys(one) as (keyof Source)[]).every((key) => one[key] === other[key]);

@@ -2,6 +2,7 @@
 // was judged for. Apart from compiled.ts, which is in the first load.
 
 import { type CollisionPlace, collisionTimes } from '#shared/kinematics/collision.ts';
+import { blockIdOf, blocksOf } from '#shared/group/blocks.ts';
 import type { CompileProblem } from '#shared/group/compileReport.ts';
 import { words } from '../../../i18n/whole.ts';
 import { namesIn } from '../../../i18n/sentences.ts';
@@ -12,7 +13,11 @@ import { useCollisions } from '../../stores.ts';
 export function problemText(problem: CompileProblem, { group, robot }: Source): string {
   const reasons = words.compile.reasons;
   const nameOf = namesIn(robot);
-  const frameNumber = (id: number): number => group.frames.findIndex((frame) => frame.id === id) + 1;
+  const placeOf = (frameId: number): string => {
+    const block = blocksOf(group).find(({ id }) => id === blockIdOf(frameId));
+    const frame = group.frames.findIndex(({ id }) => id === frameId) + 1;
+    return block === undefined ? reasons.inFrame({ frame }) : reasons.inBlock({ name: block.name });
+  };
   switch (problem.kind) {
     case 'unit':
       return reasons.unit({ group: words.units[problem.group], board: words.units[problem.board] });
@@ -23,7 +28,7 @@ export function problemText(problem: CompileProblem, { group, robot }: Source): 
       return reasons[problem.kind]({
         ...problem,
         name: nameOf(problem.servo),
-        frame: frameNumber(problem.frameId),
+        place: placeOf(problem.frameId),
       });
     case 'tooManyServos':
       return reasons.tooManyServos({ ...problem, frame: problem.frame + 1 });
@@ -33,7 +38,7 @@ export function problemText(problem: CompileProblem, { group, robot }: Source): 
       return reasons.tooShort({
         ...problem,
         name: nameOf(problem.servo),
-        frame: frameNumber(problem.frameId),
+        place: placeOf(problem.frameId),
       });
     case 'tooFast':
       return reasons.tooFast({ ...problem, name: nameOf(problem.servo) });

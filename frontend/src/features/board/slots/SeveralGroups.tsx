@@ -1,5 +1,6 @@
 // Downloads several groups of the library at once: which ones, to which slots, and why some cannot be downloaded.
 
+import { compileSource } from '../compile/compileSource.ts';
 import { problemText } from '../compile/problems.tsx';
 import { useMemo, useState, useEffect } from 'react';
 import type { ActionGroup } from '#shared/group/group.ts';
@@ -33,7 +34,7 @@ function useWanted() {
   const [wanted, cannot] = useMemo(() => {
     const asWanted = ({ group, ...pick }: Pick): Wanted => ({
       ...pick,
-      compiled: compiled.of(group, { family, robot }),
+      compiled: compiled.of(group, { family, robot }, compileSource),
     });
     const those = chosen.map(asWanted);
     return [those, left.map(asWanted).filter((one) => hindranceOf(one, those) !== null)] as const;
@@ -67,7 +68,7 @@ function useWanted() {
         : [
             {
               documentId,
-              compiled: compiled.of(group, { family, robot }),
+              compiled: compiled.of(group, { family, robot }, compileSource),
               own: ownSlot(documentId, group, known),
             },
           ],

@@ -1,3 +1,4 @@
+import { compileSource } from '../compile/compileSource.ts';
 import { expect, test } from 'vitest';
 import { createStore } from 'zustand/vanilla';
 import { emptyGroup, type ActionGroup, groupToText } from '#shared/group/group.ts';
@@ -36,7 +37,7 @@ async function openTestPage() {
   let revision = 0;
   return {
     ...{ ...page, ...gateway, documentStore, read, refreshed },
-    versionOf: (group: ActionGroup) => compiled.of(group, on).fingerprint,
+    versionOf: (group: ActionGroup) => compiled.of(group, on, compileSource).fingerprint,
     async shelve(group: ActionGroup): Promise<void> {
       const facts = factsOf(group, { updatedAtMs: 0, robot: '' });
       const writing = { text: groupToText(group), facts, expected: revision, isRemoved: false };

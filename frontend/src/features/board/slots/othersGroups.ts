@@ -1,6 +1,7 @@
 // Looks up in the library the groups that other people downloaded to the board: with the right version found, their slots are known as
 // well as this page's own. Reads only; slots that are not found stay as the link describes them.
 
+import { compileSource } from '../compile/compileSource.ts';
 import { groupFromText } from '#shared/group/group.ts';
 import type { DocumentStore } from '#shared/files/documentStore.ts';
 import { recordOf } from '#shared/group/slotBook.ts';
@@ -53,7 +54,7 @@ export function findOthersGroups(options: OthersGroupsOptions): void {
       const read = groupFromText(text);
       if ('problem' in read) continue;
       const on = { family: device.store.getState().family, robot: robots.current().robot };
-      const { frames, fingerprint } = compiled.of(read.value, on);
+      const { frames, fingerprint } = compiled.of(read.value, on, compileSource);
       if (fingerprint !== version) continue;
       slots.noteOthers({ slot, name, documentId, frames, fingerprint, storedAtMs: atMs ?? 0, by });
       return;

@@ -5,7 +5,7 @@ import { createStore, type StoreApi } from 'zustand/vanilla';
 import { contentOf, recordOf, type SlotRecord } from '#shared/group/slotBook.ts';
 import { freeSlot } from '#shared/group/slotPlaces.ts';
 import type { Device } from '../../../robot/device.ts';
-import { boardFingerprint } from '../compile/compileSource.ts';
+import { boardFingerprint } from '#shared/group/fingerprint.ts';
 import type { RobotStore } from '../../profiles/robots.ts';
 import type { GroupPlace } from './groupPlace.ts';
 import type { SlotDownload, Slots } from './slots.ts';

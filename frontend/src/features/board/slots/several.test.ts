@@ -1,3 +1,4 @@
+import { compileSource } from '../compile/compileSource.ts';
 import { expect, test } from 'vitest';
 import { emptyGroup } from '#shared/group/group.ts';
 import { insertFrame } from '#shared/group/groupEdits.ts';
@@ -14,7 +15,7 @@ test('what does not fit, is empty or wants the slot of another is reported; the 
       (sum, position) => insertFrame(sum, 9, { durationMs: 400, targets: [{ servo: 1, position }] }),
       emptyGroup(documentId, 'us'),
     );
-    return { documentId, slot, compiled: compiled.of(group, on) };
+    return { documentId, slot, compiled: compiled.of(group, on, compileSource) };
   };
   const [wave, bow, far, none] = [
     wantedOf('wave', 1, 1000, 1200),
@@ -36,7 +37,7 @@ test('of all groups those are taken that can go, each in its slot or a free one,
       (sum, position) => insertFrame(sum, 9, { durationMs: 400, targets: [{ servo: 1, position }] }),
       emptyGroup(documentId, 'us'),
     );
-    return { documentId, compiled: compiled.of(group, on), own: slot };
+    return { documentId, compiled: compiled.of(group, on, compileSource), own: slot };
   };
   const known = { book: EMPTY_SLOT_BOOK, versions: {}, broken: [], range: { min: 0, max: 23 } };
   const slotsOf = (all: readonly Wanted[]) => all.map(({ documentId, slot }) => `${documentId} ${slot}`);

@@ -1,3 +1,4 @@
+import { compileSource } from '../compile/compileSource.ts';
 import { describe, expect, test } from 'vitest';
 import { recordOf } from '#shared/group/slotBook.ts';
 import { createTestPage } from '../../pageUnderTest.ts';
@@ -222,9 +223,9 @@ describe('the slots of a board', () => {
         frames: [{ id: 1, easing: 'linear', note: '', colour: null, ...WAVE.frames[0]! }],
       }),
     );
-    slots.download([{ ...WAVE, frames: compiled.now().frames }]);
+    slots.download([{ ...WAVE, frames: compiled.now(compileSource).frames }]);
     await draw(4000);
-    expect(recordOf(state().book, 5)?.fingerprint).toBe(compiled.now().fingerprint);
+    expect(recordOf(state().book, 5)?.fingerprint).toBe(compiled.now(compileSource).fingerprint);
     robots.edit(
       () => 'trim',
       (robot) => ({
@@ -232,6 +233,6 @@ describe('the slots of a board', () => {
         servos: robot.servos.map((servo) => ({ ...servo, min: 700, max: 2300, trim: 30 })),
       }),
     );
-    expect(recordOf(state().book, 5)?.fingerprint).not.toBe(compiled.now().fingerprint);
+    expect(recordOf(state().book, 5)?.fingerprint).not.toBe(compiled.now(compileSource).fingerprint);
   });
 });

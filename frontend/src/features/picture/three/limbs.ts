@@ -2,6 +2,7 @@
 // place in space, within their limits and past locked ones; and the way of an end through a group. Moves nothing. Millimetres are the
 // page's, metres the model's.
 
+import { motionTracks } from '#shared/group/blocks.ts';
 import {
   type Matrix4,
   type Object3D,
@@ -195,7 +196,8 @@ export function pathOf(
   group: ActionGroup,
   unit: Family['unit'],
 ): readonly PathPoint[] {
-  const { ends, tracks } = timesOf(group);
+  const { ends, tracks: own } = timesOf(group);
+  const tracks = motionTracks(group, own);
   const [fromMs, toMs] = [ends[0] ?? 0, ends.at(-1) ?? 0];
   if (ends.length < 2) return [];
   const count = Math.min(MOST_POINTS, Math.ceil((toMs - fromMs) / EACH_MS) + 1);
