@@ -1,6 +1,10 @@
 // The picture of a camera beside the sliders: one of the gateway's, and the way to it where there is none.
 
-import { expect, poll, test } from './harness/test.ts';
+import * as group from '../../e2e/fixtures/group.ts';
+import { expect, here, poll, test } from './harness/test.ts';
+import { advance, realMoment } from './harness/time.ts';
+
+const captureGroup = here(group.captureGroup);
 
 const withoutGateway = window.fetch;
 
@@ -109,6 +113,47 @@ test.describe('in Drive', () => {
     await expect(page.getByText(/^servodeck serve --camera /)).toBeVisible();
     await expect(dashboard.button('Copy command')).toBeEnabled();
     await expect(dashboard.button('Use this computer’s camera')).toBeEnabled();
+  });
+});
+
+test.describe('beside the timeline', () => {
+  test('a motion is filmed, and its pictures step with the playhead, from the film and from the timeline', async ({
+    dashboard,
+    page,
+  }) => {
+    const streams: Source[] = [];
+    serveCameras(['Bench'], (_, source) => streams.push(source));
+    await captureGroup(dashboard, [1000, 1400, 1000], 400);
+    await page.getByRole('radio', { name: 'Camera' }).check();
+    await poll(() => Promise.resolve(streams.length)).toBe(1);
+    await page.getByRole('switch', { name: 'Film' }).check();
+    await expect(page.getByText(/^Films the motions that play, up to 60 s and 48 MB/)).toBeVisible();
+    await dashboard.button('Play').click();
+    // Each picture is wider than the one before.
+    for (let width = 20; (await dashboard.button('Play').count()) === 0 || width < 40; width += 2) {
+      streams[0]?.send(await partOf(width, 48));
+      await realMoment();
+      await advance(96);
+    }
+    const film = page.getByRole('img', { name: /^Film at/ });
+    const widthOf = () => film.evaluate((canvas) => (canvas as unknown as HTMLCanvasElement).width);
+    const place = page.getByRole('slider', { name: 'Place in the film' });
+    await expect(film).toBeVisible();
+    await place.press('End');
+    const last = await widthOf();
+    await place.press('Home');
+    await poll(widthOf).toBeLessThan(last);
+    const first = await widthOf();
+    await place.press('ArrowRight');
+    await place.press('ArrowRight');
+    await poll(widthOf).toBeGreaterThan(first);
+    await dashboard.button('Frame forward').click();
+    await expect(place).toHaveAttribute('aria-valuetext', '0.8 sec');
+    await expect(film).toHaveAccessibleName(/^Film at 0\.[78] sec$/);
+    await page.getByRole('radio', { name: 'Live' }).check();
+    await expect(film).toHaveCount(0);
+    await page.getByRole('button', { name: 'Delete film' }).click();
+    await expect(place).toHaveCount(0);
   });
 });
 

@@ -345,6 +345,24 @@ export interface Messages {
     readonly refused: string;
     readonly noneHere: string;
     readonly insecure: string;
+    readonly film: {
+      readonly film: string;
+      readonly waits: (values: { readonly longestS: number; readonly most: number }) => string;
+      readonly filming: (values: { readonly count: number }) => string;
+      readonly done: (values: { readonly fromMs: number; readonly toMs: number; readonly count: number; readonly mebibytes: number; readonly most: number }) => string;
+      readonly full: (values: { readonly count: number; readonly longestS: number; readonly most: number }) => string;
+      readonly shown: string;
+      readonly pictures: {
+        readonly live: string;
+        readonly film: string;
+      };
+      readonly position: string;
+      readonly at: (values: { readonly ms: number }) => string;
+      readonly picture: (values: { readonly ms: number }) => string;
+      readonly gap: string;
+      readonly save: string;
+      readonly delete: string;
+    };
   };
   readonly authoring: {
     readonly label: string;

@@ -8,6 +8,7 @@ import { CompileRow } from '../../features/animate/group/CompileRow.tsx';
 import { BoardPanel } from '../../features/board/BoardPanel.tsx';
 import { PlayBar } from '../../features/animate/play/PlayBar.tsx';
 import { type CameraAccess, CameraView } from '../../features/camera/CameraView.tsx';
+import { filmOf } from '../../features/camera/film.ts';
 import { GatewayProblem } from '../../robot/request.ts';
 import { ReplaceContent } from '../../features/board/slots/ReplaceQuestion.tsx';
 import { SlotBoard } from '../../features/board/slots/SlotBoard.tsx';
@@ -167,12 +168,29 @@ const CAMERAS: Readonly<Record<string, ReactNode>> = {
       access={{ ...BENCH, watch: () => Promise.reject(new GatewayProblem('cameraFailed', DEAD)) }}
     />
   ),
+  'Film, awaited': <CameraView access={BENCH} />,
+  'Film, shown': <CameraView access={BENCH} />,
   'Camera, refused here': (
     <CameraView
       access={{ ...BENCH, openHere: () => Promise.reject(new DOMException('', 'NotAllowedError')) }}
     />
   ),
 };
+
+/** Beside the timeline, and with pictures of a motion where there has been one. */
+async function film(stores: Stores, isTaken: boolean): Promise<void> {
+  const { playback, playhead, view } = stores;
+  const taken = filmOf(stores);
+  view.setState({ tab: 'actions' });
+  taken.set(true);
+  if (!isTaken) return;
+  playback.store.setState({ phase: 'playing' });
+  for (const atMs of [400, 1600]) {
+    playhead.go(atMs);
+    await taken.take(drawn(), { width: 640, height: 480 });
+  }
+  playback.store.setState({ phase: null });
+}
 
 function AnotherGroupInSlot() {
   const conflict = { slot: 8, record: null, version: undefined, held: 'Bow', heldId: 'bow', name: 'Wave' };
@@ -194,6 +212,7 @@ const seen: readonly Exhibit[] = Object.entries(CAMERAS).map(([name, view]) => (
   stores() {
     const stores = standing({});
     stores.view.setState({ cameraHere: name.endsWith('here') || name.endsWith('computer') });
+    if (name.startsWith('Film')) void film(stores, name.endsWith('shown'));
     return stores;
   },
 }));

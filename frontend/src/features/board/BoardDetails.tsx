@@ -17,7 +17,7 @@ import { Toggle } from '../../ui/Toggle.tsx';
 import { CONTENT_TRUTH, useSlotContents, useHeldName } from './slots/slotHooks.ts';
 import { Chip } from '../../ui/Chip.tsx';
 import { boardName } from '../../i18n/sentences.ts';
-import { RunSettings } from './RunSettings.tsx';
+import { RunSettings } from './DownloadAndRun.tsx';
 import styles from './BoardPanel.module.css';
 import field from '../../ui/Field.module.css';
 

@@ -16,12 +16,11 @@ import {
 import { Button } from '../../ui/Button.tsx';
 import { words } from '../../i18n/words.ts';
 import { useSlotContents, CONTENT_TRUTH, useHeldName } from './slots/slotHooks.ts';
-import { runAsChosen, useRunSettings } from './RunSettings.tsx';
 import { obstacles } from './compile/compiled.ts';
 import { Chip } from '../../ui/Chip.tsx';
 import { NumberField } from '../../ui/NumberField.tsx';
 import { triggerInBar, heldText } from '../../i18n/sentences.ts';
-import { DownloadControl, DownloadProgress } from './DownloadControl.tsx';
+import { DownloadControl, DownloadProgress, runAsChosen, useRunSettings } from './DownloadAndRun.tsx';
 import { CollisionNote } from './compile/problems.tsx';
 import { laterComponent } from '../../ui/later.tsx';
 import { PART } from '../../ui/focus.ts';

@@ -7,11 +7,14 @@ import { words } from '../../i18n/whole.ts';
 import { isWithoutGateway } from '../../robot/request.ts';
 import { Button } from '../../ui/Button.tsx';
 import { LiveText } from '../../ui/LiveText.tsx';
+import { useEachFrame } from '../../ui/useEachFrame.ts';
 import { EmptyState } from '../../ui/Panel.tsx';
 import { Select } from '../../ui/Select.tsx';
 import { CopyButton } from '../connect/PortGuide.tsx';
 import { useStores, useView } from '../stores.ts';
 import { type Arrivals, type Cameras, createArrivals, listCameras, reasonIn, watch } from './cameras.ts';
+import { type Film, filmOf } from './film.ts';
+import { FilmPicture, FilmRow, useShownFilm } from './Film.tsx';
 import styles from './CameraView.module.css';
 
 /** This computer's camera, in the choice. */
@@ -33,7 +36,10 @@ const ACCESS: CameraAccess = {
 };
 
 export function CameraView({ access = ACCESS }: { readonly access?: CameraAccess }) {
-  const { view } = useStores();
+  const stores = useStores();
+  const { view } = stores;
+  const film = filmOf(stores);
+  const shownFilm = useShownFilm();
   const chosen = useView(({ camera }) => camera);
   const [cameras, setCameras] = useState<Cameras | null>(null);
   const [problem, setProblem] = useState<string | null>(null);
@@ -55,12 +61,16 @@ export function CameraView({ access = ACCESS }: { readonly access?: CameraAccess
   const takeHere = (): void => view.setState({ cameraHere: true });
   if (!isHere && camera === undefined) return <NoCamera onHere={takeHere} />;
   return (
-    <div className={styles.view}>
+    <div className={styles.view} data-film={shownFilm !== null}>
       {isHere ? (
-        <Here open={access.openHere} />
+        <Here open={access.openHere} onPicture={film.take} />
       ) : (
-        camera !== undefined && <AtGateway key={camera.id} camera={camera} watch={access.watch} />
+        camera !== undefined && (
+          <AtGateway key={camera.id} camera={camera} watch={access.watch} onPicture={film.take} />
+        )
       )}
+      {shownFilm !== null && <FilmPicture film={shownFilm} className={styles.film ?? ''} />}
+      <FilmRow className={styles.filmRow ?? ''} />
       <div className={styles.choice}>
         <Select
           label={words.camera.choice}
@@ -128,11 +138,16 @@ interface Watched {
   readonly isShown: boolean;
 }
 
-interface AtGatewayProps extends Pick<CameraAccess, 'watch'> {
+interface SourceProps {
+  /** With each new one. */
+  readonly onPicture: Film['take'];
+}
+
+interface AtGatewayProps extends Pick<CameraAccess, 'watch'>, SourceProps {
   readonly camera: Cameras[number];
 }
 
-function AtGateway({ camera: { id, name }, watch: follow }: AtGatewayProps) {
+function AtGateway({ camera: { id, name }, watch: follow, onPicture }: AtGatewayProps) {
   const canvas = useRef<HTMLCanvasElement>(null);
   const arrivals = useRef<Arrivals | null>(null);
   const [watched] = useState(() => createStore<Watched>(() => ({ problem: null, isShown: false })));
@@ -145,7 +160,9 @@ function AtGateway({ camera: { id, name }, watch: follow }: AtGatewayProps) {
     watched.setState({ problem: null, isShown: false });
     follow(id, leaving.signal, async (picture) => {
       counted.note(performance.now());
-      if (await draw(picture, canvas)) watched.setState({ isShown: true });
+      if (!(await draw(picture, canvas)) || canvas.current === null) return;
+      watched.setState({ isShown: true });
+      void onPicture(canvas.current, canvas.current);
     }).catch((error: unknown) => {
       if (leaving.signal.aborted) return;
       watched.setState({ problem: reasonIn(error) });
@@ -153,7 +170,7 @@ function AtGateway({ camera: { id, name }, watch: follow }: AtGatewayProps) {
       leaving.abort();
     });
     return () => leaving.abort();
-  }, [id, attempt, watched, follow]);
+  }, [id, attempt, watched, follow, onPicture]);
   return (
     <>
       <canvas
@@ -197,10 +214,17 @@ async function draw(picture: Blob, canvas: RefObject<HTMLCanvasElement | null>):
 }
 
 /** Switched off when it is left. */
-function Here({ open: openHere }: { open: CameraAccess['openHere'] }) {
+function Here({ open: openHere, onPicture }: SourceProps & { open: CameraAccess['openHere'] }) {
   const video = useRef<HTMLVideoElement>(null);
   const [problem, setProblem] = useState<string | null>(null);
   const [attempt, setAttempt] = useState(0);
+  const lastS = useRef(0);
+  useEachFrame(() => {
+    const shown = video.current;
+    if (shown === null || shown.videoWidth === 0 || shown.currentTime === lastS.current) return;
+    lastS.current = shown.currentTime;
+    void onPicture(shown, { width: shown.videoWidth, height: shown.videoHeight });
+  });
   useEffect(() => {
     let isLeft = false;
     let stream: MediaStream | null = null;
@@ -209,10 +233,13 @@ function Here({ open: openHere }: { open: CameraAccess['openHere'] }) {
       try {
         stream = await openHere();
         if (isLeft) stop();
-        else if (video.current !== null) video.current.srcObject = stream;
+        if (isLeft || video.current === null) return;
+        video.current.srcObject = stream;
+        // Not by `autoplay`: browsers pause that out of sight, and a film would have no pictures.
+        await video.current.play();
       } catch (error) {
         const isRefused = error instanceof DOMException && error.name === 'NotAllowedError';
-        setProblem(isRefused ? words.camera.refused : words.camera.noneHere);
+        if (!isLeft) setProblem(isRefused ? words.camera.refused : words.camera.noneHere);
       }
     }
     if (isSecureContext) void open();
@@ -230,14 +257,7 @@ function Here({ open: openHere }: { open: CameraAccess['openHere'] }) {
       {!isSecureContext ? (
         <Problem text={words.camera.insecure} />
       ) : problem === null ? (
-        <video
-          ref={video}
-          className={styles.picture}
-          aria-label={words.camera.here}
-          autoPlay
-          muted
-          playsInline
-        />
+        <video ref={video} className={styles.picture} aria-label={words.camera.here} muted playsInline />
       ) : (
         <Problem text={problem} onAgain={again} />
       )}

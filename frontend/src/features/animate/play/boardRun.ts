@@ -4,10 +4,10 @@
 import { frameEnds } from '#shared/group/tracks.ts';
 import { contentOf, recordOf } from '#shared/group/slotBook.ts';
 import { passMs } from '#shared/motion/motion.ts';
-import type { BoardPlay } from './course.ts';
+import type { BoardPlay } from './playedPart.ts';
 import type { CompiledGroup, CompiledStore } from '../../board/compile/compiled.ts';
 import type { Device } from '../../../robot/device.ts';
-import { runAsChosen } from '../../board/RunSettings.tsx';
+import { runAsChosen } from '../../board/DownloadAndRun.tsx';
 import type { GroupPlace } from '../../board/slots/groupPlace.ts';
 import type { Replacing } from '../../board/slots/replacing.ts';
 import type { Slots } from '../../board/slots/slots.ts';

@@ -13,6 +13,7 @@ import { createBoardRun } from './boardRun.ts';
 import {
   boardAt,
   boardCourse,
+  createPlayedPart,
   pageAt,
   pageCourse,
   spanOf,
@@ -20,12 +21,11 @@ import {
   previewAt,
   previewCourse,
   type PreviewPlay,
-} from './course.ts';
+} from './playedPart.ts';
 import { soundOf } from '../sound/sound.ts';
 import { type Course, createSoundPlayer, groupAt } from '../sound/soundPlayer.ts';
 import { obstacles, type CompiledGroup } from '../../board/compile/compiled.ts';
 import { createFollower } from '../../../robot/follower.ts';
-import { createPlayedPart } from './playedPart.ts';
 import type {
   Overdub,
   PlayedSpan,

@@ -7,7 +7,7 @@ import type { ActionGroup } from '#shared/group/group.ts';
 import { ownSlot, slotFor } from '#shared/group/slotPlaces.ts';
 import type { Listed } from '#shared/files/documentStore.ts';
 import { useDevice, useRobot, useStores, useLibrary, useSnapshot } from '../../stores.ts';
-import { DownloadProgress } from '../DownloadControl.tsx';
+import { DownloadProgress } from '../DownloadAndRun.tsx';
 import { startHindrance } from '../../../robot/readiness.ts';
 import { Button } from '../../../ui/Button.tsx';
 import { cx } from '../../../ui/cx.ts';

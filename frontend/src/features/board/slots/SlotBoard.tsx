@@ -12,7 +12,7 @@ import { words } from '../../../i18n/whole.ts';
 import { Mark, Chip } from '../../../ui/Chip.tsx';
 import { cx } from '../../../ui/cx.ts';
 import { CONTENT_TRUTH, useSlotContents, useHeldName } from './slotHooks.ts';
-import { DownloadControl } from '../DownloadControl.tsx';
+import { DownloadControl } from '../DownloadAndRun.tsx';
 import { motionHindrance, startHindrance } from '../../../robot/readiness.ts';
 import { Button } from '../../../ui/Button.tsx';
 import { SeveralGroups } from './SeveralGroups.tsx';
