@@ -9,6 +9,10 @@ import { changeServo } from '#shared/profile/robotEdits.ts';
 import { lastTarget, ofKind } from '../../e2e/fixtures/bus.ts';
 import * as robotDialog from '../../e2e/fixtures/robotDialog.ts';
 import { importedUrdf, linkName } from '../src/features/picture/three/urdf.ts';
+import { parseUrdf } from '../src/features/picture/three/figure.ts';
+import { linksIn } from '../src/features/picture/three/hulls.ts';
+import { describe } from '../src/features/picture/three/useModel.ts';
+import { collisionsOf } from '#shared/kinematics/collision.ts';
 import { ModelFileError, readModelFile } from '../src/features/picture/three/modelFile.ts';
 import { expect, here, test, type Dashboard } from './harness/test.ts';
 import { advance } from './harness/time.ts';
@@ -202,6 +206,35 @@ function turnedBy(joints: readonly RobotJoint[]): Robot {
   const arm = readyRobot('arm', 'doc', names);
   return joints.reduce((robot, one, index) => changeServo(robot, index + 1, { joint: one }), arm);
 }
+
+test('an imported model is judged by the hulls of its meshes', () => {
+  const turned = ['slew', 'luff', 'tilt'].map((name) => ({ name, isReversed: false, homeDegrees: 0 }));
+  const robot = turnedBy(turned);
+  const description = describe(readModelFile(CRANE_ZIP), robot);
+  const model = linksIn(parseUrdf(description!), robot);
+  expect(model.links.map(({ name, mount }) => [name, mount?.servo])).toEqual([
+    ['own_base', undefined],
+    ['own_tower', 1],
+    ['own_boom', 2],
+    ['own_hook', 3],
+    ['own_lamp', null],
+  ]);
+  const [x, y, z] = [0, 1, 2].map((axis) => {
+    const along = model.links[1]!.shapes[0]!.size.filter((_, index) => index % 3 === axis);
+    return Math.max(...along) - Math.min(...along);
+  });
+  expect([x, y, z].map((length) => length!.toFixed(3))).toEqual(['0.020', '0.020', '0.100']);
+  // The boom folds down beside the tower, and the hook with it onto the base.
+  const bent = (luff: number, tilt: number) =>
+    new Map([
+      [2, luff],
+      [3, tilt],
+    ]);
+  const at = (atMs: number, angles: ReadonlyMap<number, number>) => ({ atMs, angles });
+  const over = collisionsOf(model, [at(0, bent(0, 0)), at(1000, bent(3.1, 0))]);
+  expect(over.map(({ kind, links }) => [kind, ...links])).toContainEqual(['self', 'own_base', 'own_hook']);
+  expect(collisionsOf(model, [at(0, bent(0, 0)), at(1000, bent(0.5, 0.5))])).toEqual([]);
+});
 
 /** Numbers from 0 to 1, the same for the same seed. */
 function drawing(seed: number): () => number {

@@ -132,3 +132,26 @@ test('a box on its corner is as low as its half diagonal', () => {
     5,
   );
 });
+
+/** The corners of a box as a hull. */
+const hullOf = ([x, y, z]: Vec3): number[] =>
+  [-1, 1].flatMap((a) =>
+    [-1, 1].flatMap((b) => [-1, 1].flatMap((c) => [(a * x) / 2, (b * y) / 2, (c * z) / 2])),
+  );
+
+test('a hull of the corners of a box is that box', () => {
+  const sizes = triple(0.005, 0.05);
+  fc.assert(
+    fc.property(sizes, place, placedSolid, (box, where, other) => {
+      const [one, same] = [
+        solidOf({ shape: 'box', size: box }),
+        solidOf({ shape: 'hull', size: hullOf(box) }),
+      ].map((made) => ({ solid: made, place: where }));
+      expect(same!.solid.radiusM).toBeCloseTo(one!.solid.radiusM, 9);
+      expect(heightOf(same!)).toBeCloseTo(heightOf(one!), 9);
+      const [exact, found] = [distanceM(one!, other), distanceM(same!, other)];
+      if (exact > ACCURACY_M) expect(Math.abs(found - exact)).toBeLessThanOrEqual(2 * ACCURACY_M);
+      else expect(found).toBeLessThanOrEqual(2 * ACCURACY_M);
+    }),
+  );
+});

@@ -1,4 +1,4 @@
-// How far two convex solids are apart: boxes, cylinders and spheres, or a capsule as a line with a radius. By Gilbert, Johnson and
+// How far two convex solids are apart: boxes, cylinders, spheres and hulls of points, or a capsule as a line with a radius. By Gilbert, Johnson and
 // Keerthi: the point of the difference of both that is nearest to the origin. Metres. Knows no robot.
 
 import {
@@ -16,9 +16,11 @@ import {
 
 /** A core without its rounding; a sphere is a point, a capsule a line. */
 export interface Solid {
-  readonly core: 'box' | 'cylinder';
+  readonly core: 'box' | 'cylinder' | 'hull';
   /** Box: half of x, y and z. Cylinder: its radius twice, half its length. */
   readonly half: Vec3;
+  /** Of a hull. */
+  readonly corners: readonly Vec3[];
   readonly roundM: number;
   /** From its middle to its farthest point. */
   readonly radiusM: number;
@@ -31,6 +33,7 @@ export interface PlacedSolid {
 
 export function solidOf({ shape, size }: Pick<LinkShape, 'shape' | 'size'>): Solid {
   const [x = 0, y = 0, z = 0] = size;
+  if (shape === 'hull') return hull(size);
   if (shape === 'sphere') return solid('box', [0, 0, 0], x);
   if (shape === 'cylinder') return solid('cylinder', [x, x, y / 2], 0);
   return solid('box', [x / 2, y / 2, z / 2], 0);
@@ -43,21 +46,45 @@ export const capsule = (lengthM: number, radiusM: number): Solid =>
 function solid(core: Solid['core'], half: Vec3, roundM: number): Solid {
   const [x, y, z] = half;
   const radiusM = (core === 'cylinder' ? Math.hypot(x, z) : Math.hypot(x, y, z)) + roundM;
-  return { core, half, roundM, radiusM };
+  return { core, half, corners: [], roundM, radiusM };
+}
+
+function hull(size: readonly number[]): Solid {
+  const corners = Array.from({ length: Math.floor(size.length / 3) }, (_, index): Vec3 => {
+    const [x = 0, y = 0, z = 0] = size.slice(3 * index, 3 * index + 3);
+    return [x, y, z];
+  });
+  return {
+    core: 'hull',
+    half: [0, 0, 0],
+    corners,
+    roundM: 0,
+    radiusM: Math.max(0, ...corners.map(lengthOf)),
+  };
 }
 
 /** How far its lowest point is above the plane z = 0, in metres; below 0 where it goes through. */
 export const heightOf = (one: PlacedSolid): number => supportOf(one, [0, 0, -1])[2] - one.solid.roundM;
 
 /** The point of the core that is farthest in a direction. */
-function supportOf({ solid: { core, half }, place: { at, rotation } }: PlacedSolid, direction: Vec3): Vec3 {
-  const [x, y, z] = rotatedBack(rotation, direction);
-  const far: Vec3 =
-    core === 'box'
-      ? [Math.sign(x) * half[0], Math.sign(y) * half[1], Math.sign(z) * half[2]]
-      : [...onRim(x, y, half[0]), Math.sign(z) * half[2]];
-  const [ox, oy, oz] = rotated(rotation, far);
+function supportOf({ solid, place: { at, rotation } }: PlacedSolid, direction: Vec3): Vec3 {
+  const [ox, oy, oz] = rotated(rotation, farthestOf(solid, rotatedBack(rotation, direction)));
   return [at[0] + ox, at[1] + oy, at[2] + oz];
+}
+
+function farthestOf({ core, half, corners }: Solid, direction: Vec3): Vec3 {
+  const [x, y, z] = direction;
+  if (core === 'box') return [Math.sign(x) * half[0], Math.sign(y) * half[1], Math.sign(z) * half[2]];
+  if (core === 'cylinder') return [...onRim(x, y, half[0]), Math.sign(z) * half[2]];
+  let farthest = corners[0] ?? half;
+  let most = dot(farthest, direction);
+  for (const corner of corners) {
+    const far = dot(corner, direction);
+    if (far <= most) continue;
+    farthest = corner;
+    most = far;
+  }
+  return farthest;
 }
 
 function onRim(x: number, y: number, radius: number): [number, number] {

@@ -115,8 +115,8 @@ export function rotationOfRpy([roll, pitch, yaw]: Vec3): Rotation {
 
 /** In the frame of its link. */
 export interface LinkShape {
-  readonly shape: 'box' | 'cylinder' | 'sphere';
-  /** Box: x, y, z. Cylinder: radius, length along z. Sphere: radius. */
+  readonly shape: 'box' | 'cylinder' | 'sphere' | 'hull';
+  /** Box: x, y, z. Cylinder: radius, length along z. Sphere: radius. Hull: x, y, z of each of its corners. */
   readonly size: readonly number[];
   readonly at: Vec3;
   readonly rpy: Vec3;

@@ -39,7 +39,7 @@ export interface BodyLink extends ModelLink {
 }
 
 /** `servo`: the case of a servo; else what it carries. */
-type BodyShape = LinkShape & Pick<Part, 'kind'>;
+type BodyShape = LinkShape & Pick<Part, 'shape' | 'kind'>;
 
 /** For estimates of where the robot may touch itself; null for bodies without a description, and where the owner has imported another. */
 export function linkModelOf(robot: Robot): LinkModel | null {

@@ -1,9 +1,23 @@
 // Estimates where groups may make the robot touch itself, in a worker beside the page. One at a time: a newer one ends the one before.
 
 import { numbersOf } from '#shared/group/fingerprint.ts';
+import type { LinkModel } from '#shared/kinematics/model.ts';
+import type { Robot } from '#shared/profile/robot.ts';
 import { linkModelOf } from '../../picture/bodyLinks.ts';
 import type { CheckAnswer, CheckOrder } from './checkWorker.ts';
 import type { CollisionCheck } from './collisions.ts';
+
+const imported = new WeakMap<Robot, Promise<LinkModel | null>>();
+
+/** Of the owner's own model, which takes long to read, once for each state of the robot. */
+function modelOf(robot: Robot): LinkModel | null | Promise<LinkModel | null> {
+  if (robot.model === undefined) return linkModelOf(robot);
+  const before = imported.get(robot);
+  const made =
+    before ?? import('../../picture/three/hulls.ts').then(({ importedLinks }) => importedLinks(robot));
+  imported.set(robot, made);
+  return made;
+}
 
 export function createCheck(): CollisionCheck {
   let worker: Worker | null = null;
@@ -22,7 +36,8 @@ export function createCheck(): CollisionCheck {
   return async ({ frames, source: { robot, group, family } }) => {
     const id = ++latest;
     settle?.resolve(null);
-    const model = group.unit === family.unit ? linkModelOf(robot) : null;
+    const model = group.unit === family.unit ? await modelOf(robot) : null;
+    if (id !== latest) return null;
     if (model === null) return [];
     worker ??= start();
     // As numbers: to copy thousands of objects takes the page longer than it may.

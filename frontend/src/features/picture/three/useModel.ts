@@ -15,7 +15,7 @@ interface ShownModel {
   readonly state: 'loading' | 'missing' | 'ready';
 }
 
-async function modelFileOf(id: string): Promise<ModelFile | null> {
+export async function modelFileOf(id: string): Promise<ModelFile | null> {
   try {
     const bytes = await storedFile(id);
     return bytes === null ? null : readModelFile(bytes);
