@@ -74,6 +74,7 @@ function BlockBar({ block, level, isChosen, onChoose }: BlockBarProps) {
     startMs,
     label: () => words.blocks.steps.move,
     moved: (next) => (group) => setBlock(group, id, { startMs: next }),
+    onBeats: true,
     onPress: onChoose,
     onStep: (next) => notices.say(words.blocks.startsAt({ name, at: instantText(Math.max(0, next)) })),
   });

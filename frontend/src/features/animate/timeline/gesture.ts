@@ -128,10 +128,16 @@ export function onRaster({ stores }: Press, context: TimelineContext, atMs: numb
   return Math.max(0, snapped(atMs, alt || !snaps ? null : field));
 }
 
-/** Where the sound begins when it is dragged so far: at something of the group, else on the board's raster. */
-export function restingPlace(context: TimelineContext, wantedMs: number, isFree: boolean): number {
+/** Where what stands above the tracks begins when it is dragged so far: at something of the group, else on the board's raster. */
+export function restingPlace(
+  context: TimelineContext,
+  wantedMs: number,
+  { isFree, onBeats }: { readonly isFree: boolean; readonly onBeats: boolean },
+): number {
   const { times, state, group, family } = context;
-  const placesMs = [0, ...times.ends, ...group.markers.map((marker) => marker.atMs), state.playheadMs];
+  const markers = group.markers.map((marker) => marker.atMs);
+  const beats = onBeats ? beatsNear(context, wantedMs) : [];
+  const placesMs = [0, ...times.ends, ...markers, ...beats, state.playheadMs];
   const field = { placesMs, tickMs: family.motion.tickMs, reachMs: NEAR_PX * state.time.msPerPx };
   return snapped(wantedMs, isFree || !state.snaps ? null : field);
 }

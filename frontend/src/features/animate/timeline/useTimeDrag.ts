@@ -14,8 +14,10 @@ interface TimeDragOptions {
   readonly label: Label;
   /** The edit that brings it there. */
   moved(startMs: number): (group: ActionGroup) => ActionGroup;
+  /** The beats of the group's sound hold it too. */
+  readonly onBeats?: boolean;
   /** Left out: at something of the group, else on the board's raster. */
-  rest?(wantedMs: number, isFree: boolean): number;
+  rest?(wantedMs: number): number;
   /** Pressed and released in its place. */
   onPress?(): void;
   /** After a step by a key. */
@@ -33,7 +35,8 @@ const FAR = 10;
 /** Less is a press. */
 const PRESS_PX = 4;
 
-export function useTimeDrag({ startMs, label, moved, rest, onPress, onStep }: TimeDragOptions) {
+export function useTimeDrag(options: TimeDragOptions) {
+  const { startMs, label, moved, rest, onBeats = false, onPress, onStep } = options;
   const stores = useStores();
   const { document, timeline } = stores;
   const { tickMs } = useGroupBoard().family.motion;
@@ -44,7 +47,7 @@ export function useTimeDrag({ startMs, label, moved, rest, onPress, onStep }: Ti
     if (begun === null) return;
     const px = clientX - begun.x;
     const wanted = begun.startMs + px * timeline.getState().time.msPerPx;
-    const next = rest?.(wanted, altKey) ?? restingPlace(contextOf(stores), wanted, altKey);
+    const next = rest?.(wanted) ?? restingPlace(contextOf(stores), wanted, { isFree: altKey, onBeats });
     if (!begun.hasMoved && (next === begun.startMs || Math.abs(px) < PRESS_PX)) return;
     if (!begun.hasMoved) document.begin(label);
     begun.hasMoved = true;
