@@ -3,7 +3,8 @@
 import { addMarker } from '#shared/group/frameEdits.ts';
 import type { ActionGroup } from '#shared/group/group.ts';
 import { insertFrame, type NewFrame } from '#shared/group/groupEdits.ts';
-import { moveKeys } from '#shared/group/keyEdits.ts';
+import { makeBlock } from '#shared/group/blockEdits.ts';
+import { moveKeys, setEasing } from '#shared/group/keyEdits.ts';
 import { FAMILIES } from '#shared/codec/families.ts';
 import { actionsParts } from '../../features/animate/frames/ActionsPanel.tsx';
 import { AuthoringPanel } from '../Authoring.tsx';
@@ -100,6 +101,33 @@ const CASES: readonly Case[] = [
     },
   },
   { name: 'Timeline, dragging', frames: 6, prepare: drag },
+  {
+    name: 'Timeline, a curve and a block',
+    frames: 6,
+    prepare({ document, timeline }) {
+      document.edit(
+        () => '',
+        (group) => setEasing(group, SELECTED.slice(0, 1), [0.34, 1.56, 0.64, 1]),
+      );
+      document.edit(
+        () => '',
+        (group) =>
+          makeBlock(
+            group,
+            [
+              { frameId: 4, servo: 4 },
+              { frameId: 6, servo: 4 },
+            ],
+            'Nod',
+          ) ?? group,
+      );
+      timeline.setState({
+        large: { servo: 3, min: 700, max: 2300 },
+        selected: keySet(SELECTED.slice(0, 1)),
+        cursor: { row: 'servo 3', frameId: 2 },
+      });
+    },
+  },
   {
     name: 'Timeline, rows locked and muted',
     frames: 6,

@@ -15,7 +15,7 @@ import { jointName, TIP } from './urdf.ts';
 
 /** In board units: differences that are invisible in the picture. */
 const SAME = 6;
-const ROOM = 1.05;
+const ROOM = 1.12;
 
 export interface Preview {
   /** null: there is none. */
