@@ -284,6 +284,13 @@ class NotFoundError(GatewayError):
     status: ClassVar[int] = 404
 
 
+class MethodNotAllowedError(GatewayError):
+    """That address takes other methods."""
+
+    code: ClassVar[ErrorCode] = "methodNotAllowed"
+    status: ClassVar[int] = 405
+
+
 class ConflictError(GatewayError):
     """Another client has changed it since it was read."""
 

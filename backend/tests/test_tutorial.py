@@ -16,8 +16,8 @@ from servodeck.port.link import BackgroundPorts
 from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.packets import encode
 from servodeck.protocol.values import Move, Run, ServoTarget
-from servodeck.snapshots import NamedPose, PoseTarget, RobotFacts
 from tests.running import Running, server_on
+from tests.served_robot import ROBOT, describe_robot
 from tests.test_with_simulator import ROOT, Board, board, pytestmark
 
 pytestmark = [
@@ -31,8 +31,6 @@ PIECE = re.compile(r"^```(sh|python)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 PROGRAMS = {"sh": ["sh", "-eu"], "python": [sys.executable, "-W", "error", "-"]}
 PLACE = "http://127.0.0.1:8300"
 DOC = FAMILIES["doc"]
-GREETING = NamedPose(id=1, name="Greeting", unit="us", targets=[PoseTarget(servo=1, position=1700)])
-ARM = RobotFacts(kind="robot", name="Arm", board="doc", updated_at_ms=0, limits=[], poses=[GREETING])
 
 
 @pytest.fixture
@@ -40,8 +38,8 @@ async def gateway(board: Board, tmp_path: Path) -> AsyncIterator[Running]:
     library = Library(tmp_path / "data")
     async with server_on(BackgroundPorts(), None, library=library) as running:
         await running.control.use_port(str(board.link))
-        library.write("arm", "{}", ARM.model_dump_json(), 0, kind="robot")
-        await running.control.robot.put("arm", None)
+        describe_robot(library)
+        await running.control.robot.put(ROBOT, None)
         yield running
     library.close()
 

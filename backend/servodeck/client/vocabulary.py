@@ -1,0 +1,319 @@
+"""What a program may say to a robot, step by step: the requests of each method, and how their end is waited
+for. Robot and AsyncRobot carry out the same steps.
+
+Knows routes and their bodies; no transport, thread or event loop.
+"""
+
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any, Literal
+from urllib.parse import quote
+
+from servodeck.client.errors import TimedOutError, error_of
+from servodeck.client.gateway import Call, Pause, Steps, Welcome
+from servodeck.client.values import Json, Servo, Servos, Snapshot, robot_in, servos_of, snapshot_of
+from servodeck.errors import CancelledError, GatewayError, LatchedError, NotDrivingError, NotFoundError
+from servodeck.protocol.timings import LEASE
+
+Units = Literal["deg", "board"]
+"""Degrees from home, or the board's unit."""
+Positions = Mapping[str, float] | Mapping[int, float] | Mapping[str | int, float]
+Outcome = Literal["acknowledged", "silent", "sent"]
+"""Of a run: the board has taken it; it should have said so and has not; such a board never says."""
+Frames = Iterable[tuple[float, Positions]]
+"""Each: the seconds that it takes, and where servos are at its end."""
+
+POSE_S = 1.5
+# The gateway stops a run two seconds after the last one.
+BEAT_S = LEASE.silent_ms / 2000
+LOOK_S = 0.2
+# Of a group whose end only the board knows, and after a computed end (cli/commands.py).
+UNKNOWN_END_S, AFTER_END_S = 30.0, 2.0
+# A request of motion waits until the board is identified; servos of unknown position start one by one.
+IDENTIFIED_S, START_S = 10.0, 0.4
+REMEMBERED_S = 5.0
+
+
+class Vocabulary:
+    def __init__(self, now: Callable[[], float], *, take: bool) -> None:
+        """`take`: an owner's, from any other driver."""
+        self._now = now
+        self._take = take
+        self._servos: tuple[float, Servos] | None = None
+        self.may_drive = False
+        """This program has requested motion or the lease, and has not released it since."""
+
+    # Motion
+
+    def move(
+        self, positions: Positions, units: Units, seconds: float, *, wait: bool, timeout: float | None
+    ) -> Steps[None]:
+        wanted = yield from self._positions(positions, units)
+        body = {"timeMs": round(seconds * 1000), "positions": wanted}
+        yield from self._move("/api/move", body, len(wanted), wait=wait, timeout=timeout)
+
+    def pose(self, pose: str | int, seconds: float, *, wait: bool, timeout: float | None) -> Steps[None]:
+        path = f"/api/poses/{quote(str(pose), safe='')}/apply"
+        yield from self._move(path, {"timeMs": round(seconds * 1000)}, 32, wait=wait, timeout=timeout)
+
+    def _move(self, path: str, body: Json, servos: int, *, wait: bool, timeout: float | None) -> Steps[None]:
+        more_s = IDENTIFIED_S + START_S * servos
+        begun = yield from self._begin(path, body, more_s)
+        if wait:
+            yield from self._ended(self._moved(begun["overInMs"] / 1000), timeout)
+
+    def _moved(self, over_in_s: float) -> Steps[None]:
+        until_s = self._now() + over_in_s
+        while (left_s := until_s - self._now()) > 0:
+            yield Pause(min(left_s, BEAT_S))
+            yield from self._look()
+            yield from self._beat()
+
+    def run(
+        self, group: str | int, times: int, *, wait: bool, timeout: float | None, alone: float | None
+    ) -> Steps[Outcome]:
+        if wait and times == 0 and timeout is None:
+            raise ValueError("times=0 repeats until stopped: add a timeout, or wait=False.")
+        slot = group if isinstance(group, int) else (yield from self._slot_of(group))
+        body: dict[str, Any] = {"times": times}
+        if alone is not None:
+            body["continueForMs"] = round(alone * 1000)
+        begun = yield from self._begin(f"/api/slots/{slot}/run", body, IDENTIFIED_S + AFTER_END_S)
+        if wait:
+            yield from self._ended(self._ran(slot, timeout), timeout)
+        outcome: Outcome = begun["outcome"]
+        return outcome
+
+    def _slot_of(self, name: str) -> Steps[int]:
+        groups = (yield from self.snapshot()).groups
+        found = [slot for slot, known in groups.items() if known == name]
+        if len(found) != 1:
+            known = ", ".join(sorted(set(groups.values()) - {""})) or "no names"
+            problem = "Several slots hold" if found else "No slot is known to hold"
+            raise NotFoundError(f"{problem} {name}. Known groups: {known}. Use a slot's number, or download.")
+        return found[0]
+
+    def _ran(self, slot: int, timeout: float | None) -> Steps[None]:
+        begun_s = beaten_s = self._now()
+        while running := (yield from self._look())["running"]:
+            if running["slot"] != slot:
+                raise CancelledError(f"Another group runs now: slot {running['slot']}.")
+            ends_in_ms = running["endsInMs"]
+            if timeout is None and ends_in_ms is not None:
+                timeout = self._now() - begun_s + ends_in_ms / 1000 + AFTER_END_S
+            if self._now() - begun_s > (UNKNOWN_END_S if timeout is None else timeout):
+                raise TimedOutError(f"The end of slot {slot} was not reported in time, so it was stopped.")
+            if self._now() - beaten_s >= BEAT_S:
+                beaten_s = self._now()
+                yield from self._beat()
+            yield Pause(LOOK_S)
+
+    def play(
+        self,
+        frames: Frames,
+        units: Units,
+        times: int,
+        loop_from: int,
+        *,
+        wait: bool,
+        timeout: float | None,
+        alone: float | None,
+    ) -> Steps[None]:
+        if wait and times == 0 and timeout is None:
+            raise ValueError("times=0 repeats until stopped: add a timeout, or wait=False.")
+        bodies = yield from self._frames(frames, units)
+        body: dict[str, Any] = {"frames": bodies, "times": times, "loopFrom": loop_from}
+        if alone is not None:
+            body["continueForMs"] = round(alone * 1000)
+        begun = yield from self._begin("/api/play", body, IDENTIFIED_S)
+        if wait:
+            yield from self._ended(self._played(begun["id"]), timeout)
+
+    def _played(self, play_id: str) -> Steps[None]:
+        beaten_s = self._now()
+        while True:
+            play = (yield from self._look())["play"]
+            if play is None or play["id"] != play_id:
+                raise CancelledError("Another group is played now.")
+            if play["status"] == "ended":
+                raise error_of(play["code"], play["detail"])
+            if play["status"] == "done":
+                return
+            if self._now() - beaten_s >= BEAT_S:
+                beaten_s = self._now()
+                yield from self._beat()
+            yield Pause(LOOK_S)
+
+    def beats(self) -> Steps[None]:
+        """For what runs or is played and is not waited for: heartbeats until it has ended."""
+        while True:
+            status = yield Call("GET", "/api/status", is_safe=True)
+            play = status["play"]
+            is_played = play is not None and play["status"] == "playing"
+            if not (is_played or status["running"]):
+                return
+            if not (yield from self._beat()):
+                return
+            yield Pause(BEAT_S)
+
+    def download(
+        self,
+        slot: int,
+        frames: Frames,
+        units: Units,
+        name: str,
+        replaces: str | None,
+        *,
+        wait: bool,
+        timeout: float | None,
+    ) -> Steps[Json]:
+        bodies = yield from self._frames(frames, units)
+        group: dict[str, Any] = {"slot": slot, "name": name, "frames": bodies}
+        if replaces is not None:
+            group["replaces"] = replaces
+        job: Json = yield from self._begin("/api/download", {"groups": [group]}, IDENTIFIED_S)
+        path, until_s = f"/api/jobs/{job['id']}", None if timeout is None else self._now() + timeout
+        try:
+            while wait and job["status"] == "running":
+                self._judge_time(until_s, "The download did not end in time, so it was cancelled.")
+                yield Pause(LOOK_S)
+                job = yield Call("GET", path, is_safe=True)
+        except BaseException as error:
+            if not isinstance(error, GeneratorExit):
+                yield Call("DELETE", path, is_safe=True)
+            raise
+        if job["status"] in ("failed", "cancelled"):
+            raise error_of(job["code"], job["detail"])
+        return job
+
+    def erase(self) -> Steps[None]:
+        self.may_drive = True
+        yield Call("POST", "/api/erase", {"take": self._take}, more_s=30.0)
+
+    # The right to drive
+
+    def stop(self) -> Steps[Json | None]:
+        stopped = yield Call("POST", "/api/stop", is_safe=True)
+        unheld: Json | None = stopped["unheld"]
+        return unheld
+
+    def resume(self) -> Steps[None]:
+        yield Call("POST", "/api/resume")
+
+    def request_lease(self) -> Steps[bool]:
+        self.may_drive = True
+        action = "take" if self._take else "request"
+        lease = yield Call("POST", "/api/lease", {"action": action}, is_safe=True)
+        return bool(lease["drives"])
+
+    def release(self) -> Steps[None]:
+        """Ends what this program has in motion, without a latch; no other client's motion."""
+        if self.may_drive:
+            yield Call("POST", "/api/lease", {"action": "release"}, is_safe=True)
+            self.may_drive = False
+
+    # Looking
+
+    def snapshot(self) -> Steps[Snapshot]:
+        return snapshot_of((yield Welcome()))
+
+    def status(self) -> Steps[Json]:
+        status: Json = yield Call("GET", "/api/status", is_safe=True)
+        return status
+
+    def battery(self) -> Steps[int]:
+        return int((yield Call("GET", "/api/battery", is_safe=True))["batteryMv"])
+
+    def poses(self) -> Steps[dict[int, str]]:
+        book = yield Call("GET", "/api/poses", is_safe=True)
+        return {pose["id"]: pose["name"] for pose in book["poses"]}
+
+    def servos(self) -> Steps[list[Servo]]:
+        return (yield from self._described(is_new=True)).all()
+
+    # Inside
+
+    def _begin(self, path: str, body: Json, more_s: float) -> Steps[Any]:
+        self.may_drive = True
+        request = Call("POST", path, {**body, "take": self._take}, is_keyed=True, more_s=more_s)
+        try:
+            return (yield request)
+        except (GatewayError, GeneratorExit):
+            raise
+        except BaseException:  # the program ends while the motion begins
+            yield from self.release()
+            raise
+
+    def _ended(self, waiting: Steps[None], timeout: float | None) -> Steps[None]:
+        """Whatever ends the waiting early ends the motion."""
+        until_s = None if timeout is None else self._now() + timeout
+        try:
+            answer: Any = None
+            while True:
+                try:
+                    step = waiting.send(answer)
+                except StopIteration:
+                    return
+                self._judge_time(until_s, "It did not end in time, so it was stopped.")
+                answer = yield step
+        except BaseException as error:
+            waiting.close()
+            if not isinstance(error, LatchedError | NotDrivingError | GeneratorExit):
+                yield from self.release()
+            raise
+
+    def _judge_time(self, until_s: float | None, words: str) -> None:
+        if until_s is not None and self._now() >= until_s:
+            raise TimedOutError(words)
+
+    def _look(self) -> Steps[Json]:
+        """Raises LatchedError or NotDrivingError where the motion of this program has ended with that."""
+        status = yield from self.status()
+        if status["latch"]:
+            raise LatchedError("Stopped: motion is refused until a person resumes.")
+        return status
+
+    def _beat(self) -> Steps[bool]:
+        lease = yield Call("POST", "/api/lease", {"action": "heartbeat"}, is_safe=True)
+        if lease["driver"] and not lease["drives"]:
+            raise NotDrivingError(f"{lease['driver']} drives now, and motion was stopped first.")
+        return bool(lease["drives"])
+
+    def _positions(self, positions: Positions, units: Units) -> Steps[dict[str, float]]:
+        if units == "board" and all(isinstance(servo, int) for servo in positions):
+            return {str(servo): whole(at) for servo, at in positions.items()}
+        servos = yield from self._described()
+        try:
+            numbers = {servo: servos.number_of(servo) for servo in positions}
+        except NotFoundError:
+            servos = yield from self._described(is_new=True)
+            numbers = {servo: servos.number_of(servo) for servo in positions}
+        wanted: dict[str, float] = {}
+        for servo, at in positions.items():
+            number = numbers[servo]
+            wanted[str(number)] = servos.position_at(number, at) if units == "deg" else whole(at)
+        return wanted
+
+    def _frames(self, frames: Frames, units: Units) -> Steps[list[Json]]:
+        bodies: list[Json] = []
+        for seconds, positions in frames:
+            wanted = yield from self._positions(positions, units)
+            bodies.append({"durationMs": round(seconds * 1000), "positions": wanted})
+        return bodies
+
+    def _described(self, *, is_new: bool = False) -> Steps[Servos]:
+        """As the robot on the board was a few seconds ago at most: its home may have been changed since."""
+        if self._servos and not is_new and self._now() - self._servos[0] < REMEMBERED_S:
+            return self._servos[1]
+        welcome = yield Welcome()
+        robot, known = welcome["robot"], []
+        if robot:
+            document = yield Call("GET", f"/api/library/{quote(robot['id'])}", is_safe=True)
+            known = servos_of(robot_in(document["text"]))
+        servos = Servos(known, welcome["board"])
+        self._servos = self._now(), servos
+        return servos
+
+
+def whole(at: float) -> float:
+    """As the board counts; the gateway refuses what is between two."""
+    return int(at) if at == int(at) else at
