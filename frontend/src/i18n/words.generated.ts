@@ -822,6 +822,7 @@ export interface Messages {
       readonly end: string;
       readonly hint: string;
       readonly needsArmed: string;
+      readonly needsKnown: (values: { readonly names: string }) => string;
       readonly done: (values: { readonly keys: number }) => string;
       readonly dropped: string;
     };

@@ -36,6 +36,15 @@ describe('a passage', () => {
     expect(atMs).toEqual([300, 600, 1200]);
   });
 
+  test('goes in short parts behind its lead where other moves go beside it', () => {
+    const { frames, atMs } = passageOf(FRAMES, { ...WHOLE, longestPartMs: 210 });
+    expect(frames).toEqual([
+      ...[FRAMES[0], at(200, 1500, 1500), at(200, 2000, 1500)],
+      ...[at(200, 1800, 1600), at(200, 1600, 1700), at(200, 1400, 1800)],
+    ]);
+    expect(atMs).toEqual([200, 400, 600, 800, 1000, 1200]);
+  });
+
   test('ends where it is cut', () => {
     const { frames, atMs } = passageOf(FRAMES, { ...WHOLE, fromMs: 300, toMs: 900 });
     expect(frames).toEqual([at(1500, 1250, 1500), at(300, 2000, 1500), at(300, 1700, 1650)]);

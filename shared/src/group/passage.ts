@@ -11,6 +11,8 @@ export interface PassageOptions {
   readonly speedPercent: number;
   /** A slower frame is sent in parts. */
   readonly longestMs: number;
+  /** Behind the lead, frames are sent in parts of so long at most; absent: as long as they are. */
+  readonly longestPartMs?: number | undefined;
   /**
    * Servos whose position is unknown: they go to their first position in the lead, because a first move is slow and would hold up
    * the others later.
@@ -63,7 +65,8 @@ export function passageOf(frames: readonly Frame[], options: PassageOptions): Pa
   const startMs = isWhole ? Math.min(step.endMs, toMs) : fromMs;
   const rest = cut(isWhole ? steps.slice(1) : steps.slice(first), startMs, toMs);
   const pose = isWhole ? new Map(step.targets.map(pair)) : poseIn(step, fromMs);
-  const parts = rest.flatMap((one) => slowed(one, startMs, pace, options.longestMs));
+  const longestPartMs = Math.min(options.longestMs, options.longestPartMs ?? Infinity);
+  const parts = rest.flatMap((one) => slowed(one, startMs, pace, longestPartMs));
   const lead = {
     durationMs: isWhole ? leadMs(step, pace, options) : LEAD_MS,
     targets: targetsOf(withUnknownServos(pose, rest, options.unknownServos)),

@@ -54,6 +54,7 @@ function RecordOver() {
   useDocument(({ present }) => `${present.unit} ${present.frames.length === 0}`);
   useSnapshot(startHindrance);
   useDevice(({ family }) => family);
+  useDevice(({ known }) => known);
   if (!isShown) return null;
   const may = RECORD_OVER.enabled(stores);
   return (

@@ -7,6 +7,7 @@ import { passageOf, type Passage, type PassageOptions } from '#shared/group/pass
 import { poseAtMs } from '#shared/group/tracks.ts';
 import type { Frame, ServoTarget } from '#shared/codec/commands.ts';
 import type { Family } from '#shared/codec/families.ts';
+import { moveBytes, wireMs } from '#shared/codec/packet.ts';
 import { startsKnown } from '#shared/robot/state.ts';
 import { FIRST_MOVE_MS, RANGE_MS } from '#shared/robot/timings.ts';
 import type { CompiledGroup } from '../../board/compile/compiled.ts';
@@ -50,6 +51,19 @@ const seamOf = ({ position: { min, max } }: Family): PassageOptions['seam'] => (
   unitsPerMs: (max - min) / RANGE_MS,
 });
 
+/** A delay of so much is hardly felt at a slider. */
+const PART_BESIDE_MS = 80;
+const SHARE_OF_WIRE = 0.25;
+
+/**
+ * Beside the user's moves frames are sent in short parts: where a board has one time for all servos (S26), each of those moves lasts as long as the
+ * part under way. A part is long enough to leave three quarters of the wire to them.
+ */
+function partBesideMs(frames: readonly Frame[]): number {
+  const most = frames.reduce((count, { targets }) => Math.max(count, targets.length), 0);
+  return Math.max(PART_BESIDE_MS, Math.ceil(wireMs(moveBytes(most)) / SHARE_OF_WIRE));
+}
+
 export function createPlayedPart(options: PlayedPartOptions): PlayedPart {
   const { device, document, view, playhead, robots, chosen } = options;
 
@@ -82,6 +96,7 @@ export function createPlayedPart(options: PlayedPartOptions): PlayedPart {
       toMs: range?.toMs ?? null,
       seam: seamOf(source.family),
       longestMs: source.family.durationMs.max,
+      longestPartMs: without.length > 0 ? partBesideMs(played) : undefined,
       speedPercent: chosen().speedPercent,
       unknownServos: source.robot.servos
         .map(({ servo }) => servo)

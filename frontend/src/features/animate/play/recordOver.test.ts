@@ -3,6 +3,8 @@ import { startHistory } from '#shared/document/history.ts';
 import { emptyGroup, totalDurationMs } from '#shared/group/group.ts';
 import { insertFrame, type NewFrame } from '#shared/group/groupEdits.ts';
 import { positionAt, tracksOf } from '#shared/group/tracks.ts';
+import { FAMILIES, type FamilyId } from '#shared/codec/families.ts';
+import { convertGroup } from '#shared/group/frameEdits.ts';
 import { createTestPage } from '../../pageUnderTest.ts';
 import { freeOf } from '../../servoView.ts';
 import { editServoView } from '../../stores.ts';
@@ -24,16 +26,17 @@ const WAVE = [
 
 const LEAD_MS = 1500;
 
-async function armed(servos: readonly number[] = [2]) {
-  const page = await createTestPage();
+async function armed(servos: readonly number[] = [2], id: FamilyId = 'doc') {
+  const page = await createTestPage(new Map(), { family: FAMILIES[id] });
   page.document.edit(
     () => 'write',
-    () => WAVE,
+    () => (FAMILIES[id].unit === 'us' ? WAVE : (convertGroup(WAVE, FAMILIES[id].unit) ?? WAVE)),
   );
+  const { min, max } = FAMILIES[id].position;
   page.device.move(
     [
-      { servo: 1, position: 1000 },
-      { servo: 2, position: 1500 },
+      { servo: 1, position: Math.round(min + (max - min) / 4) },
+      { servo: 2, position: Math.round((min + max) / 2) },
     ],
     500,
   );
@@ -71,8 +74,10 @@ describe('recording over the motion', () => {
       .slice(sentBefore)
       .flatMap((move) => move.targets);
     expect(targets.filter(({ servo }) => servo === 2)).toEqual([{ servo: 2, position: 2000 }]);
-    expect(targets.filter(({ servo }) => servo === 1).map(({ position }) => position)).toEqual([
-      1300, 1600, 1000, 1600, 1000,
+    const played = targets.filter(({ servo }) => servo === 1).map(({ position }) => position);
+    expect(played[0]).toBe(1300);
+    expect(played.filter((position) => position === 1600 || position === 1000)).toEqual([
+      1600, 1000, 1600, 1000,
     ]);
     for (const [atMs, position] of [
       [500, 1200],
@@ -90,6 +95,53 @@ describe('recording over the motion', () => {
 
     page.document.undo();
     expect(page.group()).toBe(before);
+  });
+
+  test.for(['doc', 'bus-ctrl'] as const)(
+    'on %s the armed servo follows a drag, however long the frames are that play beside it',
+    async (id) => {
+      const page = await armed([2], id);
+      const { min, max } = page.device.store.getState().family.position;
+      const span = max - min;
+      const draggedTo = (ms: number): number => Math.round(min + span * (0.5 + 0.15 * Math.sin(ms / 250)));
+      page.press();
+      await page.draw(LEAD_MS + 100);
+      const sentBefore = page.moves().length;
+      for (let ms = 0; ms < 3000; ms += 20) {
+        page.device.drag([{ servo: 2, position: draggedTo(ms) }], 'hand');
+        await page.draw(20);
+      }
+      const sent = page.moves().slice(sentBefore);
+      const own = sent.filter(({ targets }) => targets.some(({ servo }) => servo === 2));
+      expect(Math.max(...own.map(({ durationMs }) => durationMs))).toBeLessThanOrEqual(100);
+      const playedBeside = sent.filter(({ targets }) => targets.some(({ servo }) => servo === 1));
+      expect(playedBeside.length).toBeGreaterThan(20);
+      await page.draw(3000);
+      // The take began with the lead's end, 100 ms before the drag.
+      for (const ms of [600, 1100, 1800, 2500])
+        expect(Math.abs((page.at(2, 600 + ms) ?? NaN) - draggedTo(ms)), `at ${ms}`).toBeLessThanOrEqual(
+          0.1 * span,
+        );
+    },
+  );
+
+  test('a servo whose first key comes late is there before, gently, and does not leap to it', async () => {
+    const page = await armed();
+    const late = [{ servo: 3, position: 2300 }];
+    page.device.move([{ servo: 3, position: 1500 }], 500);
+    await page.draw(2500);
+    page.document.edit(
+      () => 'write',
+      (group) => insertFrame(group, group.frames.length, { durationMs: 1000, targets: late }),
+    );
+    const sentBefore = page.moves().length;
+    page.press();
+    await page.draw(LEAD_MS + 7000);
+    const sent = page.moves().slice(sentBefore);
+    const own = sent.filter(({ targets }) => targets.some(({ servo }) => servo === 3));
+    expect(own[0]?.durationMs).toBeGreaterThanOrEqual(LEAD_MS);
+    expect(own[0]?.targets).toContainEqual(late[0]);
+    for (const { targets } of own) expect(targets).toContainEqual(late[0]);
   });
 
   test('what plays is locked meanwhile: a move of both moves only the armed servo', async () => {
@@ -176,6 +228,8 @@ describe('recording over the motion', () => {
     expect(page.noticeTexts()).toContain('Nothing moved.');
     editServoView(page, (view) => ({ ...view, armed: [] }));
     expect(RECORD_OVER.enabled(page)).toBe('Arm a row first, in its menu.');
+    editServoView(page, (view) => ({ ...view, armed: [2, 3] }));
+    expect(RECORD_OVER.enabled(page)).toMatch(/^Move the armed servos first.*: Wrist\.$/);
   });
 
   test('with every row armed nothing is sent, and the playhead still runs for the recording', async () => {

@@ -8,10 +8,12 @@ import { timesOf } from '#shared/group/groupTimes.ts';
 import { deleteKeys } from '#shared/group/keyEdits.ts';
 import { simplify, type Sample } from '#shared/group/simplify.ts';
 import { insertTime } from '#shared/group/timeEdits.ts';
+import { startsKnown } from '#shared/robot/state.ts';
 import { GENTLE_MOVE_MS } from '../../../robot/moves.ts';
 import { recorded } from '../../servoView.ts';
 import { servoViewOf, type Stores } from '../../stores.ts';
 import type { Action } from '../../../ui/action.ts';
+import { namesIn } from '../../../i18n/sentences.ts';
 import { words } from '../../../i18n/whole.ts';
 import { maySend } from './playActions.ts';
 import type { PlayedSpan } from './playback.ts';
@@ -65,8 +67,18 @@ export const RECORD_OVER: Action<RecordContext> = {
   label: (context) => (isRecording(context) ? words.record.overMotion.end : words.record.overMotion.begin),
   enabled(context) {
     if (isRecording(context)) return true;
-    if (servoViewOf(context).armed.length === 0) return words.record.overMotion.needsArmed;
-    return context.playback.store.getState().phase === null ? maySend(context) : words.play.needsPause;
+    const { armed } = servoViewOf(context);
+    if (armed.length === 0) return words.record.overMotion.needsArmed;
+    const isIdle = context.playback.store.getState().phase === null;
+    const may = isIdle ? maySend(context) : words.play.needsPause;
+    if (may !== true) return may;
+    // A first move is slow, and slows what plays where a board has one time for all servos (S26).
+    const motion = context.device.motions();
+    const unknown = armed.filter((servo) => !startsKnown(motion(servo)));
+    const names = unknown.map(namesIn(context.robots.current().robot));
+    return (
+      names.length === 0 || words.record.overMotion.needsKnown({ names: words.numbers.formatNames(names) })
+    );
   },
   run(context) {
     if (isRecording(context)) playerOf(context.playback).pause();
