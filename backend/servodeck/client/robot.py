@@ -148,8 +148,8 @@ class Robot:
     # The right to drive
 
     def stop(self) -> Json | None:
-        """Stops the robot, whoever drives, and refuses motion until `resume`. Returns the motion that could
-        not be held, `servos` and `forMs`; None: all is held.
+        """Stops the robot, also while another client drives, and refuses motion until `resume`. Returns the
+        motion that could not be held, `servos` and `forMs`; None: all is held.
         """
         return self._do(self._vocabulary.stop())
 
