@@ -18,7 +18,7 @@ export function Kiosk({ onMoveHere }: StatusLineProps) {
         <h1 className={styles.title}>{words.macros.title}</h1>
         <StatusLine onMoveHere={onMoveHere} />
       </header>
-      <main className={styles.buttons}>{isEmpty ? <NoButtons /> : <MacroGrid />}</main>
+      <main className={styles.buttons}>{isEmpty ? <NoButtons /> : <MacroGrid fills />}</main>
       <footer className={styles.foot}>
         <LeaveKiosk />
         <Messages />

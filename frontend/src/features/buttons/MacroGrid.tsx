@@ -1,6 +1,14 @@
 // The person's buttons: large, for fingers, keys and children. One runs at a time.
 
-import { useEffect, useEffectEvent } from 'react';
+import {
+  type CSSProperties,
+  type RefObject,
+  useEffect,
+  useEffectEvent,
+  useLayoutEffect,
+  useRef,
+  useState,
+} from 'react';
 import { useStore } from 'zustand';
 import { type Macro, keyOf, type MacroStep } from '#shared/profile/macro.ts';
 import { PoseThumb } from '../picture/PoseThumb.tsx';
@@ -9,6 +17,7 @@ import { poseName } from '../poses/poses.ts';
 import { useDevice, usePoses, useStores, useMacros, useSnapshot } from '../stores.ts';
 import { words } from '../../i18n/whole.ts';
 import { startHindrance } from '../../robot/readiness.ts';
+import { cx } from '../../ui/cx.ts';
 import styles from './Macros.module.css';
 
 interface MacroFaceProps {
@@ -117,15 +126,55 @@ function down(event: KeyboardEvent, held: Set<string>, press: (key: string) => v
   press(key);
 }
 
-export function MacroGrid() {
+/** Wide enough for a picture beside a name. */
+const BUTTON_RATIO = 1.7;
+const LEAST_BUTTON_PX = 160;
+
+/** With so many columns the buttons that share this room are largest. */
+export function columnsFor(
+  count: number,
+  { width, height }: { readonly width: number; readonly height: number },
+) {
+  const sizeWith = (columns: number): number =>
+    Math.min(width / columns / BUTTON_RATIO, height / Math.ceil(count / columns));
+  return Array.from({ length: count }, (_, index) => index + 1)
+    .filter((columns) => columns === 1 || width / columns >= LEAST_BUTTON_PX)
+    .reduce((best, columns) => (sizeWith(columns) > sizeWith(best) ? columns : best), 1);
+}
+
+/** 0: they are as large as elsewhere. */
+function useColumns(list: RefObject<HTMLElement | null>, count: number, fills: boolean): number {
+  const [columns, setColumns] = useState(0);
+  useLayoutEffect(() => {
+    const element = list.current;
+    if (element === null || !fills) return undefined;
+    const measure = (): void =>
+      setColumns(columnsFor(count, { width: element.clientWidth, height: element.clientHeight }));
+    measure();
+    const observer = new ResizeObserver(measure);
+    observer.observe(element);
+    return () => observer.disconnect();
+  }, [list, count, fills]);
+  return fills ? columns : 0;
+}
+
+/** `fills`: the buttons are as large as there is room for. */
+export function MacroGrid({ fills = false }: { readonly fills?: boolean }) {
   const macros = useMacros(({ present }) => present.macros);
+  const list = useRef<HTMLUListElement>(null);
+  const columns = useColumns(list, macros.length, fills);
   const press = useMacroPress();
   useMacroKeys((key) => {
     const macro = macros.find((one) => one.key === key);
     if (macro !== undefined) press(macro);
   });
   return (
-    <ul className={styles.grid} aria-label={words.macros.list}>
+    <ul
+      ref={list}
+      className={cx(styles.grid, columns > 0 && styles.filling)}
+      style={{ '--columns': columns } as CSSProperties}
+      aria-label={words.macros.list}
+    >
       {macros.map((macro) => (
         <li key={macro.id}>
           <MacroButton macro={macro} onPress={() => press(macro)} />
