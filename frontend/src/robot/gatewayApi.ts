@@ -3,7 +3,7 @@
 
 import type { Clock } from '#shared/clock.ts';
 import { isRecord, isWithoutGateway } from './request.ts';
-import { askGateway } from './links/gatewayHttp.ts';
+import { askGateway } from './links/gatewayValues.ts';
 
 export interface GatewayStatus {
   /** The port in use, null when none is. */

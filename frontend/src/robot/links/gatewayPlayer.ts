@@ -5,8 +5,7 @@ import type { LinkError } from '#shared/robot/linkError.ts';
 import type { Frame } from '#shared/codec/commands.ts';
 import type { Played } from '#shared/robot/robot.ts';
 import { MESSAGE_BYTES } from '#shared/robot/timings.ts';
-import { askGateway, refusal } from './gatewayHttp.ts';
-import { frameBody } from './gatewayValues.ts';
+import { askGateway, frameBody, refusal } from './gatewayValues.ts';
 import type { ClientMessage, PlayedMessage, PlayMessage } from './messages.generated.ts';
 
 export interface GatewayPlayer {

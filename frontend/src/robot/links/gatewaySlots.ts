@@ -7,8 +7,7 @@ import { DOWNLOAD_PORTION_BYTES } from '#shared/robot/timings.ts';
 import type { DownloadProgress, SlotGroup, SlotVersions } from '#shared/robot/state.ts';
 import type { GroupBody } from '../http.generated.ts';
 import { isRecord } from '../request.ts';
-import { askGateway, refusal } from './gatewayHttp.ts';
-import { frameBody } from './gatewayValues.ts';
+import { askGateway, frameBody, refusal } from './gatewayValues.ts';
 import type { JobState, StateMessage } from './messages.generated.ts';
 
 /** As large as half a megabyte, which a slow network takes a while for. */

@@ -2,8 +2,7 @@
 // results. The socket stays open while the port is away, to notice its return. Knows no robot.
 
 import { LinkError } from '#shared/robot/linkError.ts';
-import { refusal } from './gatewayHttp.ts';
-import { portError } from './gatewayValues.ts';
+import { portError, refusal } from './gatewayValues.ts';
 import {
   PROTOCOL,
   type ClientMessage,

@@ -1,4 +1,5 @@
-// Values of the gateway's messages as the snapshot has them, and the other way round. Pure: knows no socket.
+// What links share of the gateway: its HTTP interface, of which every failure is a LinkError, and the values of its messages as the snapshot has
+// them, and the other way round. Knows no route and no socket.
 
 import type { MotionBefore } from '#shared/motion/model.ts';
 import { isHarmless, type Command, type Frame } from '#shared/codec/commands.ts';
@@ -8,9 +9,9 @@ import { fromHex, toHex } from '#shared/codec/packet.ts';
 import { commandIn } from '#shared/codec/parse.ts';
 import type { Report } from '#shared/codec/reports.ts';
 import type { Identity } from '#shared/robot/identity.ts';
-import { LinkError } from '#shared/robot/linkError.ts';
+import { isLinkErrorCode, LinkError } from '#shared/robot/linkError.ts';
 import type { LatchReason } from '#shared/robot/state.ts';
-import { refusal } from './gatewayHttp.ts';
+import { GatewayProblem, request, type RequestOptions, type Path, type Verb } from '../request.ts';
 import type {
   FrameBody,
   MotionState,
@@ -96,4 +97,25 @@ export function bytesForLog(command: Command, family: Family): Uint8Array | null
     }
   }
   return null;
+}
+
+/** Rejects where no answer comes in time, and with the gateway's reason where it refuses. */
+export async function askGateway<P extends Path, V extends Verb<P>>(
+  verb: V,
+  path: P,
+  requested: RequestOptions<P, V>,
+): Promise<unknown> {
+  try {
+    return await request(verb, path, requested);
+  } catch (error) {
+    if (!(error instanceof GatewayProblem)) throw error;
+    const { code, message, heldBy } = error;
+    throw code === null
+      ? new LinkError('gatewayUnreachable', message, { cause: error })
+      : refusal(code, message, heldBy);
+  }
+}
+
+export function refusal(code: string, detail: string, heldBy: readonly string[] = []): LinkError {
+  return new LinkError(isLinkErrorCode(code) ? code : 'gatewayRefused', detail, { heldBy });
 }

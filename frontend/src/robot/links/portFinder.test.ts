@@ -1,7 +1,7 @@
 // Which board a lost link comes back to, as the browser hands out its ports: never one that was there beside ours.
 
 import { expect, test } from 'vitest';
-import { portLabel } from './serialPorts.ts';
+import { portLabel } from './browserDevices.ts';
 import { CH340, createBrowser, type FakeBrowser, type FakePort } from './serialUnderTest.ts';
 import { expectUse, openReady, openTab, outcome, pass, freshBrowser, type Outcome } from './tabUnderTest.ts';
 

@@ -5,7 +5,7 @@ import type { ByteChannel } from '#shared/robot/byteChannel.ts';
 import { LinkError, type LinkErrorCode } from '#shared/robot/linkError.ts';
 import { sleep } from '#shared/clock.ts';
 import { wireMs } from '#shared/codec/packet.ts';
-import { nameOf } from './serialPorts.ts';
+import { nameOf } from './browserDevices.ts';
 import { createTabChannel } from './tabChannel.ts';
 import { browserClock } from './browserClock.ts';
 import {

@@ -15,7 +15,7 @@ import {
   freshBrowser,
   type Tab,
 } from './tabUnderTest.ts';
-import { choosePort } from './serialPorts.ts';
+import { choosePort } from './browserDevices.ts';
 
 const NAMES = [
   'NetworkError',

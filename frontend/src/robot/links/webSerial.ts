@@ -7,8 +7,7 @@ import { BAUD, wireMs } from '#shared/codec/packet.ts';
 import { LinkError, type LinkErrorCode } from '#shared/robot/linkError.ts';
 import { LINE_IDLE_MS } from '#shared/robot/timings.ts';
 import { createTabChannel } from './tabChannel.ts';
-import { portLabel, nameOf } from './serialPorts.ts';
-import { createDeviceFinder, type DeviceFinder } from './deviceFinder.ts';
+import { portLabel, nameOf, createDeviceFinder, type DeviceFinder } from './browserDevices.ts';
 import { browserClock } from './browserClock.ts';
 import { createConnection, gone, settled, type Connection, type ConnectionEvents } from './connection.ts';
 
