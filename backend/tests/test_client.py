@@ -7,6 +7,7 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import closing, nullcontext, suppress
+from importlib.resources import files
 from pathlib import Path
 
 import pytest
@@ -78,6 +79,10 @@ def has(condition: Callable[[], bool]) -> None:
 
 def test_it_is_loaded_without_the_gateway() -> None:
     subprocess.run([sys.executable, "-W", "error", "-c", LIGHT], check=True, timeout=30)
+
+
+def test_type_checkers_find_its_types() -> None:
+    assert (files("servodeck") / "py.typed").is_file()
 
 
 def test_servos_are_moved_by_name_in_degrees_from_home(here: Served, port: BoardPort) -> None:
@@ -222,6 +227,9 @@ class LosingProxy:
         self._listener = socket.create_server(("127.0.0.1", 0))
         self._host = host
         self.url = f"http://127.0.0.1:{self._listener.getsockname()[1]}"
+        self._begin()
+
+    def _begin(self) -> None:
         threading.Thread(target=self._serve, daemon=True).start()
 
     def _serve(self) -> None:
@@ -245,7 +253,20 @@ class LosingProxy:
             connection.shutdown(socket.SHUT_RDWR)  # a close alone would wait for the other thread
 
     def close(self) -> None:
+        with suppress(OSError):
+            self._listener.shutdown(socket.SHUT_RDWR)  # a close alone would wait for the other thread
         self._listener.close()
+
+    def pause(self, for_s: float) -> None:
+        """Nothing listens there for so long."""
+        place = self._listener.getsockname()
+        self.close()
+
+        def reopen() -> None:
+            self._listener = socket.create_server(place)
+            self._begin()
+
+        threading.Timer(for_s, reopen).start()
 
 
 def copy(source: socket.socket, to: socket.socket, name: bytes, host: bytes) -> None:
@@ -264,6 +285,13 @@ def test_a_lost_answer_is_requested_again_and_nothing_moves_twice(here: Served, 
         with pytest.raises(UnreachableError):
             robot.resume()  # a stop may have come between
         robot.close()
+
+
+def test_a_gateway_that_was_there_is_waited_for(here: Served) -> None:
+    with closing(LosingProxy(here.running.host, 0)) as proxy, Robot(proxy.url) as robot:
+        robot.status()
+        proxy.pause(0.4)
+        assert robot.status()["board"] == "doc"
 
 
 def test_events_come_first_with_the_whole_state_and_again_after_a_lost_stream(here: Served) -> None:

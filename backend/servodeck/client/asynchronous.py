@@ -50,10 +50,15 @@ class AsyncRobot:
         self._open = lambda: gateway_at(where, token, board, robot, timeout)
         self._vocabulary = Vocabulary(time.monotonic, take=take)
         self._beating: asyncio.Task[None] | None = None
+        self._begun = 0
         self._opening: asyncio.Task[Gateway] | None = None
 
     async def __aenter__(self) -> Self:
-        await self._opened()
+        try:
+            await self._opened()
+        except BaseException:
+            await self.close()
+            raise
         return self
 
     async def __aexit__(
@@ -66,11 +71,17 @@ class AsyncRobot:
         """Stops what this program has in motion, and releases its lease. May be called twice."""
         if self._beating:
             self._beating.cancel()
+            await asyncio.wait([self._beating])
         try:
             await self._do(self._vocabulary.release())
         finally:
-            if self._opening and not self._opening.cancelled() and self._opening.exception() is None:
-                await in_thread(self._opening.result().close)
+            if self._opening:
+                await self._close(self._opening)
+
+    async def _close(self, opening: asyncio.Task[Gateway]) -> None:
+        await asyncio.wait([opening])
+        if opening.exception() is None:
+            await in_thread(opening.result().close)
 
     # Motion
 
@@ -237,9 +248,14 @@ class AsyncRobot:
             raise
 
     def _beat(self) -> None:
+        self._begun += 1
         if self._beating is None or self._beating.done():
             self._beating = asyncio.create_task(self._beat_until_ended())
 
     async def _beat_until_ended(self) -> None:
-        with suppress(GatewayError):
-            await self._do(self._vocabulary.beats())
+        """Again where another motion has begun meanwhile."""
+        begun = 0
+        while begun != self._begun:
+            begun = self._begun
+            with suppress(GatewayError):
+                await self._do(self._vocabulary.beats())

@@ -144,6 +144,9 @@ class DirectTransport:
         except concurrent.futures.TimeoutError as error:
             future.cancel()
             raise UnreachableError("The port did not answer in time.") from error
+        except KeyboardInterrupt:
+            future.cancel()
+            raise
 
 
 class DirectStream:

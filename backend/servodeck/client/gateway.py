@@ -59,6 +59,7 @@ class Gateway:
         self._transport = transport
         self._headers = {"Authorization": f"Bearer {token}"} if token else {}
         self.timeout_s = timeout_s
+        self._was_reached = False
 
     def call(self, call: Call) -> Any:
         """The answer's body. Raises a GatewayError."""
@@ -75,16 +76,21 @@ class Gateway:
     def _answer(
         self, call: Call, headers: dict[str, str], body: bytes | None, allowed_s: float, *, may_repeat: bool
     ) -> Answer:
-        """Once more where its answer was lost; a connection that was refused is an error at first."""
-        until_s, pause_s, was_sent = time.monotonic() + allowed_s, FIRST_PAUSE_S, False
+        """Again where its answer was lost, or where a gateway that was there before is not. One that was
+        never there is an error at once.
+        """
+        until_s, pause_s = time.monotonic() + allowed_s, FIRST_PAUSE_S
         while True:
             left_s = max(0.001, until_s - time.monotonic())
             try:
-                return self._transport.request(call.method, call.path, headers, body, left_s)
+                answer = self._transport.request(call.method, call.path, headers, body, left_s)
             except UnreachableError as error:
-                was_sent = was_sent or not isinstance(error, NotSentError)
-                if not (may_repeat and was_sent) or time.monotonic() + pause_s >= until_s:
+                self._was_reached = self._was_reached or not isinstance(error, NotSentError)
+                if not (may_repeat and self._was_reached) or time.monotonic() + pause_s >= until_s:
                     raise
+            else:
+                self._was_reached = True
+                return answer
             time.sleep(pause_s)
             pause_s *= 2
 

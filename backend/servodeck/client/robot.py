@@ -45,6 +45,8 @@ class Robot:
         self._vocabulary = Vocabulary(time.monotonic, take=take)
         self._ended = threading.Event()
         self._beating: threading.Thread | None = None
+        self._begun = 0
+        self._lock = threading.Lock()
 
     def __enter__(self) -> Self:
         return self
@@ -234,11 +236,27 @@ class Robot:
             return result
 
     def _beat(self) -> None:
-        if self._beating is None or not self._beating.is_alive():
-            self._beating = threading.Thread(target=self._beat_until_ended, daemon=True)
-            self._beating.start()
+        with self._lock:
+            self._begun += 1
+            if self._beating is None:
+                self._beating = threading.Thread(target=self._beat_until_ended, daemon=True)
+                self._beating.start()
 
     def _beat_until_ended(self) -> None:
+        """Again where another motion has begun meanwhile."""
+        begun = 0
+        while self._is_new(begun):
+            begun = self._begun
+            self._do_beats()
+
+    def _is_new(self, begun: int) -> bool:
+        with self._lock:
+            if begun != self._begun and not self._ended.is_set():
+                return True
+            self._beating = None
+            return False
+
+    def _do_beats(self) -> None:
         steps = self._vocabulary.beats()
         answer: Any = None
         with suppress(StopIteration, GatewayError):
