@@ -5,12 +5,14 @@ serial device, or on a port of which the test sees each packet.
 import asyncio
 import json
 import threading
-from collections.abc import Coroutine, Iterator
+from collections.abc import Callable, Coroutine, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeVar
 
+from servodeck.access import addresses
+from servodeck.access.addresses import Access
 from servodeck.client.direct import facts_of
 from servodeck.library.library import Library
 from servodeck.port.link import BackgroundPorts, Ports
@@ -68,14 +70,19 @@ def describe_robot(library: Library) -> None:
 
 
 @contextmanager
-def served(folder: Path, ports: Ports | None = None, device: str = DEVICE) -> Iterator[Served]:
+def served(
+    folder: Path,
+    ports: Ports | None = None,
+    device: str = DEVICE,
+    make_access: Callable[[int], Access] = addresses.local,
+) -> Iterator[Served]:
     library = Library(folder / "data")
     describe_robot(library)
     found: list[Served] = []
     is_ready, may_end = threading.Event(), threading.Event()
 
     async def live() -> None:
-        async with server_on(ports or BackgroundPorts(), None, library=library) as running:
+        async with server_on(ports or BackgroundPorts(), None, make_access, library) as running:
             await running.control.use_port(device)
             await running.control.robot.put(ROBOT, None)
             found.append(Served(f"http://{running.host}", running, asyncio.get_running_loop()))

@@ -13,13 +13,18 @@ from pathlib import Path
 import pytest
 
 from servodeck import Robot
+from servodeck.access import addresses
+from servodeck.callers import Caller
 from servodeck.client import TimedOutError, UnreachableError
 from servodeck.errors import (
+    ForbiddenError,
     LatchedError,
     MalformedError,
     NotDrivingError,
     NotFoundError,
+    NotPairedError,
     OutOfRangeError,
+    TooManyError,
 )
 from tests.client import ANNA, Client
 from tests.fake_port import FakePort, FakePorts
@@ -215,6 +220,48 @@ def test_frames_are_played_in_degrees(here: Served, port: BoardPort) -> None:
         robot.play([(1.5, {"Base": 10}), (0.2, {"Base": 0})], units="deg")
     moves = [packet for packet in sent(port) if packet != STOP]
     assert moves == [move(1500, s1=1600), move(200, s1=1500)]
+
+
+def test_a_token_lets_a_program_in_and_its_role_limits_it(
+    tmp_path: Path, port: BoardPort, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with served(tmp_path, FakePorts(port), make_access=lambda number: addresses.lan(number, "Robot")) as lan:
+        devices = lan.running.entrance.devices
+        _, driver = devices.admit("token", "Dance", "driver")
+        _, viewer = devices.admit("token", "Wall", "viewer")
+        unknown = Robot(lan.url)
+        with pytest.raises(NotPairedError):
+            unknown.status()
+        with pytest.raises(NotPairedError):
+            next(unknown.events())
+        with Robot(lan.url, token=viewer) as robot:
+            assert robot.snapshot().board == "doc"
+            with pytest.raises(ForbiddenError, match="Wall has the role viewer"):
+                robot.pose("home")
+        monkeypatch.setenv("SERVODECK_URL", lan.url)
+        monkeypatch.setenv("SERVODECK_TOKEN", driver)
+        with Robot() as robot:
+            robot.pose("home", wait=False)
+            assert robot.snapshot().driver == "Dance"
+
+
+def test_a_program_that_sends_too_many_requests_is_still_stopped_at_its_end(
+    tmp_path: Path, port: BoardPort
+) -> None:
+    with served(tmp_path, FakePorts(port), make_access=lambda number: addresses.lan(number, "Robot")) as lan:
+        device, token = lan.running.entrance.devices.admit("token", "Dance", "driver")
+        with Robot(lan.url, token=token) as robot:
+            robot.move({1: 2000}, units="board", seconds=20, wait=False)
+            lan.at_gateway(exhausted(lan, device.caller))
+        has(lambda: sent(port).count(STOP) >= 3)
+        assert lan.running.control.driving.driver is None
+
+
+async def exhausted(here: Served, caller: Caller) -> None:
+    """It has used up its rate."""
+    with suppress(TooManyError):
+        while True:
+            here.running.entrance.count(caller)
 
 
 class LosingProxy:

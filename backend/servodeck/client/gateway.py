@@ -14,6 +14,7 @@ from typing import Any, TypeVar
 from servodeck.client.errors import UnreachableError, error_of
 from servodeck.client.transport import Answer, NotSentError, Stream, Transport
 from servodeck.client.values import Event, Json
+from servodeck.errors import TooManyError
 from servodeck.value import value
 
 T = TypeVar("T")
@@ -71,15 +72,25 @@ class Gateway:
             headers["Idempotency-Key"] = secrets.token_hex(16)
         may_repeat = call.is_keyed or call.is_safe
         allowed_s = self.timeout_s + call.more_s
-        return read(self._answer(call, headers, body, allowed_s, may_repeat=may_repeat))
+        until_s = time.monotonic() + allowed_s
+        while True:
+            answer = self._answer(call, headers, body, until_s, may_repeat=may_repeat)
+            try:
+                return read(answer)
+            except TooManyError as error:
+                # A motion waits for its program: it decides whether it is still wanted.
+                wait_s = float(error.headers["Retry-After"])
+                if not call.is_safe or time.monotonic() + wait_s >= until_s:
+                    raise
+            time.sleep(wait_s)
 
     def _answer(
-        self, call: Call, headers: dict[str, str], body: bytes | None, allowed_s: float, *, may_repeat: bool
+        self, call: Call, headers: dict[str, str], body: bytes | None, until_s: float, *, may_repeat: bool
     ) -> Answer:
         """Again where its answer was lost, or where a gateway that was there before is not. One that was
         never there is an error at once.
         """
-        until_s, pause_s = time.monotonic() + allowed_s, FIRST_PAUSE_S
+        pause_s = FIRST_PAUSE_S
         while True:
             left_s = max(0.001, until_s - time.monotonic())
             try:

@@ -5,13 +5,22 @@ Knows routes and their bodies; no transport, thread or event loop.
 """
 
 from collections.abc import Callable, Iterable, Mapping
+from contextlib import suppress
 from typing import Any, Literal
 from urllib.parse import quote
 
 from servodeck.client.errors import TimedOutError, error_of
 from servodeck.client.gateway import Call, Pause, Steps, Welcome
 from servodeck.client.values import Json, Servo, Servos, Snapshot, robot_in, servos_of, snapshot_of
-from servodeck.errors import CancelledError, GatewayError, LatchedError, NotDrivingError, NotFoundError
+from servodeck.errors import (
+    CancelledError,
+    ForbiddenError,
+    GatewayError,
+    LatchedError,
+    NotDrivingError,
+    NotFoundError,
+    NotPairedError,
+)
 from servodeck.protocol.timings import LEASE
 
 Units = Literal["deg", "board"]
@@ -208,7 +217,9 @@ class Vocabulary:
     def release(self) -> Steps[None]:
         """Ends what this program has in motion, without a latch; no other client's motion."""
         if self.may_drive:
-            yield Call("POST", "/api/lease", {"action": "release"}, is_safe=True)
+            # A caller who may not drive has nothing in motion: the gateway has seen to that.
+            with suppress(ForbiddenError, NotPairedError):
+                yield Call("POST", "/api/lease", {"action": "release"}, is_safe=True)
             self.may_drive = False
 
     # Looking
