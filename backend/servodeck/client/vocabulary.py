@@ -40,6 +40,8 @@ UNKNOWN_END_S, AFTER_END_S = 30.0, 2.0
 # A request of motion waits until the board is identified; servos of unknown position start one by one.
 IDENTIFIED_S, START_S = 10.0, 0.4
 REMEMBERED_S = 5.0
+# A board may start a move that late: it is busy with its last tick and what it says.
+LATE_S = 0.05
 
 
 class Vocabulary:
@@ -71,7 +73,7 @@ class Vocabulary:
             yield from self._ended(self._moved(begun["overInMs"] / 1000), timeout)
 
     def _moved(self, over_in_s: float) -> Steps[None]:
-        until_s = self._now() + over_in_s
+        until_s = self._now() + over_in_s + LATE_S
         while (left_s := until_s - self._now()) > 0:
             yield Pause(min(left_s, BEAT_S))
             yield from self._look()
