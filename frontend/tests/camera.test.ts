@@ -140,6 +140,8 @@ test.describe('beside the timeline', () => {
     const place = page.getByRole('slider', { name: 'Place in the film' });
     await expect(film).toBeVisible();
     await place.press('End');
+    // Drawn once it is decoded.
+    await poll(widthOf).toBeGreaterThan(24);
     const last = await widthOf();
     await place.press('Home');
     await poll(widthOf).toBeLessThan(last);

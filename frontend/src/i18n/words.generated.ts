@@ -2142,6 +2142,7 @@ export interface Messages {
       readonly curve: string;
       readonly smooth: string;
       readonly block: string;
+      readonly fitRows: string;
     };
     readonly markerVerbs: {
       readonly marker: string;

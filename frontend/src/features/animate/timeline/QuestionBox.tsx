@@ -10,7 +10,7 @@ import { cx } from '../../../ui/cx.ts';
 import { isTouch } from '../../../ui/inputEvents.ts';
 import { words } from '../../../i18n/whole.ts';
 import { answer, QUESTIONS } from './questions.ts';
-import { contextOf, type ShownContext, useTimelineContext } from './context.ts';
+import { contextOf, rowRanges, type ShownContext, useTimelineContext } from './context.ts';
 import { endOfFrame } from '#shared/group/groupTimes.ts';
 import { sizesNow } from './trackCanvas.ts';
 import { scaleAt } from './valueText.ts';
@@ -109,7 +109,10 @@ function placeOf(context: ShownContext): Place | null {
   const { playheadMs } = stores.timeline.getState();
   const isAtPlayhead = state.question === 'marker' || state.cursor.frameId === null;
   const atMs = isAtPlayhead ? playheadMs : (endOfFrame(times, state.cursor.frameId) ?? playheadMs);
-  const scene = sceneOf({ ...context, state: { ...state, playheadMs } }, sizesNow(state));
+  const scene = sceneOf(
+    { ...context, state: { ...state, playheadMs } },
+    sizesNow({ ...state, ranges: rowRanges(stores) }),
+  );
   const row = [scene.all, ...scene.rows].find(({ row: { id } }) => id === state.cursor.row);
   if (row === undefined && state.question === null) return null;
   const x = xOf(state.time, atMs) + 10;

@@ -21,7 +21,7 @@ import { cx } from '../../../ui/cx.ts';
 import { words } from '../../../i18n/whole.ts';
 import { useWords } from '../../../i18n/words.ts';
 import { rowName, scaleAt } from './valueText.ts';
-import { contextOf, rangeOf } from './context.ts';
+import { contextOf, rangeOf, useRowRanges } from './context.ts';
 import { timesOf } from '#shared/group/groupTimes.ts';
 import { selectRow } from './looking.ts';
 import type { Row } from './rows.ts';
@@ -106,8 +106,9 @@ function Axis({ servo }: { readonly servo: number }) {
   const positionsIn = useView((state) => state.positionsIn);
   const unit = useDocument(({ present }) => present.unit);
   const large = useTimeline((state) => (state.large?.servo === servo ? state.large : null));
+  const fitted = useRowRanges().get(servo);
   if (!isTall && large === null) return null;
-  const { min, max } = large ?? rangeOf({ robot, family }, servo);
+  const { min, max } = large ?? fitted ?? rangeOf({ robot, family }, servo);
   const { text } = scaleAt({ robot, family, positionsIn, group: { unit } }, servo);
   return (
     <span className={styles.axis} aria-hidden="true">

@@ -22,7 +22,7 @@ import { words } from '../../../i18n/whole.ts';
 import { AskBox } from './QuestionBox.tsx';
 import { copy, cut, paste } from './changes.ts';
 import { clipFromText, clipToText } from './clipText.ts';
-import { contextOf, useRows } from './context.ts';
+import { contextOf, useRowRanges, useRows } from './context.ts';
 import { keepInStep } from './inStep.ts';
 import { BlockRow } from '../blocks/BlockRow.tsx';
 import { bringToLife, sizesNow } from './trackCanvas.ts';
@@ -83,7 +83,8 @@ export const Timeline = memo(function Timeline() {
   const large = useTimeline((state) => state.large);
   // The height of the tracks counts for a row that is open large alone.
   const heightPx = useTimeline((state) => (state.large === null ? 0 : state.heightPx));
-  const sizes = sizesNow({ isTall, large, heightPx });
+  const ranges = useRowRanges();
+  const sizes = sizesNow({ isTall, large, heightPx, ranges });
   const totalPx = topOfRows(sizes) + heightOf(placedRows(rows.slice(1), sizes));
   const openMenu = useCallback((kind: OpenMenu['kind'], anchor: Element | null) => {
     setMenu({ kind, anchor: { current: anchor } });

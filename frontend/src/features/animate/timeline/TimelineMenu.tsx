@@ -47,6 +47,7 @@ const LOOKS: readonly TimelineActionName[] = [
   'selectAll',
   'selectRow',
   'fitSelection',
+  'fitRows',
   'range',
   'nextMarker',
   'speed',

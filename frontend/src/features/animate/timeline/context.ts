@@ -3,7 +3,9 @@
 
 import type { ActionGroup } from '#shared/group/group.ts';
 import type { Label } from '#shared/document/history.ts';
-import type { Key, KeyRef } from '#shared/group/tracks.ts';
+import { motionTracks } from '#shared/group/blocks.ts';
+import { extentOf } from '#shared/group/keyEdits.ts';
+import type { Key, KeyRef, Track } from '#shared/group/tracks.ts';
 import { type Robot, servoOf } from '#shared/profile/robot.ts';
 import { positionRange, type Family, type Range } from '#shared/codec/families.ts';
 import {
@@ -186,4 +188,65 @@ export function useTimelineContext(): ShownContext {
   useServoView((view) => view);
   useTimeline(useShallow(({ playheadMs: _, ...shown }) => shown));
   return contextOf(stores);
+}
+
+// What the heights of rows stand for: the range of the motion, so that its shape is seen. While something is dragged it is that of before:
+// a row must not grow under a key.
+
+/** Free above and below the motion, so that keys can be dragged there. */
+const BESIDE_SHARE = 0.15;
+/** A motion by less is shown as one by so much. */
+const LEAST_UNITS = 40;
+
+/** Of a servo that has no key, or that stands still, all that it may do; `evenAtRest`: of one that stands still what is around it. */
+export function fittedRange(
+  track: Track | undefined,
+  { min, max }: Range,
+  { evenAtRest }: { readonly evenAtRest: boolean },
+): Range {
+  const [low, high] = track === undefined ? [0, 0] : extentOf(track);
+  if (track === undefined || (low === high && !evenAtRest)) return { min, max };
+  const beside = Math.max(LEAST_UNITS, (high - low) * BESIDE_SHARE);
+  const fitted = {
+    min: Math.max(min, Math.floor(low - beside)),
+    max: Math.min(max, Math.ceil(high + beside)),
+  };
+  return fitted.min < fitted.max ? fitted : { min, max };
+}
+
+type RowRanges = ReadonlyMap<number, Range>;
+
+const WHOLE: RowRanges = new Map();
+let latestRanges: { readonly of: readonly unknown[]; readonly ranges: RowRanges } = { of: [], ranges: WHOLE };
+
+/** The very same as before where they are the same. */
+export function rowRanges(stores: TimelineStores): RowRanges {
+  if (!stores.timeline.getState().fitsRows) return WHOLE;
+  const { present, gesture } = stores.document.store.getState();
+  const group = gesture?.value ?? present;
+  const { family, robot } = groupBoardOf(stores);
+  const tracks = motionTracks(group, timesOf(group).tracks);
+  const of = [tracks, family, robot];
+  if (!of.every((part, index) => part === latestRanges.of[index])) {
+    const before = latestRanges.ranges;
+    const ranges = new Map(
+      [...tracks].map(([servo, track]) => {
+        const fitted = fittedRange(track, rangeOf({ robot, family }, servo), { evenAtRest: false });
+        const known = before.get(servo);
+        return [servo, known?.min === fitted.min && known.max === fitted.max ? known : fitted] as const;
+      }),
+    );
+    const isSame =
+      ranges.size === before.size && [...ranges].every(([servo, range]) => before.get(servo) === range);
+    latestRanges = { of, ranges: isSame ? before : ranges };
+  }
+  return latestRanges.ranges;
+}
+
+/** Drawn again where the group, the board or the switch is another. */
+export function useRowRanges(): RowRanges {
+  const stores = useStores();
+  useGroupBoard();
+  useTimeline((state) => state.fitsRows);
+  return useDocument(() => rowRanges(stores));
 }

@@ -32,7 +32,7 @@ type Shown = Pick<TimelineContext, 'times' | 'state' | 'family'> & { readonly ro
 const MOST_KEYS = 16;
 
 export function curveHandles({ times, state, family, rows }: Shown): readonly CurveHandle[] {
-  const placed = rows.find(({ range }) => range !== null);
+  const placed = rows.find(({ isLarge }) => isLarge);
   const keys = times.tracks.get(placed?.row.servos[0] ?? -1)?.keys ?? [];
   const selected = new Set(keys.filter((key) => state.selected.has(keyName(key))));
   if (placed === undefined || selected.size === 0 || selected.size > MOST_KEYS) return [];

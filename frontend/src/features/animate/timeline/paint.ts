@@ -120,7 +120,7 @@ function paintRow(brush: Brush, placed: PlacedRow, { left, right }: Stretch): vo
   const [from, to] = seen(keys);
   const moved = motionIn(scene, placed) ?? keys;
   paintBlocks(brush, placed);
-  if (placed.range !== null) paintGraph(brush, placed, moved);
+  if (placed.isLarge) paintGraph(brush, placed, moved);
   const alpha = muted.has(placed.row.id) ? 0.4 : 1;
   ctx.globalAlpha = alpha;
   if (placed.row.kind === 'servo' && moved.length > 0) {
@@ -138,7 +138,7 @@ function paintRow(brush: Brush, placed: PlacedRow, { left, right }: Stretch): vo
     ctx.globalAlpha = alpha;
   }
   ctx.globalAlpha = 1;
-  if (placed.range !== null) paintCurveHandles(brush);
+  if (placed.isLarge) paintCurveHandles(brush);
 }
 
 /** Where a block says what the servo does. */

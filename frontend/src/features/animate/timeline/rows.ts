@@ -77,6 +77,8 @@ export interface RowHeights {
   readonly servo: number;
   readonly large: LargeRow | null;
   readonly largePx: number;
+  /** What the heights of servos' rows stand for; of those that are left out, all that the servo may do. */
+  readonly ranges: ReadonlyMap<number, Range>;
 }
 
 export interface PlacedRow {
@@ -85,6 +87,8 @@ export interface PlacedRow {
   readonly height: number;
   /** What its height stands for; null: all that its servo may do. */
   readonly range: Range | null;
+  /** Open as a graph. */
+  readonly isLarge: boolean;
 }
 
 /** One below the other from 0 on. */
@@ -94,7 +98,8 @@ export function placedRows(rows: readonly Row[], heights: RowHeights): readonly 
     const large = row.kind === 'servo' && row.servos[0] === heights.large?.servo ? heights.large : null;
     const usual = row.kind === 'servo' ? heights.servo : heights.summary;
     const height = large === null ? usual : heights.largePx;
-    const placed = { row, top, height, range: large };
+    const range = large ?? (row.kind === 'servo' ? (heights.ranges.get(row.servos[0] ?? -1) ?? null) : null);
+    const placed = { row, top, height, range, isLarge: large !== null };
     top += height;
     return placed;
   });
@@ -138,13 +143,17 @@ export interface Heights {
   readonly large: LargeRow | null;
   /** Of the tracks; 0 before they are drawn. */
   readonly heightPx?: number;
+  readonly ranges?: ReadonlyMap<number, Range>;
 }
 
-export function sizesOf(isCoarse: boolean, { isTall, large, heightPx = 0 }: Heights): Sizes {
+const NO_RANGES: ReadonlyMap<number, Range> = new Map();
+
+export function sizesOf(isCoarse: boolean, heights: Heights): Sizes {
+  const { isTall, large, heightPx = 0, ranges = NO_RANGES } = heights;
   const sizes = isCoarse ? COARSE : FINE;
   const seenPx = heightPx === 0 ? LARGE_PX : heightPx - sizes.ruler - sizes.heads - sizes.summary;
   const largePx = Math.max(LEAST_LARGE_PX, Math.min(LARGE_PX, seenPx));
-  return { ...sizes, large, largePx, ...(isTall && { servo: TALL_PX }) };
+  return { ...sizes, large, largePx, ranges, ...(isTall && { servo: TALL_PX }) };
 }
 
 export const topOfAll = ({ ruler, heads }: Sizes): number => ruler + heads;
@@ -210,7 +219,11 @@ function rangeOfRow({ servo, servos }: Row, family: Family): Range {
 }
 
 /** What is beyond the row's range stands at its edge. */
-export function keyY({ row, top, height, range }: PlacedRow, position: number, family: Family): number {
+export function keyY(
+  { row, top, height, range }: Omit<PlacedRow, 'isLarge'>,
+  position: number,
+  family: Family,
+): number {
   if (row.kind !== 'servo') return top + height / 2;
   const { min, max } = range ?? rangeOfRow(row, family);
   const share = Math.min(1, Math.max(0, (position - min) / (max - min)));

@@ -291,5 +291,5 @@ function rowsInSight(
 }
 
 const placedAll = (row: Row, sizes: Sizes): PlacedRow => ({
-  ...{ row, top: topOfAll(sizes), height: sizes.summary, range: null },
+  ...{ row, top: topOfAll(sizes), height: sizes.summary, range: null, isLarge: false },
 });

@@ -149,6 +149,8 @@ export interface TimelineState {
   /** How far the rows are scrolled. */
   readonly scrollTop: number;
   readonly isTall: boolean;
+  /** Each row shows the range of its motion, not all that its servo may do. */
+  readonly fitsRows: boolean;
   readonly large: LargeRow | null;
   readonly snaps: boolean;
   readonly ripples: boolean;
@@ -174,6 +176,7 @@ export function createTimeline(): Timeline {
     heightPx: 0,
     scrollTop: 0,
     isTall: false,
+    fitsRows: true,
     snaps: true,
     ripples: false,
     showsPreview: true,

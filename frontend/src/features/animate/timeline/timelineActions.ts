@@ -25,8 +25,8 @@ import { soundOf } from '../sound/sound.ts';
 import { toggleSpeed } from '../speed/SpeedRows.tsx';
 import { editServoView } from '../../stores.ts';
 import { toggled } from '../../servoView.ts';
-import { extentOf } from '#shared/group/keyEdits.ts';
-import { rangeOf, rowOf, type TimelineContext } from './context.ts';
+import { motionTracks } from '#shared/group/blocks.ts';
+import { fittedRange, rangeOf, rowOf, type TimelineContext } from './context.ts';
 import type { Row } from './rows.ts';
 import {
   fitAll,
@@ -109,6 +109,11 @@ const ACTIONS: Readonly<Record<TimelineActionName, Own>> = {
   zoomOut: { icon: 'minus', keys: ['-', '_'], run: (context) => zoom(context, -1) },
   fitAll: { icon: 'fit', keys: ['f'], run: fitAll },
   fitSelection: { icon: 'fit', keys: ['Shift+f'], needs: 'keys', run: fitSelection },
+  fitRows: {
+    icon: 'fit',
+    keys: [],
+    run: ({ stores }) => stores.timeline.setState(({ fitsRows }) => ({ fitsRows: !fitsRows })),
+  },
   range: { icon: 'refresh', keys: ['l'], run: toggleRange },
   keyBefore: { icon: 'earlier', keys: ['j'], run: (context) => goToKey(context, -1) },
   keyAfter: { icon: 'later', keys: ['k'], run: (context) => goToKey(context, 1) },
@@ -213,31 +218,16 @@ const isFolded = (context: TimelineContext): boolean =>
 const isLarge = (context: TimelineContext): boolean =>
   context.state.large !== null && context.state.large.servo === cursorRow(context)?.servos[0];
 
-/** Free above and below the motion, so that keys can be dragged there. */
-const BESIDE_SHARE = 0.15;
-/** A servo that stands still has no range of its own. */
-const LEAST_UNITS = 40;
-
 /** Fitted to its motion as it is now: it must not grow under a key that is dragged. */
 function toggleLarge(context: TimelineContext): void {
-  const { stores, times } = context;
+  const { stores, times, group } = context;
   const row = cursorRow(context);
   const [servo] = row?.servos ?? [];
   if (row?.kind !== 'servo' || servo === undefined) return;
   if (isLarge(context)) return stores.timeline.setState({ large: null });
-  const allowed = rangeOf(context, servo);
-  const track = times.tracks.get(servo);
-  const positions = track === undefined ? [] : extentOf(track);
-  const [low, high] = [Math.min(...positions), Math.max(...positions)];
-  const beside = Math.max(LEAST_UNITS, (high - low) * BESIDE_SHARE);
-  const fitted = {
-    min: Math.max(allowed.min, Math.floor(low - beside)),
-    max: Math.min(allowed.max, Math.ceil(high + beside)),
-  };
-  const isOdd = positions.length === 0 || fitted.min >= fitted.max;
-  stores.timeline.setState({
-    large: { servo, ...(isOdd ? { min: allowed.min, max: allowed.max } : fitted) },
-  });
+  const track = motionTracks(group, times.tracks).get(servo);
+  const { min, max } = fittedRange(track, rangeOf(context, servo), { evenAtRest: true });
+  stores.timeline.setState({ large: { servo, min, max } });
 }
 
 /** What is done to the row of the cursor. */

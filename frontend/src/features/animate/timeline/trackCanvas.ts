@@ -3,7 +3,7 @@
 
 import type { CollisionPlace } from '#shared/kinematics/collision.ts';
 import { collisionText } from '../../board/compile/problems.tsx';
-import { contextOf, type TimelineStores, rowOf, select } from './context.ts';
+import { contextOf, rowRanges, type TimelineStores, rowOf, select } from './context.ts';
 import type { StatusName } from './gesture.ts';
 import { hasAll, hitAt, type Hit, type CompiledTrack, sceneOf, type Scene } from './scene.ts';
 import { type Heights, placedRows, scrolledTo, type Sizes, sizesOf, type Spot, topOfRows } from './rows.ts';
@@ -150,7 +150,7 @@ export const sizesNow = (heights: Heights): Sizes => sizesOf(isTouch(), heights)
 type CanvasStores = TimelineStores & Pick<Stores, 'compiled' | 'collisions'>;
 
 export function bringToLife(parts: CanvasParts, stores: CanvasStores, host: CanvasHost): () => void {
-  const sizes = (): Sizes => sizesNow(stores.timeline.getState());
+  const sizes = (): Sizes => sizesNow({ ...stores.timeline.getState(), ranges: rowRanges(stores) });
   const painting = paintOnChange(parts, stores, sizes);
   const scroll = (byPx: number): void => void (parts.scroller.scrollTop += byPx);
   const change = (to: Parameters<typeof setTime>[1]): void => setTime({ stores }, to);
