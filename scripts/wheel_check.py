@@ -23,6 +23,7 @@ import httpx2
 from websockets.sync.client import connect
 
 NEEDED = (
+    "servodeck/py.typed",
     *("servodeck/static/index.html", "servodeck/static/index.html.br", "servodeck/__main__.py"),
     *("servodeck/protocol/families.json", "servodeck/protocol/timings.json"),
     "servodeck/protocol/bluetooth.json",

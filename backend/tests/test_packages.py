@@ -1,0 +1,88 @@
+"""What is given to others: the libraries by hash, their bill, and a container with few rights."""
+
+import json
+import re
+import runpy
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+import pytest
+from typer.testing import CliRunner
+
+from servodeck.cli.main import app
+from tests.test_openapi import SCHEMA
+
+ROOT = Path(__file__).resolve().parents[2]
+PACKAGE = runpy.run_path(str(ROOT / "scripts/package.py"))
+LOCK = (ROOT / "backend/requirements.lock").read_text()
+CONTAINER = (ROOT / "packaging/Containerfile").read_text()
+COMPOSE = import_module("yaml").safe_load((ROOT / "packaging/compose.yaml").read_text())
+
+
+def locked(*wanted: str) -> dict[str, str]:
+    found: dict[str, str] = PACKAGE["locked_requirements"](LOCK, wanted or PACKAGE["PROJECT"]["dependencies"])
+    return found
+
+
+def test_the_wheel_comes_with_all_that_it_needs_by_hash_and_nothing_else() -> None:
+    entries = locked()
+    named = {re.split(r"[=\[]", one)[0] for one in PACKAGE["PROJECT"]["dependencies"]}
+    assert named <= entries.keys()
+    assert {"starlette", "pydantic-core", "websockets", "colorama"} <= entries.keys()
+    assert not {"pytest", "mypy", "hatchling", "uv", "bleak"} & entries.keys()
+    for name, entry in entries.items():
+        assert re.match(rf"{re.escape(name)}==", entry.replace("_", "-").lower()), entry
+        assert "--hash=sha256:" in entry
+        assert "#" not in entry
+
+
+def test_extras_are_followed_and_what_is_not_locked_is_an_error() -> None:
+    assert "websockets" not in locked("uvicorn==0.54.0")
+    assert "websockets" in locked("uvicorn[standard]==0.54.0")
+    with pytest.raises(KeyError, match="left-pad is not in the lock file"):
+        locked("left-pad==1.0")
+
+
+def test_the_bill_names_each_library_of_page_and_gateway_with_its_licence() -> None:
+    page = {"bomFormat": "CycloneDX", "components": [{"name": "react", "purl": "pkg:npm/react@1"}]}
+    bill: dict[str, Any] = PACKAGE["bill_of"](page, locked())
+    assert bill["bomFormat"] == "CycloneDX"
+    by_name = {one["name"]: one for one in bill["components"]}
+    assert "react" in by_name
+    assert by_name["fastapi"]["purl"] == "pkg:pypi/fastapi@0.165.0"
+    assert by_name["fastapi"]["licenses"] == [{"expression": "MIT"}]
+    assert all(re.fullmatch("[0-9a-f]{64}", one["content"]) for one in by_name["fastapi"]["hashes"])
+    silent = [
+        name for name, one in by_name.items() if not one.get("licenses") and name not in {"react", "colorama"}
+    ]
+    assert silent == []
+    json.dumps(bill)
+
+
+def test_the_container_runs_as_nobody_in_particular_with_options_that_exist() -> None:
+    steps = dict(re.findall(r"^([A-Z]+) (.+)$", CONTAINER, re.MULTILINE))
+    assert re.fullmatch(r"python:3\.\d+-slim", steps["FROM"])
+    assert int(steps["USER"]) > 0
+    assert "--require-hashes" in CONTAINER
+    assert "--no-deps" in CONTAINER
+    options = CliRunner().invoke(app, ["serve", "--help"]).stdout
+    variables = re.findall(r"SERVODECK_[A-Z_]+", steps["ENV"])
+    assert variables == [one for one in variables if one in options]
+    probe = re.search(r"http://127\.0\.0\.1:(\d+)(/api/\w+)", CONTAINER)
+    assert probe
+    assert probe[1] == steps["EXPOSE"]
+    assert probe[2] in SCHEMA["paths"]
+
+
+def test_the_service_may_write_its_data_and_nothing_else() -> None:
+    service = COMPOSE["services"]["servodeck"]
+    assert service["read_only"] is True
+    assert service["cap_drop"] == ["ALL"]
+    assert "privileged" not in service
+    assert service["security_opt"] == ["no-new-privileges:true"]
+    assert service["volumes"] == ["servodeck:/data"]
+    assert "VOLUME /data" in CONTAINER
+    context = (ROOT / "packaging" / service["build"]["context"]).resolve()
+    assert (context / service["build"]["dockerfile"]).read_text() == CONTAINER
+    assert COMPOSE["volumes"] == {"servodeck": None}
