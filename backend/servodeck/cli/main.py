@@ -9,6 +9,7 @@ from typing import Annotated, Any
 
 import typer
 
+from servodeck.cli.backup import backup, restore
 from servodeck.cli.commands import COMMANDS, library, pose, poses
 from servodeck.cli.doctor import doctor
 from servodeck.cli.groups import download, play
@@ -39,6 +40,8 @@ for command in (*COMMANDS, pose, poses, download, play, library):
     app.command()(command)
 
 app.command()(doctor)
+app.command()(backup)
+app.command()(restore)
 
 
 # Its number comes before 73-seat-late.rules, which gives what `uaccess` promises.
