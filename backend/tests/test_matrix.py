@@ -160,6 +160,28 @@ async def test_every_handshake_ends_as_the_rule_says(mode: Mode, kind: str, meth
         assert status == expected if expected else status not in (401, 403), case
 
 
+@pytest.mark.parametrize("mode", MODES)
+async def test_an_address_with_its_version_is_the_same_one(mode: Mode) -> None:
+    entrance = entrance_to(MODES[mode])
+    brought = credentials_of(entrance)
+    app = app_at(entrance)
+    host = next(iter(GOOD[mode]))
+    for kind, method, path in all_routes():
+        if not path.startswith("/api/"):
+            continue
+        versioned = path.replace("/api/", "/api/v1/", 1)
+        for credential in ("none", "bearer"):
+            headers = headers_of(host, None) + brought[credential]
+            plain, named = [
+                await knock(app, scope_of(kind, method, one, headers, OWN_ADDRESS))
+                for one in (path, versioned)
+            ]
+            assert named == plain, (method, path, credential)
+    for unknown in ("/api/v1", "/api/v2/status", "/api/v1/v1/status", "/v1/status"):
+        headers = headers_of(host, None) + brought["bearer"]
+        assert await knock(app, scope_of("http", "GET", unknown, headers, OWN_ADDRESS)) == 404, unknown
+
+
 @pytest.mark.parametrize("role", RANKS)
 async def test_each_role_reaches_what_it_may_and_nothing_above(role: Role) -> None:
     entrance = entrance_to(MODES["lan"])

@@ -1,6 +1,6 @@
 """Stands before everything the gateway serves: judges the head of each request and upgrade (Host, Origin,
 forwarding, kind and size of the body), makes unknown callers wait where many ask at once, adds the security
-headers, and logs refusals.
+headers, and logs refusals. An address with its version (`/api/v1/…`) is the one without.
 
 Denies by default: only the names of `access` pass, the page served under them, and programs, which have no
 Origin. Pure ASGI, because ordinary middleware does not see WebSockets. Knows no route.
@@ -74,6 +74,23 @@ FIXED_HEADERS = {
 }
 
 
+# Programs name the version that they were written for; without one an address means the newest, which is the
+# only one so far.
+VERSIONED, PLAIN = "/api/v1/", "/api/"
+
+
+def unversioned(scope: Scope) -> Scope:
+    """The address without its version, so that one rule and one route stand for both."""
+    if not scope["path"].startswith(VERSIONED):
+        return scope
+    raw = scope.get("raw_path")
+    return {
+        **scope,
+        "path": PLAIN + scope["path"].removeprefix(VERSIONED),
+        "raw_path": raw and PLAIN.encode() + raw.removeprefix(VERSIONED.encode()),
+    }
+
+
 class Guard:
     def __init__(self, app: ASGIApp, entrance: Entrance) -> None:
         self.app = app
@@ -84,6 +101,7 @@ class Guard:
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         if scope["type"] == "lifespan":
             return await self.app(scope, receive, send)
+        scope = unversioned(scope)
         own_address = scope["server"][0] if scope.get("server") else None
         upgrades = is_upgrade(scope["headers"])
         try:

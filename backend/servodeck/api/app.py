@@ -171,7 +171,9 @@ def app_without_state() -> LaterApp:
     """The app with its routes, enough to describe them."""
     app = LaterApp(
         title="Servodeck gateway",
-        description="Drives a servo controller on a serial port. An error is a code and a sentence.",
+        description="Drives a servo controller on a serial port. An error is a code and a sentence. "
+        "Every address below /api/ is there below /api/v1/, too: programs that name the version keep working "
+        "where a later one changes.",
         version=__version__,
         docs_url=None,
         redoc_url=None,
