@@ -2,6 +2,9 @@
 
 import asyncio
 import contextlib
+import shutil
+import socket
+import subprocess
 import threading
 from collections.abc import AsyncIterator, Iterator
 from http.client import IncompleteRead
@@ -245,3 +248,38 @@ def test_a_camera_is_a_name_and_an_address(text: str, name: str, url: str) -> No
 def test_anything_else_is_no_camera(text: str) -> None:
     with pytest.raises(ValueError, match="http://"):
         parse_camera(text)
+
+
+@pytest.fixture
+def filmed() -> Iterator[str]:
+    """The address of a picture that ffmpeg makes. It takes one viewer."""
+    with socket.create_server(("127.0.0.1", 0)) as free:
+        url = f"http://127.0.0.1:{free.getsockname()[1]}/stream"
+    pictures = ["-re", "-f", "lavfi", "-i", "testsrc=size=320x240:rate=25", "-c:v", "mjpeg"]
+    served = ["-f", "mpjpeg", "-content_type", "multipart/x-mixed-replace;boundary=ffmpeg", "-listen", "1"]
+    command = ["ffmpeg", "-loglevel", "error", *pictures, *served, url]
+    with subprocess.Popen(command, stdin=subprocess.DEVNULL) as ffmpeg:
+        yield url
+        ffmpeg.kill()
+
+
+@pytest.mark.skipif(shutil.which("ffmpeg") is None, reason="ffmpeg is not installed on this computer")
+async def test_the_pictures_of_ffmpeg_go_through(filmed: str) -> None:
+    async with gateway(Camera("Bench", filmed)) as client, asyncio.timeout(20):
+        while (heads := await heads_of(client)) == []:  # noqa: ASYNC110 (nothing says that ffmpeg listens)
+            await asyncio.sleep(0.1)
+        assert all(head.startswith(b"\xff\xd8\xff") for head in heads)
+
+
+async def heads_of(client: AsyncClient) -> list[bytes]:
+    """The beginnings of five pictures; none where the camera is not there yet."""
+    async with client.stream("GET", "/api/cameras/0/stream") as answer:
+        if answer.status_code != 200:
+            return []
+        content = b""
+        async for chunk in answer.aiter_bytes():
+            content += chunk
+            parts = content.split(b"\r\n\r\n")[1:]
+            if len(parts) > 5:
+                return [part[:3] for part in parts[:5]]
+    return []
