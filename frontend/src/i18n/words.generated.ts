@@ -2572,5 +2572,6 @@ export interface Messages {
       readonly unpack: string;
       readonly delete: string;
     };
+    readonly covers: (values: { readonly name: string }) => string;
   };
 }

@@ -14,6 +14,7 @@ import {
 import { changed, sameList } from './groupEdits.ts';
 import { lifted } from './keyRanges.ts';
 import { carried, momentsOf, newMoment, placed, withMoments, withTargets, type Moment } from './moments.ts';
+import type { TimeRange } from './timeEdits.ts';
 import type { KeyRef } from './tracks.ts';
 
 const NO_BLOCKS: readonly Block[] = [];
@@ -132,6 +133,22 @@ export function unpackBlock(group: ActionGroup, id: number): ActionGroup {
   return block === undefined
     ? group
     : flattened({ ...deleteBlock(group, id), blocks: [block] }, blocksOf(deleteBlock(group, id)));
+}
+
+/** Those that have one of the servos within the time become keys, so that keys put there count. */
+export function unpackedWithin(
+  group: ActionGroup,
+  servos: ReadonlySet<number>,
+  { fromMs, toMs }: TimeRange,
+): ActionGroup {
+  return blocksOf(group)
+    .filter(
+      (block) =>
+        block.startMs <= toMs &&
+        endOfBlock(block) >= fromMs &&
+        servosOf(block).some((servo) => servos.has(servo)),
+    )
+    .reduce((sum, { id }) => unpackBlock(sum, id), group);
 }
 
 /** Blocks as keys, for formats that know none: the motion stays as it is. */

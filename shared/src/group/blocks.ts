@@ -28,6 +28,17 @@ export function servosOf({ moments }: Block): readonly number[] {
   return [...servos].sort((one, other) => one - other);
 }
 
+/** The one that says what the servo does then; undefined: its own keys do. */
+export function blockOver(
+  group: Pick<ActionGroup, 'blocks'>,
+  servo: number,
+  atMs: number,
+): Block | undefined {
+  return blocksOf(group).find(
+    (block) => block.startMs <= atMs && atMs <= endOfBlock(block) && servosOf(block).includes(servo),
+  );
+}
+
 /** Keys of a block have no frame: its number is below zero there. */
 export const blockIdOf = (frameId: number): number | null => (frameId < 0 ? -frameId : null);
 

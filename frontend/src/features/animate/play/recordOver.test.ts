@@ -1,4 +1,6 @@
 import { describe, expect, test } from 'vitest';
+import { makeBlock } from '#shared/group/blockEdits.ts';
+import { blocksOf, motionTracks } from '#shared/group/blocks.ts';
 import { startHistory } from '#shared/document/history.ts';
 import { emptyGroup, totalDurationMs } from '#shared/group/group.ts';
 import { insertFrame, type NewFrame } from '#shared/group/groupEdits.ts';
@@ -8,7 +10,7 @@ import { convertGroup } from '#shared/group/frameEdits.ts';
 import { createTestPage } from '../../pageUnderTest.ts';
 import { freeOf } from '../../servoView.ts';
 import { editServoView } from '../../stores.ts';
-import { RECORD_OVER } from './recordOver.ts';
+import { over, RECORD_OVER } from './recordOver.ts';
 
 const frame = (durationMs: number, one: number, two: number): NewFrame => ({
   durationMs,
@@ -243,4 +245,21 @@ describe('recording over the motion', () => {
     await page.draw(5000);
     expect([page.at(1, 4500), page.at(2, 4500)]).toEqual([1000, 2000]);
   });
+});
+
+test('what is recorded counts also where a block moved that servo, and the other blocks stay', () => {
+  const keys = (servo: number) => WAVE.frames.map(({ id: frameId }) => ({ frameId, servo }));
+  const blocks = makeBlock(makeBlock(WAVE, keys(1), 'Wave')!, keys(2), 'Stand')!;
+  const take = insertFrame(
+    insertFrame(emptyGroup('', 'us'), 0, { durationMs: 1000, targets: [{ servo: 2, position: 2000 }] }),
+    1,
+    { durationMs: 500, targets: [{ servo: 2, position: 2200 }] },
+  );
+  const after = over(blocks, take, 1000);
+  expect(blocksOf(after).map(({ name }) => name)).toEqual(['Wave']);
+  const motion = motionTracks(after);
+  expect(positionAt(motion.get(2)!, 1000)).toBe(2000);
+  expect(positionAt(motion.get(2)!, 1500)).toBe(2200);
+  for (const atMs of [500, 1000, 2000, 3500])
+    expect(positionAt(motion.get(1)!, atMs)).toBe(positionAt(tracksOf(WAVE).get(1)!, atMs));
 });

@@ -1,6 +1,7 @@
 // How recorded motion gets into a group, and the recording of armed rows over the motion of the others, which the robot plays meanwhile.
 // Knows no dialog.
 
+import { unpackedWithin } from '#shared/group/blockEdits.ts';
 import { copyFrames, pasteKeys } from '#shared/group/clip.ts';
 import type { ActionGroup } from '#shared/group/group.ts';
 import { insertFrame } from '#shared/group/groupEdits.ts';
@@ -43,10 +44,12 @@ export function over(before: ActionGroup, take: ActionGroup, atMs: number): Acti
   const clip = clipOf(take);
   const servos = new Set(take.frames.flatMap(({ targets }) => targets.map(({ servo }) => servo)));
   const untilMs = atMs + (clip.moments.at(-1)?.atMs ?? 0);
-  const replaced = [...timesOf(before).tracks]
+  // Under a block it would not be seen.
+  const free = unpackedWithin(before, servos, { fromMs: atMs, toMs: untilMs });
+  const replaced = [...timesOf(free).tracks]
     .filter(([servo]) => servos.has(servo))
     .flatMap(([, { keys }]) => keys.filter((key) => key.atMs >= atMs && key.atMs <= untilMs));
-  const cleared = deleteKeys(before, replaced, { ripple: false });
+  const cleared = deleteKeys(free, replaced, { ripple: false });
   return pasteKeys(cleared, clip, atMs, { ripple: false }).group;
 }
 

@@ -3,7 +3,7 @@
 import type { Colour } from '#shared/document/schema.ts';
 import { duplicateKeys, copyKeys, pasteKeys, type Clip, type Pasted } from '#shared/group/clip.ts';
 import { makeBlock } from '#shared/group/blockEdits.ts';
-import { blocksOf, motionTracks } from '#shared/group/blocks.ts';
+import { blockOver, blocksOf, motionTracks } from '#shared/group/blocks.ts';
 import type { Easing } from '#shared/group/curves.ts';
 import { mirror, setColour, deleteMarker } from '#shared/group/frameEdits.ts';
 import { deleteKeys, setEasing, setKey, smoothKeys } from '#shared/group/keyEdits.ts';
@@ -42,6 +42,9 @@ export function setKeysAt(context: TimelineContext, servos: readonly number[], a
   const free = servos.filter((servo) => !isHeld(context.servoView, servo));
   if (free.length === 0)
     return context.stores.notices.show('warning', words.timeline.status[whyHeld(context, servos)]);
+  const covered = free.flatMap((servo) => blockOver(context.group, servo, atMs) ?? [])[0];
+  if (covered !== undefined)
+    return context.stores.notices.show('warning', words.blocks.covers({ name: covered.name }));
   const known = placedAt(free, (servo) => positionNow(context, servo, atMs));
   const placed = known.length > 0 ? known : placedAt(free, (servo) => homeOf(context, servo));
   if (placed.length === 0)

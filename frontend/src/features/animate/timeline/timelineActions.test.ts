@@ -433,3 +433,18 @@ test('in a graph a drag turns keys as far as the pointer goes', async () => {
   const unitsPerPx = (1460 - 940) / (220 - 14);
   expect(position).toBeCloseTo(1200 + (60 - 5) * unitsPerPx, -0.5);
 });
+
+test('a key is not set under a block, and a notice says which one', async () => {
+  const { select, key, stores, group, noticeTexts } = await createTestTimeline();
+  select([1, 1], [3, 1]);
+  key('b');
+  expect(group().blocks).toMatchObject([{ name: 'Block 1', startMs: 500 }]);
+  const before = group();
+  stores.timeline.setState({ cursor: { row: 'servo 1', frameId: null }, playheadMs: 800 });
+  key('Enter');
+  expect(group()).toBe(before);
+  expect(noticeTexts().at(-1)).toBe('The block Block 1 moves that servo there. Unpack or move it first.');
+  stores.timeline.setState({ playheadMs: 1700 });
+  key('Enter');
+  expect(group()).not.toBe(before);
+});
