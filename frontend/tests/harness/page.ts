@@ -68,6 +68,20 @@ IDBDatabase.prototype.transaction = function (...options) {
   return noteStoring(transaction.apply(this, options), 'complete', 'abort');
 };
 
+/** Pictures are decoded and encoded beside the page, in real time. */
+const { createImageBitmap: decode } = window;
+window.createImageBitmap = (...options: unknown[]) => {
+  const decoded = Reflect.apply(decode, window, options) as Promise<ImageBitmap>;
+  standStillFor(decoded);
+  return decoded;
+};
+const { convertToBlob } = OffscreenCanvas.prototype;
+OffscreenCanvas.prototype.convertToBlob = function (...options) {
+  const encoded = convertToBlob.apply(this, options);
+  standStillFor(encoded);
+  return encoded;
+};
+
 /** A lock is granted in another process: a free one has been, once that process has answered what was asked later. */
 const { request } = LockManager.prototype;
 LockManager.prototype.request = function (...options: unknown[]) {
