@@ -59,16 +59,16 @@ def test_it_comes_back_on_another_computer(saved: Path, tmp_path: Path) -> None:
     assert not (elsewhere / "epoch").exists()
 
 
-def test_what_was_there_is_set_aside_and_the_count_of_starts_stays(folder: Path, saved: Path) -> None:
+def test_the_former_files_are_moved_and_the_count_of_starts_stays(folder: Path, saved: Path) -> None:
     library = Library(folder)
     library.write("wave", '{"newer":1}', "{}", 1)
     library.close()
     result = asked("restore", saved, "--data", folder)
     assert result.exit_code == 0, result.output
     assert Library(folder).read("wave") == ('{"frames":[]}', 1)
-    (aside,) = folder.glob("before-restore-*")
-    assert Library(aside).read("wave") == ('{"newer":1}', 2)
-    assert str(aside) in result.output.replace("\n", "")
+    (former,) = folder.glob("before-restore-*")
+    assert Library(former).read("wave") == ('{"newer":1}', 2)
+    assert str(former) in result.output.replace("\n", "")
     assert (folder / "epoch").read_text() == "41"
     assert (folder / "notes.txt").read_text() == "not ours"
 
@@ -141,12 +141,12 @@ def test_so_does_one_that_is_no_archive(folder: Path, tmp_path: Path, content: b
     assert asked("restore", tmp_path / "missing.zip", "--data", folder).exit_code == 1
 
 
-def test_a_damaged_library_is_set_aside_too(folder: Path, saved: Path) -> None:
+def test_a_damaged_library_is_moved_too(folder: Path, saved: Path) -> None:
     (folder / "library.sqlite").write_bytes(b"not a database" * 500)
     assert asked("restore", saved, "--data", folder).exit_code == 0
     assert Library(folder).read("wave") == ('{"frames":[]}', 1)
-    (aside,) = folder.glob("before-restore-*")
-    assert (aside / "library.sqlite").read_bytes().startswith(b"not a database")
+    (former,) = folder.glob("before-restore-*")
+    assert (former / "library.sqlite").read_bytes().startswith(b"not a database")
 
 
 def test_folders_may_be_named_from_here(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:

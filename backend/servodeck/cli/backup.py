@@ -1,7 +1,8 @@
 """The commands that copy the gateway's data folder into one file and back: library, paired devices, tokens
 and what it remembers.
 
-A backup is taken while the gateway runs. It is put back while none runs, and what was there is set aside.
+A backup is taken while the gateway runs. It is put back while none runs, and the former files are moved
+into a folder beside it.
 Knows files and databases by their names, no document.
 """
 
@@ -62,15 +63,15 @@ def restore(
     file: Annotated[Path, typer.Argument(help="A file that `servodeck backup` has written.")],
     data: Data = None,
 ) -> None:
-    """Put a backup back, while no gateway uses the folder. What was there is set aside, not deleted."""
+    """Put a backup back, while no gateway uses the folder. The former files are moved, not deleted."""
     folder = data or data_folder()
     try:
-        names, aside = read_backup(file, folder)
+        names, former = read_backup(file, folder)
     except (BackupError, OSError, sqlite3.Error) as error:
         fail(f"Nothing was changed: {error}.")
     print(f"{', '.join(names)} of {file} are in {folder}.")
-    if aside is not None:
-        print(f"What was there is in {aside}.")
+    if former is not None:
+        print(f"The former files are in {former}.")
 
 
 def write_backup(folder: Path, file: Path) -> list[str]:
@@ -96,7 +97,7 @@ def write_backup(folder: Path, file: Path) -> list[str]:
 
 
 def copied(path: Path, to: Path) -> Path:
-    """A database as of one instant, whoever writes into it meanwhile."""
+    """A database as of one instant, even while a gateway writes into it."""
     if path.suffix != ".sqlite":
         to.write_bytes(path.read_bytes())
         return to
@@ -127,12 +128,12 @@ def read_backup(file: Path, folder: Path) -> tuple[list[str], Path | None]:
         folder.mkdir(parents=True, exist_ok=True)
         for path in folder.glob("*.sqlite"):
             refuse_if_used(path)
-        aside = set_aside(folder)
+        former = move_former(folder)
         for copy in copies:
             target = folder / copy.name
             target.touch(0o600)
             target.write_bytes(copy.read_bytes())
-    return [copy.name for copy in copies], aside
+    return [copy.name for copy in copies], former
 
 
 def unpacked(file: Path, scratch: Path) -> list[Path]:
@@ -187,19 +188,19 @@ def refuse_if_used(path: Path) -> None:
         except sqlite3.OperationalError as error:
             raise BackupError(f"a gateway uses {path}; end it first") from error
         except sqlite3.DatabaseError:
-            return  # it is damaged, and set aside as it is
+            return  # it is damaged, and moved as it is
 
 
-def set_aside(folder: Path) -> Path | None:
-    """Where the files of the folder are now; null where it has none."""
+def move_former(folder: Path) -> Path | None:
+    """Where the files of the folder are now; None where it has none."""
     found = list(files_of(folder))
     if not found:
         return None
-    aside = folder / f"before-restore-{time.strftime('%Y%m%d-%H%M%S')}"
-    aside.mkdir()
+    former = folder / f"before-restore-{time.strftime('%Y%m%d-%H%M%S')}"
+    former.mkdir()
     for path in found:
-        path.rename(aside / path.name)
-    return aside
+        path.rename(former / path.name)
+    return former
 
 
 def files_of(folder: Path) -> Iterator[Path]:

@@ -72,13 +72,13 @@ export function ReplaceDialog() {
   return useStore(replacing.store, ({ question }) => question !== null) && <ReplaceQuestion />;
 }
 
-const PeopleView = laterComponent(
+const OpenPeopleDialog = laterComponent(
   async () => (await import('../features/people/PeopleDialog.tsx')).PeopleDialog,
   '0',
 );
 
 export function PeopleDialog() {
-  return useView((state) => state.peopleOpen) && <PeopleView />;
+  return useView((state) => state.peopleOpen) && <OpenPeopleDialog />;
 }
 
 const LibraryView = laterComponent(

@@ -17,12 +17,10 @@ import { carried, momentsOf, newMoment, placed, withMoments, withTargets, type M
 import type { TimeRange } from './timeEdits.ts';
 import type { KeyRef } from './tracks.ts';
 
-const NO_BLOCKS: readonly Block[] = [];
-
 function withBlocks(group: ActionGroup, blocks: readonly Block[]): ActionGroup {
-  const { blocks: before = NO_BLOCKS, ...rest } = group;
-  const same = sameList(before, blocks);
-  if (same === before) return group;
+  const { blocks: _, ...rest } = group;
+  const same = sameList(blocksOf(group), blocks);
+  if (same === blocksOf(group)) return group;
   return same.length === 0 ? rest : { ...rest, blocks: same };
 }
 
@@ -130,9 +128,9 @@ export function duplicateBlock(group: ActionGroup, id: number): ActionGroup {
 /** Its keys in the place of those that it covers. */
 export function unpackBlock(group: ActionGroup, id: number): ActionGroup {
   const block = blocksOf(group).find((one) => one.id === id);
-  return block === undefined
-    ? group
-    : flattened({ ...deleteBlock(group, id), blocks: [block] }, blocksOf(deleteBlock(group, id)));
+  if (block === undefined) return group;
+  const others = blocksOf(group).filter((one) => one !== block);
+  return withBlocks(flattened(withBlocks(group, [block])), others);
 }
 
 /** Those that have one of the servos within the time become keys, so that keys put there count. */
@@ -152,7 +150,7 @@ export function unpackedWithin(
 }
 
 /** Blocks as keys, for formats that know none: the motion stays as it is. */
-export function flattened(group: ActionGroup, left: readonly Block[] = NO_BLOCKS): ActionGroup {
+export function flattened(group: ActionGroup): ActionGroup {
   if (blocksOf(group).length === 0) return group;
   const covered = new Set(blocksOf(group).flatMap(servosOf));
   const tracks = motionTracks(group);
@@ -168,7 +166,7 @@ export function flattened(group: ActionGroup, left: readonly Block[] = NO_BLOCKS
       placed(all, atMs, [{ servo, position, easing }], (own) => newMoment(atMs, own, { easing })),
     free,
   );
-  return withBlocks(withMoments(group, moments), left);
+  return withBlocks(withMoments(group, moments), []);
 }
 
 /** Blocks that overlap stand below one another: the level of each by its id, from 0 on. */

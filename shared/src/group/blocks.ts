@@ -22,10 +22,16 @@ export const blockMs = (block: Block): number =>
 
 export const endOfBlock = (block: Block): number => block.startMs + blockMs(block);
 
-/** In ascending order. */
-export function servosOf({ moments }: Block): readonly number[] {
+const servosIn = new WeakMap<Block['moments'], readonly number[]>();
+
+/** In ascending order; found once, because each row that is drawn wants them. */
+export function servosOf({ moments }: Pick<Block, 'moments'>): readonly number[] {
+  const before = servosIn.get(moments);
+  if (before !== undefined) return before;
   const servos = new Set(moments.flatMap(({ targets }) => targets.map(({ servo }) => servo)));
-  return [...servos].sort((one, other) => one - other);
+  const sorted = [...servos].sort((one, other) => one - other);
+  servosIn.set(moments, sorted);
+  return sorted;
 }
 
 /** The one that says what the servo does then; undefined: its own keys do. */

@@ -6,9 +6,9 @@ import { positionRange, type Family, type Range } from '../codec/families.ts';
 import { wireMs } from '../codec/packet.ts';
 import { DEGREES_PER_UNIT } from '../profile/readyRobots.ts';
 import { servoOf, type Robot } from '../profile/robot.ts';
-import { type Course, type Leg, ROUNDING, turnsOf, type Deviation } from './courses.ts';
+import { type Course, type Leg, ROUNDING, type Deviation } from './courses.ts';
 import { blocksOf } from './blocks.ts';
-import { curveOf, type Easing } from './curves.ts';
+import { curveOf, turnsOf, type Easing } from './curves.ts';
 import { totalDurationMs, type ActionGroup } from './group.ts';
 
 /** Common servos of these robots need 0.2 s for 60 degrees, some a little less. */
@@ -171,8 +171,8 @@ function swings(servo: number, legs: readonly Leg[], range: Range): CompileProbl
   return legs.flatMap((leg) => {
     const { min, max } = range;
     const [low, high] = [Math.min(min, leg.from, leg.to), Math.max(max, leg.from, leg.to)];
-    return turnsOf(leg)
-      .map(Math.round)
+    return turnsOf(leg.easing)
+      .map((share) => Math.round(leg.from + share * (leg.to - leg.from)))
       .filter((position) => position < low || position > high)
       .slice(0, 1)
       .map((position) => ({ kind: 'swing', servo, frameId: leg.frameId, position, min, max }));

@@ -100,16 +100,6 @@ function legAt({ fromMs, toMs, from, to, easing }: Leg, atMs: number): number {
   return from + (to - from) * curveOf(easing).at((atMs - fromMs) / (toMs - fromMs));
 }
 
-/** Where it turns round on its way, because its curve swings past an end. */
-export function turnsOf(leg: Leg): readonly number[] {
-  const { fromMs, toMs, easing } = leg;
-  return typeof easing === 'string'
-    ? []
-    : curveOf(easing)
-        .asSteepAs(0)
-        .map((share) => legAt(leg, fromMs + share * (toMs - fromMs)));
-}
-
 /** The first leg that ends later. */
 function legAfter(legs: readonly Leg[], atMs: number): number {
   let low = 0;

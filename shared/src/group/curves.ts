@@ -46,6 +46,13 @@ const NAMED: Readonly<Record<NamedEasing, Curve>> = {
   hold: { at: (share) => (share < 1 ? 0 : 1), asSteepAs: () => [] },
 };
 
+/** Where the way turns round because the curve swings past an end, as shares of the way. */
+export function turnsOf(easing: Easing): readonly number[] {
+  if (typeof easing === 'string') return [];
+  const curve = curveOf(easing);
+  return curve.asSteepAs(0).map(curve.at);
+}
+
 const known = new WeakMap<Bezier, Curve>();
 
 export function curveOf(easing: Easing): Curve {

@@ -1,13 +1,13 @@
 // Edits of single keys, as pure functions: (group, arguments) → group, the very same object where nothing changes. Servos that
 // are not named continue exactly as before. What shifts time for all servos is timeEdits.ts.
 
-import { curveOf, handlesOf, handleTime, handleWay, sameEasing, type Easing } from './curves.ts';
+import { handlesOf, handleTime, handleWay, sameEasing, type Easing } from './curves.ts';
 import { easingOf, type ActionGroup, type GroupFrame, type KeyTarget } from './group.ts';
 import { changed, sameList, samePose } from './groupEdits.ts';
 import { momentsOf, newMoment, placed, wholeMs, withMoments, withOwnEasing, type Moment } from './moments.ts';
 import { lifted, servosByFrame } from './keyRanges.ts';
 import { closeFrames, setDuration, type Ripple } from './timeEdits.ts';
-import { tracksOf, type Key, type KeyRef, type Track } from './tracks.ts';
+import { tracksOf, type Key, type KeyRef } from './tracks.ts';
 
 /** What the document can write down; what a board takes is far less. */
 const LARGEST_POSITION = 0xffff;
@@ -271,15 +271,4 @@ function smoothWay(from: Key, to: Key, begin: number | null, end: number | null)
       ? ([before[2], before[3]] as const)
       : ([handleTime(1 - THIRD), handleWay(1 - rise(end))] as const)),
   ];
-}
-
-/** The lowest and the highest position, where its curves swing beyond its keys too. */
-export function extentOf({ keys }: Track): readonly [lowest: number, highest: number] {
-  const positions = keys.flatMap((key, index) => {
-    const from = keys[index - 1]?.position ?? key.position;
-    const turns = typeof key.easing === 'string' ? [] : curveOf(key.easing).asSteepAs(0);
-    const swings = turns.map((share) => curveOf(key.easing).at(share));
-    return [key.position, ...swings.map((share) => from + share * (key.position - from))];
-  });
-  return [Math.min(...positions), Math.max(...positions)];
 }

@@ -1,5 +1,5 @@
 // A group's frames as moments on the clock, and back: edits that move things in time do so here, where no frame depends on the
-// one before it. Knows no servo's motion.
+// one before it; and keys that change frames, which come in as before. Knows nothing between two keys.
 
 import { sortedTargets } from '../codec/commands.ts';
 import type { ActionGroup, GroupFrame, KeyTarget } from './group.ts';

@@ -1,7 +1,7 @@
 // An action group seen servo by servo: the keys of each, how it comes into them, and where it is between them. Numbers stay
 // unrounded; what a board makes of them is compile.ts. Knows no board.
 
-import { curveOf, sameEasing, type Easing } from './curves.ts';
+import { curveOf, sameEasing, turnsOf, type Easing } from './curves.ts';
 import { easingOf, type ActionGroup, type GroupFrame } from './group.ts';
 import type { Frame } from '../codec/commands.ts';
 
@@ -159,6 +159,15 @@ export function positionAt({ keys }: Track, atMs: number, startPosition?: number
   if (from === null || to === undefined) return from?.position ?? null;
   const share = (atMs - from.atMs) / (to.atMs - from.atMs);
   return from.position + (to.position - from.position) * curveOf(to.easing).at(Math.max(0, share));
+}
+
+/** The lowest and the highest position, where its curves swing beyond its keys too. */
+export function extentOf({ keys }: Track): readonly [lowest: number, highest: number] {
+  const positions = keys.flatMap(({ position, easing }, index) => {
+    const from = keys[index - 1]?.position ?? position;
+    return [position, ...turnsOf(easing).map((share) => from + share * (position - from))];
+  });
+  return [Math.min(...positions), Math.max(...positions)];
 }
 
 const startOf = (position: number | undefined) => (position === undefined ? null : { atMs: 0, position });

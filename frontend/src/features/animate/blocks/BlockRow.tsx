@@ -11,19 +11,13 @@ import {
   type BlockChange,
 } from '#shared/group/blockEdits.ts';
 import { blockMs, blocksOf, endOfBlock } from '#shared/group/blocks.ts';
-import {
-  FASTEST_PERCENT,
-  MOST_TIMES,
-  SLOWEST_PERCENT,
-  type ActionGroup,
-  type Block,
-} from '#shared/group/group.ts';
+import { FASTEST_PERCENT, MOST_TIMES, SLOWEST_PERCENT, type Block } from '#shared/group/group.ts';
 import { words } from '../../../i18n/whole.ts';
 import { cx } from '../../../ui/cx.ts';
 import { Button, IconButton } from '../../../ui/Button.tsx';
 import { NameField } from '../../../ui/NameField.tsx';
 import { NumberField } from '../../../ui/NumberField.tsx';
-import { useDocument, useStores, useTimeline } from '../../stores.ts';
+import { type Stores, useDocument, useStores, useTimeline } from '../../stores.ts';
 import { xOf } from '../timeline/timeScale.ts';
 import { useTimeDrag } from '../timeline/useTimeDrag.ts';
 import { instantText } from '../timeline/valueText.ts';
@@ -85,11 +79,7 @@ function BlockBar({ block, level, isChosen, onChoose }: BlockBarProps) {
 
   function key(event: KeyboardEvent): void {
     if (event.key === 'Enter' || event.key === ' ') onChoose();
-    else if (event.key === 'Delete' || event.key === 'Backspace')
-      document.edit(
-        () => words.blocks.steps.delete,
-        (group) => deleteBlock(group, id),
-      );
+    else if (event.key === 'Delete' || event.key === 'Backspace') act(document, id, 'delete');
     else return drag.onKeyDown(event);
     event.preventDefault();
   }
@@ -111,6 +101,15 @@ function BlockBar({ block, level, isChosen, onChoose }: BlockBarProps) {
       {times > 1 && <span className={styles.times}>{words.blocks.times({ times })}</span>}
       <Edge block={block} />
     </div>
+  );
+}
+
+const ACTS = { duplicate: duplicateBlock, unpack: unpackBlock, delete: deleteBlock } as const;
+
+function act(document: Stores['document'], id: number, name: keyof typeof ACTS): void {
+  document.edit(
+    () => words.blocks.steps[name],
+    (group) => ACTS[name](group, id),
   );
 }
 
@@ -157,10 +156,8 @@ const FIELDS: readonly FieldOf[] = [
 function BlockSettings({ block, onClose }: { readonly block: Block; onClose(): void }) {
   const { document, notices } = useStores();
   const { id, name } = block;
-  const edit = (label: () => string, change: (group: ActionGroup) => ActionGroup): void =>
-    document.edit(label, change);
   const set = (change: BlockChange): void =>
-    edit(
+    document.edit(
       () => words.blocks.steps.change,
       (group) => setBlock(group, id, change),
     );
@@ -191,40 +188,13 @@ function BlockSettings({ block, onClose }: { readonly block: Block; onClose(): v
         </label>
       ))}
       <span className={styles.acts}>
-        <Button
-          tone="quiet"
-          icon="duplicate"
-          onPress={() =>
-            edit(
-              () => words.blocks.steps.duplicate,
-              (group) => duplicateBlock(group, id),
-            )
-          }
-        >
+        <Button tone="quiet" icon="duplicate" onPress={() => act(document, id, 'duplicate')}>
           {words.blocks.duplicate}
         </Button>
-        <Button
-          tone="quiet"
-          hint={words.blocks.unpackHint}
-          onPress={() =>
-            edit(
-              () => words.blocks.steps.unpack,
-              (group) => unpackBlock(group, id),
-            )
-          }
-        >
+        <Button tone="quiet" hint={words.blocks.unpackHint} onPress={() => act(document, id, 'unpack')}>
           {words.blocks.unpack}
         </Button>
-        <IconButton
-          icon="trash"
-          label={words.blocks.delete}
-          onPress={() =>
-            edit(
-              () => words.blocks.steps.delete,
-              (group) => deleteBlock(group, id),
-            )
-          }
-        />
+        <IconButton icon="trash" label={words.blocks.delete} onPress={() => act(document, id, 'delete')} />
         <IconButton icon="close" label={words.close} onPress={onClose} />
       </span>
     </div>

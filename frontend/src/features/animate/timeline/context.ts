@@ -1,11 +1,10 @@
-// What an action of the timeline works with, gathered anew each time, and how it leaves the selection. Edits go to the document
-// alone, as one step each.
+// What an action of the timeline works with, gathered anew each time, how it leaves the selection, and which part of its servo's range each
+// row shows. Edits go to the document alone, as one step each.
 
 import type { ActionGroup } from '#shared/group/group.ts';
 import type { Label } from '#shared/document/history.ts';
 import { motionTracks } from '#shared/group/blocks.ts';
-import { extentOf } from '#shared/group/keyEdits.ts';
-import type { Key, KeyRef, Track } from '#shared/group/tracks.ts';
+import { extentOf, type Key, type KeyRef, type Track } from '#shared/group/tracks.ts';
 import { type Robot, servoOf } from '#shared/profile/robot.ts';
 import { positionRange, type Family, type Range } from '#shared/codec/families.ts';
 import {

@@ -18,6 +18,7 @@ export interface CurveHandle {
   /** The way whose curve it is of. */
   readonly from: Key;
   readonly to: Key;
+  readonly bezier: Bezier;
   /** The end of the way that it belongs to. */
   readonly end: 'begin' | 'end';
   readonly placed: PlacedRow;
@@ -46,7 +47,7 @@ export function curveHandles({ times, state, family, rows }: Shown): readonly Cu
     const [x1, y1, x2, y2] = bezier;
     const spotOf = (x: number, y: number): Spot =>
       at(from.atMs + x * (to.atMs - from.atMs), from.position + y * (to.position - from.position));
-    const way = { from, to, placed };
+    const way = { from, to, bezier, placed };
     return [
       ...(selected.has(from)
         ? [{ ...way, end: 'begin' as const, spot: spotOf(x1, y1), keySpot: at(from.atMs, from.position) }]
@@ -77,7 +78,7 @@ export function curveGesture(press: Press, context: TimelineContext, handle: Cur
   const { servo } = handle.to;
   if (isHeld(context.servoView, servo))
     return { status: whyHeld(context, [servo]), move: nothing, end: nothing, cancel: nothing };
-  let bezier = handlesOf(handle.to.easing) ?? [0, 0, 1, 1];
+  let { bezier } = handle;
   return edits(
     press,
     'curve',
@@ -97,12 +98,11 @@ export function curveGesture(press: Press, context: TimelineContext, handle: Cur
 function draggedTo(
   { stores, spot: pressed }: Press,
   { family, state }: TimelineContext,
-  { from, to, end, placed, spot: shown }: CurveHandle,
+  { from, to, bezier, end, placed, spot: shown }: CurveHandle,
   spot: Spot,
   { alt, shift }: Held,
 ): Bezier {
-  const before = handlesOf(to.easing) ?? [0, 0, 1, 1];
-  const [x1, y1, x2, y2] = before;
+  const [x1, y1, x2, y2] = bezier;
   const [beforeX, beforeY] = end === 'begin' ? [x1, y1] : [x2, y2];
   const isSideways = Math.abs(spot.x - pressed.x) >= Math.abs(spot.y - pressed.y);
   const { time, snaps } = stores.timeline.getState();
