@@ -18,7 +18,7 @@ import { words } from '../../i18n/words.ts';
 import { useSlotContents, CONTENT_TRUTH, useHeldName } from './slots/slotHooks.ts';
 import { obstacles } from './compile/compiled.ts';
 import { Chip } from '../../ui/Chip.tsx';
-import { NumberField } from '../../ui/NumberField.tsx';
+import { CheckedNumber } from '../CheckedNumber.tsx';
 import { triggerInBar, heldText } from '../../i18n/sentences.ts';
 import { DownloadControl, DownloadProgress, runAsChosen, useRunSettings } from './DownloadAndRun.tsx';
 import { CollisionNote } from './compile/problems.tsx';
@@ -81,7 +81,7 @@ function BoardStrip() {
 }
 
 function SlotField() {
-  const { view, notices } = useStores();
+  const { view } = useStores();
   const slot = useSlot();
   const { min, max } = useDevice((state) => state.family.slot);
   return (
@@ -89,14 +89,13 @@ function SlotField() {
       <span className={styles.boardStripLabel} aria-hidden="true">
         {words.board.slot}
       </span>
-      <NumberField
+      <CheckedNumber
         label={words.board.slot}
         value={slot}
         min={min}
         max={max}
         size="small"
         onChange={(value) => view.setState({ slot: value })}
-        onRefused={(value) => notices.refuse(words.refused({ name: words.board.slot, value, min, max }))}
       />
     </div>
   );

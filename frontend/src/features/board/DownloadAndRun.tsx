@@ -4,7 +4,7 @@
 import { isWatching } from '#shared/robot/lease.ts';
 import { useCompiled, useDevice, useDocument, useSlot, useSnapshot, useStores, useView } from '../stores.ts';
 import { Button } from '../../ui/Button.tsx';
-import { NumberField } from '../../ui/NumberField.tsx';
+import { CheckedNumber } from '../CheckedNumber.tsx';
 import { ProgressBar } from '../../ui/ProgressBar.tsx';
 import { Toggle } from '../../ui/Toggle.tsx';
 import { words } from '../../i18n/whole.ts';
@@ -106,14 +106,14 @@ function KeepRunningControl() {
 }
 
 function MinutesField({ isDisabled }: { readonly isDisabled: boolean }) {
-  const { view, notices } = useStores();
+  const { view } = useStores();
   const minutes = useView((state) => state.keepRunningMinutes);
   return (
     <div className={field.named}>
       <span className={styles.label} aria-hidden="true">
         {words.board.keepRunningAtMost}
       </span>
-      <NumberField
+      <CheckedNumber
         label={words.board.keepRunningMinutes}
         value={minutes}
         min={1}
@@ -121,11 +121,6 @@ function MinutesField({ isDisabled }: { readonly isDisabled: boolean }) {
         unit={words.board.keepRunningUnit}
         isDisabled={isDisabled}
         onChange={(keepRunningMinutes) => view.setState({ keepRunningMinutes })}
-        onRefused={(value) =>
-          notices.refuse(
-            words.refused({ name: words.board.keepRunningMinutes, value, min: 1, max: LONGEST_MINUTES }),
-          )
-        }
       />
     </div>
   );
@@ -158,7 +153,7 @@ export function RunSettings() {
 }
 
 function TimesField({ untilStopped }: { readonly untilStopped: boolean }) {
-  const { view, notices } = useStores();
+  const { view } = useStores();
   const times = useView((state) => state.times);
   const max = useDevice((state) => state.family.runTimes.max);
   return (
@@ -166,14 +161,13 @@ function TimesField({ untilStopped }: { readonly untilStopped: boolean }) {
       <span className={styles.label} aria-hidden="true">
         {words.board.times}
       </span>
-      <NumberField
+      <CheckedNumber
         label={words.board.times}
         value={times}
         min={1}
         max={max}
         isDisabled={untilStopped}
         onChange={(value) => view.setState({ times: value })}
-        onRefused={(value) => notices.refuse(words.refused({ name: words.board.times, value, min: 1, max }))}
       />
     </div>
   );

@@ -22,9 +22,8 @@ import { MACRO_ACTIONS, macroContextOf, type MacroContext } from './macroActions
 import { macroKey } from './MacroGrid.tsx';
 import styles from './MacroEditor.module.css';
 import { POSE_MS } from '#shared/profile/pose.ts';
-import type { Range } from '#shared/codec/families.ts';
 import { PoseSelect } from '../poses/PoseSelect.tsx';
-import { NumberField } from '../../ui/NumberField.tsx';
+import { CheckedNumber } from '../CheckedNumber.tsx';
 
 const NEW_STEPS = {
   addPose: { kind: 'pose', pose: 'home', durationMs: GENTLE_MOVE_MS },
@@ -223,10 +222,10 @@ function PoseFields({ step, number, onChange }: FieldsOf<'pose'>) {
         value={step.pose}
         onChange={(pose) => onChange({ ...step, pose })}
       />
-      <Field
+      <CheckedNumber
         label={words.macros.stepMs({ number })}
         value={step.durationMs}
-        range={POSE_MS}
+        {...POSE_MS}
         step={100}
         unit={words.servos.ms}
         onChange={(durationMs) => onChange({ ...step, durationMs })}
@@ -240,17 +239,17 @@ function SlotFields({ step, number, onChange }: FieldsOf<'slot'>) {
     <>
       <span className={styles.pair}>
         <span aria-hidden="true">{words.board.slot}</span>
-        <Field
+        <CheckedNumber
           label={words.macros.stepSlot({ number })}
           value={step.slot}
-          range={SLOT}
+          {...SLOT}
           onChange={(slot) => onChange({ ...step, slot })}
         />
       </span>
-      <Field
+      <CheckedNumber
         label={words.macros.stepTimes({ number })}
         value={step.times}
-        range={SLOT_TIMES}
+        {...SLOT_TIMES}
         unit={words.macros.times}
         onChange={(times) => onChange({ ...step, times })}
       />
@@ -262,33 +261,14 @@ function WaitFields({ step, number, onChange }: FieldsOf<'wait'>) {
   return (
     <>
       <span>{words.macros.addWait}</span>
-      <Field
+      <CheckedNumber
         label={words.macros.stepMs({ number })}
         value={step.waitMs}
-        range={WAIT_MS}
+        {...WAIT_MS}
         step={100}
         unit={words.servos.ms}
         onChange={(waitMs) => onChange({ ...step, waitMs })}
       />
     </>
-  );
-}
-
-interface FieldProps {
-  readonly label: string;
-  readonly value: number;
-  readonly range: Range;
-  readonly step?: number;
-  readonly unit?: string;
-  onChange(value: number): void;
-}
-
-function Field({ range: { min, max }, ...field }: FieldProps) {
-  const { notices } = useStores();
-  return (
-    <NumberField
-      {...{ min, max, ...field }}
-      onRefused={(value) => notices.refuse(words.refused({ name: field.label, value, min, max }))}
-    />
   );
 }

@@ -4,7 +4,7 @@ import { motionHindrance } from '../../robot/readiness.ts';
 import { isHeld, select, toggled, TOGETHER, type ServoView } from '../servoView.ts';
 import { editServoView, useServoView, useSnapshot, useStores } from '../stores.ts';
 import { Button, IconButton } from '../../ui/Button.tsx';
-import { NumberField } from '../../ui/NumberField.tsx';
+import { CheckedNumber } from '../CheckedNumber.tsx';
 import { Select } from '../../ui/Select.tsx';
 import { Choice } from '../../ui/Toggle.tsx';
 import { useLayout } from '../../ui/useLayout.ts';
@@ -103,7 +103,6 @@ const unlocked = (view: ServoView, servos: readonly number[]): ServoView => ({
 
 function Weights({ selected }: SelectedProps) {
   const stores = useStores();
-  const { notices } = stores;
   const weights = useServoView((view) => view.weights);
   const set = (servo: number, percent: number): void =>
     editServoView(stores, (view) => ({
@@ -115,7 +114,7 @@ function Weights({ selected }: SelectedProps) {
       {selected.map((servo) => (
         <li key={servo} className={styles.weight}>
           <span aria-hidden="true">{words.servos.name({ servo })}</span>
-          <NumberField
+          <CheckedNumber
             label={words.servoPanel.weight({ servo })}
             size="small"
             value={weights[servo] ?? 100}
@@ -123,16 +122,6 @@ function Weights({ selected }: SelectedProps) {
             max={MOST_PERCENT}
             unit={words.servoPanel.percent}
             onChange={(percent) => set(servo, percent)}
-            onRefused={(value) =>
-              notices.refuse(
-                words.refused({
-                  name: words.servoPanel.weight({ servo }),
-                  value,
-                  min: -MOST_PERCENT,
-                  max: MOST_PERCENT,
-                }),
-              )
-            }
           />
         </li>
       ))}

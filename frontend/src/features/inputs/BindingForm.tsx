@@ -16,9 +16,9 @@ import { type PoseRef, POSE_MS } from '#shared/profile/pose.ts';
 import type { Robot } from '#shared/profile/robot.ts';
 import { GENTLE_MOVE_MS } from '../../robot/moves.ts';
 import { PoseSelect } from '../poses/PoseSelect.tsx';
-import { useDevice, useMapping, useRobot, useStores } from '../stores.ts';
+import { useDevice, useMapping, useRobot } from '../stores.ts';
 import { Button } from '../../ui/Button.tsx';
-import { NumberField } from '../../ui/NumberField.tsx';
+import { CheckedNumber } from '../CheckedNumber.tsx';
 import { Select } from '../../ui/Select.tsx';
 import { Toggle } from '../../ui/Toggle.tsx';
 import { inputName } from './rows.ts';
@@ -188,64 +188,43 @@ function ServoChoice({ servo, onChange }: { readonly servo: number; onChange(ser
 }
 
 function TipSpeedField({ value, onChange }: FieldProps) {
-  const { notices } = useStores();
   const range = { min: 1, max: FASTEST_MM_PER_S };
   return (
-    <NumberField
+    <CheckedNumber
       label={words.pad.tipSpeed}
       unit={words.pad.mmPerS}
       step={5}
       {...{ value, onChange, ...range }}
-      onRefused={(wanted) =>
-        notices.refuse(words.refused({ name: words.pad.tipSpeed, value: wanted, ...range }))
-      }
     />
   );
 }
 
 function Speed({ value, onChange }: FieldProps) {
-  const { notices } = useStores();
   const { unit } = useDevice((state) => state.family);
   const range = { min: 1, max: FASTEST_UNITS_PER_S };
   return (
-    <NumberField
+    <CheckedNumber
       label={words.pad.speedField}
       unit={words.pad.speedUnit({ unit: words.units[unit] })}
       step={10}
       {...{ value, onChange, ...range }}
-      onRefused={(wanted) =>
-        notices.refuse(
-          words.refused({ name: words.pad.speedField, value: wanted, min: range.min, max: range.max }),
-        )
-      }
     />
   );
 }
 
 function Time({ value, onChange }: FieldProps) {
-  const { notices } = useStores();
   const { min, max } = POSE_MS;
   return (
-    <NumberField
+    <CheckedNumber
       label={words.poses.time}
       unit={words.servos.ms}
       step={100}
       {...{ value, onChange, min, max }}
-      onRefused={(wanted) =>
-        notices.refuse(words.refused({ name: words.poses.time, value: wanted, min, max }))
-      }
     />
   );
 }
 
 function Slot({ value, onChange }: FieldProps) {
-  const { notices } = useStores();
   const { min, max } = useDevice((state) => state.family.slot);
-  return (
-    <NumberField
-      label={words.pad.slot}
-      {...{ value, onChange, min, max }}
-      onRefused={(wanted) => notices.refuse(words.refused({ name: words.pad.slot, value: wanted, min, max }))}
-    />
-  );
+  return <CheckedNumber label={words.pad.slot} {...{ value, onChange, min, max }} />;
 }

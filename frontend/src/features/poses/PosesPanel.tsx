@@ -23,7 +23,7 @@ import { IconButton, Button, isByKey } from '../../ui/Button.tsx';
 import { CaptureButton } from '../animate/frames/CaptureButton.tsx';
 import { poseName } from './poses.ts';
 import { motionHindrance } from '../../robot/readiness.ts';
-import { NumberField } from '../../ui/NumberField.tsx';
+import { CheckedNumber } from '../CheckedNumber.tsx';
 
 /** Shown without poses: what some would look like on the current robot. */
 function EmptyPoses() {
@@ -256,13 +256,13 @@ function Capture({ onNew }: PoseVerbsProps) {
 }
 
 function PoseTime() {
-  const { view, notices } = useStores();
+  const { view } = useStores();
   const poseMs = useView((state) => state.poseMs);
   const { min, max } = useDevice((state) => state.family.durationMs);
   return (
     <span className={styles.time}>
       <span aria-hidden="true">{words.poses.timeLabel}</span>
-      <NumberField
+      <CheckedNumber
         label={words.poses.time}
         value={poseMs}
         min={min}
@@ -270,7 +270,6 @@ function PoseTime() {
         step={100}
         unit={words.servos.ms}
         onChange={(durationMs) => view.setState({ poseMs: durationMs })}
-        onRefused={(value) => notices.refuse(words.refused({ name: words.poses.time, value, min, max }))}
       />
     </span>
   );

@@ -16,7 +16,7 @@ import { words } from '../../../i18n/whole.ts';
 import { cx } from '../../../ui/cx.ts';
 import { Button, IconButton } from '../../../ui/Button.tsx';
 import { NameField } from '../../../ui/NameField.tsx';
-import { NumberField } from '../../../ui/NumberField.tsx';
+import { CheckedNumber } from '../../CheckedNumber.tsx';
 import { type Stores, useDocument, useStores, useTimeline } from '../../stores.ts';
 import { xOf } from '../timeline/timeScale.ts';
 import { useTimeDrag } from '../timeline/useTimeDrag.ts';
@@ -154,7 +154,7 @@ const FIELDS: readonly FieldOf[] = [
 ];
 
 function BlockSettings({ block, onClose }: { readonly block: Block; onClose(): void }) {
-  const { document, notices } = useStores();
+  const { document } = useStores();
   const { id, name } = block;
   const set = (change: BlockChange): void =>
     document.edit(
@@ -174,16 +174,13 @@ function BlockSettings({ block, onClose }: { readonly block: Block; onClose(): v
       {FIELDS.map(({ name: field, unit, ...range }) => (
         <label key={field} className={styles.field}>
           <span aria-hidden="true">{words.blocks.fields[field]}</span>
-          <NumberField
+          <CheckedNumber
             label={words.blocks.fields[field]}
             value={block[field]}
             size="small"
             unit={unit()}
             {...range}
             onChange={(value) => set({ [field]: value })}
-            onRefused={(value) =>
-              notices.refuse(words.refused({ name: words.blocks.fields[field], value, ...range }))
-            }
           />
         </label>
       ))}

@@ -11,7 +11,7 @@ import { counted, numbersOf, togetherNow } from './frameVerbs.ts';
 import { GroupThumb } from '../../picture/PoseThumb.tsx';
 import { cx } from '../../../ui/cx.ts';
 import { Icon } from '../../../ui/Icon.tsx';
-import { NumberField } from '../../../ui/NumberField.tsx';
+import { CheckedNumber } from '../../CheckedNumber.tsx';
 import { pressFrame } from '../timeline/inStep.ts';
 import { words } from '../../../i18n/whole.ts';
 import card from '../../../ui/Card.module.css';
@@ -119,11 +119,11 @@ interface FrameTimeProps extends Pick<GroupFrame, 'id' | 'durationMs'> {
 
 const FrameTime = memo(function FrameTime({ id, durationMs, number, isTabStop }: FrameTimeProps) {
   useWords();
-  const { document, notices } = useStores();
+  const { document } = useStores();
   const { min, max } = useDevice((state) => state.family.durationMs);
   const label = words.actions.time({ number });
   return (
-    <NumberField
+    <CheckedNumber
       label={label}
       size="small"
       value={durationMs}
@@ -138,7 +138,6 @@ const FrameTime = memo(function FrameTime({ id, durationMs, number, isTabStop }:
           (group) => setDuration(group, id, wantedMs, { ripple: true }),
         )
       }
-      onRefused={(value) => notices.refuse(words.refused({ name: label, value, min, max }))}
     />
   );
 });

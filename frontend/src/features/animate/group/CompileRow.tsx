@@ -24,7 +24,7 @@ import { words } from '../../../i18n/whole.ts';
 import { servoName } from '../../../i18n/sentences.ts';
 import { Chip } from '../../../ui/Chip.tsx';
 import { cx } from '../../../ui/cx.ts';
-import { NumberField } from '../../../ui/NumberField.tsx';
+import { CheckedNumber } from '../../CheckedNumber.tsx';
 import { useInFrame } from '../../../ui/useInFrame.ts';
 import styles from './CompileRow.module.css';
 import field from '../../../ui/Field.module.css';
@@ -172,7 +172,7 @@ export function CompileRow() {
 
 /** The largest error that may be: how many frames it takes depends on it. The group keeps it. */
 function ErrorField() {
-  const { document, notices } = useStores();
+  const { document } = useStores();
   const family = useKnownFamily();
   const value = useDocument(({ present }) => maxErrorOf(present, family));
   const isOfGroup = useDocument(({ present }) => present.frames.length === 0 || present.unit === family.unit);
@@ -181,7 +181,7 @@ function ErrorField() {
       <span className={styles.dim} aria-hidden="true">
         {words.compile.error}
       </span>
-      <NumberField
+      <CheckedNumber
         label={words.compile.errorField}
         value={value}
         min={1}
@@ -193,11 +193,6 @@ function ErrorField() {
             () => words.compile.step,
             (group) =>
               setMeta(group.frames.length === 0 ? { ...group, unit: family.unit } : group, { maxErrorUnits }),
-          )
-        }
-        onRefused={(units) =>
-          notices.refuse(
-            words.refused({ name: words.compile.errorField, value: units, min: 1, max: MOST_ERROR_UNITS }),
           )
         }
       />

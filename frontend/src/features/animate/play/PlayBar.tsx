@@ -26,7 +26,7 @@ import { timesOf } from '#shared/group/groupTimes.ts';
 import { ActionButton, ActionIconButton, Button } from '../../../ui/Button.tsx';
 import { cx } from '../../../ui/cx.ts';
 import { LiveText } from '../../../ui/LiveText.tsx';
-import { NumberField } from '../../../ui/NumberField.tsx';
+import { CheckedNumber } from '../../CheckedNumber.tsx';
 import { Toggle } from '../../../ui/Toggle.tsx';
 import { words } from '../../../i18n/whole.ts';
 import styles from './PlayBar.module.css';
@@ -147,7 +147,6 @@ function PlayWords({ ends }: { readonly ends: keyof typeof END_ICONS | null }) {
 }
 
 function Settings({ isDisabled }: { readonly isDisabled: boolean }) {
-  const { notices } = useStores();
   const player = usePlayer();
   const { speedPercent, loops, isLive } = usePlayback((state) => state);
   const mayMove = useSnapshot((snapshot) => motionHindrance(snapshot) === null);
@@ -160,7 +159,7 @@ function Settings({ isDisabled }: { readonly isDisabled: boolean }) {
         isDisabled={isDisabled}
         onChange={(isOn) => player.set({ loops: isOn })}
       />
-      <NumberField
+      <CheckedNumber
         label={words.play.speedField}
         value={speedPercent}
         min={min}
@@ -170,9 +169,6 @@ function Settings({ isDisabled }: { readonly isDisabled: boolean }) {
         size="small"
         isDisabled={isDisabled}
         onChange={(percent) => player.set({ speedPercent: percent })}
-        onRefused={(percent) =>
-          notices.refuse(words.refused({ name: words.play.speedField, value: percent, min, max }))
-        }
       />
       <Toggle
         label={words.play.live}

@@ -9,7 +9,7 @@ import { GENTLE_MOVE_MS } from '../../../robot/moves.ts';
 import { recorded } from '../../servoView.ts';
 import { useDevice, useDocument, useRobot, useServoView, useStores } from '../../stores.ts';
 import { Button } from '../../../ui/Button.tsx';
-import { NumberField } from '../../../ui/NumberField.tsx';
+import { CheckedNumber } from '../../CheckedNumber.tsx';
 import { Toggle } from '../../../ui/Toggle.tsx';
 import { words } from '../../../i18n/whole.ts';
 import { appended, inserted, keyCountOf, over, USUAL_ERROR } from './recordOver.ts';
@@ -24,7 +24,7 @@ export interface TakeProps {
 const MOST_ERROR = 200;
 
 export function Take({ samples, onClose }: TakeProps) {
-  const { document, notices, playhead, view } = useStores();
+  const { document, playhead, view } = useStores();
   const unit = useDevice((state) => state.family.unit);
   const isEmpty = useDocument(({ present }) => present.frames.length === 0);
   const robot = useRobot();
@@ -60,16 +60,13 @@ export function Take({ samples, onClose }: TakeProps) {
       )}
       <div className={field.named}>
         <span aria-hidden="true">{words.record.error}</span>
-        <NumberField
+        <CheckedNumber
           label={words.record.errorField}
           value={maxErrorUnits}
           min={1}
           max={MOST_ERROR}
           unit={words.units[unit]}
           onChange={setMaxError}
-          onRefused={(value) =>
-            notices.refuse(words.refused({ name: words.record.errorField, value, min: 1, max: MOST_ERROR }))
-          }
         />
       </div>
       <p role="status">

@@ -9,7 +9,7 @@ import { RANGE_MS } from '#shared/robot/timings.ts';
 import { servoName } from '../../../i18n/sentences.ts';
 import { words } from '../../../i18n/whole.ts';
 import { Button, IconButton } from '../../../ui/Button.tsx';
-import { NumberField } from '../../../ui/NumberField.tsx';
+import { CheckedNumber } from '../../CheckedNumber.tsx';
 import { Mark } from '../../../ui/Chip.tsx';
 import { cx } from '../../../ui/cx.ts';
 import { Canvas, type Pen } from '../../picture/Canvas.tsx';
@@ -104,7 +104,7 @@ function Shown({ children }: { readonly children: ReactNode }) {
 const amps = (milliamperes: number): string => (milliamperes / 1000).toFixed(1);
 
 function SupplyField() {
-  const { robots, notices } = useStores();
+  const { robots } = useStores();
   const { supplyMa } = useRobot().batteryCare;
   const range = { min: SUPPLY_MA.min / 1000, max: SUPPLY_MA.max / 1000 };
   const set = (amperes: number): void =>
@@ -118,7 +118,7 @@ function SupplyField() {
   return (
     <span className={styles.supply} title={words.speed.supplyHint}>
       <span aria-hidden="true">{words.speed.supply}</span>
-      <NumberField
+      <CheckedNumber
         label={words.speed.supplyField}
         value={supplyMa === undefined ? null : supplyMa / 1000}
         placeholder={words.speed.unknown}
@@ -129,9 +129,6 @@ function SupplyField() {
         unit={words.speed.amperes}
         {...range}
         onChange={set}
-        onRefused={(value) =>
-          notices.refuse(words.refused({ name: words.speed.supplyField, value, ...range }))
-        }
       />
     </span>
   );

@@ -11,7 +11,7 @@ import { DownloadProgress } from '../DownloadAndRun.tsx';
 import { startHindrance } from '../../../robot/readiness.ts';
 import { Button } from '../../../ui/Button.tsx';
 import { cx } from '../../../ui/cx.ts';
-import { NumberField } from '../../../ui/NumberField.tsx';
+import { CheckedNumber } from '../../CheckedNumber.tsx';
 import { words } from '../../../i18n/whole.ts';
 import styles from './Slots.module.css';
 import { obstacles, type CompiledGroup } from '../compile/compiled.ts';
@@ -206,7 +206,6 @@ interface GroupProps {
 }
 
 function Group({ document: { id, facts }, one, hindrance, toggle, setSlot }: GroupProps) {
-  const { notices } = useStores();
   const { min, max } = useDevice((state) => state.family.slot);
   const label = words.slots.several.slotOf({ name: facts.name });
   return (
@@ -219,14 +218,13 @@ function Group({ document: { id, facts }, one, hindrance, toggle, setSlot }: Gro
         </span>
       </label>
       {one !== undefined && (
-        <NumberField
+        <CheckedNumber
           label={label}
           size="small"
           value={one.slot}
           min={min}
           max={max}
           onChange={(slot) => setSlot(id, slot)}
-          onRefused={(slot) => notices.refuse(words.refused({ name: label, value: slot, min, max }))}
         />
       )}
       {hindrance !== null && <p className={styles.warning}>{hindrance}</p>}

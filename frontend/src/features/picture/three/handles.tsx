@@ -8,7 +8,7 @@ import type { Vec3 } from '#shared/kinematics/model.ts';
 import { type Robot, servoOf, positionOf, type RobotServo } from '#shared/profile/robot.ts';
 import { words } from '../../../i18n/whole.ts';
 import { Button } from '../../../ui/Button.tsx';
-import { NumberField } from '../../../ui/NumberField.tsx';
+import { CheckedNumber } from '../../CheckedNumber.tsx';
 import { freeOf, isLocked } from '../../servoView.ts';
 import { guessNow, usePad, useStores, type Stores } from '../../stores.ts';
 import { useMotions } from '../useMotions.ts';
@@ -178,7 +178,7 @@ export function PlaceFields({ limb, isLevel, isBlocked }: LimbProps) {
       {AXES.map((axis, index) => (
         <span key={axis} className={styles.axis}>
           <span aria-hidden="true">{axis.toUpperCase()}</span>
-          <NumberField
+          <CheckedNumber
             label={words.robot3d.axes[axis]}
             value={place?.[index] ?? null}
             {...FIELD_MM}
@@ -186,9 +186,6 @@ export function PlaceFields({ limb, isLevel, isBlocked }: LimbProps) {
             size="small"
             isDisabled={isBlocked || place === null}
             onChange={(mm) => go(index, mm)}
-            onRefused={(value) =>
-              stores.notices.refuse(words.refused({ name: words.robot3d.axes[axis], value, ...FIELD_MM }))
-            }
           />
         </span>
       ))}
