@@ -251,6 +251,10 @@ class NotPairedError(GatewayError):
     status: ClassVar[int] = 401
 
 
+class TokenExpiredError(NotPairedError):
+    """The time for which it was made is over."""
+
+
 class PairingError(GatewayError):
     """That link or code is not valid."""
 

@@ -1,7 +1,7 @@
 """A script with a token at a gateway on a LAN: what it asks over HTTP, and what reached its board."""
 
 import asyncio
-from collections.abc import AsyncIterator, Sequence
+from collections.abc import AsyncIterator, Callable, Sequence
 from contextlib import asynccontextmanager
 from dataclasses import dataclass
 from typing import Any
@@ -81,13 +81,21 @@ class DevicesInMemory(Devices):
 
 @asynccontextmanager
 async def script(
-    role: Role = "driver", board: str = "doc", behind: FakePort | None = None, *, identifies: bool = False
+    role: Role = "driver",
+    board: str = "doc",
+    behind: FakePort | None = None,
+    *,
+    identifies: bool = False,
+    clock_ms: Callable[[], int] = wall_clock_ms,
+    valid_ms: int | None = None,
 ) -> AsyncIterator[Scripted]:
-    """`behind` the port. `identifies`: the board is asked who it is from now on."""
+    """`behind` the port. `identifies`: the board is asked who it is from now on. `clock_ms`: of the list of
+    devices, by which the token expires after `valid_ms`.
+    """
     port = behind or FakePort()
-    entrance = Entrance(addresses.lan(PORT), DevicesInMemory(NoDeviceStore(), wall_clock_ms), now)
+    entrance = Entrance(addresses.lan(PORT), DevicesInMemory(NoDeviceStore(), clock_ms), now)
     _, owner = entrance.devices.admit("device", "Olga", "owner")
-    device, token = entrance.devices.admit("token", "Dance", role)
+    device, token = entrance.devices.admit("token", "Dance", role, valid_ms)
     control = Control(FakePorts(port), now, board, identifies_board=identifies)
     await control.use_port(DEVICE)
     await asyncio.sleep(0.1)

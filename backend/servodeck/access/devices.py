@@ -19,20 +19,29 @@ from pathlib import Path
 from typing import Literal, Protocol
 
 from servodeck.callers import LOCAL_NAMES, Caller, Role
-from servodeck.errors import ForbiddenError, NotFoundError, OutOfRangeError, StorageError
+from servodeck.errors import (
+    ForbiddenError,
+    NotFoundError,
+    OutOfRangeError,
+    StorageError,
+    TokenExpiredError,
+)
 from servodeck.files import storage_error
 from servodeck.threads import in_thread
-from servodeck.value import value
+from servodeck.value import fields_of, value
 
 Kind = Literal["device", "token", "stopLink"]
 MAX_DEVICES = 500
 MAX_NAME = 64
 SECRET_BYTES = 24
+EXPIRED = "This token has expired. An owner makes a new one on the page, under People."
 
 
 @value
 class Device:
-    """`last_seen_ms` is None until its first request."""
+    """`last_seen_ms` is None until its first request, `expires_at_ms` where it is valid until it is revoked.
+    `expired_at_ms`: when it was found to have expired, from then on whatever the clock says.
+    """
 
     id: str
     kind: Kind
@@ -41,6 +50,8 @@ class Device:
     digest: bytes
     paired_at_ms: int
     last_seen_ms: int | None = None
+    expires_at_ms: int | None = None
+    expired_at_ms: int | None = None
 
     @property
     def caller(self) -> Caller:
@@ -75,21 +86,26 @@ class Devices:
     def all(self) -> list[Device]:
         return list(self._devices.values())
 
-    def admit(self, kind: Kind, name: str, role: Role) -> tuple[Device, str]:
-        """A new one and its credential, which is not stored."""
+    def admit(self, kind: Kind, name: str, role: Role, valid_ms: int | None = None) -> tuple[Device, str]:
+        """A new one and its credential, which is not stored. `valid_ms` None: until it is revoked."""
         if len(self._devices) >= MAX_DEVICES:
             raise OutOfRangeError(f"{MAX_DEVICES} devices are paired, which is the limit. Revoke one first.")
         secret = make_secret()
-        device = Device(make_id(), kind, self._unique_name(name), role, digest_of(secret), self._now_ms())
+        made_ms = self._now_ms()
+        expires_at_ms = None if valid_ms is None else made_ms + valid_ms
+        own_name, digest = self._unique_name(name), digest_of(secret)
+        device = Device(make_id(), kind, own_name, role, digest, made_ms, expires_at_ms=expires_at_ms)
         self._put(device)
         return device, f"{device.id}.{secret}"
 
     def find(self, credential: str) -> Device | None:
-        """The device of that credential, which counts as seen now."""
+        """The device of that credential, which counts as seen now. Raises TokenExpiredError."""
         name, _, secret = credential.partition(".")
         device = self._devices.get(name)
         if device is None or not matches(secret, device.digest):
             return None
+        if self.expires_in_ms(device) == 0:
+            raise TokenExpiredError(EXPIRED)
         seen = replace(device, last_seen_ms=self._now_ms())
         self._devices[name] = seen
         return seen
@@ -125,9 +141,29 @@ class Devices:
         return found
 
     def role_of(self, device: str) -> Role | None:
-        """None where it is not paired any more."""
+        """None where it is not paired any more, or has expired."""
         found = self._devices.get(device)
-        return found.role if found else None
+        return None if found is None or self.expires_in_ms(found) == 0 else found.role
+
+    def expires_in_ms(self, device: Device) -> int | None:
+        """0 where it has expired; None where it never does."""
+        if device.expired_at_ms is not None:
+            return 0
+        return None if device.expires_at_ms is None else max(0, device.expires_at_ms - self._now_ms())
+
+    def expire(self) -> list[Device]:
+        """Those that have expired since the last call; they stay in the list."""
+        now_ms = self._now_ms()
+        over = [one for one in self.all if one.expired_at_ms is None and self.expires_in_ms(one) == 0]
+        for one in over:
+            self._put(replace(one, expired_at_ms=now_ms))
+        return over
+
+    @property
+    def next_expiry_ms(self) -> int | None:
+        """From now until the next one expires."""
+        waiting = (one for one in self.all if one.expired_at_ms is None)
+        return min((left for one in waiting if (left := self.expires_in_ms(one)) is not None), default=None)
 
     def _unique_name(self, name: str, but: Device | None = None) -> str:
         """With a number behind it where the name is taken: a class has more than one Android. The name of the
@@ -153,10 +189,12 @@ def is_owners(device: Device) -> bool:
 
 FILE = "devices.sqlite"
 BUSY_S = 2.0
-VERSION = 1
+# Version 1 has no columns of expiry. It is read as it is, and replaced as a whole by the next write.
+VERSION = 2
 TABLE = (
     "CREATE TABLE IF NOT EXISTS device (id TEXT PRIMARY KEY, kind TEXT NOT NULL, name TEXT NOT NULL, "
-    "role TEXT NOT NULL, digest BLOB NOT NULL, paired_at_ms INTEGER NOT NULL, last_seen_ms INTEGER)"
+    "role TEXT NOT NULL, digest BLOB NOT NULL, paired_at_ms INTEGER NOT NULL, last_seen_ms INTEGER, "
+    "expires_at_ms INTEGER, expired_at_ms INTEGER)"
 )
 
 
@@ -210,12 +248,9 @@ class DeviceFile:
 def write(db: sqlite3.Connection, devices: list[Device]) -> None:
     db.execute("BEGIN IMMEDIATE")
     try:
-        db.execute("DELETE FROM device")
-        rows = [
-            (one.id, one.kind, one.name, one.role, one.digest, one.paired_at_ms, one.last_seen_ms)
-            for one in devices
-        ]
-        db.executemany("INSERT INTO device VALUES (?, ?, ?, ?, ?, ?, ?)", rows)
+        db.execute("DROP TABLE device")
+        db.execute(TABLE)
+        db.executemany("INSERT INTO device VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)", map(fields_of, devices))
         db.execute(f"PRAGMA user_version = {VERSION}")
         db.execute("COMMIT")
     finally:

@@ -156,7 +156,7 @@ class Entrance:
         self._rates = Rates(now)
 
     def find(self, headers: list[tuple[bytes, bytes]]) -> Caller | None:
-        """The authenticated caller, else None."""
+        """The authenticated caller, else None. Raises TokenExpiredError."""
         if not self.access.needs_pairing:
             return THIS_COMPUTER
         credential = credential_of(headers, self.access.cookie)
@@ -164,7 +164,9 @@ class Entrance:
         return device.caller if device else None
 
     def judge(self, headers: list[tuple[bytes, bytes]], role: Role) -> Caller:
-        """Raises NotPairedError for an unauthenticated caller, ForbiddenError for one who may do less."""
+        """Raises NotPairedError for an unauthenticated caller, or one whose token has expired, ForbiddenError
+        for one who may do less.
+        """
         caller = self.find(headers)
         if caller is None:
             raise NotPairedError("This device is not paired with the gateway.")
@@ -172,7 +174,9 @@ class Entrance:
         return caller
 
     def still_lets_in(self, caller: Caller) -> bool:
-        """A caller that was authenticated a moment ago may have been revoked since, or have another role."""
+        """A caller that was authenticated a moment ago may have been revoked since, have expired, or have
+        another role.
+        """
         return not self.access.needs_pairing or self.devices.role_of(caller.id) == caller.role
 
     def count(self, caller: Caller) -> None:

@@ -23,6 +23,7 @@ from starlette.types import Receive, Scope, Send
 
 from servodeck import __version__, metrics
 from servodeck.access.entrance import Entrance
+from servodeck.access.expiry import Expiry
 from servodeck.access.guard import Guard, log_refusal
 from servodeck.api.health import LoopDelay, health_api, sign_of_life
 from servodeck.api.page import STATIC, page
@@ -157,6 +158,7 @@ def create_app(
     app = app_without_state()
     app.state.control = control
     app.state.scripts = Scripts(control, entrance.still_lets_in)
+    app.state.expiry = Expiry(entrance.devices, app.state.scripts.disconnect)
     app.state.library = library
     app.state.cameras = tuple(cameras)
     app.state.open_streams = 0
@@ -195,7 +197,10 @@ async def lifespan(app: LaterApp) -> AsyncIterator[None]:
     control: Control = app.state.control
     sampling = asyncio.create_task(app.state.loop_delay.run())
     loading = asyncio.create_task(app.load_soon())
+    expiry: Expiry = app.state.expiry
+    expiry.plan()
     yield
+    expiry.end()
     loading.cancel()
     sampling.cancel()
     await control.shut_down()

@@ -118,6 +118,7 @@ PERSON = {
     "role": "owner",
     "pairedAtMs": 1795284000000,
     "lastSeenMs": 1795287600000,
+    "expiresInMs": None,
     "here": True,
     "drives": False,
     "unattendedSlot": None,
@@ -286,7 +287,8 @@ EXAMPLES: dict[tuple[str, str], Example] = {
     ),
     ("DELETE", "/api/invites/{invitation}"): Example(None),
     ("POST", "/api/tokens"): Example(
-        {"id": "1679091c5a880faf", "token": "1679091c5a880faf.SECRET"}, {"name": "Dance", "role": "driver"}
+        {"id": "1679091c5a880faf", "token": "1679091c5a880faf.SECRET"},
+        {"name": "Dance", "role": "driver", "expiresInDays": 30},
     ),
     ("POST", "/api/stop-links"): Example(
         {"id": "8f14e45fceea167a", "link": "http://servodeck.local:8300/#stop=SECRET", "picture": QR},

@@ -12,8 +12,9 @@ from pydantic import Field
 from starlette.requests import HTTPConnection
 
 from servodeck.access.addresses import Mode, link_base, pair_link, picture_of, stop_link
-from servodeck.access.devices import Device, Kind
+from servodeck.access.devices import Device, Devices, Kind
 from servodeck.access.entrance import Entrance
+from servodeck.access.expiry import Expiry
 from servodeck.api.motion import Scripted
 from servodeck.api.routes import OWNER, PUBLIC, VIEWER, Controlled, entrance_of, routes
 from servodeck.callers import Caller, Role
@@ -22,6 +23,8 @@ from servodeck.robot.control import Control
 from servodeck.robot.hub import is_of
 from servodeck.schema import Message
 
+MAX_TOKEN_DAYS = 3650
+DAY_MS = 24 * 3600 * 1000
 PersonRole = Literal["viewer", "driver", "owner"]
 Name = Annotated[str, Field(max_length=64, pattern=r"^[^\x00-\x1f\x7f]*$")]
 GivenName = Annotated[str, Field(max_length=64, pattern=r"^[^\s\x00-\x1f\x7f][^\x00-\x1f\x7f]*$")]
@@ -58,7 +61,8 @@ class OwnName(Message):
 
 class Person(Message):
     """A paired device, a script's token or a stop-only link. `here`: it has the page open now; `drives`: it
-    has the lease. `unattendedSlot`: of its group that runs unattended.
+    has the lease. `unattendedSlot`: of its group that runs unattended. `expiresInMs`: 0 where it has
+    expired; null where it is valid until it is revoked.
 
     """
 
@@ -68,6 +72,7 @@ class Person(Message):
     role: Role
     paired_at_ms: int
     last_seen_ms: int | None
+    expires_in_ms: int | None
     here: bool
     drives: bool
     unattended_slot: int | None
@@ -104,8 +109,11 @@ class Invitation(Message):
 
 
 class TokenWish(Message):
+    """`expiresInDays`: from now, of 24 hours each; without it the token is valid until it is revoked."""
+
     name: GivenName
     role: PersonRole
+    expires_in_days: Annotated[int | None, Field(ge=1, le=MAX_TOKEN_DAYS)] = None
 
 
 class Token(Message):
@@ -139,7 +147,14 @@ async def base_of(connection: HTTPConnection) -> str:
     return link_base(connection.app.state.entrance.access, connection.headers["host"])
 
 
+async def expiry_of(connection: HTTPConnection) -> Expiry:
+    expiry = connection.app.state.expiry
+    assert isinstance(expiry, Expiry)
+    return expiry
+
+
 Base = Annotated[str, Depends(base_of)]
+Expiring = Annotated[Expiry, Depends(expiry_of)]
 
 
 @people_api.get("/me")
@@ -222,13 +237,13 @@ def accept_invite(wish: PairWish, entrance: Entrance, present: Caller | None) ->
 async def people(entrance: Entered, control: Controlled) -> People:
     """All devices, tokens and links, and the open invitations."""
     return People(
-        people=[person_of(one, control) for one in entrance.devices.all],
+        people=[person_of(one, entrance.devices, control) for one in entrance.devices.all],
         open_invites=[invite.id for invite in entrance.pairing.open],
         open_codes=[invite.id for invite in entrance.pairing.open if invite.code],
     )
 
 
-def person_of(device: Device, control: Control) -> Person:
+def person_of(device: Device, devices: Devices, control: Control) -> Person:
     driver, unattended = control.driving.driver, control.board.unattended
     own = unattended.snapshot() if is_of(unattended.by, device.id) else None
     return Person(
@@ -238,6 +253,7 @@ def person_of(device: Device, control: Control) -> Person:
         role=device.role,
         paired_at_ms=device.paired_at_ms,
         last_seen_ms=device.last_seen_ms,
+        expires_in_ms=devices.expires_in_ms(device),
         here=control.hub.holds(device.id),
         drives=is_of(driver, device.id),
         unattended_slot=own.slot if own else None,
@@ -265,7 +281,7 @@ async def change(
         reason, still_drives = "Your role is another one now.", changed.caller.may("driver")
         await scripts.disconnect(person, reason, by.name, still_drives=still_drives)
     await entrance.devices.save()
-    return person_of(changed, control)
+    return person_of(changed, entrance.devices, control)
 
 
 @people_api.delete("/people/{person}", status_code=204)
@@ -304,9 +320,13 @@ async def withdraw(invitation: str, entrance: Entered) -> None:
 
 
 @people_api.post("/tokens", dependencies=[OWNER])
-async def make_token(wish: TokenWish, entrance: Entered) -> Token:
-    """A token for a script: `Authorization: Bearer TOKEN`."""
-    device, token = entrance.devices.admit("token", wish.name, wish.role)
+async def make_token(wish: TokenWish, entrance: Entered, expiry: Expiring) -> Token:
+    """A token for a script: `Authorization: Bearer TOKEN`. When it expires, its connections and its motion
+    end as with a revocation; it stays in the list until an owner revokes it.
+    """
+    valid_ms = None if wish.expires_in_days is None else wish.expires_in_days * DAY_MS
+    device, token = entrance.devices.admit("token", wish.name, wish.role, valid_ms)
+    expiry.plan()
     await entrance.devices.save()
     return Token(id=device.id, token=token)
 

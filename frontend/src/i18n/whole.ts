@@ -39,6 +39,11 @@ export function datesIn(locale: string) {
       const [unit, unitMs] = LONGER.find(([, each]) => ms >= each) ?? ['second', 1000];
       return ago.format(-Math.max(0, Math.floor(ms / unitMs)), unit);
     },
+    /** `in 12 days`, rounded up in the largest unit that fits. */
+    formatLongWait: (ms: number): string => {
+      const [unit, unitMs] = LONGER.find(([, each]) => ms >= each) ?? ['second', 1000];
+      return ago.format(Math.max(0, Math.ceil(ms / unitMs)), unit);
+    },
   };
 }
 

@@ -1522,6 +1522,9 @@ export interface Messages {
     readonly handOverHint: string;
     readonly never: string;
     readonly seen: (values: { readonly when: string }) => string;
+    readonly used: (values: { readonly when: string }) => string;
+    readonly expires: (values: { readonly when: string }) => string;
+    readonly expired: string;
     readonly rename: (values: { readonly name: string }) => string;
     readonly roleOf: (values: { readonly name: string }) => string;
     readonly revoke: string;
@@ -1535,6 +1538,13 @@ export interface Messages {
       readonly title: string;
       readonly name: string;
       readonly token: string;
+      readonly validity: string;
+      readonly validities: {
+        readonly day: string;
+        readonly month: string;
+        readonly year: string;
+        readonly unlimited: string;
+      };
       readonly stopLink: string;
       readonly tokenTitle: string;
       readonly tokenText: string;

@@ -1279,11 +1279,14 @@ export interface components {
     /**
      * Person
      * @description A paired device, a script's token or a stop-only link. `here`: it has the page open now; `drives`: it
-     *     has the lease. `unattendedSlot`: of its group that runs unattended.
+     *     has the lease. `unattendedSlot`: of its group that runs unattended. `expiresInMs`: 0 where it has
+     *     expired; null where it is valid until it is revoked.
      */
     Person: {
       /** Drives */
       drives: boolean;
+      /** Expiresinms */
+      expiresInMs: number | null;
       /** Here */
       here: boolean;
       /** Id */
@@ -1789,8 +1792,13 @@ export interface components {
       /** Token */
       token: string;
     };
-    /** TokenWish */
+    /**
+     * TokenWish
+     * @description `expiresInDays`: from now, of 24 hours each; without it the token is valid until it is revoked.
+     */
     TokenWish: {
+      /** Expiresindays */
+      expiresInDays?: number | null;
       /** Name */
       name: string;
       /**

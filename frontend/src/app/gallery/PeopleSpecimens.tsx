@@ -51,7 +51,15 @@ const CASES: readonly { readonly name: string; readonly state: PeopleState }[] =
   },
   {
     name: 'People, token shown',
-    state: { ...EMPTY, shown: { kind: 'token', name: 'Script', token: 'abc123.not-a-real-one' } },
+    state: {
+      ...EMPTY,
+      people: [
+        ...EMPTY.people,
+        token('nightly', 'Nightly test', 12 * 86_400_000),
+        token('fair', 'Dance of the fair', 0),
+      ],
+      shown: { kind: 'token', name: 'Script', token: 'abc123.not-a-real-one' },
+    },
   },
   {
     name: 'People, stop-only link shown',
@@ -82,7 +90,12 @@ function person(id: string, name: string, role: PeopleState['people'][number]['r
     unattendedSlot: null,
     pairedAtMs: AT_MS,
     lastSeenMs: AT_MS,
+    expiresInMs: null,
   } as const;
+}
+
+function token(id: string, name: string, expiresInMs: number): PeopleState['people'][number] {
+  return { ...person(id, name, 'driver', false), kind: 'token', expiresInMs };
 }
 
 const PROBLEMS: readonly (PeopleError | null)[] = [

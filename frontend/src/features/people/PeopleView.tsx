@@ -10,6 +10,8 @@ import {
   type PeopleWishes,
   type Shown,
   PERSON_ROLES,
+  VALIDITIES,
+  type Validity,
   type PeopleState,
   type PersonRole,
   type OpenInvitation,
@@ -52,6 +54,8 @@ export function OwnView({ me, onRename }: OwnViewProps) {
   );
 }
 
+const VALIDITY_NAMES = Object.keys(VALIDITIES) as readonly Validity[];
+
 /** Tokens for scripts and stop-only QR codes. Each is shown only once. */
 interface ScriptsCardProps {
   readonly wishes: PeopleWishes;
@@ -60,6 +64,7 @@ interface ScriptsCardProps {
 
 function ScriptsCard({ shown, wishes }: ScriptsCardProps) {
   const [name, setName] = useState('');
+  const [validity, setValidity] = useState<Validity>('month');
   const wanted = name.trim();
   return (
     <section className={styles.card} aria-label={words.people.more.title}>
@@ -74,7 +79,13 @@ function ScriptsCard({ shown, wishes }: ScriptsCardProps) {
           autoComplete="off"
           onChange={({ target }) => setName(target.value)}
         />
-        <Button isDisabled={wanted === ''} onPress={() => wishes.makeToken(wanted, 'driver')}>
+        <Select<Validity>
+          label={words.people.more.validity}
+          value={validity}
+          options={VALIDITY_NAMES.map((value) => ({ value, label: words.people.more.validities[value] }))}
+          onChange={setValidity}
+        />
+        <Button isDisabled={wanted === ''} onPress={() => wishes.makeToken(wanted, 'driver', validity)}>
           {words.people.more.token}
         </Button>
         <Button isDisabled={wanted === ''} onPress={() => wishes.makeStopLink(wanted)}>
@@ -149,7 +160,7 @@ interface PersonRowProps extends PersonProps {
 }
 
 function PersonRow({ person, isYou, wishes, onHandOver }: PersonRowProps) {
-  const { id, kind, name, role } = person;
+  const { id, kind, name, role, expiresInMs } = person;
   return (
     <li className={styles.person}>
       <div className={styles.who}>
@@ -160,6 +171,13 @@ function PersonRow({ person, isYou, wishes, onHandOver }: PersonRowProps) {
           onRename={(wanted) => wishes.change(id, { name: wanted })}
         />
         <span className={styles.dim}>{isYou ? words.people.you : words.people.kinds[kind]}</span>
+        {expiresInMs !== null && (
+          <span className={expiresInMs > 0 ? styles.dim : styles.expired}>
+            {expiresInMs > 0
+              ? words.people.expires({ when: words.dates.formatLongWait(expiresInMs) })
+              : words.people.expired}
+          </span>
+        )}
       </div>
       {role === 'stopper' ? (
         <span className={styles.role}>{words.people.roleNames.stopper}</span>
@@ -209,16 +227,18 @@ function RevokeControl({ person: { id, name, unattendedSlot }, wishes }: PersonP
   );
 }
 
-function Presence({ person: { here, drives, lastSeenMs } }: { readonly person: Person }) {
+function Presence({ person: { kind, here, drives, lastSeenMs } }: { readonly person: Person }) {
   if (drives) return <Chip truth="commanded">{words.people.drives}</Chip>;
   if (here) return <Chip truth="confirmed">{words.people.here}</Chip>;
-  return (
-    <span className={styles.dim}>
-      {lastSeenMs === null
-        ? words.people.never
-        : words.people.seen({ when: words.dates.formatMoment(lastSeenMs) })}
-    </span>
-  );
+  return <span className={styles.dim}>{lastSeenText(kind, lastSeenMs)}</span>;
+}
+
+/** A script that runs each minute says more by an age than by a moment. */
+function lastSeenText(kind: Person['kind'], atMs: number | null): string {
+  if (atMs === null) return words.people.never;
+  return kind === 'token'
+    ? words.people.used({ when: words.dates.formatLongAge(Date.now() - atMs) })
+    : words.people.seen({ when: words.dates.formatMoment(atMs) });
 }
 
 interface RoleSelectProps {

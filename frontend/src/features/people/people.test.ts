@@ -37,7 +37,10 @@ function gateway() {
     },
     change: () => Promise.reject(new PeopleError('refused', 'This is the last owner')),
     revoke: () => Promise.reject(new PeopleError('unreachable', '')),
-    makeToken: ({ name }) => Promise.resolve({ id: 'token', token: `secret of ${name}` }),
+    makeToken({ name, expiresInDays }) {
+      requested.push(`token ${name} for ${expiresInDays}`);
+      return Promise.resolve({ id: 'token', token: `secret of ${name}` });
+    },
     makeStopLink: () => Promise.resolve({ id: 'link', link: '#stop=x', picture: '' }),
   };
   return { api, requested, open, countsCodes };
@@ -100,9 +103,11 @@ test('a new invitation and the end of it take the one before back', async () => 
   expect(robot.requested).toHaveLength(4);
 });
 
-test('a token is shown until it is closed', async () => {
-  people.makeToken('Script', 'driver');
+test('a token is made for as long as was chosen, and shown until it is closed', async () => {
+  people.makeToken('Fair', 'driver', 'unlimited');
+  people.makeToken('Script', 'driver', 'month');
   await settled();
+  expect(robot.requested).toEqual(['token Fair for null', 'token Script for 30']);
   expect(people.store.getState().shown).toEqual({ kind: 'token', name: 'Script', token: 'secret of Script' });
   people.closeShown();
   expect(people.store.getState().shown).toBeNull();

@@ -29,6 +29,10 @@ export function peopleProblem(code: PeopleErrorCode, detail: string): string {
 }
 
 export type PersonRole = InviteWish['role'];
+/** Days for which a token is valid; null: until it is revoked. */
+export const VALIDITIES = { day: 1, month: 30, year: 365, unlimited: null } as const;
+export type Validity = keyof typeof VALIDITIES;
+
 export const PERSON_ROLES: readonly PersonRole[] = ['viewer', 'driver', 'owner'];
 
 /** Each rejects with a PeopleError. */
@@ -83,7 +87,7 @@ export interface PeopleStore {
   endInvitation(): void;
   change(person: string, wanted: PersonChange): void;
   revoke(person: string, continues: boolean): void;
-  makeToken(name: string, role: PersonRole): void;
+  makeToken(name: string, role: PersonRole, validity: Validity): void;
   makeStopLink(name: string): void;
   closeShown(): void;
 }
@@ -160,9 +164,9 @@ export function createPeople({ api, me, notices, now }: PeopleOptions): PeopleSt
     endInvitation: () => void withdraw(),
     change: (person, wanted) => act(() => api.change(person, wanted)),
     revoke: (person, continues) => act(() => api.revoke(person, continues)),
-    makeToken: (name, role) =>
+    makeToken: (name, role, validity) =>
       act(async () => {
-        const { token } = await api.makeToken({ name, role });
+        const { token } = await api.makeToken({ name, role, expiresInDays: VALIDITIES[validity] });
         store.setState({ shown: { kind: 'token', name, token } });
       }),
     makeStopLink: (name) =>
@@ -201,6 +205,7 @@ const peopleSchema: v.GenericSchema<unknown, People> = v.object({
       role,
       pairedAtMs: number,
       lastSeenMs: v.nullable(number),
+      expiresInMs: v.nullable(number),
       here: v.boolean(),
       drives: v.boolean(),
       unattendedSlot: v.nullable(number),
