@@ -28,6 +28,24 @@ class FrameBody(Message):
         return Frame(self.duration_ms, tuple(targets))
 
 
+Version = Annotated[str, Field(max_length=64)]
+
+
+class GroupBody(Message):
+    """`version` is any text that distinguishes it from other groups; by default the gateway makes one.
+    `replaces`: the version that the caller expects in the slot, an empty text for none; another one there is
+    a conflict. `document`: its document in the library.
+
+    """
+
+    slot: Annotated[int, Field(ge=0, le=255)]
+    name: Annotated[str, Field(max_length=64)] = ""
+    version: Version = ""
+    replaces: Version | None = None
+    document: Version | None = None
+    frames: Annotated[list[FrameBody], Field(min_length=1, max_length=255)]
+
+
 class PlayIntent(Message):
     """`frames` one after the other, gently to the first one, each at its time by the gateway's clock. `times`
     0: until stopped. Each pass but the first begins with frame `loopFrom`.

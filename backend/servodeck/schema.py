@@ -10,7 +10,7 @@ import warnings
 from contextlib import closing
 from typing import Any
 
-from pydantic import BaseModel, ConfigDict, TypeAdapter
+from pydantic import BaseModel, ConfigDict, TypeAdapter, ValidationError
 from pydantic.alias_generators import to_camel
 from pydantic.json_schema import GenerateJsonSchema
 from pydantic.warnings import UnsupportedFieldAttributeWarning
@@ -30,6 +30,13 @@ class Message(BaseModel):
         json_schema_serialization_defaults_required=True,
         defer_build=True,  # a start sends few of them; building all was a sixth of its time
     )
+
+
+def first_problem(error: ValidationError) -> str:
+    """One line: where and what; never the input itself."""
+    problem = error.errors(include_url=False, include_context=False, include_input=False)[0]
+    where = ".".join(str(part) for part in problem["loc"])
+    return f"{where}: {problem['msg']}" if where else problem["msg"]
 
 
 class PlainSchema(GenerateJsonSchema):

@@ -139,6 +139,17 @@ class UnattendedRun(Message):
     ends_in_ms: int
 
 
+class Running(Message):
+    """The group that may run: it was begun, and neither stopped nor reported as ended. `endsInMs`: at the
+    latest; null where only the board knows, which not every family reports.
+
+    """
+
+    slot: int
+    times: int
+    ends_in_ms: int | None
+
+
 class StoredGroup(Message):
     """The group that was last stored in a slot: its version, name, document in the library, author and time
     in milliseconds since 1970; null where unknown.

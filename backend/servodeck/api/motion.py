@@ -4,8 +4,7 @@ to the board or played by the gateway.
 Translates requests for `scripts` and the robot profile, and decides nothing.
 """
 
-import asyncio
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Annotated
 
 from fastapi import Depends, Path, Request
@@ -17,9 +16,8 @@ from servodeck.api.routes import DRIVER, OWNER, VIEWER, Controlled, routes
 from servodeck.api.websocket import play as play_for_page
 from servodeck.callers import Caller
 from servodeck.errors import CancelledError, MalformedError
-from servodeck.intents import ContinueMs, FrameBody, MessageId, Nonce, PersonId, PlayIntent, Servo
-from servodeck.protocol.values import Frame
-from servodeck.robot.board.download import Group, parts_of
+from servodeck.intents import ContinueMs, GroupBody, MessageId, Nonce, PersonId, PlayIntent, Servo
+from servodeck.robot.board.download import frames_of, group_of, parts_of
 from servodeck.robot.board.playing import FrameGroup
 from servodeck.robot.scripts import ScriptAction, Scripts
 from servodeck.schema import Message
@@ -208,37 +206,6 @@ async def apply(
     return await begin_move(request, caller, scripts, wish.time_ms, positions, take=wish.take)
 
 
-Version = Annotated[str, Field(max_length=64)]
-
-
-class GroupBody(Message):
-    """`version` is any text that distinguishes it from other groups; by default the gateway makes one.
-    `replaces`: the version that the caller expects in the slot, an empty text for none; another one there is
-    a conflict. `document`: its document in the library.
-
-    """
-
-    slot: Annotated[int, Field(ge=0, le=255)]
-    name: Annotated[str, Field(max_length=64)] = ""
-    version: Version = ""
-    replaces: Version | None = None
-    document: Version | None = None
-    frames: Annotated[list[FrameBody], Field(min_length=1, max_length=255)]
-
-    async def group(self) -> Group:
-        frames = await frames_of(self.frames)
-        return Group(self.slot, self.name, frames, self.version, self.replaces, self.document)
-
-
-async def frames_of(bodies: Sequence[FrameBody]) -> list[Frame]:
-    """Other tasks run between two frames, as in `parts_of`."""
-    frames = []
-    for body in bodies:
-        frames.append(body.frame())
-        await asyncio.sleep(0)
-    return frames
-
-
 class DownloadWish(Message):
     """`groups` are stored in this order, each in a slot of its own. `behind`: the download in progress to
     which they are added, because a request holds a limited number. `nonce`: of the page that drives; a
@@ -268,7 +235,7 @@ async def download(
 
     """
     control.board.identification.judge_known()
-    groups = [await body.group() for body in wish.groups]
+    groups = [await group_of(body) for body in wish.groups]
     parts = await parts_of(groups, control.board.family_id)
     nonce = wish.nonce
     if nonce is None:

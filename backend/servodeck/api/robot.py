@@ -9,7 +9,6 @@ import asyncio
 import contextlib
 import itertools
 import json
-import math
 import secrets
 from dataclasses import asdict
 from typing import Annotated, Literal
@@ -33,24 +32,21 @@ from servodeck.robot.driving import name_of
 from servodeck.robot.hub import Session
 from servodeck.robot.latch import Cause
 from servodeck.schema import Message
-from servodeck.snapshots import IdentityState, LinkState, PlayState, PortState, UnattendedRun, UnheldServos
+from servodeck.snapshots import (
+    IdentityState,
+    LinkState,
+    PlayState,
+    PortState,
+    Running,
+    UnattendedRun,
+    UnheldServos,
+)
 from servodeck.threads import in_thread
 
 
 class BatteryAge(Message):
     battery_mv: int
     age_ms: int
-
-
-class Running(Message):
-    """The group that may run: it was begun, and neither stopped nor reported as ended. `endsInMs`: at the
-    latest; null where only the board knows, which not every family reports.
-
-    """
-
-    slot: int
-    times: int
-    ends_in_ms: int | None
 
 
 class Status(Message):
@@ -140,19 +136,10 @@ async def status(control: Controlled) -> Status:
         clients=len(control.hub),
         battery=age_of(control),
         driver=name_of(control.driving.driver),
-        running=running_in(control),
+        running=control.board.activity.running(),
         play=control.board.plays.latest,
         unattended=control.board.unattended.snapshot(),
     )
-
-
-def running_in(control: Control) -> Running | None:
-    motion, now = control.board.motion, control.now()
-    if motion.run is None or not motion.group_may_run(now):
-        return None
-    ends_in_s = motion.group_ends_in_s(now)
-    ends_in_ms = None if ends_in_s is None else math.ceil(ends_in_s * 1000)
-    return Running(slot=motion.run.slot, times=motion.run.times, ends_in_ms=ends_in_ms)
 
 
 def age_of(control: Control) -> BatteryAge | None:

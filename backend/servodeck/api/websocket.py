@@ -48,6 +48,7 @@ from servodeck.robot.control import Control
 from servodeck.robot.hub import AGAINST_THE_RULES, Session
 from servodeck.robot.latch import Cause
 from servodeck.robot.operations import PageClaim
+from servodeck.schema import first_problem
 from servodeck.snapshots import Outcome, PlayState
 
 UNSUPPORTED_DATA, OUTDATED_PAGE = 1003, 4001
@@ -338,10 +339,3 @@ def refusing(session: Session, message_id: int | None) -> Iterator[None]:
 def refuse(session: Session, message_id: int | None, error: GatewayError) -> None:
     metrics.refused[error.code] += 1
     session.put(encode(RefusedMessage(id=message_id, code=error.code, detail=error.detail)))
-
-
-def first_problem(error: ValidationError) -> str:
-    """One line: where and what; never the input itself."""
-    problem = error.errors(include_url=False, include_context=False, include_input=False)[0]
-    where = ".".join(str(part) for part in problem["loc"])
-    return f"{where}: {problem['msg']}" if where else problem["msg"]

@@ -6,6 +6,7 @@ Knows packets, reports and time; no wire and no client, and not how a run is sto
 """
 
 import asyncio
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
@@ -16,7 +17,7 @@ from servodeck.protocol.values import Command, Move, Report, Run
 from servodeck.robot.board.estimate import Estimate
 from servodeck.robot.board.playing import Playing, Plays
 from servodeck.robot.hub import Session
-from servodeck.snapshots import UnattendedRun
+from servodeck.snapshots import Running, UnattendedRun
 from servodeck.value import value
 
 
@@ -63,6 +64,15 @@ class Activity:
     def may_still_move(self) -> bool:
         """Also with the last frame of a group that its driver has ended."""
         return self.may_move() or self.motion.last_frame_may_move(self._now())
+
+    def running(self) -> Running | None:
+        """The group of the board that may run, for clients."""
+        motion, now = self.motion, self._now()
+        if motion.run is None or not motion.group_may_run(now):
+            return None
+        ends_in_s = motion.group_ends_in_s(now)
+        ends_in_ms = None if ends_in_s is None else math.ceil(ends_in_s * 1000)
+        return Running(slot=motion.run.slot, times=motion.run.times, ends_in_ms=ends_in_ms)
 
     def is_at_rest(self) -> bool:
         """Nothing moves, nor may anything unknown: flash work freezes servos and then lets them jump (S29,

@@ -13,6 +13,7 @@ from contextlib import suppress
 
 from servodeck.callers import Caller
 from servodeck.errors import CancelledError, GatewayError, NoAnswerError, OutOfRangeError
+from servodeck.intents import FrameBody, GroupBody
 from servodeck.port.wire import Left, Wire
 from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.packets import encode
@@ -62,6 +63,20 @@ def judge_parts(parts: Sequence[Part], board: str) -> None:
         raise OutOfRangeError(f"Slot {twice} is given twice.")
     if any(part.board != board for part in parts):
         raise CancelledError("Another board was chosen.")
+
+
+async def frames_of(bodies: Sequence[FrameBody]) -> list[Frame]:
+    """Other tasks run between two frames, as in `parts_of`."""
+    frames = []
+    for body in bodies:
+        frames.append(body.frame())
+        await asyncio.sleep(0)
+    return frames
+
+
+async def group_of(body: GroupBody) -> Group:
+    frames = await frames_of(body.frames)
+    return Group(body.slot, body.name, frames, body.version, body.replaces, body.document)
 
 
 async def parts_of(groups: Sequence[Group], board: str) -> list[Part]:
