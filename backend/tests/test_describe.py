@@ -5,9 +5,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from servodeck.errors import MalformedError
-from servodeck.protocol.describe import bytes_in, pieces_of
+from servodeck.protocol.describe import pieces_of
+from servodeck.protocol.pasted import bytes_in
 
 FROM_BOARD = "; from a board: "
+BOTH = bytes.fromhex("5555020F 5555040F3831")
+
+
+def saleae(cell: str) -> str:
+    rows = (f'"Async Serial","data",0.00{at:02},0.0001,{cell.format(one)}\n' for at, one in enumerate(BOTH))
+    return "".join(rows)
 
 
 def words_of(text: str) -> list[str]:
@@ -83,6 +90,14 @@ def test_a_report_in_words(packet: str, words: str) -> None:
         "0x55, 0x55, 0x2, 0xF, 0X55 0x55 0x04 0x0F 0x38 0x31",
         r"\x55\x55\x02\x0f\x55\x55\x04\x0f\x38\x31",
         "Time [s],Value\n0.01,0x55\n0.02,0x55\n0.03,0x02\n0.04,0x0F\n1.01,0x55 0x55 0x04 0x0F 0x38 0x31",
+        # Saleae Logic 2, its table with a decimal radix and quoted cells, and Logic 1
+        'name,type,start_time,duration,"data"\n' + saleae('"{0:#04x}"'),
+        "name,type,start_time,duration,data\n" + saleae("{0}"),
+        "name,type,start_time,duration,data\n" + saleae('"{0:02X}"'),
+        "name;type;start_time;duration;Value\n" + saleae("{0}").replace(",", ";"),
+        # sigrok: PulseView and sigrok-cli
+        "".join(f"{at}00-{at}90 UART: RX data: {one:02X}\n" for at, one in enumerate(BOTH)),
+        "".join(f"uart-1: {one:02x}\n" for one in BOTH),
     ],
 )
 def test_bytes_are_read_as_people_paste_them(text: str) -> None:

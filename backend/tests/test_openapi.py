@@ -1,6 +1,7 @@
 """The description of the HTTP interface: whole, and true to the models."""
 
 import json
+import re
 from typing import Any, get_args
 
 import pytest
@@ -72,6 +73,18 @@ def test_each_operation_has_a_subject_and_a_name_of_its_own_that_can_be_read() -
     assert {"gatewayStop", "libraryRead", "motionMove", "peopleMe"} <= set(names)
     assert all(name.isalpha() for name in names)
     assert all(operation["operationId"].startswith(operation["tags"][0]) for operation in found)
+
+
+def test_every_operation_is_in_one_group_and_every_group_says_what_it_holds() -> None:
+    groups = {tag["name"]: tag for tag in SCHEMA["tags"]}
+    used = [SCHEMA["paths"][route.path][method.lower()]["tags"] for route, method, _ in ROUTES]
+    assert {len(names) for names in used} == {1}
+    assert {name for names in used for name in names} == set(groups)
+    page = docs_page(SCHEMA)
+    for name, tag in groups.items():
+        assert tag["description"].endswith(".")
+        assert f'<h2 id="{name}">{tag["x-displayName"]}</h2><p>' in page
+    assert list(groups) == re.findall(r'<h2 id="(\w+)">', page)
 
 
 def assert_fits(value: Any, schema: dict[str, Any]) -> None:

@@ -20,6 +20,7 @@ from servodeck.api.routes import named_roles
 from servodeck.callers import Role
 from servodeck.errors import ErrorCode, GatewayError
 from servodeck.schema import Message
+from servodeck.value import value
 
 REFERENCE = "#/components/schemas/{model}"
 
@@ -34,6 +35,18 @@ class Problem(Message):
     code: ErrorCode
     detail: str
     held_by: list[str] | None = None
+
+
+@value
+class Tag:
+    """A group of operations. `title` is for people."""
+
+    name: str
+    title: str
+    description: str
+
+    def described(self) -> dict[str, str]:
+        return {"name": self.name, "description": self.description, "x-displayName": self.title}
 
 
 PROBLEM = {"$ref": REFERENCE.format(model=Problem.__name__)}
@@ -51,6 +64,20 @@ SCHEMES = {
     },
 }
 ALL_SCHEMES: list[dict[str, list[str]]] = [{name: []} for name in SCHEMES]
+# In the order in which they are shown. The name is the first word of each operation's identifier.
+TAGS = (
+    Tag("gateway", "Status, port and Stop", "The state of the robot, its port and board, Stop and Resume."),
+    Tag("motion", "Motion", "Moves, runs of the board's groups, and the lease that lets one client drive."),
+    Tag("poses", "Poses", "The poses of the robot on the board, by name or number."),
+    Tag("jobs", "Slots and downloads", "Groups are stored in the board's slots as jobs that can be watched."),
+    Tag("play", "Play", "The gateway plays frames by its own clock; nothing is stored on the board."),
+    Tag("events", "Events", "Every change as a server-sent event with an id."),
+    Tag("library", "Library", "Action groups and robots as documents with versions."),
+    Tag("robots", "Robot on the board", "Which robot of the library is on the board."),
+    Tag("cameras", "Cameras", "The pictures of the cameras at the gateway."),
+    Tag("people", "People", "Paired devices, roles, invitations and the tokens of programs."),
+    Tag("health", "Health", "The gateway's own state, for supervisors."),
+)
 JSON = "application/json"
 RETRY_AFTER = {
     "Retry-After": {
@@ -64,7 +91,11 @@ def described(app: FastAPI) -> dict[str, Any]:
     """As OpenAPI; the same object each time."""
     if app.openapi_schema is None:
         schema = get_openapi(
-            title=app.title, version=app.version, description=app.description, routes=app.routes
+            title=app.title,
+            version=app.version,
+            description=app.description,
+            routes=app.routes,
+            tags=[tag.described() for tag in TAGS],
         )
         for name in ("HTTPValidationError", "ValidationError"):
             # Of 422, the framework's own shape, which is never sent.
@@ -148,8 +179,11 @@ STYLE = """
 :root { color-scheme: light dark; font: 16px/1.5 system-ui, sans-serif; }
 body { max-width: 60rem; margin: 2rem auto; padding: 0 1rem; }
 section { border-top: 1px solid color-mix(in srgb, currentColor 20%, transparent); padding: 0.5rem 0 1rem; }
-h2 { font-size: 1rem; font-family: ui-monospace, monospace; overflow-wrap: anywhere; }
-h2 span { display: inline-block; min-width: 5rem; font-weight: 700; text-transform: uppercase; }
+nav ul { padding: 0; list-style: none; }
+h2 { margin: 2.5rem 0 0; }
+h2 + p { margin-top: 0; }
+h3 { font-size: 1rem; font-family: ui-monospace, monospace; overflow-wrap: anywhere; }
+h3 span { display: inline-block; min-width: 5rem; font-weight: 700; text-transform: uppercase; }
 table { border-collapse: collapse; }
 th, td { text-align: left; vertical-align: top; padding: 0.2rem 1.5rem 0.2rem 0; font-weight: normal; }
 details { color: color-mix(in srgb, currentColor 75%, transparent); font-size: 0.875rem; }
@@ -158,12 +192,11 @@ code { font-family: ui-monospace, monospace; overflow-wrap: anywhere; }
 
 
 def docs_page(schema: dict[str, Any]) -> str:
-    sections = [
-        operation(method, path, methods[method], schema)
-        for path, methods in schema["paths"].items()
-        for method in METHODS
-        if method in methods
-    ]
+    tags = schema["tags"]
+    contents = "".join(
+        f'<li><a href="#{tag["name"]}">{escape(tag["x-displayName"])}</a> {escape(tag["description"])}</li>'
+        for tag in tags
+    )
     info = schema["info"]
     title = escape(f"{info['title']} {info['version']}")
     return (
@@ -172,8 +205,20 @@ def docs_page(schema: dict[str, Any]) -> str:
         f'<title>{title}</title><link rel="stylesheet" href="docs.css"></head><body>'
         f"<h1>{title}</h1><p>{escape(info['description'])}</p>"
         '<p>For programs: <a href="openapi.json">openapi.json</a></p>'
-        f"{''.join(sections)}</body></html>"
+        f"<nav><ul>{contents}</ul></nav>"
+        f"{''.join(group(tag, schema) for tag in tags)}</body></html>"
     )
+
+
+def group(tag: dict[str, Any], schema: dict[str, Any]) -> str:
+    operations_of_tag = "".join(
+        operation(method, path, methods[method], schema)
+        for path, methods in schema["paths"].items()
+        for method in METHODS
+        if method in methods and tag["name"] in methods[method]["tags"]
+    )
+    title, about = escape(tag["x-displayName"]), escape(tag["description"])
+    return f'<h2 id="{tag["name"]}">{title}</h2><p>{about}</p>{operations_of_tag}'
 
 
 def operation(method: str, path: str, description: dict[str, Any], schema: dict[str, Any]) -> str:
@@ -183,7 +228,7 @@ def operation(method: str, path: str, description: dict[str, Any], schema: dict[
         for label, part in {**said, **description["responses"]}.items()
     )
     return (
-        f"<section><h2><span>{method}</span>{escape(path)}</h2>"
+        f'<section id="{description["operationId"]}"><h3><span>{method}</span>{escape(path)}</h3>'
         f"<p>{escape(description.get('description', ''))}</p><table>{rows}</table></section>"
     )
 

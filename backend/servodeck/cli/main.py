@@ -30,7 +30,8 @@ from servodeck.cli.serve import new_program
 from servodeck.errors import MalformedError
 from servodeck.port.hid import UDEV_RULE, UDEV_RULE_FILE
 from servodeck.port.ports import PortInfo, list_devices
-from servodeck.protocol.describe import Piece, bytes_in, pieces_of
+from servodeck.protocol.describe import Piece, pieces_of
+from servodeck.protocol.pasted import bytes_in
 
 # The gateway listens for modules that long before it answers, and a busy computer needs a moment more.
 SCAN_WAIT_S = 15.0

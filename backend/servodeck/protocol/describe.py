@@ -1,12 +1,10 @@
-"""Packets in plain English, for `servodeck decode`: the bytes in a pasted text, the packets among them, and
-the meaning of each, from a host and from a board. Knows the meaning of the bytes on every board.
+"""Packets in plain English, for `servodeck decode`: the packets among bytes, and the meaning of each, from a
+host and from a board. Knows the meaning of the bytes on every board.
 """
 
-import re
 from collections.abc import Iterator
 from typing import assert_never
 
-from servodeck.errors import MalformedError
 from servodeck.protocol.decoder import COMMAND_AT, HEADER, LENGTH_AT, Packet
 from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.packets import (
@@ -43,7 +41,6 @@ SERVOS = {1: "PWM servos", 2: "bus servos"}
 
 
 HEADERS = bytes((HEADER, HEADER))
-TOKEN = re.compile(r"[^\s,;|]+")
 
 
 @value
@@ -55,21 +52,6 @@ class Piece:
     reports: tuple[Report, ...]
     text: str
     is_packet: bool = True
-
-
-def bytes_in(text: str) -> bytes:
-    """The hex bytes of a pasted text, with or without spaces and commas. If bytes are marked by 0x, the
-    rest, such as the times of a logic analyser, is left out. Raises MalformedError.
-    """
-    tokens = TOKEN.findall(text.replace("\\x", " 0x"))
-    marked = [token[2:].zfill(2) for token in tokens if token[:2].lower() == "0x"]
-    data = bytearray()
-    for token in marked or tokens:
-        try:
-            data += bytes.fromhex(token)
-        except ValueError:
-            raise MalformedError(f"{token} is no hex byte. Expected two digits for each byte.") from None
-    return bytes(data)
 
 
 def pieces_of(data: bytes) -> Iterator[Piece]:
