@@ -32,7 +32,7 @@ module.exports = {
 
     forbid(
       'shared-is-pure',
-      'shared/ runs anywhere: no Node, no browser, nothing outside itself but valibot, which is as pure. Its tests and the process entry may.',
+      'shared/ runs anywhere: no Node, no page, nothing outside itself but valibot, which is as pure. Its tests and the process entry may.',
       { path: '^shared/src/', pathNot: [test, '^shared/src/simulator/process[.]ts$'] },
       { pathNot: '^(shared/|node_modules/valibot/)' },
     ),
@@ -91,6 +91,12 @@ module.exports = {
       { path: '^shared/src/(robot|simulator)/' },
     ),
     forbid(
+      'client-knows-the-codec',
+      'The client is for programs without the page: of boards it knows what differs between the families.',
+      { path: '^shared/src/client/', pathNot: test },
+      { path: '^shared/src/', pathNot: '^shared/src/(client|codec)/' },
+    ),
+    forbid(
       'simulator-knows-the-codec',
       'The simulator is the other side of the wire: it may share the codec, never the code it puts to the test.',
       { path: '^shared/src/simulator/', pathNot: test },
@@ -116,7 +122,7 @@ module.exports = {
       'links-know-no-page',
       'A link is a cable, a radio or a socket.',
       { path: `${page}robot/links/` },
-      { path: page, pathNot: `${page}robot/(links/|(request|http[.]generated)[.]ts$)` },
+      { path: page, pathNot: `${page}robot/(links/|request[.]ts$)` },
     ),
     forbid(
       'robot-knows-no-feature',
@@ -131,7 +137,7 @@ module.exports = {
       'gateway-requests-know-nothing',
       'A request of the gateway is made by those who know what it is for.',
       { path: `${page}robot/request[.]ts$` },
-      { pathNot: `${page}robot/(request|http[.]generated)[.]ts$|^node_modules/valibot/` },
+      { pathNot: `${page}robot/request[.]ts$|^shared/src/client/|^node_modules/valibot/` },
     ),
     forbid(
       'state-knows-no-feature',
@@ -145,7 +151,7 @@ module.exports = {
       { path: `${page}features/library/(browser|gateway|memory)Store[.]ts$` },
       {
         path: page,
-        pathNot: `${page}(features/library/(browser|gateway|memory)Store[.]ts$|robot/(request|http[.]generated)[.]ts$)`,
+        pathNot: `${page}(features/library/(browser|gateway|memory)Store[.]ts$|robot/request[.]ts$)`,
       },
     ),
     forbid(

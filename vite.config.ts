@@ -7,6 +7,7 @@ import { brotliCompressSync, gzipSync } from 'node:zlib';
 import react from '@vitejs/plugin-react';
 import { minify } from 'terser';
 import { defineConfig, type Plugin } from 'vite';
+import { withoutSources } from './scripts/sources.mjs';
 import { words } from './scripts/words.mjs';
 
 const gateway = 'http://127.0.0.1:8300';
@@ -51,21 +52,6 @@ function readsFirstLoad(): Plugin {
       };
       firstLoad.clear();
       for (const id of this.getModuleIds()) if (this.getModuleInfo(id)?.isEntry === true) walk(id);
-    },
-  };
-}
-
-/** Where the figures of shared/protocol come from is for those who read the files. */
-function withoutSources(): Plugin {
-  return {
-    name: 'without-sources',
-    enforce: 'pre',
-    transform: {
-      filter: { id: /[/\\]shared[/\\]protocol[/\\][^/\\]+[.]json$/ },
-      handler: (text) => ({
-        code: JSON.stringify(JSON.parse(text, (key, value: unknown) => (key === 'why' ? undefined : value))),
-        map: null,
-      }),
     },
   };
 }

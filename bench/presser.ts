@@ -6,7 +6,7 @@ import { sleep } from '#shared/clock.ts';
 import { encodeCommand } from '#shared/codec/encode.ts';
 import type { Command } from '#shared/codec/commands.ts';
 import { family } from '#shared/codec/families.ts';
-import type { ClientMessage, GatewayMessage } from '../frontend/src/robot/links/messages.generated.ts';
+import type { ClientMessage, GatewayMessage } from '#shared/client/messages.generated.ts';
 import { realClock } from './realClock.ts';
 
 const PATIENCE_MS = 15_000;

@@ -8,7 +8,7 @@
 import type { Page } from '@playwright/test';
 import { encodeCommand, encodeReport } from '#shared/codec/encode.ts';
 import { family } from '#shared/codec/families.ts';
-import { PROTOCOL } from '../frontend/src/robot/links/messages.generated.ts';
+import { PROTOCOL } from '#shared/client/messages.generated.ts';
 import { python } from '../scripts/python.mjs';
 import { mustRun } from '../scripts/steps.mjs';
 import { amount } from './amounts.ts';

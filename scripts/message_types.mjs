@@ -9,8 +9,8 @@ import { python } from './python.mjs';
 import { SetupProblem, at, main, mustRun, say } from './steps.mjs';
 import { readTree, typesText } from './words.mjs';
 
-const MESSAGES = 'frontend/src/robot/links/messages.generated.ts';
-const HTTP = 'frontend/src/robot/http.generated.ts';
+const MESSAGES = 'shared/src/client/messages.generated.ts';
+const HTTP = 'shared/src/client/http.generated.ts';
 
 /** @typedef {{ content?: Record<string, { example?: unknown }> }} Part */
 /** @typedef {{ description?: string, security?: unknown, requestBody?: Part, responses: Record<string, Part> }} Operation */

@@ -19,6 +19,7 @@ const mayKnow: Record<string, readonly string[]> = {
   'shared/profile': ['shared/document', 'shared/codec'],
   'shared/group': ['shared/profile', 'shared/document', 'shared/codec'],
   'shared/files': ['shared/group', 'shared/profile', 'shared/document', 'shared/codec'],
+  'shared/client': ['shared/codec'],
   'shared/simulator': ['shared/codec', 'shared/clock'],
   'frontend/i18n': ['shared'],
   'frontend/ui': ['frontend/i18n'],

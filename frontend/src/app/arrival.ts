@@ -4,7 +4,7 @@
 import type { StoreApi } from 'zustand/vanilla';
 import type { DeviceState } from '../robot/device.ts';
 import { PeopleError, pair, readMe } from '../features/people/people.ts';
-import type { Me, PairWish, You } from '../robot/http.generated.ts';
+import type { Me, PairWish, You } from '#shared/client/http.generated.ts';
 
 export interface Arrival {
   /** null: no gateway serves this page. */

@@ -19,7 +19,7 @@ import { createGroupPlace } from '../features/board/slots/groupPlace.ts';
 import { createMotionTape } from '../features/animate/play/motionTape.ts';
 import { createNotices } from '../state/notices.ts';
 import { createPeople, peopleProblem, peopleApi } from '../features/people/people.ts';
-import type { Me } from '../robot/http.generated.ts';
+import type { Me } from '#shared/client/http.generated.ts';
 import { createPlayback, createPlayhead } from '../features/animate/play/playback.ts';
 import { createTeaching } from '../features/drive/teaching.ts';
 import { createRobotSync } from '../features/profiles/robotSync.ts';

@@ -8,7 +8,7 @@ import { type Boards, recallReconnects, recallWay, rememberReconnects, rememberW
 import type { Device } from './device.ts';
 import type { TextStorage } from '../state/storage.ts';
 import type { Notices } from '../state/notices.ts';
-import type { You } from './http.generated.ts';
+import type { You } from '#shared/client/http.generated.ts';
 import { choosePort, grantedPorts, portLabel, webSerialObstacle } from './links/browserDevices.ts';
 import type { BluetoothHere, GrantedModule } from './links/webBluetooth.ts';
 import type { HeardAtRate } from './links/otherRates.ts';

@@ -15,7 +15,7 @@ import { createVirtualClock, type VirtualClock } from '#shared/testing/virtualCl
 import { createGateway } from './gatewayUnderTest.ts';
 import { HAND_OVER_MS } from './links/driving.ts';
 import { compactHex } from './links/gatewayValues.ts';
-import type { ClientMessage, GatewayMessage } from './links/messages.generated.ts';
+import type { ClientMessage, GatewayMessage } from '#shared/client/messages.generated.ts';
 
 afterEach(() => void vi.unstubAllGlobals());
 

@@ -2,7 +2,8 @@
 // its board. Trusts no answer's shape; every failure is a LinkError.
 
 import type { Clock } from '#shared/clock.ts';
-import { isRecord, isWithoutGateway } from './request.ts';
+import { isRecord } from '#shared/client/request.ts';
+import { isWithoutGateway } from './request.ts';
 import { askGateway } from './links/gatewayValues.ts';
 
 export interface GatewayStatus {

@@ -5,7 +5,7 @@ import timings from '../../../shared/protocol/timings.json' with { type: 'json' 
 import { LinkError } from '#shared/robot/linkError.ts';
 import { ANSWER_WITHIN_MS } from './gatewayApi.ts';
 import { askGateway } from './links/gatewayValues.ts';
-import { isRecord } from './request.ts';
+import { isRecord } from '#shared/client/request.ts';
 import { findRate, type HeardAtRate } from './links/otherRates.ts';
 import type { Opening } from './ways.ts';
 

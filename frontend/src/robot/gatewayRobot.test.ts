@@ -12,7 +12,7 @@ import type {
   LeaseState,
   PlayState,
   WelcomeMessage,
-} from './links/messages.generated.ts';
+} from '#shared/client/messages.generated.ts';
 
 afterEach(() => void vi.unstubAllGlobals());
 

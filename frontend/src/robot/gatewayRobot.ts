@@ -26,7 +26,7 @@ import { createGatewaySlots } from './links/gatewaySlots.ts';
 import { createGatewaySnapshot } from './links/gatewaySnapshot.ts';
 import { createGatewaySocket, type Outcome, type Said } from './links/gatewaySocket.ts';
 import { compactHex, isHarmlessPacket } from './links/gatewayValues.ts';
-import type { ClientMessage } from './links/messages.generated.ts';
+import type { ClientMessage } from '#shared/client/messages.generated.ts';
 
 export interface GatewayRobotOptions {
   /** The gateway's WebSocket, e.g. `ws://127.0.0.1:8300/ws`. */

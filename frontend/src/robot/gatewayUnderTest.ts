@@ -10,7 +10,7 @@ import type {
   LeaseState,
   StateMessage,
   WelcomeMessage,
-} from './links/messages.generated.ts';
+} from '#shared/client/messages.generated.ts';
 
 export const FREE: LeaseState = {
   ...{ driver: null, drives: false, requestedBy: null, hasRequested: false, grantedInMs: null },

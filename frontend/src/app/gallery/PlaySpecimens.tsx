@@ -9,7 +9,7 @@ import { BoardPanel } from '../../features/board/BoardPanel.tsx';
 import { PlayBar } from '../../features/animate/play/PlayBar.tsx';
 import { type CameraAccess, CameraView } from '../../features/camera/CameraView.tsx';
 import { filmOf } from '../../features/camera/film.ts';
-import { GatewayProblem } from '../../robot/request.ts';
+import { GatewayProblem } from '#shared/client/request.ts';
 import { ReplaceContent } from '../../features/board/slots/ReplaceQuestion.tsx';
 import { SlotBoard } from '../../features/board/slots/SlotBoard.tsx';
 import { editServoView, type Stores } from '../../features/stores.ts';

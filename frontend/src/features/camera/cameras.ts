@@ -3,7 +3,8 @@
 
 import * as v from 'valibot';
 import { words } from '../../i18n/whole.ts';
-import { GatewayProblem, isWithoutGateway, request } from '../../robot/request.ts';
+import { GatewayProblem } from '#shared/client/request.ts';
+import { isWithoutGateway, request } from '../../robot/request.ts';
 
 const LIST_WITHIN_MS = 5000;
 const listSchema = v.array(v.object({ id: v.number(), name: v.string() }));

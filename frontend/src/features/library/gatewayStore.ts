@@ -10,7 +10,7 @@ import type {
   ListedVersion,
   StoredDocument,
   VersionText,
-} from '../../robot/http.generated.ts';
+} from '#shared/client/http.generated.ts';
 
 const ANSWER_WITHIN_MS = 10_000;
 /** The gateway's limit. */

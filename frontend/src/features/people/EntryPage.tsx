@@ -13,7 +13,7 @@ import { PeopleError, peopleProblem } from './people.ts';
 import { Button } from '../../ui/Button.tsx';
 import { cx } from '../../ui/cx.ts';
 import { words } from '../../i18n/whole.ts';
-import type { PairWish } from '../../robot/http.generated.ts';
+import type { PairWish } from '#shared/client/http.generated.ts';
 import { useSpokenLocale } from '../../i18n/words.ts';
 import styles from './EntryPage.module.css';
 

@@ -4,7 +4,7 @@
 import { useState } from 'react';
 import type { Candidate } from '#shared/robot/lease.ts';
 import { words } from '../../i18n/whole.ts';
-import type { Me, Person } from '../../robot/http.generated.ts';
+import type { Me, Person } from '#shared/client/http.generated.ts';
 import { NameField } from '../../ui/NameField.tsx';
 import {
   type PeopleWishes,

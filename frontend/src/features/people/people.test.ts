@@ -1,6 +1,6 @@
 import { beforeEach, expect, test } from 'vitest';
 import { createPeople, PeopleError, type PeopleApi, type PeopleStore } from './people.ts';
-import type { Me } from '../../robot/http.generated.ts';
+import type { Me } from '#shared/client/http.generated.ts';
 
 const BEN = { id: 'ben', name: 'Android', role: 'driver' } as const;
 const ANNA = { mode: 'lan', overheard: true, you: { id: 'anna', name: 'Anna', role: 'owner' } } as const;

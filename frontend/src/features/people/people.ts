@@ -15,7 +15,7 @@ import type {
   TokenWish,
   You,
   PairWish,
-} from '../../robot/http.generated.ts';
+} from '#shared/client/http.generated.ts';
 import * as v from 'valibot';
 import { requestsOf } from '../../robot/request.ts';
 

@@ -4,7 +4,7 @@
 import { sleep, type Clock } from '#shared/clock.ts';
 import type { ServoTarget } from '#shared/codec/commands.ts';
 import { LinkError } from '#shared/robot/linkError.ts';
-import type { ClientMessage, LeaseState } from './messages.generated.ts';
+import type { ClientMessage, LeaseState } from '#shared/client/messages.generated.ts';
 import { isWatching, notDriving, type Lease, type Unattended } from '#shared/robot/lease.ts';
 
 export interface Driving {

@@ -2,7 +2,7 @@ import { afterEach, expect, test, vi } from 'vitest';
 import type { Frame } from '#shared/codec/commands.ts';
 import { LinkError } from '#shared/robot/linkError.ts';
 import { createGatewayPlayer } from './gatewayPlayer.ts';
-import type { ClientMessage, PlayState } from './messages.generated.ts';
+import type { ClientMessage, PlayState } from '#shared/client/messages.generated.ts';
 
 const FRAMES: readonly Frame[] = [{ durationMs: 200, targets: [{ servo: 1, position: 1500 }] }];
 const ALL = Array.from({ length: 32 }, (_, index) => ({ servo: index + 1, position: 1500 }));

@@ -6,7 +6,7 @@ import type { Frame } from '#shared/codec/commands.ts';
 import type { Played } from '#shared/robot/robot.ts';
 import { MESSAGE_BYTES } from '#shared/robot/timings.ts';
 import { askGateway, frameBody, refusal } from './gatewayValues.ts';
-import type { ClientMessage, PlayedMessage, PlayMessage } from './messages.generated.ts';
+import type { ClientMessage, PlayedMessage, PlayMessage } from '#shared/client/messages.generated.ts';
 
 export interface GatewayPlayer {
   /** Resolves when it has ended, however. `times` 0: until stopped; each pass but the first begins with frame `loopFrom`. */

@@ -2,7 +2,7 @@ import { afterEach, expect, test, vi } from 'vitest';
 import { fingerprintOf } from '#shared/group/fingerprint.ts';
 import { LinkError } from '#shared/robot/linkError.ts';
 import { createGatewaySlots } from './gatewaySlots.ts';
-import type { JobState } from './messages.generated.ts';
+import type { JobState } from '#shared/client/messages.generated.ts';
 
 /** As backend/servodeck/access/guard.py has it. */
 const READ_BYTES = 512 * 1024;

@@ -5,10 +5,10 @@ import { fingerprintOf } from '#shared/group/fingerprint.ts';
 import { LinkError } from '#shared/robot/linkError.ts';
 import { DOWNLOAD_PORTION_BYTES } from '#shared/robot/timings.ts';
 import type { DownloadProgress, SlotGroup, SlotVersions } from '#shared/robot/state.ts';
-import type { GroupBody } from '../http.generated.ts';
-import { isRecord } from '../request.ts';
+import type { GroupBody } from '#shared/client/http.generated.ts';
+import { isRecord } from '#shared/client/request.ts';
 import { askGateway, frameBody, refusal } from './gatewayValues.ts';
-import type { JobState, StateMessage } from './messages.generated.ts';
+import type { JobState, StateMessage } from '#shared/client/messages.generated.ts';
 
 /** As large as half a megabyte, which a slow network takes a while for. */
 const TAKEN_WITHIN_MS = 8_000;

@@ -32,7 +32,7 @@ import {
   type BoardAtGateway,
 } from './gatewayValues.ts';
 import type { Driving } from './driving.ts';
-import type { BatteryMessage, PlayState, StateMessage } from './messages.generated.ts';
+import type { BatteryMessage, PlayState, StateMessage } from '#shared/client/messages.generated.ts';
 
 export interface GatewaySnapshotOptions {
   readonly clock: Clock;

@@ -9,7 +9,7 @@ import {
   type DoneMessage,
   type GatewayMessage,
   type PortState,
-} from './messages.generated.ts';
+} from '#shared/client/messages.generated.ts';
 
 /** As in backend/servodeck/api/websocket.py. */
 const OUTDATED_PAGE = 4001;

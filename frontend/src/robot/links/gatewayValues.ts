@@ -11,14 +11,15 @@ import type { Report } from '#shared/codec/reports.ts';
 import type { Identity } from '#shared/robot/identity.ts';
 import { isLinkErrorCode, LinkError } from '#shared/robot/linkError.ts';
 import type { LatchReason } from '#shared/robot/state.ts';
-import { GatewayProblem, request, type RequestOptions, type Path, type Verb } from '../request.ts';
+import { GatewayProblem, type Path, type Verb } from '#shared/client/request.ts';
+import { request, type RequestOptions } from '../request.ts';
 import type {
   FrameBody,
   MotionState,
   PortState,
   ReceivedMessage,
   StateMessage,
-} from './messages.generated.ts';
+} from '#shared/client/messages.generated.ts';
 
 /** Behind two headers, LEN and CMD. */
 const PARAMS_AT = 4;

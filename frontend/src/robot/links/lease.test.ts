@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import type { ClientMessage, LeaseState } from './messages.generated.ts';
+import type { ClientMessage, LeaseState } from '#shared/client/messages.generated.ts';
 import { createDriving, type Driving } from './driving.ts';
 
 const FREE: LeaseState = {

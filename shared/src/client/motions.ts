@@ -1,0 +1,184 @@
+// The motion that a program has begun: how its end is waited for, heartbeats meanwhile, and its end by a release. Knows the routes of
+// motion and lease; no servo, no name and no unit.
+
+import timings from '../../protocol/timings.json' with { type: 'json' };
+import { GatewayError, TimedOutError } from './errors.ts';
+import { pause, type Gateway } from './gateway.ts';
+import type { LeaseState, LeaseWish, Status } from './http.generated.ts';
+import type { Answer, Given, Path, Verb } from './request.ts';
+
+/** The gateway stops a run two seconds after the last one. */
+const BEAT_S = timings.lease.silentMs / 2000;
+export const LOOK_S = 0.2;
+/** Of a group whose end only the board knows, and after a computed end. */
+const UNKNOWN_END_S = 30;
+const AFTER_END_S = 2;
+/** A board may start a move that late. */
+const LATE_S = 0.05;
+/** A request of motion waits until the board is identified. */
+const IDENTIFIED_S = 10;
+
+/** After so many seconds, and whenever the signal is aborted, the motion that is waited for is stopped. */
+interface Patience {
+  readonly timeout: number | undefined;
+  readonly signal: AbortSignal | undefined;
+}
+
+export const now = (): number => performance.now() / 1000;
+
+export class Motions {
+  readonly #gateway: Gateway;
+  readonly #closed: AbortSignal;
+  /** This program has requested motion or the lease, and has not released it since. */
+  #mayDrive = false;
+  #beating: Promise<unknown> = Promise.resolve();
+
+  /** `closed`: no heartbeat leaves any more. */
+  constructor(gateway: Gateway, closed: AbortSignal) {
+    this.#gateway = gateway;
+    this.#closed = closed;
+  }
+
+  /** May take `moreS` longer than other requests, beside the board's identification. */
+  async begin<P extends Path, V extends Verb<P>>(
+    verb: V,
+    path: P,
+    given: Given<P, V>,
+    { moreS = 0, signal }: { moreS?: number; signal: AbortSignal | undefined },
+  ): Promise<Answer<P, V>> {
+    this.#mayDrive = true;
+    const options = { isKeyed: true, moreS: IDENTIFIED_S + moreS, signal };
+    return this.#gateway.call(verb, path, given, options).catch(async (error: unknown) => {
+      // The program ends while the motion begins.
+      if (!(error instanceof GatewayError)) await this.release();
+      throw error;
+    });
+  }
+
+  lease(action: LeaseWish['action']): Promise<LeaseState> {
+    this.#mayDrive ||= action === 'request' || action === 'take';
+    return this.#gateway.call('post', '/api/lease', { body: { action } }, { isSafe: true });
+  }
+
+  async release(): Promise<void> {
+    if (!this.#mayDrive) return;
+    await this.lease('release').catch((error: unknown) => {
+      // A caller who may not drive has nothing in motion: the gateway has seen to that.
+      if (!isOf(error, 'forbidden', 'notPaired')) throw error;
+    });
+    this.#mayDrive = false;
+  }
+
+  /** When the last heartbeat has left. */
+  async ended(): Promise<void> {
+    await this.#beating;
+  }
+
+  moved(overInS: number, { timeout, signal }: Patience): Promise<void> {
+    return this.#waited(async () => {
+      const untilS = now() + overInS + LATE_S;
+      const judge = timeJudge(timeout);
+      for (let leftS = untilS - now(); leftS > 0; leftS = untilS - now()) {
+        await pause(Math.min(leftS, BEAT_S, timeout ?? BEAT_S) * 1000, signal);
+        judge();
+        await this.#look(signal);
+        await this.#heartbeat();
+      }
+    });
+  }
+
+  ran(slot: number, { timeout, signal }: Patience): Promise<void> {
+    return this.#waited(async () => {
+      let untilS = now() + (timeout ?? UNKNOWN_END_S);
+      let [beatenS, isComputed] = [now(), timeout !== undefined];
+      for (let { running } = await this.#look(signal); running; { running } = await this.#look(signal)) {
+        if (running.slot !== slot)
+          throw new GatewayError('cancelled', `Another group runs now: slot ${running.slot}.`);
+        if (!isComputed && running.endsInMs !== null)
+          [untilS, isComputed] = [now() + running.endsInMs / 1000 + AFTER_END_S, true];
+        if (now() > untilS)
+          throw new TimedOutError(`The end of slot ${slot} was not reported in time, so it was stopped.`);
+        beatenS = await this.#beatAfter(beatenS);
+        await pause(LOOK_S * 1000, signal);
+      }
+    });
+  }
+
+  played(id: string, { timeout, signal }: Patience): Promise<void> {
+    return this.#waited(async () => {
+      const judge = timeJudge(timeout);
+      for (let beatenS = now(); ; beatenS = await this.#beatAfter(beatenS)) {
+        const { play } = await this.#look(signal);
+        if (play?.id !== id) throw new GatewayError('cancelled', 'Another group is played now.');
+        if (play.status === 'ended') throw endedWith(play);
+        if (play.status === 'done') return;
+        judge();
+        await pause(LOOK_S * 1000, signal);
+      }
+    });
+  }
+
+  /** For what runs or is played and is not waited for: heartbeats until it has ended. */
+  beat(): void {
+    const beats = async (): Promise<void> => {
+      while (await this.#mayMove()) {
+        if (!(await this.#heartbeat())) return;
+        await pause(BEAT_S * 1000, this.#closed);
+      }
+    };
+    // A failure is the next request's to say; the gateway stops the motion meanwhile.
+    this.#beating = Promise.all([this.#beating, beats().catch(() => undefined)]);
+  }
+
+  async #mayMove(): Promise<boolean> {
+    const { play, running } = await this.#gateway.call('get', '/api/status', {}, { isSafe: true });
+    return play?.status === 'playing' || running !== null;
+  }
+
+  /** Whatever ends the waiting early ends the motion. */
+  async #waited(work: () => Promise<void>): Promise<void> {
+    try {
+      await work();
+    } catch (error) {
+      if (!isOf(error, 'latched', 'notDriving')) await this.release();
+      throw error;
+    }
+  }
+
+  async #beatAfter(beatenS: number): Promise<number> {
+    if (now() - beatenS < BEAT_S) return beatenS;
+    await this.#heartbeat();
+    return now();
+  }
+
+  async #heartbeat(): Promise<boolean> {
+    const { driver, drives } = await this.lease('heartbeat');
+    if (driver !== null && !drives)
+      throw new GatewayError('notDriving', `${driver} drives now, and motion was stopped first.`);
+    return drives;
+  }
+
+  /** Rejects where the motion of this program has ended with a stop. */
+  async #look(signal: AbortSignal | undefined): Promise<Status> {
+    const status = await this.#gateway.call('get', '/api/status', {}, { isSafe: true, signal });
+    if (status.latch) throw new GatewayError('latched', 'Stopped: motion is refused until a person resumes.');
+    return status;
+  }
+}
+
+/** Throws a TimedOutError after so many seconds from now. */
+export function timeJudge(
+  timeout: number | undefined,
+  words = 'It did not end in time, so it was stopped.',
+): () => void {
+  const untilS = now() + (timeout ?? Infinity);
+  return () => {
+    if (now() >= untilS) throw new TimedOutError(words);
+  };
+}
+
+const isOf = (error: unknown, ...codes: readonly string[]): boolean =>
+  error instanceof GatewayError && codes.includes(error.code);
+
+export const endedWith = ({ code, detail }: { code: string | null; detail: string | null }): GatewayError =>
+  new GatewayError(code ?? 'cancelled', detail ?? '');
