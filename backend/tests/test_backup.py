@@ -10,6 +10,7 @@ from zipfile import ZipFile
 import pytest
 from typer.testing import CliRunner, Result
 
+from servodeck.access.audit_file import AuditFile, append
 from servodeck.cli.main import app
 from servodeck.files import write_whole
 from servodeck.library.library import Library
@@ -139,6 +140,24 @@ def test_so_does_one_that_is_no_archive(folder: Path, tmp_path: Path, content: b
     result = asked("restore", file, "--data", folder)
     assert (result.exit_code, "no backup of Servodeck's" in result.stderr) == (1, True)
     assert asked("restore", tmp_path / "missing.zip", "--data", folder).exit_code == 1
+
+
+def test_the_list_of_acts_stays_with_its_folder_and_says_what_was_put_back(
+    folder: Path, tmp_path: Path
+) -> None:
+    append(folder, "gatewayStarted", "", 1)
+    file = tmp_path / "with-audit.zip"
+    assert asked("backup", file, "--data", folder).exit_code == 0
+    with ZipFile(file) as archive:
+        assert "audit.sqlite" not in archive.namelist()
+    append(folder, "gatewayEnded", "", 2)
+    assert asked("restore", file, "--data", folder).exit_code == 0
+    found = AuditFile(folder).load()
+    assert [(one.act, one.about) for one in found] == [
+        ("gatewayStarted", ""),
+        ("gatewayEnded", ""),
+        ("restored", "with-audit.zip"),
+    ]
 
 
 def test_a_damaged_library_is_moved_too(folder: Path, saved: Path) -> None:

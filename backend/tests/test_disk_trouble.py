@@ -10,6 +10,7 @@ import subprocess
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 import httpx2
 import pytest
@@ -79,6 +80,14 @@ def troubles(served: Served) -> Sequence[str]:
     return [trouble["part"] for trouble in health["troubles"]]
 
 
+def acts_once_not_stored(served: Served) -> list[Any]:
+    """The list, as soon as it says that it is not stored, some seconds after an act."""
+    while (page := httpx2.get(f"{served.url}/api/audit").json())["problem"] is None:
+        assert served.process.poll() is None
+    entries: list[Any] = page["entries"]
+    return entries
+
+
 def test_a_full_disk_refuses_what_is_new_and_keeps_what_is_old(tmp_path: Path) -> None:
     with served_on(tmp_path, f"mount -t tmpfs -o size=400k none {tmp_path}") as served:
         assert write(served, "a", SMALL) == (200, None)
@@ -97,6 +106,9 @@ def test_a_disk_that_cannot_be_written_is_reported_and_changes_nothing(tmp_path:
     with served_on(tmp_path, read_only) as served:
         status, code = write(served, "a", LARGE, 1)
         assert (status, code) == (503, "storageFailed")
+        assert_control_works(served)
+        acts = acts_once_not_stored(served)
+        assert [one["act"] for one in acts[:2]] == ["resumed", "stopped"]
         assert_control_works(served)
         assert "disk" in troubles(served)
     assert Library(tmp_path).read("a") == (SMALL, 1)

@@ -62,6 +62,8 @@ ROLES: dict[tuple[str, str], Role | None] = {
     ("DELETE", "/api/port"): "owner",
     ("POST", "/api/port/listen"): "owner",
     ("GET", "/api/people"): "owner",
+    ("GET", "/api/audit"): "owner",
+    ("GET", "/api/audit/file"): "owner",
     ("PATCH", "/api/people/{person}"): "owner",
     ("DELETE", "/api/people/{person}"): "owner",
     ("POST", "/api/invites"): "owner",

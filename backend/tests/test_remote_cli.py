@@ -54,6 +54,17 @@ def test_a_stop_leaves_and_refuses_motion_until_resume(served: Served) -> None:
     assert served.read(len(MOVE_OF_TWO)) == MOVE_OF_TWO
 
 
+def test_what_happened_is_printed_for_people_and_for_spreadsheets(served: Served) -> None:
+    assert run("stop", "--url", served.url).exit_code == 0
+    latest, *others = run("audit", "--url", served.url).stdout.splitlines()
+    assert latest.endswith("stopped  A script on this computer")
+    assert "gatewayStarted" in others[-1]
+    assert json.loads(run("audit", "--url", served.url, "--json").stdout)["problem"] is None
+    head, row, *_ = run("audit", "--csv", "--url", served.url).stdout.splitlines()
+    assert head == "at,until,act,who,whom,about,count"
+    assert row.split(",")[2:] == ["stopped", "A script on this computer", "", "", "1"]
+
+
 @pytest.mark.exhaustive
 def test_a_bare_stop_does_not_wait_for_the_rest_of_the_command_line(served: Served) -> None:
     program = (

@@ -79,7 +79,7 @@ class Devices:
     def __init__(self, store: DeviceStore, now_ms: Callable[[], int]) -> None:
         """Raises a StorageError where the file cannot be read: an old list must admit no device."""
         self._store = store
-        self._now_ms = now_ms
+        self.now_ms = now_ms
         self._devices = {one.id: one for one in store.load()}
 
     @property
@@ -91,7 +91,7 @@ class Devices:
         if len(self._devices) >= MAX_DEVICES:
             raise OutOfRangeError(f"{MAX_DEVICES} devices are paired, which is the limit. Revoke one first.")
         secret = make_secret()
-        made_ms = self._now_ms()
+        made_ms = self.now_ms()
         expires_at_ms = None if valid_ms is None else made_ms + valid_ms
         own_name, digest = self._unique_name(name), digest_of(secret)
         device = Device(make_id(), kind, own_name, role, digest, made_ms, expires_at_ms=expires_at_ms)
@@ -106,7 +106,7 @@ class Devices:
             return None
         if self.expires_in_ms(device) == 0:
             raise TokenExpiredError(EXPIRED)
-        seen = replace(device, last_seen_ms=self._now_ms())
+        seen = replace(device, last_seen_ms=self.now_ms())
         self._devices[name] = seen
         return seen
 
@@ -149,11 +149,11 @@ class Devices:
         """0 where it has expired; None where it never does."""
         if device.expired_at_ms is not None:
             return 0
-        return None if device.expires_at_ms is None else max(0, device.expires_at_ms - self._now_ms())
+        return None if device.expires_at_ms is None else max(0, device.expires_at_ms - self.now_ms())
 
     def expire(self) -> list[Device]:
         """Those that have expired since the last call; they stay in the list."""
-        now_ms = self._now_ms()
+        now_ms = self.now_ms()
         over = [one for one in self.all if one.expired_at_ms is None and self.expires_in_ms(one) == 0]
         for one in over:
             self._put(replace(one, expired_at_ms=now_ms))

@@ -8,6 +8,7 @@ import asyncio
 import contextlib
 from typing import Protocol
 
+from servodeck.access.audit import Audit
 from servodeck.access.devices import EXPIRED, Device, Devices
 from servodeck.callers import SHORTEST_WAIT_S
 from servodeck.errors import StorageError
@@ -20,8 +21,9 @@ class Disconnect(Protocol):
 
 
 class Expiry:
-    def __init__(self, devices: Devices, disconnect: Disconnect) -> None:
+    def __init__(self, devices: Devices, disconnect: Disconnect, audit: Audit) -> None:
         self._devices = devices
+        self._audit = audit
         self._disconnect = disconnect
         self._timer: asyncio.TimerHandle | None = None
         self._ending: set[asyncio.Task[None]] = set()
@@ -51,6 +53,7 @@ class Expiry:
 
     async def _end(self, over: list[Device]) -> None:
         for device in over:
+            self._audit.note("tokenExpired", None, whom=device.name)
             await self._disconnect(device.id, EXPIRED, f"{device.name} (token expired)")
         with contextlib.suppress(StorageError):  # its time is stored already
             await self._devices.save()

@@ -22,6 +22,7 @@ from starlette.routing import Mount
 from starlette.types import Receive, Scope, Send
 
 from servodeck import __version__, metrics
+from servodeck.access.audit import Audit, NoAuditStore
 from servodeck.access.entrance import Entrance
 from servodeck.access.expiry import Expiry
 from servodeck.access.guard import Guard, log_refusal
@@ -84,6 +85,12 @@ def cameras() -> tuple[APIRouter, ...]:
     return (cameras_api,)
 
 
+def audit_routes() -> tuple[APIRouter, ...]:
+    from servodeck.api.audit import audit_api
+
+    return (audit_api,)
+
+
 def people() -> tuple[APIRouter, ...]:
     from servodeck.api.people import people_api
 
@@ -100,6 +107,7 @@ class Part(NamedTuple):
 PARTS = (
     Part(robot, frozenset({"status", "ports", "port", "board", "stop", "resume", "battery", "events", "ws"})),
     Part(people, frozenset({"me", "pair", "people", "invites", "tokens", "stop-links"})),
+    Part(audit_routes, frozenset({"audit"})),
     Part(library, frozenset({"library", "robot"})),
     Part(cameras, frozenset({"cameras"})),
     Part(
@@ -153,12 +161,18 @@ def create_app(
     entrance: Entrance,
     static: Path = STATIC,
     cameras: Sequence["Camera"] = (),
+    audit: Audit | None = None,
 ) -> Guard:
-    """The gateway with that entrance and the page built into `static`."""
+    """The gateway with that entrance and the page built into `static`. Without `audit` the list of acts is
+    not stored.
+    """
     app = app_without_state()
+    audit = audit or Audit(NoAuditStore(), entrance.devices.now_ms)
+    app.state.audit = audit
     app.state.control = control
+    control.acts.note = audit.note
     app.state.scripts = Scripts(control, entrance.still_lets_in)
-    app.state.expiry = Expiry(entrance.devices, app.state.scripts.disconnect)
+    app.state.expiry = Expiry(entrance.devices, app.state.scripts.disconnect, audit)
     app.state.library = library
     app.state.cameras = tuple(cameras)
     app.state.open_streams = 0
@@ -199,7 +213,10 @@ async def lifespan(app: LaterApp) -> AsyncIterator[None]:
     loading = asyncio.create_task(app.load_soon())
     expiry: Expiry = app.state.expiry
     expiry.plan()
+    audit: Audit = app.state.audit
+    audit.note("gatewayStarted", None, __version__)
     yield
+    audit.note("gatewayEnded", None)
     expiry.end()
     loading.cancel()
     sampling.cancel()

@@ -123,6 +123,10 @@ PERSON = {
     "drives": False,
     "unattendedSlot": None,
 }
+AUDIT_FILE = (
+    "at,until,act,who,whom,about,count\r\n"
+    "2026-11-21T18:00:00.000+00:00,2026-11-21T18:01:30.000+00:00,moved,Anna's tablet,,,212\r\n"
+)
 QR = "data:image/svg+xml;base64,PHN2Zy8+"
 ON_THE_WIRE: tuple[ErrorCode, ...] = (
     "closed",
@@ -270,6 +274,26 @@ EXAMPLES: dict[tuple[str, str], Example] = {
         {"secret": None, "code": "12345678", "stop": None, "name": "Anna's tablet"},
         ("pairingFailed", "pairingLocked"),
     ),
+    ("GET", "/api/audit"): Example(
+        {
+            "entries": [
+                {
+                    "id": 4711,
+                    "act": "moved",
+                    "who": "Anna's tablet",
+                    "whom": "",
+                    "about": "",
+                    "atMs": 1795284000000,
+                    "untilMs": 1795284090000,
+                    "count": 212,
+                }
+            ],
+            "more": True,
+            "names": ["Anna's tablet", "Dance"],
+            "problem": None,
+        }
+    ),
+    ("GET", "/api/audit/file"): Example(AUDIT_FILE),
     ("GET", "/api/people"): Example({"people": [PERSON], "openInvites": [], "openCodes": []}),
     ("PATCH", "/api/people/{person}"): Example(
         PERSON, {"name": "Anna's tablet", "role": "owner"}, ("notFound",)

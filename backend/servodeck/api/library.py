@@ -11,7 +11,7 @@ from pydantic import Field, TypeAdapter
 from starlette.concurrency import run_in_threadpool
 from starlette.requests import HTTPConnection
 
-from servodeck.api.routes import DRIVER, OWNER, VIEWER, Controlled, routes
+from servodeck.api.routes import DRIVER, OWNER, VIEWER, Controlled, leaves, routes
 from servodeck.callers import Caller
 from servodeck.errors import MalformedError, NotDrivingError
 from servodeck.library.library import Library, Version
@@ -153,14 +153,14 @@ def list_documents(library: OfLibrary) -> LibraryListing:
     )
 
 
-@library_api.post("/remove", status_code=204, dependencies=[OWNER])
+@library_api.post("/remove", status_code=204, dependencies=[OWNER, leaves("libraryRemoved")])
 async def remove(documents: DocumentIds, library: OfLibrary, control: Controlled) -> None:
     """Puts them into the trash for 30 days: all or none."""
     await run_in_threadpool(library.remove, documents.ids)
     control.robot.removed(documents.ids)
 
 
-@library_api.post("/restore", status_code=204, dependencies=[DRIVER])
+@library_api.post("/restore", status_code=204, dependencies=[DRIVER, leaves("libraryRestored")])
 def restore(documents: DocumentIds, library: OfLibrary) -> None:
     """Takes them out of the trash: all or none."""
     library.restore(documents.ids)
@@ -173,7 +173,7 @@ def read(document: IdInPath, library: OfLibrary) -> StoredDocument:
     return StoredDocument(text=text, revision=revision)
 
 
-@library_api.put("/{document}")
+@library_api.put("/{document}", dependencies=[leaves("librarySaved")])
 async def write(
     document: IdInPath,
     wanted: DocumentWrite,
@@ -227,14 +227,18 @@ def read_version(document: IdInPath, version: IdInPath, library: OfLibrary) -> V
     return VersionText(text=library.read_version(document, version))
 
 
-@library_api.put("/{document}/versions/{version}", status_code=204, dependencies=[DRIVER])
+@library_api.put(
+    "/{document}/versions/{version}", status_code=204, dependencies=[DRIVER, leaves("librarySaved")]
+)
 def keep_version(document: IdInPath, version: IdInPath, wanted: VersionWrite, library: OfLibrary) -> None:
     """Saves a text as a named version of the document."""
     check_document(wanted.text)
     library.keep_version(document, Version(version, wanted.name, wanted.at_ms), wanted.text)
 
 
-@library_api.delete("/{document}/versions/{version}", status_code=204, dependencies=[DRIVER])
+@library_api.delete(
+    "/{document}/versions/{version}", status_code=204, dependencies=[DRIVER, leaves("librarySaved")]
+)
 def remove_version(document: IdInPath, version: IdInPath, library: OfLibrary) -> None:
     """Deletes that version for good; the document and its other versions stay."""
     library.remove_version(document, version)
@@ -255,7 +259,7 @@ class RobotChoice(Message):
 robots_api = routes("/api", "robots")
 
 
-@robots_api.put("/robot", status_code=204)
+@robots_api.put("/robot", status_code=204, dependencies=[leaves("robotChosen")])
 async def put_on_board(choice: RobotChoice, control: Controlled, caller: Annotated[Caller, DRIVER]) -> None:
     """Puts that robot of the library on this board, for all clients. 412 where a third robot is there."""
     if not control.driving.may_rule(caller):

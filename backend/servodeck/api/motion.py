@@ -12,7 +12,7 @@ from pydantic import Field
 from starlette.requests import HTTPConnection
 
 from servodeck.api.once import KEYED, KeyedRoute
-from servodeck.api.routes import DRIVER, OWNER, VIEWER, Controlled, routes
+from servodeck.api.routes import DRIVER, OWNER, SEEN_AT_ROBOT, VIEWER, Controlled, named, routes
 from servodeck.api.websocket import play as play_for_page
 from servodeck.callers import Caller
 from servodeck.errors import CancelledError, MalformedError
@@ -103,7 +103,7 @@ async def once_identified(request: Request, control: Controlled) -> None:
         raise CancelledError("The client disconnected.")
 
 
-ONCE_IDENTIFIED = [Depends(once_identified)]
+ONCE_IDENTIFIED = [SEEN_AT_ROBOT, Depends(once_identified)]
 KEYED_ONCE_IDENTIFIED = [KEYED, *ONCE_IDENTIFIED]
 
 
@@ -151,7 +151,7 @@ async def erase(caller: Annotated[Caller, OWNER], scripts: Scripted, wish: Erase
     return Erased(erased=True)
 
 
-@motion_api.post("/lease")
+@motion_api.post("/lease", dependencies=[SEEN_AT_ROBOT])
 async def lease(wish: LeaseWish, caller: Driving, scripts: Scripted) -> LeaseState:
     """Requests, takes, holds or releases the lease. Each motion requests it by itself and holds it until 2 s
     after its end.
@@ -159,7 +159,7 @@ async def lease(wish: LeaseWish, caller: Driving, scripts: Scripted) -> LeaseSta
     return scripts.act(caller, wish.action)
 
 
-@motion_api.put("/driver")
+@motion_api.put("/driver", dependencies=[SEEN_AT_ROBOT])
 async def give(wish: DriverWish, caller: Driving, scripts: Scripted) -> LeaseState:
     """Hands the lease to a connected client that may drive, without a request; motion is stopped first. For
     the driver and owners.
@@ -253,7 +253,7 @@ async def job_state(job: str, control: Controlled) -> JobState:
     return control.board.jobs.find(job)
 
 
-@jobs_api.delete("/jobs/{job}", dependencies=[DRIVER])
+@jobs_api.delete("/jobs/{job}", dependencies=[DRIVER, SEEN_AT_ROBOT])
 async def cancel(job: str, control: Controlled) -> JobState:
     """Cancels it after its frame in progress, with the groups behind it. One that has ended stays
     unchanged.
@@ -291,8 +291,8 @@ async def play(
     return play_for_page(group, wish.id, wish.nonce, control.driving.driving_page(caller), control)
 
 
-@play_api.delete("/play", dependencies=[DRIVER])
-async def stop_playing(control: Controlled) -> PlayState | None:
+@play_api.delete("/play", dependencies=[SEEN_AT_ROBOT])
+async def stop_playing(request: Request, control: Controlled, caller: Driving) -> PlayState | None:
     """Ends the play with its frame in progress, whichever client began it. Answers how it ended."""
-    control.requests.stop_playing()
+    control.stop_playing(named(request, caller))
     return control.board.plays.latest

@@ -173,7 +173,7 @@ class KeyedRoute(ApiRoute):
     def get_route_handler(self) -> Callable[[Request], Coroutine[Any, Any, Response]]:
         if not any(each.call is keyed for each in self.dependant.dependencies):
             return super().get_route_handler()
-        handle = APIRoute.get_route_handler(self)
+        handle = self.noting(APIRoute.get_route_handler(self))
 
         async def judge_and_answer(request: Request) -> Response:
             self.judge(request)

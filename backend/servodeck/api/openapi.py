@@ -76,6 +76,7 @@ TAGS = (
     Tag("robots", "Robot on the board", "Which robot of the library is on the board."),
     Tag("cameras", "Cameras", "The pictures of the cameras at the gateway."),
     Tag("people", "People", "Paired devices, roles, invitations and the tokens of programs."),
+    Tag("audit", "Acts", "Who did what at this gateway, and when, for owners."),
     Tag("health", "Health", "The gateway's own state, for supervisors."),
 )
 JSON = "application/json"

@@ -16,9 +16,19 @@ from servodeck.access.devices import Device, Devices, Kind
 from servodeck.access.entrance import Entrance
 from servodeck.access.expiry import Expiry
 from servodeck.api.motion import Scripted
-from servodeck.api.routes import OWNER, PUBLIC, VIEWER, Controlled, entrance_of, routes
+from servodeck.api.routes import (
+    OWNER,
+    PUBLIC,
+    VIEWER,
+    Audited,
+    Controlled,
+    Note,
+    entrance_of,
+    leaves,
+    routes,
+)
 from servodeck.callers import Caller, Role
-from servodeck.errors import ForbiddenError, MalformedError, StorageError
+from servodeck.errors import ForbiddenError, MalformedError, PairingError, StorageError
 from servodeck.robot.control import Control
 from servodeck.robot.hub import is_of
 from servodeck.schema import Message
@@ -176,10 +186,15 @@ def you_of(caller: Caller) -> You:
 
 @people_api.patch("/me", dependencies=[Depends(called_by_browser)])
 async def rename_me(
-    wanted: OwnName, entrance: Entered, control: Controlled, caller: Annotated[Caller, VIEWER]
+    wanted: OwnName,
+    entrance: Entered,
+    control: Controlled,
+    caller: Annotated[Caller, VIEWER],
+    note: Annotated[Note, leaves("renamed")],
 ) -> You:
     """Changes the name of the caller; a number is added where the name is taken."""
     changed = entrance.devices.change(caller.id, wanted.name, None)
+    note.whom = changed.name
     spread_name(changed, control)
     await entrance.devices.save()
     return you_of(changed.caller)
@@ -198,11 +213,20 @@ async def pair(
     entrance: Entered,
     present: Annotated[Caller | None, PUBLIC],
     scripts: Scripted,
+    audit: Audited,
+    note: Annotated[Note, leaves("paired")],
 ) -> You:
     """Pairs by a link, a code or a stop-only link, and sets a cookie; a device with at least that role keeps
     its own.
     """
-    caller, credential = accept_invite(wish, entrance, present)
+    try:
+        caller, credential = accept_invite(wish, entrance, present)
+    except PairingError:
+        audit.note("pairRefused", present.name if present else None)
+        raise
+    note.who, note.about = caller.name, caller.role
+    if credential is None:
+        note.act = None  # it keeps what it has
     if present and not entrance.still_lets_in(present):
         reason = "This device was paired again."
         await scripts.disconnect(present.id, reason, caller.name, run_continues=True)
@@ -268,16 +292,20 @@ async def change(
     control: Controlled,
     scripts: Scripted,
     by: Annotated[Caller, OWNER],
+    note: Annotated[Note, leaves("roleChanged")],
 ) -> Person:
     """Changes name or role. Connections under the old role are closed and may be opened again; if the new
     role may not drive, an unattended group is stopped and a download ends.
 
     """
-    before = entrance.devices.get(person).role
+    before = entrance.devices.get(person)
     changed = entrance.devices.change(person, wanted.name, wanted.role)
-    if changed.role == before:
+    note.whom = before.name
+    if changed.role == before.role:
+        note.act, note.about = "renamed", changed.name
         spread_name(changed, control)
     else:
+        note.about = changed.role
         reason, still_drives = "Your role is another one now.", changed.caller.may("driver")
         await scripts.disconnect(person, reason, by.name, still_drives=still_drives)
     await entrance.devices.save()
@@ -290,12 +318,14 @@ async def revoke(
     entrance: Entered,
     scripts: Scripted,
     by: Annotated[Caller, OWNER],
+    note: Annotated[Note, leaves("revoked")],
     continues: Continues = False,
 ) -> None:
     """Revokes it: its connections are closed at once, its motion is stopped, and none of its commands leaves
     the gateway after the answer.
 
     """
+    note.whom = entrance.devices.get(person).name
     entrance.devices.revoke(person)
     reason = "This device is not paired any more."
     await scripts.disconnect(person, reason, by.name, run_continues=continues)
@@ -303,8 +333,11 @@ async def revoke(
 
 
 @people_api.post("/invites", dependencies=[OWNER])
-async def invite(wish: InviteWish, entrance: Entered, base: Base) -> Invitation:
+async def invite(
+    wish: InviteWish, entrance: Entered, base: Base, note: Annotated[Note, leaves("invited")]
+) -> Invitation:
     """A link and a code for one device, for two minutes."""
+    note.whom, note.about = wish.name, wish.role
     made = entrance.pairing.invite(wish.role, wish.name)
     link = pair_link(base, made.secret)
     expires_in_ms = round(entrance.pairing.seconds_left(made) * 1000)
@@ -313,28 +346,34 @@ async def invite(wish: InviteWish, entrance: Entered, base: Base) -> Invitation:
     )
 
 
-@people_api.delete("/invites/{invitation}", status_code=204, dependencies=[OWNER])
+@people_api.delete("/invites/{invitation}", status_code=204, dependencies=[OWNER, leaves("withdrew")])
 async def withdraw(invitation: str, entrance: Entered) -> None:
     """Ends an invitation that was not used."""
     entrance.pairing.withdraw(invitation)
 
 
 @people_api.post("/tokens", dependencies=[OWNER])
-async def make_token(wish: TokenWish, entrance: Entered, expiry: Expiring) -> Token:
+async def make_token(
+    wish: TokenWish, entrance: Entered, expiry: Expiring, note: Annotated[Note, leaves("tokenMade")]
+) -> Token:
     """A token for a script: `Authorization: Bearer TOKEN`. When it expires, its connections and its motion
     end as with a revocation; it stays in the list until an owner revokes it.
     """
     valid_ms = None if wish.expires_in_days is None else wish.expires_in_days * DAY_MS
     device, token = entrance.devices.admit("token", wish.name, wish.role, valid_ms)
+    note.whom, note.about = device.name, device.role
     expiry.plan()
     await entrance.devices.save()
     return Token(id=device.id, token=token)
 
 
 @people_api.post("/stop-links", dependencies=[OWNER])
-async def make_stop_link(wish: StopLinkWish, entrance: Entered, base: Base) -> StopLink:
+async def make_stop_link(
+    wish: StopLinkWish, entrance: Entered, base: Base, note: Annotated[Note, leaves("stopLinkMade")]
+) -> StopLink:
     """A link that can stop the robot and do nothing else, for a sticker; valid until it is revoked."""
     device, credential = entrance.devices.admit("stopLink", wish.name, "stopper")
+    note.whom = device.name
     await entrance.devices.save()
     link = stop_link(base, credential)
     return StopLink(id=device.id, link=link, picture=picture_of(link))

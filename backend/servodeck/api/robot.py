@@ -20,9 +20,20 @@ from starlette.types import Receive, Scope, Send
 
 from servodeck import __version__
 from servodeck.access.connections import connection_of
-from servodeck.api.routes import DRIVER, OWNER, STOPPER, VIEWER, Controlled, routes
+from servodeck.api.routes import (
+    DRIVER,
+    OWNER,
+    SEEN_AT_ROBOT,
+    STOPPER,
+    VIEWER,
+    Controlled,
+    Note,
+    leaves,
+    named,
+    routes,
+)
 from servodeck.api.websocket import serve_client
-from servodeck.callers import Caller, as_script
+from servodeck.callers import Caller
 from servodeck.errors import BusyError, OutOfRangeError
 from servodeck.port.bluetooth import this_computer
 from servodeck.port.ports import is_same_port, lasting_of, list_devices
@@ -168,12 +179,15 @@ def ports(control: Controlled, bluetooth: bool = False) -> list[Device]:
 
 
 @api.put("/port", dependencies=[OWNER])
-async def use_port(choice: PortChoice, control: Controlled) -> PortState:
+async def use_port(
+    choice: PortChoice, control: Controlled, note: Annotated[Note, leaves("portOpened")]
+) -> PortState:
     """Opens that port instead of the present one. After a failure it is tried again and again, as `status`
     tells. One that opened is opened again at the next start, unless `--serial` names one.
     """
     if choice.board is not None and choice.board not in FAMILIES:
         raise OutOfRangeError(f"board is {choice.board}, allowed: {', '.join(FAMILIES)}")
+    note.about = choice.device
     await control.use_port(choice.device, choice.board)
     found = await in_thread(list_devices)
     control.remembered.remember_port(lasting_of(choice.device, found))
@@ -181,7 +195,7 @@ async def use_port(choice: PortChoice, control: Controlled) -> PortState:
     return control.board.port
 
 
-@api.delete("/port", dependencies=[OWNER])
+@api.delete("/port", dependencies=[OWNER, leaves("portClosed")])
 async def close_port(control: Controlled) -> PortState:
     """Closes the port and leaves it closed, also after the next start."""
     await control.close_port()
@@ -190,7 +204,7 @@ async def close_port(control: Controlled) -> PortState:
     return control.board.port
 
 
-@api.post("/port/listen")
+@api.post("/port/listen", dependencies=[leaves(None)])
 async def listen(request: Request, control: Controlled, caller: Annotated[Caller, OWNER]) -> RateFound:
     """Gives up the serial port for some seconds, listens on it at other speeds than the boards', and opens it
     again. For a board from which nothing that can be read arrives. Sends nothing; refused while the robot may
@@ -203,7 +217,7 @@ async def listen(request: Request, control: Controlled, caller: Annotated[Caller
     return RateFound(baud=baud, kind="packets" if heard.packets else "text")
 
 
-@api.put("/board")
+@api.put("/board", dependencies=[SEEN_AT_ROBOT])
 async def name_board(
     choice: BoardChoice, request: Request, control: Controlled, caller: Annotated[Caller, DRIVER]
 ) -> Status:
@@ -214,12 +228,7 @@ async def name_board(
     return await status(control)
 
 
-def named(request: Request, caller: Caller) -> Caller:
-    """A page says where it comes from, a program does not."""
-    return caller if "origin" in request.headers else as_script(caller)
-
-
-@api.post("/stop")
+@api.post("/stop", dependencies=[SEEN_AT_ROBOT])
 async def stop(request: Request, control: Controlled, caller: Annotated[Caller, STOPPER]) -> Stopped:
     """STOP: drops all that waits, sends stop three times, holds each servo whose place is known, and refuses
     motion until resume. Latches even without a port.
@@ -228,7 +237,7 @@ async def stop(request: Request, control: Controlled, caller: Annotated[Caller, 
     return Stopped(latch=control.latch, halted=True, unheld=control.unheld)
 
 
-@api.post("/resume")
+@api.post("/resume", dependencies=[SEEN_AT_ROBOT])
 async def resume(request: Request, control: Controlled, caller: Annotated[Caller, DRIVER]) -> Status:
     """Allows motion again. Moves nothing. While a client drives, only that client or an owner may."""
     control.resume(named(request, caller))

@@ -17,10 +17,11 @@ from starlette.requests import HTTPConnection, Request
 from starlette.responses import Response
 from starlette.routing import BaseRoute, Mount
 
+from servodeck.access.audit import Act, Audit
 from servodeck.access.connections import connection_of
 from servodeck.access.entrance import Entrance
 from servodeck.access.guard import judge_script
-from servodeck.callers import Caller, Role
+from servodeck.callers import Caller, Role, as_script
 from servodeck.robot.control import Control
 from servodeck.schema import has_more_values
 from servodeck.threads import in_thread
@@ -54,6 +55,30 @@ class Needs:
         return caller
 
 
+class Note:
+    """What the list of acts will say of a request once it has succeeded. A route may add to it; `act` None:
+    nothing, because it changed nothing, or `robot/acts.py` notes it.
+    """
+
+    def __init__(self, act: Act | None, who: str | None) -> None:
+        self.act = act
+        self.who = who
+        self.whom = ""
+        self.about = ""
+
+
+class Leaves:
+    """A dependency: the act that a request leaves in the list."""
+
+    def __init__(self, act: Act | None) -> None:
+        self.act = act
+
+    async def __call__(self, connection: HTTPConnection) -> Note:
+        note = connection.state.note
+        assert isinstance(note, Note)
+        return note
+
+
 class BodyRequest(Request):
     """Reads a large body in a thread, because a stop would have to wait for it."""
 
@@ -74,17 +99,37 @@ def parse_large(body: bytes) -> Any:
     return json.loads(text)
 
 
+Handler = Callable[[Request], Coroutine[Any, Any, Response]]
+
+
 class JudgingRoute(APIRoute):
     """Judges the head first; the framework reads the body before its dependencies."""
 
     def get_route_handler(self) -> Callable[[Request], Coroutine[Any, Any, Response]]:
-        handle = super().get_route_handler()
+        handle = self.noting(super().get_route_handler())
 
         async def judge_and_handle(request: Request) -> Response:
             self.judge(request)
             return await handle(BodyRequest(request.scope, request.receive))
 
         return judge_and_handle
+
+    def noting(self, handle: Handler) -> Handler:
+        """Notes the act of a request once it has succeeded."""
+        named_acts = [each.act for each in leaves_of(self.dependant)]
+        if not named_acts:
+            return handle
+
+        async def handle_and_note(request: Request) -> Response:
+            caller = request.state.caller
+            who = named(request, caller).name if caller else None
+            note = request.state.note = Note(named_acts[0], who)
+            response = await handle(request)
+            if note.act:
+                audit_in(request).note(note.act, note.who, note.about, note.whom)
+            return response
+
+        return handle_and_note
 
     def judge(self, request: Request) -> None:
         """Raises a GatewayError for a caller who may not request this."""
@@ -106,6 +151,21 @@ def entrance_in(connection: HTTPConnection) -> Entrance:
     return entrance
 
 
+def audit_in(connection: HTTPConnection) -> Audit:
+    audit = connection.app.state.audit
+    assert isinstance(audit, Audit)
+    return audit
+
+
+def named(connection: HTTPConnection, caller: Caller) -> Caller:
+    """A page says where it comes from, a program does not."""
+    return caller if "origin" in connection.headers else as_script(caller)
+
+
+async def audit_of(connection: HTTPConnection) -> Audit:
+    return audit_in(connection)
+
+
 async def entrance_of(connection: HTTPConnection) -> Entrance:
     return entrance_in(connection)
 
@@ -115,6 +175,15 @@ STOPPER = Depends(Needs("stopper"))
 VIEWER = Depends(Needs("viewer"))
 DRIVER = Depends(Needs("driver"))
 OWNER = Depends(Needs("owner"))
+
+
+def leaves(act: Act | None) -> Any:
+    """The act that a route leaves in the list where it succeeds."""
+    return Depends(Leaves(act))
+
+
+SEEN_AT_ROBOT = leaves(None)
+"""Of a route whose effect passes `robot/acts.py`."""
 
 
 def named_roles(routes: Sequence[BaseRoute]) -> Iterator[tuple[BaseRoute, list[Role | None]]]:
@@ -133,13 +202,27 @@ def needs_of(dependant: Dependant | None) -> Iterator[Needs]:
             yield each.call
 
 
+def leaves_of(dependant: Dependant | None) -> Iterator[Leaves]:
+    for each in dependant.dependencies if dependant else ():
+        if isinstance(each.call, Leaves):
+            yield each.call
+
+
+READING = frozenset({"GET", "HEAD"})
+
+
 def require_roles(routes: Sequence[BaseRoute]) -> None:
-    """Denies by default: a route that was added without a role fails before it can be used."""
+    """Denies by default: a route that was added without a role, or changes something and does not say which
+    act it leaves, fails before it can be used.
+    """
     for route, roles in named_roles(routes):
         if len(roles) != 1:
             raise TypeError(f"{route} has to name one role")
         if isinstance(route, APIRoute) and not isinstance(route, JudgingRoute):
             raise TypeError(f"{route} has to be a JudgingRoute")
+        is_changing = isinstance(route, APIRoute) and not READING.issuperset(route.methods or ())
+        if is_changing and len(list(leaves_of(getattr(route, "dependant", None)))) != 1:
+            raise TypeError(f"{route} has to name the act that it leaves")
 
 
 # Dependencies are coroutines even where they wait for nothing: a plain function would go through a thread,
@@ -166,3 +249,4 @@ def routes(prefix: str, about: str, route_class: type[ApiRoute] = ApiRoute) -> A
 
 
 Controlled = Annotated[Control, Depends(control_of)]
+Audited = Annotated[Audit, Depends(audit_of)]

@@ -298,7 +298,7 @@ def read(message: ReadMessage, session: Session, control: Control) -> None:
 ACTS: dict[type[AnyClientMessage], Callable[[Any, Session, Control], None]] = {
     MoveMessage: take_move,
     PlayMessage: take_play,
-    StopPlayingMessage: lambda _, _session, control: control.requests.stop_playing(),
+    StopPlayingMessage: lambda _, session, control: control.stop_playing(session.caller),
     RunMessage: take_run,
     StopGroupMessage: lambda message, session, control: perform(
         session, message.id, control.operations.end_group(session)
@@ -311,7 +311,7 @@ ACTS: dict[type[AnyClientMessage], Callable[[Any, Session, Control], None]] = {
     ResumeMessage: lambda _, session, control: control.resume(session.caller, session),
     BoardMessage: name_board,
     ReadMessage: read,
-    CalibrateMessage: lambda message, session, control: control.limits.calibrate(session, message.servo),
+    CalibrateMessage: lambda message, session, control: control.calibrate(session, message.servo),
     LeaseMessage: act_on_lease,
     GrantMessage: grant,
     ContinueMessage: allow_unattended,

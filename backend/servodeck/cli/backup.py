@@ -13,7 +13,7 @@ import sqlite3
 import tempfile
 import time
 from collections.abc import Iterator, Mapping
-from contextlib import closing
+from contextlib import closing, suppress
 from pathlib import Path
 from typing import Annotated, Any
 from zipfile import ZIP_DEFLATED, BadZipFile, ZipFile
@@ -22,11 +22,13 @@ import typer
 
 from servodeck import __version__
 from servodeck.cli.options import USAGE, data_folder, fail
+from servodeck.errors import StorageError
 
 FORMAT, VERSION = "servodeck-backup", 1
 MANIFEST = "servodeck-backup.json"
-# The count of starts stays with its folder: leases of earlier starts must never be valid again.
-STAYS = "epoch"
+# These stay with their folder: leases of earlier starts must never be valid again, and a list of acts that
+# an older one could replace would prove nothing.
+STAYS = re.compile(r"(epoch|audit\.sqlite.*)")
 NAME = re.compile(r"[a-z][a-z0-9-]*\.(sqlite|json)")
 MOST_BYTES = 2**30
 
@@ -70,13 +72,26 @@ def restore(
     except (BackupError, OSError, sqlite3.Error) as error:
         fail(f"Nothing was changed: {error}.")
     print(f"{', '.join(names)} of {file} are in {folder}.")
+    note_restored(file.name, folder)
     if former is not None:
         print(f"The former files are in {former}.")
 
 
+def note_restored(name: str, folder: Path) -> None:
+    """In the list of acts; where that cannot be written, the files are back all the same."""
+    from servodeck.access.audit_file import append
+
+    with suppress(StorageError):
+        append(folder, "restored", name, time.time_ns() // 1_000_000)
+
+
+def is_backed_up(name: str) -> bool:
+    return bool(NAME.fullmatch(name)) and not STAYS.fullmatch(name)
+
+
 def write_backup(folder: Path, file: Path) -> list[str]:
     """The names of what it holds. Raises a BackupError, OSError or sqlite3.Error; an older file stays."""
-    found = sorted(path for path in folder.glob("*") if NAME.fullmatch(path.name) and path.is_file())
+    found = sorted(path for path in folder.glob("*") if is_backed_up(path.name) and path.is_file())
     if not found:
         raise BackupError(f"{folder} holds nothing of Servodeck's")
     with tempfile.TemporaryDirectory() as scratch:
@@ -153,7 +168,7 @@ def files_in(archive: ZipFile) -> Mapping[str, str]:
     if manifest.get("version") != VERSION:
         raise BackupError("it was written by a newer Servodeck")
     files = manifest["files"]
-    if not isinstance(files, dict) or not all(NAME.fullmatch(str(name)) for name in files):
+    if not isinstance(files, dict) or not all(is_backed_up(str(name)) for name in files):
         raise ValueError("names that no backup has")
     if sum(archive.getinfo(name).file_size for name in files) > MOST_BYTES:
         raise BackupError("it is larger than any library")
@@ -206,5 +221,5 @@ def move_former(folder: Path) -> Path | None:
 def files_of(folder: Path) -> Iterator[Path]:
     """With the journals of databases."""
     for path in folder.iterdir():
-        if path.is_file() and path.name != STAYS and NAME.match(path.name):
+        if path.is_file() and not STAYS.fullmatch(path.name) and NAME.match(path.name):
             yield path

@@ -238,6 +238,37 @@ def events(remote: Remote) -> None:
         raise typer.Exit(INTERRUPTED) from None
 
 
+@asking
+def audit(
+    remote: Remote,
+    limit: Annotated[int, typer.Option(min=1, max=200, help="So many entries, the newest first.")] = 50,
+    as_csv: Annotated[bool, typer.Option("--csv", help="Print the whole list as CSV.")] = False,
+    as_json: AsJson = False,
+) -> None:
+    """Show who did what at this gateway, and when. Owners only."""
+    if not as_csv:
+        show(request(remote, "GET", f"/api/audit?limit={limit}"), as_json, audit_words)
+        return
+    try:
+        print(remote.text("/api/audit/file?format=csv"), end="")
+    except RefusedError as error:
+        explain(error)
+    except UnreachableError as error:
+        explain_silence(remote, error)
+
+
+def audit_words(page: dict[str, Any]) -> str:
+    lines = [entry_words(entry) for entry in page["entries"]] or ["Nothing has happened yet."]
+    return "\n".join([*lines, *([f"Not stored: {page['problem']}"] if page["problem"] else [])])
+
+
+def entry_words(entry: dict[str, Any]) -> str:
+    at = time.strftime("%Y-%m-%d %H:%M:%S", time.localtime(entry["atMs"] / 1000))
+    times = f"{entry['count']} times" if entry["count"] > 1 else ""
+    words = (at, entry["act"], entry["who"] or "-", entry["whom"], entry["about"], times)
+    return "  ".join(word for word in words if word)
+
+
 COMMANDS: tuple[Callable[..., None], ...] = (
     status,
     board,
@@ -248,6 +279,7 @@ COMMANDS: tuple[Callable[..., None], ...] = (
     erase,
     battery,
     events,
+    audit,
 )
 
 

@@ -46,6 +46,13 @@ class Remote:
         with self._answer_to(method, path, body, wait_s) as answer:
             return read(answer)
 
+    def text(self, path: str) -> str:
+        """The answer as it is. Raises as `request` does."""
+        with self._answer_to("GET", path, None, ANSWER_S) as answer:
+            if answer.status != OK:
+                read(answer)
+            return answer.read().decode()
+
     def events(self) -> Iterator[str]:
         """Each as JSON, for as long as the gateway sends them. Raises as `request` does."""
         with self._answer_to("GET", "/api/events", None, None) as answer:

@@ -138,6 +138,8 @@ def serve(
     """Serve the page and the serial port. Each option can also be set as SERVODECK_NAME or in a file."""
     from servodeck.access import addresses
     from servodeck.access.addresses import Announcement
+    from servodeck.access.audit import Audit
+    from servodeck.access.audit_file import AuditFile
     from servodeck.api.app import create_app
     from servodeck.api.health import allow_descriptors
     from servodeck.api.server import Server, leave_with_stdin
@@ -145,7 +147,7 @@ def serve(
     from servodeck.cli.terminal import greeting, set_up_logs, urls_for_others
     from servodeck.errors import StorageError
     from servodeck.files import Remembered
-    from servodeck.library.library import Library
+    from servodeck.library.library import Library, wall_clock_ms
     from servodeck.port.link import BackgroundPorts
     from servodeck.robot.board.slots import SlotMemory
     from servodeck.robot.control import Control
@@ -206,7 +208,8 @@ def serve(
         if sys.stdout.isatty() if open_page is None else open_page:
             show(url)
 
-    app = create_app(control, library, entrance, cameras=cameras_from(camera))
+    audit = Audit(AuditFile(folder), wall_clock_ms)
+    app = create_app(control, library, entrance, cameras=cameras_from(camera), audit=audit)
     server = Server(app, control, device, ready)
     if exit_with_stdin:
         leave_with_stdin(server.leave)
@@ -216,6 +219,7 @@ def serve(
     if announcement:
         announcement.end()
     library.close()
+    audit.close()
     with suppress(StorageError):
         entrance.devices.close()
     log.close()

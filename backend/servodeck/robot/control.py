@@ -31,10 +31,11 @@ from servodeck.files import Remembered
 from servodeck.packet_models import report_model
 from servodeck.port.diagnosis import Heard
 from servodeck.port.link import Ports
-from servodeck.port.wire import Left
+from servodeck.port.wire import Left, Owner
 from servodeck.protocol.decoder import NoiseEvent
 from servodeck.protocol.families import FAMILIES
-from servodeck.protocol.values import Report
+from servodeck.protocol.values import Command, Report
+from servodeck.robot.acts import Acts
 from servodeck.robot.board.board import Board
 from servodeck.robot.board.slots import SlotMemory
 from servodeck.robot.broadcast import Broadcast
@@ -79,6 +80,7 @@ class Control:
         """
         self.named_device = named_device
         self.now = now
+        self.acts = Acts()
         self._latch = Latch(self._latch_changed)
         self.limits = RobotLimits()
         self.remembered = remembered or Remembered()
@@ -96,7 +98,7 @@ class Control:
             simulated_device,
             slot_memory or SlotMemory(),
             self,
-            self._relay.leaving,
+            self._leaving,
             identifies=identifies_board,
             polls_battery=polls_battery,
         )
@@ -175,6 +177,7 @@ class Control:
         stop. `unheld` has the motion that could not be held.
         """
         self._latch.close(cause, self.now())
+        self.acts.note("stopped", cause.name, "" if cause.by == "person" else cause.by)
         self.board.jobs.end(LatchedError("STOP ended the download before it was complete."))
         left = self.board.halts.halt(LatchedError("STOP was pressed before this was sent."))
         if left is not self._halting:
@@ -192,6 +195,7 @@ class Control:
         if port.status == "lost":
             raise PortLostError(port.detail or "The serial port is lost.")
         if self._latch.open():
+            self.acts.note("resumed", caller.name)
             self.board.motion.resumed(self.now())
             self.hub.send_all(ResumedMessage(by=caller.name), but=session)
 
@@ -212,6 +216,7 @@ class Control:
         if board != self.board.family_id and not self.driving.may_rule(caller):
             raise NotDrivingError("Another client drives: only the driver or an owner may choose the board.")
         self.choose_family(board)
+        self.acts.note("boardChosen", caller.name, board)
 
     def choose_family(self, board: str) -> None:
         """The family by which packets are judged, unless the board's answers contradict it; `unknown` has it
@@ -234,6 +239,19 @@ class Control:
         if run is None:
             raise CancelledError("Nothing is running.")
         self.board.unattended.allow(run, session, for_ms / 1000)
+        self.acts.note("allowedUnattended", session.caller.name)
+
+    def stop_playing(self, caller: Caller) -> None:
+        """The play of the gateway ends with its frame in progress, whoever began it."""
+        if self.board.plays.present:
+            self.acts.note("endedGroup", caller.name)
+        self.requests.stop_playing()
+
+    def calibrate(self, session: Session, servo: int | None) -> None:
+        """It may move that servo beyond its limits, until None or its end."""
+        self.limits.calibrate(session, servo)
+        if servo is not None:
+            self.acts.note("calibrated", session.caller.name, str(servo))
 
     async def use_port(self, device: str, board: str | None = None) -> None:
         await self.board.quiet()
@@ -274,6 +292,8 @@ class Control:
         self._recalled_board.port_opened(self.board)
 
     def board_lost(self) -> None:
+        if not self.latch:
+            self.acts.note("stopped", None, "loss")
         self._latch.cause = Cause("loss")  # the change of the link's state follows and publishes both
 
     def stopped_again(self, since_s: float) -> None:
@@ -292,9 +312,11 @@ class Control:
         self.hub.send_all(BatteryMessage(battery=self.board.battery.snapshot()))
 
     def job_changed(self, state: JobState) -> None:
+        self.acts.job_is(state)
         self.hub.send_all(JobMessage(job=state))
 
     def play_changed(self, state: PlayState) -> None:
+        self.acts.play_is(state)
         self.hub.send_all(PlayStateMessage(play=state))
 
     def unattended_time_over(self) -> None:
@@ -313,6 +335,14 @@ class Control:
             self.board.halts.halt_again()
 
     # Inside
+
+    def _leaving(self, owner: Owner, command: Command, at_s: float) -> None:
+        # Moves of pages are merged and leave in the name of the driver; those of a play are one act.
+        is_merged = owner is self.board.moves and self.board.plays.present is None
+        sender = self.driving.driver if is_merged else owner
+        if isinstance(sender, Session):
+            self.acts.left(command, sender.caller.name)
+        self._relay.leaving(owner, command, at_s)
 
     def _see_robot(self) -> None:
         link = self.board.link

@@ -111,6 +111,7 @@ class Watch:
         driving = self._control.driving
         if driving.driver and self._control.board.unattended.by not in (None, driving.driver):
             self.end_quietly(NotDrivingError("Another client drives now."))
+        self._control.acts.driver_is(driving.driver)
         driving.send_states()
 
     def disconnected(self, caller_id: str, by: str, *, run_continues: bool) -> None:

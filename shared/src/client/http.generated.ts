@@ -1,6 +1,40 @@
 // Made from the gateway's models by `npm run messages`; a check fails when the two differ. Change the routes of backend/servodeck/api instead.
 
 export interface paths {
+  '/api/audit': {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    /** Who did what, and when: the newest 10,000 entries */
+    get: operations['auditRead'];
+    put?: never;
+    post?: never;
+    delete?: never;
+    options?: never;
+    head?: never;
+    patch?: never;
+    trace?: never;
+  };
+  '/api/audit/file': {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    /** The whole list as CSV or as JSON lines, the newest first */
+    get: operations['auditExport'];
+    put?: never;
+    post?: never;
+    delete?: never;
+    options?: never;
+    head?: never;
+    patch?: never;
+    trace?: never;
+  };
   '/api/battery': {
     parameters: {
       query?: never;
@@ -676,6 +710,82 @@ export interface components {
        * @default 1500
        */
       timeMs?: number;
+    };
+    /**
+     * AuditEntry
+     * @description `count` such acts from `atMs` until `untilMs`. `who` did it, null where no person did, to `whom`; both
+     *     are names at that time. `about`: a slot, a servo, a role, a cause, a port or a document.
+     */
+    AuditEntry: {
+      /** About */
+      about: string;
+      /**
+       * Act
+       * @enum {string}
+       */
+      act:
+        | 'tookLease'
+        | 'leftLease'
+        | 'moved'
+        | 'ran'
+        | 'endedGroup'
+        | 'played'
+        | 'downloaded'
+        | 'downloadFailed'
+        | 'erased'
+        | 'setSpeed'
+        | 'unpowered'
+        | 'stopped'
+        | 'resumed'
+        | 'calibrated'
+        | 'allowedUnattended'
+        | 'boardChosen'
+        | 'gatewayStarted'
+        | 'gatewayEnded'
+        | 'restored'
+        | 'paired'
+        | 'pairRefused'
+        | 'invited'
+        | 'withdrew'
+        | 'renamed'
+        | 'roleChanged'
+        | 'revoked'
+        | 'tokenMade'
+        | 'tokenExpired'
+        | 'stopLinkMade'
+        | 'portOpened'
+        | 'portClosed'
+        | 'robotChosen'
+        | 'librarySaved'
+        | 'libraryRemoved'
+        | 'libraryRestored';
+      /** Atms */
+      atMs: number;
+      /** Count */
+      count: number;
+      /** Id */
+      id: number;
+      /** Untilms */
+      untilMs: number;
+      /** Who */
+      who: string | null;
+      /** Whom */
+      whom: string;
+    };
+    /**
+     * AuditPage
+     * @description The newest first. `more`: there are older ones. `names`: of all who did something. `problem`: why the
+     *     list is not stored at present; it is held in memory then.
+     */
+    AuditPage: {
+      /** Entries */
+      entries: components['schemas']['AuditEntry'][];
+      /** More */
+      more: boolean;
+      /** Names */
+      names: string[];
+      /** Problem */
+      problem: string | null;
     };
     /** Battery */
     Battery: {
@@ -1902,6 +2012,8 @@ export interface components {
 }
 export type AnsweredEvidence = components['schemas']['AnsweredEvidence'];
 export type ApplyWish = components['schemas']['ApplyWish'];
+export type AuditEntry = components['schemas']['AuditEntry'];
+export type AuditPage = components['schemas']['AuditPage'];
 export type Battery = components['schemas']['Battery'];
 export type BatteryAge = components['schemas']['BatteryAge'];
 export type BatteryReport = components['schemas']['BatteryReport'];
@@ -1974,6 +2086,137 @@ export type VersionWrite = components['schemas']['VersionWrite'];
 export type You = components['schemas']['You'];
 export type $defs = Record<string, never>;
 export interface operations {
+  auditRead: {
+    parameters: {
+      query?: {
+        /** @description Only of this kind. */
+        act?:
+          | (
+              | 'tookLease'
+              | 'leftLease'
+              | 'moved'
+              | 'ran'
+              | 'endedGroup'
+              | 'played'
+              | 'downloaded'
+              | 'downloadFailed'
+              | 'erased'
+              | 'setSpeed'
+              | 'unpowered'
+              | 'stopped'
+              | 'resumed'
+              | 'calibrated'
+              | 'allowedUnattended'
+              | 'boardChosen'
+              | 'gatewayStarted'
+              | 'gatewayEnded'
+              | 'restored'
+              | 'paired'
+              | 'pairRefused'
+              | 'invited'
+              | 'withdrew'
+              | 'renamed'
+              | 'roleChanged'
+              | 'revoked'
+              | 'tokenMade'
+              | 'tokenExpired'
+              | 'stopLinkMade'
+              | 'portOpened'
+              | 'portClosed'
+              | 'robotChosen'
+              | 'librarySaved'
+              | 'libraryRemoved'
+              | 'libraryRestored'
+            )
+          | null;
+        /** @description Only older ones than that entry. */
+        before?: number | null;
+        limit?: number;
+        /** @description Only of this person, by name. */
+        who?: string | null;
+      };
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    requestBody?: never;
+    responses: {
+      /** @description Successful Response */
+      200: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content: {
+          'application/json': components['schemas']['AuditPage'];
+        };
+      };
+    };
+  };
+  auditExport: {
+    parameters: {
+      query?: {
+        /** @description Only of this kind. */
+        act?:
+          | (
+              | 'tookLease'
+              | 'leftLease'
+              | 'moved'
+              | 'ran'
+              | 'endedGroup'
+              | 'played'
+              | 'downloaded'
+              | 'downloadFailed'
+              | 'erased'
+              | 'setSpeed'
+              | 'unpowered'
+              | 'stopped'
+              | 'resumed'
+              | 'calibrated'
+              | 'allowedUnattended'
+              | 'boardChosen'
+              | 'gatewayStarted'
+              | 'gatewayEnded'
+              | 'restored'
+              | 'paired'
+              | 'pairRefused'
+              | 'invited'
+              | 'withdrew'
+              | 'renamed'
+              | 'roleChanged'
+              | 'revoked'
+              | 'tokenMade'
+              | 'tokenExpired'
+              | 'stopLinkMade'
+              | 'portOpened'
+              | 'portClosed'
+              | 'robotChosen'
+              | 'librarySaved'
+              | 'libraryRemoved'
+              | 'libraryRestored'
+            )
+          | null;
+        format?: 'csv' | 'jsonl';
+        /** @description Only of this person, by name. */
+        who?: string | null;
+      };
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    requestBody?: never;
+    responses: {
+      /** @description Successful Response */
+      200: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content: {
+          'application/jsonl': unknown;
+          'text/csv': unknown;
+        };
+      };
+    };
+  };
   gatewayBattery: {
     parameters: {
       query?: never;
