@@ -45,6 +45,8 @@ const locks = { name: 'lock files', command: [process.execPath, 'scripts/lock_ch
 /** @type {Task} */
 const links = { name: 'links of documents', command: [process.execPath, 'scripts/links_check.mjs'] };
 /** @type {Task} */
+const documentation = { name: 'documentation site', command: [process.execPath, 'scripts/docs_check.mjs'] };
+/** @type {Task} */
 const pythonLint = { name: 'lint, Python', command: pythonModule('ruff', 'check', '.') };
 /** @type {Task} */
 const pythonFormat = {
@@ -167,6 +169,7 @@ export async function test(amount, pythonPackages) {
     ...[...still, unused, locks, links],
     ...[unit(amount), ...stillOfPython].map(withPython),
     withBrowser(components(amount)),
+    withBoth(documentation),
   ];
   const chains = [
     { title: 'in real time', tasks: inRealTime },

@@ -5,17 +5,12 @@
 import { execFileSync } from 'node:child_process';
 import { existsSync, readFileSync } from 'node:fs';
 import path from 'node:path';
+import { CODE_SPAN, leadsOutside, linksIn, withoutFences } from './markdown.mjs';
 import { at, root } from './steps.mjs';
 
-const LINK = /!?\[[^\]]*\]\(<?([^)\s>]+)>?(?:\s+"[^"]*")?\)/g;
-const CODE_SPAN = /`([^`\n]+)`/g;
 const REPOSITORY_PATH =
   /^(?:backend|bench|docs|e2e|frontend|packaging|scripts|shared)\/[\w./@ -]*\w$|^[\w.-]+\.(?:md|mjs|cjs|toml|jsonc)$/;
 const RECORD_OF_ITS_DAY = /^docs\/adr\/|^CHANGELOG\.md$/;
-
-/** @param {string} text @returns {string} without fenced blocks, lines kept */
-const withoutFences = (text) =>
-  text.replace(/^( *)(```|~~~)[^\n]*\n[\s\S]*?^\1\2[^\n]*$/gm, (block) => block.replace(/[^\n]/g, ''));
 
 /** As GitHub names headings. @param {string} text @returns {Set<string>} */
 function anchorsOf(text) {
@@ -43,13 +38,12 @@ const lineAt = (text, index) => text.slice(0, index).split('\n').length;
 
 /** @param {string} file @returns {string[]} */
 function problemsOf(file) {
-  const text = withoutFences(readFileSync(at(file), 'utf8'));
-  const links = [...text.replace(CODE_SPAN, (span) => ' '.repeat(span.length)).matchAll(LINK)].flatMap(
-    (found) => {
-      const problem = problemOfLink(file, found[1] ?? '');
-      return problem === null ? [] : [`${file}:${lineAt(text, found.index)}: ${problem}`];
-    },
-  );
+  const source = readFileSync(at(file), 'utf8');
+  const text = withoutFences(source);
+  const links = linksIn(source).flatMap(({ address, index }) => {
+    const problem = problemOfLink(file, address);
+    return problem === null ? [] : [`${file}:${lineAt(source, index)}: ${problem}`];
+  });
   if (RECORD_OF_ITS_DAY.test(file)) return links;
   const paths = [...text.matchAll(CODE_SPAN)].flatMap((found) => {
     const named = found[1] ?? '';
@@ -64,7 +58,7 @@ const besides = (file, target) => path.resolve(root, path.dirname(file), target)
 
 /** @param {string} file @param {string} link @returns {string | null} */
 function problemOfLink(file, link) {
-  if (/^[a-z]+:/i.test(link)) return null;
+  if (leadsOutside(link)) return null;
   const [target = '', anchor] = decodeURI(link).split('#');
   const full = target === '' ? at(file) : besides(file, target);
   if (!existsSync(full)) return `leads to ${target}, which is not there`;

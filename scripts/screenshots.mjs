@@ -8,7 +8,7 @@ import { findBrowser } from './browser.mjs';
 import { SetupProblem, at, main, say } from './steps.mjs';
 
 /** @typedef {import('@playwright/test').Page} Page */
-/** @typedef {{ width: number, height: number, colorScheme?: 'light', workspace?: string, region?: string, act?: (page: Page) => Promise<unknown> }} Shot */
+/** @typedef {{ width: number, height: number, colorScheme?: 'light', workspace?: string, region?: string, dialog?: string, act?: (page: Page) => Promise<unknown> }} Shot */
 
 const DESK = { width: 1440, height: 900 };
 /** High enough for a panel as a whole. */
@@ -105,6 +105,12 @@ async function calibrate(page) {
   await press(page, 'Calibrate');
 }
 
+/** @param {Page} page @param {string} body */
+async function connect(page, body) {
+  await press(page, 'Connect');
+  await choose(page, body);
+}
+
 /** @param {Page} page @param {number} warnMv */
 async function pack(page, warnMv) {
   await press(page, 'Battery settings');
@@ -142,6 +148,19 @@ const SHOTS = {
       await press(page, 'Library');
     },
   },
+  connect: { ...ANIMATE, workspace: 'live', act: (page) => press(page, 'Connect') },
+  'connect-hand': {
+    ...ANIMATE,
+    workspace: 'live',
+    dialog: 'Connect a robot',
+    act: (page) => connect(page, 'Hand'),
+  },
+  'connect-board': {
+    ...ANIMATE,
+    workspace: 'live',
+    dialog: 'Connect a robot',
+    act: (page) => connect(page, 'Board or other'),
+  },
   stopped: { ...DESK, act: (page) => press(page, /^Stop/) },
   disconnected: {
     ...ANIMATE,
@@ -157,7 +176,7 @@ async function take(browser, url, name) {
   const shot = SHOTS[name];
   if (shot === undefined)
     throw new SetupProblem(`No picture is called ${name}: ${Object.keys(SHOTS).join(', ')}`);
-  const { width, height, colorScheme = 'dark', workspace = 'live', region, act } = shot;
+  const { width, height, colorScheme = 'dark', workspace = 'live', region, dialog, act } = shot;
   const context = await browser.newContext({ viewport: { width, height }, colorScheme, locale: 'en-GB' });
   const page = await context.newPage();
   await page.addInitScript((tab) => sessionStorage.setItem('servodeck.tab', tab), workspace);
@@ -166,8 +185,9 @@ async function take(browser, url, name) {
   await act?.(page);
   await page.waitForTimeout(1000);
   const file = at(`docs/images/${name}.png`);
-  const shown = region === undefined ? page : page.getByRole('region', { name: region, exact: true });
-  await shown.screenshot({ path: file });
+  const named = { name: dialog ?? region ?? '', exact: true };
+  const part = dialog === undefined ? page.getByRole('region', named) : page.getByRole('dialog', named);
+  await (named.name === '' ? page : part).screenshot({ path: file });
   await context.close();
   const { size } = statSync(file);
   say(`docs/images/${name}.png: ${Math.round(size / 1000)} kB${size > LARGEST_BYTES ? ', too large' : ''}`);
