@@ -157,8 +157,8 @@ EXAMPLES: dict[tuple[str, str], Example] = {
     ),
     ("POST", "/api/resume"): Example(STATUS, errors=("lost",)),
     ("POST", "/api/move"): Example(
-        {"packets": 1, "overInMs": 1500, "firstMoves": [1]},
-        {"timeMs": 1500, "positions": {"1": 1500, "2": 900}, "take": False},
+        {"packets": 1, "overInMs": 1500, "firstMoves": [1], "ended": True},
+        {"timeMs": 1500, "positions": {"1": 1500, "2": 900}, "take": False, "waitMs": 10000},
         (*ON_THE_WIRE, "cancelled"),
     ),
     ("POST", "/api/slots/{slot}/run"): Example(

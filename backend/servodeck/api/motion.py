@@ -8,11 +8,12 @@ from collections.abc import Mapping
 from typing import Annotated
 
 from fastapi import Depends, Path, Request
-from pydantic import Field
+from pydantic import ConfigDict, Field
 from starlette.requests import HTTPConnection
 
 from servodeck.api.once import KEYED, KeyedRoute
 from servodeck.api.routes import DRIVER, OWNER, SEEN_AT_ROBOT, VIEWER, Controlled, named, routes
+from servodeck.api.waiting import Waiting, WaitMs
 from servodeck.api.websocket import play as play_for_page
 from servodeck.callers import Caller
 from servodeck.errors import CancelledError, MalformedError
@@ -34,9 +35,18 @@ class MoveWish(Message):
         dict[Servo, Annotated[int, Field(ge=0, le=0xFFFF)]], Field(min_length=1, max_length=253)
     ]
     take: Take = False
+    wait_ms: WaitMs | None = None
 
 
-class MoveBegun(Message):
+class Begun(Message):
+    """`ended`, with `waitMs`: whether the motion has ended in that time."""
+
+    model_config = ConfigDict(json_schema_serialization_defaults_required=False)
+
+    ended: bool | None = None
+
+
+class MoveBegun(Begun):
     """`firstMoves`: these servos started from an unknown position, so they started one after another."""
 
     packets: int
@@ -50,9 +60,10 @@ class RunWish(Message):
     times: Annotated[int, Field(ge=0, le=0xFFFF)] = 1
     continue_for_ms: ContinueMs | None = None
     take: Take = False
+    wait_ms: WaitMs | None = None
 
 
-class RunBegun(Message):
+class RunBegun(Begun):
     """`acknowledged`: the board has accepted the command, which says nothing about the slot. `silent`: the
     acknowledgement is missing. `sent`: such a board sends none.
     """
@@ -91,6 +102,13 @@ async def scripts_of(connection: HTTPConnection) -> Scripts:
 
 Scripted = Annotated[Scripts, Depends(scripts_of)]
 Driving = Annotated[Caller, DRIVER]
+
+
+async def waiting_of(request: Request, scripts: Scripted, control: Controlled) -> Waiting:
+    return Waiting(request, request.state.caller, scripts, control)
+
+
+Waits = Annotated[Waiting, Depends(waiting_of)]
 motion_api = routes("/api", "motion", KeyedRoute)
 
 
@@ -107,14 +125,17 @@ ONCE_IDENTIFIED = [SEEN_AT_ROBOT, Depends(once_identified)]
 KEYED_ONCE_IDENTIFIED = [KEYED, *ONCE_IDENTIFIED]
 
 
-@motion_api.post("/move", dependencies=KEYED_ONCE_IDENTIFIED)
-async def move(wish: MoveWish, request: Request, caller: Driving, scripts: Scripted) -> MoveBegun:
+@motion_api.post("/move", dependencies=KEYED_ONCE_IDENTIFIED, response_model_exclude_none=True)
+async def move(
+    wish: MoveWish, request: Request, caller: Driving, scripts: Scripted, waits: Waits
+) -> MoveBegun:
     """Moves servos together. Answers when the last packet has left the wire; `overInMs` later the servos have
     arrived. Servos of unknown position take at least 1500 ms and start one after another.
 
     """
     positions = {int(servo): position for servo, position in wish.positions.items()}
-    return await begin_move(request, caller, scripts, wish.time_ms, positions, take=wish.take)
+    begun = await begin_move(request, caller, scripts, wish.time_ms, positions, take=wish.take)
+    return begun.model_copy(update={"ended": await waits.moved(begun.over_in_ms, wish.wait_ms)})
 
 
 async def begin_move(
@@ -133,15 +154,19 @@ async def begin_move(
     return MoveBegun(packets=moved.packets, over_in_ms=moved.over_in_ms, first_moves=list(moved.first_moves))
 
 
-@motion_api.post("/slots/{slot}/run", dependencies=KEYED_ONCE_IDENTIFIED)
+@motion_api.post("/slots/{slot}/run", dependencies=KEYED_ONCE_IDENTIFIED, response_model_exclude_none=True)
 async def run(
-    slot: Annotated[int, Path(ge=0, le=255)], caller: Driving, scripts: Scripted, wish: RunWish = ONCE
+    slot: Annotated[int, Path(ge=0, le=255)],
+    caller: Driving,
+    scripts: Scripted,
+    waits: Waits,
+    wish: RunWish = ONCE,
 ) -> RunBegun:
     """Runs the group in that slot; a motion in progress ends first. It is stopped 2 s after the last
     `heartbeat`, unless it may continue.
     """
     outcome = await scripts.run(caller, slot, wish.times, take=wish.take, continue_ms=wish.continue_for_ms)
-    return RunBegun(outcome=outcome)
+    return RunBegun(outcome=outcome, ended=await waits.ran(slot, wish.wait_ms))
 
 
 @motion_api.post("/erase", dependencies=ONCE_IDENTIFIED)
@@ -177,6 +202,7 @@ class Poses(Message):
 class ApplyWish(Message):
     time_ms: Annotated[int, Field(ge=0, le=30_000)] = 1500
     take: Take = False
+    wait_ms: WaitMs | None = None
 
 
 GENTLY = ApplyWish()
@@ -190,20 +216,22 @@ async def list_poses(control: Controlled) -> Poses:
     return Poses(robot=facts.name, poses=facts.poses) if facts else Poses(robot="", poses=[])
 
 
-@poses_api.post("/{pose}/apply", dependencies=KEYED_ONCE_IDENTIFIED)
+@poses_api.post("/{pose}/apply", dependencies=KEYED_ONCE_IDENTIFIED, response_model_exclude_none=True)
 async def apply(
     pose: Annotated[str, Path(min_length=1, max_length=64)],
     request: Request,
     caller: Driving,
     scripts: Scripted,
     control: Controlled,
+    waits: Waits,
     wish: ApplyWish = GENTLY,
 ) -> MoveBegun:
     """Moves the robot to the pose of that number or name, in the same way as `move`."""
     control.board.identification.judge_known()
     found = control.robot.pose(pose, control.board.family)
     positions = {target.servo: target.position for target in found.targets}
-    return await begin_move(request, caller, scripts, wish.time_ms, positions, take=wish.take)
+    begun = await begin_move(request, caller, scripts, wish.time_ms, positions, take=wish.take)
+    return begun.model_copy(update={"ended": await waits.moved(begun.over_in_ms, wish.wait_ms)})
 
 
 class DownloadWish(Message):
@@ -217,6 +245,7 @@ class DownloadWish(Message):
     behind: Annotated[str, Field(max_length=64)] | None = None
     nonce: Nonce | None = None
     take: Take = False
+    wait_ms: WaitMs | None = None
 
 
 jobs_api = routes("/api", "jobs", KeyedRoute)
@@ -228,6 +257,7 @@ async def download(
     caller: Annotated[Caller, DRIVER],
     control: Controlled,
     scripts: Scripted,
+    waits: Waits,
 ) -> JobState:
     """Stores groups in slots of the board, one after the other, as one job, also from several requests. It
     continues when its client has left. STOP ends it, and so does the loss of the right to drive; then the
@@ -239,12 +269,14 @@ async def download(
     parts = await parts_of(groups, control.board.family_id)
     nonce = wish.nonce
     if nonce is None:
-        return scripts.download(caller, parts, wish.behind, take=wish.take)
+        job = scripts.download(caller, parts, wish.behind, take=wish.take)
+        return await waits.stored(job, wish.wait_ms)
 
     def claim() -> None:
         control.driving.judge_request(caller, nonce)
 
-    return control.requests.download(parts, caller, claim, wish.behind)
+    job = control.requests.download(parts, caller, claim, wish.behind)
+    return await waits.stored(job, wish.wait_ms)
 
 
 @jobs_api.get("/jobs/{job}", dependencies=[VIEWER])
@@ -271,6 +303,7 @@ class PlayWish(PlayIntent):
     nonce: Nonce | None = None
     continue_for_ms: ContinueMs | None = None
     take: Take = False
+    wait_ms: WaitMs | None = None
 
 
 play_api = routes("/api", "play", KeyedRoute)
@@ -278,14 +311,19 @@ play_api = routes("/api", "play", KeyedRoute)
 
 @play_api.post("/play", status_code=202, dependencies=KEYED_ONCE_IDENTIFIED)
 async def play(
-    wish: PlayWish, caller: Annotated[Caller, DRIVER], control: Controlled, scripts: Scripted
+    wish: PlayWish,
+    caller: Annotated[Caller, DRIVER],
+    control: Controlled,
+    scripts: Scripted,
+    waits: Waits,
 ) -> PlayState:
     """Plays frames by the gateway's clock, gently to the first one. Answers when the first one has begun. It
     is stopped 2 s after the last `heartbeat`, unless it may continue; one of a page ends with its page.
     """
     group = FrameGroup(await frames_of(wish.frames), wish.times, wish.loop_from)
     if wish.nonce is None:
-        return await scripts.play(caller, group, take=wish.take, continue_ms=wish.continue_for_ms)
+        begun = await scripts.play(caller, group, take=wish.take, continue_ms=wish.continue_for_ms)
+        return await waits.played(begun, wish.wait_ms)
     if wish.id is None:
         raise MalformedError("id: a page needs one beside its nonce")
     return play_for_page(group, wish.id, wish.nonce, control.driving.driving_page(caller), control)

@@ -710,6 +710,8 @@ export interface components {
        * @default 1500
        */
       timeMs?: number;
+      /** Waitms */
+      waitMs?: number | null;
     };
     /**
      * AuditEntry
@@ -902,6 +904,8 @@ export interface components {
        * @default false
        */
       take?: boolean;
+      /** Waitms */
+      waitMs?: number | null;
     };
     /**
      * DriverWish
@@ -1296,6 +1300,8 @@ export interface components {
      * @description `firstMoves`: these servos started from an unknown position, so they started one after another.
      */
     MoveBegun: {
+      /** Ended */
+      ended?: boolean | null;
       /** Firstmoves */
       firstMoves: number[];
       /** Overinms */
@@ -1320,6 +1326,8 @@ export interface components {
       take?: boolean;
       /** Timems */
       timeMs: number;
+      /** Waitms */
+      waitMs?: number | null;
     };
     /**
      * NamedPose
@@ -1541,6 +1549,8 @@ export interface components {
        * @default 1
        */
       times?: number;
+      /** Waitms */
+      waitMs?: number | null;
     };
     /** PortChoice */
     PortChoice: {
@@ -1755,6 +1765,8 @@ export interface components {
      *     acknowledgement is missing. `sent`: such a board sends none.
      */
     RunBegun: {
+      /** Ended */
+      ended?: boolean | null;
       /**
        * Outcome
        * @enum {string}
@@ -1792,6 +1804,8 @@ export interface components {
        * @default 1
        */
       times?: number;
+      /** Waitms */
+      waitMs?: number | null;
     };
     /**
      * ServoLimits
