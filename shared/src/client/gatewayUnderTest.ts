@@ -17,6 +17,7 @@ import { createBoard } from '../simulator/board.ts';
 const SERVE = `
 import sys
 from pathlib import Path
+sys.path.insert(0, sys.argv[3])
 from tests.served_robot import served
 with served(Path(sys.argv[1]), device=sys.argv[2]) as here:
     print("at", here.url, flush=True)
@@ -58,10 +59,10 @@ export async function startGateway(): Promise<GatewayUnderTest> {
   const { port } = cable.address() as AddressInfo;
 
   const said: string[] = [];
-  const command = ['-c', SERVE, folder, `socket://127.0.0.1:${port}`];
+  const command = ['-c', SERVE, folder, `socket://127.0.0.1:${port}`, at('backend')];
   let child: ReturnType<typeof startChild> | undefined;
   const url = await new Promise<string>((resolve, reject) => {
-    child = startChild('env', [`PYTHONPATH=${at('backend')}`, python, ...command], (line) => {
+    child = startChild(python, command, (line) => {
       said.push(line);
       if (line.startsWith('at ')) resolve(line.slice(3));
     });
