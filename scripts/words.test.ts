@@ -7,6 +7,7 @@ import { firstKeys, languages, messagesOf, moduleText, readTree, typesText, valu
 
 const SOURCES = join(import.meta.dirname, '..', 'frontend', 'src');
 const SHARED = join(import.meta.dirname, '..', 'shared', 'src');
+const DOCUMENTS = join(import.meta.dirname, '..', 'docs');
 const others = languages().filter((language) => language !== 'en');
 
 function sourcesIn(folder: string): readonly string[] {
@@ -88,6 +89,37 @@ describe('Chinese', () => {
       const text = message.replaceAll(/\{\w+, number(?:, ::?[\w-]+)?\}|#/gu, '7').replaceAll(names, 'X');
       expect(text, key).not.toMatch(/\p{Script=Han} \d|\d \p{Script=Han}/u);
     }
+  });
+});
+
+describe('the documents', () => {
+  const GUIDES = [
+    'animate',
+    'connect',
+    'drive',
+    'index',
+    'inputs',
+    'network',
+    'robot',
+    'timeline',
+    'troubleshooting',
+  ];
+  const textOf = (name: string): string =>
+    readFileSync(join(DOCUMENTS, name), 'utf8').replaceAll(/```[^]*?```|`[^`\n]*`/gu, '');
+  const isSaid = (language: string): ((quoted: string) => boolean) => {
+    const messages = messagesOf(readTree(language)).map(([, message]) => message.toLowerCase());
+    // A gap stands for a value.
+    return (quoted) =>
+      quoted.includes(' … ') || messages.some((message) => message.includes(quoted.toLowerCase()));
+  };
+
+  test.each(GUIDES)('name what is on the page as the page does: %s.md', (name) => {
+    const text = textOf(`${name}.md`);
+    const controls = [...text.matchAll(/(?<![\w_])_([^_\n]+)_(?![\w_])/gu)].map(
+      ([, control = '']) => control,
+    );
+    const sentences = [...text.matchAll(/^> “(.+)”$/gmu)].map(([, sentence = '']) => sentence);
+    expect([...controls, ...sentences].filter((quoted) => !isSaid('en')(quoted))).toEqual([]);
   });
 });
 
