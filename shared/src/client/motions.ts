@@ -24,6 +24,9 @@ interface Patience {
   readonly signal: AbortSignal | undefined;
 }
 
+/** Flash takes its time. */
+const ERASE_S = 30;
+
 export const now = (): number => performance.now() / 1000;
 
 export class Motions {
@@ -53,6 +56,12 @@ export class Motions {
       if (!(error instanceof GatewayError)) await this.release();
       throw error;
     });
+  }
+
+  /** Every slot of the board. The gateway recognises no repeat of it, so it has no key. */
+  async erase(take: boolean): Promise<void> {
+    this.#mayDrive = true;
+    await this.#gateway.call('post', '/api/erase', { body: { take } }, { moreS: ERASE_S });
   }
 
   lease(action: LeaseWish['action']): Promise<LeaseState> {

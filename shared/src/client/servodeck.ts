@@ -143,8 +143,8 @@ export class Servodeck {
   }
 
   /** Erases every slot of the board, for good. Owners only. */
-  async erase(): Promise<void> {
-    await this.#gateway.call('post', '/api/erase', { body: { take: this.#take } }, { moreS: 30 });
+  erase(): Promise<void> {
+    return this.#motions.erase(this.#take);
   }
 
   // The right to drive
