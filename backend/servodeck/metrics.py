@@ -40,6 +40,8 @@ sent: Counter[str] = Counter()
 received: Counter[str] = Counter()
 refused: Counter[str] = Counter()
 """By code."""
+notified: Counter[str] = Counter()
+"""By what became of the notification: sent or dropped."""
 
 
 def name_of(command: int) -> str:

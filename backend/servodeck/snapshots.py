@@ -304,7 +304,7 @@ class NamedPose(Message):
 
 class RobotFacts(Message):
     """The facts of a robot that the gateway needs: the limits of its servos and the poses for programs, in
-    the board's unit.
+    the board's unit. `lowBatteryMv`: at or below, its battery is low; null where a page of before stored it.
     """
 
     kind: Literal["robot"]
@@ -313,3 +313,4 @@ class RobotFacts(Message):
     updated_at_ms: Whole
     limits: Annotated[list[ServoLimits], Field(max_length=253)]
     poses: Annotated[list[NamedPose], Field(max_length=1001)]
+    low_battery_mv: Whole | None = None

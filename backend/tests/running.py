@@ -23,6 +23,7 @@ from servodeck.api.page import STATIC
 from servodeck.api.server import Server
 from servodeck.files import Remembered
 from servodeck.library.library import Library, wall_clock_ms
+from servodeck.notify.notifications import Notifications
 from servodeck.port.link import Ports
 from servodeck.robot.control import Control
 
@@ -97,6 +98,7 @@ async def server_on(
     make_access: Callable[[int], Access] = addresses.local,
     library: Library = NO_LIBRARY,
     cameras: Sequence[Camera] = (),
+    notifications: Notifications | None = None,
 ) -> AsyncIterator[Running]:
     """A real server on a free port."""
     listener = socket.create_server(("127.0.0.1", 0))
@@ -104,7 +106,7 @@ async def server_on(
     control = Control(ports, time.monotonic, "doc", device, read_robot=robots_in(library))
     ready = asyncio.Event()
     entrance = entrance_to(make_access(port))
-    app = create_app(control, library, entrance, cameras=cameras)
+    app = create_app(control, library, entrance, cameras=cameras, notifications=notifications)
     server = Server(app, control, device, ready.set)
     life = asyncio.create_task(server.serve([listener]))
     await ready.wait()

@@ -38,6 +38,7 @@ from servodeck.threads import in_thread
 
 if TYPE_CHECKING:
     from servodeck.api.cameras import Camera
+    from servodeck.notify.notifications import Notifications
 
 CODE_OF_STATUS: dict[int, ErrorCode] = {
     403: "forbidden",
@@ -161,6 +162,7 @@ def create_app(
     entrance: Entrance,
     static: Path = STATIC,
     cameras: Sequence["Camera"] = (),
+    notifications: "Notifications | None" = None,
     audit: Audit | None = None,
 ) -> Guard:
     """The gateway with that entrance and the page built into `static`. Without `audit` the list of acts is
@@ -176,6 +178,7 @@ def create_app(
     app.state.library = library
     app.state.cameras = tuple(cameras)
     app.state.open_streams = 0
+    app.state.notifications = notifications
     app.state.loop_delay = LoopDelay(sign_of_life())
     app.state.disk = Disk(library.folder, control.now)
     app.state.entrance = entrance
@@ -215,7 +218,11 @@ async def lifespan(app: LaterApp) -> AsyncIterator[None]:
     expiry.plan()
     audit: Audit = app.state.audit
     audit.note("gatewayStarted", None, __version__)
+    notifications: Notifications | None = app.state.notifications
+    watching = asyncio.create_task(notifications.watch(control)) if notifications else None
     yield
+    if watching:
+        watching.cancel()
     audit.note("gatewayEnded", None)
     expiry.end()
     loading.cancel()

@@ -63,6 +63,7 @@ STATUS = {
     "running": {"slot": 3, "times": 2, "endsInMs": 4200},
     "play": PLAY,
     "unattended": {"slot": 3, "times": 2, "by": "Anna's tablet", "endsInMs": 245000},
+    "notifications": [{"kind": "ntfy", "host": "ntfy.sh", "latest": "sent", "detail": None}],
 }
 LEASE = {
     "you": "Dance",

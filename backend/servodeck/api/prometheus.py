@@ -38,6 +38,9 @@ class Numbers(Collector):
             "servodeck_noise_bytes", "Bytes of the board that were no packet", totals.noise_bytes
         )
         yield counts("servodeck_refused", "Requests that were refused", "code", metrics.refused)
+        yield counts(
+            "servodeck_notifications", "Notifications to a receiver, by outcome", "outcome", metrics.notified
+        )
         yield waits()
         yield CounterMetricFamily("servodeck_stops", "Halts begun, for any cause", totals.stops)
         yield CounterMetricFamily("servodeck_port_losses", "Losses of an open port", totals.port_losses)

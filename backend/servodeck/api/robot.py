@@ -11,7 +11,7 @@ import itertools
 import json
 import secrets
 from dataclasses import asdict
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 from fastapi import APIRouter, Header, Request, WebSocket
 from pydantic import Field
@@ -54,10 +54,22 @@ from servodeck.snapshots import (
 )
 from servodeck.threads import in_thread
 
+if TYPE_CHECKING:
+    from servodeck.notify.notifications import Notifications
+
 
 class BatteryAge(Message):
     battery_mv: int
     age_ms: int
+
+
+class NotificationReceiver(Message):
+    """A receiver of notifications, and what became of the latest one; `detail` says why it was dropped."""
+
+    kind: Literal["webhook", "ntfy"]
+    host: str
+    latest: Literal["unused", "sent", "dropped"]
+    detail: str | None
 
 
 class Status(Message):
@@ -75,6 +87,7 @@ class Status(Message):
     running: Running | None
     play: PlayState | None
     unattended: UnattendedRun | None
+    notifications: list[NotificationReceiver]
 
 
 class Device(Message):
@@ -135,7 +148,7 @@ async def ws(websocket: WebSocket, caller: Annotated[Caller, VIEWER], control: C
 
 
 @api.get("/status", dependencies=[VIEWER])
-async def status(control: Controlled) -> Status:
+async def status(request: Request, control: Controlled) -> Status:
     """The state of gateway, port, board and robot."""
     return Status(
         version=__version__,
@@ -150,7 +163,21 @@ async def status(control: Controlled) -> Status:
         running=control.board.activity.running(),
         play=control.board.plays.latest,
         unattended=control.board.unattended.snapshot(),
+        notifications=notified_by(request),
     )
+
+
+def notified_by(request: Request) -> list[NotificationReceiver]:
+    notifications: Notifications | None = request.app.state.notifications
+    return [
+        NotificationReceiver(
+            kind=sender.receiver.kind,
+            host=sender.receiver.host,
+            latest=sender.outcome.status,
+            detail=sender.outcome.detail,
+        )
+        for sender in (notifications.senders if notifications else ())
+    ]
 
 
 def age_of(control: Control) -> BatteryAge | None:
@@ -225,7 +252,7 @@ async def name_board(
     tells, and `identity` what it answered. Remembered for its port.
     """
     control.name_board(named(request, caller), choice.board)
-    return await status(control)
+    return await status(request, control)
 
 
 @api.post("/stop", dependencies=[SEEN_AT_ROBOT])
@@ -241,7 +268,7 @@ async def stop(request: Request, control: Controlled, caller: Annotated[Caller, 
 async def resume(request: Request, control: Controlled, caller: Annotated[Caller, DRIVER]) -> Status:
     """Allows motion again. Moves nothing. While a client drives, only that client or an owner may."""
     control.resume(named(request, caller))
-    return await status(control)
+    return await status(request, control)
 
 
 @api.get("/battery", dependencies=[VIEWER])

@@ -105,6 +105,13 @@ def gateway_findings(remote: Remote) -> Generator[Finding, None, dict[str, Any] 
     else:
         why = port["detail"] or link["detail"] or ""
         yield Finding("look", f"Its link to {port['device']} is {link['status']}. {why}".rstrip())
+    for receiver in status["notifications"]:
+        what = f"Notifications go to {receiver['kind']} at {receiver['host']}"
+        if receiver["latest"] == "dropped":
+            advice = "servodeck notify-test tries it."
+            yield Finding("look", f"{what}. The latest was dropped: {receiver['detail']} {advice}")
+        else:
+            yield Finding("ok", f"{what}.")
     if status["latch"]:
         yield Finding("look", "The robot is stopped. Look at it, then: servodeck resume")
     return status

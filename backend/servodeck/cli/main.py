@@ -13,6 +13,7 @@ from servodeck.cli.backup import backup, restore
 from servodeck.cli.commands import COMMANDS, library, pose, poses
 from servodeck.cli.doctor import doctor
 from servodeck.cli.groups import download, play
+from servodeck.cli.notify import notify_test
 from servodeck.cli.options import (
     FAILURE,
     PREFIX,
@@ -43,6 +44,8 @@ for command in (*COMMANDS, pose, poses, download, play, library):
 app.command()(doctor)
 app.command()(backup)
 app.command()(restore)
+AS_SERVE = {"allow_extra_args": True, "ignore_unknown_options": True}
+app.command(context_settings=AS_SERVE)(notify_test)
 
 
 # Its number comes before 73-seat-late.rules, which gives what `uaccess` promises.
@@ -71,7 +74,7 @@ def udev_rule(
     print(f"{RULE_FILE} is installed. Plug the board's cable in again.")
 
 
-@app.command("config", context_settings={"allow_extra_args": True, "ignore_unknown_options": True})
+@app.command("config", context_settings=AS_SERVE)
 def show_config(context: typer.Context) -> None:
     """Show the settings that `serve` would use with the same options, and where each comes from."""
     commands = commands_of(context)

@@ -27,6 +27,8 @@ if TYPE_CHECKING:
     from servodeck.access.entrance import Entrance
     from servodeck.api.cameras import Camera
     from servodeck.library.library import Library
+    from servodeck.notify.notifications import Notifications
+    from servodeck.notify.sender import Sender
     from servodeck.robot.profile import ReadFacts
     from servodeck.snapshots import RobotFacts
 
@@ -113,6 +115,17 @@ def serve(
         list[str],
         typer.Option(help="NAME=URL of a camera that sends motion JPEG, for the page. May be repeated."),
     ] = [],  # noqa: B006 (typer copies it)
+    notify: Annotated[
+        list[str],
+        typer.Option(
+            metavar="URL",
+            help="Notify there when the battery is low, the robot is stopped or the link is lost: https://… "
+            "(webhook) or ntfy://HOST/TOPIC. May be repeated. Other users see command lines: better a file.",
+        ),
+    ] = [],  # noqa: B006 (typer copies it)
+    notify_file: Annotated[
+        Path | None, typer.Option(help="A file of such addresses, one in each line.")
+    ] = None,
     simulated: Annotated[bool, typer.Option("--simulated", help="The device is a simulated board.")] = False,
     data: Annotated[
         Path | None,
@@ -158,6 +171,7 @@ def serve(
     board = board or ("doc" if simulated else UNKNOWN.id)
     if board not in FAMILIES:
         fail(f"There is no board family {board}. Choose one of: {', '.join(FAMILIES)}.", USAGE)
+    senders = senders_to(notify, notify_file)
     proxied = parse_public_url(public_url) if public_url else None
     listener = bind(*parse_listen(listen or (LAN_LISTEN if lan else DEFAULT_LISTEN), lan=lan))
     folder = data or data_folder()
@@ -189,6 +203,7 @@ def serve(
         # A simulated one is what its starter names.
         identifies_board=not simulated,
         polls_battery=True,
+        is_monitored=bool(senders),
         read_robot=robots_in(library),
     )
 
@@ -209,7 +224,14 @@ def serve(
             show(url)
 
     audit = Audit(AuditFile(folder), wall_clock_ms)
-    app = create_app(control, library, entrance, cameras=cameras_from(camera), audit=audit)
+    app = create_app(
+        control,
+        library,
+        entrance,
+        cameras=cameras_from(camera),
+        notifications=notifications_to(senders, lambda: page_for_others(entrance.access, reachable())),
+        audit=audit,
+    )
     server = Server(app, control, device, ready)
     if exit_with_stdin:
         leave_with_stdin(server.leave)
@@ -264,6 +286,30 @@ def cameras_from(texts: Sequence[str]) -> "list[Camera]":
         except ValueError as error:
             fail(f"--camera {text} is not valid: {error}.", USAGE)
     return found
+
+
+def senders_to(addresses: Sequence[str], file: Path | None) -> "list[Sender]":
+    if not addresses and not file:
+        return []
+    from servodeck.cli.notify import receivers
+    from servodeck.notify.sender import Sender
+
+    return [Sender(receiver) for receiver in receivers(addresses, file)]
+
+
+def page_for_others(access: "Access", addresses: list[str]) -> str:
+    """Empty where others can open none."""
+    from servodeck.cli.terminal import urls_for_others
+
+    return urls_for_others(access, addresses, "")[0] if access.needs_pairing else ""
+
+
+def notifications_to(senders: "list[Sender]", page: Callable[[], str]) -> "Notifications | None":
+    if not senders:
+        return None
+    from servodeck.notify.notifications import Notifications
+
+    return Notifications(senders, page)
 
 
 def parse_public_url(url: str) -> "Access":

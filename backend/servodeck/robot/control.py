@@ -46,7 +46,7 @@ from servodeck.robot.motion.halt_plan import Unheld
 from servodeck.robot.operations import Operations
 from servodeck.robot.profile import ReadFacts, RecalledBoard, RobotLimits, RobotOfBoard, no_robot
 from servodeck.robot.requests import Requests
-from servodeck.snapshots import JobState, PlayState, UnheldServos
+from servodeck.snapshots import JobState, LatchedBy, PlayState, UnheldServos
 
 UNNAMED_PERSON = Cause("person")
 # Longer than a port takes to open and a LeArm to start and to be identified (L1).
@@ -68,6 +68,7 @@ class Control:
         recalls_board: bool = False,
         identifies_board: bool = False,
         polls_battery: bool = False,
+        is_monitored: bool = False,
         read_robot: ReadFacts = no_robot,
     ) -> None:
         """`named_device` is the port named at the start: always offered, even where the system does not list
@@ -75,10 +76,12 @@ class Control:
         and `remembered` outlive the process; without them nothing does. `recalls_board`: the family is the
         one chosen last for the port. `identifies_board`: the board is identified at each opening, before
         anything moves, and watched afterwards; otherwise it is taken for the given family. `polls_battery`:
-        the battery is read for all clients. `read_robot` reads the library.
+        the battery is read for all clients. `is_monitored`: also while no client is connected. `read_robot`
+        reads the library.
 
         """
         self.named_device = named_device
+        self._is_monitored = is_monitored
         self.now = now
         self.acts = Acts()
         self._latch = Latch(self._latch_changed)
@@ -114,6 +117,16 @@ class Control:
     def latch(self) -> bool:
         """Motion is refused until a person resumes."""
         return self._latch.is_closed
+
+    @property
+    def latched_by(self) -> LatchedBy | None:
+        """Why motion is refused; None while it is not."""
+        return self._latch.by
+
+    @property
+    def stopped_by(self) -> str | None:
+        """The name of the person who pressed STOP, if known."""
+        return self._latch.name
 
     @property
     def unheld(self) -> UnheldServos | None:
@@ -300,7 +313,7 @@ class Control:
         self._publish_unheld(since_s)
 
     def is_watched(self) -> bool:
-        return len(self.hub) > 0
+        return self._is_monitored or len(self.hub) > 0
 
     def board_changed(self) -> None:
         self._changed.set()

@@ -871,7 +871,7 @@ export interface components {
       /** Expected */
       expected: number;
       /** Facts */
-      facts: components['schemas']['GroupFacts'] | components['schemas']['RobotFacts'];
+      facts: components['schemas']['GroupFacts'] | components['schemas']['RobotFacts-Input'];
       /** Isremoved */
       isRemoved: boolean;
       /**
@@ -1263,7 +1263,7 @@ export interface components {
     /** ListedDocument */
     ListedDocument: {
       /** Facts */
-      facts: components['schemas']['GroupFacts'] | components['schemas']['RobotFacts'];
+      facts: components['schemas']['GroupFacts'] | components['schemas']['RobotFacts-Output'];
       /** Id */
       id: string;
       /** Isremoved */
@@ -1358,6 +1358,26 @@ export interface components {
        * @enum {string}
        */
       kind: 'noise';
+    };
+    /**
+     * NotificationReceiver
+     * @description A receiver of notifications, and what became of the latest one; `detail` says why it was dropped.
+     */
+    NotificationReceiver: {
+      /** Detail */
+      detail: string | null;
+      /** Host */
+      host: string;
+      /**
+       * Kind
+       * @enum {string}
+       */
+      kind: 'webhook' | 'ntfy';
+      /**
+       * Latest
+       * @enum {string}
+       */
+      latest: 'unused' | 'sent' | 'dropped';
     };
     /** OwnName */
     OwnName: {
@@ -1740,9 +1760,9 @@ export interface components {
     /**
      * RobotFacts
      * @description The facts of a robot that the gateway needs: the limits of its servos and the poses for programs, in
-     *     the board's unit.
+     *     the board's unit. `lowBatteryMv`: at or below, its battery is low; null where a page of before stored it.
      */
-    RobotFacts: {
+    'RobotFacts-Input': {
       /** Board */
       board: string;
       /**
@@ -1752,6 +1772,32 @@ export interface components {
       kind: 'robot';
       /** Limits */
       limits: components['schemas']['ServoLimits'][];
+      /** Lowbatterymv */
+      lowBatteryMv?: number | null;
+      /** Name */
+      name: string;
+      /** Poses */
+      poses: components['schemas']['NamedPose'][];
+      /** Updatedatms */
+      updatedAtMs: number;
+    };
+    /**
+     * RobotFacts
+     * @description The facts of a robot that the gateway needs: the limits of its servos and the poses for programs, in
+     *     the board's unit. `lowBatteryMv`: at or below, its battery is low; null where a page of before stored it.
+     */
+    'RobotFacts-Output': {
+      /** Board */
+      board: string;
+      /**
+       * @description discriminator enum property added by openapi-typescript
+       * @enum {string}
+       */
+      kind: 'robot';
+      /** Limits */
+      limits: components['schemas']['ServoLimits'][];
+      /** Lowbatterymv */
+      lowBatteryMv: number | null;
       /** Name */
       name: string;
       /** Poses */
@@ -1863,6 +1909,8 @@ export interface components {
       /** Latch */
       latch: boolean;
       link: components['schemas']['LinkState'];
+      /** Notifications */
+      notifications: components['schemas']['NotificationReceiver'][];
       play: components['schemas']['PlayState'] | null;
       port: components['schemas']['PortState'];
       running: components['schemas']['Running'] | null;
@@ -2062,6 +2110,7 @@ export type MoveBegun = components['schemas']['MoveBegun'];
 export type MoveWish = components['schemas']['MoveWish'];
 export type NamedPose = components['schemas']['NamedPose'];
 export type NoiseEvidence = components['schemas']['NoiseEvidence'];
+export type NotificationReceiver = components['schemas']['NotificationReceiver'];
 export type OwnName = components['schemas']['OwnName'];
 export type PairWish = components['schemas']['PairWish'];
 export type People = components['schemas']['People'];
@@ -2077,7 +2126,8 @@ export type PositionsReport = components['schemas']['PositionsReport'];
 export type Problem = components['schemas']['Problem'];
 export type RateFound = components['schemas']['RateFound'];
 export type RobotChoice = components['schemas']['RobotChoice'];
-export type RobotFacts = components['schemas']['RobotFacts'];
+export type RobotFactsInput = components['schemas']['RobotFacts-Input'];
+export type RobotFactsOutput = components['schemas']['RobotFacts-Output'];
 export type RunBegun = components['schemas']['RunBegun'];
 export type Running = components['schemas']['Running'];
 export type RunWish = components['schemas']['RunWish'];

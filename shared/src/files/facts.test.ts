@@ -18,7 +18,13 @@ const BOOK: PoseBook = {
 
 test('limits and poses are as the board counts, home is number 0, and all of it can be sent', () => {
   const facts = robotFactsOf(ARM, BOOK, 7);
-  expect(facts).toMatchObject({ kind: 'robot', name: 'Arm\ufffd', board: 'doc', updatedAtMs: 7 });
+  expect(facts).toMatchObject({
+    kind: 'robot',
+    name: 'Arm\ufffd',
+    board: 'doc',
+    updatedAtMs: 7,
+    lowBatteryMv: 7000,
+  });
   expect(facts.limits[0]).toMatchObject({ servo: 1, min: 720, max: 2320 });
   expect(facts.poses.map(({ id, name, targets: [first] }) => [id, name, first?.position])).toEqual([
     [0, 'home', 1520],

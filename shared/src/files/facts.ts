@@ -4,6 +4,7 @@
 import * as v from 'valibot';
 import { poseAt, totalDurationMs, type ActionGroup } from '../group/group.ts';
 import type { PoseBook } from '../profile/pose.ts';
+import { supplyOf } from '../profile/battery.ts';
 import { homeTargets } from '../profile/poseShapes.ts';
 import { limitsOnBoard, onBoard, type Robot } from '../profile/robot.ts';
 import { FAMILIES } from '../codec/families.ts';
@@ -52,6 +53,7 @@ export function robotFactsOf(robot: Robot, { poses }: PoseBook, updatedAtMs: num
     updatedAtMs,
     limits: limitsOnBoard(robot).map((limits) => ({ ...limits, name: limits.name.toWellFormed() })),
     poses: all.filter(({ targets }) => targets.every(({ position }) => isSendable(position))),
+    lowBatteryMv: supplyOf(robot).warnMv,
   };
 }
 
@@ -91,6 +93,8 @@ const robotFactsSchema = v.strictObject({
       targets: v.array(targetSchema),
     }),
   ),
+  /** At or below, its battery is low: for notifications of the gateway. */
+  lowBatteryMv: v.optional(v.nullable(count), null),
 });
 
 export const factsSchema = v.variant('kind', [groupFactsSchema, robotFactsSchema]);

@@ -59,7 +59,7 @@ class BoardEvents(Protocol):
         """The state of link, board, slots, unattended run or waiting servos has changed."""
 
     def is_watched(self) -> bool:
-        """A client is connected."""
+        """A client is connected, or the board is read for notifications."""
 
     def battery_changed(self) -> None: ...
 
