@@ -1,5 +1,6 @@
 // A gateway on the network: who comes in and how, what each may do, and that a person who looks can stop the robot.
 
+import { readFile } from 'node:fs/promises';
 import { ofKind, type Bus } from '../fixtures/bus.ts';
 import { ready } from '../fixtures/dashboard.ts';
 import { firstInvitation, guest, newDevice, pairCardOf, peopleOf } from '../fixtures/people.ts';
@@ -7,7 +8,7 @@ import { expect, poll, test } from '../fixtures/test.ts';
 
 const stops = async (bus: Bus): Promise<number> => ofKind(await bus(), 'stop').length;
 
-test('an owner comes in by the terminal’s link, lets a viewer in, who stops the robot, and revokes it', async ({
+test('an owner comes in by the terminal’s link, lets a viewer in, who stops, revokes it, and sees what happened', async ({
   newGateway,
   ptyBoard,
   browser,
@@ -41,6 +42,20 @@ test('an owner comes in by the terminal’s link, lets a viewer in, who stops th
   await expect(pairCardOf(ben.page).title).toBeVisible();
   await expect(pairCardOf(ben.page).problem).toContainText('not paired any more');
   await expect(people.person('Ben')).toBeHidden();
+
+  const acts = await people.showActs();
+  await expect(acts.first()).toContainText('Revoked Ben');
+  await expect(acts.filter({ hasText: 'Stopped the robot' })).toContainText('Ben');
+  const saved = owner.page.waitForEvent('download');
+  await people.dialog.getByRole('button', { name: 'Export' }).click();
+  expect(await readFile(await (await saved).path(), 'utf8')).toMatch(
+    /^at,until,act,who,whom,about,count\r\n/,
+  );
+  await people.dialog.getByRole('combobox', { name: 'Person' }).selectOption('Ben');
+  await expect(acts).toHaveText([/Ben.*Stopped the robot/, /Ben.*Paired/]);
+  await people.dialog.getByRole('tab', { name: 'What happened' }).press('ArrowLeft');
+  await expect(people.dialog.getByRole('tab', { name: 'People' })).toBeFocused();
+  await expect(acts.first()).toBeHidden();
 });
 
 test('people come in by the digits, one after the other, until five were wrong @exhaustive', async ({

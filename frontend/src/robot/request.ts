@@ -4,6 +4,7 @@
 import * as v from 'valibot';
 import {
   GatewayProblem,
+  readAnswer,
   request as requestAt,
   type Answer,
   type Given,
@@ -29,6 +30,16 @@ export async function request<P extends Path, V extends Verb<P>>(
 ): Promise<unknown> {
   if (isWithoutGateway()) throw new GatewayProblem(null, 'this page is served without a gateway');
   return requestAt(BESIDE, verb, path, requested, AbortSignal.timeout(requested.withinMs));
+}
+
+/** A file of the gateway as text. Rejects with a GatewayProblem. */
+export async function requestText(address: string, withinMs: number): Promise<string> {
+  const how = { headers: BESIDE.headers, signal: AbortSignal.timeout(withinMs) };
+  const response = await fetch(BESIDE.base + address, how).catch((error: unknown) => {
+    throw new GatewayProblem(null, 'the gateway does not answer', [], { cause: error });
+  });
+  if (!response.ok) await readAnswer(response);
+  return response.text();
 }
 
 interface RequestsOptions {

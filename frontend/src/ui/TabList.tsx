@@ -1,6 +1,7 @@
 // A row of tabs that chooses one of several panels. Tab goes to the chosen one; arrows, Home and End choose another.
 
 import type { KeyboardEvent } from 'react';
+import { cx } from './cx.ts';
 import { Icon, type IconName } from './Icon.tsx';
 import styles from './TabList.module.css';
 
@@ -8,10 +9,18 @@ interface TabListProps<Id extends string> {
   readonly label: string;
   readonly tabs: readonly { readonly id: Id; readonly icon: IconName; readonly name: string }[];
   readonly chosen: Id;
+  /** Icons beside the names instead of above them: as high as a button. */
+  readonly isLow?: boolean;
   onChoose(id: Id): void;
 }
 
-export function TabList<Id extends string>({ label, tabs, chosen, onChoose }: TabListProps<Id>) {
+export function TabList<Id extends string>({
+  label,
+  tabs,
+  chosen,
+  isLow = false,
+  onChoose,
+}: TabListProps<Id>) {
   function choose(event: KeyboardEvent<HTMLButtonElement>, index: number): void {
     const next = tabs.at(placeAfter(event.key, index, tabs.length) ?? index);
     if (next === undefined || next === tabs[index]) return;
@@ -20,7 +29,7 @@ export function TabList<Id extends string>({ label, tabs, chosen, onChoose }: Ta
     document.getElementById(tabOf(next.id))?.focus();
   }
   return (
-    <div role="tablist" aria-label={label} className={styles.list}>
+    <div role="tablist" aria-label={label} className={cx(styles.list, isLow && styles.low)}>
       {tabs.map(({ id, icon, name }, index) => {
         const isChosen = id === chosen;
         return (

@@ -4,6 +4,9 @@ import type { ReactNode } from 'react';
 import { NameCard, PairCard, StopFace, type StopOutcome } from '../../features/people/EntryPage.tsx';
 import { OwnView, PeopleView } from '../../features/people/PeopleView.tsx';
 import { PeopleError, type PeopleState } from '../../features/people/people.ts';
+import type { AuditEntry } from '#shared/client/http.generated.ts';
+import type { ActsState } from '../../features/people/acts.ts';
+import { ActsView } from '../../features/people/ActsView.tsx';
 import type { Exhibit } from './exhibit.ts';
 import type { Way } from '../../robot/device.ts';
 import type { ConnectState } from '../../robot/connector.ts';
@@ -119,6 +122,46 @@ const WISHES = {
 
 const inDialog = (name: string, content: ReactNode): Exhibit => ({ name, content, isInDialog: true });
 
+const HAPPENED: readonly AuditEntry[] = [
+  happened(9, 'stopped', 'Ben, whose name is rather long for one row'),
+  happened(8, 'stopped', null, { about: 'silence' }),
+  happened(7, 'downloaded', 'Anna', { about: '5, 6' }),
+  happened(6, 'moved', 'Dance', { count: 212, untilMs: AT_MS + 90_000 }),
+  happened(5, 'roleChanged', 'Anna', { whom: 'iPhone', about: 'driver' }),
+  happened(4, 'pairRefused', null, { count: 4, untilMs: AT_MS + 30_000 }),
+  happened(3, 'tokenExpired', null, { whom: 'Dance of the fair' }),
+];
+
+function happened(
+  id: number,
+  act: AuditEntry['act'],
+  who: string | null,
+  more: Partial<AuditEntry> = {},
+): AuditEntry {
+  return { id, act, who, whom: '', about: '', atMs: AT_MS, untilMs: AT_MS, count: 1, ...more };
+}
+
+const ACTS: ActsState = {
+  entries: HAPPENED,
+  hasOlder: true,
+  names: ['Anna', 'Ben, whose name is rather long for one row', 'Dance'],
+  problem: null,
+  filter: { act: '', who: '' },
+};
+
+const ACT_CASES: readonly { readonly name: string; readonly state: ActsState }[] = [
+  { name: 'What happened', state: ACTS },
+  { name: 'What happened, nothing', state: { ...ACTS, entries: [], hasOlder: false } },
+  {
+    name: 'What happened, not stored',
+    state: { ...ACTS, hasOlder: false, problem: 'The disk of the data folder is full.' },
+  },
+  {
+    name: 'What happened, none found',
+    state: { ...ACTS, entries: [], hasOlder: false, filter: { act: 'erased', who: 'Dance' } },
+  },
+];
+
 export const PEOPLE: readonly Exhibit[] = [
   ...PROBLEMS.map((problem, index) =>
     inDialog(
@@ -146,6 +189,9 @@ export const PEOPLE: readonly Exhibit[] = [
         now={() => 0}
       />,
     ),
+  ),
+  ...ACT_CASES.map(({ name, state }) =>
+    inDialog(name, <ActsView state={state} onFilter={nothing} onOlder={nothing} onExport={nothing} />),
   ),
 ];
 
