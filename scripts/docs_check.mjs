@@ -18,7 +18,10 @@ const LOADED = [
   /@import\s+["'](?:https?:)?\/\/[^"']*/gi,
 ];
 const OPENED = ['', 'connect/', 'animate/', 'protocol/boards/', 'adr/', 'zh/', 'zh/connect/', 'zh/scripts/'];
-const SEARCHES = [{ page: '', words: 'gripper' }];
+const SEARCHES = [
+  { page: '', words: 'gripper' },
+  { page: 'zh/', words: '槽位' },
+];
 
 function foreignAddresses() {
   return readdirSync(at(site), { recursive: true, encoding: 'utf8' })

@@ -12,7 +12,7 @@ import {
   writeFileSync,
 } from 'node:fs';
 import path from 'node:path';
-import { leadsOutside, linksIn } from './markdown.mjs';
+import { anchorsOf, leadsOutside, linksIn, withoutFences } from './markdown.mjs';
 import { python } from './python.mjs';
 import { SetupProblem, at, mustRun } from './steps.mjs';
 
@@ -75,8 +75,8 @@ function withLinksOfTree(file, text) {
   let result = '';
   for (const { address, start } of linksIn(text)) {
     const [target = '', anchor] = decodeURI(address).split('#');
-    if (leadsOutside(address) || target === '') continue;
-    const named = path.posix.join(path.posix.dirname(file), target).replace(/\/$/, '');
+    if (leadsOutside(address)) continue;
+    const named = target === '' ? file : path.posix.join(path.posix.dirname(file), target).replace(/\/$/, '');
     if (!existsSync(at(named))) throw new SetupProblem(`${file} leads to ${target}, which is not there.`);
     if (placeOf(named).startsWith('source/')) {
       if (statSync(at(named)).isDirectory())
@@ -87,10 +87,41 @@ function withLinksOfTree(file, text) {
       .relative(path.posix.dirname(place), placeOf(named))
       .replace(/[.]zh[.]md$/, '.md');
     const from = text.indexOf(address, start);
-    result += text.slice(copied, from) + inTree + (anchor === undefined ? '' : `#${anchor}`);
+    result +=
+      text.slice(copied, from) + inTree + (anchor === undefined ? '' : `#${anchorInTree(named, anchor)}`);
     copied = from + address.length;
   }
   return result + text.slice(copied);
+}
+
+/** @param {string} file */
+const read = (file) => readFileSync(at(file), 'utf8');
+
+/** A translated page has the anchors of the English one, so that a link leads to the same place in both languages. @param {string} file */
+const anchorsInTree = (file) => anchorsOf(read(file.replace(/[.]zh[.]md$/, '.md')));
+
+/** @param {string} file @param {string} anchor as on GitHub */
+function anchorInTree(file, anchor) {
+  return anchorsInTree(file)[anchorsOf(read(file)).indexOf(anchor)] ?? anchor;
+}
+
+/** @param {string} file @param {string} text */
+function withAnchorsOfTree(file, text) {
+  const anchors = anchorsInTree(file);
+  const headings = [...withoutFences(text).matchAll(/^#{1,6} .+$/gm)];
+  if (headings.length !== anchors.length)
+    throw new SetupProblem(`${file} has ${headings.length} headings, its English twin ${anchors.length}.`);
+  return headings.reduceRight(
+    (written, { 0: heading, index }, number) =>
+      `${written.slice(0, index)}${heading} { #${anchors[number]} }${written.slice(index + heading.length)}`,
+    text,
+  );
+}
+
+/** @param {string} file */
+function pageOfTree(file) {
+  const text = withLinksOfTree(file, read(file));
+  return file.endsWith('.zh.md') ? withAnchorsOfTree(file, text) : text;
 }
 
 /** The decision records by their titles. */
@@ -98,7 +129,7 @@ function listOfDecisions() {
   const lines = filesBelow('docs/adr')
     .sort()
     .map((file) => {
-      const [, number = '', title = ''] = /^# (\d+)\. (.+)$/m.exec(readFileSync(at(file), 'utf8')) ?? [];
+      const [, number = '', title = ''] = /^# (\d+)\. (.+)$/m.exec(read(file)) ?? [];
       return `| ${number} | [${title}](${path.posix.basename(file)}) |`;
     });
   return `# Decisions\n\nThe choices that a reader would question, each with its reasons, in the order in which they were made. A record keeps the words and paths of its day.\n\n| | Decision |\n| --: | --- |\n${lines.join('\n')}\n`;
@@ -110,7 +141,7 @@ function assemble() {
   mkdirSync(at(tree), { recursive: true });
   const beside = [...BESIDE_THE_CODE.keys()].filter((file) => statSync(at(file)).isFile());
   for (const file of [...filesBelow('docs'), ...beside]) {
-    if (file.endsWith('.md')) write(placeOf(file), withLinksOfTree(file, readFileSync(at(file), 'utf8')));
+    if (file.endsWith('.md')) write(placeOf(file), pageOfTree(file));
     else copy(file, placeOf(file));
   }
   write('adr/index.md', listOfDecisions());

@@ -5,33 +5,12 @@
 import { execFileSync } from 'node:child_process';
 import { existsSync, readFileSync } from 'node:fs';
 import path from 'node:path';
-import { CODE_SPAN, leadsOutside, linksIn, withoutFences } from './markdown.mjs';
+import { CODE_SPAN, anchorsOf, leadsOutside, linksIn, withoutFences } from './markdown.mjs';
 import { at, root } from './steps.mjs';
 
 const REPOSITORY_PATH =
   /^(?:backend|bench|docs|e2e|frontend|packaging|scripts|shared)\/[\w./@ -]*\w$|^[\w.-]+\.(?:md|mjs|cjs|toml|jsonc)$/;
 const RECORD_OF_ITS_DAY = /^docs\/adr\/|^CHANGELOG\.md$/;
-
-/** As GitHub names headings. @param {string} text @returns {Set<string>} */
-function anchorsOf(text) {
-  /** @type {Map<string, number>} */
-  const seen = new Map();
-  const headings = [...withoutFences(text).matchAll(/^#{1,6} +(.+)$/gm)].map(([, heading = '']) =>
-    heading
-      .replace(/\[([^\]]*)\]\([^)]*\)/g, '$1')
-      .toLowerCase()
-      .replace(/[^\p{L}\p{N}\p{M} _-]/gu, '')
-      .trim()
-      .replaceAll(' ', '-'),
-  );
-  return new Set(
-    headings.map((slug) => {
-      const count = seen.get(slug) ?? 0;
-      seen.set(slug, count + 1);
-      return count === 0 ? slug : `${slug}-${count}`;
-    }),
-  );
-}
 
 /** @param {string} text @param {number} index */
 const lineAt = (text, index) => text.slice(0, index).split('\n').length;
@@ -63,7 +42,7 @@ function problemOfLink(file, link) {
   const full = target === '' ? at(file) : besides(file, target);
   if (!existsSync(full)) return `leads to ${target}, which is not there`;
   if (anchor === undefined || !full.endsWith('.md')) return null;
-  return anchorsOf(readFileSync(full, 'utf8')).has(anchor)
+  return anchorsOf(readFileSync(full, 'utf8')).includes(anchor)
     ? null
     : `leads to #${anchor}, which no heading has`;
 }

@@ -20,3 +20,20 @@ export function linksIn(text) {
 
 /** @param {string} address */
 export const leadsOutside = (address) => /^[a-z]+:/i.test(address);
+
+/** Of each heading in order, as GitHub names it. @param {string} text @returns {string[]} */
+export function anchorsOf(text) {
+  /** @type {Map<string, number>} */
+  const seen = new Map();
+  return [...withoutFences(text).matchAll(/^#{1,6} +(.+)$/gm)].map(([, heading = '']) => {
+    const slug = heading
+      .replace(/\[([^\]]*)\]\([^)]*\)/g, '$1')
+      .toLowerCase()
+      .replace(/[^\p{L}\p{N}\p{M} _-]/gu, '')
+      .trim()
+      .replaceAll(' ', '-');
+    const count = seen.get(slug) ?? 0;
+    seen.set(slug, count + 1);
+    return count === 0 ? slug : `${slug}-${count}`;
+  });
+}

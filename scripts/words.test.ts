@@ -121,6 +121,15 @@ describe('the documents', () => {
     const sentences = [...text.matchAll(/^> “(.+)”$/gmu)].map(([, sentence = '']) => sentence);
     expect([...controls, ...sentences].filter((quoted) => !isSaid('en')(quoted))).toEqual([]);
   });
+
+  test('say in Chinese what the page says in Chinese', () => {
+    const pages = readdirSync(DOCUMENTS).filter((name) => name.endsWith('.zh.md'));
+    const quoted = pages.flatMap((name) =>
+      [...textOf(name).matchAll(/“([^”]+)”/gu)].map(([, said = '']) => said),
+    );
+    expect(pages).toHaveLength(5);
+    expect(quoted.filter((said) => !isSaid('zh')(said))).toEqual([]);
+  });
 });
 
 describe('a module of messages', () => {
