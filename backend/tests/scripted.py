@@ -10,7 +10,7 @@ from httpx2 import AsyncClient, Response
 from starlette.types import ASGIApp
 
 from servodeck.access import addresses
-from servodeck.access.devices import Devices, NoDeviceStore
+from servodeck.access.devices import Devices, DeviceStore, NoDeviceStore
 from servodeck.access.entrance import Entrance
 from servodeck.api.app import create_app
 from servodeck.callers import Role
@@ -88,12 +88,13 @@ async def script(
     identifies: bool = False,
     clock_ms: Callable[[], int] = wall_clock_ms,
     valid_ms: int | None = None,
+    store: DeviceStore | None = None,
 ) -> AsyncIterator[Scripted]:
     """`behind` the port. `identifies`: the board is asked who it is from now on. `clock_ms`: of the list of
     devices, by which the token expires after `valid_ms`.
     """
     port = behind or FakePort()
-    entrance = Entrance(addresses.lan(PORT), DevicesInMemory(NoDeviceStore(), clock_ms), now)
+    entrance = Entrance(addresses.lan(PORT), DevicesInMemory(store or NoDeviceStore(), clock_ms), now)
     _, owner = entrance.devices.admit("device", "Olga", "owner")
     device, token = entrance.devices.admit("token", "Dance", role, valid_ms)
     control = Control(FakePorts(port), now, board, identifies_board=identifies)

@@ -20,11 +20,12 @@ from fastapi.routing import APIRoute
 from servodeck.access import addresses
 from servodeck.access.audit import MAX_ENTRIES, REPEAT_MS, WRITE_AFTER_S, Act, Audit, NoAuditStore
 from servodeck.access.audit_file import FILE, AuditFile
+from servodeck.access.devices import NoDeviceStore
 from servodeck.access.guard import Guard
 from servodeck.api import routes
 from servodeck.api.websocket import ROLES as MESSAGES
 from servodeck.api.websocket import take
-from servodeck.errors import StorageError
+from servodeck.errors import StorageError, StorageFullError
 from servodeck.intents import (
     BoardMessage,
     CalibrateMessage,
@@ -291,6 +292,19 @@ async def test_what_owners_do_is_noted_with_names_of_that_time_and_no_secret() -
         for secret in (made["token"], invited["code"], invited["link"], link["link"], "127.0.0.1"):
             assert secret not in text
     assert entrance.pairing.open == []
+
+
+@in_virtual_time
+async def test_a_revocation_that_cannot_be_stored_has_taken_effect_and_is_noted() -> None:
+    class Full(NoDeviceStore):
+        def save(self, devices: object) -> None:
+            raise StorageFullError("The disk of the data folder is full.")
+
+    async with script(store=Full()) as here:
+        answer = await here.client.delete(f"/api/people/{here.token_id}", headers=here.owner)
+        assert answer.status_code == 507
+        assert (await here.client.get("/api/status")).status_code == 401
+        assert acts_of(audit_of(here.app)) == [("revoked", "Olga", "Dance", "", 1)]
 
 
 @in_virtual_time

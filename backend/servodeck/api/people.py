@@ -175,6 +175,12 @@ async def me(entrance: Entered, caller: Annotated[Caller | None, PUBLIC]) -> Me:
     return Me(mode=access.mode, overheard=overheard, you=you_of(caller) if caller else None)
 
 
+async def saved(entrance: Entrance, note: Note) -> None:
+    """The change stands in memory, and its act is noted, also where the file cannot be written."""
+    note.has_taken_effect = True
+    await entrance.devices.save()
+
+
 async def called_by_browser(request: Request) -> None:
     if "origin" not in request.headers:
         raise ForbiddenError("Only a page can pair, and it must send a name. Programs use a token.")
@@ -196,7 +202,7 @@ async def rename_me(
     changed = entrance.devices.change(caller.id, wanted.name, None)
     note.whom = changed.name
     spread_name(changed, control)
-    await entrance.devices.save()
+    await saved(entrance, note)
     return you_of(changed.caller)
 
 
@@ -308,7 +314,7 @@ async def change(
         note.about = changed.role
         reason, still_drives = "Your role is another one now.", changed.caller.may("driver")
         await scripts.disconnect(person, reason, by.name, still_drives=still_drives)
-    await entrance.devices.save()
+    await saved(entrance, note)
     return person_of(changed, entrance.devices, control)
 
 
@@ -329,7 +335,7 @@ async def revoke(
     entrance.devices.revoke(person)
     reason = "This device is not paired any more."
     await scripts.disconnect(person, reason, by.name, run_continues=continues)
-    await entrance.devices.save()
+    await saved(entrance, note)
 
 
 @people_api.post("/invites", dependencies=[OWNER])
@@ -363,7 +369,7 @@ async def make_token(
     device, token = entrance.devices.admit("token", wish.name, wish.role, valid_ms)
     note.whom, note.about = device.name, device.role
     expiry.plan()
-    await entrance.devices.save()
+    await saved(entrance, note)
     return Token(id=device.id, token=token)
 
 
@@ -374,6 +380,6 @@ async def make_stop_link(
     """A link that can stop the robot and do nothing else, for a sticker; valid until it is revoked."""
     device, credential = entrance.devices.admit("stopLink", wish.name, "stopper")
     note.whom = device.name
-    await entrance.devices.save()
+    await saved(entrance, note)
     link = stop_link(base, credential)
     return StopLink(id=device.id, link=link, picture=picture_of(link))

@@ -22,6 +22,7 @@ from servodeck.access.connections import connection_of
 from servodeck.access.entrance import Entrance
 from servodeck.access.guard import judge_script
 from servodeck.callers import Caller, Role, as_script
+from servodeck.errors import StorageError
 from servodeck.robot.control import Control
 from servodeck.schema import has_more_values
 from servodeck.threads import in_thread
@@ -65,6 +66,13 @@ class Note:
         self.who = who
         self.whom = ""
         self.about = ""
+        self.has_taken_effect = False
+        """It stands also where it cannot be stored."""
+
+
+def leave(note: Note, request: Request) -> None:
+    if note.act:
+        audit_in(request).note(note.act, note.who, note.about, note.whom)
 
 
 class Leaves:
@@ -124,9 +132,13 @@ class JudgingRoute(APIRoute):
             caller = request.state.caller
             who = named(request, caller).name if caller else None
             note = request.state.note = Note(named_acts[0], who)
-            response = await handle(request)
-            if note.act:
-                audit_in(request).note(note.act, note.who, note.about, note.whom)
+            try:
+                response = await handle(request)
+            except StorageError:
+                if note.has_taken_effect:
+                    leave(note, request)
+                raise
+            leave(note, request)
             return response
 
         return handle_and_note
