@@ -2,6 +2,7 @@
 
 import { availableParallelism } from 'node:os';
 import { browserForTests } from './browser.mjs';
+import { caddyForTests } from './caddy.mjs';
 import { python } from './python.mjs';
 import { clearReports, reportOf, testsOf } from './reports.mjs';
 import { at } from './steps.mjs';
@@ -158,7 +159,7 @@ export async function check() {
 export async function test(amount, pythonPackages) {
   clearReports();
   // Fetching a browser or packages waits for the network; what needs neither uses that time.
-  const browser = browserForTests();
+  const browser = Promise.all([browserForTests(), caddyForTests()]).then(() => undefined);
   const both = Promise.all([browser, pythonPackages]).then(() => undefined);
   const withBrowser = (/** @type {Task} */ task) => ({ ...task, waitsFor: () => browser });
   const withBoth = (/** @type {Task} */ task) => ({ ...task, waitsFor: () => both });
