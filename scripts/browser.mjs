@@ -1,5 +1,5 @@
-// What only the browser tests need: a Chromium and, for cables without hardware, umockdev and dbus-daemon. Says where they
-// are, fetches them where that is possible, and otherwise tells the way out. Knows no test.
+// What only tests need: a Chromium and, for cables without hardware, umockdev and dbus-daemon; for the fleet, Mosquitto. Says
+// where they are, fetches them where that is possible, and otherwise tells the way out. Knows no test.
 
 import { existsSync } from 'node:fs';
 import { createRequire } from 'node:module';
@@ -78,10 +78,16 @@ export async function browserForTests() {
   );
 }
 
+/** Fetches Mosquitto. Without it the tests of the fleet are skipped. Not beside another installation: apt has one lock. */
+export async function brokerForTests() {
+  if (!onPath(['mosquitto']).some((program) => existsSync(program)))
+    await installSystemPackages(['mosquitto']);
+}
+
 /** @param {readonly string[]} packages */
 async function installSystemPackages(packages) {
   if (process.getuid?.() !== 0 || !existsSync('/usr/bin/apt-get')) return;
-  say(`Installing ${packages.join(', ')} for the browser tests …`);
+  say(`Installing ${packages.join(', ')} for the tests …`);
   const env = { DEBIAN_FRONTEND: 'noninteractive' };
   const install = ['install', '-y', '--no-install-recommends', ...packages];
   if ((await run('apt-get', install, { env })).code === 0) return;

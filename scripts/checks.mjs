@@ -1,7 +1,7 @@
 // Every check and test of the project, and which of them `npm test` and `npm run check` take. Knows how each tool is called.
 
 import { availableParallelism } from 'node:os';
-import { browserForTests } from './browser.mjs';
+import { brokerForTests, browserForTests } from './browser.mjs';
 import { caddyForTests } from './caddy.mjs';
 import { python } from './python.mjs';
 import { clearReports, reportOf, testsOf } from './reports.mjs';
@@ -160,7 +160,8 @@ export async function test(amount, pythonPackages) {
   clearReports();
   // Fetching a browser or packages waits for the network; what needs neither uses that time.
   const browser = Promise.all([browserForTests(), caddyForTests()]).then(() => undefined);
-  const both = Promise.all([browser, pythonPackages]).then(() => undefined);
+  const programs = browser.then(brokerForTests);
+  const both = Promise.all([programs, pythonPackages]).then(() => undefined);
   const withBrowser = (/** @type {Task} */ task) => ({ ...task, waitsFor: () => browser });
   const withBoth = (/** @type {Task} */ task) => ({ ...task, waitsFor: () => both });
   const withPython = (/** @type {Task} */ task) => ({ ...task, waitsFor: () => pythonPackages });

@@ -314,3 +314,17 @@ class RobotFacts(Message):
     limits: Annotated[list[ServoLimits], Field(max_length=253)]
     poses: Annotated[list[NamedPose], Field(max_length=1001)]
     low_battery_mv: Whole | None = None
+
+
+class FleetStatus(Message):
+    """The gateway on a broker. `problem` says why it is not connected, or not heard there; `refused`:
+    messages that were refused before they reached the robot, by code.
+    """
+
+    broker: str
+    site: str
+    name: str
+    is_connected: bool
+    is_cloned: bool
+    problem: str | None
+    refused: dict[str, int]

@@ -33,6 +33,8 @@ async def test_status_tells_how_everything_stands() -> None:
             "running": None,
             "play": None,
             "unattended": None,
+            "notifications": [],
+            "fleet": None,
         }
 
 

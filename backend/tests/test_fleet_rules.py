@@ -94,9 +94,9 @@ REFUSED: dict[str, tuple[str, dict[str, Any]]] = {
         "expired",
         {"verb": "ask", "payload": {"v": 1, "n": 1, "nonce": OLDER, "action": "request"}},
     ),
-    "a beat for another gateway": (
+    "a beat too old": (
         "expired",
-        {"verb": "beat", "payload": {"v": 1, "n": 1, "nonces": {"arm-2": FRESH}}, "to": "all"},
+        {"verb": "beat", "payload": {"v": 1, "n": 1, "nonces": {"arm-1": "i.0-9"}}, "to": "all"},
     ),
 }
 
@@ -154,6 +154,11 @@ def test_a_stop_is_done_whatever_it_carries(message: dict[str, Any]) -> None:
     desk.judge.is_cloned = True
     for _ in range(300):  # no rate either
         assert isinstance(desk.hear("stop", **message), Stop)
+
+
+def test_a_beat_for_other_gateways_is_not_answered() -> None:
+    beat = {"v": 1, "n": 1, "nonces": {"arm-2": FRESH}}
+    assert Desk().hear("beat", beat, to="all") == Ignored()
 
 
 def test_the_same_number_again_gets_the_same_answer_and_an_older_one_is_superseded() -> None:

@@ -34,6 +34,7 @@ from servodeck.files import Disk
 from servodeck.library.library import Library
 from servodeck.robot.control import Control
 from servodeck.robot.scripts import Scripts
+from servodeck.snapshots import FleetStatus
 from servodeck.threads import in_thread
 
 if TYPE_CHECKING:
@@ -164,9 +165,10 @@ def create_app(
     cameras: Sequence["Camera"] = (),
     notifications: "Notifications | None" = None,
     audit: Audit | None = None,
+    on_broker: Callable[[], FleetStatus | None] = lambda: None,
 ) -> Guard:
     """The gateway with that entrance and the page built into `static`. Without `audit` the list of acts is
-    not stored.
+    not stored. `on_broker`: how it is there.
     """
     app = app_without_state()
     audit = audit or Audit(NoAuditStore(), entrance.devices.now_ms)
@@ -182,6 +184,7 @@ def create_app(
     app.state.loop_delay = LoopDelay(sign_of_life())
     app.state.disk = Disk(library.folder, control.now)
     app.state.entrance = entrance
+    app.state.on_broker = on_broker
     app.mount("/", page(static))
     return Guard(app, entrance)
 

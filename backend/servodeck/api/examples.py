@@ -64,6 +64,7 @@ STATUS = {
     "play": PLAY,
     "unattended": {"slot": 3, "times": 2, "by": "Anna's tablet", "endsInMs": 245000},
     "notifications": [{"kind": "ntfy", "host": "ntfy.sh", "latest": "sent", "detail": None}],
+    "fleet": None,
 }
 LEASE = {
     "you": "Dance",

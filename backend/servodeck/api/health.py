@@ -14,14 +14,14 @@ from collections import deque
 from collections.abc import Callable
 from typing import Annotated, Literal
 
-from fastapi import Depends, Response
+from fastapi import Depends, Request, Response
 from starlette.requests import HTTPConnection
 
 from servodeck import __version__
 from servodeck.api.routes import PUBLIC, VIEWER, Controlled, routes
 from servodeck.files import Disk
 from servodeck.schema import Message
-from servodeck.snapshots import PortState
+from servodeck.snapshots import FleetStatus, PortState
 
 SAMPLE_EVERY_S = 0.25
 REMEMBERED_S = 15.0
@@ -112,6 +112,11 @@ async def disk_of(connection: HTTPConnection) -> Disk:
     return disk
 
 
+def fleet_status(connection: HTTPConnection) -> FleetStatus | None:
+    found: FleetStatus | None = connection.app.state.on_broker()
+    return found
+
+
 Measured = Annotated[LoopDelay, Depends(loop_delay_of)]
 Stored = Annotated[Disk, Depends(disk_of)]
 health_api = routes("", "health")
@@ -142,8 +147,8 @@ def loop_troubles(worst_s: float) -> list[Trouble]:
 
 
 @health_api.get("/metrics", include_in_schema=False, dependencies=[VIEWER])
-async def numbers(control: Controlled, delay: Measured) -> Response:
+async def numbers(request: Request, control: Controlled, delay: Measured) -> Response:
     """In Prometheus's text format."""
     from servodeck.api.prometheus import MEDIA_TYPE, numbers_text
 
-    return Response(numbers_text(control, delay.worst_s), media_type=MEDIA_TYPE)
+    return Response(numbers_text(control, delay.worst_s, fleet_status(request)), media_type=MEDIA_TYPE)

@@ -13,22 +13,23 @@ from prometheus_client.utils import floatToGoString
 
 from servodeck import metrics
 from servodeck.robot.control import Control
-from servodeck.snapshots import PortStatus
+from servodeck.snapshots import FleetStatus, PortStatus
 
 MEDIA_TYPE = CONTENT_TYPE_LATEST
 
 
-def numbers_text(control: Control, loop_delay_s: float) -> bytes:
+def numbers_text(control: Control, loop_delay_s: float, fleet: FleetStatus | None) -> bytes:
     registry = CollectorRegistry()
     ProcessCollector(registry=registry)  # memory, time, open files
-    registry.register(Numbers(control, loop_delay_s))
+    registry.register(Numbers(control, loop_delay_s, fleet))
     return generate_latest(registry)
 
 
 class Numbers(Collector):
-    def __init__(self, control: Control, loop_delay_s: float) -> None:
+    def __init__(self, control: Control, loop_delay_s: float, fleet: FleetStatus | None) -> None:
         self._control = control
         self._loop_delay_s = loop_delay_s
+        self._fleet = fleet
 
     def collect(self) -> Iterator[Metric]:
         totals, control = metrics.totals, self._control
@@ -57,6 +58,13 @@ class Numbers(Collector):
         yield GaugeMetricFamily(
             "servodeck_loop_delay_seconds", "The longest wait for the event loop lately", self._loop_delay_s
         )
+        if self._fleet:
+            yield GaugeMetricFamily(
+                "servodeck_broker_connected", "1 while connected to the MQTT broker", self._fleet.is_connected
+            )
+            yield counts(
+                "servodeck_broker_refused", "Messages refused at the door", "code", self._fleet.refused
+            )
 
 
 def counts(name: str, about: str, label: str, numbers: Mapping[str, int]) -> CounterMetricFamily:

@@ -20,6 +20,7 @@ from starlette.types import Receive, Scope, Send
 
 from servodeck import __version__
 from servodeck.access.connections import connection_of
+from servodeck.api.health import fleet_status
 from servodeck.api.routes import (
     DRIVER,
     OWNER,
@@ -44,6 +45,7 @@ from servodeck.robot.hub import Session
 from servodeck.robot.latch import Cause
 from servodeck.schema import Message
 from servodeck.snapshots import (
+    FleetStatus,
     IdentityState,
     LinkState,
     PlayState,
@@ -73,7 +75,7 @@ class NotificationReceiver(Message):
 
 
 class Status(Message):
-    """`play`: what the gateway plays now, or played last."""
+    """`play`: what the gateway plays now, or played last. `fleet`: null where it is on no broker."""
 
     version: str
     board: str
@@ -88,6 +90,7 @@ class Status(Message):
     play: PlayState | None
     unattended: UnattendedRun | None
     notifications: list[NotificationReceiver]
+    fleet: FleetStatus | None
 
 
 class Device(Message):
@@ -164,6 +167,7 @@ async def status(request: Request, control: Controlled) -> Status:
         play=control.board.plays.latest,
         unattended=control.board.unattended.snapshot(),
         notifications=notified_by(request),
+        fleet=fleet_status(request),
     )
 
 

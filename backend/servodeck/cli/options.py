@@ -169,7 +169,8 @@ def evidence_words(evidence: dict[str, Any]) -> str:
 PREFIX = "SERVODECK"
 FILE = "config.toml"
 SYSTEM_FILE = Path("/etc/servodeck") / FILE
-FILE_KEYS_LEFT_OUT = frozenset({"config", "help"})
+# In no file, and not shown either: a password has a file of its own.
+FILE_KEYS_LEFT_OUT = frozenset({"config", "help", "mqtt-password"})
 
 
 class Setting(NamedTuple):

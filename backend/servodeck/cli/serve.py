@@ -11,6 +11,7 @@ import sys
 import time
 from collections.abc import Callable, Sequence
 from contextlib import suppress
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -19,6 +20,19 @@ from typer.main import get_command
 
 from servodeck import __version__
 from servodeck.cli import end_loading
+from servodeck.cli.broker import (
+    USUAL_SITE,
+    MqttCa,
+    MqttCert,
+    MqttKey,
+    MqttOptions,
+    MqttPassword,
+    MqttPasswordFile,
+    MqttSite,
+    MqttUrl,
+    on_broker_of,
+    read_membership,
+)
 from servodeck.cli.options import PREFIX, USAGE, Form, Level, fail, take_file
 from servodeck.protocol.families import FAMILIES, UNKNOWN
 
@@ -126,6 +140,16 @@ def serve(
     notify_file: Annotated[
         Path | None, typer.Option(help="A file of such addresses, one in each line.")
     ] = None,
+    mqtt: MqttUrl = "",
+    mqtt_site: MqttSite = USUAL_SITE,
+    mqtt_name: Annotated[
+        str, typer.Option(help="This gateway's name there. Default: the user of --mqtt, else one of its own.")
+    ] = "",
+    mqtt_password: MqttPassword = "",
+    mqtt_password_file: MqttPasswordFile = None,
+    mqtt_ca: MqttCa = None,
+    mqtt_cert: MqttCert = None,
+    mqtt_key: MqttKey = None,
     simulated: Annotated[bool, typer.Option("--simulated", help="The device is a simulated board.")] = False,
     data: Annotated[
         Path | None,
@@ -173,8 +197,12 @@ def serve(
         fail(f"There is no board family {board}. Choose one of: {', '.join(FAMILIES)}.", USAGE)
     senders = senders_to(notify, notify_file)
     proxied = parse_public_url(public_url) if public_url else None
-    listener = bind(*parse_listen(listen or (LAN_LISTEN if lan else DEFAULT_LISTEN), lan=lan))
     folder = data or data_folder()
+    mqtt_options = MqttOptions(
+        mqtt, mqtt_site, mqtt_password, mqtt_password_file, mqtt_ca, mqtt_cert, mqtt_key
+    )
+    membership = read_membership(mqtt_options, mqtt_name, folder)
+    listener = bind(*parse_listen(listen or (LAN_LISTEN if lan else DEFAULT_LISTEN), lan=lan))
     host, port = listener.getsockname()[:2]
     by_address = addresses.lan(port, listens_at=host) if lan else addresses.local(port)
     entrance = entrance_to(proxied or by_address, folder)
@@ -184,6 +212,7 @@ def serve(
     def reachable() -> list[str]:
         return addresses.answered_at(host, addresses.lan_addresses())
 
+    page = partial(page_for_others, entrance.access, reachable)
     is_heard = entrance.access.mode == "lan" and not is_loopback(host)
     announcement = Announcement(entrance.access.port, addresses=reachable) if is_heard else None
     library = Library(folder)
@@ -207,12 +236,15 @@ def serve(
         read_robot=robots_in(library),
     )
 
+    on_broker = on_broker_of(membership, control, page)
+
     def show(address: str) -> None:
         import webbrowser
 
         webbrowser.open(address)
 
     def ready() -> None:
+        on_broker.start()
         end_loading()
         print(f"Servodeck is at {url}", flush=True)
         if entrance.access.needs_pairing:
@@ -229,8 +261,9 @@ def serve(
         library,
         entrance,
         cameras=cameras_from(camera),
-        notifications=notifications_to(senders, lambda: page_for_others(entrance.access, reachable())),
+        notifications=notifications_to(senders, page),
         audit=audit,
+        on_broker=on_broker.status,
     )
     server = Server(app, control, device, ready)
     if exit_with_stdin:
@@ -240,6 +273,7 @@ def serve(
     server.run([listener])
     if announcement:
         announcement.end()
+    on_broker.end()
     library.close()
     audit.close()
     with suppress(StorageError):
@@ -297,11 +331,11 @@ def senders_to(addresses: Sequence[str], file: Path | None) -> "list[Sender]":
     return [Sender(receiver) for receiver in receivers(addresses, file)]
 
 
-def page_for_others(access: "Access", addresses: list[str]) -> str:
+def page_for_others(access: "Access", reachable: Callable[[], list[str]]) -> str:
     """Empty where others can open none."""
     from servodeck.cli.terminal import urls_for_others
 
-    return urls_for_others(access, addresses, "")[0] if access.needs_pairing else ""
+    return urls_for_others(access, reachable(), "")[0] if access.needs_pairing else ""
 
 
 def notifications_to(senders: "list[Sender]", page: Callable[[], str]) -> "Notifications | None":

@@ -100,7 +100,7 @@ class Refusal:
 
 @value
 class Ignored:
-    """Of no concern: a hold that was withdrawn, or is known."""
+    """Of no concern: a hold that was withdrawn or is known, a beat for other gateways."""
 
 
 Verdict = Stop | Accepted | Repeated | Refusal | Ignored
@@ -201,8 +201,12 @@ class Judge:
             return Refusal(origin, request.n, "cloned", detail)
         if isinstance(request, TimelyRequest) and not self._is_fresh(request.nonce, at_s, request.WITHIN_S):
             return Refusal(origin, request.n, "expired", "This request is too old.")
-        if isinstance(request, BeatRequest) and request.nonces.get(self._gateway) not in self._nonces:
-            return Refusal(origin, request.n, "expired", "This beat is too old, or for other gateways.")
+        if isinstance(request, BeatRequest):
+            nonce = request.nonces.get(self._gateway)
+            if nonce is None:
+                return Ignored()
+            if nonce not in self._nonces:
+                return Refusal(origin, request.n, "expired", "This beat is too old.")
         return Accepted(origin, verb, request)
 
     def _is_fresh(self, nonce: str, at_s: float, within_s: float) -> bool:

@@ -941,6 +941,29 @@ export interface components {
       take?: boolean;
     };
     /**
+     * FleetStatus
+     * @description The gateway on a broker. `problem` says why it is not connected, or not heard there; `refused`:
+     *     messages that were refused before they reached the robot, by code.
+     */
+    FleetStatus: {
+      /** Broker */
+      broker: string;
+      /** Iscloned */
+      isCloned: boolean;
+      /** Isconnected */
+      isConnected: boolean;
+      /** Name */
+      name: string;
+      /** Problem */
+      problem: string | null;
+      /** Refused */
+      refused: {
+        [key: string]: number;
+      };
+      /** Site */
+      site: string;
+    };
+    /**
      * FrameBody
      * @description Positions by servo number, in the board's unit, reached after `durationMs`.
      */
@@ -1895,7 +1918,7 @@ export interface components {
     };
     /**
      * Status
-     * @description `play`: what the gateway plays now, or played last.
+     * @description `play`: what the gateway plays now, or played last. `fleet`: null where it is on no broker.
      */
     Status: {
       battery: components['schemas']['BatteryAge'] | null;
@@ -1905,6 +1928,7 @@ export interface components {
       clients: number;
       /** Driver */
       driver: string | null;
+      fleet: components['schemas']['FleetStatus'] | null;
       identity: components['schemas']['IdentityState'];
       /** Latch */
       latch: boolean;
@@ -2091,6 +2115,7 @@ export type DriverWish = components['schemas']['DriverWish'];
 export type EchoedEvidence = components['schemas']['EchoedEvidence'];
 export type Erased = components['schemas']['Erased'];
 export type EraseWish = components['schemas']['EraseWish'];
+export type FleetStatus = components['schemas']['FleetStatus'];
 export type FrameBody = components['schemas']['FrameBody'];
 export type GroupBody = components['schemas']['GroupBody'];
 export type GroupFacts = components['schemas']['GroupFacts'];

@@ -1,0 +1,425 @@
+"""The other side of the broker, for the command line, a fleet's page and tests: which robots are there,
+requests to one of them and their answers, STOP for all of them, and the beat of a driver.
+
+    with Console(broker, Site("lab"), "driver") as console:
+        console.until(lambda: console.is_present("arm-1"), 2.0)
+        console.ask("arm-1", "ask", action="request")
+        console.ask("arm-1", "run", slot=3)       # Done, or raises RefusedError or NoAnswerError
+        console.beat()                             # four times a second while it drives
+
+All methods may be called from any thread and return at once, but `ask`, `stop_all` and `until`, which wait.
+Knows no robot core: what gateways publish is all there is.
+"""
+
+import secrets
+import threading
+import time
+from collections.abc import Callable, Collection
+from concurrent.futures import Future
+from concurrent.futures import TimeoutError as FutureTimeoutError
+from math import inf
+from types import TracebackType
+from typing import Any, Literal, Self
+
+from pydantic import TypeAdapter, ValidationError
+
+from servodeck.callers import RANKS, Role
+from servodeck.fleet.broker import Broker, Connection, Interest, Outgoing
+from servodeck.fleet.messages import (
+    REQUESTS,
+    About,
+    Answer,
+    BeatRequest,
+    Done,
+    Live,
+    Online,
+    RefusalCode,
+    Refused,
+    ReportRequest,
+    State,
+    TimelyRequest,
+    encode,
+)
+from servodeck.fleet.rules import Received
+from servodeck.fleet.topics import ALL, Published, Reply, Site, Verb
+from servodeck.value import value
+
+# A state this old shows no living gateway any more, and one that the broker had retained never does.
+FRESH_S = 3.0
+ANSWER_S = 2.0
+STOP_S = 1.0
+STOP_AGAIN_S = (0.07, 0.14)
+LOOK_S = 0.1
+HOLD_S = 3600
+EXPIRES_S = 1
+QOS_0: Collection[Verb] = ("move", "beat")
+
+Presence = Literal["present", "silent", "cloned"]
+answer_adapter: TypeAdapter[Done | Refused] = TypeAdapter(Answer)
+
+
+class FleetError(Exception):
+    """A request that was not done."""
+
+
+class RefusedError(FleetError):
+    def __init__(self, gateway: str, code: RefusalCode, detail: str) -> None:
+        super().__init__(f"{gateway}: {detail}")
+        self.gateway = gateway
+        self.code = code
+        self.detail = detail
+
+
+class NoAnswerError(FleetError):
+    """It was not sent, or nothing came back in time: whether it was done is unknown."""
+
+
+@value
+class Robot:
+    """As it was heard last. `silent`: without a fresh state; `about` and `state` may be what was retained.
+    `live`: of one that is watched.
+    """
+
+    name: str
+    presence: Presence
+    about: About | None
+    state: State | None
+    live: Live | None
+
+
+@value
+class StopReport:
+    """Those that latched, those that latched but have no port to stop, with the reason, and those that were
+    there and did not answer.
+    """
+
+    stopped: tuple[str, ...]
+    refused: tuple[tuple[str, str], ...]
+    missing: tuple[str, ...]
+
+
+class Seen:
+    """What is known of one gateway."""
+
+    def __init__(self) -> None:
+        self.about: About | None = None
+        self.state: State | None = None
+        self.live: Live | None = None
+        self.nonce: str | None = None
+        self.heard_s = -inf
+        self.instances: dict[str, float] = {}
+
+
+class Console:
+    def __init__(
+        self,
+        broker: Broker,
+        site: Site,
+        role: Role,
+        changed: Callable[[str], None] = lambda _: None,
+        now: Callable[[], float] = time.monotonic,
+    ) -> None:
+        """`role`: one that the broker gives to the user of `broker`. `changed` is called in the connection's
+        thread with the name of the gateway that said something, empty for the connection itself. Raises
+        ValueError without a user.
+        """
+        if not broker.user:
+            raise ValueError("a console needs a user: mqtts://USER@HOST")
+        self._site = site
+        self._user = broker.user
+        self._role: Role = role
+        self._changed = changed
+        self._now = now
+        self._session = secrets.token_hex(4)
+        self._reply_to = site.reply(self._user, self._session)
+        self._lock = threading.Lock()
+        self._n = 0
+        self._seen: dict[str, Seen] = {}
+        self._pending: dict[bytes, Callable[[Done | Refused], None]] = {}
+        self._drives: set[str] = set()
+        self._heard = threading.Condition(self._lock)
+        state = Interest(0, wants_retained=True, as_published=False)
+        interests = {
+            site.published("+", "about"): state,
+            site.published("+", "state"): state,
+            site.published("+", "online"): Interest(1, wants_retained=False, as_published=False),
+            self._reply_to: Interest(1, wants_retained=False, as_published=True),
+        }
+        client_id = f"{self._user}-{self._session}"
+        self._connection = Connection(broker, client_id, interests, self, now)
+
+    def __enter__(self) -> Self:
+        self.start()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.end()
+
+    def start(self) -> None:
+        self._connection.start()
+
+    def end(self) -> None:
+        """Gateways that it drives lose their driver."""
+        self._connection.end()
+
+    @property
+    def problem(self) -> str | None:
+        """Why it is not connected; None while it is."""
+        return self._connection.problem
+
+    def robots(self) -> list[Robot]:
+        """All that have ever said something or are retained, by name."""
+        with self._lock:
+            return [self._robot(name, seen) for name, seen in sorted(self._seen.items())]
+
+    def robot(self, name: str) -> Robot | None:
+        with self._lock:
+            seen = self._seen.get(name)
+            return self._robot(name, seen) if seen else None
+
+    def is_present(self, name: str) -> bool:
+        robot = self.robot(name)
+        return robot is not None and robot.presence == "present"
+
+    def until(self, is_so: Callable[[], bool], timeout_s: float) -> bool:
+        """Waits until that is so, looking again whenever something was heard; False: not in time."""
+        deadline_s = self._now() + timeout_s
+        while not is_so():
+            left_s = deadline_s - self._now()
+            if left_s <= 0:
+                return False
+            with self._heard:
+                self._heard.wait(min(left_s, LOOK_S))
+        return True
+
+    def watch(self, gateway: str) -> None:
+        """Its `live` reports come, too, until `unwatch`."""
+        topic = self._site.published(gateway, "live")
+        self._connection.subscribe(topic, Interest(0, wants_retained=False, as_published=True))
+
+    def unwatch(self, gateway: str) -> None:
+        self._connection.unsubscribe(self._site.published(gateway, "live"))
+
+    def request(self, gateway: str, verb: Verb, **fields: Any) -> "Future[Done]":
+        """`fields` as the request has them, but `v`, `n` and `nonce`. The result, or RefusedError, or
+        NoAnswerError where it cannot be sent.
+        """
+        answered: Future[Done] = Future()
+
+        def take(answer: Done | Refused) -> None:
+            if isinstance(answer, Refused):
+                error = RefusedError(gateway, answer.code, answer.detail)
+                settle(answered, lambda: answered.set_exception(error))
+            else:
+                self._note(gateway, answer)
+                settle(answered, lambda: answered.set_result(answer))
+
+        correlation = secrets.token_bytes(8)
+        answered.add_done_callback(lambda _: self._pending.pop(correlation, None))
+        with self._lock:  # so that requests leave in the order of their numbers
+            self._pending[correlation] = take
+            payload = self._payload(gateway, verb, fields)
+            is_sent = payload is not None and self._send(gateway, verb, payload, correlation)
+        if not is_sent:
+            problem = f"{gateway} has not been heard." if payload is None else f"Not sent: {self.problem}"
+            answered.set_exception(NoAnswerError(problem))
+        return answered
+
+    def ask(self, gateway: str, verb: Verb, *, timeout_s: float = ANSWER_S, **fields: Any) -> Done:
+        """As `request`, and waits. One that was too old, because the lease has passed or nothing newer was
+        heard, is made anew once, but no move. Raises RefusedError or NoAnswerError.
+        """
+        try:
+            return self._result_of(gateway, self.request(gateway, verb, **fields), timeout_s)
+        except RefusedError as error:
+            if error.code != "expired" or verb == "move":
+                raise
+        self._result_of(gateway, self.request(gateway, "report"), timeout_s)
+        return self._result_of(gateway, self.request(gateway, verb, **fields), timeout_s)
+
+    def _result_of(self, gateway: str, answered: "Future[Done]", timeout_s: float) -> Done:
+        try:
+            return answered.result(timeout_s)
+        except FutureTimeoutError:
+            answered.cancel()
+            raise NoAnswerError(f"{gateway} did not answer in {timeout_s:g} s.") from None
+
+    def beat(self) -> None:
+        """The driver is present: for all gateways of which this console has the lease."""
+        with self._lock:
+            newest = {name: self._seen_of(name).nonce for name in self._drives}
+            nonces = {name: nonce for name, nonce in newest.items() if nonce}
+            if nonces:
+                self._send(ALL, "beat", encode(BeatRequest(n=self._next(), nonces=nonces)), b"")
+
+    def stop(self, gateway: str) -> "Future[Done]":
+        """STOP for one. As `request`."""
+        return self.request(gateway, "stop")
+
+    def stop_all(self, timeout_s: float = STOP_S) -> StopReport:
+        """STOP for all, and for those that connect later until `withdraw_hold`. Waits until all that are
+        present have answered.
+        """
+        answers: dict[str, Done | Refused] = {}
+        correlation = secrets.token_bytes(8)
+
+        def take(answer: Done | Refused) -> None:
+            answers[answer.gateway] = answer
+
+        present = {robot.name for robot in self.robots() if robot.presence != "silent"}
+        with self._lock:
+            self._pending[correlation] = take
+        self._send(ALL, "stop", b"", correlation)
+        hold = self._site.hold(self._role, self._user)
+        self._connection.publish(Outgoing(hold, correlation.hex().encode(), 1, True, HOLD_S))
+        for after_s in STOP_AGAIN_S:
+            again = threading.Timer(after_s, self._send, (ALL, "stop", b"", correlation))
+            again.daemon = True
+            again.start()
+        self.until(lambda: present <= answers.keys(), timeout_s)
+        self._pending.pop(correlation, None)
+        refused = {name: answer.detail for name, answer in answers.items() if isinstance(answer, Refused)}
+        return StopReport(
+            tuple(sorted(answers.keys() - refused.keys())),
+            tuple(sorted(refused.items())),
+            tuple(sorted(present - answers.keys())),
+        )
+
+    def withdraw_hold(self) -> None:
+        """Gateways that connect from now on do not stop any more. Resumes none."""
+        self._connection.publish(Outgoing(self._site.hold(self._role, self._user), b"", 1, True))
+
+    # In the connection's thread
+
+    def connected(self) -> None:
+        """Those that are there say so at once."""
+        if RANKS[self._role] >= RANKS["viewer"]:
+            with self._lock:
+                self._send(ALL, "report", encode(ReportRequest(n=self._next())), b"")
+        self._say("")
+
+    def lost(self) -> None:
+        with self._lock:
+            self._drives.clear()
+        self._say("")
+
+    def received(self, received: Received) -> None:
+        try:
+            match self._site.parse(received.topic):
+                case Published(gateway, "about"):
+                    about = About.model_validate_json(received.payload)
+                    with self._lock:
+                        self._seen_of(gateway).about = about
+                    self._say(gateway)
+                case Published(gateway, "state"):
+                    state = State.model_validate_json(received.payload)
+                    self._heard_state(gateway, state, None if received.is_retained else received.at_s)
+                case Published(gateway, "live"):
+                    live = Live.model_validate_json(received.payload)
+                    with self._lock:
+                        self._seen_of(gateway).live, self._seen_of(gateway).nonce = live, live.nonce
+                    self._say(gateway)
+                case Published(gateway, "online"):
+                    self._heard_online(gateway, Online.model_validate_json(received.payload))
+                case Reply():
+                    self._heard_answer(received)
+        except ValidationError:  # of another version: as if it had said nothing
+            return
+
+    def _heard_state(self, gateway: str, state: State, heard_s: float | None) -> None:
+        """`heard_s` is None for one that the broker had retained."""
+        with self._lock:
+            seen = self._seen_of(gateway)
+            seen.state = state
+            if heard_s is not None:
+                seen.nonce, seen.heard_s = state.nonce, heard_s
+                seen.instances[state.instance] = heard_s
+                if state.driver != self._user:
+                    self._drives.discard(gateway)
+        self._say(gateway)
+
+    def _heard_online(self, gateway: str, online: Online) -> None:
+        """The last will, or the farewell, of that instance: it is not waited for."""
+        if online.is_online:
+            return
+        with self._lock:
+            seen = self._seen_of(gateway)
+            seen.instances.pop(online.instance, None)
+            if seen.state and seen.state.instance == online.instance:
+                seen.heard_s = -inf
+        self._say(gateway)
+
+    def _heard_answer(self, received: Received) -> None:
+        answer = answer_adapter.validate_json(received.payload)
+        if isinstance(answer, Done) and answer.state:
+            self._heard_state(answer.gateway, answer.state, received.at_s)
+        take = self._pending.get(received.correlation or b"")
+        if take:
+            take(answer)
+        self._say(answer.gateway)
+
+    def _note(self, gateway: str, done: Done) -> None:
+        with self._lock:
+            self._seen_of(gateway).nonce = done.nonce
+            has = gateway in self._drives
+            (self._drives.add if done.drives else self._drives.discard)(gateway)
+        if done.drives and not has:
+            self.watch(gateway)
+        elif has and not done.drives:
+            self.unwatch(gateway)
+
+    def _say(self, gateway: str) -> None:
+        with self._heard:
+            self._heard.notify_all()
+        self._changed(gateway)
+
+    # Within the lock
+
+    def _seen_of(self, gateway: str) -> Seen:
+        return self._seen.setdefault(gateway, Seen())
+
+    def _robot(self, name: str, seen: Seen) -> Robot:
+        now = self._now()
+        living = [instance for instance, at in seen.instances.items() if now - at <= FRESH_S]
+        seen.instances = {instance: seen.instances[instance] for instance in living}
+        is_cloned = len(living) > 1 or bool(seen.state and seen.state.is_cloned)
+        fresh: Presence = "cloned" if is_cloned else "present"
+        presence = fresh if now - seen.heard_s <= FRESH_S else "silent"
+        return Robot(name, presence, seen.about, seen.state, seen.live)
+
+    def _next(self) -> int:
+        self._n += 1
+        return self._n
+
+    def _payload(self, gateway: str, verb: Verb, fields: dict[str, Any]) -> bytes | None:
+        """None where it needs a nonce, and the gateway has said none. Raises ValidationError."""
+        if verb == "stop":
+            return b""
+        model, n = REQUESTS[verb], self._next()
+        if issubclass(model, TimelyRequest):
+            seen = self._seen.get(gateway)
+            if seen is None or seen.nonce is None:
+                return None
+            return encode(model(n=n, nonce=seen.nonce, **fields))
+        return encode(model(n=n, **fields))
+
+    def _send(self, gateway: str, verb: Verb, payload: bytes, correlation: bytes) -> bool:
+        topic = self._site.command(gateway, self._role, self._user, verb)
+        return self._connection.publish(
+            Outgoing(
+                topic,
+                payload,
+                0 if verb in QOS_0 else 1,
+                expires_s=EXPIRES_S,
+                reply_to=self._reply_to,
+                correlation=correlation,
+            )
+        )
+
+
+def settle(future: "Future[Done]", act: Callable[[], None]) -> None:
+    """Once: the same answer may come twice, and nobody may wait any more."""
+    if not future.done():
+        act()

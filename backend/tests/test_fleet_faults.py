@@ -1,0 +1,339 @@
+"""What may go wrong on a broker, each with a real Mosquitto: docs/adr/0048 has the table."""
+
+import json
+import queue
+import secrets
+import signal
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from servodeck.callers import THIS_COMPUTER
+from servodeck.fleet.broker import Broker, Connection, Interest, Outgoing
+from servodeck.fleet.console import Console, NoAnswerError, RefusedError
+from servodeck.fleet.rules import Received
+from tests.client import Client
+from tests.fleet import WAIT_S, Gateway, console_of, eventually, fleet_on
+from tests.mosquitto import LAB, Mosquitto, needs_mosquitto
+from tests.samples import MOVE as MOVE_PACKET
+
+pytestmark = [pytest.mark.slow, needs_mosquitto]
+MOVE, RUN, STOP = 3, 6, 7
+NAMES = ("arm-1", "arm-2")
+TARGETS = [{"servo": 1, "position": 1500}]
+FOR_ARM = "sd/1/lab/arm-1/do/driver/anna/"
+REPLY = "sd/1/lab/reply/anna/raw"
+
+
+class Raw:
+    """A client that sends what it likes, as one user of the broker."""
+
+    def __init__(self, broker: Broker) -> None:
+        interest = Interest(1, wants_retained=True, as_published=True)
+        interests = {REPLY: interest} if broker.user == "anna" else {}
+        self.heard: queue.Queue[dict[str, Any]] = queue.Queue()
+        self.connections = 0
+        self.connection = Connection(broker, secrets.token_hex(4), interests, self, time.monotonic)
+        self.connection.start()
+
+    def connected(self) -> None:
+        self.connections += 1
+
+    def lost(self) -> None:
+        """It comes back."""
+
+    def received(self, received: Received) -> None:
+        self.heard.put(json.loads(received.payload))
+
+    def say(
+        self, topic: str, payload: bytes | dict[str, Any], *, is_retained: bool = False, qos: Any = 1
+    ) -> None:
+        data = payload if isinstance(payload, bytes) else json.dumps(payload).encode()
+        assert eventually(lambda: self.connection.is_connected)
+        self.connection.publish(Outgoing(topic, data, qos, is_retained, reply_to=REPLY))
+
+    def answer(self) -> dict[str, Any]:
+        return self.heard.get(timeout=WAIT_S)
+
+
+@contextmanager
+def raw_client(broker: Broker) -> Iterator[Raw]:
+    made = Raw(broker)
+    try:
+        yield made
+    finally:
+        made.connection.end()
+
+
+@pytest.fixture(scope="module")
+def mosquitto(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Mosquitto]:
+    made = Mosquitto(tmp_path_factory.mktemp("broker"), NAMES)
+    made.start()
+    yield made
+    made.kill()
+
+
+@pytest.fixture
+def own_mosquitto(tmp_path: Path) -> Iterator[Mosquitto]:
+    """For a test that harms it."""
+    made = Mosquitto(tmp_path / "broker", NAMES)
+    made.start()
+    yield made
+    made.kill()
+
+
+@pytest.fixture
+def arm(mosquitto: Mosquitto) -> Iterator[Gateway]:
+    with fleet_on(mosquitto, ["arm-1"]) as (_, (gateway,)):
+        yield gateway
+
+
+def move(n: int, nonce: str) -> dict[str, Any]:
+    return {"v": 1, "n": n, "nonce": nonce, "targets": TARGETS, "durationMs": 1500}
+
+
+def driving(raw: Raw) -> str:
+    """Gets the lease; the newest nonce."""
+    raw.say(FOR_ARM + "report", {"v": 1, "n": 1})
+    raw.say(FOR_ARM + "ask", {"v": 1, "n": 2, "nonce": raw.answer()["nonce"], "action": "request"})
+    done = raw.answer()
+    assert done["drives"]
+    nonce: str = done["nonce"]
+    return nonce
+
+
+def test_a_retained_request_is_refused_now_and_not_delivered_later(mosquitto: Mosquitto) -> None:
+    with raw_client(mosquitto.broker_for("anna")) as raw:
+        with fleet_on(mosquitto, ["arm-1"]) as (_, (arm,)):
+            nonce = driving(raw)
+            raw.say(FOR_ARM + "move", move(3, nonce), is_retained=True)
+            assert raw.answer()["code"] == "retained"
+            assert arm.count(MOVE) == 0
+        with fleet_on(mosquitto, ["arm-1"]) as (_, (again,)):
+            raw.say(FOR_ARM + "report", {"v": 1, "n": 4})
+            assert raw.answer()["kind"] == "done"
+            assert (again.count(MOVE), again.door.status().refused) == (0, {})
+        raw.say(FOR_ARM + "move", b"", is_retained=True)  # leaves none behind
+
+
+def test_a_request_that_comes_twice_is_done_once_and_an_older_one_never(
+    mosquitto: Mosquitto, arm: Gateway
+) -> None:
+    with raw_client(mosquitto.broker_for("anna")) as raw:
+        nonce = driving(raw)
+        raw.say(FOR_ARM + "move", move(5, nonce))
+        first = raw.answer()
+        assert first["kind"] == "done"
+        raw.say(FOR_ARM + "move", move(5, nonce))
+        assert raw.answer() == first
+        raw.say(FOR_ARM + "move", move(4, nonce))
+        assert raw.answer()["code"] == "superseded"
+    assert arm.count(MOVE) == 1
+
+
+def test_a_hold_stops_those_that_come_later_until_it_is_withdrawn(mosquitto: Mosquitto) -> None:
+    hold = "sd/1/lab/all/hold/driver/anna"
+    with raw_client(mosquitto.broker_for("anna")) as raw:
+        raw.say(hold, b"today", is_retained=True)
+        with fleet_on(mosquitto, ["arm-1"]) as (_, (arm,)):
+            assert eventually(lambda: arm.control.latch)
+        raw.say(hold, b"", is_retained=True)
+        with fleet_on(mosquitto, ["arm-1"]) as (_, (arm,)):
+            raw.say(FOR_ARM + "report", {"v": 1, "n": 1})
+            assert raw.answer()["state"]["latch"] is False
+
+
+def test_of_two_consoles_one_drives(mosquitto: Mosquitto, arm: Gateway) -> None:
+    with console_of(mosquitto, "anna", "arm-1") as anna, console_of(mosquitto, "ben", "arm-1") as ben:
+        assert anna.ask("arm-1", "ask", action="request").drives
+        assert not ben.ask("arm-1", "ask", action="request").drives
+        with pytest.raises(RefusedError) as refused:
+            ben.ask("arm-1", "move", targets=TARGETS, duration_ms=1500)
+        assert refused.value.code == "notDriving"
+    assert arm.count(MOVE) == 0
+
+
+def test_nothing_waits_for_a_gateway_that_is_away(mosquitto: Mosquitto) -> None:
+    with raw_client(mosquitto.broker_for("anna")) as raw:
+        for n in range(20):
+            raw.say("sd/1/lab/arm-2/do/driver/anna/move", move(n, "x.1-1"))
+        raw.say(FOR_ARM + "report", {"v": 1, "n": 1})
+        with fleet_on(mosquitto, ["arm-2"]) as (_, (late,)), console_of(mosquitto, "vera", "arm-2"):
+            assert late.door.status().refused == {}
+            assert late.count(MOVE) == 0
+
+
+def test_what_cannot_be_read_is_refused_and_the_gateway_stays(mosquitto: Mosquitto, arm: Gateway) -> None:
+    with raw_client(mosquitto.broker_for("anna")) as raw:
+        damaged = [b"", b"{", b"[]" * 500, b"\xff" * 64, b'{"v":1,"n":1e999}', b"[" * 2000]
+        for payload in damaged:
+            raw.say(FOR_ARM + "move", payload)
+            assert raw.answer()["code"] == "malformed"
+        raw.say(FOR_ARM + "move", b" " * 20_000)
+        assert raw.answer()["code"] == "tooLarge"
+        assert driving(raw)
+    assert arm.door.status().refused == {"malformed": len(damaged), "tooLarge": 1}
+
+
+def test_the_broker_cuts_what_is_larger_than_anything(mosquitto: Mosquitto, arm: Gateway) -> None:
+    with raw_client(mosquitto.broker_for("anna")) as raw:
+        raw.say(FOR_ARM + "download", b" " * 700_000, qos=0)
+        assert eventually(lambda: raw.connections == 2)
+    assert arm.door.status().refused == {}
+
+
+@pytest.mark.parametrize(
+    ("user", "topic"),
+    [
+        ("vera", "sd/1/lab/arm-1/do/driver/vera/ask"),
+        ("vera", "sd/1/lab/arm-1/do/driver/anna/ask"),
+        ("vera", "sd/1/lab/arm-1/do/owner/vera/stop"),
+        ("vera", "sd/1/lab/all/hold/driver/anna"),
+        ("arm-2", "sd/1/lab/arm-1/do/owner/arm-2/stop"),
+        ("arm-2", "sd/1/lab/arm-1/state"),
+    ],
+)
+def test_no_user_writes_below_another_name_or_role(
+    mosquitto: Mosquitto, arm: Gateway, user: str, topic: str
+) -> None:
+    with raw_client(mosquitto.broker_for(user)) as raw, raw_client(mosquitto.broker_for("anna")) as anna:
+        raw.say(topic, b'{"v":1,"n":1}')
+        raw.say(topic, b'{"v":1,"n":1}')
+        anna.say(FOR_ARM + "report", {"v": 1, "n": 1})
+        assert anna.answer()["kind"] == "done"
+    assert not arm.control.latch
+    assert arm.door.status().refused == {}
+    assert not arm.door.status().is_cloned
+
+
+@pytest.mark.parametrize("password", ["wrong", None])
+def test_nobody_gets_in_without_the_password(mosquitto: Mosquitto, password: str | None) -> None:
+    broker = replace_password(mosquitto.broker_for("anna"), password)
+    with Console(broker, LAB, "driver") as console:
+        assert console.until(lambda: "refuses" in (console.problem or ""), WAIT_S)
+        with pytest.raises(NoAnswerError):
+            console.ask("arm-1", "report")
+
+
+def replace_password(broker: Broker, password: str | None) -> Broker:
+    return Broker(broker.host, broker.port, None, broker.user, password, None)
+
+
+async def local_move(gateway: Gateway) -> None:
+    """As a page of this computer does it."""
+    page = Client(gateway.control)
+    await page.send(MOVE_PACKET)
+
+
+def test_a_lost_broker_is_a_lost_driver_and_the_local_page_works_on(own_mosquitto: Mosquitto) -> None:
+    with (
+        fleet_on(own_mosquitto, ["arm-1"]) as (fleet, (arm,)),
+        console_of(own_mosquitto, "anna", "arm-1") as console,
+    ):
+        console.ask("arm-1", "ask", action="request")
+        console.ask("arm-1", "run", slot=3, times=0)
+        own_mosquitto.kill()
+        assert eventually(lambda: arm.control.latch)
+        assert eventually(lambda: arm.count(STOP) >= 3)
+        assert arm.control.driving.driver is None
+        status = arm.door.status()
+        assert (status.is_connected, bool(status.problem)) == (False, True)
+        fleet.call(lambda: arm.control.resume(THIS_COMPUTER))
+        fleet.do(local_move(arm))
+        own_mosquitto.start()
+        assert console.until(lambda: console.is_present("arm-1"), WAIT_S)
+        assert not arm.control.latch
+
+
+def test_an_old_word_of_a_dead_gateway_is_not_believed(mosquitto: Mosquitto) -> None:
+    with fleet_on(mosquitto, ["arm-2"]), console_of(mosquitto, "vera", "arm-2") as before:
+        state = before.robot("arm-2")
+        assert state
+    with raw_client(mosquitto.broker_for("arm-2")) as dead:
+        assert state.state
+        dead.say("sd/1/lab/arm-2/online", {"v": 1, "instance": "dead", "isOnline": True}, is_retained=True)
+        dead.say("sd/1/lab/arm-2/state", state.state.model_dump_json().encode(), is_retained=True)
+        with fleet_on(mosquitto, ["arm-1"]), console_of(mosquitto, "vera", "arm-1") as console:
+            found = console.robot("arm-2")
+            assert found
+            assert found.state
+            assert found.presence == "silent"
+        dead.say("sd/1/lab/arm-2/state", b"", is_retained=True)
+
+
+def test_two_gateways_with_one_name_both_say_so_and_neither_moves(mosquitto: Mosquitto) -> None:
+    with fleet_on(mosquitto, ["arm-1", "arm-1"]) as (_, pair), console_of(mosquitto, "anna") as console:
+        assert eventually(lambda: all(gateway.door.status().is_cloned for gateway in pair))
+        assert console.until(lambda: is_cloned(console), WAIT_S)
+        with pytest.raises(RefusedError) as refused:
+            console.ask("arm-1", "ask", action="request")
+        assert refused.value.code == "cloned"
+        console.stop("arm-1").result(WAIT_S)
+        assert eventually(lambda: all(gateway.control.latch for gateway in pair))
+
+
+def is_cloned(console: Console) -> bool:
+    robot = console.robot("arm-1")
+    return robot is not None and robot.presence == "cloned"
+
+
+def test_a_revoked_user_is_cut_off(own_mosquitto: Mosquitto) -> None:
+    with (
+        fleet_on(own_mosquitto, ["arm-1"]) as (_, (arm,)),
+        console_of(own_mosquitto, "anna", "arm-1") as anna,
+    ):
+        anna.ask("arm-1", "ask", action="request")
+        own_mosquitto.revoke("anna")
+        assert anna.until(lambda: anna.problem is not None, WAIT_S)
+        with pytest.raises(NoAnswerError):
+            anna.ask("arm-1", "move", targets=TARGETS, duration_ms=1500)
+        assert arm.count(MOVE) == 0
+
+
+@pytest.mark.exhaustive
+def test_moves_that_a_frozen_broker_held_back_are_refused(own_mosquitto: Mosquitto) -> None:
+    with (
+        fleet_on(own_mosquitto, ["arm-1"]) as (_, (arm,)),
+        raw_client(own_mosquitto.broker_for("anna")) as raw,
+    ):
+        nonce = driving(raw)
+        begun_s = time.monotonic()
+        own_mosquitto.signal(signal.SIGSTOP)
+        for n in range(60):
+            raw.say(FOR_ARM + "move", move(10 + n, nonce))
+        assert eventually(lambda: time.monotonic() - begun_s > 0.6)
+        own_mosquitto.signal(signal.SIGCONT)
+        codes = [raw.answer()["code"] for _ in range(60)]
+        assert set(codes) <= {"expired", "notDriving"}
+        assert arm.count(MOVE) == 0
+
+
+@pytest.mark.exhaustive
+def test_a_flood_moves_nothing_and_stop_passes(mosquitto: Mosquitto, arm: Gateway) -> None:
+    with raw_client(mosquitto.broker_for("anna")) as raw, console_of(mosquitto, "ben", "arm-1") as ben:
+        for n in range(10_000):
+            raw.say(FOR_ARM + "move", move(n, "x.1-1"), qos=0)
+        stopped = ben.stop("arm-1")
+        for n in range(10_000):
+            raw.say(FOR_ARM + "move", move(n, "x.1-1"), qos=0)
+        stopped.result(WAIT_S)
+        assert arm.control.latch
+        assert arm.count(MOVE) == 0
+
+
+@pytest.mark.exhaustive
+def test_a_gateway_that_does_not_hear_itself_says_so_and_is_not_driven(own_mosquitto: Mosquitto) -> None:
+    acl = own_mosquitto.folder / "acl"
+    acl.write_text(acl.read_text().replace("topic read sd/1/lab/arm-1/state\n", ""))
+    own_mosquitto.kill()
+    own_mosquitto.start()
+    with fleet_on(own_mosquitto, []) as (fleet, _):
+        arm = fleet.add("arm-1", own_mosquitto.broker_for("arm-1"))
+        with console_of(own_mosquitto, "anna", "arm-1") as anna:
+            anna.ask("arm-1", "ask", action="request")
+            assert eventually(lambda: arm.control.driving.driver is None)
+            assert "bring back" in (arm.door.status().problem or "")

@@ -1,0 +1,75 @@
+"""Gateways on a real Mosquitto, and consoles: what they say, requests, the lease, STOP."""
+
+from collections.abc import Iterator
+from functools import partial
+
+import pytest
+
+from servodeck.fleet.console import RefusedError
+from tests.fleet import Fleet, Gateway, console_of, eventually, fleet_on
+from tests.mosquitto import Mosquitto, needs_mosquitto
+
+pytestmark = [pytest.mark.slow, needs_mosquitto]
+MOVE, RUN, STOP = 3, 6, 7
+NAMES = ("arm-1", "arm-2", "arm-3")
+Robots = tuple[Fleet, list[Gateway]]
+TARGETS = [{"servo": 1, "position": 1500}]
+
+
+@pytest.fixture(scope="module")
+def mosquitto(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Mosquitto]:
+    made = Mosquitto(tmp_path_factory.mktemp("broker"), (*NAMES, "late"))
+    made.start()
+    yield made
+    made.kill()
+
+
+@pytest.fixture
+def fleet(mosquitto: Mosquitto) -> Iterator[Robots]:
+    with fleet_on(mosquitto, NAMES) as made:
+        yield made
+
+
+def test_a_console_sees_who_is_there_and_how(mosquitto: Mosquitto, fleet: Robots) -> None:
+    with console_of(mosquitto, "vera", *NAMES) as console:
+        robot = console.robot("arm-1")
+        assert robot
+        assert robot.about
+        assert (robot.about.name, robot.about.board) == ("arm-1", "doc")
+        assert robot.state
+        assert (robot.state.link.status, robot.state.latch, robot.state.driver) == ("ready", False, None)
+
+
+def test_a_driver_moves_runs_and_stops(mosquitto: Mosquitto, fleet: Robots) -> None:
+    _, (arm, other, _) = fleet
+    with console_of(mosquitto, "anna", *NAMES) as console:
+        assert console.ask("arm-1", "ask", action="request").drives
+        console.ask("arm-1", "move", targets=TARGETS, duration_ms=1500)
+        assert arm.count(MOVE) == 1
+        assert console.ask("arm-1", "run", slot=3).outcome == "acknowledged"
+        stops = arm.count(STOP)
+        console.stop("arm-1").result(5)
+        assert eventually(lambda: arm.count(STOP) >= stops + 3)
+        with pytest.raises(RefusedError, match="Stopped") as refused:
+            console.ask("arm-1", "run", slot=3)
+        assert refused.value.code == "latched"
+        console.ask("arm-1", "resume")
+        assert console.ask("arm-1", "run", slot=3).outcome == "acknowledged"
+        assert other.count(RUN) == other.count(MOVE) == 0
+
+
+def test_stop_for_all_reaches_all_and_those_that_come_later(mosquitto: Mosquitto, fleet: Robots) -> None:
+    maker, gateways = fleet
+    with console_of(mosquitto, "stan", *NAMES) as console:
+        report = console.stop_all()
+        assert report.stopped == NAMES
+        assert (report.missing, report.refused) == ((), ())
+        for gateway in gateways:
+            assert gateway.control.latch
+            assert eventually(partial(has_stopped, gateway))
+        late = maker.add("late", mosquitto.broker_for("late"))
+        assert eventually(lambda: late.control.latch)
+
+
+def has_stopped(gateway: Gateway) -> bool:
+    return gateway.count(STOP) >= 3
