@@ -66,7 +66,7 @@ function copy(file, place) {
 }
 
 /**
- * A page with its links as the tree has them. The plug-in for languages finds the Chinese page by the name of the English one.
+ * A page with its links as the tree has them. The plug-in for languages finds a Chinese page or picture by the name of the English one.
  * @param {string} file @param {string} text
  */
 function withLinksOfTree(file, text) {
@@ -85,7 +85,7 @@ function withLinksOfTree(file, text) {
     }
     const inTree = path.posix
       .relative(path.posix.dirname(place), placeOf(named))
-      .replace(/[.]zh[.]md$/, '.md');
+      .replace(/[.]zh([.]\w+)$/, '$1');
     const from = text.indexOf(address, start);
     result +=
       text.slice(copied, from) + inTree + (anchor === undefined ? '' : `#${anchorInTree(named, anchor)}`);
