@@ -10,9 +10,10 @@ const SHARED = join(import.meta.dirname, '..', 'shared', 'src');
 const DOCUMENTS = join(import.meta.dirname, '..', 'docs');
 const others = languages().filter((language) => language !== 'en');
 
+/** The gateway's types among them: its values are keys of messages, too. */
 function sourcesIn(folder: string): readonly string[] {
   return readdirSync(folder, { recursive: true, encoding: 'utf8' })
-    .filter((path) => /\.tsx?$/u.test(path) && !/\.test\.|\.generated\./u.test(path))
+    .filter((path) => /\.tsx?$/u.test(path) && !/\.test\.|words\.generated\./u.test(path))
     .map((path) => readFileSync(join(folder, path), 'utf8'));
 }
 

@@ -34,7 +34,7 @@ from servodeck.robot.hub import is_of
 from servodeck.schema import Message
 
 MAX_TOKEN_DAYS = 3650
-DAY_MS = 24 * 3600 * 1000
+MS_PER_DAY = 24 * 3600 * 1000
 PersonRole = Literal["viewer", "driver", "owner"]
 Name = Annotated[str, Field(max_length=64, pattern=r"^[^\x00-\x1f\x7f]*$")]
 GivenName = Annotated[str, Field(max_length=64, pattern=r"^[^\s\x00-\x1f\x7f][^\x00-\x1f\x7f]*$")]
@@ -365,7 +365,7 @@ async def make_token(
     """A token for a script: `Authorization: Bearer TOKEN`. When it expires, its connections and its motion
     end as with a revocation; it stays in the list until an owner revokes it.
     """
-    valid_ms = None if wish.expires_in_days is None else wish.expires_in_days * DAY_MS
+    valid_ms = None if wish.expires_in_days is None else wish.expires_in_days * MS_PER_DAY
     device, token = entrance.devices.admit("token", wish.name, wish.role, valid_ms)
     note.whom, note.about = device.name, device.role
     expiry.plan()

@@ -15,13 +15,13 @@ from servodeck.client.errors import UnreachableError, error_of
 from servodeck.client.transport import Answer, NotSentError, Stream, Transport
 from servodeck.client.values import Event, Json
 from servodeck.errors import TooManyError
+from servodeck.protocol.timings import PROGRAM
 from servodeck.value import value
 
 T = TypeVar("T")
 REFUSED = 400
 OK = 200
-# A gateway that is silent for longer is not there: it sends an empty line each 15 s.
-SILENCE_S = 20.0
+SILENCE_S = PROGRAM.silence_ms / 1000
 FIRST_PAUSE_S, LONGEST_PAUSE_S = 0.25, 5.0
 NO_GATEWAY = "The server at this address is not a Servodeck gateway."
 

@@ -21,7 +21,7 @@ from servodeck.errors import (
     NotFoundError,
     NotPairedError,
 )
-from servodeck.protocol.timings import LEASE
+from servodeck.protocol.timings import LEASE, PROGRAM
 
 Units = Literal["deg", "board"]
 """Degrees from home, or the board's unit."""
@@ -31,17 +31,16 @@ Outcome = Literal["acknowledged", "silent", "sent"]
 Frames = Iterable[tuple[float, Positions]]
 """Each: the seconds that it takes, and where servos are at its end."""
 
-POSE_S = 1.5
+POSE_S = PROGRAM.move_ms / 1000
 # The gateway stops a run two seconds after the last one.
 BEAT_S = LEASE.silent_ms / 2000
-LOOK_S = 0.2
-# Of a group whose end only the board knows, and after a computed end (cli/commands.py).
-UNKNOWN_END_S, AFTER_END_S = 30.0, 2.0
-# A request of motion waits until the board is identified; servos of unknown position start one by one.
-IDENTIFIED_S, START_S = 10.0, 0.4
-REMEMBERED_S = 5.0
-# A board may start a move that late: it is busy with its last tick and what it says.
-LATE_S = 0.05
+LOOK_S = PROGRAM.look_ms / 1000
+UNKNOWN_END_S = PROGRAM.unknown_end_ms / 1000
+AFTER_END_S = PROGRAM.after_end_ms / 1000
+IDENTIFIED_S = PROGRAM.identified_ms / 1000
+START_S = PROGRAM.first_move_ms / 1000
+REMEMBERED_S = PROGRAM.names_ms / 1000
+LATE_S = PROGRAM.late_ms / 1000
 
 
 class Vocabulary:

@@ -6,6 +6,7 @@ Knows time as a number and the state as values; no receiver, no network, no boar
 from collections.abc import Iterator
 from typing import Literal
 
+from servodeck.protocol.timings import BATTERY
 from servodeck.snapshots import LatchedBy, LinkStatus
 from servodeck.value import value
 
@@ -13,7 +14,6 @@ Event = Literal["batteryLow", "stopped", "linkLost", "linkBack", "test"]
 
 # One reading may be bent by a load or by noise. Twin of shared/src/profile/battery.ts.
 SETTLED_READINGS = 3
-HYSTERESIS_MV = 150
 # A cable that is plugged in again at once is no news.
 LOST_AFTER_S = 10.0
 LOST: tuple[LinkStatus, ...] = ("lost", "stale")
@@ -82,7 +82,7 @@ class LowBattery:
         if read_s == self._read_s or battery_mv == 0:  # S59: the board has no sample yet
             return False
         self._read_s = read_s
-        if battery_mv > sample.low_mv + HYSTERESIS_MV:
+        if battery_mv > sample.low_mv + BATTERY.hysteresis_mv:
             self._is_reported = False
         self._low_readings = self._low_readings + 1 if battery_mv <= sample.low_mv else 0
         if self._is_reported or self._low_readings < SETTLED_READINGS:

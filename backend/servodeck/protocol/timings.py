@@ -95,6 +95,7 @@ class Battery(NamedTuple):
     after_run_ms: int
     unsolicited_after_ms: int
     unsolicited_limit: int
+    hysteresis_mv: int
 
 
 class Read(NamedTuple):
@@ -124,6 +125,18 @@ class Lease(NamedTuple):
     answer_ms: int
 
 
+class Program(NamedTuple):
+    move_ms: int
+    look_ms: int
+    unknown_end_ms: int
+    after_end_ms: int
+    late_ms: int
+    identified_ms: int
+    first_move_ms: int
+    names_ms: int
+    silence_ms: int
+
+
 class Library(NamedTuple):
     trash_days: int
 
@@ -150,6 +163,7 @@ READ: Final = _section("read", Read)
 IDENTIFY: Final = _section("identify", Identify)
 HEARTBEAT: Final = _section("heartbeat", Heartbeat)
 LEASE: Final = _section("lease", Lease)
+PROGRAM: Final = _section("program", Program)
 LIBRARY: Final = _section("library", Library)
 
 

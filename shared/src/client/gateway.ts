@@ -1,6 +1,7 @@
 // Requests to a gateway as a program makes them: the token, a limit of time, errors, and a second attempt where an answer was lost and a
 // repeat is safe; and its events. Knows the shape of requests and answers; not their order, which is in servodeck.ts.
 
+import timings from '../../protocol/timings.json' with { type: 'json' };
 import { errorOf, GatewayError, UnreachableError } from './errors.ts';
 import type { GatewayMessage, WelcomeMessage } from './messages.generated.ts';
 import {
@@ -16,8 +17,7 @@ import {
 } from './request.ts';
 
 const GATEWAY_PORT = '8300';
-/** A gateway that is silent for longer is not there: it sends an empty line each 15 s. */
-const SILENCE_MS = 20_000;
+const SILENCE_MS = timings.program.silenceMs;
 const FIRST_PAUSE_MS = 250;
 const LONGEST_PAUSE_MS = 5000;
 const NO_GATEWAY = 'The server at this address is not a Servodeck gateway.';

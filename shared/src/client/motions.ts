@@ -9,14 +9,11 @@ import type { Answer, Given, Path, Verb } from './request.ts';
 
 /** The gateway stops a run two seconds after the last one. */
 const BEAT_S = timings.lease.silentMs / 2000;
-export const LOOK_S = 0.2;
-/** Of a group whose end only the board knows, and after a computed end. */
-const UNKNOWN_END_S = 30;
-const AFTER_END_S = 2;
-/** A board may start a move that late. */
-const LATE_S = 0.05;
-/** A request of motion waits until the board is identified. */
-const IDENTIFIED_S = 10;
+export const LOOK_S = timings.program.lookMs / 1000;
+const UNKNOWN_END_S = timings.program.unknownEndMs / 1000;
+const AFTER_END_S = timings.program.afterEndMs / 1000;
+const LATE_S = timings.program.lateMs / 1000;
+const IDENTIFIED_S = timings.program.identifiedMs / 1000;
 
 /** After so many seconds, and whenever the signal is aborted, the motion that is waited for is stopped. */
 interface Patience {

@@ -1,6 +1,7 @@
 // The names that a program uses: of servos, by the robot on the board, and of groups, by what the gateway knows of the slots. Knows
 // positions and units; nothing of motion.
 
+import timings from '../../protocol/timings.json' with { type: 'json' };
 import { GatewayError } from './errors.ts';
 import type { Gateway } from './gateway.ts';
 import type { FrameBody } from './http.generated.ts';
@@ -8,7 +9,7 @@ import { now } from './motions.ts';
 import type { Frames, Positions, Units } from './options.ts';
 import { numberOf, positionOf, servosIn, snapshotOf, type Servo } from './values.ts';
 
-const REMEMBERED_S = 5;
+const REMEMBERED_S = timings.program.namesMs / 1000;
 const isNumber = (servo: string): boolean => /^\d+$/.test(servo);
 
 interface Described {

@@ -3,6 +3,7 @@
 
 /// <reference lib="esnext.disposable" preserve="true" />
 
+import timings from '../../protocol/timings.json' with { type: 'json' };
 import { gatewayAt, pause, type Event, type Gateway } from './gateway.ts';
 import type { JobState, Status, UnheldServos } from './http.generated.ts';
 import { endedWith, LOOK_S, Motions, timeJudge } from './motions.ts';
@@ -24,11 +25,10 @@ export { GatewayError, TimedOutError, UnreachableError } from './errors.ts';
 export { degreesAt, positionAt } from './values.ts';
 export type { Event, Frames, JobState, Options, Outcome, Positions, Servo, Snapshot, Status };
 
-const POSE_S = 1.5;
-/** Servos of unknown position start one by one. */
-const START_S = 0.4;
+const POSE_S = timings.program.moveMs / 1000;
+const START_S = timings.program.firstMoveMs / 1000;
 const MOST_SERVOS = 32;
-const TAKEN_S = 2;
+const TAKEN_S = timings.program.afterEndMs / 1000;
 
 /** At the end of `await using`, what this program has in motion is stopped and its lease released. */
 export class Servodeck {

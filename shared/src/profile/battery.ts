@@ -1,6 +1,7 @@
 // What feeds a robot and what its volts mean: the ends of the gauge, where to warn and to alarm, what share of a pack is left
 // (boards.md chapter 8); and what many readings say together, none of which is trusted alone. Pure; knows no clock.
 
+import timings from '../../protocol/timings.json' with { type: 'json' };
 import { FAMILIES, type FamilyId } from '../codec/families.ts';
 import type { BatteryKind, Robot } from './robot.ts';
 
@@ -101,7 +102,7 @@ const SETTLED_MS = 5000;
 /** A pack that recovers from a load rises less than that; more is another pack. */
 export const NEW_PACK_STEP_MV = 300;
 /** Back above a threshold by as much, or the level stays. */
-export const HYSTERESIS_MV = 150;
+export const HYSTERESIS_MV = timings.battery.hysteresisMv;
 /** An older reading says nothing of now. */
 const FRESH_MS = 60_000;
 
