@@ -12,6 +12,7 @@ import typer
 from servodeck.cli.backup import backup, restore
 from servodeck.cli.commands import COMMANDS, library, pose, poses
 from servodeck.cli.doctor import doctor
+from servodeck.cli.fleet import fleet
 from servodeck.cli.groups import download, play
 from servodeck.cli.notify import notify_test
 from servodeck.cli.options import (
@@ -41,6 +42,7 @@ app = new_program()
 for command in (*COMMANDS, pose, poses, download, play, library):
     app.command()(command)
 
+app.add_typer(fleet)
 app.command()(doctor)
 app.command()(backup)
 app.command()(restore)
