@@ -98,6 +98,7 @@ describe('the documents', () => {
     'animate',
     'connect',
     'drive',
+    'fleet',
     'index',
     'inputs',
     'network',
