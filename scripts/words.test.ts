@@ -98,7 +98,6 @@ describe('the documents', () => {
     'animate',
     'connect',
     'drive',
-    'fleet',
     'index',
     'inputs',
     'network',
