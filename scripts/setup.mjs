@@ -55,14 +55,6 @@ async function builtParts() {
 export const buildStamp = 'build/built-stamp';
 
 export function buildInputs() {
-  const sources = [
-    'frontend',
-    'shared',
-    'package-lock.json',
-    'vite.config.ts',
-    'scripts/build.mjs',
-    'scripts/licences.mjs',
-    'packaging/licences',
-  ];
+  const sources = ['frontend', 'shared', 'package-lock.json', 'vite.config.ts', 'scripts/build.mjs'];
   return fingerprint(sources, [process.version], (file) => !isNotBuilt.test(file));
 }

@@ -68,6 +68,7 @@ ACTS: dict[tuple[str, str], Act | None] = {
     ("POST", "/api/stop"): ROBOT,
     ("POST", "/api/resume"): ROBOT,
     ("POST", "/api/move"): ROBOT,
+    ("POST", "/api/library/drafts"): "librarySaved",
     ("PUT", "/api/robot"): "robotChosen",
     ("PUT", "/api/board"): ROBOT,
     ("POST", "/api/poses/{pose}/apply"): ROBOT,

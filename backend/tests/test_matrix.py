@@ -41,6 +41,7 @@ ROLES: dict[tuple[str, str], Role | None] = {
     ("DELETE", "/api/library/{document}/versions/{version}"): "driver",
     ("PUT", "/api/library/{document}"): "driver",
     ("PUT", "/api/library/{document}/versions/{version}"): "driver",
+    ("POST", "/api/library/drafts"): "viewer",
     ("POST", "/api/library/restore"): "driver",
     ("POST", "/api/resume"): "driver",
     ("POST", "/api/move"): "driver",

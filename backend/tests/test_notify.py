@@ -19,10 +19,11 @@ from httpx2 import AsyncClient
 from typer.testing import CliRunner
 
 from servodeck.cli.main import app
-from servodeck.notify.conditions import HYSTERESIS_MV, LOST_AFTER_S, Conditions, Due, Sample
+from servodeck.notify.conditions import LOST_AFTER_S, Conditions, Due, Sample
 from servodeck.notify.notifications import Notifications, notice_of
 from servodeck.notify.receivers import parse_receiver, receivers_from
 from servodeck.notify.sender import Outcome, Sender
+from servodeck.protocol.timings import BATTERY
 from tests.fake_port import FakePort, FakePorts
 from tests.running import server_on
 
@@ -45,9 +46,9 @@ def battery_events(*readings_mv: int, low_mv: int | None = LOW_MV) -> list[int]:
 
 
 def test_a_low_battery_is_reported_once_until_it_was_well_above_the_limit() -> None:
-    low, back = LOW_MV, LOW_MV + HYSTERESIS_MV + 1
+    low, back = LOW_MV, LOW_MV + BATTERY.hysteresis_mv + 1
     assert battery_events(low, low, low, low, low) == [2]
-    assert battery_events(low, low, low, low + HYSTERESIS_MV, low, low, low) == [2]
+    assert battery_events(low, low, low, low + BATTERY.hysteresis_mv, low, low, low) == [2]
     assert battery_events(low, low, low, back, low, low, low) == [2, 6]
 
 

@@ -14,7 +14,7 @@ from fastapi import FastAPI
 from servodeck.access.devices import EXPIRED, FILE, DeviceFile, Devices
 from servodeck.access.expiry import LOOK_S, Expiry
 from servodeck.access.guard import Guard
-from servodeck.api.people import DAY_MS, MAX_TOKEN_DAYS
+from servodeck.api.people import MS_PER_DAY, MAX_TOKEN_DAYS
 from servodeck.api.robot import EventStream
 from tests.client import Client
 from tests.downloading import AnsweringPort
@@ -137,8 +137,8 @@ async def test_owners_see_how_long_a_token_is_valid_and_remove_it() -> None:
         made = await here.post("tokens", owner=True, name="Fair", role="driver", expiresInDays=1)
         here.client.headers["authorization"] = f"Bearer {made.json()['token']}"
         assert (await here.client.get("/api/status")).status_code == 200
-        assert await expires_in_ms(here, made.json()["id"]) == DAY_MS - clock_ms() + 100
-        await asyncio.sleep(DAY_MS / 1000)
+        assert await expires_in_ms(here, made.json()["id"]) == MS_PER_DAY - clock_ms() + 100
+        await asyncio.sleep(MS_PER_DAY / 1000)
         assert await expires_in_ms(here, made.json()["id"]) == 0
         assert (await here.client.get("/api/status")).status_code == 401
         gone = await here.client.delete(f"/api/people/{made.json()['id']}", headers=here.owner)

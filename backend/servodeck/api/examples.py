@@ -253,6 +253,14 @@ EXAMPLES: dict[tuple[str, str], Example] = {
     ),
     ("PUT", "/api/board"): Example(STATUS, {"board": "lsc-16"}, ("busy", "notDriving", "outOfRange")),
     ("GET", "/api/library"): Example({"documents": [LISTED], "damagedFile": None, "changesLost": False}),
+    ("POST", "/api/library/drafts"): Example(
+        {"id": "draft-6f0b7a52c1d3e489"},
+        {
+            "text": '{"format": "servodeck-group"}',
+            "facts": FACTS | {"tags": ["draft", "by Assistant"]},
+        },
+        ("storageFull", "storageBusy"),
+    ),
     ("POST", "/api/library/remove"): Example(None, {"ids": [DOCUMENT]}, ("notFound",)),
     ("POST", "/api/library/restore"): Example(None, {"ids": [DOCUMENT]}, ("notFound",)),
     ("GET", "/api/library/{document}"): Example({"text": TEXT, "revision": 4}, errors=("notFound",)),

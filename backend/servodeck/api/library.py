@@ -4,6 +4,8 @@ Translates between messages, `library` and `control`; decides only what text is 
 for a disk: in threads, where STOP does not wait for it.
 """
 
+import json
+import secrets
 from typing import Annotated, Any, Literal
 
 from fastapi import Depends, Path
@@ -13,14 +15,17 @@ from starlette.requests import HTTPConnection
 
 from servodeck.api.routes import DRIVER, OWNER, VIEWER, Controlled, leaves, routes
 from servodeck.callers import Caller
-from servodeck.errors import MalformedError, NotDrivingError
-from servodeck.library.library import Library, Version
+from servodeck.errors import MalformedError, NotDrivingError, OutOfRangeError
+from servodeck.library.library import Library, Listed, Version
 from servodeck.robot.control import Control
 from servodeck.robot.profile import ReadFacts
 from servodeck.schema import Message, is_object
 from servodeck.snapshots import Name, PoseTarget, RobotFacts, Whole
 
 MAX_TEXT = 2 * 1024 * 1024
+DRAFT = "draft"
+"""The tag of a group that was proposed and that a person has not taken yet."""
+MAX_DRAFTS = 20
 
 Id = Annotated[str, Field(pattern=r"^[A-Za-z0-9-]{1,64}$")]
 Text = Annotated[
@@ -95,6 +100,17 @@ class DocumentWritten(Message):
     revision: Whole
 
 
+class Draft(Message):
+    """A group that is to be looked at before it is played. Its tags include `draft`, and who proposes it."""
+
+    text: Text
+    facts: GroupFacts
+
+
+class DraftStored(Message):
+    id: Id
+
+
 class DocumentIds(Message):
     ids: Annotated[list[Id], Field(max_length=5000)]
 
@@ -164,6 +180,25 @@ async def remove(documents: DocumentIds, library: OfLibrary, control: Controlled
 def restore(documents: DocumentIds, library: OfLibrary) -> None:
     """Takes them out of the trash: all or none."""
     library.restore(documents.ids)
+
+
+@library_api.post("/drafts", dependencies=[VIEWER, leaves("librarySaved")])
+def propose(draft: Draft, library: OfLibrary) -> DraftStored:
+    """Adds a group as a draft. It changes nothing that is there and plays nothing, so viewers may; a person
+    opens it on the page. 20 drafts at most.
+    """
+    check_document(draft.text)
+    if DRAFT not in draft.facts.tags:
+        raise MalformedError(f"The tags of a draft include {DRAFT}.")
+    if sum(is_draft(one) for one in library.list()) >= MAX_DRAFTS:
+        raise OutOfRangeError(f"There are {MAX_DRAFTS} drafts, which is the limit. Delete some first.")
+    document = f"draft-{secrets.token_hex(8)}"
+    library.write(document, draft.text, draft.facts.model_dump_json(), 0)
+    return DraftStored(id=document)
+
+
+def is_draft(one: Listed) -> bool:
+    return not one.is_removed and one.facts is not None and DRAFT in json.loads(one.facts).get("tags", ())
 
 
 @library_api.get("/{document}", dependencies=[VIEWER])

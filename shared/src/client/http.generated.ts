@@ -328,6 +328,23 @@ export interface paths {
     patch?: never;
     trace?: never;
   };
+  '/api/library/drafts': {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    get?: never;
+    put?: never;
+    /** Adds a group as a draft */
+    post: operations['libraryPropose'];
+    delete?: never;
+    options?: never;
+    head?: never;
+    patch?: never;
+    trace?: never;
+  };
   '/api/library/remove': {
     parameters: {
       query?: never;
@@ -906,6 +923,23 @@ export interface components {
       take?: boolean;
       /** Waitms */
       waitMs?: number | null;
+    };
+    /**
+     * Draft
+     * @description A group that is to be looked at before it is played. Its tags include `draft`, and who proposes it.
+     */
+    Draft: {
+      facts: components['schemas']['GroupFacts'];
+      /**
+       * Text
+       * @description The document as JSON; only the page knows what it means.
+       */
+      text: string;
+    };
+    /** DraftStored */
+    DraftStored: {
+      /** Id */
+      id: string;
     };
     /**
      * DriverWish
@@ -2111,6 +2145,8 @@ export type DocumentIds = components['schemas']['DocumentIds'];
 export type DocumentWrite = components['schemas']['DocumentWrite'];
 export type DocumentWritten = components['schemas']['DocumentWritten'];
 export type DownloadWish = components['schemas']['DownloadWish'];
+export type Draft = components['schemas']['Draft'];
+export type DraftStored = components['schemas']['DraftStored'];
 export type DriverWish = components['schemas']['DriverWish'];
 export type EchoedEvidence = components['schemas']['EchoedEvidence'];
 export type Erased = components['schemas']['Erased'];
@@ -2777,6 +2813,30 @@ export interface operations {
           [name: string]: unknown;
         };
         content?: never;
+      };
+    };
+  };
+  libraryPropose: {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    requestBody: {
+      content: {
+        'application/json': components['schemas']['Draft'];
+      };
+    };
+    responses: {
+      /** @description Successful Response */
+      200: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content: {
+          'application/json': components['schemas']['DraftStored'];
+        };
       };
     };
   };
