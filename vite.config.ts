@@ -8,6 +8,7 @@ import react from '@vitejs/plugin-react';
 import { minify } from 'terser';
 import { defineConfig, type Plugin } from 'vite';
 import { withoutSources } from './scripts/sources.mjs';
+import { licences } from './scripts/licences.mjs';
 import { words } from './scripts/words.mjs';
 
 const gateway = 'http://127.0.0.1:8300';
@@ -91,7 +92,16 @@ function squeezed(): Plugin {
 export default defineConfig({
   root: 'frontend',
   base: './',
-  plugins: [react(), words(), withoutSources(), timingsInPlace(), readsFirstLoad(), squeezed(), compressed()],
+  plugins: [
+    react(),
+    words(),
+    withoutSources(),
+    timingsInPlace(),
+    readsFirstLoad(),
+    squeezed(),
+    licences(),
+    compressed(),
+  ],
   css: {
     modules: {
       // By the sheet's number, which compresses well.

@@ -5,6 +5,7 @@ import { cpSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:f
 import path from 'node:path';
 import { createHash } from 'node:crypto';
 import { build } from 'vite';
+import { LICENCES, licences } from './licences.mjs';
 import { setUp } from './setup.mjs';
 import { at, main, say } from './steps.mjs';
 
@@ -57,6 +58,7 @@ function buildServiceWorker() {
     configFile: false,
     root: at(''),
     logLevel: 'warn',
+    plugins: [licences(readFileSync(path.join(site, LICENCES), 'utf8'))],
     define: {
       'self.SITE_FILES': JSON.stringify(filesToKeep()),
       'process.env.NODE_ENV': '"production"',

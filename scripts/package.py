@@ -1,4 +1,4 @@
-"""`npm run package`: the wheel, the libraries to install it with and a bill of materials, into dist/.
+"""`npm run package`: the wheel, the libraries to install it with, a bill of materials and the licences.
 
 Needs the built page and this environment. What is written names no host: pip and npm take theirs.
 """
@@ -10,13 +10,15 @@ import sys
 import tomllib
 from collections.abc import Iterable, Mapping
 from email.message import Message
-from importlib.metadata import PackageNotFoundError, metadata, requires
+from importlib.metadata import PackageNotFoundError, distribution, metadata, requires
 from pathlib import Path
 
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
 ROOT = Path(__file__).resolve().parent.parent
+STATIC = ROOT / "backend" / "servodeck" / "static"
+PAGE_LICENCES = "third-party-licences.txt"
 LOCK = ROOT / "backend" / "requirements.lock"
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
 ABOUT = f"""\
@@ -36,13 +38,15 @@ def main() -> int:
     requirements.write_text(ABOUT + "".join(locked.values()))
     bill = folder / f"{stem}-sbom.cdx.json"
     bill.write_text(json.dumps(bill_of(page_bill(), locked), indent=2) + "\n")
-    for made in (wheel, requirements, bill):
+    licences = folder / f"{stem}-licences.txt"
+    licences.write_text((STATIC / PAGE_LICENCES).read_text("utf-8") + library_texts(locked), "utf-8")
+    for made in (wheel, requirements, bill, licences):
         print(made.relative_to(ROOT))
     return 0
 
 
 def build_wheel(folder: Path) -> Path:
-    if not (ROOT / "backend/servodeck/static/index.html").exists():
+    if not (STATIC / "index.html").exists():
         sys.exit("The page is not built: npm run build")
     command = [sys.executable, "-m", "hatchling", "build", "--target", "wheel", "--directory", str(folder)]
     subprocess.run(command, check=True, stdout=subprocess.DEVNULL, cwd=ROOT)
@@ -160,6 +164,40 @@ def licences_of(name: str) -> list[dict[str, object]]:
     classifiers = [one for one in about.get_all("Classifier") or [] if one.startswith("License ::")]
     names = [one.split(" :: ")[-1] for one in classifiers] or (about.get("License") or "").splitlines()
     return [{"license": {"name": names[0]}}] if names else []
+
+
+LINE = "=" * 80
+
+
+def library_texts(names: Iterable[str]) -> str:
+    """The licences of these Python libraries, in the form of scripts/licences.mjs. Those for other systems
+    are not installed here, and bring their own.
+    """
+    return "".join(library_text(name) for name in names)
+
+
+def library_text(name: str) -> str:
+    """Raises ValueError for one that is installed without its licence's name or text."""
+    try:
+        found = distribution(name)
+    except PackageNotFoundError:
+        return ""
+    licence = next(iter(licences_of(name)), None)
+    files = [one for one in found.files or () if one.parts[0].endswith(".dist-info")]
+    of_licence = [
+        one
+        for one in files
+        if "licenses" in one.parts or re.match(r"(?i)licen[cs]e|copying|notice", one.name)
+    ]
+    texts = [one.read_text("utf-8").strip() for one in of_licence]
+    own = ROOT / "packaging" / "licences" / f"{name}.txt"
+    texts = texts or ([own.read_text("utf-8").strip()] if own.exists() else [])
+    if licence is None or not texts:
+        raise ValueError(f"{name} is installed without its licence")
+    said = licence.get("expression") or licence["license"]
+    called = said["name"] if isinstance(said, dict) else said
+    text = "\n\n".join(texts)
+    return f"{LINE}\n{name} {found.version} ({called})\n{LINE}\n\n{text}\n\n"
 
 
 if __name__ == "__main__":

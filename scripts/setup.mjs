@@ -55,6 +55,14 @@ async function builtParts() {
 export const buildStamp = 'build/built-stamp';
 
 export function buildInputs() {
-  const sources = ['frontend', 'shared', 'package-lock.json', 'vite.config.ts', 'scripts/build.mjs'];
+  const sources = [
+    'frontend',
+    'shared',
+    'package-lock.json',
+    'vite.config.ts',
+    'scripts/build.mjs',
+    'scripts/licences.mjs',
+    'packaging/licences',
+  ];
   return fingerprint(sources, [process.version], (file) => !isNotBuilt.test(file));
 }

@@ -24,6 +24,7 @@ from websockets.sync.client import connect
 
 NEEDED = (
     "servodeck/py.typed",
+    "servodeck/static/third-party-licences.txt",
     *("servodeck/static/index.html", "servodeck/static/index.html.br", "servodeck/__main__.py"),
     *("servodeck/protocol/families.json", "servodeck/protocol/timings.json"),
     "servodeck/protocol/bluetooth.json",
@@ -118,6 +119,8 @@ def ask(url: str) -> None:
     assert scripts, "the page names no script"
     for script in scripts:
         httpx2.get(f"{url}/{script}").raise_for_status()
+    licences = httpx2.get(f"{url}/third-party-licences.txt").raise_for_status()
+    assert "react-dom" in licences.text
     health = httpx2.get(f"{url}/api/health").json()
     assert health["status"] == "ready", health
     with connect(f"ws{url.removeprefix('http')}/ws", close_timeout=0) as client:

@@ -84,7 +84,10 @@ REFUSED: dict[str, tuple[str, dict[str, Any]]] = {
         {"verb": "move", "payload": MOVE, "reply_to": "sd/1/lab/arm-2/do/owner/anna/erase"},
     ),
     "a viewer that moves": ("forbidden", {"verb": "move", "payload": MOVE, "role": "viewer"}),
-    "a stopper that looks": ("forbidden", {"verb": "report", "payload": {"v": 1, "n": 1}, "role": "stopper"}),
+    "a stopper that asks": (
+        "forbidden",
+        {"verb": "ask", "payload": {"v": 1, "n": 1, "nonce": FRESH, "action": "request"}, "role": "stopper"},
+    ),
     "a driver that erases": ("forbidden", {"verb": "erase", "payload": {"v": 1, "n": 1, "nonce": FRESH}}),
     "too old": ("expired", {"verb": "move", "payload": with_(nonce=OLD)}),
     "of another epoch or gateway": ("expired", {"verb": "move", "payload": with_(nonce="i.0-9")}),

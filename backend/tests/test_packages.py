@@ -5,6 +5,7 @@ import re
 import runpy
 from importlib import import_module
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -58,6 +59,24 @@ def test_the_bill_names_each_library_of_page_and_gateway_with_its_licence() -> N
     ]
     assert silent == []
     json.dumps(bill)
+
+
+def test_the_licences_have_the_text_of_each_library_of_the_gateway() -> None:
+    texts: str = PACKAGE["library_texts"](locked())
+    for said in (
+        "zeroconf 0.154.0 (LGPL-2.1-or-later)",
+        "GNU LESSER GENERAL PUBLIC LICENSE",
+        "pyserial 3.5 (",
+    ):
+        assert said in texts
+    assert "Redistribution and use" in PACKAGE["library_text"]("pyserial")
+
+
+def test_a_library_without_its_licence_is_an_error_that_names_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    library_text = PACKAGE["library_text"]
+    monkeypatch.setitem(library_text.__globals__, "distribution", lambda _: SimpleNamespace(files=()))
+    with pytest.raises(ValueError, match="nameless is installed without its licence"):
+        library_text("nameless")
 
 
 def test_the_container_runs_as_nobody_in_particular_with_options_that_exist() -> None:

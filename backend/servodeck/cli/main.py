@@ -13,6 +13,7 @@ from servodeck.cli.assistant import mcp
 from servodeck.cli.backup import backup, restore
 from servodeck.cli.commands import COMMANDS, library, pose, poses
 from servodeck.cli.doctor import doctor
+from servodeck.cli.fleet import fleet
 from servodeck.cli.groups import download, play
 from servodeck.cli.notify import notify_test
 from servodeck.cli.options import (
@@ -42,6 +43,7 @@ app = new_program()
 for command in (*COMMANDS, pose, poses, download, play, library):
     app.command()(command)
 
+app.add_typer(fleet)
 app.command()(doctor)
 app.command()(backup)
 app.command()(restore)

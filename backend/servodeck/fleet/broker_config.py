@@ -9,7 +9,7 @@ import subprocess
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from servodeck.callers import Role
+from servodeck.callers import RANKS, Role
 from servodeck.fleet.rules import DOWNLOAD_BYTES
 from servodeck.fleet.topics import ALL, REPLY, ROOT, is_gateway_name, is_name
 from servodeck.value import value
@@ -110,11 +110,13 @@ def gateway_rules(site: str, name: str) -> str:
 
 
 def user_rules(site: str, name: str, role: Role) -> str:
-    """Requests in their own name and role, and the answers to them."""
+    """Requests in their own name and role, and the answers to them. Who may resume withdraws all holds."""
     base = f"{ROOT}/{site}"
-    written = [f"{base}/+/do/{role}/{name}/+", f"{base}/{ALL}/hold/{role}/{name}"]
+    holds = f"{base}/{ALL}/hold/+/+"
+    own_hold = holds if RANKS[role] >= RANKS["driver"] else f"{base}/{ALL}/hold/{role}/{name}"
     read = [f"{base}/+/{kind}" for kind in ("about", "state", "online", "live")]
-    return rules(name, written, [*read, f"{base}/{REPLY}/{name}/#"])
+    written = [f"{base}/+/do/{role}/{name}/+", own_hold]
+    return rules(name, written, [*read, holds, f"{base}/{REPLY}/{name}/#"])
 
 
 def rules(user: str, written: Sequence[str], read: Sequence[str]) -> str:

@@ -15,7 +15,7 @@ import secrets
 import threading
 import time
 from collections.abc import Callable, Collection
-from concurrent.futures import Future
+from concurrent.futures import Future, wait
 from concurrent.futures import TimeoutError as FutureTimeoutError
 from math import inf
 from types import TracebackType
@@ -23,7 +23,7 @@ from typing import Any, Literal, Self
 
 from pydantic import TypeAdapter, ValidationError
 
-from servodeck.callers import RANKS, Role
+from servodeck.callers import Role
 from servodeck.fleet.broker import Broker, Connection, Interest, Outgoing
 from servodeck.fleet.messages import (
     REQUESTS,
@@ -41,7 +41,7 @@ from servodeck.fleet.messages import (
     encode,
 )
 from servodeck.fleet.rules import Received
-from servodeck.fleet.topics import ALL, Published, Reply, Site, Verb
+from servodeck.fleet.topics import ALL, Hold, Published, Reply, Site, Verb
 from servodeck.value import value
 
 # A state this old shows no living gateway any more, and one that the broker had retained never does.
@@ -137,12 +137,14 @@ class Console:
         self._seen: dict[str, Seen] = {}
         self._pending: dict[bytes, Callable[[Done | Refused], None]] = {}
         self._drives: set[str] = set()
+        self._holds: set[str] = set()
         self._heard = threading.Condition(self._lock)
         state = Interest(0, wants_retained=True, as_published=False)
         interests = {
             site.published("+", "about"): state,
             site.published("+", "state"): state,
             site.published("+", "online"): Interest(1, wants_retained=False, as_published=False),
+            site.holds(): state,
             self._reply_to: Interest(1, wants_retained=False, as_published=True),
         }
         client_id = f"{self._user}-{self._session}"
@@ -232,14 +234,15 @@ class Console:
         heard, is made anew once, but no move. Raises RefusedError or NoAnswerError.
         """
         try:
-            return self._result_of(gateway, self.request(gateway, verb, **fields), timeout_s)
+            return self.result_of(gateway, self.request(gateway, verb, **fields), timeout_s)
         except RefusedError as error:
             if error.code != "expired" or verb == "move":
                 raise
-        self._result_of(gateway, self.request(gateway, "report"), timeout_s)
-        return self._result_of(gateway, self.request(gateway, verb, **fields), timeout_s)
+        self.result_of(gateway, self.request(gateway, "report"), timeout_s)
+        return self.result_of(gateway, self.request(gateway, verb, **fields), timeout_s)
 
-    def _result_of(self, gateway: str, answered: "Future[Done]", timeout_s: float) -> Done:
+    def result_of(self, gateway: str, answered: "Future[Done]", timeout_s: float = ANSWER_S) -> Done:
+        """Of a request to that gateway. Raises RefusedError or NoAnswerError."""
         try:
             return answered.result(timeout_s)
         except FutureTimeoutError:
@@ -258,8 +261,18 @@ class Console:
         """STOP for one. As `request`."""
         return self.request(gateway, "stop")
 
+    def stop_some(self, gateways: Collection[str], timeout_s: float = STOP_S) -> StopReport:
+        """STOP for these alone. Waits until all have answered."""
+        sent = {name: self.stop(name) for name in gateways}
+        wait(sent.values(), timeout_s)
+        missing = {name for name, answered in sent.items() if not answered.done()}
+        errors = {name: sent[name].exception() for name in sent.keys() - missing}
+        missing |= {name for name, error in errors.items() if isinstance(error, NoAnswerError)}
+        refused = {n: error.detail for n, error in errors.items() if isinstance(error, RefusedError)}
+        return report_of(sent.keys() - refused.keys() - missing, refused, missing)
+
     def stop_all(self, timeout_s: float = STOP_S) -> StopReport:
-        """STOP for all, and for those that connect later until `withdraw_hold`. Waits until all that are
+        """STOP for all, and for those that connect later until `withdraw_holds`. Waits until all that are
         present have answered.
         """
         answers: dict[str, Done | Refused] = {}
@@ -281,23 +294,23 @@ class Console:
         self.until(lambda: present <= answers.keys(), timeout_s)
         self._pending.pop(correlation, None)
         refused = {name: answer.detail for name, answer in answers.items() if isinstance(answer, Refused)}
-        return StopReport(
-            tuple(sorted(answers.keys() - refused.keys())),
-            tuple(sorted(refused.items())),
-            tuple(sorted(present - answers.keys())),
-        )
+        return report_of(answers.keys() - refused.keys(), refused, present - answers.keys())
 
-    def withdraw_hold(self) -> None:
-        """Gateways that connect from now on do not stop any more. Resumes none."""
-        self._connection.publish(Outgoing(self._site.hold(self._role, self._user), b"", 1, True))
+    def withdraw_holds(self) -> None:
+        """Gateways that connect from now on do not stop any more, whoever has stopped all. Resumes none. For
+        drivers and owners; others withdraw their own hold alone.
+        """
+        with self._lock:
+            holds = set(self._holds) | {self._site.hold(self._role, self._user)}
+        for topic in holds:
+            self._connection.publish(Outgoing(topic, b"", 1, True))
 
     # In the connection's thread
 
     def connected(self) -> None:
         """Those that are there say so at once."""
-        if RANKS[self._role] >= RANKS["viewer"]:
-            with self._lock:
-                self._send(ALL, "report", encode(ReportRequest(n=self._next())), b"")
+        with self._lock:
+            self._send(ALL, "report", encode(ReportRequest(n=self._next())), b"")
         self._say("")
 
     def lost(self) -> None:
@@ -323,6 +336,10 @@ class Console:
                     self._say(gateway)
                 case Published(gateway, "online"):
                     self._heard_online(gateway, Online.model_validate_json(received.payload))
+                case Hold():
+                    with self._lock:
+                        (self._holds.add if received.payload else self._holds.discard)(received.topic)
+                    self._say("")
                 case Reply():
                     self._heard_answer(received)
         except ValidationError:  # of another version: as if it had said nothing
@@ -417,6 +434,10 @@ class Console:
                 correlation=correlation,
             )
         )
+
+
+def report_of(stopped: Collection[str], refused: dict[str, str], missing: Collection[str]) -> StopReport:
+    return StopReport(tuple(sorted(stopped)), tuple(sorted(refused.items())), tuple(sorted(missing)))
 
 
 def settle(future: "Future[Done]", act: Callable[[], None]) -> None:

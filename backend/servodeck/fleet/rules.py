@@ -30,7 +30,7 @@ DRIVER_RATE, VIEWER_RATE = (100.0, 100), (2.0, 10)
 SESSIONS_AT_MOST = 256
 LEAST_ROLE: dict[Verb, Role] = {
     "stop": "stopper",
-    "report": "viewer",
+    "report": "stopper",
     "ask": "driver",
     "beat": "driver",
     "move": "driver",

@@ -55,6 +55,9 @@ export function ActionList({ onChoose }: { onChoose(run: () => void): void }) {
           ))}
         </Menu>
       </Autocomplete>
+      <a className={styles.licences} href="./third-party-licences.txt" target="_blank" rel="noreferrer">
+        {words.actionList.licences}
+      </a>
     </div>
   );
 }

@@ -2607,6 +2607,7 @@ export interface Messages {
   readonly actionList: {
     readonly title: string;
     readonly search: string;
+    readonly licences: string;
     readonly nothing: string;
     readonly elsewhere: (values: { readonly place: string }) => string;
     readonly nextPart: string;
