@@ -36,8 +36,8 @@ def robots(mosquitto: Mosquitto) -> Iterator[Robots]:
 def fleet(mosquitto: Mosquitto, *arguments: str, user: str = "anna") -> Result:
     secret = mosquitto.folder / "secrets" / user
     broker = ["--mqtt", f"mqtt://{user}@127.0.0.1:{mosquitto.port}", "--mqtt-site", "lab"]
-    role = mosquitto.plan.users[user]
-    return run("fleet", *arguments, *broker, "--mqtt-password-file", str(secret), "--role", role)
+    role = [] if "--role" in arguments else ["--role", mosquitto.plan.users[user]]
+    return run("fleet", *arguments, *broker, "--mqtt-password-file", str(secret), *role)
 
 
 @needs_mosquitto
@@ -118,6 +118,16 @@ def test_who_is_not_there_is_named(
     result = fleet(mosquitto, "run", "1", "arm-1", "arm-9")
     assert result.exit_code == FAILURE
     assert "arm-9: not there" in result.stderr
+
+
+@needs_mosquitto
+def test_a_role_that_the_broker_does_not_give_is_named(
+    mosquitto: Mosquitto, robots: Robots, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("servodeck.cli.fleet.NAMED_S", 5.0)  # no answer to its first question either
+    result = fleet(mosquitto, "run", "1", "arm-1", "--role", "owner")
+    assert result.exit_code == FAILURE
+    assert "Has anna the role owner?" in result.stderr
 
 
 def test_a_broker_that_does_not_answer_is_reported(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -4,8 +4,9 @@ import json
 import queue
 import secrets
 import signal
+import socket
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -337,3 +338,73 @@ def test_a_gateway_that_does_not_hear_itself_says_so_and_is_not_driven(own_mosqu
             anna.ask("arm-1", "ask", action="request")
             assert eventually(lambda: arm.control.driving.driver is None)
             assert "bring back" in (arm.door.status().problem or "")
+
+
+@pytest.mark.exhaustive
+def test_a_run_ends_where_the_broker_freezes(own_mosquitto: Mosquitto) -> None:
+    with (
+        fleet_on(own_mosquitto, ["arm-1"]) as (_, (arm,)),
+        console_of(own_mosquitto, "anna", "arm-1") as anna,
+    ):
+        anna.ask("arm-1", "ask", action="request")
+        anna.ask("arm-1", "run", slot=3, times=0)
+        own_mosquitto.signal(signal.SIGSTOP)
+        try:
+            assert eventually(beating(anna, lambda: arm.control.latch))
+            assert eventually(lambda: arm.control.driving.driver is None)
+        finally:
+            own_mosquitto.signal(signal.SIGCONT)
+
+
+def beating(console: Console, is_so: Callable[[], bool]) -> Callable[[], bool]:
+    def look() -> bool:
+        console.beat()
+        return is_so()
+
+    return look
+
+
+@pytest.mark.exhaustive
+def test_eight_come_back_after_the_broker_was_killed(tmp_path: Path) -> None:
+    names = [f"arm-{number}" for number in range(8)]
+    mosquitto = Mosquitto(tmp_path / "broker", names)
+    mosquitto.start()
+    try:
+        with fleet_on(mosquitto, names), console_of(mosquitto, "anna", *names) as anna:
+            assert anna.stop_all().stopped == tuple(names)
+            mosquitto.kill()
+            assert anna.until(lambda: all(robot.presence == "silent" for robot in anna.robots()), WAIT_S)
+            mosquitto.start()
+            assert anna.until(lambda: all(map(anna.is_present, names)), WAIT_S)
+            assert all(robot.state and robot.state.latch for robot in anna.robots())
+    finally:
+        mosquitto.kill()
+
+
+@pytest.mark.exhaustive
+def test_a_client_that_never_reads_holds_up_nobody(own_mosquitto: Mosquitto) -> None:
+    with (
+        socket.create_connection(("127.0.0.1", own_mosquitto.port)) as deaf,
+        fleet_on(own_mosquitto, ["arm-1"]) as (_, (arm,)),
+        raw_client(own_mosquitto.broker_for("anna")) as raw,
+        console_of(own_mosquitto, "ben", "arm-1") as ben,
+    ):
+        deaf.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+        secret = (own_mosquitto.folder / "secrets" / "vera").read_text().strip()
+        deaf.sendall(connect_packet("vera", secret) + SUBSCRIBE_ALL)
+        for number in range(20):  # more than the buffers of both ends
+            raw.say("sd/1/lab/all/hold/driver/anna", bytes((number,)) * 500_000, is_retained=True)
+        assert eventually(lambda: arm.control.latch)
+        assert ben.ask("arm-1", "resume").kind == "done"
+        assert ben.ask("arm-1", "ask", action="request").drives
+
+
+# By hand, as no library subscribes and then does not read: MQTT 5, keep-alive 60 s, all topics with QoS 0.
+SUBSCRIBE_ALL = bytes((0x82, 7, 0, 1, 0, 0, 1)) + b"#" + bytes((0,))
+
+
+def connect_packet(user: str, password: str) -> bytes:
+    body = b"\0\4MQTT\5\xc2\0\x3c\0" + b"".join(
+        len(text).to_bytes(2, "big") + text.encode() for text in ("deaf", user, password)
+    )
+    return bytes((0x10, len(body))) + body

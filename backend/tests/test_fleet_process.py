@@ -2,6 +2,7 @@
 
 import json
 import signal
+import socket
 import subprocess
 from collections.abc import Iterator
 from pathlib import Path
@@ -10,14 +11,21 @@ from urllib.request import urlopen
 import pytest
 
 from servodeck.cli.options import USAGE
+from servodeck.fleet.broker import parse_broker
 from servodeck.fleet.broker_config import Encryption
 from servodeck.fleet.console import Console
 from servodeck.fleet.identity import own_name
-from tests.fleet import WAIT_S, console_of
-from tests.mosquitto import Mosquitto, needs_mosquitto, needs_openssl
+from tests.fleet import WAIT_S, console_of, eventually, fleet_on
+from tests.mosquitto import LAB, Mosquitto, needs_mosquitto, needs_openssl
+from tests.samples import STOP
 from tests.test_cli import Served, run
+from tests.test_ports import Pty
+from tests.test_with_simulator import NODE, SIMULATOR, Board
 
 pytestmark = pytest.mark.slow
+needs_simulator = pytest.mark.skipif(
+    NODE is None or not SIMULATOR.exists(), reason="the simulator is not built: npm run build"
+)
 
 
 @pytest.fixture(scope="module")
@@ -79,6 +87,59 @@ def is_silent(console: Console) -> bool:
     return robot is not None and robot.presence == "silent"
 
 
+@needs_mosquitto
+def test_a_browser_s_way_leads_there_too(tmp_path: Path) -> None:
+    broker = Mosquitto(tmp_path / "broker", ["arm-1"], websocket=True)
+    broker.start()
+    try:
+        secret = (broker.folder / "secrets" / "anna").read_text().strip()
+        by_websocket = parse_broker(f"ws://anna@127.0.0.1:{broker.websocket_port}", secret)
+        with fleet_on(broker, ["arm-1"]), Console(by_websocket, LAB, "driver") as console:
+            assert console.until(lambda: console.is_present("arm-1"), WAIT_S), console.problem
+            assert console.ask("arm-1", "ask", action="request").drives
+        with socket.socket() as other, pytest.raises(ConnectionRefusedError):
+            other.connect(("127.0.0.2", broker.websocket_port))  # on this one interface only
+    finally:
+        broker.kill()
+
+
+@needs_mosquitto
+@needs_openssl
+def test_a_broker_may_want_a_certificate_of_each(tmp_path: Path, encryption: Encryption) -> None:
+    strict = Encryption(encryption.certificate, encryption.key, encryption.certificate)
+    broker = Mosquitto(tmp_path / "broker", ["arm-1"], strict)
+    broker.start()
+    try:
+        secret = (broker.folder / "secrets" / "anna").read_text().strip()
+        url, ca = f"mqtts://anna@127.0.0.1:{broker.port}", encryption.certificate
+        with Console(parse_broker(url, secret, ca), LAB, "driver") as console:
+            assert console.until(lambda: "not been" not in (console.problem or "not been"), WAIT_S)
+            assert console.problem
+        with Console(parse_broker(url, secret, ca, ca, encryption.key), LAB, "driver") as console:
+            assert console.until(lambda: console.problem is None, WAIT_S), console.problem
+    finally:
+        broker.kill()
+
+
+@pytest.mark.exhaustive
+@needs_mosquitto
+def test_a_frozen_gateway_is_silent_and_comes_back(tmp_path: Path) -> None:
+    broker = Mosquitto(tmp_path / "broker", ["arm-1"])
+    broker.start()
+    secret = broker.folder / "secrets" / "arm-1"
+    options = ["--mqtt", f"mqtt://arm-1@127.0.0.1:{broker.port}", "--mqtt-site", "lab"]
+    served = Served(*options, "--mqtt-password-file", str(secret), "--data", str(tmp_path / "data"))
+    try:
+        with console_of(broker, "olga", "arm-1") as console:
+            served.process.send_signal(signal.SIGSTOP)
+            assert console.until(lambda: is_silent(console), WAIT_S)
+            served.process.send_signal(signal.SIGCONT)
+            assert console.until(lambda: console.is_present("arm-1"), WAIT_S)
+    finally:
+        served.end()
+        broker.kill()
+
+
 @pytest.mark.parametrize(
     ("options", "sentence"),
     [
@@ -107,3 +168,41 @@ def test_a_name_of_its_own_stays_on_its_hardware(tmp_path: Path) -> None:
     assert own_name(tmp_path, "another") != name
     (tmp_path / "fleet.json").write_text("{")
     assert own_name(tmp_path, "one") != name
+
+
+@pytest.mark.exhaustive
+@needs_mosquitto
+@needs_simulator
+def test_a_simulated_board_runs_and_is_stopped_over_the_broker(tmp_path: Path) -> None:
+    board = Board(tmp_path / "board", tmp_path / "bus.jsonl")
+    broker = Mosquitto(tmp_path / "broker", ["arm-1"])
+    board.plug()
+    broker.start()
+    secret = broker.folder / "secrets" / "arm-1"
+    where = ["--mqtt", f"mqtt://arm-1@127.0.0.1:{broker.port}", "--mqtt-site", "lab"]
+    files = ["--mqtt-password-file", str(secret), "--data", str(tmp_path / "data")]
+    served = Served(*where, *files, "--serial", str(board.link), pty=Pty(), is_named=False)
+    try:
+        with console_of(broker, "anna", "arm-1") as console:
+            frames = [{"durationMs": 500, "positions": {"1": position}} for position in (1200, 1800)]
+            console.ask("arm-1", "ask", action="request")
+            console.ask("arm-1", "download", groups=[{"slot": 4, "frames": frames}])
+            assert console.until(lambda: has_stored(console), WAIT_S)
+            console.ask("arm-1", "run", slot=4, times=0)
+            begun = len(board.taken())
+            console.stop("arm-1").result(WAIT_S)
+            assert eventually(lambda: stops_since(board, begun) >= 3)
+    finally:
+        served.end()
+        broker.kill()
+        board.pull()
+
+
+def has_stored(console: Console) -> bool:
+    console.beat()
+    robot = console.robot("arm-1")
+    return bool(robot and robot.state and robot.state.job and robot.state.job.status == "done")
+
+
+def stops_since(board: Board, begun: int) -> int:
+    return bytes(byte for _, byte in board.taken()[begun:]).count(STOP)

@@ -124,10 +124,13 @@ class Connection:
         self.is_connected = False
         self.problem: str | None = "It has not been reached yet."
         """Why it is not connected; for people."""
+        self.was_denied = False
+        """The broker has not let something through that was published with QoS 1."""
         self._interests = dict(interests)
         self._events = events
         self._now = now
         self._failures = 0
+        self._is_refused = False
         self._ended = threading.Event()
         client = mqtt.Client(
             CallbackAPIVersion.VERSION2,
@@ -147,6 +150,7 @@ class Connection:
         client.on_connect_fail = self._on_connect_fail
         client.on_disconnect = self._on_disconnect
         client.on_message = self._on_message
+        client.on_publish = self._on_publish
         self._client = client
 
     def start(self) -> None:
@@ -193,6 +197,7 @@ class Connection:
         self, client: mqtt.Client, _data: Any, _flags: Any, reason: ReasonCode, _properties: Any
     ) -> None:
         if reason.is_failure:
+            self._is_refused = True
             self._failed(f"The broker refuses: {reason}.")
             return
         self._failures, self.problem, self.is_connected = 0, None, True
@@ -208,11 +213,18 @@ class Connection:
     def _on_disconnect(
         self, _client: mqtt.Client, _data: Any, _flags: Any, reason: ReasonCode, _properties: Any
     ) -> None:
-        if not self.is_connected:  # refused: the reason is known
+        was_refused, self._is_refused = self._is_refused, False
+        if was_refused:  # the reason is known
             return
-        self.is_connected = False
-        self._failed(f"The connection was lost: {reason}.")
-        self._events.lost()
+        was_connected, self.is_connected = self.is_connected, False
+        self._failed(f"The connection was {'lost' if was_connected else 'closed by the broker'}: {reason}.")
+        if was_connected:
+            self._events.lost()
+
+    def _on_publish(
+        self, _client: mqtt.Client, _data: Any, _mid: int, reason: ReasonCode, _properties: Any
+    ) -> None:
+        self.was_denied = self.was_denied or reason.is_failure
 
     def _on_message(self, _client: mqtt.Client, _data: Any, message: mqtt.MQTTMessage) -> None:
         properties = message.properties

@@ -247,7 +247,8 @@ class Console:
             return answered.result(timeout_s)
         except FutureTimeoutError:
             answered.cancel()
-            raise NoAnswerError(f"{gateway} did not answer in {timeout_s:g} s.") from None
+            why = f" Has {self._user} the role {self._role}?" if self._connection.was_denied else ""
+            raise NoAnswerError(f"{gateway} did not answer in {timeout_s:g} s.{why}") from None
 
     def beat(self) -> None:
         """The driver is present: for all gateways of which this console has the lease."""
