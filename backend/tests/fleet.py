@@ -13,7 +13,7 @@ from servodeck.fleet.broker import Broker
 from servodeck.fleet.console import Console
 from servodeck.fleet.gateway import FleetGateway
 from servodeck.robot.control import Control
-from tests.boards import WorkingBoard, new_board
+from tests.boards import new_board
 from tests.fake_port import FakePorts
 from tests.mosquitto import LAB, USERS, Mosquitto
 from tests.running import DEVICE
@@ -25,10 +25,11 @@ WAIT_S = 10.0
 class Gateway:
     """One robot core and its client on the broker."""
 
-    def __init__(self, name: str, broker: Broker, board: Callable[[], WorkingBoard] = new_board) -> None:
+    def __init__(self, name: str, broker: Broker, ahead_s: float = 0.0) -> None:
+        """Its clock is `ahead_s` of this process's, as another computer's is."""
         self.name = name
-        self.board = board()
-        self.control = Control(FakePorts(self.board), time.monotonic, "doc", DEVICE)
+        self.board = new_board()
+        self.control = Control(FakePorts(self.board), lambda: time.monotonic() + ahead_s, "doc", DEVICE)
         self.door = FleetGateway(self.control, broker, LAB, name)
 
     async def start(self) -> None:
@@ -55,9 +56,9 @@ class Fleet:
         self._thread.start()
         self._gateways: list[Gateway] = []
 
-    def add(self, name: str, broker: Broker) -> Gateway:
+    def add(self, name: str, broker: Broker, ahead_s: float = 0.0) -> Gateway:
         async def made() -> Gateway:
-            gateway = Gateway(name, broker)
+            gateway = Gateway(name, broker, ahead_s)
             await gateway.start()
             return gateway
 
@@ -65,9 +66,9 @@ class Fleet:
         self._gateways.append(gateway)
         return gateway
 
-    def join(self, name: str, broker: Broker) -> Gateway:
+    def join(self, name: str, broker: Broker, ahead_s: float = 0.0) -> Gateway:
         """As `add`, until the broker has brought back what it said."""
-        gateway = self.add(name, broker)
+        gateway = self.add(name, broker, ahead_s)
         assert eventually(lambda: gateway.door.status().problem is None), gateway.door.status()
         return gateway
 

@@ -94,6 +94,21 @@ def test_a_group_is_stored_and_run_on_several(mosquitto: Mosquitto, robots: Robo
 
 
 @needs_mosquitto
+def test_several_start_together_or_none(mosquitto: Mosquitto, robots: Robots) -> None:
+    _, gateways = robots
+    assert fleet(mosquitto, "stop", "arm-2").exit_code == 0
+    result = fleet(mosquitto, "run", "5", *NAMES, "--together")
+    assert result.exit_code == FAILURE
+    assert "arm-2: Stopped" in result.stderr
+    assert [gateway.count(RUN) for gateway in gateways] == [0, 0]
+    assert [gateway.control.driving.driver for gateway in gateways] == [None, None]
+    assert fleet(mosquitto, "resume", "arm-2").exit_code == 0
+    result = fleet(mosquitto, "run", "5", *NAMES, "--together", "--timeout", "0.1")
+    assert result.exit_code == TIMED_OUT, result.output
+    assert result.stdout == "arm-1: slot 5, started.\narm-2: slot 5, started.\n"
+
+
+@needs_mosquitto
 def test_a_run_that_does_not_end_is_stopped(mosquitto: Mosquitto, robots: Robots) -> None:
     _, (one, _) = robots
     result = fleet(mosquitto, "run", "9", "arm-1", "--times", "0", "--timeout", "0.2")

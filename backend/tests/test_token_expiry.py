@@ -14,7 +14,7 @@ from fastapi import FastAPI
 from servodeck.access.devices import EXPIRED, FILE, DeviceFile, Devices
 from servodeck.access.expiry import LOOK_S, Expiry
 from servodeck.access.guard import Guard
-from servodeck.api.people import MS_PER_DAY, MAX_TOKEN_DAYS
+from servodeck.api.people import MAX_TOKEN_DAYS, MS_PER_DAY
 from servodeck.api.robot import EventStream
 from tests.client import Client
 from tests.downloading import AnsweringPort

@@ -5,6 +5,7 @@ console talks to the gateways, and each of them decides what is allowed.
 import json
 import time
 from collections.abc import Callable, Iterable, Sequence
+from contextlib import suppress
 from functools import wraps
 from inspect import Signature, signature
 from typing import TYPE_CHECKING, Annotated, Any
@@ -195,30 +196,57 @@ def run(
         float | None,
         typer.Option("--timeout", metavar="SECONDS", min=0, help="Stop it after this time."),
     ] = None,
+    together: Annotated[
+        bool, typer.Option("--together", help="All at the same time, within milliseconds, or none.")
+    ] = False,
 ) -> None:
     """Run a group of the boards of these robots and wait for its end; Ctrl-C stops it."""
+    from servodeck.fleet.console import FleetError
+
+    if together and continue_for_s is not None:
+        fail("--together waits for the end: leave out --continue.", USAGE)
     heard(console, names)
-    alone_ms = None if continue_for_s is None else min(continue_for_s, LONGEST_ALONE_S) * 1000
-    limit_s = 0.0
     try:
         for name in names:
             drive(console, name)
-        begun = [
-            console.request(name, "run", slot=slot, times=times, continue_for_ms=alone_ms) for name in names
-        ]
-        for name, future in zip(names, begun, strict=True):
-            done = console.result_of(name, future)
-            print(f"{name}: slot {slot}, {done.outcome}.")
-            console.beat()
+        if together:
+            begin_together(console, names, slot, times)
+        else:
+            begin(console, names, slot, times, continue_for_s)
         if continue_for_s is not None:
             return
         limit_s = watch(console, names, timeout_s)
     except KeyboardInterrupt:
         release(console, names)
         fail("Ended.", INTERRUPTED)
+    except FleetError:
+        release(console, names)
+        raise
     release(console, names)
     if limit_s:
         fail(f"The end was not reported within {limit_s:g} s, so it was stopped.", TIMED_OUT)
+
+
+def begin(
+    console: "Console", names: Sequence[str], slot: int, times: int, continue_for_s: int | None
+) -> None:
+    alone_ms = None if continue_for_s is None else min(continue_for_s, LONGEST_ALONE_S) * 1000
+    begun = {
+        name: console.request(name, "run", slot=slot, times=times, continue_for_ms=alone_ms) for name in names
+    }
+    for name, answered in begun.items():
+        done = console.result_of(name, answered)
+        print(f"{name}: slot {slot}, {done.outcome}.")
+        console.beat()
+
+
+def begin_together(console: "Console", names: Sequence[str], slot: int, times: int) -> None:
+    from servodeck.fleet.together import start_together
+
+    start_together(console, names, slot, times)
+    console.until(lambda: all(is_running(console, name) for name in names), HEAR_S)
+    for name in names:
+        print(f"{name}: slot {slot}, {'started' if is_running(console, name) else 'did not start'}.")
 
 
 def drive(console: "Console", name: str) -> None:
@@ -230,9 +258,12 @@ def drive(console: "Console", name: str) -> None:
 
 
 def release(console: "Console", names: Iterable[str]) -> None:
-    """Ends their runs and needs no resume."""
-    for name in names:
-        console.ask(name, "ask", action="release")
+    """Ends their runs and needs no resume. One that does not answer ends its run by itself, and stops."""
+    from servodeck.fleet.console import FleetError
+
+    for name in filter(console.drives, names):
+        with suppress(FleetError):
+            console.ask(name, "ask", action="release")
 
 
 def watch(console: "Console", names: Sequence[str], timeout_s: float | None) -> float:
@@ -291,6 +322,7 @@ def begin_download(console: "Console", name: str, bodies: Sequence[dict[str, Any
     for body in bodies:
         job = console.ask(name, "download", groups=[body], behind=job and job.id).job
     assert job
+    console.ask(name, "report")  # the state that is known from now on has the job
     return job.id
 
 

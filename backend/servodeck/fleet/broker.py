@@ -6,6 +6,7 @@ Knows topics as text, payloads as bytes and credentials; no message of ours.
 
 import logging
 import random
+import socket
 import ssl
 import threading
 from collections.abc import Callable, Mapping
@@ -146,6 +147,7 @@ class Connection:
             client.tls_set_context(broker.encryption)
         if will:
             client.will_set(will.topic, will.payload, will.qos, will.is_retained)
+        client.on_socket_open = send_at_once
         client.on_connect = self._on_connect
         client.on_connect_fail = self._on_connect_fail
         client.on_disconnect = self._on_disconnect
@@ -250,6 +252,12 @@ class Connection:
         limit_s = min(LONGEST_WAIT_S, FIRST_WAIT_S * 2 ** min(self._failures, 10))
         wait_s = random.uniform(0.0, limit_s)
         self._client.reconnect_delay_set(wait_s, wait_s)  # type: ignore[arg-type]  # it takes fractions, too
+
+
+def send_at_once(_client: mqtt.Client, _data: Any, opened: Any) -> None:
+    """The system would hold a small packet back until the one before is acknowledged: 40 ms on Linux."""
+    with socket.fromfd(opened.fileno(), socket.AF_INET, socket.SOCK_STREAM) as same:
+        same.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
 
 
 def options_of(interest: Interest) -> SubscribeOptions:

@@ -29,7 +29,11 @@ from servodeck.fleet.messages import (
     REQUESTS,
     About,
     Answer,
+    AnyAnswer,
     BeatRequest,
+    CancelRequest,
+    Clock,
+    CommitRequest,
     Done,
     Live,
     Online,
@@ -37,6 +41,7 @@ from servodeck.fleet.messages import (
     Refused,
     ReportRequest,
     State,
+    SyncRequest,
     TimelyRequest,
     encode,
 )
@@ -52,10 +57,10 @@ STOP_AGAIN_S = (0.07, 0.14)
 LOOK_S = 0.1
 HOLD_S = 3600
 EXPIRES_S = 1
-QOS_0: Collection[Verb] = ("move", "beat")
+QOS_0: Collection[Verb] = ("move", "beat", "sync")
 
 Presence = Literal["present", "silent", "cloned"]
-answer_adapter: TypeAdapter[Done | Refused] = TypeAdapter(Answer)
+answer_adapter: TypeAdapter[AnyAnswer] = TypeAdapter(Answer)
 
 
 class FleetError(Exception):
@@ -135,7 +140,7 @@ class Console:
         self._lock = threading.Lock()
         self._n = 0
         self._seen: dict[str, Seen] = {}
-        self._pending: dict[bytes, Callable[[Done | Refused], None]] = {}
+        self._pending: dict[bytes, Callable[[AnyAnswer], None]] = {}
         self._drives: set[str] = set()
         self._holds: set[str] = set()
         self._heard = threading.Condition(self._lock)
@@ -167,6 +172,10 @@ class Console:
         self._connection.end()
 
     @property
+    def now_s(self) -> float:
+        return self._now()
+
+    @property
     def problem(self) -> str | None:
         """Why it is not connected; None while it is."""
         return self._connection.problem
@@ -196,6 +205,11 @@ class Console:
                 self._heard.wait(min(left_s, LOOK_S))
         return True
 
+    def drives(self, gateway: str) -> bool:
+        """Whether this console has its lease, as far as is known."""
+        with self._lock:
+            return gateway in self._drives
+
     def watch(self, gateway: str) -> None:
         """Its `live` reports come, too, until `unwatch`."""
         topic = self._site.published(gateway, "live")
@@ -210,18 +224,17 @@ class Console:
         """
         answered: Future[Done] = Future()
 
-        def take(answer: Done | Refused) -> None:
+        def take(answer: AnyAnswer) -> None:
             if isinstance(answer, Refused):
                 error = RefusedError(gateway, answer.code, answer.detail)
                 settle(answered, lambda: answered.set_exception(error))
-            else:
+            elif isinstance(answer, Done):
                 self._note(gateway, answer)
                 settle(answered, lambda: answered.set_result(answer))
 
-        correlation = secrets.token_bytes(8)
-        answered.add_done_callback(lambda _: self._pending.pop(correlation, None))
+        correlation = self._await_answers(take)
+        answered.add_done_callback(lambda _: self._forget(correlation))
         with self._lock:  # so that requests leave in the order of their numbers
-            self._pending[correlation] = take
             payload = self._payload(gateway, verb, fields)
             is_sent = payload is not None and self._send(gateway, verb, payload, correlation)
         if not is_sent:
@@ -276,26 +289,43 @@ class Console:
         """STOP for all, and for those that connect later until `withdraw_holds`. Waits until all that are
         present have answered.
         """
-        answers: dict[str, Done | Refused] = {}
-        correlation = secrets.token_bytes(8)
-
-        def take(answer: Done | Refused) -> None:
-            answers[answer.gateway] = answer
-
         present = {robot.name for robot in self.robots() if robot.presence != "silent"}
-        with self._lock:
-            self._pending[correlation] = take
-        self._send(ALL, "stop", b"", correlation)
-        hold = self._site.hold(self._role, self._user)
-        self._connection.publish(Outgoing(hold, correlation.hex().encode(), 1, True, HOLD_S))
-        for after_s in STOP_AGAIN_S:
-            again = threading.Timer(after_s, self._send, (ALL, "stop", b"", correlation))
-            again.daemon = True
-            again.start()
-        self.until(lambda: present <= answers.keys(), timeout_s)
-        self._pending.pop(correlation, None)
+        topic = self._site.hold(self._role, self._user)
+        hold = Outgoing(topic, secrets.token_hex(8).encode(), 1, True, HOLD_S)
+        answers = self._ask_all("stop", b"", present, timeout_s, STOP_AGAIN_S, hold)
         refused = {name: answer.detail for name, answer in answers.items() if isinstance(answer, Refused)}
         return report_of(answers.keys() - refused.keys(), refused, present - answers.keys())
+
+    def commit(self, name: str, gateways: Collection[str], timeout_s: float) -> set[str]:
+        """The promise of that name. Those of the gateways that have agreed in time."""
+        return self._agreed("commit", CommitRequest, name, gateways, timeout_s)
+
+    def cancel(self, name: str, gateways: Collection[str], timeout_s: float) -> set[str]:
+        """As `commit`: the promise is given up."""
+        return self._agreed("cancel", CancelRequest, name, gateways, timeout_s)
+
+    def clock(self, gateway: str, timeout_s: float = ANSWER_S) -> tuple[float, float]:
+        """By how many ms the gateway's clock is ahead of this one, and to how many ms that is sure: half of
+        the time that question and answer took. Raises NoAnswerError.
+        """
+        read: Future[tuple[float, float]] = Future()
+
+        def take(answer: AnyAnswer) -> None:
+            took_ms = self._now() * 1000 - asked_ms
+            if isinstance(answer, Clock) and not read.done():
+                read.set_result((answer.clock_ms - asked_ms - took_ms / 2, took_ms / 2))
+
+        correlation = self._await_answers(take)
+        with self._lock:
+            payload = encode(SyncRequest(n=self._next()))
+            asked_ms = self._now() * 1000
+            self._send(gateway, "sync", payload, correlation)
+        try:
+            return read.result(timeout_s)
+        except FutureTimeoutError:
+            raise NoAnswerError(f"{gateway} did not say its time in {timeout_s:g} s.") from None
+        finally:
+            self._forget(correlation)
 
     def withdraw_holds(self) -> None:
         """Gateways that connect from now on do not stop any more, whoever has stopped all. Resumes none. For
@@ -305,6 +335,46 @@ class Console:
             holds = set(self._holds) | {self._site.hold(self._role, self._user)}
         for topic in holds:
             self._connection.publish(Outgoing(topic, b"", 1, True))
+
+    def _agreed(
+        self, verb: Verb, model: type[CommitRequest], name: str, gateways: Collection[str], timeout_s: float
+    ) -> set[str]:
+        with self._lock:
+            payload = encode(model(n=self._next(), name=name))
+        answers = self._ask_all(verb, payload, gateways, timeout_s)
+        return {gateway for gateway, answer in answers.items() if isinstance(answer, Done)}
+
+    def _ask_all(
+        self,
+        verb: Verb,
+        payload: bytes,
+        expected: Collection[str],
+        timeout_s: float,
+        again_s: Collection[float] = (),
+        beside: Outgoing | None = None,
+    ) -> dict[str, AnyAnswer]:
+        """Waits until those that are expected have answered; others may have, too."""
+        answers: dict[str, AnyAnswer] = {}
+        correlation = self._await_answers(lambda answer: answers.update({answer.gateway: answer}))
+        self._send(ALL, verb, payload, correlation)
+        if beside:
+            self._connection.publish(beside)
+        for after_s in again_s:
+            again = threading.Timer(after_s, self._send, (ALL, verb, payload, correlation))
+            again.daemon = True
+            again.start()
+        self.until(lambda: answers.keys() >= set(expected), timeout_s)
+        self._forget(correlation)
+        return answers
+
+    def _await_answers(self, take: Callable[[AnyAnswer], None]) -> bytes:
+        """`take` is called in the connection's thread; the correlation of the request."""
+        correlation = secrets.token_bytes(8)
+        self._pending[correlation] = take
+        return correlation
+
+    def _forget(self, correlation: bytes) -> None:
+        self._pending.pop(correlation, None)
 
     # In the connection's thread
 

@@ -19,7 +19,7 @@ from pydantic import ValidationError
 from servodeck.callers import Caller
 from servodeck.errors import GatewayError
 from servodeck.fleet.broker import Broker, Connection, Interest, Outgoing
-from servodeck.fleet.messages import About, Done, Online, Refused, State, encode
+from servodeck.fleet.messages import About, Clock, Done, Online, Refused, State, encode
 from servodeck.fleet.reports import Facts, Nonces, Reports
 from servodeck.fleet.rules import Accepted, Judge, Origin, Received, Refusal, Repeated, Stop
 from servodeck.fleet.sessions import Sessions
@@ -155,6 +155,8 @@ class FleetGateway:
                     is_first = len(self._stops) == 1
                 if is_first:  # a flood of them is one on the loop
                     self._on_loop(self._stop)
+            case Accepted(_, "sync", request):
+                self._send(received, encode(self._clock(request.n, received.at_s)))
             case Accepted() as accepted:
                 self._on_loop(lambda: self._carry_out(accepted, received))
             case Repeated(_, answer) if answer:
@@ -170,6 +172,10 @@ class FleetGateway:
             )
             self._keep(refusal.origin, refusal.n, answer)
             self._send(received, answer)
+
+    def _clock(self, n: int, at_s: float) -> Clock:
+        """Here, because the loop may be busy for longer than a clock is uncertain."""
+        return Clock(gateway=self._name, n=n, clock_ms=at_s * 1000)
 
     def _on_loop(self, call: Callable[[], None]) -> None:
         assert self._loop
@@ -189,13 +195,13 @@ class FleetGateway:
             error = raised
         for origin, received in {stop.origin: received for stop, received in stops}.items():
             if origin:
-                self._send(received, encode(self._stopped(error)))
+                self._send(received, encode(self._stopped(origin, error)))
 
-    def _stopped(self, error: GatewayError | None) -> Done | Refused:
+    def _stopped(self, origin: Origin, error: GatewayError | None) -> Done | Refused:
         if error:
             return Refused(gateway=self._name, n=None, code=error.code, detail=error.detail)
-        epoch = self._control.driving.lease.epoch
-        return Done(gateway=self._name, n=None, nonce=self._nonces.newest(), epoch=epoch, drives=False)
+        epoch, drives = self._control.driving.lease.epoch, self._sessions.is_driver(origin)
+        return Done(gateway=self._name, n=None, nonce=self._nonces.newest(), epoch=epoch, drives=drives)
 
     def _carry_out(self, accepted: Accepted, received: Received) -> None:
         def answer(message: Done | Refused) -> None:

@@ -166,6 +166,38 @@ class EraseRequest(TimelyRequest):
     """Erase every slot of the board. An owner's."""
 
 
+class SyncRequest(Request):
+    """Answered at once with the gateway's clock."""
+
+
+StartName = Annotated[str, Field(min_length=1, max_length=64)]
+
+
+class PrepareRequest(TimelyRequest):
+    """Promise to run the group in `slot` at `startMs` of the gateway's clock, known to `uncertaintyMs`, if
+    `commit` comes. `version`: what the slot has to hold; null: whatever it holds.
+    """
+
+    WITHIN_S: ClassVar[float] = 10.0
+
+    name: StartName
+    slot: Slot
+    times: Annotated[int, Field(ge=0, le=0xFFFF)] = 1
+    version: str | None = None
+    start_ms: Annotated[float, Field(strict=False)]
+    uncertainty_ms: Annotated[float, Field(ge=0, strict=False)]
+
+
+class CommitRequest(Request):
+    """Keep the promise of that name. Gateways without one do not answer."""
+
+    name: StartName
+
+
+class CancelRequest(CommitRequest):
+    """Give it up."""
+
+
 AnyRequest = (
     ReportRequest
     | AskRequest
@@ -175,6 +207,10 @@ AnyRequest = (
     | ResumeRequest
     | DownloadRequest
     | EraseRequest
+    | SyncRequest
+    | PrepareRequest
+    | CommitRequest
+    | CancelRequest
 )
 
 
@@ -204,7 +240,17 @@ class Refused(Report):
     detail: str
 
 
-Answer = Annotated[Done | Refused, Field(discriminator="kind")]
+class Clock(Report):
+    """The answer to `sync`: the gateway's clock when the request came."""
+
+    kind: Literal["clock"] = "clock"
+    gateway: str
+    n: Whole
+    clock_ms: float
+
+
+AnyAnswer = Done | Refused | Clock
+Answer = Annotated[AnyAnswer, Field(discriminator="kind")]
 
 REPORTS: dict[Kind, type[Report]] = {"about": About, "state": State, "online": Online, "live": Live}
 REQUESTS: dict[Verb, type[AnyRequest]] = {
@@ -216,6 +262,10 @@ REQUESTS: dict[Verb, type[AnyRequest]] = {
     "resume": ResumeRequest,
     "download": DownloadRequest,
     "erase": EraseRequest,
+    "sync": SyncRequest,
+    "prepare": PrepareRequest,
+    "commit": CommitRequest,
+    "cancel": CancelRequest,
 }
 """A stop has no model: it is done whatever it carries."""
 

@@ -38,6 +38,10 @@ LEAST_ROLE: dict[Verb, Role] = {
     "resume": "driver",
     "download": "driver",
     "erase": "owner",
+    "sync": "driver",
+    "prepare": "driver",
+    "commit": "driver",
+    "cancel": "driver",
 }
 
 K = TypeVar("K")

@@ -4,6 +4,7 @@ core, as a page makes it. The sessions of users that drive over the broker, and 
 Knows verbs and the robot core; no topic and no broker. What may move is judged there.
 """
 
+import contextlib
 from collections.abc import Awaitable, Callable
 from typing import Any
 
@@ -13,15 +14,19 @@ from servodeck.errors import GatewayError, NotDrivingError
 from servodeck.fleet.messages import (
     AskRequest,
     BeatRequest,
+    CancelRequest,
+    CommitRequest,
     Done,
     DownloadRequest,
     EraseRequest,
     MoveRequest,
+    PrepareRequest,
     Refused,
     ReportRequest,
     ResumeRequest,
     RunRequest,
 )
+from servodeck.fleet.promises import Promise, Promises
 from servodeck.fleet.reports import Nonces, Reports
 from servodeck.fleet.rules import SESSIONS_AT_MOST, Accepted, Origin
 from servodeck.protocol.values import ServoTarget
@@ -56,12 +61,20 @@ class Sessions:
             ResumeRequest: self._resume,
             DownloadRequest: self._download,
             EraseRequest: self._erase,
+            PrepareRequest: self._prepare,
+            CommitRequest: self._commit,
+            CancelRequest: self._cancel,
         }
+        self._promises = Promises(control, self._keep_promise)
 
     @property
     def drives(self) -> bool:
         """One of them has the lease."""
         return isinstance(self._control.driving.driver, FleetSession)
+
+    def is_driver(self, origin: Origin) -> bool:
+        driver = self._control.driving.driver
+        return driver is not None and driver is self._sessions.get(origin)
 
     def carry_out(self, accepted: Accepted, send: Send) -> None:
         """`send` gets the answer; a beat has one only where it is refused."""
@@ -70,6 +83,7 @@ class Sessions:
 
     def lose(self, reason: str) -> None:
         """They cannot be heard any more: as if each had disconnected. Runs that need no driver continue."""
+        self._promises.give_up()
         for session in self._sessions.values():
             session.end(AGAINST_THE_RULES, reason)
             self._control.leave(session)
@@ -131,6 +145,25 @@ class Sessions:
     async def _erase(self, session: FleetSession, request: EraseRequest) -> Done:
         outcome = await self._control.operations.erase(self._claim(session, request.nonce))
         return self._done(session, request.n, outcome=outcome)
+
+    async def _prepare(self, session: FleetSession, request: PrepareRequest) -> Done:
+        lease, now = self._control.driving.lease, self._control.now()
+        lease.permit(session, self._nonces.of_lease(request.nonce), now, PrepareRequest.WITHIN_S)
+        self._promises.prepare(session, request)
+        return self._done(session, request.n)
+
+    async def _commit(self, session: FleetSession, request: CommitRequest) -> Done | None:
+        return self._done(session, request.n) if self._promises.commit(session, request.name) else None
+
+    async def _cancel(self, session: FleetSession, request: CancelRequest) -> Done | None:
+        return self._done(session, request.n) if self._promises.cancel(session, request.name) else None
+
+    def _keep_promise(self, promise: Promise) -> None:
+        async def kept() -> None:
+            with contextlib.suppress(GatewayError):  # the state says that nothing runs
+                await self._control.operations.run(promise, promise.command.slot, promise.command.times)
+
+        promise.session.begin(kept())
 
     def _claim(self, session: FleetSession, nonce: str) -> PageClaim:
         return PageClaim(self._control, session, self._nonces.of_lease(nonce))

@@ -16,9 +16,23 @@ NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9._@-]{0,63}")
 """Of a site, a gateway, a user and a session."""
 
 Kind = Literal["about", "state", "online", "live"]
-Verb = Literal["stop", "report", "ask", "beat", "move", "run", "resume", "download", "erase"]
+Verb = Literal[
+    "stop",
+    "report",
+    "ask",
+    "beat",
+    "move",
+    "run",
+    "resume",
+    "download",
+    "erase",
+    "sync",
+    "prepare",
+    "commit",
+    "cancel",
+]
 VERBS: frozenset[Verb] = frozenset(get_args(Verb))
-VERBS_FOR_ALL: frozenset[Verb] = frozenset({"stop", "report", "beat"})
+VERBS_FOR_ALL: frozenset[Verb] = frozenset({"stop", "report", "beat", "commit", "cancel"})
 
 
 @value

@@ -129,6 +129,11 @@ class Control:
         return self._latch.name
 
     @property
+    def stopped_s(self) -> float:
+        """Time of the latest STOP; before any, minus infinity."""
+        return self._latch.stopped_s
+
+    @property
     def unheld(self) -> UnheldServos | None:
         """Motion that the latest STOP could not hold."""
         unheld = self._unheld

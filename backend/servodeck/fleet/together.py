@@ -1,0 +1,74 @@
+"""Starts a group on several robots at the same time (docs/adr/0049): measures their clocks, has each prepare
+the run for its own time, and commits once all are ready. Otherwise nothing starts.
+
+Knows the console; no topic and no payload.
+"""
+
+import secrets
+from collections.abc import Collection, Mapping
+
+from servodeck.fleet.console import Console, FleetError, NoAnswerError
+
+ROUNDS = 16
+UNCERTAIN_MS = 20.0
+# From the last measured clock to the start; and before it so long all have to have committed.
+LEAD_S, DECIDED_S = 1.0, 0.2
+BEAT_S = 0.25
+
+
+class UncertainError(FleetError):
+    """The clock of a gateway is not known well enough over this network."""
+
+
+def start_together(
+    console: Console,
+    gateways: Collection[str],
+    slot: int,
+    times: int = 1,
+    versions: Mapping[str, str] | None = None,
+    lead_s: float = LEAD_S,
+) -> float:
+    """On robots of which the console has the lease. `versions`: by gateway, what its slot has to hold.
+    Returns at the start, with its time by the console's clock; raises a FleetError where nothing starts,
+    unless a gateway that had committed cannot be reached any more.
+    """
+    clocks = {gateway: clock_of(console, gateway) for gateway in gateways}
+    name, start_s = secrets.token_hex(8), console.now_s + lead_s
+    console.beat()
+    try:
+        prepared = {
+            gateway: console.request(
+                gateway,
+                "prepare",
+                name=name,
+                slot=slot,
+                times=times,
+                version=(versions or {}).get(gateway),
+                start_ms=start_s * 1000 + ahead_ms,
+                uncertainty_ms=uncertain_ms,
+            )
+            for gateway, (ahead_ms, uncertain_ms) in clocks.items()
+        }
+        for gateway, answered in prepared.items():
+            console.result_of(gateway, answered, start_s - DECIDED_S - console.now_s)
+        console.beat()
+        committed = console.commit(name, gateways, start_s - DECIDED_S - console.now_s)
+        if missing := set(gateways) - committed:
+            raise NoAnswerError(f"{', '.join(sorted(missing))}: not ready in time, so none is started.")
+    except FleetError:
+        console.cancel(name, gateways, DECIDED_S)
+        raise
+    while (left_s := start_s - console.now_s) > 0:
+        console.beat()
+        console.until(lambda: False, min(left_s, BEAT_S))
+    return start_s
+
+
+def clock_of(console: Console, gateway: str) -> tuple[float, float]:
+    """As `Console.clock`, of the quickest of several rounds: what is slow, is so in one direction mostly."""
+    rounds = [console.clock(gateway) for _ in range(ROUNDS)]
+    console.beat()
+    ahead_ms, uncertain_ms = min(rounds, key=lambda one: one[1])
+    if uncertain_ms > UNCERTAIN_MS:
+        raise UncertainError(f"The clock of {gateway} is known to {uncertain_ms:.0f} ms only.")
+    return ahead_ms, uncertain_ms
