@@ -323,6 +323,7 @@ def test_a_flood_moves_nothing_and_stop_passes(mosquitto: Mosquitto, arm: Gatewa
             raw.say(FOR_ARM + "move", move(n, "x.1-1"), qos=0)
         stopped.result(WAIT_S)
         assert arm.control.latch
+        assert eventually(lambda: arm.door.status().refused["tooMany"] > 10_000)
         assert arm.count(MOVE) == 0
 
 

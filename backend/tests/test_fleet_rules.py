@@ -4,9 +4,11 @@ import json
 from typing import Any
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from servodeck.callers import Role
-from servodeck.fleet.messages import MoveRequest
+from servodeck.fleet.messages import REQUESTS, MoveRequest
 from servodeck.fleet.rules import (
     DOWNLOAD_BYTES,
     SMALL_BYTES,
@@ -20,10 +22,11 @@ from servodeck.fleet.rules import (
     Stop,
     Verdict,
 )
-from servodeck.fleet.topics import Site, Verb
+from servodeck.fleet.topics import VERBS, Site, Verb
 
 LAB = Site("lab")
 ANNA = Origin("driver", "anna", "s1")
+REPLY = "sd/1/lab/reply/anna/s1"
 NOW_S = 1000.0
 FRESH, OLD, OLDER = "i.1-3", "i.1-2", "i.1-1"
 NONCES = {FRESH: NOW_S - 0.1, OLD: NOW_S - 0.6, OLDER: NOW_S - 10.1}
@@ -48,7 +51,7 @@ class Desk:
         to: str = "arm-1",
         role: Role | str = "driver",
         user: str = "anna",
-        reply_to: str | None = "sd/1/lab/reply/anna/s1",
+        reply_to: str | None = REPLY,
         is_retained: bool = False,
     ) -> Verdict | None:
         data = payload if isinstance(payload, bytes) else json.dumps(payload).encode()
@@ -239,6 +242,39 @@ def test_no_number_of_sessions_takes_the_memory() -> None:
     oldest = desk.hear("report", {"v": 1, "n": 1}, user="u0", reply_to="sd/1/lab/reply/u0/s")
     assert isinstance(newest, Repeated)
     assert isinstance(oldest, Accepted)
+
+
+def test_a_name_that_cannot_be_one_is_not_repeated() -> None:
+    verdict = Desk().hear("stop", b"", user="\n" * 1000)
+    assert verdict == Stop(None, None)
+
+
+def as_json(value: object) -> bytes:
+    return json.dumps(value).encode()
+
+
+TOPICS = st.sampled_from(sorted(VERBS)).map("arm-1/do/driver/anna/{}".format) | st.lists(
+    st.text(max_size=8) | st.sampled_from(["arm-1", "all", "do", "hold", "owner", "anna", "stop"]),
+    max_size=6,
+).map("/".join)
+SHAPES = {**MOVE, "slot": 1, "action": "take", "nonces": {"arm-1": FRESH}, "name": "x"}
+FIELDS = {key: st.just(value) | st.integers() | st.text(max_size=4) for key, value in SHAPES.items()}
+VALUES = st.recursive(
+    st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=8),
+    lambda inner: st.lists(inner, max_size=4) | st.dictionaries(st.sampled_from([*SHAPES, "x"]), inner),
+)
+PAYLOADS = st.binary(max_size=64) | (VALUES | st.fixed_dictionaries({}, optional=FIELDS)).map(as_json)
+
+
+@given(TOPICS, PAYLOADS, st.booleans(), st.text(max_size=8) | st.just(REPLY))
+def test_nothing_that_a_broker_delivers_raises_or_passes_by_chance(
+    topic: str, payload: bytes, is_retained: bool, reply_to: str
+) -> None:
+    verdict = Desk().judge.judge(Received("sd/1/lab/" + topic, payload, is_retained, NOW_S, reply_to))
+    if isinstance(verdict, Accepted):
+        assert verdict.request == REQUESTS[verdict.verb].model_validate_json(payload)
+        assert not is_retained
+        assert reply_to == REPLY
 
 
 @pytest.mark.parametrize("topic", ["sd/1/lab/arm-2/do/driver/anna/move", "sd/1/lab/arm-1/state", "x"])

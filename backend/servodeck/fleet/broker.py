@@ -8,6 +8,7 @@ import logging
 import random
 import socket
 import ssl
+import sys
 import threading
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -210,7 +211,8 @@ class Connection:
         self._events.connected()
 
     def _on_connect_fail(self, _client: mqtt.Client, _data: Any) -> None:
-        self._failed("The broker cannot be reached.")
+        error = sys.exc_info()[1]  # it calls this where it handles that
+        self._failed(f"The broker cannot be reached: {error}." if error else "The broker cannot be reached.")
 
     def _on_disconnect(
         self, _client: mqtt.Client, _data: Any, _flags: Any, reason: ReasonCode, _properties: Any
@@ -230,16 +232,19 @@ class Connection:
 
     def _on_message(self, _client: mqtt.Client, _data: Any, message: mqtt.MQTTMessage) -> None:
         properties = message.properties
-        self._events.received(
-            Received(
-                message.topic,
-                bytes(message.payload),
-                message.retain,
-                self._now(),
-                getattr(properties, "ResponseTopic", None),
-                getattr(properties, "CorrelationData", None),
+        try:
+            self._events.received(
+                Received(
+                    message.topic,
+                    bytes(message.payload),
+                    message.retain,
+                    self._now(),
+                    getattr(properties, "ResponseTopic", None),
+                    getattr(properties, "CorrelationData", None),
+                )
             )
-        )
+        except Exception:  # a defect of ours: the thread would end, and no STOP would be heard any more
+            log.exception("a message was not understood")
 
     def _failed(self, problem: str) -> None:
         if problem != self.problem and not self._ended.is_set():

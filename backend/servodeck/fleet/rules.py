@@ -71,9 +71,9 @@ class Origin:
 
 @value
 class Stop:
-    """`origin` is None where no answer can be sent. `n` is the one it carries, if any."""
+    """`user` is None for one whose name cannot be one. `origin` is None where no answer can be sent."""
 
-    user: str
+    user: str | None
     origin: Origin | None
 
 
@@ -149,7 +149,7 @@ class Judge:
             case Command(gateway, role, user, verb) if gateway in (ALL, self._gateway):
                 origin = self._origin_of(role, user, received.reply_to)
                 if verb == "stop":
-                    return Stop(user, origin)
+                    return Stop(named(user), origin)
                 return self._judge_request(gateway, role, user, verb, origin, received)
         return None
 
@@ -159,7 +159,7 @@ class Judge:
         if not received.payload or key in self._holds:
             return Ignored()
         bounded(self._holds, key, lambda: None)
-        return Stop(user, None)
+        return Stop(named(user), None)
 
     def _origin_of(self, role: str, user: str, reply_to: str | None) -> Origin | None:
         reply = self._site.parse(reply_to or "")
@@ -220,6 +220,10 @@ class Judge:
     def _rate_of(self, role: str, user: str) -> Rate:
         per_second, burst = DRIVER_RATE if role in ("driver", "owner") else VIEWER_RATE
         return bounded(self._rates, (role, user), lambda: Rate(per_second, burst, self._now))
+
+
+def named(user: str) -> str | None:
+    return user if is_name(user) else None
 
 
 def bounded(known: OrderedDict[K, V], key: K, make: Callable[[], V]) -> V:
