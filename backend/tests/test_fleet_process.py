@@ -121,13 +121,6 @@ def test_a_broker_may_want_a_certificate_of_each(tmp_path: Path, encryption: Enc
         broker.kill()
 
 
-@needs_mosquitto
-@needs_openssl
-def test_a_broker_that_nobody_vouches_for_is_not_believed(mosquitto: Mosquitto) -> None:
-    with Console(parse_broker(f"mqtts://anna@127.0.0.1:{mosquitto.port}", "x"), LAB, "driver") as console:
-        assert console.until(lambda: "certificate verify failed" in (console.problem or ""), WAIT_S)
-
-
 @pytest.mark.exhaustive
 @needs_mosquitto
 def test_a_frozen_gateway_is_silent_and_comes_back(tmp_path: Path) -> None:
