@@ -36,7 +36,7 @@ async def test_a_robot_is_stored_put_on_the_board_and_its_limits_hold(tmp_path: 
         assert refusal(await client.put("/api/robot", json={"id": "arm"})) == (404, "notFound")
         assert (await client.put("/api/library/arm", json=robot())).json() == {"revision": 1}
         [listed] = (await client.get("/api/library")).json()["documents"]
-        assert listed["facts"] == robot()["facts"]
+        assert listed["facts"] == robot()["facts"] | {"lowBatteryMv": None}
         assert (await client.put("/api/robot", json={"id": "arm"})).status_code == 204
         assert refusal(await client.post("/api/move", json=MOVE)) == (422, "outOfRange")
         # Two screens may put the same one there at once.

@@ -8,7 +8,7 @@ import socket
 import ssl
 import subprocess
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -24,6 +24,7 @@ from servodeck.notify.notifications import notice_of
 from servodeck.notify.receivers import parse_receiver
 from servodeck.notify.sender import Sender
 from tests.test_cli import Served
+from tests.test_client import has
 
 ROOT = Path(__file__).resolve().parents[2]
 # `npm test` fetches one into build/.
@@ -103,9 +104,19 @@ def caddy(folder: Path, url: str, gateway: str) -> Iterator[ssl.SSLContext]:
             else:
                 pytest.fail("".join(said))
             root = folder / "caddy/pki/authorities/local/root.crt"
-            yield ssl.create_default_context(cafile=str(root))
+            trust = ssl.create_default_context(cafile=str(root))
+            has(lambda: shakes_hands(url, trust))  # it says so before it uses it
+            yield trust
         finally:
             process.kill()
+
+
+def shakes_hands(url: str, trust: ssl.SSLContext) -> bool:
+    host, _, port = url.removeprefix("https://").rpartition(":")
+    with socket.create_connection(("127.0.0.1", int(port)), 5) as plain, suppress(ssl.SSLError):
+        with trust.wrap_socket(plain, server_hostname=host):
+            return True
+    return False
 
 
 def test_page_pairing_socket_and_stop_work_over_https_and_no_other_name_does(site: Site) -> None:

@@ -4,7 +4,6 @@ as the programs of assistants start it.
 Loads the SDK only when it runs. Everything that it prints goes to stderr, because stdout is the protocol's.
 """
 
-import asyncio
 from importlib.util import find_spec
 from typing import Annotated
 
@@ -29,6 +28,8 @@ def mcp(
     """Serve tools to an assistant (Model Context Protocol): look at the robot, propose groups, stop; with the
     token of a driver also move it.
     """
+    import asyncio  # other commands need none
+
     if find_spec("mcp") is None or find_spec("PIL") is None:
         fail(MISSING, FAILURE)
     secret = token or (token_file.read_text("utf-8").strip() if token_file else "")
