@@ -155,6 +155,9 @@ def test_of_two_consoles_one_drives(mosquitto: Mosquitto, arm: Gateway) -> None:
         with pytest.raises(RefusedError) as refused:
             ben.ask("arm-1", "move", targets=TARGETS, duration_ms=1500)
         assert refused.value.code == "notDriving"
+        anna.ask("arm-1", "ask", action="release")  # passes to the one that waits
+        assert ben.until(lambda: ben.drives("arm-1"), WAIT_S)
+        assert not anna.drives("arm-1")
     assert arm.count(MOVE) == 0
 
 

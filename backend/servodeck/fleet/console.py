@@ -15,8 +15,9 @@ import secrets
 import threading
 import time
 from collections.abc import Callable, Collection
-from concurrent.futures import Future, wait
+from concurrent.futures import Future, InvalidStateError, wait
 from concurrent.futures import TimeoutError as FutureTimeoutError
+from contextlib import suppress
 from math import inf
 from types import TracebackType
 from typing import Any, Literal, Self
@@ -142,6 +143,7 @@ class Console:
         self._seen: dict[str, Seen] = {}
         self._pending: dict[bytes, Callable[[AnyAnswer], None]] = {}
         self._drives: set[str] = set()
+        self._waits: set[str] = set()
         self._holds: set[str] = set()
         self._heard = threading.Condition(self._lock)
         state = Interest(0, wants_retained=True, as_published=False)
@@ -227,10 +229,10 @@ class Console:
         def take(answer: AnyAnswer) -> None:
             if isinstance(answer, Refused):
                 error = RefusedError(gateway, answer.code, answer.detail)
-                settle(answered, lambda: answered.set_exception(error))
+                settle(lambda: answered.set_exception(error))
             elif isinstance(answer, Done):
-                self._note(gateway, answer)
-                settle(answered, lambda: answered.set_result(answer))
+                self._note(gateway, answer, is_waiting=fields.get("action") == "request")
+                settle(lambda: answered.set_result(answer))
 
         correlation = self._await_answers(take)
         answered.add_done_callback(lambda _: self._forget(correlation))
@@ -312,8 +314,9 @@ class Console:
 
         def take(answer: AnyAnswer) -> None:
             took_ms = self._now() * 1000 - asked_ms
-            if isinstance(answer, Clock) and not read.done():
-                read.set_result((answer.clock_ms - asked_ms - took_ms / 2, took_ms / 2))
+            if isinstance(answer, Clock):
+                reading = (answer.clock_ms - asked_ms - took_ms / 2, took_ms / 2)
+                settle(lambda: read.set_result(reading))
 
         correlation = self._await_answers(take)
         with self._lock:
@@ -387,6 +390,7 @@ class Console:
     def lost(self) -> None:
         with self._lock:
             self._drives.clear()
+            self._waits.clear()
         self._say("")
 
     def received(self, received: Received) -> None:
@@ -419,13 +423,15 @@ class Console:
     def _heard_state(self, gateway: str, state: State, heard_s: float | None) -> None:
         """`heard_s` is None for one that the broker had retained."""
         with self._lock:
-            seen = self._seen_of(gateway)
+            seen, has_got_it = self._seen_of(gateway), False
             seen.state = state
             if heard_s is not None:
                 seen.nonce, seen.heard_s = state.nonce, heard_s
                 seen.instances[state.instance] = heard_s
-                if state.driver != self._user:
-                    self._drives.discard(gateway)
+                has_got_it = state.driver == self._user and gateway in self._waits
+                self._waits -= {gateway} if has_got_it else set()
+        if heard_s is not None and (has_got_it or state.driver != self._user):
+            self._set_drives(gateway, has_got_it)
         self._say(gateway)
 
     def _heard_online(self, gateway: str, online: Online) -> None:
@@ -448,14 +454,20 @@ class Console:
             take(answer)
         self._say(answer.gateway)
 
-    def _note(self, gateway: str, done: Done) -> None:
+    def _note(self, gateway: str, done: Done, *, is_waiting: bool) -> None:
+        """`is_waiting`: for the lease, if it did not get it; its driver may let it pass."""
         with self._lock:
             self._seen_of(gateway).nonce = done.nonce
-            has = gateway in self._drives
-            (self._drives.add if done.drives else self._drives.discard)(gateway)
-        if done.drives and not has:
+            (self._waits.add if is_waiting and not done.drives else self._waits.discard)(gateway)
+        self._set_drives(gateway, done.drives)
+
+    def _set_drives(self, gateway: str, drives: bool) -> None:
+        with self._lock:
+            did = gateway in self._drives
+            (self._drives.add if drives else self._drives.discard)(gateway)
+        if drives and not did:
             self.watch(gateway)
-        elif has and not done.drives:
+        elif did and not drives:
             self.unwatch(gateway)
 
     def _say(self, gateway: str) -> None:
@@ -511,7 +523,7 @@ def report_of(stopped: Collection[str], refused: dict[str, str], missing: Collec
     return StopReport(tuple(sorted(stopped)), tuple(sorted(refused.items())), tuple(sorted(missing)))
 
 
-def settle(future: "Future[Done]", act: Callable[[], None]) -> None:
-    """Once: the same answer may come twice, and nobody may wait any more."""
-    if not future.done():
+def settle(act: Callable[[], None]) -> None:
+    """The same answer may come twice, and nobody may wait any more."""
+    with suppress(InvalidStateError):
         act()
