@@ -18,14 +18,14 @@ from collections.abc import Callable, Collection
 from concurrent.futures import Future, InvalidStateError, wait
 from concurrent.futures import TimeoutError as FutureTimeoutError
 from contextlib import suppress
-from math import inf
 from types import TracebackType
-from typing import Any, Literal, Self
+from typing import Any, Self
 
 from pydantic import TypeAdapter, ValidationError
 
 from servodeck.callers import Role
 from servodeck.fleet.broker import Broker, Connection, Interest, Outgoing
+from servodeck.fleet.heard import Heard, Presence, Robot
 from servodeck.fleet.messages import (
     REQUESTS,
     About,
@@ -50,8 +50,6 @@ from servodeck.fleet.rules import Received
 from servodeck.fleet.topics import ALL, Hold, Published, Reply, Site, Verb
 from servodeck.value import value
 
-# A state this old shows no living gateway any more, and one that the broker had retained never does.
-FRESH_S = 3.0
 ANSWER_S = 2.0
 STOP_S = 1.0
 STOP_AGAIN_S = (0.07, 0.14)
@@ -60,8 +58,10 @@ HOLD_S = 3600
 EXPIRES_S = 1
 QOS_0: Collection[Verb] = ("move", "beat", "sync")
 
-Presence = Literal["present", "silent", "cloned"]
 answer_adapter: TypeAdapter[AnyAnswer] = TypeAdapter(Answer)
+
+# With what its methods return.
+__all__ = ["Console", "FleetError", "NoAnswerError", "Presence", "RefusedError", "Robot", "StopReport"]
 
 
 class FleetError(Exception):
@@ -81,19 +81,6 @@ class NoAnswerError(FleetError):
 
 
 @value
-class Robot:
-    """As it was heard last. `silent`: without a fresh state; `about` and `state` may be what was retained.
-    `live`: of one that is watched.
-    """
-
-    name: str
-    presence: Presence
-    about: About | None
-    state: State | None
-    live: Live | None
-
-
-@value
 class StopReport:
     """Those that latched, those that latched but have no port to stop, with the reason, and those that were
     there and did not answer.
@@ -102,18 +89,6 @@ class StopReport:
     stopped: tuple[str, ...]
     refused: tuple[tuple[str, str], ...]
     missing: tuple[str, ...]
-
-
-class Seen:
-    """What is known of one gateway."""
-
-    def __init__(self) -> None:
-        self.about: About | None = None
-        self.state: State | None = None
-        self.live: Live | None = None
-        self.nonce: str | None = None
-        self.heard_s = -inf
-        self.instances: dict[str, float] = {}
 
 
 class Console:
@@ -140,12 +115,12 @@ class Console:
         self._reply_to = site.reply(self._user, self._session)
         self._lock = threading.Lock()
         self._n = 0
-        self._seen: dict[str, Seen] = {}
+        self._heard = Heard(now)
         self._pending: dict[bytes, Callable[[AnyAnswer], None]] = {}
         self._drives: set[str] = set()
         self._waits: set[str] = set()
         self._holds: set[str] = set()
-        self._heard = threading.Condition(self._lock)
+        self._news = threading.Condition()
         state = Interest(0, wants_retained=True, as_published=False)
         interests = {
             site.published("+", "about"): state,
@@ -184,13 +159,10 @@ class Console:
 
     def robots(self) -> list[Robot]:
         """All that have ever said something or are retained, by name."""
-        with self._lock:
-            return [self._robot(name, seen) for name, seen in sorted(self._seen.items())]
+        return self._heard.robots()
 
     def robot(self, name: str) -> Robot | None:
-        with self._lock:
-            seen = self._seen.get(name)
-            return self._robot(name, seen) if seen else None
+        return self._heard.robot(name)
 
     def is_present(self, name: str) -> bool:
         robot = self.robot(name)
@@ -203,8 +175,8 @@ class Console:
             left_s = deadline_s - self._now()
             if left_s <= 0:
                 return False
-            with self._heard:
-                self._heard.wait(min(left_s, LOOK_S))
+            with self._news:
+                self._news.wait(min(left_s, LOOK_S))
         return True
 
     def drives(self, gateway: str) -> bool:
@@ -231,7 +203,10 @@ class Console:
                 error = RefusedError(gateway, answer.code, answer.detail)
                 settle(lambda: answered.set_exception(error))
             elif isinstance(answer, Done):
-                self._note(gateway, answer, is_waiting=fields.get("action") == "request")
+                self._heard.nonce(gateway, answer.nonce)
+                self._set_drives(gateway, answer.drives)
+                if verb == "ask":
+                    self._set_waits(gateway, fields["action"] == "request" and not answer.drives)
                 settle(lambda: answered.set_result(answer))
 
         correlation = self._await_answers(take)
@@ -268,7 +243,7 @@ class Console:
     def beat(self) -> None:
         """The driver is present: for all gateways of which this console has the lease."""
         with self._lock:
-            newest = {name: self._seen_of(name).nonce for name in self._drives}
+            newest = {name: self._heard.nonce_of(name) for name in self._drives}
             nonces = {name: nonce for name, nonce in newest.items() if nonce}
             if nonces:
                 self._send(ALL, "beat", encode(BeatRequest(n=self._next(), nonces=nonces)), b"")
@@ -394,72 +369,56 @@ class Console:
         self._say("")
 
     def received(self, received: Received) -> None:
-        try:
-            match self._site.parse(received.topic):
-                case Published(gateway, "about"):
-                    about = About.model_validate_json(received.payload)
-                    with self._lock:
-                        self._seen_of(gateway).about = about
-                    self._say(gateway)
-                case Published(gateway, "state"):
-                    state = State.model_validate_json(received.payload)
-                    self._heard_state(gateway, state, None if received.is_retained else received.at_s)
-                case Published(gateway, "live"):
-                    live = Live.model_validate_json(received.payload)
-                    with self._lock:
-                        self._seen_of(gateway).live, self._seen_of(gateway).nonce = live, live.nonce
-                    self._say(gateway)
-                case Published(gateway, "online"):
-                    self._heard_online(gateway, Online.model_validate_json(received.payload))
-                case Hold():
-                    with self._lock:
-                        (self._holds.add if received.payload else self._holds.discard)(received.topic)
-                    self._say("")
-                case Reply():
-                    self._heard_answer(received)
-        except ValidationError:  # of another version: as if it had said nothing
-            return
+        with suppress(ValidationError):  # of another version: as if it had said nothing
+            self._say(self._take(received))
 
-    def _heard_state(self, gateway: str, state: State, heard_s: float | None) -> None:
-        """`heard_s` is None for one that the broker had retained."""
+    def _take(self, received: Received) -> str:
+        """The gateway that said it; empty for what other people said."""
+        match self._site.parse(received.topic):
+            case Published(gateway, "about"):
+                self._heard.about(gateway, About.model_validate_json(received.payload))
+                return gateway
+            case Published(gateway, "state"):
+                state = State.model_validate_json(received.payload)
+                self._take_state(gateway, state, None if received.is_retained else received.at_s)
+                return gateway
+            case Published(gateway, "live"):
+                self._heard.live(gateway, Live.model_validate_json(received.payload))
+                return gateway
+            case Published(gateway, "online"):
+                self._heard.online(gateway, Online.model_validate_json(received.payload))
+                return gateway
+            case Hold():
+                with self._lock:
+                    (self._holds.add if received.payload else self._holds.discard)(received.topic)
+            case Reply():
+                return self._take_answer(received)
+        return ""
+
+    def _take_state(self, gateway: str, state: State, heard_s: float | None) -> None:
+        self._heard.state(gateway, state, heard_s)
+        if heard_s is None:
+            return
+        is_ours = state.driver == self._user
         with self._lock:
-            seen, has_got_it = self._seen_of(gateway), False
-            seen.state = state
-            if heard_s is not None:
-                seen.nonce, seen.heard_s = state.nonce, heard_s
-                seen.instances[state.instance] = heard_s
-                has_got_it = state.driver == self._user and gateway in self._waits
-                self._waits -= {gateway} if has_got_it else set()
-        if heard_s is not None and (has_got_it or state.driver != self._user):
+            has_got_it = is_ours and gateway in self._waits
+            self._waits -= {gateway} if has_got_it else set()
+        if has_got_it or not is_ours:
             self._set_drives(gateway, has_got_it)
-        self._say(gateway)
 
-    def _heard_online(self, gateway: str, online: Online) -> None:
-        """The last will, or the farewell, of that instance: it is not waited for."""
-        if online.is_online:
-            return
-        with self._lock:
-            seen = self._seen_of(gateway)
-            seen.instances.pop(online.instance, None)
-            if seen.state and seen.state.instance == online.instance:
-                seen.heard_s = -inf
-        self._say(gateway)
-
-    def _heard_answer(self, received: Received) -> None:
+    def _take_answer(self, received: Received) -> str:
         answer = answer_adapter.validate_json(received.payload)
         if isinstance(answer, Done) and answer.state:
-            self._heard_state(answer.gateway, answer.state, received.at_s)
+            self._take_state(answer.gateway, answer.state, received.at_s)
         take = self._pending.get(received.correlation or b"")
         if take:
             take(answer)
-        self._say(answer.gateway)
+        return answer.gateway
 
-    def _note(self, gateway: str, done: Done, *, is_waiting: bool) -> None:
-        """`is_waiting`: for the lease, if it did not get it; its driver may let it pass."""
+    def _set_waits(self, gateway: str, waits: bool) -> None:
+        """For the lease: its driver may let it pass later."""
         with self._lock:
-            self._seen_of(gateway).nonce = done.nonce
-            (self._waits.add if is_waiting and not done.drives else self._waits.discard)(gateway)
-        self._set_drives(gateway, done.drives)
+            (self._waits.add if waits else self._waits.discard)(gateway)
 
     def _set_drives(self, gateway: str, drives: bool) -> None:
         with self._lock:
@@ -471,23 +430,11 @@ class Console:
             self.unwatch(gateway)
 
     def _say(self, gateway: str) -> None:
-        with self._heard:
-            self._heard.notify_all()
+        with self._news:
+            self._news.notify_all()
         self._changed(gateway)
 
     # Within the lock
-
-    def _seen_of(self, gateway: str) -> Seen:
-        return self._seen.setdefault(gateway, Seen())
-
-    def _robot(self, name: str, seen: Seen) -> Robot:
-        now = self._now()
-        living = [instance for instance, at in seen.instances.items() if now - at <= FRESH_S]
-        seen.instances = {instance: seen.instances[instance] for instance in living}
-        is_cloned = len(living) > 1 or bool(seen.state and seen.state.is_cloned)
-        fresh: Presence = "cloned" if is_cloned else "present"
-        presence = fresh if now - seen.heard_s <= FRESH_S else "silent"
-        return Robot(name, presence, seen.about, seen.state, seen.live)
 
     def _next(self) -> int:
         self._n += 1
@@ -499,10 +446,8 @@ class Console:
             return b""
         model, n = REQUESTS[verb], self._next()
         if issubclass(model, TimelyRequest):
-            seen = self._seen.get(gateway)
-            if seen is None or seen.nonce is None:
-                return None
-            return encode(model(n=n, nonce=seen.nonce, **fields))
+            nonce = self._heard.nonce_of(gateway)
+            return None if nonce is None else encode(model(n=n, nonce=nonce, **fields))
         return encode(model(n=n, **fields))
 
     def _send(self, gateway: str, verb: Verb, payload: bytes, correlation: bytes) -> bool:
@@ -512,7 +457,7 @@ class Console:
                 topic,
                 payload,
                 0 if verb in QOS_0 else 1,
-                expires_s=EXPIRES_S,
+                expires_s=None if verb == "stop" else EXPIRES_S,  # a late stop is better than none
                 reply_to=self._reply_to,
                 correlation=correlation,
             )
