@@ -28,9 +28,10 @@ LAB = Site("lab")
 ANNA = Origin("driver", "anna", "s1")
 REPLY = "sd/1/lab/reply/anna/s1"
 NOW_S = 1000.0
-FRESH, OLD, OLDER = "i.1-3", "i.1-2", "i.1-1"
-NONCES = {FRESH: NOW_S - 0.1, OLD: NOW_S - 0.6, OLDER: NOW_S - 10.1}
+FRESH, OLD, STALE, OLDER = "i.1-4", "i.1-3", "i.1-2", "i.1-1"
+NONCES = {FRESH: NOW_S - 0.1, OLD: NOW_S - 0.6, STALE: NOW_S - 3.1, OLDER: NOW_S - 10.1}
 MOVE = {"v": 1, "n": 1, "nonce": FRESH, "targets": [{"servo": 1, "position": 1500}], "durationMs": 500}
+PRESS = {"v": 1, "n": 1, "nonce": OLD, "slot": 1}
 GROUP = {"slot": 1, "frames": [{"durationMs": 500, "positions": {"1": 1500}}]}
 DEEP = b"[" * 1000 + b"]" * 1000
 
@@ -95,6 +96,15 @@ REFUSED: dict[str, tuple[str, dict[str, Any]]] = {
     "too old": ("expired", {"verb": "move", "payload": with_(nonce=OLD)}),
     "of another epoch or gateway": ("expired", {"verb": "move", "payload": with_(nonce="i.0-9")}),
     "a run too old": ("expired", {"verb": "run", "payload": {"v": 1, "n": 1, "nonce": OLD, "slot": 1}}),
+    "a press too old": ("expired", {"verb": "press", "payload": {**PRESS, "nonce": STALE}, "reply_to": None}),
+    "a retained press": (
+        "retained",
+        {"verb": "press", "payload": PRESS, "reply_to": None, "is_retained": True},
+    ),
+    "a viewer that presses": (
+        "forbidden",
+        {"verb": "press", "payload": PRESS, "reply_to": None, "role": "viewer"},
+    ),
     "a resume too old": ("expired", {"verb": "resume", "payload": {"v": 1, "n": 1, "nonce": OLD}}),
     "an ask too old": (
         "expired",
@@ -117,6 +127,7 @@ def test_refused(code: str, message: dict[str, Any]) -> None:
 ACCEPTED: dict[str, dict[str, Any]] = {
     "a move": {"verb": "move", "payload": MOVE},
     "an owner's move": {"verb": "move", "payload": MOVE, "role": "owner"},
+    "a press with the nonce of a state": {"verb": "press", "payload": PRESS, "reply_to": None},
     "a report": {"verb": "report", "payload": {"v": 1, "n": 0}, "role": "viewer"},
     "a report for all": {"verb": "report", "payload": {"v": 1, "n": 0}, "to": "all"},
     "an ask with the nonce of a state": {

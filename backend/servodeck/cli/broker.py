@@ -102,19 +102,34 @@ def gateway_name(wanted: str, broker: "Broker", folder: Path) -> str:
 
 
 class Membership(NamedTuple):
-    """Which gateway joins which site."""
+    """Which gateway joins which site. `home_assistant`: the prefix at which that looks for devices; empty:
+    not announced.
+    """
 
     broker: "Broker"
     site: "Site"
     name: str
+    home_assistant: str
+    folder: Path
 
 
-def read_membership(options: MqttOptions, name: str, folder: Path) -> Membership | None:
+def read_membership(options: MqttOptions, name: str, home_assistant: str, folder: Path) -> Membership | None:
     """None without a broker. Ends the program with what is wrong with one of the options."""
     if not options.url:
+        if home_assistant:
+            fail("--home-assistant needs --mqtt: it is found on a broker.", USAGE)
         return None
     broker = broker_of(options)
-    return Membership(broker, site_of(options), gateway_name(name, broker, folder))
+    judge_prefix(home_assistant)
+    return Membership(broker, site_of(options), gateway_name(name, broker, folder), home_assistant, folder)
+
+
+def judge_prefix(home_assistant: str) -> None:
+    """Ends the program where it is no prefix of topics."""
+    from servodeck.fleet.home_assistant import is_prefix
+
+    if home_assistant and not is_prefix(home_assistant):
+        fail(f"--home-assistant {home_assistant} is not valid: the usual prefix is homeassistant.", USAGE)
 
 
 class OnBroker(Protocol):
@@ -143,5 +158,8 @@ def on_broker_of(membership: Membership | None, control: "Control", page: Callab
     if membership is None:
         return OnNoBroker()
     from servodeck.fleet.gateway import FleetGateway
+    from servodeck.fleet.home_assistant import HomeAssistant
 
-    return FleetGateway(control, membership.broker, membership.site, membership.name, page())
+    broker, site, name, prefix, folder = membership
+    announced = HomeAssistant(site, name, prefix, folder).messages
+    return FleetGateway(control, broker, site, name, page(), announced)

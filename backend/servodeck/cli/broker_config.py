@@ -33,6 +33,13 @@ def broker_config(
     clients_ca: Annotated[
         Path | None, typer.Option(help="Each client needs a certificate of this authority (PEM).")
     ] = None,
+    home_assistant: Annotated[
+        str,
+        typer.Option(
+            metavar="PREFIX",
+            help="Home Assistant, too, as the user homeassistant: it sees, stops, and presses buttons.",
+        ),
+    ] = "",
 ) -> None:
     """Write the configuration of a Mosquitto for a site: who may write what, and a password for each.
     Passwords that are there stay.
@@ -45,7 +52,7 @@ def broker_config(
     try:
         users = dict(role_of(text) for text in user)
         second = listener_of(websocket) if websocket else None
-        plan = Plan(site, gateway, users, listener_of(listen), second, encryption)
+        plan = Plan(site, gateway, users, listener_of(listen), second, encryption, home_assistant)
         write_config(plan, folder)
     except ValueError as error:
         fail(f"That cannot be: {error}.", USAGE)

@@ -150,6 +150,13 @@ def serve(
     mqtt_ca: MqttCa = None,
     mqtt_cert: MqttCert = None,
     mqtt_key: MqttKey = None,
+    home_assistant: Annotated[
+        str,
+        typer.Option(
+            metavar="PREFIX",
+            help="Let Home Assistant find this robot, below its prefix, homeassistant. Default: not.",
+        ),
+    ] = "",
     simulated: Annotated[bool, typer.Option("--simulated", help="The device is a simulated board.")] = False,
     data: Annotated[
         Path | None,
@@ -201,7 +208,7 @@ def serve(
     mqtt_options = MqttOptions(
         mqtt, mqtt_site, mqtt_password, mqtt_password_file, mqtt_ca, mqtt_cert, mqtt_key
     )
-    membership = read_membership(mqtt_options, mqtt_name, folder)
+    membership = read_membership(mqtt_options, mqtt_name, home_assistant, folder)
     listener = bind(*parse_listen(listen or (LAN_LISTEN if lan else DEFAULT_LISTEN), lan=lan))
     host, port = listener.getsockname()[:2]
     by_address = addresses.lan(port, listens_at=host) if lan else addresses.local(port)

@@ -10,6 +10,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from servodeck.callers import RANKS, Role
+from servodeck.fleet.home_assistant import USER as HOME_ASSISTANT
+from servodeck.fleet.home_assistant import config_topic, is_prefix
 from servodeck.fleet.rules import DOWNLOAD_BYTES
 from servodeck.fleet.topics import ALL, REPLY, ROOT, is_gateway_name, is_name
 from servodeck.value import value
@@ -39,7 +41,9 @@ class Encryption:
 
 @value
 class Plan:
-    """`users` by name; gateways are users, too. `websocket`: a second listener, for browsers."""
+    """`users` by name; gateways are users, too. `websocket`: a second listener, for browsers.
+    `home_assistant`: the prefix below which that finds devices; empty: it has no user.
+    """
 
     site: str
     gateways: Sequence[str]
@@ -47,17 +51,24 @@ class Plan:
     listener: Listener
     websocket: Listener | None = None
     encryption: Encryption | None = None
+    home_assistant: str = ""
+
+    def names(self) -> list[str]:
+        """Of all that have a password."""
+        return [*self.gateways, *self.users, *([HOME_ASSISTANT] if self.home_assistant else ())]
 
     def check(self) -> None:
         """Raises ValueError."""
+        if self.home_assistant and not is_prefix(self.home_assistant):
+            raise ValueError(f"{self.home_assistant} is no prefix of topics")
         for name in self.gateways:
             if not is_gateway_name(name):
                 raise ValueError(f"a gateway cannot be called {name}")
         for name in (self.site, *self.users):
             if not is_name(name):
                 raise ValueError(f"{name} is no name: letters, digits and . _ @ - are allowed")
-        if both := set(self.gateways) & set(self.users):
-            raise ValueError(f"{', '.join(sorted(both))}: a gateway and a user need different names")
+        if twice := {name for name in self.names() if self.names().count(name) > 1}:
+            raise ValueError(f"{', '.join(sorted(twice))}: gateways and users need different names")
 
 
 def write_config(plan: Plan, folder: Path) -> None:
@@ -69,7 +80,7 @@ def write_config(plan: Plan, folder: Path) -> None:
     if program is None:
         raise FileNotFoundError(2, f"{HASHING} is not installed; it comes with Mosquitto", HASHING)
     folder.mkdir(parents=True, exist_ok=True)
-    secret_of = {name: password_in(folder / "secrets" / name) for name in (*plan.gateways, *plan.users)}
+    secret_of = {name: password_in(folder / "secrets" / name) for name in plan.names()}
     plain = folder / "passwords.new"
     private(plain, "".join(f"{name}:{secret}\n" for name, secret in secret_of.items()))
     subprocess.run([program, "-U", str(plain)], check=True, capture_output=True)
@@ -96,17 +107,20 @@ def private(file: Path, text: str) -> None:
 
 
 def acl(plan: Plan) -> str:
-    blocks = [gateway_rules(plan.site, name) for name in plan.gateways]
+    blocks = [gateway_rules(plan, name) for name in plan.gateways]
     blocks += [user_rules(plan.site, name, role) for name, role in plan.users.items()]
+    if plan.home_assistant:
+        blocks.append(home_assistant_rules(plan.site, plan.home_assistant))
     return "\n".join(blocks)
 
 
-def gateway_rules(site: str, name: str) -> str:
+def gateway_rules(plan: Plan, name: str) -> str:
     """Its own topics, requests to it, and answers. Its own state comes back: so it knows that it is heard."""
-    own = f"{ROOT}/{site}/{name}"
+    site, own = plan.site, f"{ROOT}/{plan.site}/{name}"
+    announced = [config_topic(plan.home_assistant, site, name)] if plan.home_assistant else []
     written = [f"{own}/{kind}" for kind in ("about", "state", "online", "live")]
     read = [f"{own}/state", f"{own}/online", f"{own}/do/#", f"{ROOT}/{site}/{ALL}/#"]
-    return rules(name, [*written, f"{ROOT}/{site}/{REPLY}/#"], read)
+    return rules(name, [*written, *announced, f"{ROOT}/{site}/{REPLY}/#"], read)
 
 
 def user_rules(site: str, name: str, role: Role) -> str:
@@ -117,6 +131,14 @@ def user_rules(site: str, name: str, role: Role) -> str:
     read = [f"{base}/+/{kind}" for kind in ("about", "state", "online", "live")]
     written = [f"{base}/+/do/{role}/{name}/+", own_hold]
     return rules(name, written, [*read, holds, f"{base}/{REPLY}/{name}/#"])
+
+
+def home_assistant_rules(site: str, prefix: str) -> str:
+    """Less than a driver's: to stop, and to press buttons."""
+    base = f"{ROOT}/{site}/+"
+    written = [f"{base}/do/driver/{HOME_ASSISTANT}/{verb}" for verb in ("stop", "press")]
+    read = [f"{base}/{kind}" for kind in ("about", "state", "online")]
+    return rules(HOME_ASSISTANT, [*written, f"{prefix}/status"], [*read, f"{prefix}/#"])
 
 
 def rules(user: str, written: Sequence[str], read: Sequence[str]) -> str:

@@ -11,7 +11,7 @@ import logging
 import secrets
 import threading
 from collections import Counter, deque
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Any
 
 from pydantic import ValidationError
@@ -53,8 +53,19 @@ class Watcher(Session):
 
 
 class FleetGateway:
-    def __init__(self, control: Control, broker: Broker, site: Site, name: str, page: str = "") -> None:
-        """`page`: the address of the gateway's own page, if others can reach it."""
+    def __init__(
+        self,
+        control: Control,
+        broker: Broker,
+        site: Site,
+        name: str,
+        page: str = "",
+        announced: Callable[[About], Iterable[Outgoing]] = lambda _: (),
+    ) -> None:
+        """`page`: the address of the gateway's own page, if others can reach it. `announced`: what else is
+        published when the gateway says what it is.
+        """
+        self._announced = announced
         self._control = control
         self._site = site
         self._name = name
@@ -216,10 +227,10 @@ class FleetGateway:
             self._judge.answered(origin, n, answer)
 
     def _send(self, received: Received, answer: bytes) -> None:
-        assert received.reply_to
-        self._connection.publish(
-            Outgoing(received.reply_to, answer, 1, expires_s=FRESH_S, correlation=received.correlation)
-        )
+        if received.reply_to:
+            self._connection.publish(
+                Outgoing(received.reply_to, answer, 1, expires_s=FRESH_S, correlation=received.correlation)
+            )
 
     def _came(self) -> None:
         self._echo_s, self._is_heard, self._about = self._control.now(), False, None
@@ -283,6 +294,8 @@ class FleetGateway:
         about = self._reports.about()
         if about != self._about and self._publish("about", about, is_retained=True, qos=1):
             self._about = about
+            for message in self._announced(about):
+                self._connection.publish(message)
 
     def _publish(self, kind: Kind, message: Message, **how: Any) -> bool:
         topic = self._site.published(self._name, kind)

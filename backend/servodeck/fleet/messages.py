@@ -42,7 +42,8 @@ class Report(Message):
 
 class About(Report):
     """Retained. `robot`: its name, empty where none is described. `slots`: the groups that the gateway
-    stored. `page`: the address of its page, empty where it is not reachable from elsewhere.
+    stored. `page`: the address of its page, empty where it is not reachable from elsewhere. `lowBatteryMv`:
+    at or below, its battery is low; null where its description does not say.
     """
 
     name: Name
@@ -53,6 +54,7 @@ class About(Report):
     slots: dict[str, StoredGroup]
     broken_slots: list[int]
     page: str
+    low_battery_mv: Whole | None = None
 
 
 class Online(Report):
@@ -149,6 +151,16 @@ class RunRequest(TimelyRequest):
     continue_for_ms: ContinueMs | None = None
 
 
+class PressRequest(TimelyRequest):
+    """A button of home automation was pressed: run that group once. `n` is the `count` of the state that
+    `nonce` was in, so that a button needs no memory, and two of one state are one (docs/adr/0050).
+    """
+
+    WITHIN_S: ClassVar[float] = 3.0
+
+    slot: Slot
+
+
 class ResumeRequest(TimelyRequest):
     """Allow motion again."""
 
@@ -204,6 +216,7 @@ AnyRequest = (
     | BeatRequest
     | MoveRequest
     | RunRequest
+    | PressRequest
     | ResumeRequest
     | DownloadRequest
     | EraseRequest
@@ -259,6 +272,7 @@ REQUESTS: dict[Verb, type[AnyRequest]] = {
     "beat": BeatRequest,
     "move": MoveRequest,
     "run": RunRequest,
+    "press": PressRequest,
     "resume": ResumeRequest,
     "download": DownloadRequest,
     "erase": EraseRequest,

@@ -87,6 +87,7 @@ class Reports:
             slots=control.board.slot_versions,
             broken_slots=control.board.broken_slots,
             page=self._page,
+            low_battery_mv=facts.low_battery_mv if facts else None,
         )
 
     def facts(self) -> Facts:

@@ -28,6 +28,8 @@ SMALL_BYTES, DOWNLOAD_BYTES = 16 * 1024, 512 * 1024
 # Of each user; a driver sends moves and beats.
 DRIVER_RATE, VIEWER_RATE = (100.0, 100), (2.0, 10)
 SESSIONS_AT_MOST = 256
+# Of presses: no session has this name.
+NO_SESSION = ""
 LEAST_ROLE: dict[Verb, Role] = {
     "stop": "stopper",
     "report": "stopper",
@@ -35,6 +37,7 @@ LEAST_ROLE: dict[Verb, Role] = {
     "beat": "driver",
     "move": "driver",
     "run": "driver",
+    "press": "driver",
     "resume": "driver",
     "download": "driver",
     "erase": "owner",
@@ -184,6 +187,8 @@ class Judge:
         if RANKS[role] < RANKS[LEAST_ROLE[verb]]:
             detail = f"{user} has the role {role}; this needs the role {LEAST_ROLE[verb]}."
             return Refusal(origin, None, "forbidden", detail)
+        if origin is None and verb == "press":  # buttons cannot ask for an answer
+            origin = Origin(role, user, NO_SESSION)
         if origin is None:
             detail = "A request needs a response topic below the asking user's own."
             return Refusal(None, None, "malformed", detail)

@@ -21,6 +21,7 @@ from servodeck.fleet.messages import (
     EraseRequest,
     MoveRequest,
     PrepareRequest,
+    PressRequest,
     Refused,
     ReportRequest,
     ResumeRequest,
@@ -34,6 +35,10 @@ from servodeck.robot.board.download import group_of, parts_of
 from servodeck.robot.control import Control
 from servodeck.robot.hub import AGAINST_THE_RULES, Session
 from servodeck.robot.operations import PageClaim
+from servodeck.robot.scripts import ScriptClaim
+
+# A group that was begun by a button is stopped after this time, at the latest.
+PRESSED_MS = 600_000
 
 Send = Callable[[Done | Refused], None]
 
@@ -58,6 +63,7 @@ class Sessions:
             BeatRequest: self._beat,
             MoveRequest: self._move,
             RunRequest: self._run,
+            PressRequest: self._press,
             ResumeRequest: self._resume,
             DownloadRequest: self._download,
             EraseRequest: self._erase,
@@ -124,6 +130,13 @@ class Sessions:
         outcome = await self._control.operations.run(claim, request.slot, request.times)
         if request.continue_for_ms is not None:
             self._control.allow_unattended(session, request.continue_for_ms)
+        return self._done(session, request.n, outcome=outcome)
+
+    async def _press(self, session: FleetSession, request: PressRequest) -> Done:
+        """Takes a free lease, as a script does, and nobody keeps it behind a button."""
+        claim = ScriptClaim(self._control, session, take=False)
+        outcome = await self._control.operations.run(claim, request.slot, 1)
+        self._control.allow_unattended(session, PRESSED_MS)
         return self._done(session, request.n, outcome=outcome)
 
     async def _resume(self, session: FleetSession, request: ResumeRequest) -> Done:

@@ -23,6 +23,7 @@ Verb = Literal[
     "beat",
     "move",
     "run",
+    "press",
     "resume",
     "download",
     "erase",
