@@ -72,6 +72,8 @@ def test_a_gateway_joins_by_tls_and_its_death_is_seen(
         with console_of(mosquitto, "olga", "arm-1") as console:
             status = fleet_of(served)
             assert (status["name"], status["site"], status["isConnected"]) == ("arm-1", "lab", True)
+            said = run("status", "--url", served.url).stdout
+            assert f"broker   127.0.0.1:{mosquitto.port}, arm-1 at lab: connected\n" in said
             with urlopen(f"{served.url}/metrics") as answer:
                 assert b"servodeck_broker_connected 1.0" in answer.read()
             console.stop("arm-1").result(WAIT_S)
@@ -156,6 +158,14 @@ def test_options_that_cannot_be_are_explained(options: list[str], sentence: str,
     result = run("serve", "--listen", "127.0.0.1:0", "--data", str(tmp_path), "--no-open", *options)
     assert result.exit_code == USAGE
     assert sentence in result.stderr
+
+
+@pytest.mark.parametrize(
+    ("url", "can_be"),
+    [("mqtt://broker", True), ("ws://broker", True), ("mqtts://broker", False), ("mqtt://localhost", False)],
+)
+def test_it_is_known_what_others_can_read(url: str, can_be: bool) -> None:
+    assert parse_broker(url).can_be_overheard is can_be
 
 
 def test_a_password_is_not_shown() -> None:

@@ -57,11 +57,18 @@ def status_words(state: dict[str, Any]) -> str:
         f"motion   {'stopped, waits for resume' if state['latch'] else 'allowed'}",
         f"driver   {state['driver'] or 'none'}",
     ]
+    if state["fleet"]:
+        lines.append(broker_words(state["fleet"]))
     if run:
         lines.append(f"running  slot {run['slot']}, {run['times'] or 'endless'} times, as far as is known")
     if alone:
         lines.append(f"         without {alone['by']} for at most {alone['endsInMs'] / 1000:.0f} s")
     return "\n".join(lines)
+
+
+def broker_words(there: dict[str, Any]) -> str:
+    how = there["problem"] or ("another gateway has this name" if there["isCloned"] else "connected")
+    return f"broker   {there['broker']}, {there['name']} at {there['site']}: {how}"
 
 
 @asking

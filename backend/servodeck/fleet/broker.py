@@ -48,6 +48,10 @@ class Broker:
     encryption: ssl.SSLContext | None
 
     @property
+    def can_be_overheard(self) -> bool:
+        return self.encryption is None and self.host not in ("localhost", "127.0.0.1", "::1")
+
+    @property
     def address(self) -> str:
         return f"{self.host}:{self.port}"
 
@@ -157,6 +161,8 @@ class Connection:
         self._client = client
 
     def start(self) -> None:
+        if self.broker.can_be_overheard:
+            log.warning("others on the network can read all of this, a password too: use mqtts://")
         properties = properties_for(PacketTypes.CONNECT)
         properties.MaximumPacketSize = DOWNLOAD_BYTES + TOPIC_BYTES
         self._plan_next()
