@@ -15,6 +15,7 @@ import { measureDownload } from './download.ts';
 import { measureDrag } from './drag.ts';
 import { toRecord, type Figure } from './figure.ts';
 import { measureFiles } from './files.ts';
+import { measureFleet } from './fleet.ts';
 import { measureFrames } from './frames.ts';
 import { measureTracks } from './tracks.ts';
 import { measureIk } from './ik.ts';
@@ -48,6 +49,7 @@ const GROUPS: Readonly<Record<string, () => Figure[] | Promise<Figure[]>>> = {
   library: measureLibrary,
   'stop.reconnect': measureStopReconnect,
   crowd: measureCrowd,
+  fleet: measureFleet,
   tracks: measureTracks,
   files: measureFiles,
   relay: measureRelay,

@@ -305,13 +305,17 @@ class Console:
         finally:
             self._forget(correlation)
 
+    @property
+    def holds(self) -> frozenset[str]:
+        """The topics of the holds that stop those that connect later."""
+        with self._lock:
+            return frozenset(self._holds)
+
     def withdraw_holds(self) -> None:
         """Gateways that connect from now on do not stop any more, whoever has stopped all. Resumes none. For
         drivers and owners; others withdraw their own hold alone.
         """
-        with self._lock:
-            holds = set(self._holds) | {self._site.hold(self._role, self._user)}
-        for topic in holds:
+        for topic in self.holds | {self._site.hold(self._role, self._user)}:
             self._connection.publish(Outgoing(topic, b"", 1, True))
 
     def _agreed(
