@@ -40,11 +40,15 @@ def broker_config(
             help="Home Assistant, too, as the user homeassistant: it sees, stops, and presses buttons.",
         ),
     ] = "",
+    emqx: Annotated[
+        bool, typer.Option("--emqx", help="For EMQX: it reads no listener and certificate from here.")
+    ] = False,
 ) -> None:
     """Write the configuration of a Mosquitto for a site: who may write what, and a password for each.
     Passwords that are there stay.
     """
     from servodeck.fleet.broker_config import Encryption, Plan, write_config
+    from servodeck.fleet.emqx_config import write_emqx
 
     if (cert is None) != (key is None):
         fail("--cert and --key belong together.", USAGE)
@@ -53,12 +57,13 @@ def broker_config(
         users = dict(role_of(text) for text in user)
         second = listener_of(websocket) if websocket else None
         plan = Plan(site, gateway, users, listener_of(listen), second, encryption, home_assistant)
-        write_config(plan, folder)
+        (write_emqx if emqx else write_config)(plan, folder)
     except ValueError as error:
         fail(f"That cannot be: {error}.", USAGE)
     except (OSError, subprocess.CalledProcessError) as error:
         fail(f"The configuration cannot be written: {error}.")
-    print(f"Start it with: mosquitto -c {folder / 'mosquitto.conf'}")
+    if not emqx:
+        print(f"Start it with: mosquitto -c {folder / 'mosquitto.conf'}")
     print(f"The password of each is in {folder / 'secrets'}, for --mqtt-password-file.")
 
 

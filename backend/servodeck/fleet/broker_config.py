@@ -79,8 +79,7 @@ def write_config(plan: Plan, folder: Path) -> None:
     program = shutil.which(HASHING)
     if program is None:
         raise FileNotFoundError(2, f"{HASHING} is not installed; it comes with Mosquitto", HASHING)
-    folder.mkdir(parents=True, exist_ok=True)
-    secret_of = {name: password_in(folder / "secrets" / name) for name in plan.names()}
+    secret_of = passwords_of(plan, folder)
     plain = folder / "passwords.new"
     private(plain, "".join(f"{name}:{secret}\n" for name, secret in secret_of.items()))
     subprocess.run([program, "-U", str(plain)], check=True, capture_output=True)
@@ -89,12 +88,17 @@ def write_config(plan: Plan, folder: Path) -> None:
     (folder / "mosquitto.conf").write_text(configuration(plan, folder.resolve()), "utf-8")
 
 
+def passwords_of(plan: Plan, folder: Path) -> dict[str, str]:
+    """By name; made where there is none."""
+    return {name: password_in(folder / "secrets" / name) for name in plan.names()}
+
+
 def password_in(file: Path) -> str:
     try:
         return file.read_text("utf-8").strip()
     except FileNotFoundError:
         secret = secrets.token_urlsafe(24)
-        file.parent.mkdir(mode=0o700, exist_ok=True)
+        file.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
         private(file, secret + "\n")
         return secret
 
@@ -106,44 +110,60 @@ def private(file: Path, text: str) -> None:
     file.write_text(text, "utf-8")
 
 
-def acl(plan: Plan) -> str:
-    blocks = [gateway_rules(plan, name) for name in plan.gateways]
-    blocks += [user_rules(plan.site, name, role) for name, role in plan.users.items()]
+@value
+class Rights:
+    """The topics that a user may write and read."""
+
+    user: str
+    written: Sequence[str]
+    read: Sequence[str]
+
+
+def rights_of(plan: Plan) -> list[Rights]:
+    found = [gateway_rights(plan, name) for name in plan.gateways]
+    found += [user_rights(plan.site, name, role) for name, role in plan.users.items()]
     if plan.home_assistant:
-        blocks.append(home_assistant_rules(plan.site, plan.home_assistant))
-    return "\n".join(blocks)
+        found.append(home_assistant_rights(plan.site, plan.home_assistant))
+    return found
 
 
-def gateway_rules(plan: Plan, name: str) -> str:
+def gateway_rights(plan: Plan, name: str) -> Rights:
     """Its own topics, requests to it, and answers. Its own state comes back: so it knows that it is heard."""
     site, own = plan.site, f"{ROOT}/{plan.site}/{name}"
     announced = [config_topic(plan.home_assistant, site, name)] if plan.home_assistant else []
     written = [f"{own}/{kind}" for kind in ("about", "state", "online", "live")]
     read = [f"{own}/state", f"{own}/online", f"{own}/do/#", f"{ROOT}/{site}/{ALL}/#"]
-    return rules(name, [*written, *announced, f"{ROOT}/{site}/{REPLY}/#"], read)
+    return Rights(name, [*written, *announced, f"{ROOT}/{site}/{REPLY}/#"], read)
 
 
-def user_rules(site: str, name: str, role: Role) -> str:
-    """Requests in their own name and role, and the answers to them. Who may resume withdraws all holds."""
+def user_rights(site: str, name: str, role: Role) -> Rights:
+    """Requests in their own name and role, and the answers to them. Who may resume withdraws all holds. An
+    owner sees how the broker is.
+    """
     base = f"{ROOT}/{site}"
     holds = f"{base}/{ALL}/hold/+/+"
     own_hold = holds if RANKS[role] >= RANKS["driver"] else f"{base}/{ALL}/hold/{role}/{name}"
     read = [f"{base}/+/{kind}" for kind in ("about", "state", "online", "live")]
+    figures = ["$SYS/#"] if role == "owner" else []
     written = [f"{base}/+/do/{role}/{name}/+", own_hold]
-    return rules(name, written, [*read, holds, f"{base}/{REPLY}/{name}/#"])
+    return Rights(name, written, [*read, holds, f"{base}/{REPLY}/{name}/#", *figures])
 
 
-def home_assistant_rules(site: str, prefix: str) -> str:
+def home_assistant_rights(site: str, prefix: str) -> Rights:
     """Less than a driver's: to stop, and to press buttons."""
     base = f"{ROOT}/{site}/+"
     written = [f"{base}/do/driver/{HOME_ASSISTANT}/{verb}" for verb in ("stop", "press")]
     read = [f"{base}/{kind}" for kind in ("about", "state", "online")]
-    return rules(HOME_ASSISTANT, [*written, f"{prefix}/status"], [*read, f"{prefix}/#"])
+    return Rights(HOME_ASSISTANT, [*written, f"{prefix}/status"], [*read, f"{prefix}/#"])
 
 
-def rules(user: str, written: Sequence[str], read: Sequence[str]) -> str:
-    lines = [f"user {user}", *(f"topic write {topic}" for topic in written)]
-    return "\n".join([*lines, *(f"topic read {topic}" for topic in read)]) + "\n"
+def acl(plan: Plan) -> str:
+    return "\n".join(map(block_of, rights_of(plan)))
+
+
+def block_of(rights: Rights) -> str:
+    lines = [f"user {rights.user}", *(f"topic write {topic}" for topic in rights.written)]
+    return "\n".join([*lines, *(f"topic read {topic}" for topic in rights.read)]) + "\n"
 
 
 def configuration(plan: Plan, folder: Path) -> str:
