@@ -113,9 +113,12 @@ def caddy(folder: Path, url: str, gateway: str) -> Iterator[ssl.SSLContext]:
 
 def shakes_hands(url: str, trust: ssl.SSLContext) -> bool:
     host, _, port = url.removeprefix("https://").rpartition(":")
-    with socket.create_connection(("127.0.0.1", int(port)), 5) as plain, suppress(ssl.SSLError):
-        with trust.wrap_socket(plain, server_hostname=host):
-            return True
+    with (
+        socket.create_connection(("127.0.0.1", int(port)), 5) as plain,
+        suppress(ssl.SSLError),
+        trust.wrap_socket(plain, server_hostname=host),
+    ):
+        return True
     return False
 
 
