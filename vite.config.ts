@@ -38,7 +38,9 @@ function isSheet(file: string): boolean {
   return file.endsWith('.module.css');
 }
 
-/** What the entry leads to without a dynamic import; parts that come later share much of it, and would cut it into dozens. */
+const ENTRY = '/frontend/src/app/main.tsx';
+
+/** What the dashboard's entry leads to without a dynamic import; parts that come later share much of it, and would cut it into dozens. */
 const firstLoad = new Set<string>();
 
 function readsFirstLoad(): Plugin {
@@ -52,7 +54,7 @@ function readsFirstLoad(): Plugin {
         this.getModuleInfo(id)?.importedIds.forEach(walk);
       };
       firstLoad.clear();
-      for (const id of this.getModuleIds()) if (this.getModuleInfo(id)?.isEntry === true) walk(id);
+      for (const id of this.getModuleIds()) if (id.endsWith(ENTRY)) walk(id);
     },
   };
 }
@@ -81,8 +83,8 @@ function squeezed(): Plugin {
   return {
     name: 'squeezed',
     apply: 'build',
-    async renderChunk(text, { isEntry }) {
-      if (!isEntry) return null;
+    async renderChunk(text, { name }) {
+      if (name !== 'page') return null;
       const { code = text } = await minify(text, { module: true, ecma: 2020, compress: { passes: 2 } });
       return { code, map: null };
     },
@@ -123,12 +125,14 @@ export default defineConfig({
     cssCodeSplit: false,
     reportCompressedSize: false,
     rolldownOptions: {
+      input: ['index.html', 'fleet.html'].map((name) => path.resolve(import.meta.dirname, 'frontend', name)),
       output: {
         codeSplitting: {
           groups: [
             // Changes less often than the page: a browser keeps it.
             { name: 'react', test: /node_modules.(react|react-dom|scheduler)[/\\]/, priority: 2 },
-            { name: 'page', test: (id) => firstLoad.has(id), priority: 1 },
+            // Without the entry, which would start the dashboard in the fleet's page, too.
+            { name: 'page', test: (id) => firstLoad.has(id) && !id.endsWith(ENTRY), priority: 1 },
           ],
         },
       },

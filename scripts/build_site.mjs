@@ -24,8 +24,8 @@ const HEAD = `
     <link rel="manifest" href="./manifest.webmanifest" />
     <link rel="apple-touch-icon" href="./icon-192.png" />`;
 
-/** Compressed twins are for the gateway; hosts of sites compress by themselves. */
-const isOfSite = (/** @type {string} */ file) => !/[.](br|gz)$/.test(file);
+/** Compressed twins are for the gateway; hosts of sites compress by themselves. A fleet needs a gateway. */
+const isOfSite = (/** @type {string} */ file) => !/[.](br|gz)$|[/\\]fleet[.]html$/.test(file);
 
 function copyPage() {
   rmSync(site, { recursive: true, force: true });

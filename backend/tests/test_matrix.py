@@ -42,6 +42,13 @@ ROLES: dict[tuple[str, str], Role | None] = {
     ("PUT", "/api/library/{document}"): "driver",
     ("PUT", "/api/library/{document}/versions/{version}"): "driver",
     ("POST", "/api/library/drafts"): "viewer",
+    ("GET", "/api/fleet"): "viewer",
+    ("POST", "/api/fleet/stop"): "stopper",
+    ("POST", "/api/fleet/run"): "driver",
+    ("POST", "/api/fleet/download"): "driver",
+    ("POST", "/api/fleet/resume"): "driver",
+    ("POST", "/api/fleet/tasks/{task}/retry"): "driver",
+    ("PUT", "/api/fleet/groups"): "driver",
     ("POST", "/api/library/restore"): "driver",
     ("POST", "/api/resume"): "driver",
     ("POST", "/api/move"): "driver",
@@ -216,7 +223,7 @@ async def test_a_refusal_comes_before_a_byte_of_the_body_is_read(method: str, pa
     too_large = [header for header in headers if header[0] != b"content-length"]
     too_large.append((b"content-length", b"%d" % (4 * 1024 * 1024)))
     assert await knock(app, scope_of("http", method, path, too_large), may_read=False) == 413
-    if path != "/api/stop":
+    if path not in ("/api/stop", "/api/fleet/stop"):
         for _ in range(PAGE_BURST):
             entrance.count(entrance.judge(headers, "viewer"))
         assert await knock(app, scope_of("http", method, path, headers), may_read=False) == 429

@@ -35,6 +35,9 @@ AccessAct = Literal[
     "librarySaved",
     "libraryRemoved",
     "libraryRestored",
+    "fleetStopped",
+    "fleetAsked",
+    "fleetGrouped",
 ]
 Act = Literal[RobotAct, AccessAct]
 MAX_ENTRIES = 10_000

@@ -39,6 +39,7 @@ from servodeck.threads import in_thread
 
 if TYPE_CHECKING:
     from servodeck.api.cameras import Camera
+    from servodeck.fleet.service import FleetService
     from servodeck.notify.notifications import Notifications
 
 CODE_OF_STATUS: dict[int, ErrorCode] = {
@@ -93,6 +94,12 @@ def audit_routes() -> tuple[APIRouter, ...]:
     return (audit_api,)
 
 
+def fleet() -> tuple[APIRouter, ...]:
+    from servodeck.api.fleet import fleet_api
+
+    return (fleet_api,)
+
+
 def people() -> tuple[APIRouter, ...]:
     from servodeck.api.people import people_api
 
@@ -112,6 +119,7 @@ PARTS = (
     Part(audit_routes, frozenset({"audit"})),
     Part(library, frozenset({"library", "robot"})),
     Part(cameras, frozenset({"cameras"})),
+    Part(fleet, frozenset({"fleet"})),
     Part(
         motion, frozenset({"move", "slots", "erase", "lease", "driver", "poses", "download", "jobs", "play"})
     ),
@@ -166,6 +174,7 @@ def create_app(
     notifications: "Notifications | None" = None,
     audit: Audit | None = None,
     on_broker: Callable[[], FleetStatus | None] = lambda: None,
+    fleet: "FleetService | None" = None,
 ) -> Guard:
     """The gateway with that entrance and the page built into `static`. Without `audit` the list of acts is
     not stored. `on_broker`: how it is there.
@@ -179,6 +188,7 @@ def create_app(
     app.state.expiry = Expiry(entrance.devices, app.state.scripts.disconnect, audit)
     app.state.library = library
     app.state.cameras = tuple(cameras)
+    app.state.fleet = fleet
     app.state.open_streams = 0
     app.state.notifications = notifications
     app.state.loop_delay = LoopDelay(sign_of_life())
@@ -219,6 +229,9 @@ async def lifespan(app: LaterApp) -> AsyncIterator[None]:
     loading = asyncio.create_task(app.load_soon())
     expiry: Expiry = app.state.expiry
     expiry.plan()
+    fleet: FleetService | None = app.state.fleet
+    if fleet:
+        fleet.start()
     audit: Audit = app.state.audit
     audit.note("gatewayStarted", None, __version__)
     notifications: Notifications | None = app.state.notifications
@@ -228,6 +241,8 @@ async def lifespan(app: LaterApp) -> AsyncIterator[None]:
         watching.cancel()
     audit.note("gatewayEnded", None)
     expiry.end()
+    if fleet:
+        await fleet.end()
     loading.cancel()
     sampling.cancel()
     await control.shut_down()

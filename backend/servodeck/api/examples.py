@@ -129,6 +129,37 @@ AUDIT_FILE = (
     "at,until,act,who,whom,about,count\r\n"
     "2026-11-21T18:00:00.000+00:00,2026-11-21T18:01:30.000+00:00,moved,Anna's tablet,,,212\r\n"
 )
+FLEET_TASK = {
+    "id": "7",
+    "verb": "run",
+    "name": "Wave",
+    "by": "Ben",
+    "parts": [
+        {"robot": "arm-1", "status": "done", "share": None, "detail": None},
+        {"robot": "arm-2", "status": "failed", "share": None, "detail": "The robot is stopped."},
+    ],
+}
+FLEET_ROBOT = {
+    "id": "arm-1",
+    "name": "Arm 1",
+    "robot": "Arm",
+    "board": "lsc-16",
+    "version": "0.1.0",
+    "page": "http://arm-1.local:8300/",
+    "limits": [{"servo": 1, "name": "Base", "min": 600, "max": 2400}],
+    "slots": [{"slot": 3, "name": "Wave"}],
+    "groups": ["Table 1"],
+    "presence": "present",
+    "seenMsAgo": None,
+    "state": {
+        "link": "ready",
+        "latch": False,
+        "stoppedBy": None,
+        "driver": None,
+        "running": {"slot": 3, "name": "Wave"},
+        "batteryMv": 7500,
+    },
+}
 QR = "data:image/svg+xml;base64,PHN2Zy8+"
 ON_THE_WIRE: tuple[ErrorCode, ...] = (
     "closed",
@@ -153,6 +184,44 @@ EXAMPLES: dict[tuple[str, str], Example] = {
     ("GET", "/api/cameras/{camera_id}/stream"): Example(
         "--frame\r\nContent-Type: image/jpeg\r\n\r\n", errors=("notFound", "busy", "cameraFailed")
     ),
+    ("GET", "/api/fleet"): Example(
+        {
+            "revision": 41,
+            "isWhole": True,
+            "site": "lab",
+            "broker": {"status": "connected", "detail": ""},
+            "robots": [FLEET_ROBOT],
+            "removed": [],
+            "tasks": [FLEET_TASK],
+            "events": [{"atMs": 1795287600000, "robot": "Arm 1", "kind": "stopped", "by": "Ben"}],
+        },
+        errors=("notFound",),
+    ),
+    ("POST", "/api/fleet/stop"): Example(
+        {"reached": ["arm-1"], "notReached": ["arm-2"]}, {"robots": ["arm-1", "arm-2"]}, ("notFound",)
+    ),
+    ("POST", "/api/fleet/run"): Example(
+        FLEET_TASK,
+        {"name": "Wave", "runs": [{"robot": "arm-1", "slot": 3}], "times": 2, "together": True},
+        ("notFound",),
+    ),
+    ("POST", "/api/fleet/download"): Example(
+        FLEET_TASK | {"verb": "download"},
+        {
+            "robots": ["arm-1", "arm-2"],
+            "group": {
+                "slot": 3,
+                "name": "Wave",
+                "frames": [{"durationMs": 400, "positions": {"1": 1200}}],
+            },
+        },
+        ("notFound",),
+    ),
+    ("POST", "/api/fleet/resume"): Example(
+        FLEET_TASK | {"verb": "resume"}, {"robots": ["arm-2"]}, ("notFound",)
+    ),
+    ("POST", "/api/fleet/tasks/{task}/retry"): Example(FLEET_TASK, errors=("notFound", "conflict")),
+    ("PUT", "/api/fleet/groups"): Example(None, {"groups": {"Table 1": ["arm-1", "arm-2"]}}, ("notFound",)),
     ("GET", "/api/battery"): Example({"batteryMv": 7500}, errors=("closed", "lost", "noAnswer")),
     ("POST", "/api/stop"): Example(
         {"latch": True, "halted": True, "unheld": None}, errors=("closed", "lost")

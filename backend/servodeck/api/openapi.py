@@ -72,6 +72,11 @@ TAGS = (
     Tag("jobs", "Slots and downloads", "Groups are stored in the board's slots as jobs that can be watched."),
     Tag("play", "Play", "The gateway plays frames by its own clock; nothing is stored on the board."),
     Tag("events", "Events", "Every change as a server-sent event with an id."),
+    Tag(
+        "fleet",
+        "Fleet",
+        "Every robot of a site, where the gateway is on a broker: state, Stop, groups for several.",
+    ),
     Tag("library", "Library", "Action groups and robots as documents with versions."),
     Tag("robots", "Robot on the board", "Which robot of the library is on the board."),
     Tag("cameras", "Cameras", "The pictures of the cameras at the gateway."),

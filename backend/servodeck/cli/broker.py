@@ -13,6 +13,7 @@ from servodeck.cli.options import PREFIX, USAGE, fail
 
 if TYPE_CHECKING:
     from servodeck.fleet.broker import Broker
+    from servodeck.fleet.service import FleetService
     from servodeck.fleet.topics import Site
     from servodeck.robot.control import Control
     from servodeck.snapshots import FleetStatus
@@ -48,6 +49,22 @@ MqttCert = Annotated[
     Path | None, typer.Option(envvar=f"{PREFIX}_MQTT_CERT", help="This client's own certificate (PEM).")
 ]
 MqttKey = Annotated[Path | None, typer.Option(envvar=f"{PREFIX}_MQTT_KEY", help="The key of that (PEM).")]
+FleetUrl = Annotated[
+    str,
+    typer.Option(
+        "--fleet",
+        envvar=f"{PREFIX}_FLEET",
+        help="Serve the page of all robots of the site, too, as that user of the broker, who may drive: "
+        "mqtts://USER@HOST. Default: no such page.",
+    ),
+]
+FleetPassword = Annotated[
+    str, typer.Option(envvar=f"{PREFIX}_FLEET_PASSWORD", help="Of the user of --fleet.")
+]
+FleetPasswordFile = Annotated[
+    Path | None,
+    typer.Option(envvar=f"{PREFIX}_FLEET_PASSWORD_FILE", help="A file that holds it and nothing else."),
+]
 USUAL_SITE = "home"
 
 
@@ -130,6 +147,19 @@ def judge_prefix(home_assistant: str) -> None:
 
     if home_assistant and not is_prefix(home_assistant):
         fail(f"--home-assistant {home_assistant} is not valid: the usual prefix is homeassistant.", USAGE)
+
+
+def fleet_at(options: MqttOptions, folder: Path) -> "FleetService | None":
+    """None without an address. Ends the program with what is wrong with one of the options."""
+    if not options.url:
+        return None
+    from servodeck.fleet.service import FleetService
+    from servodeck.library.library import wall_clock_ms
+
+    try:
+        return FleetService(broker_of(options), site_of(options), folder, wall_clock_ms)
+    except ValueError as error:
+        fail(f"--fleet {options.url} is not valid: {error}.", USAGE)
 
 
 class OnBroker(Protocol):

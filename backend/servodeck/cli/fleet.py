@@ -30,6 +30,7 @@ from servodeck.cli.broker_config import broker_config
 from servodeck.cli.commands import LONGEST_ALONE_S, usual_limit_s
 from servodeck.cli.groups import group_of
 from servodeck.cli.options import FAILURE, INTERRUPTED, TIMED_OUT, UNREACHABLE, USAGE, AsJson, Times, fail
+from servodeck.cli.serve import Data, Lan, Listen, OpenPage, PublicUrl, serve
 
 if TYPE_CHECKING:
     from servodeck.fleet.console import Console, Robot
@@ -105,6 +106,40 @@ def heard(console: "Console", names: Sequence[str] = ()) -> "list[Robot]":
         missing = [name for name in names if not console.is_present(name)]
         fail(f"{', '.join(missing)}: not there. servodeck fleet list shows who is.")
     return [robot for robot in console.robots() if robot.name in names]
+
+
+@fleet.command("serve")
+def serve_page(
+    mqtt: MqttUrl = "",
+    mqtt_site: MqttSite = USUAL_SITE,
+    mqtt_password: MqttPassword = "",
+    mqtt_password_file: MqttPasswordFile = None,
+    mqtt_ca: MqttCa = None,
+    mqtt_cert: MqttCert = None,
+    mqtt_key: MqttKey = None,
+    listen: Listen = "",
+    lan: Lan = False,
+    public_url: PublicUrl = "",
+    data: Data = None,
+    open_page: OpenPage = None,
+) -> None:
+    """Serve the page of all robots of the site, on a computer without a robot."""
+    if not mqtt:
+        fail("Name the broker: --mqtt mqtts://USER@HOST, or SERVODECK_MQTT.", USAGE)
+    serve(
+        listen=listen,
+        lan=lan,
+        public_url=public_url,
+        data=data,
+        open_page=open_page,
+        fleet=mqtt,
+        fleet_password=mqtt_password,
+        fleet_password_file=mqtt_password_file,
+        mqtt_site=mqtt_site,
+        mqtt_ca=mqtt_ca,
+        mqtt_cert=mqtt_cert,
+        mqtt_key=mqtt_key,
+    )
 
 
 @fleet.command("list")

@@ -22,6 +22,9 @@ from servodeck import __version__
 from servodeck.cli import end_loading
 from servodeck.cli.broker import (
     USUAL_SITE,
+    FleetPassword,
+    FleetPasswordFile,
+    FleetUrl,
     MqttCa,
     MqttCert,
     MqttKey,
@@ -30,6 +33,7 @@ from servodeck.cli.broker import (
     MqttPasswordFile,
     MqttSite,
     MqttUrl,
+    fleet_at,
     on_broker_of,
     read_membership,
 )
@@ -92,6 +96,32 @@ def url_of(listener: socket.socket) -> str:
     return f"http://[{host}]:{port}" if ":" in host else f"http://{host}:{port}"
 
 
+Listen = Annotated[
+    str,
+    typer.Option(
+        help="HOST:PORT of this computer; port 0 takes a free one. "
+        f"Default: {DEFAULT_LISTEN}, with --lan {LAN_LISTEN}."
+    ),
+]
+Lan = Annotated[bool, typer.Option("--lan", help="Let other devices in, once they are paired.")]
+PublicUrl = Annotated[
+    str, typer.Option(help="Address of a reverse proxy in front, for example https://robot.example.")
+]
+Data = Annotated[
+    Path | None,
+    typer.Option(help="Folder of the library and settings. Default: in this user's data folder."),
+]
+OpenPage = Annotated[
+    bool | None,
+    typer.Option(
+        "--open/--no-open",
+        envvar=f"{PREFIX}_OPEN",
+        help="Open the page in a browser. Default: if started from a terminal.",
+    ),
+]
+FLEET_PAGE = "fleet.html"
+
+
 def serve(
     config: Annotated[  # noqa: ARG001 (its callback reads it)
         Path | None,
@@ -101,17 +131,9 @@ def serve(
             help="TOML file of these options. Default: this user's own, or /etc/servodeck/config.toml.",
         ),
     ] = None,
-    listen: Annotated[
-        str,
-        typer.Option(
-            help="HOST:PORT of this computer; port 0 takes a free one. "
-            f"Default: {DEFAULT_LISTEN}, with --lan {LAN_LISTEN}."
-        ),
-    ] = "",
-    lan: Annotated[bool, typer.Option("--lan", help="Let other devices in, once they are paired.")] = False,
-    public_url: Annotated[
-        str, typer.Option(help="Address of a reverse proxy in front, for example https://robot.example.")
-    ] = "",
+    listen: Listen = "",
+    lan: Lan = False,
+    public_url: PublicUrl = "",
     invite: Annotated[bool, typer.Option("--invite", help="Print an invitation for another owner.")] = False,
     serial: Annotated[
         str,
@@ -157,19 +179,12 @@ def serve(
             help="Let Home Assistant find this robot, below its prefix, homeassistant. Default: not.",
         ),
     ] = "",
+    fleet: FleetUrl = "",
+    fleet_password: FleetPassword = "",
+    fleet_password_file: FleetPasswordFile = None,
     simulated: Annotated[bool, typer.Option("--simulated", help="The device is a simulated board.")] = False,
-    data: Annotated[
-        Path | None,
-        typer.Option(help="Folder of the library and settings. Default: in this user's data folder."),
-    ] = None,
-    open_page: Annotated[
-        bool | None,
-        typer.Option(
-            "--open/--no-open",
-            envvar=f"{PREFIX}_OPEN",
-            help="Open the page in a browser. Default: if started from a terminal.",
-        ),
-    ] = None,
+    data: Data = None,
+    open_page: OpenPage = None,
     log_level: Annotated[Level, typer.Option(help="Lowest level that is logged on stderr.")] = "info",
     log_format: Annotated[Form, typer.Option(help="Text for people, or one JSON object per line.")] = "text",
     exit_with_stdin: Annotated[
@@ -209,6 +224,9 @@ def serve(
         mqtt, mqtt_site, mqtt_password, mqtt_password_file, mqtt_ca, mqtt_cert, mqtt_key
     )
     membership = read_membership(mqtt_options, mqtt_name, home_assistant, folder)
+    fleet_service = fleet_at(
+        mqtt_options._replace(url=fleet, password=fleet_password, password_file=fleet_password_file), folder
+    )
     listener = bind(*parse_listen(listen or (LAN_LISTEN if lan else DEFAULT_LISTEN), lan=lan))
     host, port = listener.getsockname()[:2]
     by_address = addresses.lan(port, listens_at=host) if lan else addresses.local(port)
@@ -250,17 +268,20 @@ def serve(
 
         webbrowser.open(address)
 
+    places = [f"Servodeck is at {url}", *([f"The fleet is at {url}/{FLEET_PAGE}"] if fleet else [])]
+
     def ready() -> None:
         on_broker.start()
         end_loading()
-        print(f"Servodeck is at {url}", flush=True)
+        print("\n".join(places), flush=True)
         if entrance.access.needs_pairing:
             others = urls_for_others(entrance.access, reachable(), url)
             is_alone = entrance.access.mode == "lan" and is_loopback(host)
             only_here = LAN_LISTEN if is_alone else ""
             print(greeting(entrance, others, invites=invite, only_here=only_here), flush=True)
         if sys.stdout.isatty() if open_page is None else open_page:
-            show(url)
+            # Without a robot of its own, the fleet is what there is to see.
+            show(f"{url}/{FLEET_PAGE}" if fleet and not (device or mqtt) else url)
 
     audit = Audit(AuditFile(folder), wall_clock_ms)
     app = create_app(
@@ -271,6 +292,7 @@ def serve(
         notifications=notifications_to(senders, page),
         audit=audit,
         on_broker=on_broker.status,
+        fleet=fleet_service,
     )
     server = Server(app, control, device, ready)
     if exit_with_stdin:

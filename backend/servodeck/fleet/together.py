@@ -23,12 +23,13 @@ class UncertainError(FleetError):
 def start_together(
     console: Console,
     gateways: Collection[str],
-    slot: int,
+    slot: int | Mapping[str, int],
     times: int = 1,
     versions: Mapping[str, str] | None = None,
     lead_s: float = LEAD_S,
 ) -> float:
-    """On robots of which the console has the lease. `versions`: by gateway, what its slot has to hold.
+    """On robots of which the console has the lease. `slot`: the same one of all, or one of each. `versions`:
+    by gateway, what its slot has to hold.
     Returns at the start, with its time by the console's clock; raises a FleetError where nothing starts,
     unless a gateway that had committed cannot be reached any more.
     """
@@ -41,7 +42,7 @@ def start_together(
                 gateway,
                 "prepare",
                 name=name,
-                slot=slot,
+                slot=slot if isinstance(slot, int) else slot[gateway],
                 times=times,
                 version=(versions or {}).get(gateway),
                 start_ms=start_s * 1000 + ahead_ms,

@@ -171,6 +171,125 @@ export interface paths {
     patch?: never;
     trace?: never;
   };
+  '/api/fleet': {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    /** What has changed since that revision */
+    get: operations['fleetChanges'];
+    put?: never;
+    post?: never;
+    delete?: never;
+    options?: never;
+    head?: never;
+    patch?: never;
+    trace?: never;
+  };
+  '/api/fleet/download': {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    get?: never;
+    put?: never;
+    /** Stores a group on each robot, in the same slot */
+    post: operations['fleetDownload'];
+    delete?: never;
+    options?: never;
+    head?: never;
+    patch?: never;
+    trace?: never;
+  };
+  '/api/fleet/groups': {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    get?: never;
+    /** The groups into which people sort the robots, in place of the ones before */
+    put: operations['fleetSetGroups'];
+    post?: never;
+    delete?: never;
+    options?: never;
+    head?: never;
+    patch?: never;
+    trace?: never;
+  };
+  '/api/fleet/resume': {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    get?: never;
+    put?: never;
+    /** Allows motion again */
+    post: operations['fleetResume'];
+    delete?: never;
+    options?: never;
+    head?: never;
+    patch?: never;
+    trace?: never;
+  };
+  '/api/fleet/run': {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    get?: never;
+    put?: never;
+    /** Has each robot run its slot */
+    post: operations['fleetRun'];
+    delete?: never;
+    options?: never;
+    head?: never;
+    patch?: never;
+    trace?: never;
+  };
+  '/api/fleet/stop': {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    get?: never;
+    put?: never;
+    /** STOP of those robots, or of all */
+    post: operations['fleetStop'];
+    delete?: never;
+    options?: never;
+    head?: never;
+    patch?: never;
+    trace?: never;
+  };
+  '/api/fleet/tasks/{task}/retry': {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    get?: never;
+    put?: never;
+    /** Asks those robots again at which it failed */
+    post: operations['fleetRetry'];
+    delete?: never;
+    options?: never;
+    head?: never;
+    patch?: never;
+    trace?: never;
+  };
   '/api/health': {
     parameters: {
       query?: never;
@@ -777,7 +896,10 @@ export interface components {
         | 'robotChosen'
         | 'librarySaved'
         | 'libraryRemoved'
-        | 'libraryRestored';
+        | 'libraryRestored'
+        | 'fleetStopped'
+        | 'fleetAsked'
+        | 'fleetGrouped';
       /** Atms */
       atMs: number;
       /** Count */
@@ -975,6 +1097,177 @@ export interface components {
       take?: boolean;
     };
     /**
+     * FleetBroker
+     * @description The link to the broker; `detail` says why it is not connected.
+     */
+    FleetBroker: {
+      /** Detail */
+      detail: string;
+      /**
+       * Status
+       * @enum {string}
+       */
+      status: 'connected' | 'connecting';
+    };
+    /**
+     * FleetChanges
+     * @description All of it where `isWhole`, else what changed since the revision that was asked for.
+     */
+    FleetChanges: {
+      broker: components['schemas']['FleetBroker'];
+      /** Events */
+      events: components['schemas']['FleetEvent'][];
+      /** Iswhole */
+      isWhole: boolean;
+      /** Removed */
+      removed: string[];
+      /** Revision */
+      revision: number;
+      /** Robots */
+      robots: components['schemas']['FleetRobot'][];
+      /** Site */
+      site: string;
+      /** Tasks */
+      tasks: components['schemas']['FleetTask'][];
+    };
+    /** FleetDownloadWish */
+    FleetDownloadWish: {
+      group: components['schemas']['GroupBody'];
+      /** Robots */
+      robots: string[];
+    };
+    /**
+     * FleetEvent
+     * @description `robot`: its name then. `atMs`: since 1970, by the clock of the gateway that serves the page.
+     */
+    FleetEvent: {
+      /** Atms */
+      atMs: number;
+      /** By */
+      by: string | null;
+      /**
+       * Kind
+       * @enum {string}
+       */
+      kind: 'stopped' | 'resumed' | 'lost' | 'ready' | 'silent' | 'cloned' | 'back';
+      /** Robot */
+      robot: string;
+    };
+    /**
+     * FleetGroups
+     * @description The robots of each group, by its name.
+     */
+    FleetGroups: {
+      /** Groups */
+      groups: {
+        [key: string]: string[];
+      };
+    };
+    /** FleetResumeWish */
+    FleetResumeWish: {
+      /** Robots */
+      robots: string[];
+    };
+    /**
+     * FleetRobot
+     * @description A gateway of the site and its robot. `limits`: of the servos of its robot, in the board's unit. `page`:
+     *     the address of its own page, empty where it has none. `seenMsAgo`: in steps of 10 s, null while it is
+     *     present, and where it never was. `state`: the latest one, null until one was heard.
+     */
+    FleetRobot: {
+      /** Board */
+      board: string;
+      /** Groups */
+      groups: string[];
+      /** Id */
+      id: string;
+      /** Limits */
+      limits: components['schemas']['ServoLimits'][];
+      /** Name */
+      name: string;
+      /** Page */
+      page: string;
+      /**
+       * Presence
+       * @enum {string}
+       */
+      presence: 'present' | 'silent' | 'cloned';
+      /** Robot */
+      robot: string;
+      /** Seenmsago */
+      seenMsAgo: number | null;
+      /** Slots */
+      slots: components['schemas']['FleetSlot'][];
+      state: components['schemas']['FleetState'] | null;
+      /** Version */
+      version: string;
+    };
+    /** FleetRun */
+    FleetRun: {
+      /** Robot */
+      robot: string;
+      /** Slot */
+      slot: number;
+    };
+    /**
+     * FleetRunning
+     * @description `name` is empty where the gateway does not know what the slot holds.
+     */
+    FleetRunning: {
+      /** Name */
+      name: string;
+      /** Slot */
+      slot: number;
+    };
+    /**
+     * FleetRunWish
+     * @description `name` of the group, for people; boards have it in slots of their own.
+     */
+    FleetRunWish: {
+      /**
+       * Name
+       * @default
+       */
+      name?: string;
+      /** Runs */
+      runs: components['schemas']['FleetRun'][];
+      /**
+       * Times
+       * @default 1
+       */
+      times?: number;
+      /**
+       * Together
+       * @description All at the same time, or none.
+       * @default false
+       */
+      together?: boolean;
+    };
+    /** FleetSlot */
+    FleetSlot: {
+      /** Name */
+      name: string;
+      /** Slot */
+      slot: number;
+    };
+    /** FleetState */
+    FleetState: {
+      /** Batterymv */
+      batteryMv: number | null;
+      /** Driver */
+      driver: string | null;
+      /** Latch */
+      latch: boolean;
+      /**
+       * Link
+       * @enum {string}
+       */
+      link: 'closed' | 'opening' | 'identifying' | 'ready' | 'stale' | 'refused' | 'lost';
+      running: components['schemas']['FleetRunning'] | null;
+      /** Stoppedby */
+      stoppedBy: string | null;
+    };
+    /**
      * FleetStatus
      * @description The gateway on a broker. `problem` says why it is not connected, or not heard there; `refused`:
      *     messages that were refused before they reached the robot, by code.
@@ -996,6 +1289,60 @@ export interface components {
       };
       /** Site */
       site: string;
+    };
+    /**
+     * FleetStopped
+     * @description `reached`: they have confirmed that they are stopped. `notReached`: they have not, within a second.
+     */
+    FleetStopped: {
+      /** Notreached */
+      notReached: string[];
+      /** Reached */
+      reached: string[];
+    };
+    /**
+     * FleetStopWish
+     * @description `robots` null: every robot of the site, also those that this gateway does not know.
+     */
+    FleetStopWish: {
+      /** Robots */
+      robots?: string[] | null;
+    };
+    /**
+     * FleetTask
+     * @description What a person asked of several robots. `name`: of the action group.
+     */
+    FleetTask: {
+      /** By */
+      by: string;
+      /** Id */
+      id: string;
+      /** Name */
+      name: string;
+      /** Parts */
+      parts: components['schemas']['FleetTaskPart'][];
+      /**
+       * Verb
+       * @enum {string}
+       */
+      verb: 'run' | 'download' | 'resume';
+    };
+    /**
+     * FleetTaskPart
+     * @description `share` of its work that is done, 0 to 1, null where unknown. `detail` says why it failed.
+     */
+    FleetTaskPart: {
+      /** Detail */
+      detail: string | null;
+      /** Robot */
+      robot: string;
+      /** Share */
+      share: number | null;
+      /**
+       * Status
+       * @enum {string}
+       */
+      status: 'waiting' | 'busy' | 'done' | 'failed';
     };
     /**
      * FrameBody
@@ -2151,7 +2498,23 @@ export type DriverWish = components['schemas']['DriverWish'];
 export type EchoedEvidence = components['schemas']['EchoedEvidence'];
 export type Erased = components['schemas']['Erased'];
 export type EraseWish = components['schemas']['EraseWish'];
+export type FleetBroker = components['schemas']['FleetBroker'];
+export type FleetChanges = components['schemas']['FleetChanges'];
+export type FleetDownloadWish = components['schemas']['FleetDownloadWish'];
+export type FleetEvent = components['schemas']['FleetEvent'];
+export type FleetGroups = components['schemas']['FleetGroups'];
+export type FleetResumeWish = components['schemas']['FleetResumeWish'];
+export type FleetRobot = components['schemas']['FleetRobot'];
+export type FleetRun = components['schemas']['FleetRun'];
+export type FleetRunning = components['schemas']['FleetRunning'];
+export type FleetRunWish = components['schemas']['FleetRunWish'];
+export type FleetSlot = components['schemas']['FleetSlot'];
+export type FleetState = components['schemas']['FleetState'];
 export type FleetStatus = components['schemas']['FleetStatus'];
+export type FleetStopped = components['schemas']['FleetStopped'];
+export type FleetStopWish = components['schemas']['FleetStopWish'];
+export type FleetTask = components['schemas']['FleetTask'];
+export type FleetTaskPart = components['schemas']['FleetTaskPart'];
 export type FrameBody = components['schemas']['FrameBody'];
 export type GroupBody = components['schemas']['GroupBody'];
 export type GroupFacts = components['schemas']['GroupFacts'];
@@ -2252,6 +2615,9 @@ export interface operations {
               | 'librarySaved'
               | 'libraryRemoved'
               | 'libraryRestored'
+              | 'fleetStopped'
+              | 'fleetAsked'
+              | 'fleetGrouped'
             )
           | null;
         /** @description Only older ones than that entry. */
@@ -2318,6 +2684,9 @@ export interface operations {
               | 'librarySaved'
               | 'libraryRemoved'
               | 'libraryRestored'
+              | 'fleetStopped'
+              | 'fleetAsked'
+              | 'fleetGrouped'
             )
           | null;
         format?: 'csv' | 'jsonl';
@@ -2521,6 +2890,169 @@ export interface operations {
         };
         content: {
           'text/event-stream': string;
+        };
+      };
+    };
+  };
+  fleetChanges: {
+    parameters: {
+      query?: {
+        /** @description 0: all of it. */
+        since?: number;
+      };
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    requestBody?: never;
+    responses: {
+      /** @description Successful Response */
+      200: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content: {
+          'application/json': components['schemas']['FleetChanges'];
+        };
+      };
+    };
+  };
+  fleetDownload: {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    requestBody: {
+      content: {
+        'application/json': components['schemas']['FleetDownloadWish'];
+      };
+    };
+    responses: {
+      /** @description Successful Response */
+      200: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content: {
+          'application/json': components['schemas']['FleetTask'];
+        };
+      };
+    };
+  };
+  fleetSetGroups: {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    requestBody: {
+      content: {
+        'application/json': components['schemas']['FleetGroups'];
+      };
+    };
+    responses: {
+      /** @description Successful Response */
+      204: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content?: never;
+      };
+    };
+  };
+  fleetResume: {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    requestBody: {
+      content: {
+        'application/json': components['schemas']['FleetResumeWish'];
+      };
+    };
+    responses: {
+      /** @description Successful Response */
+      200: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content: {
+          'application/json': components['schemas']['FleetTask'];
+        };
+      };
+    };
+  };
+  fleetRun: {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    requestBody: {
+      content: {
+        'application/json': components['schemas']['FleetRunWish'];
+      };
+    };
+    responses: {
+      /** @description Successful Response */
+      200: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content: {
+          'application/json': components['schemas']['FleetTask'];
+        };
+      };
+    };
+  };
+  fleetStop: {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    requestBody: {
+      content: {
+        'application/json': components['schemas']['FleetStopWish'];
+      };
+    };
+    responses: {
+      /** @description Successful Response */
+      200: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content: {
+          'application/json': components['schemas']['FleetStopped'];
+        };
+      };
+    };
+  };
+  fleetRetry: {
+    parameters: {
+      query?: never;
+      header?: never;
+      path: {
+        task: string;
+      };
+      cookie?: never;
+    };
+    requestBody?: never;
+    responses: {
+      /** @description Successful Response */
+      200: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content: {
+          'application/json': components['schemas']['FleetTask'];
         };
       };
     };

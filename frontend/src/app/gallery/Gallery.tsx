@@ -10,6 +10,7 @@ import { useSpokenLocale } from '../../i18n/words.ts';
 import { CONNECT, PEOPLE } from './PeopleSpecimens.tsx';
 import { DASHBOARDS } from './DashboardSpecimens.tsx';
 import { type Exhibit, specimenStores } from './exhibit.ts';
+import { FLEET } from './FleetSpecimens.tsx';
 import { FILES, LIBRARY } from './LibrarySpecimens.tsx';
 import { MESSAGES, RAW } from './MessageSpecimens.tsx';
 import { PADS, POSES } from './PoseSpecimens.tsx';
@@ -20,7 +21,7 @@ import styles from './Gallery.module.css';
 
 const EXHIBITS: readonly Exhibit[] = [
   ...[...DASHBOARDS, ...CONNECT, ...MESSAGES, ...RAW, ...PADS, ...POSES, ...PLAYING],
-  ...[...FILES, ...LIBRARY, ...PEOPLE, ...TIMELINES, ...ROBOTS],
+  ...[...FILES, ...LIBRARY, ...PEOPLE, ...TIMELINES, ...ROBOTS, ...FLEET],
 ];
 
 export function Gallery() {

@@ -1,0 +1,146 @@
+"""The fleet over HTTP: the state of all robots of a site, STOP of some or all, and what is asked of several.
+
+Translates between messages and the fleet's view, tasks and driver; decides nothing. Loaded where the gateway
+is a client of a broker.
+"""
+
+import asyncio
+from collections.abc import Sequence
+from typing import Annotated
+
+from fastapi import Depends, Query
+from pydantic import Field
+from starlette.requests import HTTPConnection
+
+from servodeck.api.routes import DRIVER, STOPPER, VIEWER, leaves, routes
+from servodeck.callers import Caller
+from servodeck.errors import NotFoundError
+from servodeck.fleet.driving import Share
+from servodeck.fleet.service import FleetService
+from servodeck.fleet.tasks import Order
+from servodeck.fleet.view import FleetChanges, FleetGroups, FleetTask
+from servodeck.intents import GroupBody, Slot
+from servodeck.schema import Message
+
+RobotId = Annotated[str, Field(max_length=64)]
+RobotIds = Annotated[list[RobotId], Field(min_length=1, max_length=1000)]
+
+
+class FleetStopWish(Message):
+    """`robots` null: every robot of the site, also those that this gateway does not know."""
+
+    robots: RobotIds | None = None
+
+
+class FleetStopped(Message):
+    """`reached`: they have confirmed that they are stopped. `notReached`: they have not, within a second."""
+
+    reached: list[str]
+    not_reached: list[str]
+
+
+class FleetRun(Message):
+    robot: RobotId
+    slot: Slot
+
+
+class FleetRunWish(Message):
+    """`name` of the group, for people; boards have it in slots of their own."""
+
+    name: Annotated[str, Field(max_length=64)] = ""
+    runs: Annotated[list[FleetRun], Field(min_length=1, max_length=1000)]
+    times: Annotated[int, Field(ge=1, le=0xFFFF)] = 1
+    together: Annotated[bool, Field(description="All at the same time, or none.")] = False
+
+
+class FleetDownloadWish(Message):
+    robots: RobotIds
+    group: GroupBody
+
+
+class FleetResumeWish(Message):
+    robots: RobotIds
+
+
+async def fleet_of(connection: HTTPConnection) -> FleetService:
+    """Raises NotFoundError where this gateway serves no fleet."""
+    fleet = connection.app.state.fleet
+    if fleet is None:
+        raise NotFoundError(
+            "This gateway serves no fleet. Start it with --fleet and the address of the broker."
+        )
+    assert isinstance(fleet, FleetService)
+    return fleet
+
+
+OfFleet = Annotated[FleetService, Depends(fleet_of)]
+fleet_api = routes("/api/fleet", "fleet")
+
+
+@fleet_api.get("", dependencies=[VIEWER])
+async def changes(
+    fleet: OfFleet, since: Annotated[int, Query(ge=0, description="0: all of it.")] = 0
+) -> FleetChanges:
+    """What has changed since that revision; waits until something has, for 10 s at most."""
+    return await fleet.view.changes(since)
+
+
+@fleet_api.post("/stop", dependencies=[STOPPER, leaves("fleetStopped")])
+async def stop(wish: FleetStopWish, fleet: OfFleet) -> FleetStopped:
+    """STOP of those robots, or of all; answers when each has confirmed it, or after a second."""
+    if wish.robots is None:
+        fleet.tasks.cancel_all()
+    missing = await asyncio.shield(fleet.driver.stop(wish.robots))
+    known = wish.robots if wish.robots is not None else list(fleet.view.robots())
+    return FleetStopped(reached=[one for one in known if one not in missing], not_reached=list(missing))
+
+
+@fleet_api.post("/run", dependencies=[leaves("fleetAsked")])
+async def run(wish: FleetRunWish, fleet: OfFleet, caller: Annotated[Caller, DRIVER]) -> FleetTask:
+    """Has each robot run its slot."""
+    slots = {each.robot: each.slot for each in wish.runs}
+
+    async def run_one(robot: str, _share: Share) -> None:
+        await fleet.driver.run(robot, slots[robot], wish.times)
+
+    async def finish(robot: str, _share: Share) -> None:
+        await fleet.driver.finish(robot)
+
+    async def begin(robots: Sequence[str]) -> None:
+        await fleet.driver.start_together({robot: slots[robot] for robot in robots}, wish.times)
+
+    together = Order("run", wish.name, caller.name, finish, begin)
+    order = together if wish.together else Order("run", wish.name, caller.name, run_one)
+    return fleet.tasks.begin(order, list(slots))
+
+
+@fleet_api.post("/download", dependencies=[leaves("fleetAsked")])
+async def download(wish: FleetDownloadWish, fleet: OfFleet, caller: Annotated[Caller, DRIVER]) -> FleetTask:
+    """Stores a group on each robot, in the same slot."""
+
+    async def carry_out(robot: str, share: Share) -> None:
+        await fleet.driver.download(robot, wish.group, share)
+
+    return fleet.tasks.begin(Order("download", wish.group.name, caller.name, carry_out), wish.robots)
+
+
+@fleet_api.post("/resume", dependencies=[leaves("fleetAsked")])
+async def resume(wish: FleetResumeWish, fleet: OfFleet, caller: Annotated[Caller, DRIVER]) -> FleetTask:
+    """Allows motion again. Moves nothing."""
+
+    async def carry_out(robot: str, _share: Share) -> None:
+        await fleet.driver.resume(robot)
+
+    return fleet.tasks.begin(Order("resume", "", caller.name, carry_out), wish.robots)
+
+
+@fleet_api.post("/tasks/{task}/retry", dependencies=[DRIVER, leaves("fleetAsked")])
+async def retry(task: str, fleet: OfFleet) -> FleetTask:
+    """Asks those robots again at which it failed."""
+    return fleet.tasks.retry(task)
+
+
+@fleet_api.put("/groups", status_code=204, dependencies=[DRIVER, leaves("fleetGrouped")])
+async def set_groups(wanted: FleetGroups, fleet: OfFleet) -> None:
+    """The groups into which people sort the robots, in place of the ones before."""
+    await fleet.view.set_groups(wanted)

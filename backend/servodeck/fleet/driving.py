@@ -1,0 +1,179 @@
+"""Drives several robots for the people at a fleet's page: takes the lease of each robot that is asked to do
+something, beats while a person watches, and gives the lease back when it is over.
+
+Knows a console; no HTTP. Nothing here decides whether a robot may move: its gateway does.
+"""
+
+import asyncio
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
+from typing import Any
+
+from servodeck.fleet.console import Console, FleetError, NoAnswerError, RefusedError, Robot
+from servodeck.fleet.messages import Done
+from servodeck.fleet.together import start_together
+from servodeck.intents import GroupBody
+from servodeck.threads import in_thread
+
+BEAT_S = 0.25
+LOOK_S = 0.5
+ANSWER_S = 2.0
+# The driver of a robot may refuse for five seconds.
+LEASE_S = 7.0
+# Between a report that a group runs or a download is in progress, and the request before it.
+BEGUN_S = 3.0
+
+Share = Callable[[float | None], None]
+"""Is told how much of the work is done, 0 to 1."""
+
+
+class FleetDriver:
+    def __init__(self, console: Console, is_watched: Callable[[], bool]) -> None:
+        """`is_watched`: a person looks at the page. Without one, groups are stopped after two seconds."""
+        self._console = console
+        self._is_watched = is_watched
+        self._beating: asyncio.Task[None] | None = None
+        self._loop: asyncio.AbstractEventLoop | None = None
+        self._news = asyncio.Event()
+
+    def start(self) -> None:
+        self._loop = asyncio.get_running_loop()
+        self._beating = asyncio.create_task(self._beat())
+
+    def heard(self) -> None:
+        """The console has heard something; from any thread."""
+        if self._loop and not self._loop.is_closed():
+            self._loop.call_soon_threadsafe(self._tell)
+
+    def _tell(self) -> None:
+        self._news.set()
+        self._news = asyncio.Event()
+
+    async def end(self) -> None:
+        if self._beating:
+            self._beating.cancel()
+            with suppress(asyncio.CancelledError):
+                await self._beating
+
+    async def stop(self, robots: Sequence[str] | None) -> Sequence[str]:
+        """None: of all. Those that have not confirmed it in time, or had no board to stop."""
+        if robots is None:
+            report = await in_thread(self._console.stop_all)
+        else:
+            report = await in_thread(lambda: self._console.stop_some(robots))
+        return [*report.missing, *(name for name, _ in report.refused)]
+
+    async def run(self, robot: str, slot: int, times: int) -> None:
+        """Until it has ended. Raises a FleetError."""
+        await self._lease(robot)
+        try:
+            await self._ask(robot, "run", slot=slot, times=times)
+            await self._over(robot)
+        finally:
+            await self._release(robot)
+
+    async def start_together(self, slots: Mapping[str, int], times: int) -> None:
+        """All at the same time, or none. Raises a FleetError that names whom it failed at; `finish` follows
+        for each where it has started.
+        """
+        try:
+            for robot in slots:
+                await self._lease(robot)
+            await in_thread(lambda: start_together(self._console, list(slots), slots, times))
+        except BaseException:
+            for robot in slots:
+                await self._release(robot)
+            raise
+
+    async def finish(self, robot: str) -> None:
+        """Until what was started has ended. Raises a FleetError."""
+        try:
+            await self._over(robot)
+        finally:
+            await self._release(robot)
+
+    async def download(self, robot: str, group: GroupBody, share: Share) -> None:
+        """Until it is stored. Raises a FleetError."""
+        await self._lease(robot)
+        try:
+            job = (await self._ask(robot, "download", groups=[group])).job
+            assert job is not None  # the answer to a download has one
+            await self._stored(robot, job.id, share)
+        finally:
+            await self._release(robot)
+
+    async def resume(self, robot: str) -> None:
+        """Robots that come later are not stopped any more, either. Raises a FleetError."""
+        self._console.withdraw_holds()
+        await self._ask(robot, "resume")
+
+    async def _lease(self, robot: str) -> None:
+        """Raises a FleetError where another driver keeps it."""
+        if (await self._ask(robot, "ask", action="request")).drives:
+            return
+        if not await self._until(robot, lambda heard: self._console.drives(heard.name), LEASE_S):
+            heard = self._console.robot(robot)
+            driver = heard.state.driver if heard and heard.state else None
+            raise RefusedError(robot, "notDriving", f"{driver or 'Another client'} drives it.")
+
+    async def _release(self, robot: str) -> None:
+        with suppress(FleetError):
+            await self._ask(robot, "ask", action="release")
+
+    async def _stored(self, robot: str, job_id: str, share: Share) -> None:
+        while True:
+            heard = self._present(robot)
+            job = heard.state.job if heard.state else None
+            if job is not None and job.id == job_id:
+                share(job.frames_stored / max(1, job.frame_count))
+                if job.status == "done":
+                    return
+                if job.status != "running":
+                    raise RefusedError(robot, job.code or "cancelled", job.detail or "It was cancelled.")
+            await self._next()
+
+    async def _over(self, robot: str) -> None:
+        await self._until(robot, is_running, BEGUN_S)
+        while is_running(self._present(robot)):
+            await self._next()
+        state = self._present(robot).state
+        if state and state.latch:
+            raise RefusedError(robot, "latched", f"It was stopped by {state.stopped_by or 'its gateway'}.")
+
+    async def _until(self, robot: str, is_so: Callable[[Robot], bool], within_s: float) -> bool:
+        with suppress(TimeoutError):
+            async with asyncio.timeout(within_s):
+                while not is_so(self._present(robot)):
+                    await self._next()
+                return True
+        return False
+
+    async def _next(self) -> None:
+        """Until something was heard, or for a moment: silence is no news."""
+        with suppress(TimeoutError):
+            async with asyncio.timeout(LOOK_S):
+                await self._news.wait()
+
+    def _present(self, robot: str) -> Robot:
+        heard = self._console.robot(robot)
+        if heard is None or heard.presence == "silent":
+            raise NoAnswerError(f"{robot} does not answer any more: what it does is unknown.")
+        return heard
+
+    async def _ask(self, robot: str, verb: Any, **fields: Any) -> Done:
+        answered = self._console.request(robot, verb, **fields)
+        try:
+            async with asyncio.timeout(ANSWER_S):
+                return await asyncio.wrap_future(answered)
+        except TimeoutError:
+            raise NoAnswerError(f"{robot} did not answer in {ANSWER_S:g} s.") from None
+
+    async def _beat(self) -> None:
+        while True:
+            if self._is_watched():
+                self._console.beat()
+            await asyncio.sleep(BEAT_S)
+
+
+def is_running(heard: Robot) -> bool:
+    return heard.state is not None and heard.state.running is not None

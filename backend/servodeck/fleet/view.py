@@ -1,0 +1,315 @@
+"""A fleet as a page shows it: each robot in a few values, what was asked of them, what happened, and the
+groups into which people sort them. Counts a revision up with each change, so that a page asks only for what
+is new.
+
+Knows what a console has heard; no broker, no HTTP.
+"""
+
+import asyncio
+import logging
+from collections import deque
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Annotated, Literal, TypeVar
+
+from pydantic import Field, ValidationError
+
+from servodeck.files import BackgroundFile
+from servodeck.fleet.console import Console, Presence, Robot
+from servodeck.fleet.messages import State
+from servodeck.schema import Message
+from servodeck.snapshots import BatteryState, LinkStatus, ServoLimits, StoredGroup, Whole
+
+T = TypeVar("T")
+GROUPS_FILE = "fleet-groups.json"
+KEPT_EVENTS = 200
+# How often a page hears of changes at most: a viewer may ask twice a second.
+EACH_S = 0.6
+# A page that waits longer could take its gateway for dead.
+LONGEST_WAIT_S = 10.0
+# A page asks again at once; a request that was lost takes a second.
+PRESENT_S = 2.5
+AGE_STEP_MS = 10_000
+log = logging.getLogger("servodeck.fleet")
+
+
+class FleetSlot(Message):
+    slot: int
+    name: str
+
+
+class FleetRunning(Message):
+    """`name` is empty where the gateway does not know what the slot holds."""
+
+    slot: int
+    name: str
+
+
+class FleetState(Message):
+    link: LinkStatus
+    latch: bool
+    stopped_by: str | None
+    driver: str | None
+    running: FleetRunning | None
+    battery_mv: int | None
+
+
+class FleetRobot(Message):
+    """A gateway of the site and its robot. `limits`: of the servos of its robot, in the board's unit. `page`:
+    the address of its own page, empty where it has none. `seenMsAgo`: in steps of 10 s, null while it is
+    present, and where it never was. `state`: the latest one, null until one was heard.
+    """
+
+    id: str
+    name: str
+    robot: str
+    board: str
+    version: str
+    page: str
+    limits: list[ServoLimits]
+    slots: list[FleetSlot]
+    groups: list[str]
+    presence: Presence
+    seen_ms_ago: int | None
+    state: FleetState | None
+
+
+PartStatus = Literal["waiting", "busy", "done", "failed"]
+
+
+class FleetTaskPart(Message):
+    """`share` of its work that is done, 0 to 1, null where unknown. `detail` says why it failed."""
+
+    robot: str
+    status: PartStatus
+    share: float | None = None
+    detail: str | None = None
+
+
+class FleetTask(Message):
+    """What a person asked of several robots. `name`: of the action group."""
+
+    id: str
+    verb: Literal["run", "download", "resume"]
+    name: str
+    by: str
+    parts: list[FleetTaskPart]
+
+
+FleetEventKind = Literal["stopped", "resumed", "lost", "ready", "silent", "cloned", "back"]
+
+
+class FleetEvent(Message):
+    """`robot`: its name then. `atMs`: since 1970, by the clock of the gateway that serves the page."""
+
+    at_ms: Whole
+    robot: str
+    kind: FleetEventKind
+    by: str | None
+
+
+class FleetBroker(Message):
+    """The link to the broker; `detail` says why it is not connected."""
+
+    status: Literal["connected", "connecting"]
+    detail: str
+
+
+class FleetChanges(Message):
+    """All of it where `isWhole`, else what changed since the revision that was asked for."""
+
+    revision: Whole
+    is_whole: bool
+    site: str
+    broker: FleetBroker
+    robots: list[FleetRobot]
+    removed: list[str]
+    tasks: list[FleetTask]
+    events: list[FleetEvent]
+
+
+Members = Annotated[list[Annotated[str, Field(max_length=64)]], Field(max_length=1000)]
+
+
+class FleetGroups(Message):
+    """The robots of each group, by its name."""
+
+    groups: Annotated[
+        dict[Annotated[str, Field(min_length=1, max_length=64)], Members], Field(max_length=100)
+    ]
+
+
+class FleetView:
+    def __init__(self, console: Console, site: str, folder: Path | None, now_ms: Callable[[], int]) -> None:
+        """`now_ms` since 1970. Without a folder groups are forgotten at the end."""
+        self._console = console
+        self._site = site
+        self._now_ms = now_ms
+        file = folder / GROUPS_FILE if folder else None
+        self._groups = read_groups(file)
+        self._file = BackgroundFile(file, lambda: FleetGroups(groups=self._groups).model_dump_json())
+        self._revision = 1
+        self._robots: dict[str, tuple[int, FleetRobot]] = {}
+        self._removed: dict[str, int] = {}
+        self._tasks: dict[str, tuple[int, FleetTask]] = {}
+        self._events: deque[tuple[int, FleetEvent]] = deque(maxlen=KEPT_EVENTS)
+        self._broker = FleetBroker(status="connecting", detail="")
+        self._seen_at_ms: dict[str, int] = {}
+        self._asked_at_s = -PRESENT_S
+
+    async def changes(self, since: int) -> FleetChanges:
+        """Waits until there are any, for some seconds at most. A `since` of another start gets all of it."""
+        clock = asyncio.get_running_loop().time
+        until_s = clock() + LONGEST_WAIT_S
+        while True:
+            self._asked_at_s = clock()
+            self._look()
+            if not 0 < since <= self._revision:
+                return self._since(0)
+            if since < self._revision or clock() >= until_s:
+                return self._since(since)
+            await asyncio.sleep(EACH_S)
+
+    @property
+    def is_watched(self) -> bool:
+        """A page has asked for changes just now."""
+        return asyncio.get_running_loop().time() - self._asked_at_s <= PRESENT_S
+
+    def robots(self) -> Mapping[str, FleetRobot]:
+        self._look()
+        return {robot.id: robot for _, robot in self._robots.values()}
+
+    def put_task(self, task: FleetTask) -> None:
+        """New, or in place of the one with that id."""
+        self._revision += 1
+        self._tasks[task.id] = (self._revision, task)
+
+    async def set_groups(self, wanted: FleetGroups) -> None:
+        """Raises a StorageError where the disk refuses; they hold until the end then."""
+        self._groups = {name: list(dict.fromkeys(members)) for name, members in wanted.groups.items()}
+        self._look()
+        await self._file.saved()
+
+    def _look(self) -> None:
+        """Takes in what the console has heard since the last look."""
+        problem = self._console.problem
+        broker = FleetBroker(status="connecting" if problem else "connected", detail=problem or "")
+        if broker != self._broker:
+            self._broker = broker
+            self._revision += 1
+        heard = {one.name: self._robot(one) for one in self._console.robots()}
+        for name, robot in heard.items():
+            _, before = self._robots.get(name, (0, None))
+            if robot != before:
+                self._revision += 1
+                self._robots[name] = (self._revision, robot)
+                self._removed.pop(name, None)
+                self._note(before, robot)
+        for name in self._robots.keys() - heard.keys():
+            self._revision += 1
+            del self._robots[name]
+            self._removed[name] = self._revision
+
+    def _note(self, before: FleetRobot | None, robot: FleetRobot) -> None:
+        """What a person wants to read later. The first look is no event."""
+        if before is None:
+            return
+        kind = event_of(before, robot)
+        if kind is not None:
+            by = robot.state.stopped_by if kind == "stopped" and robot.state else None
+            event = FleetEvent(at_ms=self._now_ms(), robot=robot.name, kind=kind, by=by)
+            self._events.append((self._revision, event))
+
+    def _since(self, since: int) -> FleetChanges:
+        def of(entries: Mapping[str, tuple[int, T]]) -> list[T]:
+            return [one for revision, one in entries.values() if revision > since]
+
+        return FleetChanges(
+            revision=self._revision,
+            is_whole=since == 0,
+            site=self._site,
+            broker=self._broker,
+            robots=of(self._robots),
+            removed=[name for name, revision in self._removed.items() if since and revision > since],
+            tasks=of(self._tasks),
+            events=[event for revision, event in self._events if revision > since],
+        )
+
+    def _robot(self, heard: Robot) -> FleetRobot:
+        about, state, name = heard.about, heard.state, heard.name
+        slots = about.slots if about else {}
+        return FleetRobot(
+            id=name,
+            name=about.name if about and about.name else name,
+            robot=about.robot if about else "",
+            board=about.board if about else "unknown",
+            version=about.version if about else "",
+            page=about.page if about else "",
+            limits=about.servos if about else [],
+            slots=[FleetSlot(slot=int(slot), name=group.name) for slot, group in slots.items()],
+            groups=sorted(group for group, members in self._groups.items() if name in members),
+            presence=heard.presence,
+            seen_ms_ago=self._seen_ms_ago(heard),
+            state=state_of(state, slots) if state else None,
+        )
+
+    def _seen_ms_ago(self, heard: Robot) -> int | None:
+        now_ms = self._now_ms()
+        if heard.presence != "silent":
+            self._seen_at_ms[heard.name] = now_ms
+            return None
+        seen_at_ms = self._seen_at_ms.get(heard.name)
+        return None if seen_at_ms is None else (now_ms - seen_at_ms) // AGE_STEP_MS * AGE_STEP_MS
+
+
+def state_of(state: State, slots: Mapping[str, StoredGroup]) -> FleetState:
+    running = state.running
+    named = slots.get(str(running.slot)) if running else None
+    return FleetState(
+        link=state.link.status,
+        latch=state.latch,
+        stopped_by=state.stopped_by,
+        driver=state.driver,
+        running=FleetRunning(slot=running.slot, name=named.name if named else "") if running else None,
+        battery_mv=battery_mv_of(state.battery),
+    )
+
+
+def battery_mv_of(battery: BatteryState) -> int | None:
+    """The last one that the board has reported."""
+    match battery.kind:
+        case "read":
+            return battery.battery_mv
+        case "silent":
+            return battery.last_mv
+        case "unread":
+            return None
+
+
+def event_of(before: FleetRobot, now: FleetRobot) -> FleetEventKind | None:
+    """The one change that a person wants to read of, if there is one."""
+    if before.presence == "silent" and before.seen_ms_ago is None:
+        return None  # what the broker had kept of it came before what it says now
+    if now.presence != before.presence:
+        return "back" if now.presence == "present" else now.presence
+    if before.state is None or now.state is None:
+        return None
+    if now.state.latch != before.state.latch:
+        return "stopped" if now.state.latch else "resumed"
+    was_ready, is_ready = before.state.link == "ready", now.state.link == "ready"
+    if was_ready != is_ready:
+        return "ready" if is_ready else "lost"
+    return None
+
+
+def read_groups(file: Path | None) -> dict[str, list[str]]:
+    """Empty where they were never stored, or cannot be read: they are a convenience."""
+    if file is None:
+        return {}
+    try:
+        return FleetGroups.model_validate_json(file.read_text("utf-8")).groups
+    except FileNotFoundError:
+        return {}
+    except (OSError, ValidationError):
+        log.warning("%s cannot be read: the groups of robots are empty", file)
+        return {}

@@ -1,0 +1,223 @@
+"""The page of a fleet over HTTP: a real Mosquitto, gateways with ports of which the test sees every packet,
+and the application that serves the page, as a browser asks it.
+"""
+
+import asyncio
+import json
+from collections.abc import AsyncIterator, Callable, Iterator
+from contextlib import asynccontextmanager
+from pathlib import Path
+from typing import Any
+
+import pytest
+from httpx2 import AsyncClient
+
+from servodeck.api.app import create_app
+from servodeck.fleet.service import FleetService
+from servodeck.fleet.view import GROUPS_FILE
+from servodeck.library.library import wall_clock_ms
+from servodeck.robot.control import Control
+from servodeck.robot.latch import Cause
+from tests.fake_port import FakePorts
+from tests.fleet import Fleet, Gateway, eventually, fleet_on
+from tests.mosquitto import LAB, Mosquitto, needs_mosquitto
+from tests.running import NO_LIBRARY, client_of, entrance_to
+
+pytestmark = [pytest.mark.slow, needs_mosquitto]
+NAMES = ("arm-1", "arm-2")
+RUN, STOP, DOWNLOAD = 6, 7, 25
+WITHIN_S = 10.0
+GROUP = {"slot": 4, "name": "Bow", "frames": [{"durationMs": 400, "positions": {"1": 1200}}]}
+Stage = tuple[Mosquitto, Fleet, list[Gateway]]
+
+
+@pytest.fixture
+def stage(tmp_path: Path) -> Iterator[Stage]:
+    mosquitto = Mosquitto(tmp_path / "broker", NAMES)
+    mosquitto.start()
+    try:
+        with fleet_on(mosquitto, NAMES) as (fleet, gateways):
+            yield mosquitto, fleet, gateways
+    finally:
+        mosquitto.kill()
+
+
+class Page:
+    """As frontend/src/fleet/fleetStore.ts follows it."""
+
+    def __init__(self, client: AsyncClient) -> None:
+        self.client = client
+        self.robots: dict[str, Any] = {}
+        self.tasks: dict[str, Any] = {}
+        self.events: list[Any] = []
+        self._revision = 0
+
+    async def follow(self) -> None:
+        changes = (await self.client.get("/api/fleet", params={"since": self._revision})).json()
+        assert changes["site"] == "lab"
+        self._revision = changes["revision"]
+        self.robots |= {one["id"]: one for one in changes["robots"]}
+        self.tasks |= {one["id"]: one for one in changes["tasks"]}
+        self.events += changes["events"]
+
+    async def until(self, is_so: Callable[[], bool]) -> None:
+        async with asyncio.timeout(WITHIN_S):
+            while not is_so():
+                await self.follow()
+
+    async def ask(self, path: str, **body: Any) -> dict[str, Any]:
+        answer = await self.client.post(f"/api/fleet/{path}", json=body)
+        assert answer.status_code == 200, answer.text
+        said: dict[str, Any] = answer.json()
+        return said
+
+    def statuses(self, task: str) -> dict[str, str]:
+        parts = self.tasks[task]["parts"] if task in self.tasks else []
+        return {part["robot"]: part["status"] for part in parts}
+
+    async def over(self, task: dict[str, Any]) -> dict[str, str]:
+        """How it ended at each robot."""
+        await self.until(lambda: self._is_over(task["id"]))
+        return self.statuses(task["id"])
+
+    def _is_over(self, task: str) -> bool:
+        statuses = set(self.statuses(task).values())
+        return bool(statuses) and statuses <= {"done", "failed"}
+
+
+@asynccontextmanager
+async def page_of(stage: Stage, folder: Path | None = None) -> AsyncIterator[Page]:
+    mosquitto, _, _ = stage
+    service = FleetService(mosquitto.broker_for("anna"), LAB, folder, wall_clock_ms)
+    control = Control(FakePorts(), asyncio.get_running_loop().time, "doc", None)
+    service.start()
+    try:
+        async with client_of(create_app(control, NO_LIBRARY, entrance_to(), fleet=service)) as client:
+            page = Page(client)
+            await page.until(lambda: presences(page) == dict.fromkeys(NAMES, "present"))
+            yield page
+    finally:
+        await service.end()
+
+
+def presences(page: Page) -> dict[str, str]:
+    return {name: robot["presence"] for name, robot in page.robots.items()}
+
+
+async def awaits(is_so: Callable[[], bool]) -> None:
+    assert await asyncio.to_thread(eventually, is_so)
+
+
+async def test_stop_all_reaches_every_robot_and_says_so(stage: Stage) -> None:
+    _, _, gateways = stage
+    async with page_of(stage) as page:
+        said = await page.ask("stop", robots=None)
+        assert said == {"reached": list(NAMES), "notReached": []}
+        assert all(gateway.control.latch and gateway.count(STOP) for gateway in gateways)
+        await page.until(lambda: all(one["state"]["latch"] for one in page.robots.values()))
+        await page.until(lambda: len(page.events) == len(NAMES))
+        assert {event["kind"] for event in page.events} == {"stopped"}
+        assert {event["by"] for event in page.events} == {"anna"}
+
+
+async def test_a_stop_of_some_leaves_the_others(stage: Stage) -> None:
+    _, _, (first, second) = stage
+    async with page_of(stage) as page:
+        assert (await page.ask("stop", robots=["arm-2"]))["reached"] == ["arm-2"]
+        assert (first.control.latch, second.control.latch) == (False, True)
+
+
+async def test_who_is_not_reached_is_named(stage: Stage) -> None:
+    _, fleet, (first, _) = stage
+    async with page_of(stage) as page:
+        await asyncio.to_thread(fleet.call, first.door.end)
+        said = await page.ask("stop", robots=list(NAMES))
+        assert said == {"reached": ["arm-2"], "notReached": ["arm-1"]}
+
+
+async def test_a_group_is_stored_on_all_and_run_on_all(stage: Stage) -> None:
+    _, _, gateways = stage
+    async with page_of(stage) as page:
+        stored = await page.ask("download", robots=list(NAMES), group=GROUP)
+        assert await page.over(stored) == dict.fromkeys(NAMES, "done")
+        assert all(gateway.count(DOWNLOAD) for gateway in gateways)
+        await page.until(lambda: all(one["slots"] for one in page.robots.values()))
+        assert page.robots["arm-1"]["slots"] == [{"slot": 4, "name": "Bow"}]
+        runs = [{"robot": name, "slot": 4} for name in NAMES]
+        running = await page.ask("run", name="Bow", runs=runs)
+        await awaits(lambda: all(gateway.count(RUN) == 1 for gateway in gateways))
+        assert await page.over(running) == dict.fromkeys(NAMES, "done")
+        await page.until(lambda: all(one["state"]["driver"] is None for one in page.robots.values()))
+
+
+async def test_robots_that_start_together_all_start(stage: Stage) -> None:
+    _, _, gateways = stage
+    async with page_of(stage) as page:
+        await page.over(await page.ask("download", robots=list(NAMES), group=GROUP))
+        runs = [{"robot": name, "slot": 4} for name in NAMES]
+        task = await page.ask("run", runs=runs, together=True)
+        assert await page.over(task) == dict.fromkeys(NAMES, "done")
+        assert [gateway.count(RUN) for gateway in gateways] == [1, 1]
+
+
+async def test_none_starts_together_where_one_is_stopped_and_the_failed_are_tried_again(stage: Stage) -> None:
+    _, _, gateways = stage
+    async with page_of(stage) as page:
+        await page.over(await page.ask("download", robots=list(NAMES), group=GROUP))
+        await page.ask("stop", robots=["arm-2"])
+        runs = [{"robot": name, "slot": 4} for name in NAMES]
+        task = await page.ask("run", runs=runs, together=True)
+        assert await page.over(task) == dict.fromkeys(NAMES, "failed")
+        assert "arm-2" in page.tasks[task["id"]]["parts"][0]["detail"]
+        assert [gateway.count(RUN) for gateway in gateways] == [0, 0]
+        assert await page.over(await page.ask("resume", robots=["arm-2"])) == {"arm-2": "done"}
+        await page.ask(f"tasks/{task['id']}/retry")
+        await page.until(lambda: set(page.statuses(task["id"]).values()) == {"done"})
+        assert [gateway.count(RUN) for gateway in gateways] == [1, 1]
+
+
+async def test_a_robot_that_cannot_run_fails_alone_and_says_why(stage: Stage) -> None:
+    _, fleet, (_, second) = stage
+    async with page_of(stage) as page:
+        await page.over(await page.ask("download", robots=list(NAMES), group=GROUP))
+        await asyncio.to_thread(fleet.do, stopped(second))
+        task = await page.ask("run", runs=[{"robot": name, "slot": 4} for name in NAMES])
+        assert await page.over(task) == {"arm-1": "done", "arm-2": "failed"}
+        assert "Stopped" in page.tasks[task["id"]]["parts"][1]["detail"]
+
+
+async def stopped(gateway: Gateway) -> None:
+    await gateway.control.stop(Cause("person", "Bert"))
+
+
+async def test_a_page_that_is_closed_has_no_driver_any_more_and_the_group_is_stopped(stage: Stage) -> None:
+    _, _, (first, _) = stage
+    async with page_of(stage) as page:
+        await page.over(await page.ask("download", robots=["arm-1"], group=GROUP))
+        await page.ask("run", runs=[{"robot": "arm-1", "slot": 4}], times=60000)
+        await awaits(lambda: first.count(RUN) == 1)
+        await awaits(lambda: first.count(STOP) > 0)  # nobody asks for changes any more
+
+
+async def test_groups_of_robots_are_kept(stage: Stage, tmp_path: Path) -> None:
+    async with page_of(stage, tmp_path) as page:
+        wanted = {"groups": {"Table 1": ["arm-2"]}}
+        assert (await page.client.put("/api/fleet/groups", json=wanted)).status_code == 204
+        await page.until(lambda: page.robots["arm-2"]["groups"] == ["Table 1"])
+    assert json.loads((tmp_path / GROUPS_FILE).read_text("utf-8")) == wanted
+    async with page_of(stage, tmp_path) as page:
+        assert page.robots["arm-2"]["groups"] == ["Table 1"]
+
+
+async def test_a_damaged_list_of_groups_is_an_empty_one(stage: Stage, tmp_path: Path) -> None:
+    (tmp_path / GROUPS_FILE).write_text("{", "utf-8")
+    async with page_of(stage, tmp_path) as page:
+        assert page.robots["arm-1"]["groups"] == []
+
+
+async def test_a_gateway_without_a_fleet_says_how_it_gets_one() -> None:
+    control = Control(FakePorts(), asyncio.get_running_loop().time, "doc", None)
+    async with client_of(create_app(control, NO_LIBRARY, entrance_to())) as client:
+        answer = await client.get("/api/fleet")
+    assert answer.status_code == 404
+    assert "--fleet" in answer.json()["detail"]

@@ -1,0 +1,36 @@
+// The entry of the fleet page. Who is not let in is sent to the dashboard, which pairs.
+
+import { StrictMode } from 'react';
+import { createRoot } from 'react-dom/client';
+import { preferredLanguage, speak } from '../i18n/words.ts';
+import { readMe } from '../features/people/people.ts';
+import { browserClock } from '../robot/links/browserClock.ts';
+import { gatewayFleet } from '../fleet/fleetApi.ts';
+import { FleetPage } from '../fleet/FleetPage.tsx';
+import { createFleet } from '../fleet/fleetStore.ts';
+import '../ui/fonts.css';
+import '../ui/tokens.css';
+import '../ui/base.css';
+
+const element = document.getElementById('page');
+if (element === null) throw new Error('fleet.html has no #page');
+const root = createRoot(element);
+
+async function start(): Promise<void> {
+  await speak(preferredLanguage(navigator.languages));
+  const me = await readMe();
+  const role = me === null ? null : me.you?.role;
+  if (role === undefined || role === 'stopper') {
+    location.replace('./');
+    return;
+  }
+  const fleet = createFleet(gatewayFleet, browserClock);
+  root.render(
+    <StrictMode>
+      <FleetPage fleet={fleet} mayDrive={role === 'driver' || role === 'owner'} />
+    </StrictMode>,
+  );
+  await fleet.follow(new AbortController().signal);
+}
+
+void start();

@@ -1,0 +1,94 @@
+// The fleet page in its states: robots in every condition, tasks and events; none yet; and what does not work.
+
+import { useState } from 'react';
+import type { FleetChanges } from '#shared/client/http.generated.ts';
+import type { FleetApi } from '../../fleet/fleetApi.ts';
+import { FleetPage } from '../../fleet/FleetPage.tsx';
+import { createFleet, type FleetState } from '../../fleet/fleetStore.ts';
+import { fleetRobot } from '../../fleet/samples.ts';
+import type { Exhibit } from './exhibit.ts';
+
+const AT_MS = 1_790_000_000_000;
+const SLOTS = [
+  { slot: 3, name: 'Wave' },
+  { slot: 4, name: 'Bow' },
+];
+
+const ROBOTS: FleetChanges['robots'] = [
+  fleetRobot('Arm 1', { slots: SLOTS, groups: ['Table 1'], page: 'http://arm-1.local:8300/' }),
+  fleetRobot('Arm 2', {
+    ...{ slots: SLOTS, groups: ['Table 1'] },
+    state: { driver: 'Anna', running: { slot: 3, name: 'Wave' } },
+  }),
+  fleetRobot('Arm 3', { slots: SLOTS, groups: ['Table 2'], state: { batteryMv: 6100 } }),
+  fleetRobot('Arm 4', { slots: SLOTS, state: { latch: true, stoppedBy: 'Ben' } }),
+  fleetRobot('Arm 5', { state: { link: 'lost', batteryMv: null } }),
+  fleetRobot('Arm 6', { presence: 'silent', seenMsAgo: 130_000 }),
+  fleetRobot('Arm 7', { presence: 'cloned' }),
+  fleetRobot('Hexapod', { board: 'lsc-32', robot: 'Hexapod', state: { driver: 'Carla' } }),
+];
+
+const TASKS: FleetChanges['tasks'] = [
+  {
+    ...{ id: '1', verb: 'run', name: 'Bow', by: 'Anna' },
+    parts: [
+      { robot: 'Arm 1', status: 'done', share: null, detail: null },
+      { robot: 'Arm 5', status: 'failed', share: null, detail: 'The robot is not connected.' },
+    ],
+  },
+  {
+    ...{ id: '2', verb: 'download', name: 'Wave', by: 'Anna' },
+    parts: [
+      { robot: 'Arm 1', status: 'done', share: null, detail: null },
+      { robot: 'Arm 2', status: 'busy', share: 0.4, detail: null },
+    ],
+  },
+];
+
+const STATES: readonly { readonly name: string; readonly state: Partial<FleetState> }[] = [
+  {
+    name: 'Fleet',
+    state: {
+      ...{ robots: ROBOTS, tasks: TASKS, selected: new Set(['Arm 1', 'Arm 2', 'Arm 4']) },
+      events: [
+        { atMs: AT_MS, robot: 'Arm 4', kind: 'stopped', by: 'Ben' },
+        { atMs: AT_MS + 60_000, robot: 'Arm 5', kind: 'lost', by: null },
+      ],
+    },
+  },
+  {
+    name: 'Fleet, one not reached',
+    state: { robots: ROBOTS, stopping: { count: 8, notReached: ['Arm 6'], problem: null } },
+  },
+  { name: 'Fleet, no robots', state: {} },
+  {
+    name: 'Fleet, broker lost',
+    state: { robots: ROBOTS, broker: { status: 'connecting', detail: 'The broker cannot be reached.' } },
+  },
+];
+
+export const FLEET: readonly Exhibit[] = STATES.map(({ name, state }) => ({
+  name,
+  content: <Shown state={state} />,
+}));
+
+function Shown({ state }: { readonly state: Partial<FleetState> }) {
+  const [fleet] = useState(() => {
+    const made = createFleet(answering(), { after: () => () => undefined });
+    made.store.setState({ site: 'lab', broker: { status: 'connected', detail: '' }, ...state });
+    return made;
+  });
+  return <FleetPage fleet={fleet} mayDrive />;
+}
+
+/** Everything is done at once. */
+function answering(): FleetApi {
+  const task = { id: '9', verb: 'run', name: 'Wave', by: 'Anna', parts: [] } as const;
+  const begun = () => Promise.resolve({ ...task, parts: [] });
+  return {
+    changes: () => new Promise(() => undefined),
+    stop: (robots) => Promise.resolve({ reached: [...(robots ?? [])], notReached: [] }),
+    ...{ run: begun, download: begun, resume: begun, retry: begun },
+    setGroups: () => Promise.resolve(),
+  };
+}

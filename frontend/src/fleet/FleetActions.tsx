@@ -1,0 +1,183 @@
+// What can be asked of the selected robots: stop, run a group that all of them have, store one of the library's, resume, and put them into a
+// group of robots. A robot that cannot take part is named with the reason before anything is sent.
+
+import { useState } from 'react';
+import { GatewayProblem } from '#shared/client/request.ts';
+import type { FleetRobot } from '#shared/client/http.generated.ts';
+import { words } from '../i18n/whole.ts';
+import { Button } from '../ui/Button.tsx';
+import { Select } from '../ui/Select.tsx';
+import { NumberField } from '../ui/NumberField.tsx';
+import field from '../ui/Field.module.css';
+import { cx } from '../ui/cx.ts';
+import { SLOT_TIMES } from '#shared/profile/macro.ts';
+import { useFleet, useFleetState } from './context.ts';
+import { FleetDownload } from './FleetDownload.tsx';
+import { conditionOf, takesMotion } from './robots.ts';
+import { commonGroups, slotOf } from './slots.ts';
+import styles from './Fleet.module.css';
+
+export function FleetActions({ mayDrive }: { readonly mayDrive: boolean }) {
+  const fleet = useFleet();
+  const robots = useFleetState((state) => state.robots);
+  const selected = useFleetState((state) => state.selected);
+  const chosen = robots.filter(({ id }) => selected.has(id));
+  const ids = chosen.map(({ id }) => id);
+  const [problem, setProblem] = useState('');
+  const act = (work: () => Promise<unknown>): void => {
+    setProblem('');
+    void work().catch((error: unknown) => {
+      if (!(error instanceof GatewayProblem)) throw error;
+      setProblem(error.message);
+    });
+  };
+  return (
+    <div className={styles.actions} role="group" aria-label={words.fleet.selected({ count: chosen.length })}>
+      <strong>{words.fleet.selected({ count: chosen.length })}</strong>
+      <Button tone="danger" onPress={() => void fleet.stop(ids)}>
+        {words.fleet.stopSelected({ count: chosen.length })}
+      </Button>
+      {mayDrive && (
+        <>
+          {chosen.some((one) => conditionOf(one) === 'stopped') && (
+            <Button onPress={() => act(() => fleet.api.resume(stoppedIn(chosen)))}>
+              {words.fleet.resume({ count: stoppedIn(chosen).length })}
+            </Button>
+          )}
+          <Run robots={chosen} act={act} />
+          <FleetDownload robots={chosen} act={act} />
+          <Grouping robots={robots} ids={ids} act={act} />
+        </>
+      )}
+      <Unable robots={chosen} />
+      <p role="alert" className={styles.warning}>
+        {problem}
+      </p>
+    </div>
+  );
+}
+
+const stoppedIn = (robots: readonly FleetRobot[]): readonly string[] =>
+  robots.filter((one) => conditionOf(one) === 'stopped').map(({ id }) => id);
+
+interface PartProps {
+  readonly robots: readonly FleetRobot[];
+  act(work: () => Promise<unknown>): void;
+}
+
+function Run({ robots, act }: PartProps) {
+  const fleet = useFleet();
+  const able = robots.filter(takesMotion);
+  const names = commonGroups(able);
+  const [wanted, setWanted] = useState('');
+  const [times, setTimes] = useState(1);
+  const [wantsTogether, setTogether] = useState(true);
+  const together = wantsTogether && able.length > 1;
+  const name = names.includes(wanted) ? wanted : (names[0] ?? '');
+  if (names.length === 0)
+    return able.length === 0 ? null : <p className={styles.dim}>{words.fleet.noCommon}</p>;
+  const runs = able.map((robot) => ({ robot: robot.id, slot: slotOf(robot, name) }));
+  return (
+    <div className={styles.verb}>
+      <Select
+        label={words.fleet.groupToRun}
+        value={name}
+        options={names.map((value) => ({ value, label: value }))}
+        onChange={setWanted}
+      />
+      <NumberField
+        label={words.fleet.times}
+        value={times}
+        min={1}
+        max={SLOT_TIMES.max}
+        unit={words.macros.times}
+        onChange={setTimes}
+        onRefused={() => () => undefined}
+      />
+      {able.length > 1 && (
+        <label className={styles.check}>
+          <input
+            type="checkbox"
+            checked={wantsTogether}
+            onChange={({ target }) => setTogether(target.checked)}
+          />
+          {words.fleet.together}
+        </label>
+      )}
+      <Button
+        icon="play"
+        tone="primary"
+        onPress={() => act(() => fleet.api.run({ name, runs, times, together }))}
+      >
+        {words.fleet.run({ count: able.length })}
+      </Button>
+    </div>
+  );
+}
+
+interface GroupingProps {
+  readonly robots: readonly FleetRobot[];
+  readonly ids: readonly string[];
+  act(work: () => Promise<unknown>): void;
+}
+
+/** Puts the selected robots into a group by its name, or takes them out of all. */
+function Grouping({ robots, ids, act }: GroupingProps) {
+  const fleet = useFleet();
+  const [name, setName] = useState('');
+  const put = (group: string): void =>
+    act(async () => {
+      const groups: Record<string, string[]> = {};
+      for (const one of robots) for (const each of one.groups) (groups[each] ??= []).push(one.id);
+      for (const each of Object.keys(groups))
+        groups[each] = (groups[each] ?? []).filter((id) => !ids.includes(id));
+      if (group !== '') groups[group] = [...(groups[group] ?? []), ...ids];
+      await fleet.api.setGroups(
+        Object.fromEntries(Object.entries(groups).filter(([, all]) => all.length > 0)),
+      );
+      setName('');
+    });
+  return (
+    <form
+      className={styles.verb}
+      onSubmit={(event) => {
+        event.preventDefault();
+        if (name.trim() !== '') put(name.trim());
+      }}
+    >
+      <input
+        className={cx(field.field, styles.groupName)}
+        aria-label={words.fleet.groupName}
+        placeholder={words.fleet.groupName}
+        maxLength={64}
+        value={name}
+        onChange={({ target }) => setName(target.value)}
+      />
+      <Button type="submit" isDisabled={name.trim() === ''}>
+        {words.fleet.putIntoGroup}
+      </Button>
+      {robots.some(({ id, groups }) => ids.includes(id) && groups.length > 0) && (
+        <Button tone="quiet" onPress={() => put('')}>
+          {words.fleet.ungroup}
+        </Button>
+      )}
+    </form>
+  );
+}
+
+/** Those of the selected robots that take no part, by name and reason. */
+function Unable({ robots }: { readonly robots: readonly FleetRobot[] }) {
+  const unable = robots.filter((one) => !takesMotion(one));
+  if (unable.length === 0) return null;
+  return (
+    <p className={styles.dim}>
+      {words.fleet.unable({
+        names: words.numbers.formatNames(
+          unable.map((one) =>
+            words.fleet.because({ name: one.name, reason: words.fleet.conditions[conditionOf(one)] }),
+          ),
+        ),
+      })}
+    </p>
+  );
+}

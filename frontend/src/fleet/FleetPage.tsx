@@ -1,0 +1,168 @@
+// The fleet page: STOP of all robots, what needs a person first, and what is asked of the selected ones. Knows no gateway's routes.
+
+import type { FleetRobot } from '#shared/client/http.generated.ts';
+import { words } from '../i18n/whole.ts';
+import { useSpokenLocale } from '../i18n/words.ts';
+import { Button } from '../ui/Button.tsx';
+import { Mark } from '../ui/Chip.tsx';
+import { cx } from '../ui/cx.ts';
+import { EmptyState } from '../ui/Panel.tsx';
+import { Select } from '../ui/Select.tsx';
+import { StopKey } from '../ui/StopKey.tsx';
+import field from '../ui/Field.module.css';
+import { FleetCard } from './FleetCard.tsx';
+import { FleetActions } from './FleetActions.tsx';
+import { Events, Tasks } from './FleetWork.tsx';
+import { FleetContext, useFleet, useFleetState } from './context.ts';
+import type { Fleet, Stopping } from './fleetStore.ts';
+import { groupsIn, inOrder, matches, needsPerson, type Order } from './robots.ts';
+import styles from './Fleet.module.css';
+
+interface FleetPageProps {
+  readonly fleet: Fleet;
+  /** What the person at this page may do. */
+  readonly mayDrive: boolean;
+}
+
+export function FleetPage({ fleet, mayDrive }: FleetPageProps) {
+  useSpokenLocale();
+  return (
+    <FleetContext value={fleet}>
+      <div className={styles.page}>
+        <Header />
+        <StopKey label={words.fleet.stopAll} isDisabled={false} onStop={() => void fleet.stop(null)} />
+        <Problems />
+        <Robots mayDrive={mayDrive} />
+        <Tasks mayDrive={mayDrive} />
+        <Events />
+      </div>
+    </FleetContext>
+  );
+}
+
+function Header() {
+  const site = useFleetState((state) => state.site);
+  const robots = useFleetState((state) => state.robots);
+  const waiting = robots.filter(needsPerson).length;
+  return (
+    <header className={styles.header}>
+      <div>
+        <h1>{words.fleet.title}</h1>
+        <p className={styles.dim}>{words.fleet.siteCount({ site, count: robots.length })}</p>
+      </div>
+      <p className={styles.summary} role="status">
+        <Mark truth={waiting === 0 ? 'confirmed' : 'warning'} />
+        {waiting === 0 ? words.fleet.allWell : words.fleet.needPerson({ count: waiting })}
+      </p>
+    </header>
+  );
+}
+
+/** What stands between this page and the robots, and what the latest STOP did. */
+function Problems() {
+  const problem = useFleetState((state) => state.problem);
+  const broker = useFleetState((state) => state.broker);
+  const stopping = useFleetState((state) => state.stopping);
+  const robots = useFleetState((state) => state.robots);
+  return (
+    <div role="alert" className={styles.problems}>
+      {problem !== null && <p>{words.fleet.noGateway({ detail: problem })}</p>}
+      {problem === null && broker !== null && broker.status !== 'connected' && (
+        <p>{words.fleet.noBroker({ detail: broker.detail })}</p>
+      )}
+      {stopping !== null && <p>{stopText(stopping, robots)}</p>}
+    </div>
+  );
+}
+
+export function stopText({ count, notReached, problem }: Stopping, robots: readonly FleetRobot[]): string {
+  if (problem !== null) return words.fleet.stopFailed({ detail: problem });
+  if (notReached === null) return words.fleet.stopping({ count });
+  if (notReached.length === 0) return words.fleet.stopped({ count });
+  const names = notReached.map((id) => robots.find((one) => one.id === id)?.name ?? id);
+  return words.fleet.notReached({
+    stopped: count - notReached.length,
+    count,
+    names: words.numbers.formatNames(names),
+  });
+}
+
+function Robots({ mayDrive }: { readonly mayDrive: boolean }) {
+  const fleet = useFleet();
+  const robots = useFleetState((state) => state.robots);
+  const search = useFleetState((state) => state.search);
+  const group = useFleetState((state) => state.group);
+  const order = useFleetState((state) => state.order);
+  const selected = useFleetState((state) => state.selected);
+  const shown = inOrder(
+    robots.filter((one) => (group === null || one.groups.includes(group)) && matches(one, search)),
+    order,
+  );
+  if (robots.length === 0) {
+    return <EmptyState title={words.fleet.none} hint={words.fleet.noneHint} className={styles.empty} />;
+  }
+  const isAll = shown.length > 0 && shown.every(({ id }) => selected.has(id));
+  return (
+    <section className={styles.robots} aria-label={words.fleet.robots}>
+      <div className={styles.tools}>
+        <input
+          type="search"
+          className={cx(field.field, styles.search)}
+          aria-label={words.fleet.search}
+          placeholder={words.fleet.search}
+          value={search}
+          onChange={({ target }) => fleet.store.setState({ search: target.value })}
+        />
+        <GroupSelect robots={robots} />
+        <Select<Order>
+          label={words.fleet.order}
+          value={order}
+          options={(['urgency', 'name', 'battery'] as const).map((value) => ({
+            value,
+            label: words.fleet.orders[value],
+          }))}
+          onChange={(value) => fleet.store.setState({ order: value })}
+        />
+        <Button tone="quiet" onPress={() => fleet.selectOnly(isAll ? [] : shown.map(({ id }) => id))}>
+          {isAll ? words.fleet.selectNone : words.fleet.selectAll({ count: shown.length })}
+        </Button>
+      </div>
+      {selected.size > 0 && <FleetActions mayDrive={mayDrive} />}
+      {shown.length === 0 ? (
+        <EmptyState title={words.fleet.noMatch} hint={words.fleet.noMatchHint} />
+      ) : (
+        <ul className={styles.cards} aria-label={words.fleet.robots}>
+          {shown.map((robot) => (
+            <FleetCard
+              key={robot.id}
+              robot={robot}
+              isSelected={selected.has(robot.id)}
+              onSelect={fleet.select}
+              onStop={(id) => void fleet.stop([id])}
+            />
+          ))}
+        </ul>
+      )}
+    </section>
+  );
+}
+
+const ALL = '';
+
+function GroupSelect({ robots }: { readonly robots: readonly FleetRobot[] }) {
+  const fleet = useFleet();
+  const group = useFleetState((state) => state.group);
+  const names = groupsIn(robots);
+  if (names.length === 0) return null;
+  return (
+    <Select
+      label={words.fleet.group}
+      value={group ?? ALL}
+      options={[
+        { value: ALL, label: words.fleet.everyGroup },
+        ...names.map((name) => ({ value: name, label: name })),
+      ]}
+      onChange={(name) => fleet.store.setState({ group: name === ALL ? null : name })}
+    />
+  );
+}

@@ -1,0 +1,58 @@
+// The requests of the fleet page to the gateway that serves it. Each rejects with a GatewayProblem.
+
+import type {
+  FleetChanges,
+  FleetDownloadWish,
+  FleetGroups,
+  FleetRunWish,
+  FleetStopped,
+  FleetTask,
+} from '#shared/client/http.generated.ts';
+import { request } from '../robot/request.ts';
+
+const WITHIN_MS = 5000;
+/** The gateway answers when something changes, or after 10 s. */
+const CHANGES_WITHIN_MS = 20_000;
+
+export interface FleetApi {
+  /** What has changed since that revision; 0: all of it. */
+  changes(since: number): Promise<FleetChanges>;
+  /** null: of every robot of the site, known or not. */
+  stop(robots: readonly string[] | null): Promise<FleetStopped>;
+  run(wish: FleetRunWish): Promise<FleetTask>;
+  download(wish: FleetDownloadWish): Promise<FleetTask>;
+  /** Asks those again at which it failed. */
+  retry(task: string): Promise<FleetTask>;
+  resume(robots: readonly string[]): Promise<FleetTask>;
+  /** The groups of robots, by name. */
+  setGroups(groups: FleetGroups['groups']): Promise<void>;
+}
+
+export const gatewayFleet: FleetApi = {
+  changes: async (since) =>
+    (await request('get', '/api/fleet', {
+      withinMs: CHANGES_WITHIN_MS,
+      query: { since },
+    })) as FleetChanges,
+  stop: async (robots) =>
+    (await request('post', '/api/fleet/stop', {
+      withinMs: WITHIN_MS,
+      body: { robots: robots === null ? null : [...robots] },
+    })) as FleetStopped,
+  run: async (body) => (await request('post', '/api/fleet/run', { withinMs: WITHIN_MS, body })) as FleetTask,
+  download: async (body) =>
+    (await request('post', '/api/fleet/download', { withinMs: WITHIN_MS, body })) as FleetTask,
+  retry: async (task) =>
+    (await request('post', '/api/fleet/tasks/{task}/retry', {
+      withinMs: WITHIN_MS,
+      values: { task },
+    })) as FleetTask,
+  resume: async (robots) =>
+    (await request('post', '/api/fleet/resume', {
+      withinMs: WITHIN_MS,
+      body: { robots: [...robots] },
+    })) as FleetTask,
+  setGroups: async (groups) => {
+    await request('put', '/api/fleet/groups', { withinMs: WITHIN_MS, body: { groups } });
+  },
+};

@@ -1,0 +1,125 @@
+// The state of the fleet page: the robots as the gateway reports them, what was asked of them, and what a person has chosen. Asks for
+// changes again and again; while the gateway is away, what is shown is known to be old. Knows no view.
+
+import { createStore, type StoreApi } from 'zustand/vanilla';
+import type { Clock } from '#shared/clock.ts';
+import type { FleetChanges, FleetEvent, FleetRobot, FleetTask } from '#shared/client/http.generated.ts';
+import { GatewayProblem } from '#shared/client/request.ts';
+import type { FleetApi } from './fleetApi.ts';
+import type { Order } from './robots.ts';
+
+export interface FleetState {
+  readonly site: string;
+  readonly broker: FleetChanges['broker'] | null;
+  /** Why the gateway of this page does not answer; null while it does. */
+  readonly problem: string | null;
+  readonly robots: readonly FleetRobot[];
+  readonly tasks: readonly FleetTask[];
+  readonly events: readonly FleetEvent[];
+  readonly selected: ReadonlySet<string>;
+  readonly search: string;
+  /** The chosen group of robots; null: all. */
+  readonly group: string | null;
+  readonly order: Order;
+  readonly stopping: Stopping | null;
+}
+
+/** The latest STOP of this page: of which robots, and whom it has not reached; `notReached` is null while it is sent. */
+export interface Stopping {
+  readonly count: number;
+  readonly notReached: readonly string[] | null;
+  /** Why nothing was sent; null where it was. */
+  readonly problem: string | null;
+}
+
+export interface Fleet {
+  readonly store: StoreApi<FleetState>;
+  readonly api: FleetApi;
+  /** Follows the fleet until `signal` ends it. */
+  follow(signal: AbortSignal): Promise<void>;
+  select(id: string, isSelected: boolean): void;
+  selectOnly(ids: readonly string[]): void;
+  /** null: all robots of the site. */
+  stop(ids: readonly string[] | null): Promise<void>;
+}
+
+const MOST_EVENTS = 200;
+const RETRY_MS = 1000;
+
+export function createFleet(api: FleetApi, clock: Pick<Clock, 'after'>): Fleet {
+  const store = createStore<FleetState>(() => ({
+    site: '',
+    broker: null,
+    problem: null,
+    robots: [],
+    tasks: [],
+    events: [],
+    selected: new Set(),
+    search: '',
+    group: null,
+    order: 'urgency',
+    stopping: null,
+  }));
+  const pause = (ms: number): Promise<void> => new Promise((resolve) => void clock.after(ms, resolve));
+
+  function take(changes: FleetChanges, isWhole: boolean): void {
+    const { robots, tasks, events, selected } = store.getState();
+    const gone = new Set(changes.removed);
+    const known = isWhole ? changes.robots : merged(robots, changes.robots).filter(({ id }) => !gone.has(id));
+    const ids = new Set(known.map(({ id }) => id));
+    store.setState({
+      site: changes.site,
+      broker: changes.broker,
+      problem: null,
+      robots: known,
+      tasks: isWhole ? changes.tasks : merged(tasks, changes.tasks),
+      events: [...(isWhole ? [] : events), ...changes.events].slice(-MOST_EVENTS),
+      selected: new Set([...selected].filter((id) => ids.has(id))),
+    });
+  }
+
+  return {
+    store,
+    api,
+    async follow(signal) {
+      let since = 0;
+      while (!signal.aborted) {
+        try {
+          const changes = await api.changes(since);
+          take(changes, since === 0 || changes.isWhole);
+          since = changes.revision;
+        } catch (error) {
+          if (!(error instanceof GatewayProblem)) throw error;
+          store.setState({ problem: error.message });
+          since = 0;
+          await pause(RETRY_MS);
+        }
+      }
+    },
+    select(id, isSelected) {
+      const selected = new Set(store.getState().selected);
+      if (isSelected) selected.add(id);
+      else selected.delete(id);
+      store.setState({ selected });
+    },
+    selectOnly: (ids) => store.setState({ selected: new Set(ids) }),
+    async stop(ids) {
+      const count = ids?.length ?? store.getState().robots.length;
+      store.setState({ stopping: { count, notReached: null, problem: null } });
+      try {
+        const { notReached } = await api.stop(ids);
+        store.setState({ stopping: { count, notReached, problem: null } });
+      } catch (error) {
+        if (!(error instanceof GatewayProblem)) throw error;
+        store.setState({ stopping: { count, notReached: ids ?? [], problem: error.message } });
+      }
+    },
+  };
+}
+
+/** Newer ones in place of older ones of the same id, new ones behind. */
+function merged<T extends { readonly id: string }>(known: readonly T[], changed: readonly T[]): readonly T[] {
+  const byId = new Map(known.map((one) => [one.id, one]));
+  for (const one of changed) byId.set(one.id, one);
+  return [...byId.values()];
+}

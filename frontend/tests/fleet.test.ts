@@ -1,0 +1,58 @@
+// The fleet page: what a person reads first, the selection, and STOP of all, of some and by Esc.
+
+import type { Page } from './harness/page.ts';
+import { expect, test } from './harness/test.ts';
+
+const at = (page: Page, url: string, state: string): Promise<unknown> =>
+  page.goto(`${url}/gallery.html?language=en&state=${encodeURIComponent(state)}`);
+
+test('who needs a person comes first, and the head says how many', async ({ page, url }) => {
+  await at(page, url, 'Fleet');
+  await expect(page.getByText('5 robots need a person')).toBeVisible();
+  const cards = page.getByRole('list', { name: 'Robots' }).getByRole('listitem');
+  await expect(cards).toHaveCount(8);
+  await expect(cards.nth(0)).toContainText('Arm 7');
+  await expect(cards.nth(0)).toContainText('Name used twice');
+  await expect(cards.nth(1)).toContainText('Robot not connected');
+  await expect(cards.nth(2)).toContainText('Last seen 2 min. ago');
+  await expect(cards.nth(3)).toContainText('Stopped by Ben');
+  await expect(cards.nth(4)).toContainText('Battery low');
+  await expect(page.getByText('Arm 5: The robot is not connected.')).toBeVisible();
+  await expect(page.getByRole('button', { name: 'Try 1 again' })).toBeEnabled();
+});
+
+test('the selected robots get what they have in common; who takes no part is named', async ({
+  page,
+  url,
+}) => {
+  await at(page, url, 'Fleet');
+  const actions = page.getByRole('group', { name: '3 robots selected' });
+  await expect(actions.getByRole('combobox', { name: 'Action group to run' })).toHaveValue('Bow');
+  await expect(actions.getByRole('button', { name: 'Run on 2' })).toBeEnabled();
+  await expect(actions).toContainText('Take no part: Arm 4 (Stopped).');
+  await page.getByRole('checkbox', { name: 'Select Hexapod' }).check();
+  await expect(page.getByText('These robots have no action group in common.')).toBeVisible();
+  await page.getByRole('searchbox', { name: 'Search robots' }).fill('hexa');
+  await expect(page.getByRole('list', { name: 'Robots' }).getByRole('listitem')).toHaveCount(1);
+});
+
+test('Esc stops all, also while a person types; the button of a selection stops it alone', async ({
+  page,
+  url,
+}) => {
+  await at(page, url, 'Fleet');
+  await page.getByRole('button', { name: 'Stop these 3' }).click();
+  await expect(page.getByText('3 robots stopped')).toBeVisible();
+  await page.getByRole('searchbox', { name: 'Search robots' }).fill('arm');
+  await page.keyboard.press('Escape');
+  await expect(page.getByText('8 robots stopped')).toBeVisible();
+});
+
+test('what does not work is said in words', async ({ page, url }) => {
+  await at(page, url, 'Fleet, one not reached');
+  await expect(page.getByText('7 of 8 stopped. Not reached: Arm 6.')).toBeVisible();
+  await at(page, url, 'Fleet, no robots');
+  await expect(page.getByText('No robots yet')).toBeVisible();
+  await at(page, url, 'Fleet, broker lost');
+  await expect(page.getByText('The broker cannot be reached.')).toBeVisible();
+});
