@@ -161,13 +161,13 @@ def test_options_that_cannot_be_are_explained(options: list[str], sentence: str,
 
 
 class Home:
-    """Its client on the broker."""
+    """Its client on the broker, or one of another user."""
 
-    def __init__(self, mosquitto: Mosquitto) -> None:
+    def __init__(self, mosquitto: Mosquitto, user: str = USER) -> None:
         self.heard: dict[str, bytes] = {}
         self._ready = threading.Event()
-        self._client = mqtt.Client(CallbackAPIVersion.VERSION2, "home", protocol=mqtt.MQTTv311)
-        self._client.username_pw_set(USER, (mosquitto.folder / "secrets" / USER).read_text().strip())
+        self._client = mqtt.Client(CallbackAPIVersion.VERSION2, f"home-{user}", protocol=mqtt.MQTTv311)
+        self._client.username_pw_set(user, (mosquitto.folder / "secrets" / user).read_text().strip())
         self._client.on_message = self._on_message
         self._client.on_subscribe = lambda *_: self._ready.set()
         self._client.connect("127.0.0.1", mosquitto.port)
@@ -261,8 +261,12 @@ def store_a_group(mosquitto: Mosquitto) -> None:
 
 
 def is_ready(home: Home, gateway: Gateway) -> bool:
-    """It has heard of this gateway's group, not of an earlier one's, and nobody drives."""
-    if STATE not in home.heard or "run_4" not in home.components():
+    return "run_4" in home.components() and is_at_rest(home, gateway)
+
+
+def is_at_rest(home: Home, gateway: Gateway) -> bool:
+    """It has heard a state of this gateway, not of an earlier one, and nobody drives."""
+    if STATE not in home.heard:
         return False
     state, job = home.json_of(STATE), gateway.control.board.jobs.latest
     return bool(job and state["job"] and state["job"]["id"] == job.id and state["driver"] is None)
