@@ -94,6 +94,20 @@ def test_a_group_is_stored_and_run_on_several(mosquitto: Mosquitto, robots: Robo
 
 
 @needs_mosquitto
+def test_a_download_that_is_refused_leaves_no_driver(
+    mosquitto: Mosquitto, robots: Robots, tmp_path: Path
+) -> None:
+    maker, gateways = robots
+    maker.do(gateways[1].control.close_port())
+    wave = tmp_path / "wave.json"
+    wave.write_text(json.dumps({"frames": FRAMES}))
+    result = fleet(mosquitto, "download", f"5={wave}", "--to", "arm-1", "--to", "arm-2")
+    assert result.exit_code == FAILURE
+    assert result.stderr.startswith("arm-2: ")
+    assert [gateway.control.driving.driver for gateway in gateways] == [None, None]
+
+
+@needs_mosquitto
 def test_several_start_together_or_none(mosquitto: Mosquitto, robots: Robots) -> None:
     _, gateways = robots
     assert fleet(mosquitto, "stop", "arm-2").exit_code == 0

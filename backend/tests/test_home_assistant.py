@@ -23,6 +23,7 @@ from servodeck.fleet.messages import About
 from servodeck.snapshots import StoredGroup
 from tests.fleet import Fleet, Gateway, console_of, eventually
 from tests.mosquitto import LAB, Mosquitto, needs_mosquitto
+from tests.test_cli import Served
 from tests.test_cli import run as run_cli
 
 PREFIX = "homeassistant"
@@ -341,6 +342,29 @@ def test_it_is_taken_back_when_the_option_is_gone(mosquitto: Mosquitto, home: Ho
         assert CONFIG not in late.heard
     finally:
         late.end()
+
+
+@pytest.mark.exhaustive
+@needs_mosquitto
+def test_the_option_announces_and_its_absence_takes_back(
+    mosquitto: Mosquitto, home: Home, tmp_path: Path
+) -> None:
+    secret, data = mosquitto.folder / "secrets" / "arm-1", tmp_path / "data"
+    options = ["--mqtt", f"mqtt://arm-1@127.0.0.1:{mosquitto.port}", "--mqtt-site", "lab"]
+    options += ["--mqtt-password-file", str(secret), "--data", str(data)]
+    served = Served(*options, "--home-assistant", PREFIX)
+    try:
+        assert eventually(lambda: "stop" in home.components())
+        assert eventually((data / "home-assistant.json").exists)
+        home.press("stop")
+        served.read_until_stops(3)
+    finally:
+        served.end()
+    served = Served(*options)
+    try:
+        assert eventually(lambda: home.heard[CONFIG] == b"")
+    finally:
+        served.end()
 
 
 @pytest.mark.exhaustive

@@ -337,9 +337,15 @@ def download(
     to: Annotated[list[str], typer.Option(help="A robot. May be repeated.")],
 ) -> None:
     """Store groups on the boards of robots, one after the other on each."""
+    from servodeck.fleet.console import FleetError
+
     bodies = [group_of(text) for text in groups]
     heard(console, to)
-    jobs = {name: begin_download(console, name, bodies) for name in to}
+    try:
+        jobs = {name: begin_download(console, name, bodies) for name in to}
+    except FleetError:
+        release(console, to)
+        raise
     failed = False
     for name, job in jobs.items():
         status = end_of(console, name, job)
