@@ -13,6 +13,7 @@ import pytest
 from httpx2 import AsyncClient
 
 from servodeck.api.app import create_app
+from servodeck.fleet.messages import ResumeRequest
 from servodeck.fleet.service import FleetService
 from servodeck.fleet.view import GROUPS_FILE
 from servodeck.library.library import wall_clock_ms
@@ -174,6 +175,18 @@ async def test_none_starts_together_where_one_is_stopped_and_the_failed_are_trie
         await page.ask(f"tasks/{task['id']}/retry")
         await page.until(lambda: set(page.statuses(task["id"]).values()) == {"done"})
         assert [gateway.count(RUN) for gateway in gateways] == [1, 1]
+
+
+async def test_a_resume_is_new_enough_although_states_are_rare(
+    stage: Stage, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("servodeck.fleet.gateway.STATE_S", 60.0)
+    async with page_of(stage) as page:
+        await page.ask("stop", robots=["arm-1"])
+        await page.until(lambda: bool(page.robots["arm-1"]["state"]["latch"]))
+        monkeypatch.setattr(ResumeRequest, "WITHIN_S", 0.2)  # what it said last is older by far
+        await page.follow()
+        assert await page.over(await page.ask("resume", robots=["arm-1"])) == {"arm-1": "done"}
 
 
 async def test_a_robot_that_cannot_run_fails_alone_and_says_why(stage: Stage) -> None:

@@ -210,6 +210,7 @@ def resume(console: "Console", names: Names = None) -> None:
     console.withdraw_holds()
     for robot in robots:
         if robot.presence == "present":
+            console.ask(robot.name, "report")  # whose answer has a nonce that is new enough
             console.ask(robot.name, "resume")
             print(f"{robot.name}: motion is allowed.")
 

@@ -105,6 +105,7 @@ class FleetDriver:
     async def resume(self, robot: str) -> None:
         """Robots that come later are not stopped any more, either. Raises a FleetError."""
         self._console.withdraw_holds()
+        await self._ask(robot, "report")  # whose answer has a nonce that is new enough
         await self._ask(robot, "resume")
 
     async def _lease(self, robot: str) -> None:
@@ -115,6 +116,7 @@ class FleetDriver:
             heard = self._console.robot(robot)
             driver = heard.state.driver if heard and heard.state else None
             raise RefusedError(robot, "notDriving", f"{driver or 'Another client'} drives it.")
+        await self._ask(robot, "report")  # whose answer has a nonce that is new enough
 
     async def _release(self, robot: str) -> None:
         with suppress(FleetError):
