@@ -159,6 +159,7 @@ async def test_robots_that_start_together_all_start(stage: Stage) -> None:
         task = await page.ask("run", runs=runs, together=True)
         assert await page.over(task) == dict.fromkeys(NAMES, "done")
         assert [gateway.count(RUN) for gateway in gateways] == [1, 1]
+        await page.until(lambda: page.tasks[task["id"]]["spreadMs"] is not None)
 
 
 async def test_none_starts_together_where_one_is_stopped_and_the_failed_are_tried_again(stage: Stage) -> None:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import pytest
 
 from servodeck.errors import GatewayError
-from servodeck.fleet.messages import PrepareRequest
+from servodeck.fleet.messages import PrepareRequest, Started
 from servodeck.fleet.promises import Promise, Promises
 from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.packets import encode
@@ -31,6 +31,7 @@ class Stage:
     driver: Client
     promises: Promises
     begun: list[asyncio.Task[object]] = field(default_factory=list)
+    started: list[Started] = field(default_factory=list)
 
     def prepare(self, **other: object) -> None:
         usual = {"name": "dance", "slot": 3, "start_ms": START_S * 1000, "uncertainty_ms": 2.0}
@@ -51,13 +52,14 @@ async def stage() -> AsyncIterator[Stage]:
         driver = Client(control, ANNA)
         control.driving.act(driver, "request")
         begun: list[asyncio.Task[object]] = []
+        started: list[Started] = []
 
         def run(promise: Promise) -> None:
             command = promise.command
             work = control.operations.run(promise, command.slot, command.times)
             begun.append(asyncio.get_running_loop().create_task(work))
 
-        yield Stage(control, board, driver, Promises(control, run), begun)
+        yield Stage(control, board, driver, Promises(control, run, started.append), begun, started)
         await asyncio.gather(*begun, return_exceptions=True)
 
 
@@ -70,6 +72,7 @@ async def test_a_committed_promise_starts_at_its_time() -> None:
         assert here.runs_s() == []
         await asyncio.sleep(0.5)
         assert here.runs_s() == [START_S]
+        assert here.started == [Started(name="dance", late_ms=0.0)]
 
 
 @in_virtual_time
@@ -78,6 +81,7 @@ async def test_nothing_starts_without_a_commit() -> None:
         here.prepare()
         await asyncio.sleep(START_S)
         assert here.runs_s() == []
+        assert here.started == []
         assert not here.commit()
 
 

@@ -138,6 +138,7 @@ FLEET_TASK = {
         {"robot": "arm-1", "status": "done", "share": None, "detail": None},
         {"robot": "arm-2", "status": "failed", "share": None, "detail": "The robot is stopped."},
     ],
+    "spreadMs": 3.2,
 }
 FLEET_ROBOT = {
     "id": "arm-1",
@@ -147,6 +148,7 @@ FLEET_ROBOT = {
     "version": "0.1.0",
     "page": "http://arm-1.local:8300/",
     "limits": [{"servo": 1, "name": "Base", "min": 600, "max": 2400}],
+    "lowBatteryMv": 6900,
     "slots": [{"slot": 3, "name": "Wave"}],
     "groups": ["Table 1"],
     "presence": "present",

@@ -17,7 +17,7 @@ from servodeck.callers import Caller
 from servodeck.errors import NotFoundError
 from servodeck.fleet.driving import Share
 from servodeck.fleet.service import FleetService
-from servodeck.fleet.tasks import Order
+from servodeck.fleet.tasks import Order, Spread
 from servodeck.fleet.view import FleetChanges, FleetGroups, FleetTask
 from servodeck.intents import GroupBody, Slot
 from servodeck.schema import Message
@@ -106,8 +106,8 @@ async def run(wish: FleetRunWish, fleet: OfFleet, caller: Annotated[Caller, DRIV
     async def finish(robot: str, _share: Share) -> None:
         await fleet.driver.finish(robot)
 
-    async def begin(robots: Sequence[str]) -> None:
-        await fleet.driver.start_together({robot: slots[robot] for robot in robots}, wish.times)
+    async def begin(robots: Sequence[str]) -> Spread:
+        return await fleet.driver.start_together({robot: slots[robot] for robot in robots}, wish.times)
 
     together = Order("run", wish.name, caller.name, finish, begin)
     order = together if wish.together else Order("run", wish.name, caller.name, run_one)

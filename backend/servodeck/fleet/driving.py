@@ -11,7 +11,7 @@ from typing import Any
 
 from servodeck.fleet.console import Console, FleetError, NoAnswerError, RefusedError, Robot
 from servodeck.fleet.messages import Done
-from servodeck.fleet.together import start_together
+from servodeck.fleet.together import new_name, spread_ms, start_together
 from servodeck.intents import GroupBody
 from servodeck.threads import in_thread
 
@@ -72,18 +72,20 @@ class FleetDriver:
         finally:
             await self._release(robot)
 
-    async def start_together(self, slots: Mapping[str, int], times: int) -> None:
+    async def start_together(self, slots: Mapping[str, int], times: int) -> Callable[[], float | None]:
         """All at the same time, or none. Raises a FleetError that names whom it failed at; `finish` follows
-        for each where it has started.
+        for each where it has started. Answers with what knows how many ms apart they have begun.
         """
+        name = new_name()
         try:
             for robot in slots:
                 await self._lease(robot)
-            await in_thread(lambda: start_together(self._console, list(slots), slots, times))
+            await in_thread(lambda: start_together(self._console, list(slots), slots, times, name=name))
         except BaseException:
             for robot in slots:
                 await self._release(robot)
             raise
+        return lambda: spread_ms(self._console, list(slots), name)
 
     async def finish(self, robot: str) -> None:
         """Until what was started has ended. Raises a FleetError."""

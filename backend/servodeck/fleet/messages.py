@@ -66,6 +66,15 @@ class Online(Report):
     is_online: bool
 
 
+class Started(Report):
+    """The latest promise to start that was kept, by its name: the first bit of the run left the gateway
+    `lateMs` after its time, by its own clock.
+    """
+
+    name: str
+    late_ms: float
+
+
 class State(Report):
     """Retained, each second and whenever it changes. `nonce` goes into requests and shows how old they are.
     `isCloned`: another gateway has the same name, so neither takes requests but stop. `unheld`: motion that
@@ -90,6 +99,7 @@ class State(Report):
     job: JobState | None
     unattended: UnattendedRun | None
     battery: Annotated[BatteryState, Field(discriminator="kind")]
+    started: Started | None = None
 
 
 class Live(Report):

@@ -17,10 +17,11 @@ from servodeck.errors import (
     OutOfRangeError,
     SlotChangedError,
 )
-from servodeck.fleet.messages import PrepareRequest
+from servodeck.fleet.messages import PrepareRequest, Started
 from servodeck.port.wire import Left
 from servodeck.protocol.families import check
 from servodeck.protocol.packets import RUN, encoded
+from servodeck.protocol.timings import wire_ms
 from servodeck.protocol.values import Run
 from servodeck.robot.control import Control
 from servodeck.robot.hub import Session
@@ -35,9 +36,18 @@ log = logging.getLogger("servodeck.fleet")
 class Promise:
     """As a claim of the run: no nonce is young enough then, so the driver's latest sign of life counts."""
 
-    def __init__(self, control: Control, session: Session, name: str, command: Run) -> None:
+    def __init__(
+        self,
+        control: Control,
+        session: Session,
+        request: PrepareRequest,
+        command: Run,
+        started: Callable[[Started], None],
+    ) -> None:
         self.session = session
-        self.name = name
+        self.name = request.name
+        self._start_ms = request.start_ms
+        self._started = started
         self.command = command
         self.is_committed = False
         self._control = control
@@ -61,13 +71,24 @@ class Promise:
         """The permit is made anew for each packet."""
 
     def lasts(self, left: Left, for_s: float) -> None:
-        """As long as its driver is heard."""
+        """As long as its driver is heard. Says when the first bit has left."""
+        left.add_done_callback(self._has_left)
+
+    def _has_left(self, left: Left) -> None:
+        if left.cancelled() or left.exception():
+            return
+        packet_ms = wire_ms(len(encoded(self.command, self._control.board.family).data))
+        late_ms = self._control.now() * 1000 - packet_ms - self._start_ms
+        self._started(Started(name=self.name, late_ms=round(late_ms, 1)))
 
 
 class Promises:
-    def __init__(self, control: Control, run: Callable[[Promise], None]) -> None:
-        """`run` begins it."""
+    def __init__(
+        self, control: Control, run: Callable[[Promise], None], started: Callable[[Started], None]
+    ) -> None:
+        """`run` begins it; `started` hears when it has left."""
         self._control = control
+        self._started = started
         self._run = run
         self._promise: Promise | None = None
         self._timer: asyncio.TimerHandle | None = None
@@ -91,7 +112,7 @@ class Promises:
         judge_between("uncertaintyMs", request.uncertainty_ms, 0.0, UNCERTAIN_MS)
         left_ms = request.start_ms - control.now() * 1000
         judge_between("startMs from now", left_ms, SOONEST_MS, LATEST_MS)
-        promise = Promise(control, session, request.name, command)
+        promise = Promise(control, session, request, command, self._started)
         promise.permit()
         self.give_up()
         self._promise = promise

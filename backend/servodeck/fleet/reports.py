@@ -6,7 +6,7 @@ Reads state; sends nothing.
 from collections.abc import Callable
 
 from servodeck import __version__
-from servodeck.fleet.messages import About, Live, State
+from servodeck.fleet.messages import About, Live, Started, State
 from servodeck.robot.control import Control
 from servodeck.robot.driving import name_of
 from servodeck.robot.lease import GONE_S
@@ -63,6 +63,7 @@ class Facts:
     job: str | None
     is_held: bool
     is_unattended: bool
+    started: Started | None
 
 
 class Reports:
@@ -74,6 +75,10 @@ class Reports:
         self._nonces = nonces
         self._count = 0
         self.is_cloned = False
+        self._started: Started | None = None
+
+    def note_start(self, started: Started) -> None:
+        self._started = started
 
     def about(self) -> About:
         control = self._control
@@ -104,6 +109,7 @@ class Reports:
             job.status if job else None,
             self._control.unheld is None,
             board.unattended.by is not None,
+            self._started,
         )
 
     def state(self) -> State:
@@ -128,6 +134,7 @@ class Reports:
             job=board.jobs.latest,
             unattended=board.unattended.snapshot(),
             battery=board.battery.snapshot(),
+            started=self._started,
         )
 
     def live(self) -> Live:

@@ -71,7 +71,7 @@ class Sessions:
             CommitRequest: self._commit,
             CancelRequest: self._cancel,
         }
-        self._promises = Promises(control, self._keep_promise)
+        self._promises = Promises(control, self._keep_promise, reports.note_start)
 
     @property
     def drives(self) -> bool:

@@ -16,6 +16,8 @@ from servodeck.fleet.view import FleetTask, FleetTaskPart, FleetView, PartStatus
 from servodeck.value import value
 
 MOST_TASKS = 20
+Spread = Callable[[], float | None]
+"""How many ms apart robots have started together, as far as they have said."""
 STOPPED = "It was stopped."
 
 
@@ -29,7 +31,7 @@ class Order:
     name: str
     by: str
     carry_out: Callable[[str, Share], Awaitable[None]]
-    begin: Callable[[Sequence[str]], Awaitable[None]] | None = None
+    begin: Callable[[Sequence[str]], Awaitable[Spread]] | None = None
 
 
 class Tasks:
@@ -74,10 +76,10 @@ class Tasks:
         work.add_done_callback(lambda _: self._running.pop(task_id, None))
 
     async def _work(self, task_id: str, robots: Sequence[str]) -> None:
-        begin = self._orders[task_id].begin
+        begin, spread = self._orders[task_id].begin, no_spread
         if begin:
             try:
-                await begin(robots)
+                spread = await begin(robots)
             except (FleetError, asyncio.CancelledError) as error:
                 # Of one that may be another than this: the sentence names it.
                 detail = STOPPED if isinstance(error, asyncio.CancelledError) else str(error)
@@ -85,6 +87,7 @@ class Tasks:
                     self._part(task_id, robot, "failed", detail=detail)
                 return
         await asyncio.gather(*(self._one(task_id, robot) for robot in robots))
+        self._set(self._tasks[task_id].model_copy(update={"spread_ms": spread()}))
 
     async def _one(self, task_id: str, robot: str) -> None:
         self._part(task_id, robot, "busy")
@@ -128,3 +131,7 @@ class Tasks:
 def reason_of(error: FleetError) -> str:
     """Without the robot's name, beside which it stands."""
     return error.detail if isinstance(error, RefusedError) else str(error)
+
+
+def no_spread() -> float | None:
+    return None

@@ -27,14 +27,15 @@ def start_together(
     times: int = 1,
     versions: Mapping[str, str] | None = None,
     lead_s: float = LEAD_S,
+    name: str = "",
 ) -> float:
     """On robots of which the console has the lease. `slot`: the same one of all, or one of each. `versions`:
-    by gateway, what its slot has to hold.
+    by gateway, what its slot has to hold. `name` is what gateways call this start in their state.
     Returns at the start, with its time by the console's clock; raises a FleetError where nothing starts,
     unless a gateway that had committed cannot be reached any more.
     """
     clocks = {gateway: clock_of(console, gateway) for gateway in gateways}
-    name, start_s = secrets.token_hex(8), console.now_s + lead_s
+    name, start_s = name or new_name(), console.now_s + lead_s
     console.beat()
     try:
         prepared = {
@@ -63,6 +64,18 @@ def start_together(
         console.beat()
         console.until(lambda: False, min(left_s, BEAT_S))
     return start_s
+
+
+def new_name() -> str:
+    return secrets.token_hex(8)
+
+
+def spread_ms(console: Console, gateways: Collection[str], name: str) -> float | None:
+    """Between the first and the last of them that has reported that start; None where fewer than two have."""
+    robots = [console.robot(gateway) for gateway in gateways]
+    started = [robot.state.started for robot in robots if robot and robot.state and robot.state.started]
+    late_ms = [one.late_ms for one in started if one.name == name]
+    return max(late_ms) - min(late_ms) if len(late_ms) > 1 else None
 
 
 def clock_of(console: Console, gateway: str) -> tuple[float, float]:

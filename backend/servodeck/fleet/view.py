@@ -55,7 +55,8 @@ class FleetState(Message):
 
 
 class FleetRobot(Message):
-    """A gateway of the site and its robot. `limits`: of the servos of its robot, in the board's unit. `page`:
+    """A gateway of the site and its robot. `limits`: of the servos of its robot, in the board's unit.
+    `lowBatteryMv`: at or below, its battery is low; null where the robot does not say. `page`:
     the address of its own page, empty where it has none. `seenMsAgo`: in steps of 10 s, null while it is
     present, and where it never was. `state`: the latest one, null until one was heard.
     """
@@ -67,6 +68,7 @@ class FleetRobot(Message):
     version: str
     page: str
     limits: list[ServoLimits]
+    low_battery_mv: int | None
     slots: list[FleetSlot]
     groups: list[str]
     presence: Presence
@@ -87,13 +89,16 @@ class FleetTaskPart(Message):
 
 
 class FleetTask(Message):
-    """What a person asked of several robots. `name`: of the action group."""
+    """What a person asked of several robots. `name`: of the action group. `spreadMs`: between the first and
+    the last first bit of those that started together, by their own clocks; null where unknown.
+    """
 
     id: str
     verb: Literal["run", "download", "resume"]
     name: str
     by: str
     parts: list[FleetTaskPart]
+    spread_ms: float | None = None
 
 
 FleetEventKind = Literal["stopped", "resumed", "lost", "ready", "silent", "cloned", "back"]
@@ -246,6 +251,7 @@ class FleetView:
             version=about.version if about else "",
             page=about.page if about else "",
             limits=about.servos if about else [],
+            low_battery_mv=about.low_battery_mv if about else None,
             slots=[FleetSlot(slot=int(slot), name=group.name) for slot, group in slots.items()],
             groups=sorted(group for group, members in self._groups.items() if name in members),
             presence=heard.presence,

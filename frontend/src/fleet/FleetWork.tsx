@@ -46,6 +46,9 @@ function Task({ task, robots, mayDrive }: TaskProps) {
         <Mark truth={failed.length > 0 ? 'warning' : isOver ? 'confirmed' : 'commanded'} />
         <span>{words.fleet.taskNames[verb]({ name, by: task.by })}</span>
         <span className={styles.dim}>{text}</span>
+        {task.spreadMs !== null && (
+          <span className={styles.dim}>{words.fleet.spread({ ms: Math.round(task.spreadMs) })}</span>
+        )}
         {mayDrive && isOver && failed.length > 0 && (
           <Button onPress={() => void fleet.api.retry(task.id)}>
             {words.fleet.retry({ count: failed.length })}

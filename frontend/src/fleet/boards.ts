@@ -26,8 +26,8 @@ export function robotOf({ board, limits }: FleetRobot): Robot {
   return { ...usual, servos: usual.servos.map((one) => ({ ...one, ...own.get(one.servo) })) };
 }
 
-/** Below the warning of the supply that such a robot usually has. */
-export function isBatteryLow({ board, state }: FleetRobot): boolean {
+/** By its robot; by the supply that such a robot usually has where it does not say. */
+export function isBatteryLow({ board, lowBatteryMv, state }: FleetRobot): boolean {
   const batteryMv = state?.batteryMv ?? 0;
-  return batteryMv > 0 && batteryMv < supplyOf(usualRobotOf(board)).warnMv;
+  return batteryMv > 0 && batteryMv <= (lowBatteryMv ?? supplyOf(usualRobotOf(board)).warnMv);
 }

@@ -13,7 +13,17 @@ export function fleetRobot(
     ...{ link: 'ready', latch: false, stoppedBy: null, driver: null, running: null, batteryMv: 7500 },
   };
   return {
-    ...{ id, name: id, robot: 'Arm', board: 'lsc-6', version: '0.1.0', page: '', limits: [], slots: [] },
+    ...{
+      id,
+      name: id,
+      robot: 'Arm',
+      board: 'lsc-6',
+      version: '0.1.0',
+      page: '',
+      limits: [],
+      lowBatteryMv: null,
+      slots: [],
+    },
     ...{ groups: [], presence: 'present', seenMsAgo: null },
     state: state === null ? null : { ...ready, ...state },
     ...rest,

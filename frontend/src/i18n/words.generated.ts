@@ -2740,5 +2740,6 @@ export interface Messages {
     readonly siteCount: (values: { readonly site: string; readonly count: number }) => string;
     readonly together: string;
     readonly noDriver: string;
+    readonly spread: (values: { readonly ms: number }) => string;
   };
 }

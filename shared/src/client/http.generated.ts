@@ -1170,7 +1170,8 @@ export interface components {
     };
     /**
      * FleetRobot
-     * @description A gateway of the site and its robot. `limits`: of the servos of its robot, in the board's unit. `page`:
+     * @description A gateway of the site and its robot. `limits`: of the servos of its robot, in the board's unit.
+     *     `lowBatteryMv`: at or below, its battery is low; null where the robot does not say. `page`:
      *     the address of its own page, empty where it has none. `seenMsAgo`: in steps of 10 s, null while it is
      *     present, and where it never was. `state`: the latest one, null until one was heard.
      */
@@ -1183,6 +1184,8 @@ export interface components {
       id: string;
       /** Limits */
       limits: components['schemas']['ServoLimits'][];
+      /** Lowbatterymv */
+      lowBatteryMv: number | null;
       /** Name */
       name: string;
       /** Page */
@@ -1310,7 +1313,8 @@ export interface components {
     };
     /**
      * FleetTask
-     * @description What a person asked of several robots. `name`: of the action group.
+     * @description What a person asked of several robots. `name`: of the action group. `spreadMs`: between the first and
+     *     the last first bit of those that started together, by their own clocks; null where unknown.
      */
     FleetTask: {
       /** By */
@@ -1321,6 +1325,8 @@ export interface components {
       name: string;
       /** Parts */
       parts: components['schemas']['FleetTaskPart'][];
+      /** Spreadms */
+      spreadMs: number | null;
       /**
        * Verb
        * @enum {string}

@@ -30,14 +30,14 @@ const ROBOTS: FleetChanges['robots'] = [
 
 const TASKS: FleetChanges['tasks'] = [
   {
-    ...{ id: '1', verb: 'run', name: 'Bow', by: 'Anna' },
+    ...{ id: '1', verb: 'run', name: 'Bow', by: 'Anna', spreadMs: 3.2 },
     parts: [
       { robot: 'Arm 1', status: 'done', share: null, detail: null },
       { robot: 'Arm 5', status: 'failed', share: null, detail: 'The robot is not connected.' },
     ],
   },
   {
-    ...{ id: '2', verb: 'download', name: 'Wave', by: 'Anna' },
+    ...{ id: '2', verb: 'download', name: 'Wave', by: 'Anna', spreadMs: null },
     parts: [
       { robot: 'Arm 1', status: 'done', share: null, detail: null },
       { robot: 'Arm 2', status: 'busy', share: 0.4, detail: null },
@@ -83,7 +83,7 @@ function Shown({ state }: { readonly state: Partial<FleetState> }) {
 
 /** Everything is done at once. */
 function answering(): FleetApi {
-  const task = { id: '9', verb: 'run', name: 'Wave', by: 'Anna', parts: [] } as const;
+  const task = { id: '9', verb: 'run', name: 'Wave', by: 'Anna', spreadMs: null } as const;
   const begun = () => Promise.resolve({ ...task, parts: [] });
   return {
     changes: () => new Promise(() => undefined),
