@@ -70,7 +70,7 @@ class Promise:
     def renew(self) -> None:
         """The permit is made anew for each packet."""
 
-    def lasts(self, left: Left, for_s: float) -> None:
+    def lasts(self, left: Left, for_s: float) -> None:  # noqa: ARG002 (as a claim has it)
         """As long as its driver is heard. Says when the first bit has left."""
         left.add_done_callback(self._has_left)
 
