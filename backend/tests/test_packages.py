@@ -3,15 +3,19 @@
 import json
 import re
 import runpy
+import shutil
+import subprocess
 from importlib import import_module
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
+from urllib.request import urlopen
 
 import pytest
 from typer.testing import CliRunner
 
 from servodeck.cli.main import app
+from tests.fleet import eventually
 from tests.test_openapi import SCHEMA
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -105,3 +109,48 @@ def test_the_service_may_write_its_data_and_nothing_else() -> None:
     context = (ROOT / "packaging" / service["build"]["context"]).resolve()
     assert (context / service["build"]["dockerfile"]).read_text() == CONTAINER
     assert COMPOSE["volumes"] == {"servodeck": None}
+
+
+@pytest.fixture
+def engine() -> str:
+    """A container engine that works here."""
+    for name in ("docker", "podman"):
+        if (
+            shutil.which(name)
+            and subprocess.run([name, "info"], capture_output=True, check=False).returncode == 0
+        ):
+            return name
+    pytest.skip("no container engine runs here")
+
+
+def asked(*command: str) -> str:
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False, timeout=600)
+    assert done.returncode == 0, done.stderr
+    return done.stdout.strip()
+
+
+@pytest.mark.exhaustive
+def test_the_image_is_built_and_serves_without_a_right_to_write(engine: str) -> None:
+    assert PACKAGE["main"]() == 0
+    asked(engine, "build", "--file", "packaging/Containerfile", "--tag", "servodeck-under-test", ".")
+    rights = ["--read-only", "--tmpfs", "/tmp", "--cap-drop", "ALL", "--security-opt", "no-new-privileges"]
+    began = [engine, "run", "--detach", *rights, "--publish", "127.0.0.1::8300", "servodeck-under-test"]
+    container = asked(*began)
+    try:
+        place = asked(engine, "port", container, "8300").splitlines()[0]
+        assert eventually(lambda: health_at(place) == "ready"), asked(engine, "logs", container)
+        assert asked(engine, "exec", container, "id", "-u") == "10001"
+        refused = [engine, "exec", container, "touch", "/usr/here"]
+        assert subprocess.run(refused, capture_output=True, check=False).returncode != 0
+    finally:
+        asked(engine, "rm", "--force", container)
+
+
+def health_at(place: str) -> str | None:
+    """None while nothing answers."""
+    try:
+        with urlopen(f"http://{place}/api/health", timeout=2) as answer:
+            status: str = json.load(answer)["status"]
+            return status
+    except OSError:
+        return None
