@@ -29,6 +29,7 @@ NAMES = ("arm-1", "arm-2")
 RUN, STOP, DOWNLOAD = 6, 7, 25
 WITHIN_S = 10.0
 GROUP = {"slot": 4, "name": "Bow", "frames": [{"durationMs": 400, "positions": {"1": 1200}}]}
+LONG = {"slot": 4, "name": "Long", "frames": [{"durationMs": 9000, "positions": {"1": 1200}}]}
 Stage = tuple[Mosquitto, Fleet, list[Gateway]]
 
 
@@ -221,6 +222,29 @@ async def test_groups_of_robots_are_kept(stage: Stage, tmp_path: Path) -> None:
     assert json.loads((tmp_path / GROUPS_FILE).read_text("utf-8")) == wanted
     async with page_of(stage, tmp_path) as page:
         assert page.robots["arm-2"]["groups"] == ["Table 1"]
+
+
+async def test_cues_are_kept(stage: Stage, tmp_path: Path) -> None:
+    cue = {"name": "Bow", "robots": "", "times": 1, "stopsOthers": True}
+    async with page_of(stage, tmp_path) as page:
+        assert (await page.client.put("/api/fleet/cues", json={"cues": [cue]})).status_code == 204
+    async with page_of(stage, tmp_path) as page:
+        assert (await page.client.get("/api/fleet")).json()["cues"] == [cue]
+
+
+@pytest.mark.parametrize("stops_others", [False, True])
+async def test_where_one_fails_the_others_go_on_or_are_stopped(stage: Stage, *, stops_others: bool) -> None:
+    _, fleet, (first, second) = stage
+    async with page_of(stage) as page:
+        await page.over(await page.ask("download", robots=list(NAMES), group=LONG))
+        runs = [{"robot": name, "slot": 4} for name in NAMES]
+        task = await page.ask("run", runs=runs, stopsOthers=stops_others)
+        await awaits(lambda: first.count(RUN) == second.count(RUN) == 1)
+        await asyncio.to_thread(fleet.do, stopped(second))
+        await page.until(lambda: page.statuses(task["id"]).get("arm-2") == "failed")
+        await page.until(lambda: page.robots["arm-1"]["state"]["latch"] == stops_others)
+        assert first.control.latch == stops_others
+        await page.ask("stop", robots=None)
 
 
 async def test_a_damaged_list_of_groups_is_an_empty_one(stage: Stage, tmp_path: Path) -> None:

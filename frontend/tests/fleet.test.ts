@@ -48,6 +48,21 @@ test('Esc stops all, also while a person types; the button of a selection stops 
   await expect(page.getByText('8 robots stopped')).toBeVisible();
 });
 
+test('a cue says who is ready, GO starts it and makes the next one current', async ({ page, url }) => {
+  await at(page, url, 'Fleet');
+  const cues = page.getByRole('region', { name: 'Cues' });
+  const steps = cues.getByRole('listitem');
+  await expect(steps.nth(0)).toContainText('Wave, Table 1, 2 times');
+  await expect(steps.nth(0)).toContainText('2 of 2 ready.');
+  await expect(steps.nth(1)).toContainText('Missing: Arm 4, Arm 5, Arm 6, Arm 7, and Hexapod.');
+  await cues.getByRole('button', { name: 'GO' }).click();
+  await expect(steps.nth(1)).toHaveAttribute('aria-current', 'step');
+  await cues.getByRole('button', { name: 'Next' }).click();
+  await expect(cues.getByRole('button', { name: 'GO' })).toBeDisabled();
+  await cues.getByRole('button', { name: 'Back to start' }).click();
+  await expect(steps.nth(0)).toHaveAttribute('aria-current', 'step');
+});
+
 test('what does not work is said in words', async ({ page, url }) => {
   await at(page, url, 'Fleet, one not reached');
   await expect(page.getByText('7 of 8 stopped. Not reached: Arm 6.')).toBeVisible();

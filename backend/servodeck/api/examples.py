@@ -140,6 +140,7 @@ FLEET_TASK = {
     ],
     "spreadMs": 3.2,
 }
+FLEET_CUE = {"name": "Wave", "robots": "Table 1", "times": 2, "stopsOthers": True}
 FLEET_ROBOT = {
     "id": "arm-1",
     "name": "Arm 1",
@@ -196,6 +197,7 @@ EXAMPLES: dict[tuple[str, str], Example] = {
             "removed": [],
             "tasks": [FLEET_TASK],
             "events": [{"atMs": 1795287600000, "robot": "Arm 1", "kind": "stopped", "by": "Ben"}],
+            "cues": [FLEET_CUE],
         },
         errors=("notFound",),
     ),
@@ -223,6 +225,7 @@ EXAMPLES: dict[tuple[str, str], Example] = {
         FLEET_TASK | {"verb": "resume"}, {"robots": ["arm-2"]}, ("notFound",)
     ),
     ("POST", "/api/fleet/tasks/{task}/retry"): Example(FLEET_TASK, errors=("notFound", "conflict")),
+    ("PUT", "/api/fleet/cues"): Example(None, {"cues": [FLEET_CUE]}, ("notFound",)),
     ("PUT", "/api/fleet/groups"): Example(None, {"groups": {"Table 1": ["arm-1", "arm-2"]}}, ("notFound",)),
     ("GET", "/api/battery"): Example({"batteryMv": 7500}, errors=("closed", "lost", "noAnswer")),
     ("POST", "/api/stop"): Example(

@@ -5,7 +5,7 @@ is a client of a broker.
 """
 
 import asyncio
-from collections.abc import Sequence
+from collections.abc import Awaitable, Sequence
 from typing import Annotated
 
 from fastapi import Depends, Query
@@ -15,10 +15,11 @@ from starlette.requests import HTTPConnection
 from servodeck.api.routes import DRIVER, STOPPER, VIEWER, leaves, routes
 from servodeck.callers import Caller
 from servodeck.errors import NotFoundError
+from servodeck.fleet.console import FleetError
 from servodeck.fleet.driving import Share
 from servodeck.fleet.service import FleetService
 from servodeck.fleet.tasks import Order, Spread
-from servodeck.fleet.view import FleetChanges, FleetGroups, FleetTask
+from servodeck.fleet.view import FleetChanges, FleetCues, FleetGroups, FleetTask
 from servodeck.intents import GroupBody, Slot
 from servodeck.schema import Message
 
@@ -51,6 +52,7 @@ class FleetRunWish(Message):
     runs: Annotated[list[FleetRun], Field(min_length=1, max_length=1000)]
     times: Annotated[int, Field(ge=1, le=0xFFFF)] = 1
     together: Annotated[bool, Field(description="All at the same time, or none.")] = False
+    stops_others: Annotated[bool, Field(description="Where one fails, all of them are stopped.")] = False
 
 
 class FleetDownloadWish(Message):
@@ -101,10 +103,18 @@ async def run(wish: FleetRunWish, fleet: OfFleet, caller: Annotated[Caller, DRIV
     slots = {each.robot: each.slot for each in wish.runs}
 
     async def run_one(robot: str, _share: Share) -> None:
-        await fleet.driver.run(robot, slots[robot], wish.times)
+        await guarded(robot, fleet.driver.run(robot, slots[robot], wish.times))
 
     async def finish(robot: str, _share: Share) -> None:
-        await fleet.driver.finish(robot)
+        await guarded(robot, fleet.driver.finish(robot))
+
+    async def guarded(robot: str, running: Awaitable[None]) -> None:
+        try:
+            await running
+        except FleetError:
+            if wish.stops_others:
+                await fleet.driver.stop([other for other in slots if other != robot])
+            raise
 
     async def begin(robots: Sequence[str]) -> Spread:
         return await fleet.driver.start_together({robot: slots[robot] for robot in robots}, wish.times)
@@ -138,6 +148,12 @@ async def resume(wish: FleetResumeWish, fleet: OfFleet, caller: Annotated[Caller
 async def retry(task: str, fleet: OfFleet) -> FleetTask:
     """Asks those robots again at which it failed."""
     return fleet.tasks.retry(task)
+
+
+@fleet_api.put("/cues", status_code=204, dependencies=[DRIVER, leaves("fleetGrouped")])
+async def set_cues(wanted: FleetCues, fleet: OfFleet) -> None:
+    """The steps of a show, in place of the ones before. Starts none."""
+    await fleet.view.set_cues(wanted)
 
 
 @fleet_api.put("/groups", status_code=204, dependencies=[DRIVER, leaves("fleetGrouped")])

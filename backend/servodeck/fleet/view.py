@@ -21,7 +21,9 @@ from servodeck.schema import Message
 from servodeck.snapshots import BatteryState, LinkStatus, ServoLimits, StoredGroup, Whole
 
 T = TypeVar("T")
+M = TypeVar("M", bound=Message)
 GROUPS_FILE = "fleet-groups.json"
+CUES_FILE = "fleet-cues.json"
 KEPT_EVENTS = 200
 # How often a page hears of changes at most: a viewer may ask twice a second.
 EACH_S = 0.6
@@ -120,8 +122,23 @@ class FleetBroker(Message):
     detail: str
 
 
+class FleetCue(Message):
+    """A step of a show: the group of that name on the robots of a group of robots, empty for all."""
+
+    name: Annotated[str, Field(min_length=1, max_length=64)]
+    robots: Annotated[str, Field(max_length=64)]
+    times: Annotated[int, Field(ge=1, le=0xFFFF)]
+    stops_others: Annotated[bool, Field(description="Where one robot fails, all of the cue are stopped.")]
+
+
+class FleetCues(Message):
+    cues: Annotated[list[FleetCue], Field(max_length=200)]
+
+
 class FleetChanges(Message):
-    """All of it where `isWhole`, else what changed since the revision that was asked for."""
+    """All of it where `isWhole`, else what changed since the revision that was asked for; `cues` are always
+    all of them.
+    """
 
     revision: Whole
     is_whole: bool
@@ -131,6 +148,7 @@ class FleetChanges(Message):
     removed: list[str]
     tasks: list[FleetTask]
     events: list[FleetEvent]
+    cues: list[FleetCue]
 
 
 Members = Annotated[list[Annotated[str, Field(max_length=64)]], Field(max_length=1000)]
@@ -151,7 +169,10 @@ class FleetView:
         self._site = site
         self._now_ms = now_ms
         file = folder / GROUPS_FILE if folder else None
-        self._groups = read_groups(file)
+        self._groups = read_list(file, FleetGroups(groups={})).groups
+        cues_file = folder / CUES_FILE if folder else None
+        self._cues = read_list(cues_file, FleetCues(cues=[]))
+        self._cues_file = BackgroundFile(cues_file, self._cues_text)
         self._file = BackgroundFile(file, lambda: FleetGroups(groups=self._groups).model_dump_json())
         self._revision = 1
         self._robots: dict[str, tuple[int, FleetRobot]] = {}
@@ -195,6 +216,15 @@ class FleetView:
         self._look()
         await self._file.saved()
 
+    async def set_cues(self, wanted: FleetCues) -> None:
+        """Raises a StorageError where the disk refuses; they hold until the end then."""
+        self._cues = wanted
+        self._revision += 1
+        await self._cues_file.saved()
+
+    def _cues_text(self) -> str:
+        return self._cues.model_dump_json()
+
     def _look(self) -> None:
         """Takes in what the console has heard since the last look."""
         problem = self._console.problem
@@ -237,6 +267,7 @@ class FleetView:
             robots=of(self._robots),
             removed=[name for name, revision in self._removed.items() if since and revision > since],
             tasks=of(self._tasks),
+            cues=self._cues.cues,
             events=[event for revision, event in self._events if revision > since],
         )
 
@@ -308,14 +339,14 @@ def event_of(before: FleetRobot, now: FleetRobot) -> FleetEventKind | None:
     return None
 
 
-def read_groups(file: Path | None) -> dict[str, list[str]]:
-    """Empty where they were never stored, or cannot be read: they are a convenience."""
+def read_list(file: Path | None, empty: M) -> M:
+    """Empty where it was never stored, or cannot be read: it is a convenience."""
     if file is None:
-        return {}
+        return empty
     try:
-        return FleetGroups.model_validate_json(file.read_text("utf-8")).groups
+        return type(empty).model_validate_json(file.read_text("utf-8"))
     except FileNotFoundError:
-        return {}
+        return empty
     except (OSError, ValidationError):
-        log.warning("%s cannot be read: the groups of robots are empty", file)
-        return {}
+        log.warning("%s cannot be read: an empty one takes its place", file)
+        return empty

@@ -13,6 +13,7 @@ import field from '../ui/Field.module.css';
 import { FleetCard } from './FleetCard.tsx';
 import { FleetActions } from './FleetActions.tsx';
 import { Events, Tasks } from './FleetWork.tsx';
+import { CueList } from './CueList.tsx';
 import { FleetContext, useFleet, useFleetState } from './context.ts';
 import type { Fleet, Stopping } from './fleetStore.ts';
 import { groupsIn, inOrder, matches, needsPerson, type Order } from './robots.ts';
@@ -33,6 +34,7 @@ export function FleetPage({ fleet, mayDrive }: FleetPageProps) {
         <StopKey label={words.fleet.stopAll} isDisabled={false} onStop={() => void fleet.stop(null)} />
         <Problems />
         <Robots mayDrive={mayDrive} />
+        <CueList mayDrive={mayDrive} />
         <Tasks mayDrive={mayDrive} />
         <Events />
       </div>

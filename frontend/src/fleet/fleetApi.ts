@@ -2,6 +2,7 @@
 
 import type {
   FleetChanges,
+  FleetCue,
   FleetDownloadWish,
   FleetGroups,
   FleetRunWish,
@@ -24,6 +25,8 @@ export interface FleetApi {
   /** Asks those again at which it failed. */
   retry(task: string): Promise<FleetTask>;
   resume(robots: readonly string[]): Promise<FleetTask>;
+  /** The cues of a show, in place of those before. */
+  setCues(cues: readonly FleetCue[]): Promise<void>;
   /** The groups of robots, by name. */
   setGroups(groups: FleetGroups['groups']): Promise<void>;
 }
@@ -52,6 +55,9 @@ export const gatewayFleet: FleetApi = {
       withinMs: WITHIN_MS,
       body: { robots: [...robots] },
     })) as FleetTask,
+  setCues: async (cues) => {
+    await request('put', '/api/fleet/cues', { withinMs: WITHIN_MS, body: { cues: [...cues] } });
+  },
   setGroups: async (groups) => {
     await request('put', '/api/fleet/groups', { withinMs: WITHIN_MS, body: { groups } });
   },

@@ -8,7 +8,7 @@ import { fleetRobot } from './samples.ts';
 
 const CHANGES: FleetChanges = {
   ...{ revision: 1, isWhole: true, site: 'lab', broker: { status: 'connected', detail: '' } },
-  ...{ robots: [], removed: [], tasks: [], events: [] },
+  ...{ robots: [], removed: [], tasks: [], events: [], cues: [] },
 };
 
 /** Answers in this order, and what was asked for; then the page is left. */
@@ -26,7 +26,15 @@ function followed(answers: readonly (Partial<FleetChanges> | Error)[], api: Part
       if (waiting.length === 0) left.abort();
       return answer instanceof Error ? Promise.reject(answer) : Promise.resolve({ ...CHANGES, ...answer });
     },
-    ...{ stop: unused, run: unused, download: unused, resume: unused, retry: unused, setGroups: unused },
+    ...{
+      stop: unused,
+      run: unused,
+      download: unused,
+      resume: unused,
+      retry: unused,
+      setGroups: unused,
+      setCues: unused,
+    },
     ...api,
   };
   const clock = createVirtualClock();

@@ -3,7 +3,13 @@
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { Clock } from '#shared/clock.ts';
-import type { FleetChanges, FleetEvent, FleetRobot, FleetTask } from '#shared/client/http.generated.ts';
+import type {
+  FleetChanges,
+  FleetCue,
+  FleetEvent,
+  FleetRobot,
+  FleetTask,
+} from '#shared/client/http.generated.ts';
 import { GatewayProblem } from '#shared/client/request.ts';
 import type { FleetApi } from './fleetApi.ts';
 import type { Order } from './robots.ts';
@@ -16,6 +22,7 @@ export interface FleetState {
   readonly robots: readonly FleetRobot[];
   readonly tasks: readonly FleetTask[];
   readonly events: readonly FleetEvent[];
+  readonly cues: readonly FleetCue[];
   readonly selected: ReadonlySet<string>;
   readonly search: string;
   /** The chosen group of robots; null: all. */
@@ -54,6 +61,7 @@ export function createFleet(api: FleetApi, clock: Pick<Clock, 'after'>): Fleet {
     robots: [],
     tasks: [],
     events: [],
+    cues: [],
     selected: new Set(),
     search: '',
     group: null,
@@ -74,6 +82,7 @@ export function createFleet(api: FleetApi, clock: Pick<Clock, 'after'>): Fleet {
       robots: known,
       tasks: isWhole ? changes.tasks : merged(tasks, changes.tasks),
       events: [...(isWhole ? [] : events), ...changes.events].slice(-MOST_EVENTS),
+      cues: changes.cues,
       selected: new Set([...selected].filter((id) => ids.has(id))),
     });
   }

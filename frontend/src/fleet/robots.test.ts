@@ -3,6 +3,7 @@ import { describe, expect, test } from 'vitest';
 import { fleetRobot } from './samples.ts';
 import { CONDITIONS, conditionOf, groupsIn, inOrder, matches, needsPerson, takesMotion } from './robots.ts';
 import { commonGroups, slotOf } from './slots.ts';
+import { cueState, wishOf } from './cues.ts';
 
 const idsOf = (robots: readonly { readonly id: string }[]): string => robots.map(({ id }) => id).join(' ');
 
@@ -124,5 +125,34 @@ describe('action groups in common', () => {
 
   test('there are none of no robots', () => {
     expect(commonGroups([])).toEqual([]);
+  });
+});
+
+describe('a cue', () => {
+  const wave = { name: 'Wave', robots: 'Table 1', times: 2, stopsOthers: true };
+  const slots = [{ slot: 3, name: 'Wave' }];
+  const robots = [
+    fleetRobot('a', { groups: ['Table 1'], slots }),
+    fleetRobot('b', { groups: ['Table 1'], slots: [{ slot: 9, name: 'Wave' }] }),
+    fleetRobot('c', { groups: ['Table 1'] }),
+    fleetRobot('d', { groups: ['Table 1'], slots, state: { latch: true } }),
+    fleetRobot('e', { groups: ['Table 2'], slots }),
+  ];
+
+  test('starts those that are ready together, each from its own slot; the others are missing', () => {
+    const { missing } = cueState(wave, robots);
+    expect(idsOf(missing)).toBe('c d');
+    expect(wishOf(wave, robots)).toEqual({
+      ...{ name: 'Wave', times: 2, together: true, stopsOthers: true },
+      runs: [
+        { robot: 'a', slot: 3 },
+        { robot: 'b', slot: 9 },
+      ],
+    });
+  });
+
+  test('without a group of robots is for all, and asks for nothing where none is ready', () => {
+    expect(idsOf(cueState({ ...wave, robots: '' }, robots).ready)).toBe('a b e');
+    expect(wishOf({ ...wave, robots: 'Table 3' }, robots)).toBeNull();
   });
 });

@@ -2741,5 +2741,23 @@ export interface Messages {
     readonly together: string;
     readonly noDriver: string;
     readonly spread: (values: { readonly ms: number }) => string;
+    readonly cues: string;
+    readonly go: string;
+    readonly skip: string;
+    readonly backToStart: string;
+    readonly removeCue: (values: { readonly name: string }) => string;
+    readonly cue: (values: { readonly name: string; readonly where: string; readonly times: number }) => string;
+    readonly ready: (values: { readonly ready: number; readonly count: number }) => string;
+    readonly missing: (values: { readonly names: string }) => string;
+    readonly addCue: string;
+    readonly noCue: string;
+    readonly groupOfCue: string;
+    readonly robotsOfCue: string;
+    readonly timesOfCue: string;
+    readonly ifOneFails: string;
+    readonly failing: {
+      readonly stop: string;
+      readonly goOn: string;
+    };
   };
 }

@@ -188,6 +188,23 @@ export interface paths {
     patch?: never;
     trace?: never;
   };
+  '/api/fleet/cues': {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    get?: never;
+    /** The steps of a show, in place of the ones before */
+    put: operations['fleetSetCues'];
+    post?: never;
+    delete?: never;
+    options?: never;
+    head?: never;
+    patch?: never;
+    trace?: never;
+  };
   '/api/fleet/download': {
     parameters: {
       query?: never;
@@ -1111,10 +1128,13 @@ export interface components {
     };
     /**
      * FleetChanges
-     * @description All of it where `isWhole`, else what changed since the revision that was asked for.
+     * @description All of it where `isWhole`, else what changed since the revision that was asked for; `cues` are always
+     *     all of them.
      */
     FleetChanges: {
       broker: components['schemas']['FleetBroker'];
+      /** Cues */
+      cues: components['schemas']['FleetCue'][];
       /** Events */
       events: components['schemas']['FleetEvent'][];
       /** Iswhole */
@@ -1129,6 +1149,28 @@ export interface components {
       site: string;
       /** Tasks */
       tasks: components['schemas']['FleetTask'][];
+    };
+    /**
+     * FleetCue
+     * @description A step of a show: the group of that name on the robots of a group of robots, empty for all.
+     */
+    FleetCue: {
+      /** Name */
+      name: string;
+      /** Robots */
+      robots: string;
+      /**
+       * Stopsothers
+       * @description Where one robot fails, all of the cue are stopped.
+       */
+      stopsOthers: boolean;
+      /** Times */
+      times: number;
+    };
+    /** FleetCues */
+    FleetCues: {
+      /** Cues */
+      cues: components['schemas']['FleetCue'][];
     };
     /** FleetDownloadWish */
     FleetDownloadWish: {
@@ -1234,6 +1276,12 @@ export interface components {
       name?: string;
       /** Runs */
       runs: components['schemas']['FleetRun'][];
+      /**
+       * Stopsothers
+       * @description Where one fails, all of them are stopped.
+       * @default false
+       */
+      stopsOthers?: boolean;
       /**
        * Times
        * @default 1
@@ -2506,6 +2554,8 @@ export type Erased = components['schemas']['Erased'];
 export type EraseWish = components['schemas']['EraseWish'];
 export type FleetBroker = components['schemas']['FleetBroker'];
 export type FleetChanges = components['schemas']['FleetChanges'];
+export type FleetCue = components['schemas']['FleetCue'];
+export type FleetCues = components['schemas']['FleetCues'];
 export type FleetDownloadWish = components['schemas']['FleetDownloadWish'];
 export type FleetEvent = components['schemas']['FleetEvent'];
 export type FleetGroups = components['schemas']['FleetGroups'];
@@ -2920,6 +2970,28 @@ export interface operations {
         content: {
           'application/json': components['schemas']['FleetChanges'];
         };
+      };
+    };
+  };
+  fleetSetCues: {
+    parameters: {
+      query?: never;
+      header?: never;
+      path?: never;
+      cookie?: never;
+    };
+    requestBody: {
+      content: {
+        'application/json': components['schemas']['FleetCues'];
+      };
+    };
+    responses: {
+      /** @description Successful Response */
+      204: {
+        headers: {
+          [name: string]: unknown;
+        };
+        content?: never;
       };
     };
   };

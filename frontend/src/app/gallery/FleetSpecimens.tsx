@@ -50,6 +50,10 @@ const STATES: readonly { readonly name: string; readonly state: Partial<FleetSta
     name: 'Fleet',
     state: {
       ...{ robots: ROBOTS, tasks: TASKS, selected: new Set(['Arm 1', 'Arm 2', 'Arm 4']) },
+      cues: [
+        { name: 'Wave', robots: 'Table 1', times: 2, stopsOthers: true },
+        { name: 'Bow', robots: '', times: 1, stopsOthers: false },
+      ],
       events: [
         { atMs: AT_MS, robot: 'Arm 4', kind: 'stopped', by: 'Ben' },
         { atMs: AT_MS + 60_000, robot: 'Arm 5', kind: 'lost', by: null },
@@ -90,5 +94,6 @@ function answering(): FleetApi {
     stop: (robots) => Promise.resolve({ reached: [...(robots ?? [])], notReached: [] }),
     ...{ run: begun, download: begun, resume: begun, retry: begun },
     setGroups: () => Promise.resolve(),
+    setCues: () => Promise.resolve(),
   };
 }

@@ -1,0 +1,158 @@
+// The cues of a show: GO starts the current one and makes the next one current. Who is missing is named before.
+
+import { useState } from 'react';
+import { GatewayProblem } from '#shared/client/request.ts';
+import type { FleetCue, FleetRobot } from '#shared/client/http.generated.ts';
+import { SLOT_TIMES } from '#shared/profile/macro.ts';
+import { words } from '../i18n/whole.ts';
+import { Button, IconButton } from '../ui/Button.tsx';
+import { Mark } from '../ui/Chip.tsx';
+import { NumberField } from '../ui/NumberField.tsx';
+import { Select } from '../ui/Select.tsx';
+import { useFleet, useFleetState } from './context.ts';
+import { cueState, wishOf } from './cues.ts';
+import { groupsIn } from './robots.ts';
+import styles from './Fleet.module.css';
+
+const ALL = '';
+
+export function CueList({ mayDrive }: { readonly mayDrive: boolean }) {
+  const fleet = useFleet();
+  const robots = useFleetState((state) => state.robots);
+  const cues = useFleetState((state) => state.cues);
+  const [next, setNext] = useState(0);
+  const [problem, setProblem] = useState('');
+  const current = cues[next];
+  const wish = current === undefined ? null : wishOf(current, robots);
+  const act = (work: () => Promise<unknown>): void => {
+    setProblem('');
+    void work().catch((error: unknown) => {
+      if (!(error instanceof GatewayProblem)) throw error;
+      setProblem(error.message);
+    });
+  };
+  const setCues = (wanted: readonly FleetCue[]): void => act(() => fleet.api.setCues(wanted));
+  if (!mayDrive || robots.length === 0) return null;
+  return (
+    <section className={styles.work} aria-label={words.fleet.cues}>
+      <div className={styles.taskHead}>
+        <h2>{words.fleet.cues}</h2>
+        {cues.length > 0 && (
+          <>
+            <Button
+              tone="primary"
+              icon="play"
+              isDisabled={wish === null}
+              onPress={() => {
+                if (wish === null) return;
+                act(() => fleet.api.run(wish));
+                setNext(next + 1);
+              }}
+            >
+              {words.fleet.go}
+            </Button>
+            <Button isDisabled={next >= cues.length} onPress={() => setNext(next + 1)}>
+              {words.fleet.skip}
+            </Button>
+            <Button isDisabled={next === 0} onPress={() => setNext(0)}>
+              {words.fleet.backToStart}
+            </Button>
+          </>
+        )}
+      </div>
+      <p role="alert" className={styles.warning}>
+        {problem}
+      </p>
+      <ol className={styles.list}>
+        {cues.map((cue, index) => (
+          <li
+            key={`${index} ${cue.name}`}
+            className={styles.cue}
+            aria-current={index === next ? 'step' : undefined}
+          >
+            <Cue cue={cue} robots={robots} />
+            <IconButton
+              icon="trash"
+              label={words.fleet.removeCue({ name: cue.name })}
+              onPress={() => setCues(cues.filter((_, at) => at !== index))}
+            />
+          </li>
+        ))}
+      </ol>
+      <AddCue robots={robots} onAdd={(cue) => setCues([...cues, cue])} />
+    </section>
+  );
+}
+
+function Cue({ cue, robots }: { readonly cue: FleetCue; readonly robots: readonly FleetRobot[] }) {
+  const { ready, missing } = cueState(cue, robots);
+  const where = cue.robots === ALL ? words.fleet.everyGroup : cue.robots;
+  return (
+    <>
+      <Mark truth={missing.length > 0 ? 'warning' : 'confirmed'} />
+      <span className={styles.cueName}>{words.fleet.cue({ name: cue.name, where, times: cue.times })}</span>
+      <span className={styles.dim}>
+        {words.fleet.ready({ ready: ready.length, count: ready.length + missing.length })}
+        {missing.length > 0 &&
+          ` ${words.fleet.missing({ names: words.numbers.formatNames(missing.map(({ name }) => name)) })}`}
+      </span>
+    </>
+  );
+}
+
+interface AddCueProps {
+  readonly robots: readonly FleetRobot[];
+  onAdd(cue: FleetCue): void;
+}
+
+function AddCue({ robots, onAdd }: AddCueProps) {
+  const names = [...new Set(robots.flatMap(({ slots }) => slots.map(({ name }) => name)))]
+    .filter(Boolean)
+    .sort();
+  const [wanted, setWanted] = useState('');
+  const [group, setGroup] = useState(ALL);
+  const [times, setTimes] = useState(1);
+  const [failing, setFailing] = useState<'stop' | 'goOn'>('stop');
+  const name = names.includes(wanted) ? wanted : names[0];
+  if (name === undefined) return <p className={styles.dim}>{words.fleet.noCue}</p>;
+  return (
+    <div className={styles.verb}>
+      <Select
+        label={words.fleet.groupOfCue}
+        value={name}
+        options={names.map((value) => ({ value, label: value }))}
+        onChange={setWanted}
+      />
+      <Select
+        label={words.fleet.robotsOfCue}
+        value={group}
+        options={[
+          { value: ALL, label: words.fleet.everyGroup },
+          ...groupsIn(robots).map((value) => ({ value, label: value })),
+        ]}
+        onChange={setGroup}
+      />
+      <NumberField
+        label={words.fleet.timesOfCue}
+        value={times}
+        min={1}
+        max={SLOT_TIMES.max}
+        unit={words.macros.times}
+        onChange={setTimes}
+        onRefused={() => () => undefined}
+      />
+      <Select<'stop' | 'goOn'>
+        label={words.fleet.ifOneFails}
+        value={failing}
+        options={(['stop', 'goOn'] as const).map((value) => ({ value, label: words.fleet.failing[value] }))}
+        onChange={setFailing}
+      />
+      <Button
+        icon="plus"
+        onPress={() => onAdd({ name, robots: group, times, stopsOthers: failing === 'stop' })}
+      >
+        {words.fleet.addCue}
+      </Button>
+    </div>
+  );
+}
