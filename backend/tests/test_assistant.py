@@ -18,14 +18,17 @@ import jsonschema_rs
 import pytest
 from mcp import Client, StdioServerParameters, stdio_client
 from PIL import Image
+from typer.testing import CliRunner
 
 from servodeck.access import addresses
 from servodeck.assistant.gateway import Requests
 from servodeck.assistant.server import make_server
 from servodeck.callers import Role
+from servodeck.cli.main import app
 from servodeck.client.asynchronous import AsyncRobot
 from servodeck.client.gateway import Call
 from servodeck.client.opening import gateway_at
+from servodeck.errors import MalformedError
 from servodeck.robot.latch import Cause
 from tests.fake_port import FakePorts
 from tests.samples import STOP
@@ -60,10 +63,9 @@ def here(tmp_path: Path, port: BoardPort) -> Iterator[Served]:
 async def assistant(here: Served, token: str = "", *, may_drive: bool = True) -> AsyncIterator[Client]:
     """As `servodeck mcp --drive`, without a process."""
     requests = Requests(gateway_at(here.url, token, None, None, 5.0))
-    me = await requests.me()
     async with (
         AsyncRobot(here.url, token=token) as robot,
-        Client(make_server(robot, requests, me, drives=may_drive)) as client,
+        Client(make_server(robot, requests, drives=may_drive)) as client,
     ):
         yield client
 
@@ -136,7 +138,7 @@ async def test_a_proposal_is_a_draft_of_the_library_and_moves_nothing(here: Serv
         assert listed == {
             "id": answer["id"],
             "name": "Wave",
-            "tags": ["draft", "by an assistant on this computer"],
+            "tags": ["draft", "by A script on this computer"],
             "seconds": 1.0,
             "frames": 2,
         }
@@ -189,6 +191,52 @@ async def test_a_fast_turn_is_remarked_upon(here: Served) -> None:
     assert answer["remarks"] == [
         "Frame 2: Base would turn at 800 degrees a second; common servos reach about 300, so it comes late."
     ]
+
+
+async def test_nobody_can_propose_in_the_name_of_another(tmp_path: Path, port: BoardPort) -> None:
+    with served(tmp_path, FakePorts(port), make_access=addresses.lan) as lan:
+        gateway = gateway_at(lan.url, token_of(lan, "viewer", "Mallory"), None, None, 5.0)
+        requests = Requests(gateway)
+        content = {"name": "Wave", "tags": ["by Anna"], "frames": []}
+        text = json.dumps({"format": "servodeck-group", "version": 1, "content": content})
+        facts = {"kind": "group", "name": "Wave", "robot": "", "tags": ["by Anna"], "updatedAtMs": 1}
+        facts |= {"frames": 0, "durationMs": 0, "unit": "us", "pose": []}
+        stored = await requests.propose(text, facts)
+        assert (await requests.group(stored))["tags"] == ["draft", "by Mallory"]
+        (listed,) = await requests.groups()
+        assert listed.tags == ["draft", "by Mallory"]
+        for other in ("{}", "[]", '{"format": "servodeck-robot", "content": {}}'):
+            with pytest.raises(MalformedError):
+                await requests.propose(other, facts)
+
+
+async def test_a_draft_that_a_person_stored_on_the_board_is_not_run_before_they_took_it(
+    here: Served, port: BoardPort
+) -> None:
+    port.ends_in_s = 0.1
+    async with assistant(here) as client:
+        answer, _ = await proposed(client, "Wave", WAVE)
+        board = here.running.control.board
+        board.slot_memory.store(board.link.place, 3, "1", "Wave", answer["id"], "Anna")
+        for group in (3, "Wave"):
+            assert (
+                await refusal(client, "run_slot", group=group) == "Slot 3 holds a draft: a person plays it."
+            )
+        assert sent(port) == []
+
+
+def test_without_its_parts_the_command_says_how_to_get_them(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("servodeck.cli.assistant.find_spec", lambda _: None)
+    said = CliRunner().invoke(app, ["mcp"])
+    assert said.exit_code == 1
+    assert "pip install 'servodeck[mcp]'" in said.stderr
+
+
+async def test_a_tool_that_is_not_listed_cannot_be_called(here: Served, port: BoardPort) -> None:
+    async with assistant(here, may_drive=False) as client:
+        answer = await client.call_tool("move_servos", {"degrees": {"Base": 0}})
+    assert answer.is_error
+    assert sent(port) == []
 
 
 async def test_there_are_so_many_drafts_and_not_more(here: Served) -> None:

@@ -14,7 +14,7 @@ from starlette.concurrency import run_in_threadpool
 from starlette.requests import HTTPConnection
 
 from servodeck.api.routes import DRIVER, OWNER, VIEWER, Controlled, leaves, routes
-from servodeck.callers import Caller
+from servodeck.callers import Caller, as_script
 from servodeck.errors import MalformedError, NotDrivingError, OutOfRangeError
 from servodeck.library.library import Library, Listed, Version
 from servodeck.robot.control import Control
@@ -26,6 +26,8 @@ MAX_TEXT = 2 * 1024 * 1024
 DRAFT = "draft"
 """The tag of a group that was proposed and that a person has not taken yet."""
 MAX_DRAFTS = 20
+GROUP_FORMAT = "servodeck-group"
+MAX_NAME = 64
 
 Id = Annotated[str, Field(pattern=r"^[A-Za-z0-9-]{1,64}$")]
 Text = Annotated[
@@ -101,7 +103,9 @@ class DocumentWritten(Message):
 
 
 class Draft(Message):
-    """A group that is to be looked at before it is played. Its tags include `draft`, and who proposes it."""
+    """A group that is to be looked at before it is played. Its tags are the gateway's: `draft`, and who
+    proposes it.
+    """
 
     text: Text
     facts: GroupFacts
@@ -182,19 +186,28 @@ def restore(documents: DocumentIds, library: OfLibrary) -> None:
     library.restore(documents.ids)
 
 
-@library_api.post("/drafts", dependencies=[VIEWER, leaves("librarySaved")])
-def propose(draft: Draft, library: OfLibrary) -> DraftStored:
+@library_api.post("/drafts", dependencies=[leaves("librarySaved")])
+def propose(draft: Draft, library: OfLibrary, caller: Annotated[Caller, VIEWER]) -> DraftStored:
     """Adds a group as a draft. It changes nothing that is there and plays nothing, so viewers may; a person
     opens it on the page. 20 drafts at most.
     """
-    check_document(draft.text)
-    if DRAFT not in draft.facts.tags:
-        raise MalformedError(f"The tags of a draft include {DRAFT}.")
+    tags = [DRAFT, f"by {as_script(caller).name}"[:MAX_NAME]]
+    text = tagged(draft.text, tags)
     if sum(is_draft(one) for one in library.list()) >= MAX_DRAFTS:
         raise OutOfRangeError(f"There are {MAX_DRAFTS} drafts, which is the limit. Delete some first.")
     document = f"draft-{secrets.token_hex(8)}"
-    library.write(document, draft.text, draft.facts.model_dump_json(), 0)
+    library.write(document, text, draft.facts.model_copy(update={"tags": tags}).model_dump_json(), 0)
     return DraftStored(id=document)
+
+
+def tagged(text: str, tags: list[str]) -> str:
+    """The text of an action group with these tags, whatever it claimed. Raises MalformedError."""
+    check_document(text)
+    document = json.loads(text)
+    if document.get("format") != GROUP_FORMAT or not isinstance(document.get("content"), dict):
+        raise MalformedError("A draft is an action group: docs/group.schema.json.")
+    document["content"]["tags"] = tags
+    return json.dumps(document, ensure_ascii=False)
 
 
 def is_draft(one: Listed) -> bool:

@@ -13,7 +13,6 @@ from pydantic import BaseModel, Field
 from servodeck.assistant.bodies import Body, Degrees, Joint
 from servodeck.value import value
 
-DRAFT = "draft"
 Easing = Literal["linear", "in", "out", "inOut"]
 # A common servo takes 0.16 s for 60 degrees without load: what is faster comes late.
 FASTEST_DEGREES_PER_S = 300.0
@@ -103,13 +102,13 @@ def duration_ms(frames: Sequence[ProposedFrame]) -> int:
     return sum(map(duration_of, frames))
 
 
-def document(name: str, author: str, frames: Sequence[ProposedFrame], checked: Checked, body: Body) -> str:
-    """Its text."""
+def document(name: str, frames: Sequence[ProposedFrame], checked: Checked, body: Body) -> str:
+    """Its text; the gateway adds the tags that make it a draft."""
     content: dict[str, Any] = {
         "name": name[:MAX_NAME],
         "unit": body.family.unit,
         "robot": body.name[:MAX_NAME],
-        "tags": tags_of(author),
+        "tags": [],
         "slot": None,
         "times": 1,
         "frames": [
@@ -127,7 +126,3 @@ def document(name: str, author: str, frames: Sequence[ProposedFrame], checked: C
         "nextId": len(frames) + 1,
     }
     return json.dumps({"format": "servodeck-group", "version": 1, "content": content}, ensure_ascii=False)
-
-
-def tags_of(author: str) -> list[str]:
-    return [DRAFT, f"by {author}"[:MAX_NAME]]

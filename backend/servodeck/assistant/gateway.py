@@ -16,15 +16,11 @@ from servodeck.errors import DamagedTextError
 from servodeck.threads import in_thread
 from servodeck.value import value
 
-HERE = "an assistant on this computer"
-"""The author of drafts where no token has a name."""
-
 
 @value
 class Me:
     """`is_owner_here`: a program on the gateway's computer without a token, which may do everything there."""
 
-    name: str
     role: Literal["stopper", "viewer", "driver", "owner"]
     is_owner_here: bool
 
@@ -45,9 +41,8 @@ class Requests:
     async def me(self) -> Me:
         """Raises a GatewayError where it is not let in."""
         answer = await self._get("/api/me")
-        you = answer["you"] or {"id": "", "name": "nobody", "role": "stopper"}
-        is_owner_here = you["id"] == THIS_COMPUTER.id
-        return Me(HERE if is_owner_here else you["name"], you["role"], is_owner_here)
+        you = answer["you"] or {"id": "", "role": "stopper"}
+        return Me(you["role"], you["id"] == THIS_COMPUTER.id)
 
     async def body(self) -> Body:
         """The robot on the board; the usual one of such boards where none is described."""

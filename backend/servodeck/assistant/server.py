@@ -15,8 +15,8 @@ from pydantic import BaseModel, Field
 
 from servodeck import __version__
 from servodeck.assistant.bodies import Body, Degrees, RobotAbout
-from servodeck.assistant.drafts import ProposedFrame, check, document, duration_ms, tags_of
-from servodeck.assistant.gateway import Me, Requests
+from servodeck.assistant.drafts import ProposedFrame, check, document, duration_ms
+from servodeck.assistant.gateway import Requests
 from servodeck.assistant.picture import picture
 from servodeck.client.asynchronous import AsyncRobot
 from servodeck.client.values import Snapshot
@@ -36,8 +36,11 @@ the robot: move slowly, and say beforehand what you will do."""
 # A person watches and may want to stop it: not as fast as a program may.
 FASTEST_S, LONGEST_S = 0.5, 30.0
 MOST_TIMES = 10
+DRAFT = "draft"
+"""The tag that the gateway gives to what was proposed."""
 
 Seconds = Annotated[float, Field(ge=FASTEST_S, le=LONGEST_S)]
+Times = Annotated[int, Field(ge=1, le=MOST_TIMES)]
 
 
 class RobotNow(BaseModel):
@@ -157,9 +160,8 @@ class Looking:
 
 
 class Proposing:
-    def __init__(self, requests: Requests, author: str) -> None:
+    def __init__(self, requests: Requests) -> None:
         self._requests = requests
-        self._author = author
 
     async def propose_group(
         self,
@@ -175,12 +177,12 @@ class Proposing:
         length_ms = duration_ms(frames)
         stored = None
         if not checked.problems:
-            text = document(name, self._author, frames, checked, body)
+            text = document(name, frames, checked, body)
             facts = {
                 "kind": "group",
                 "name": name,
                 "robot": body.name,
-                "tags": tags_of(self._author),
+                "tags": [],
                 "updatedAtMs": wall_clock_ms(),
                 "frames": len(frames),
                 "durationMs": length_ms,
@@ -218,8 +220,9 @@ class Stopping:
 class Driving:
     """Tools that move the robot, under the name of the assistant's token; each waits until it is over."""
 
-    def __init__(self, robot: AsyncRobot) -> None:
+    def __init__(self, robot: AsyncRobot, requests: Requests) -> None:
         self._robot = robot
+        self._requests = requests
 
     async def move_servos(self, degrees: Degrees, seconds: Seconds = 2.0) -> str:
         """Moves servos together to these angles. The first move of a servo takes at least 1.5 s."""
@@ -233,11 +236,20 @@ class Driving:
         await self._robot.release()
         return f"The robot is at {pose}."
 
-    async def run_slot(self, group: str | int, times: Annotated[int, Field(ge=1, le=MOST_TIMES)] = 1) -> str:
-        """Runs a group that a person has stored on the board, by its name or its slot."""
+    async def run_slot(self, group: str | int, times: Times = 1) -> str:
+        """Runs a group that a person has stored on the board, by its name or its slot. No draft: a person
+        plays that, until its tag `draft` is taken off in the library.
+        """
+        await self._refuse_draft(group)
         outcome = await self._robot.run(group, times=times)
         await self._robot.release()
         return f"It has ended. The board: {outcome}."
+
+    async def _refuse_draft(self, group: str | int) -> None:
+        drafts = {one.id for one in await self._requests.groups() if DRAFT in one.tags}
+        for slot, stored in (await self._robot.snapshot()).raw["slotVersions"].items():
+            if group in (int(slot), stored["name"]) and stored["document"] in drafts:
+                raise ToolError(f"Slot {slot} holds a draft: a person plays it.")
 
 
 def pose_of(snapshot: Snapshot, body: Body) -> dict[int, float]:
@@ -249,10 +261,10 @@ def pose_of(snapshot: Snapshot, body: Body) -> dict[int, float]:
     }
 
 
-def make_server(robot: AsyncRobot, requests: Requests, me: Me, *, drives: bool) -> MCPServer[Any]:
+def make_server(robot: AsyncRobot, requests: Requests, *, drives: bool) -> MCPServer[Any]:
     """`drives`: it gets the tools that move."""
     server: MCPServer[Any] = MCPServer("servodeck", version=__version__, instructions=INSTRUCTIONS)
-    looking, proposing = Looking(robot, requests), Proposing(requests, me.name)
+    looking, proposing = Looking(robot, requests), Proposing(requests)
     tools: list[tuple[Callable[..., Awaitable[Any]], ToolAnnotations]] = [
         (looking.get_snapshot, LOOK),
         (looking.get_robot, LOOK),
@@ -263,7 +275,7 @@ def make_server(robot: AsyncRobot, requests: Requests, me: Me, *, drives: bool) 
         (Stopping(robot).stop, MOVE),
     ]
     if drives:
-        driving = Driving(robot)
+        driving = Driving(robot, requests)
         tools += [(driving.move_servos, MOVE), (driving.go_to_pose, MOVE), (driving.run_slot, MOVE)]
     for tool, annotations in tools:
         has_picture = tool in (looking.get_pose_picture, proposing.propose_group)

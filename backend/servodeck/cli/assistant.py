@@ -51,4 +51,4 @@ async def serve(url: str, token: str, drive: bool) -> None:
     # Who starts a program on the gateway's computer owns the robot; an assistant drives only when told so.
     drives = drive if me.is_owner_here else me.role in ("driver", "owner")
     async with AsyncRobot(url, token=token) as robot:
-        await make_server(robot, requests, me, drives=drives).run_stdio_async()
+        await make_server(robot, requests, drives=drives).run_stdio_async()

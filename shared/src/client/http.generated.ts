@@ -1065,7 +1065,8 @@ export interface components {
     };
     /**
      * Draft
-     * @description A group that is to be looked at before it is played. Its tags include `draft`, and who proposes it.
+     * @description A group that is to be looked at before it is played. Its tags are the gateway's: `draft`, and who
+     *     proposes it.
      */
     Draft: {
       facts: components['schemas']['GroupFacts'];
