@@ -136,3 +136,22 @@ def test_the_output_can_be_saved_as_a_file(tmp_path: Path) -> None:
 @given(st.text(st.characters(exclude_categories=["Cs"], exclude_characters="\x7f")))
 def test_every_text_survives_as_a_line_of_a_file(value: str) -> None:
     assert tomllib.loads(toml_line(Setting("name", value, "default"))) == {"name": value}
+
+
+def test_what_the_settings_hold_of_secrets_is_not_printed() -> None:
+    shown = CliRunner().invoke(
+        app,
+        [
+            *("config", "--mqtt", "mqtts://arm:word@broker.local", "--mqtt-password", "word"),
+            *(
+                "--camera",
+                "Bench=http://user:word@camera.local/stream",
+                "--notify",
+                "https://hook.example/word",
+            ),
+        ],
+    )
+    assert shown.exit_code == 0, shown.output
+    assert "word" not in shown.stdout.replace("password", "")
+    assert 'camera = ["Bench=http://user:***@camera.local/stream"]' in shown.stdout
+    assert 'notify = ["https://hook.example/***"]' in shown.stdout

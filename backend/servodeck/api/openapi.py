@@ -22,6 +22,7 @@ from servodeck.errors import ErrorCode, GatewayError
 from servodeck.schema import Message
 from servodeck.value import value
 
+LINE_LENGTH = 100
 REFERENCE = "#/components/schemas/{model}"
 
 
@@ -194,6 +195,7 @@ table { border-collapse: collapse; }
 th, td { text-align: left; vertical-align: top; padding: 0.2rem 1.5rem 0.2rem 0; font-weight: normal; }
 details { color: color-mix(in srgb, currentColor 75%, transparent); font-size: 0.875rem; }
 code { font-family: ui-monospace, monospace; overflow-wrap: anywhere; }
+pre { margin: 0; white-space: pre-wrap; }
 """
 
 
@@ -244,9 +246,9 @@ def content(part: dict[str, Any], schema: dict[str, Any]) -> str:
     for found in part.get("content", {}).values():
         if "examples" in found:
             return ", ".join(f"{each['summary']} {code}" for code, each in found["examples"].items())
-        example = escape(json.dumps(found["example"], ensure_ascii=False))
+        example = escape(pretty(found["example"]))
         fields = shape(found.get("schema", {}), schema)
-        return f"<code>{example}</code><details><summary>all fields</summary>{fields}</details>"
+        return f"<pre><code>{example}</code></pre><details><summary>all fields</summary>{fields}</details>"
     return "nothing"
 
 
@@ -270,3 +272,9 @@ def shape(part: dict[str, Any], schema: dict[str, Any]) -> str:
         ]
         return "{ " + ", ".join(fields) + " }"
     return escape(str(part.get("type", "nothing")))
+
+
+def pretty(example: Any) -> str:
+    """Short ones on a line of their own, long ones with their parts below each other."""
+    line = json.dumps(example, ensure_ascii=False)
+    return line if len(line) <= LINE_LENGTH else json.dumps(example, ensure_ascii=False, indent=2)

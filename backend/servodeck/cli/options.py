@@ -7,6 +7,7 @@ Knows options by their names; not what any of them means.
 
 import json
 import os
+import re
 import sys
 import time
 from collections.abc import Callable, Collection, Iterable, Iterator
@@ -248,8 +249,24 @@ def toml_line(setting: Setting) -> str:
     name, value, origin = setting
     if value is None:
         return f"# {name}: not set"
-    text = json.dumps(value if isinstance(value, bool | int | list) else str(value), ensure_ascii=False)
-    return f"{name} = {text}  # {origin}"
+    shown = value if isinstance(value, bool | int) else hidden(name, value)
+    return f"{name} = {json.dumps(shown, ensure_ascii=False)}  # {origin}"
+
+
+def hidden(name: str, value: Any) -> Any:
+    """As others may see it: without passwords, and without the paths of receivers, which often are one."""
+    if isinstance(value, list):
+        return [hidden(name, each) for each in value]
+    text = str(value)
+    if name.endswith("password"):
+        return HIDDEN if text else text
+    text = PASSWORD_IN_URL.sub(rf"\1{HIDDEN}@", text)
+    return PATH_OF_URL.sub(rf"\1{HIDDEN}", text) if name == "notify" else text
+
+
+HIDDEN = "***"
+PASSWORD_IN_URL = re.compile(r"(://[^/:@]*:)[^/@]*@")
+PATH_OF_URL = re.compile(r"(://[^/]*/).+")
 
 
 def names_of(context: typer.Context) -> Iterator[tuple[str, str]]:
