@@ -49,8 +49,7 @@ test('a draft of an assistant is played only after a person pressed Play', async
 
   const library = libraryOf(page);
   await library.show();
-  await expect(library.card('Nod')).toContainText('draft');
-  await expect(library.card('Nod')).toContainText('by A script on this computer');
+  await expect(library.card('Nod')).toContainText('Draft by A script on this computer');
   await library.open('Nod');
   await expect(dashboard.frames).toHaveCount(2);
   expect(ofKind(await robot.bus(), 'move')).toEqual([]);

@@ -1453,6 +1453,8 @@ export interface Messages {
     readonly notImported: (values: { readonly flaw: string }) => string;
     readonly importFailed: (values: { readonly problem: string }) => string;
     readonly imported: (values: { readonly added: number; readonly changed: number; readonly same: number }) => string;
+    readonly draft: string;
+    readonly draftBy: (values: { readonly name: string }) => string;
   };
   readonly acts: {
     readonly tab: string;

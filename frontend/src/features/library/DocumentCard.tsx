@@ -34,6 +34,18 @@ function DocumentThumb({ facts }: { readonly facts: GroupFacts }) {
   );
 }
 
+const DRAFT = 'draft';
+const AUTHOR = 'by ';
+
+/** The tags as people read them: of a proposal that nobody has taken yet, whose it is. */
+function tagWords(tags: readonly string[]): readonly string[] {
+  if (!tags.includes(DRAFT)) return tags;
+  const author = tags.find((tag) => tag.startsWith(AUTHOR));
+  const draft =
+    author === undefined ? words.library.draft : words.library.draftBy({ name: author.slice(AUTHOR.length) });
+  return [draft, ...tags.filter((tag) => tag !== DRAFT && tag !== author)];
+}
+
 interface DocumentCardProps {
   /** Set on the card whose height is measured for its row. */
   readonly ref?: Ref<HTMLLIElement>;
@@ -102,7 +114,9 @@ export const DocumentCard = memo(function DocumentCard({
             {isOpen ? words.library.isOpen : words.dates.formatLongAge(nowMs - facts.updatedAtMs)}
           </span>
           <span className={styles.about}>{words.library.about({ count: frames, durationMs })}</span>
-          <span className={styles.about}>{[robot, ...tags].filter((word) => word !== '').join(' · ')}</span>
+          <span className={styles.about}>
+            {[robot, ...tagWords(tags)].filter((word) => word !== '').join(' · ')}
+          </span>
         </div>
       </div>
       {isUnfolded && !isRemoved && <DocumentDetails document={document} onDone={onDone} />}
