@@ -44,6 +44,12 @@ def stage(tmp_path: Path) -> Iterator[Stage]:
         mosquitto.kill()
 
 
+@pytest.fixture(autouse=True)
+def eager(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A page here may ask as often as it likes."""
+    monkeypatch.setattr("servodeck.fleet.view.EACH_S", 0.02)
+
+
 class Page:
     """As frontend/src/fleet/fleetStore.ts follows it."""
 
@@ -163,6 +169,7 @@ async def test_robots_that_start_together_all_start(stage: Stage) -> None:
         await page.until(lambda: page.tasks[task["id"]]["spreadMs"] is not None)
 
 
+@pytest.mark.exhaustive
 async def test_none_starts_together_where_one_is_stopped_and_the_failed_are_tried_again(stage: Stage) -> None:
     _, _, gateways = stage
     async with page_of(stage) as page:
@@ -179,6 +186,7 @@ async def test_none_starts_together_where_one_is_stopped_and_the_failed_are_trie
         assert [gateway.count(RUN) for gateway in gateways] == [1, 1]
 
 
+@pytest.mark.exhaustive
 async def test_a_resume_is_new_enough_although_states_are_rare(
     stage: Stage, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -191,6 +199,7 @@ async def test_a_resume_is_new_enough_although_states_are_rare(
         assert await page.over(await page.ask("resume", robots=["arm-1"])) == {"arm-1": "done"}
 
 
+@pytest.mark.exhaustive
 async def test_a_robot_that_cannot_run_fails_alone_and_says_why(stage: Stage) -> None:
     _, fleet, (_, second) = stage
     async with page_of(stage) as page:
@@ -205,6 +214,7 @@ async def stopped(gateway: Gateway) -> None:
     await gateway.control.stop(Cause("person", "Bert"))
 
 
+@pytest.mark.exhaustive
 async def test_a_page_that_is_closed_has_no_driver_any_more_and_the_group_is_stopped(stage: Stage) -> None:
     _, _, (first, _) = stage
     async with page_of(stage) as page:
@@ -232,6 +242,7 @@ async def test_cues_are_kept(stage: Stage, tmp_path: Path) -> None:
         assert (await page.client.get("/api/fleet")).json()["cues"] == [cue]
 
 
+@pytest.mark.exhaustive
 @pytest.mark.parametrize("stops_others", [False, True])
 async def test_where_one_fails_the_others_go_on_or_are_stopped(stage: Stage, *, stops_others: bool) -> None:
     _, fleet, (first, second) = stage
