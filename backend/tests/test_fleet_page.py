@@ -215,6 +215,19 @@ async def stopped(gateway: Gateway) -> None:
 
 
 @pytest.mark.exhaustive
+async def test_a_robot_whose_cable_is_pulled_has_failed_at_once(stage: Stage) -> None:
+    _, fleet, (first, _) = stage
+    async with page_of(stage) as page:
+        await page.over(await page.ask("download", robots=["arm-1"], group=LONG))
+        task = await page.ask("run", runs=[{"robot": "arm-1", "slot": 4}])
+        await awaits(lambda: first.count(RUN) == 1)
+        await page.until(lambda: page.robots["arm-1"]["state"]["running"] is not None)
+        await asyncio.to_thread(fleet.call, first.board.unplug)
+        assert await page.over(task) == {"arm-1": "failed"}
+        assert "lost" in page.tasks[task["id"]]["parts"][0]["detail"]
+
+
+@pytest.mark.exhaustive
 async def test_a_page_that_is_closed_has_no_driver_any_more_and_the_group_is_stopped(stage: Stage) -> None:
     _, _, (first, _) = stage
     async with page_of(stage) as page:

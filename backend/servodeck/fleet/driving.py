@@ -138,7 +138,9 @@ class FleetDriver:
 
     async def _over(self, robot: str) -> None:
         await self._until(robot, is_running, BEGUN_S)
-        while is_running(self._present(robot)):
+        while is_running(heard := self._present(robot)):
+            if heard.state and heard.state.link.status == "lost":
+                raise RefusedError(robot, "lost", "The link to the robot was lost: what it does is unknown.")
             await self._next()
         state = self._present(robot).state
         if state and state.latch:

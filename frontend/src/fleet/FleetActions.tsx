@@ -26,6 +26,7 @@ export function FleetActions({ mayDrive }: { readonly mayDrive: boolean }) {
   const [problem, setProblem] = useState('');
   const act = (work: () => Promise<unknown>): void => {
     setProblem('');
+    fleet.store.setState({ stopping: null }); // what the latest stop did is no news any more
     void work().catch((error: unknown) => {
       if (!(error instanceof GatewayProblem)) throw error;
       setProblem(error.message);

@@ -86,6 +86,9 @@ function Picture({ board }: { readonly board: string }) {
   return <RobotThumb robot={robot} pose={pose} changed={[]} family={familyOf(board)} />;
 }
 
+/** The gateway says ages in such steps. */
+const JUST_NOW_MS = 10_000;
+
 export function conditionText(robot: FleetRobot, condition: Condition): string {
   const { state } = robot;
   switch (condition) {
@@ -96,9 +99,9 @@ export function conditionText(robot: FleetRobot, condition: Condition): string {
         ? words.stop.stoppedBy({ name: state.stoppedBy })
         : words.fleet.conditions.stopped;
     case 'silent':
-      return robot.seenMsAgo === null
+      return (robot.seenMsAgo ?? 0) < JUST_NOW_MS
         ? words.fleet.conditions[condition]
-        : words.fleet.lastSeen({ age: words.dates.formatLongAge(robot.seenMsAgo) });
+        : words.fleet.lastSeen({ age: words.dates.formatLongAge(robot.seenMsAgo ?? 0) });
     default:
       return words.fleet.conditions[condition];
   }
