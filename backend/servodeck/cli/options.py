@@ -254,19 +254,31 @@ def toml_line(setting: Setting) -> str:
 
 
 def hidden(name: str, value: Any) -> Any:
-    """As others may see it: without passwords, and without the paths of receivers, which often are one."""
+    """As others may see it: no passwords, and of an address its host alone, with the user at a broker."""
     if isinstance(value, list):
         return [hidden(name, each) for each in value]
     text = str(value)
     if name.endswith("password"):
         return HIDDEN if text else text
-    text = PASSWORD_IN_URL.sub(rf"\1{HIDDEN}@", text)
-    return PATH_OF_URL.sub(rf"\1{HIDDEN}", text) if name == "notify" else text
+    return hidden_address(text, is_named=name in ("mqtt", "fleet"))
 
 
 HIDDEN = "***"
-PASSWORD_IN_URL = re.compile(r"(://[^/:@]*:)[^/@]*@")
-PATH_OF_URL = re.compile(r"(://[^/]*/).+")
+
+
+def hidden_address(text: str, *, is_named: bool) -> str:
+    """A key may stand in front of the host (`is_named`: only behind the user's name), in the path or in the
+    query. All up to the last @ counts as in front: a password may have signs of the others in it.
+    """
+    scheme, mark, rest = text.partition("://")
+    user, at, place = rest.rpartition("@")
+    host = re.split("[/?#]", place, maxsplit=1)[0]
+    if not mark:
+        return text
+    name, colon, _ = user.partition(":")
+    front = f"{name}:{HIDDEN}" if is_named and colon else name if is_named else HIDDEN
+    behind = f"/{HIDDEN}" if place[len(host) :].strip("/") else place[len(host) :]
+    return f"{scheme}://{front + at if at else ''}{host}{behind}"
 
 
 def names_of(context: typer.Context) -> Iterator[tuple[str, str]]:
