@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from fastapi import FastAPI
 from opentelemetry import trace
 from opentelemetry.trace import NoOpTracer, Tracer, TracerProvider
 
@@ -27,12 +28,18 @@ AS_GZIP = gzip.compress(SCRIPT.encode())
 AS_BROTLI = b"any bytes: the gateway reads none of them"
 
 
+@pytest.fixture(scope="module")
+def app() -> FastAPI:
+    return create_app(Control(NOWHERE, time.monotonic, "doc"), NO_LIBRARY, entrance_to())
+
+
 @pytest.mark.parametrize(
     ("method", "path"),
     [(method, path) for method, path, _ in roles_of_routes() if path.startswith("/api/")],
 )
-async def test_a_link_of_another_site_reaches_no_route_that_acts(method: str, path: str) -> None:
-    app = create_app(Control(NOWHERE, time.monotonic, "doc"), NO_LIBRARY, entrance_to())
+async def test_a_link_of_another_site_reaches_no_route_that_acts(
+    app: FastAPI, method: str, path: str
+) -> None:
     followed = [(b"sec-fetch-site", b"cross-site"), (b"sec-fetch-mode", b"navigate")]
     headers = headers_of(f"127.0.0.1:{PORT}", None) + followed
     assert await knock(app, scope_of("http", method, path, headers)) == 403

@@ -419,3 +419,4 @@ class AgainstADict(RuleBasedStateMachine):
 
 
 TestAgainstADict = AgainstADict.TestCase
+TestAgainstADict.settings = settings(max_examples=25 * TIMES, deadline=None)
