@@ -10,9 +10,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from fastapi import FastAPI
 from opentelemetry import trace
 from opentelemetry.trace import NoOpTracer, Tracer, TracerProvider
+from starlette.types import ASGIApp
 
 from servodeck.api.app import create_app
 from servodeck.errors import PortMissingError
@@ -29,7 +29,7 @@ AS_BROTLI = b"any bytes: the gateway reads none of them"
 
 
 @pytest.fixture(scope="module")
-def app() -> FastAPI:
+def app() -> ASGIApp:
     return create_app(Control(NOWHERE, time.monotonic, "doc"), NO_LIBRARY, entrance_to())
 
 
@@ -38,7 +38,7 @@ def app() -> FastAPI:
     [(method, path) for method, path, _ in roles_of_routes() if path.startswith("/api/")],
 )
 async def test_a_link_of_another_site_reaches_no_route_that_acts(
-    app: FastAPI, method: str, path: str
+    app: ASGIApp, method: str, path: str
 ) -> None:
     followed = [(b"sec-fetch-site", b"cross-site"), (b"sec-fetch-mode", b"navigate")]
     headers = headers_of(f"127.0.0.1:{PORT}", None) + followed
