@@ -28,7 +28,11 @@ pytestmark = [pytest.mark.slow, needs_mosquitto]
 NAMES = ("arm-1", "arm-2")
 RUN, STOP, DOWNLOAD = 6, 7, 25
 WITHIN_S = 10.0
-GROUP = {"slot": 4, "name": "Bow", "frames": [{"durationMs": 400, "positions": {"1": 1200}}]}
+GROUP: dict[str, Any] = {"slot": 4, "name": "Bow", "frames": [{"durationMs": 400, "positions": {"1": 1200}}]}
+SEVERAL = [
+    {**GROUP, "slot": slot, "name": name, "frames": [*GROUP["frames"]] * 2}
+    for slot, name in enumerate(("Nod", "Bend", "Rise"))
+]
 LONG = {"slot": 4, "name": "Long", "frames": [{"durationMs": 9000, "positions": {"1": 1200}}]}
 Stage = tuple[Mosquitto, Fleet, list[Gateway]]
 
@@ -85,6 +89,7 @@ class Page:
 
     async def over(self, task: dict[str, Any]) -> dict[str, str]:
         """How it ended at each robot."""
+        self.tasks[task["id"]] = task
         await self.until(lambda: self._is_over(task["id"]))
         return self.statuses(task["id"])
 
@@ -146,7 +151,7 @@ async def test_who_is_not_reached_is_named(stage: Stage) -> None:
 async def test_a_group_is_stored_on_all_and_run_on_all(stage: Stage) -> None:
     _, _, gateways = stage
     async with page_of(stage) as page:
-        stored = await page.ask("download", robots=list(NAMES), group=GROUP)
+        stored = await page.ask("download", robots=list(NAMES), groups=[GROUP])
         assert await page.over(stored) == dict.fromkeys(NAMES, "done")
         assert all(gateway.count(DOWNLOAD) for gateway in gateways)
         await page.until(lambda: all(one["slots"] for one in page.robots.values()))
@@ -158,10 +163,48 @@ async def test_a_group_is_stored_on_all_and_run_on_all(stage: Stage) -> None:
         await page.until(lambda: all(one["state"]["driver"] is None for one in page.robots.values()))
 
 
+async def test_several_groups_arrive_in_as_many_messages_as_they_need(
+    stage: Stage, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    _, _, (first, second) = stage
+    monkeypatch.setattr("servodeck.fleet.download.MESSAGE_BYTES", 1)
+    async with page_of(stage) as page:
+        task = await page.ask("download", robots=list(NAMES), groups=SEVERAL)
+        assert task["names"] == ["Nod", "Bend", "Rise"]
+        assert await page.over(task) == dict.fromkeys(NAMES, "done")
+        assert first.count(DOWNLOAD) == second.count(DOWNLOAD) == 6
+        await page.until(lambda: all(len(one["slots"]) == 3 for one in page.robots.values()))
+
+
+@pytest.mark.exhaustive
+async def test_a_download_that_is_tried_again_sends_what_is_missing(stage: Stage) -> None:
+    _, _, (first, _) = stage
+    async with page_of(stage) as page:
+        task = await page.ask("download", robots=["arm-1"], groups=SEVERAL)
+        await awaits(lambda: first.count(DOWNLOAD) == 4)  # the second frame of the second group
+        await page.ask("stop", robots=["arm-1"])
+        assert await page.over(task) == {"arm-1": "failed"}
+        assert await page.over(await page.ask("resume", robots=["arm-1"])) == {"arm-1": "done"}
+        before = first.count(DOWNLOAD)
+        while page.statuses(task["id"]) == {"arm-1": "failed"}:  # it may be about to hold its servos
+            await page.over(await page.ask(f"tasks/{task['id']}/retry"))
+        assert page.statuses(task["id"]) == {"arm-1": "done"}
+        assert first.count(DOWNLOAD) - before == 4
+
+
+async def test_a_slot_is_wanted_once_of_a_group_as_large_as_there_is(stage: Stage) -> None:
+    async with page_of(stage) as page:
+        positions = {str(servo): 1500 for servo in range(1, 33)}
+        large = {"slot": 4, "name": "Large", "frames": [{"durationMs": 20, "positions": positions}] * 255}
+        wanted = {"robots": ["arm-1"], "groups": [GROUP, large]}
+        refused = await page.client.post("/api/fleet/download", json=wanted)
+        assert refused.json()["code"] == "outOfRange"
+
+
 async def test_robots_that_start_together_all_start(stage: Stage) -> None:
     _, _, gateways = stage
     async with page_of(stage) as page:
-        await page.over(await page.ask("download", robots=list(NAMES), group=GROUP))
+        await page.over(await page.ask("download", robots=list(NAMES), groups=[GROUP]))
         runs = [{"robot": name, "slot": 4} for name in NAMES]
         task = await page.ask("run", runs=runs, together=True)
         assert await page.over(task) == dict.fromkeys(NAMES, "done")
@@ -173,7 +216,7 @@ async def test_robots_that_start_together_all_start(stage: Stage) -> None:
 async def test_none_starts_together_where_one_is_stopped_and_the_failed_are_tried_again(stage: Stage) -> None:
     _, _, gateways = stage
     async with page_of(stage) as page:
-        await page.over(await page.ask("download", robots=list(NAMES), group=GROUP))
+        await page.over(await page.ask("download", robots=list(NAMES), groups=[GROUP]))
         await page.ask("stop", robots=["arm-2"])
         runs = [{"robot": name, "slot": 4} for name in NAMES]
         task = await page.ask("run", runs=runs, together=True)
@@ -203,7 +246,7 @@ async def test_a_resume_is_new_enough_although_states_are_rare(
 async def test_a_robot_that_cannot_run_fails_alone_and_says_why(stage: Stage) -> None:
     _, fleet, (_, second) = stage
     async with page_of(stage) as page:
-        await page.over(await page.ask("download", robots=list(NAMES), group=GROUP))
+        await page.over(await page.ask("download", robots=list(NAMES), groups=[GROUP]))
         await asyncio.to_thread(fleet.do, stopped(second))
         task = await page.ask("run", runs=[{"robot": name, "slot": 4} for name in NAMES])
         assert await page.over(task) == {"arm-1": "done", "arm-2": "failed"}
@@ -218,7 +261,7 @@ async def stopped(gateway: Gateway) -> None:
 async def test_a_robot_whose_cable_is_pulled_has_failed_at_once(stage: Stage) -> None:
     _, fleet, (first, _) = stage
     async with page_of(stage) as page:
-        await page.over(await page.ask("download", robots=["arm-1"], group=LONG))
+        await page.over(await page.ask("download", robots=["arm-1"], groups=[LONG]))
         task = await page.ask("run", runs=[{"robot": "arm-1", "slot": 4}])
         await awaits(lambda: first.count(RUN) == 1)
         await page.until(lambda: page.robots["arm-1"]["state"]["running"] is not None)
@@ -231,7 +274,7 @@ async def test_a_robot_whose_cable_is_pulled_has_failed_at_once(stage: Stage) ->
 async def test_a_page_that_is_closed_has_no_driver_any_more_and_the_group_is_stopped(stage: Stage) -> None:
     _, _, (first, _) = stage
     async with page_of(stage) as page:
-        await page.over(await page.ask("download", robots=["arm-1"], group=GROUP))
+        await page.over(await page.ask("download", robots=["arm-1"], groups=[GROUP]))
         await page.ask("run", runs=[{"robot": "arm-1", "slot": 4}], times=60000)
         await awaits(lambda: first.count(RUN) == 1)
         await awaits(lambda: first.count(STOP) > 0)  # nobody asks for changes any more
@@ -260,7 +303,7 @@ async def test_cues_are_kept(stage: Stage, tmp_path: Path) -> None:
 async def test_where_one_fails_the_others_go_on_or_are_stopped(stage: Stage, *, stops_others: bool) -> None:
     _, fleet, (first, second) = stage
     async with page_of(stage) as page:
-        await page.over(await page.ask("download", robots=list(NAMES), group=LONG))
+        await page.over(await page.ask("download", robots=list(NAMES), groups=[LONG]))
         runs = [{"robot": name, "slot": 4} for name in NAMES]
         task = await page.ask("run", runs=runs, stopsOthers=stops_others)
         await awaits(lambda: first.count(RUN) == second.count(RUN) == 1)

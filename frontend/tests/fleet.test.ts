@@ -63,6 +63,31 @@ test('a cue says who is ready, GO starts it and makes the next one current', asy
   await expect(steps.nth(0)).toHaveAttribute('aria-current', 'step');
 });
 
+test('several groups go to the selected robots; what is replaced and what does not fit is said before', async ({
+  page,
+  url,
+}) => {
+  await at(page, url, 'Fleet');
+  await page.getByRole('checkbox', { name: 'Select Hexapod' }).check();
+  await page.getByRole('button', { name: 'Download …' }).click();
+  const dialog = page.getByRole('dialog', { name: 'Download to 3 robots' });
+  const groups = dialog.getByRole('list', { name: 'Groups of the library' });
+  await groups.getByRole('checkbox', { name: 'Nod' }).check();
+  await groups.getByRole('checkbox', { name: 'Turn around' }).check();
+  await expect(groups.getByRole('textbox', { name: 'Slot for Nod' })).toHaveValue('21');
+  await expect(groups.getByText('Replaces what slot 4 holds on Arm 1 and Arm 2.')).toBeVisible();
+  await expect(dialog.getByRole('button', { name: 'Download 2 groups to 3 robots' })).toBeEnabled();
+  await groups.getByRole('checkbox', { name: 'Crawl' }).check();
+  await expect(groups.getByText(/Does not fit these boards, which do not get it/)).toBeVisible();
+  await groups.getByRole('textbox', { name: 'Slot for Crawl' }).fill('21');
+  await page.keyboard.press('Enter');
+  await expect(groups.getByText('Slot 21 is chosen twice.').first()).toBeVisible();
+  await expect(dialog.getByRole('button', { name: 'Download 3 groups' })).toBeDisabled();
+  await groups.getByRole('checkbox', { name: 'Crawl' }).uncheck();
+  await dialog.getByRole('button', { name: 'Download 2 groups to 3 robots' }).click();
+  await expect(dialog).toHaveCount(0);
+});
+
 test('what does not work is said in words', async ({ page, url }) => {
   await at(page, url, 'Fleet, one not reached');
   await expect(page.getByText('7 of 8 stopped. Not reached: Arm 6.')).toBeVisible();

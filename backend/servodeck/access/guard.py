@@ -51,7 +51,7 @@ LARGER_BODIES = (
     # A document as text inside JSON, where every quote of it takes two characters.
     (re.compile(r"/api/library/.*"), 3 * 1024 * 1024),
     # Reading one takes 15 ms, in which a stop waits. The largest group there is, or 90 of the usual size.
-    (re.compile(r"/api/(download|play)"), 512 * 1024),
+    (re.compile(r"/api/(download|play|fleet/download)"), 512 * 1024),
 )
 # Requests of unauthenticated callers, all together: a refusal takes up to a millisecond, in which a stop
 # waits, on a small computer three.

@@ -132,7 +132,7 @@ AUDIT_FILE = (
 FLEET_TASK = {
     "id": "7",
     "verb": "run",
-    "name": "Wave",
+    "names": ["Wave"],
     "by": "Ben",
     "parts": [
         {"robot": "arm-1", "status": "done", "share": None, "detail": None},
@@ -213,13 +213,11 @@ EXAMPLES: dict[tuple[str, str], Example] = {
         FLEET_TASK | {"verb": "download"},
         {
             "robots": ["arm-1", "arm-2"],
-            "group": {
-                "slot": 3,
-                "name": "Wave",
-                "frames": [{"durationMs": 400, "positions": {"1": 1200}}],
-            },
+            "groups": [
+                {"slot": 3, "name": "Wave", "frames": [{"durationMs": 400, "positions": {"1": 1200}}]}
+            ],
         },
-        ("notFound",),
+        ("notFound", "outOfRange"),
     ),
     ("POST", "/api/fleet/resume"): Example(
         FLEET_TASK | {"verb": "resume"}, {"robots": ["arm-2"]}, ("notFound",)

@@ -14,8 +14,9 @@ from starlette.requests import HTTPConnection
 
 from servodeck.api.routes import DRIVER, STOPPER, VIEWER, leaves, routes
 from servodeck.callers import Caller
-from servodeck.errors import NotFoundError
+from servodeck.errors import NotFoundError, OutOfRangeError
 from servodeck.fleet.console import FleetError
+from servodeck.fleet.download import Download
 from servodeck.fleet.driving import Share
 from servodeck.fleet.service import FleetService
 from servodeck.fleet.tasks import Order, Spread
@@ -56,8 +57,10 @@ class FleetRunWish(Message):
 
 
 class FleetDownloadWish(Message):
+    """Each of the groups for the slot that it names, and all of them for each of the robots."""
+
     robots: RobotIds
-    group: GroupBody
+    groups: Annotated[list[GroupBody], Field(min_length=1, max_length=256)]
 
 
 class FleetResumeWish(Message):
@@ -119,19 +122,21 @@ async def run(wish: FleetRunWish, fleet: OfFleet, caller: Annotated[Caller, DRIV
     async def begin(robots: Sequence[str]) -> Spread:
         return await fleet.driver.start_together({robot: slots[robot] for robot in robots}, wish.times)
 
-    together = Order("run", wish.name, caller.name, finish, begin)
-    order = together if wish.together else Order("run", wish.name, caller.name, run_one)
+    names = [wish.name]
+    together = Order("run", names, caller.name, finish, begin)
+    order = together if wish.together else Order("run", names, caller.name, run_one)
     return fleet.tasks.begin(order, list(slots))
 
 
 @fleet_api.post("/download", dependencies=[leaves("fleetAsked")])
 async def download(wish: FleetDownloadWish, fleet: OfFleet, caller: Annotated[Caller, DRIVER]) -> FleetTask:
-    """Stores a group on each robot, in the same slot."""
-
-    async def carry_out(robot: str, share: Share) -> None:
-        await fleet.driver.download(robot, wish.group, share)
-
-    return fleet.tasks.begin(Order("download", wish.group.name, caller.name, carry_out), wish.robots)
+    """Stores the groups on each robot, one after the other. A retry sends a robot those that are missing."""
+    slots = [group.slot for group in wish.groups]
+    if len(set(slots)) < len(slots):
+        raise OutOfRangeError("A slot is given twice.")
+    download = Download(fleet.driver, wish.groups)
+    names = [group.name for group in wish.groups]
+    return fleet.tasks.begin(Order("download", names, caller.name, download.carry_out), wish.robots)
 
 
 @fleet_api.post("/resume", dependencies=[leaves("fleetAsked")])
@@ -141,7 +146,7 @@ async def resume(wish: FleetResumeWish, fleet: OfFleet, caller: Annotated[Caller
     async def carry_out(robot: str, _share: Share) -> None:
         await fleet.driver.resume(robot)
 
-    return fleet.tasks.begin(Order("resume", "", caller.name, carry_out), wish.robots)
+    return fleet.tasks.begin(Order("resume", [], caller.name, carry_out), wish.robots)
 
 
 @fleet_api.post("/tasks/{task}/retry", dependencies=[DRIVER, leaves("fleetAsked")])

@@ -6,13 +6,16 @@ Knows a console; no HTTP. Nothing here decides whether a robot may move: its gat
 
 import asyncio
 from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Future
 from contextlib import suppress
+from functools import partial
 from typing import Any
 
 from servodeck.fleet.console import Console, FleetError, NoAnswerError, RefusedError, Robot
 from servodeck.fleet.messages import Done
 from servodeck.fleet.together import new_name, spread_ms, start_together
 from servodeck.intents import GroupBody
+from servodeck.snapshots import JobState
 from servodeck.threads import in_thread
 
 BEAT_S = 0.25
@@ -94,13 +97,23 @@ class FleetDriver:
         finally:
             await self._release(robot)
 
-    async def download(self, robot: str, group: GroupBody, share: Share) -> None:
-        """Until it is stored. Raises a FleetError."""
+    async def download(
+        self,
+        robot: str,
+        messages: Sequence[Sequence[GroupBody]],
+        progress: Callable[[int, JobState], None],
+    ) -> None:
+        """Until the groups of all these messages are stored; `progress` gets the place of a message and each
+        state of its job. Raises a FleetError.
+        """
         await self._lease(robot)
         try:
-            job = (await self._ask(robot, "download", groups=[group])).job
-            assert job is not None  # the answer to a download has one
-            await self._stored(robot, job.id, share)
+            for place, groups in enumerate(messages):
+                # In a thread: to write a large one takes milliseconds, in which a stop would wait.
+                sent = await in_thread(partial(self._console.request, robot, "download", groups=groups))
+                job = (await self._answer(robot, sent)).job
+                assert job is not None  # the answer to a download has one
+                await self._stored(robot, job.id, partial(progress, place))
         finally:
             await self._release(robot)
 
@@ -124,12 +137,12 @@ class FleetDriver:
         with suppress(FleetError):
             await self._ask(robot, "ask", action="release")
 
-    async def _stored(self, robot: str, job_id: str, share: Share) -> None:
+    async def _stored(self, robot: str, job_id: str, progress: Callable[[JobState], None]) -> None:
         while True:
             heard = self._present(robot)
             job = heard.state.job if heard.state else None
             if job is not None and job.id == job_id:
-                share(job.frames_stored / max(1, job.frame_count))
+                progress(job)
                 if job.status == "done":
                     return
                 if job.status != "running":
@@ -167,7 +180,9 @@ class FleetDriver:
         return heard
 
     async def _ask(self, robot: str, verb: Any, **fields: Any) -> Done:
-        answered = self._console.request(robot, verb, **fields)
+        return await self._answer(robot, self._console.request(robot, verb, **fields))
+
+    async def _answer(self, robot: str, answered: "Future[Done]") -> Done:
         try:
             async with asyncio.timeout(ANSWER_S):
                 return await asyncio.wrap_future(answered)

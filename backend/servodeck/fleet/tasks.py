@@ -28,7 +28,7 @@ class Order:
     """
 
     verb: Literal["run", "download", "resume"]
-    name: str
+    names: Sequence[str]
     by: str
     carry_out: Callable[[str, Share], Awaitable[None]]
     begin: Callable[[Sequence[str]], Awaitable[Spread]] | None = None
@@ -47,7 +47,7 @@ class Tasks:
         task_id = str(next(self._numbers))
         parts = [FleetTaskPart(robot=robot, status="waiting") for robot in dict.fromkeys(robots)]
         self._orders[task_id] = order
-        self._set(FleetTask(id=task_id, verb=order.verb, name=order.name, by=order.by, parts=parts))
+        self._set(FleetTask(id=task_id, verb=order.verb, names=[*order.names], by=order.by, parts=parts))
         self._forget_old()
         self._start(task_id, [part.robot for part in parts])
         return self._tasks[task_id]

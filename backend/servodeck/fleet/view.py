@@ -91,13 +91,13 @@ class FleetTaskPart(Message):
 
 
 class FleetTask(Message):
-    """What a person asked of several robots. `name`: of the action group. `spreadMs`: between the first and
+    """What a person asked of several robots. `names`: of the action groups. `spreadMs`: between the first and
     the last first bit of those that started together, by their own clocks; null where unknown.
     """
 
     id: str
     verb: Literal["run", "download", "resume"]
-    name: str
+    names: list[str]
     by: str
     parts: list[FleetTaskPart]
     spread_ms: float | None = None

@@ -3,6 +3,7 @@
 import { StrictMode } from 'react';
 import { createRoot } from 'react-dom/client';
 import { preferredLanguage, speak } from '../i18n/words.ts';
+import { gatewayStore } from '../features/library/gatewayStore.ts';
 import { readMe } from '../features/people/people.ts';
 import { browserClock } from '../robot/links/browserClock.ts';
 import { gatewayFleet } from '../fleet/fleetApi.ts';
@@ -24,7 +25,7 @@ async function start(): Promise<void> {
     location.replace('./');
     return;
   }
-  const fleet = createFleet(gatewayFleet, browserClock);
+  const fleet = createFleet(gatewayFleet, gatewayStore, browserClock);
   root.render(
     <StrictMode>
       <FleetPage fleet={fleet} mayDrive={role === 'driver' || role === 'owner'} />

@@ -46,7 +46,7 @@ export function FleetActions({ mayDrive }: { readonly mayDrive: boolean }) {
             </Button>
           )}
           <Run robots={chosen} act={act} />
-          <FleetDownload robots={chosen} act={act} />
+          <FleetDownload robots={chosen} />
           <Grouping robots={robots} ids={ids} act={act} />
         </>
       )}

@@ -1,31 +1,22 @@
-// Stores a group of the library in one slot of the selected robots: compiled for each kind of board among them, with what keeps it from
-// some, and what it replaces, before anything is sent.
+// Stores groups of the library on the selected robots, each in a slot of its own. What does not fit, and what is replaced, stands beside
+// each group before anything is sent.
 
 import { useEffect, useState } from 'react';
-import { compile } from '#shared/group/compile.ts';
-import { groupFromText, maxErrorOf, type ActionGroup } from '#shared/group/group.ts';
-import type { Listed } from '#shared/files/documentStore.ts';
-import type { FleetDownloadWish, FleetRobot } from '#shared/client/http.generated.ts';
-import { boardName } from '../i18n/sentences.ts';
+import { groupFromText, type ActionGroup } from '#shared/group/group.ts';
+import { listedOf, type Listed } from '#shared/files/documentStore.ts';
+import { GatewayProblem } from '#shared/client/request.ts';
+import type { FleetRobot } from '#shared/client/http.generated.ts';
 import { words } from '../i18n/whole.ts';
-import { gatewayStore } from '../features/library/gatewayStore.ts';
 import { Button } from '../ui/Button.tsx';
 import { Dialog } from '../ui/Dialog.tsx';
 import { NumberField } from '../ui/NumberField.tsx';
 import { EmptyState } from '../ui/Panel.tsx';
-import { Select } from '../ui/Select.tsx';
-import { SLOT } from '#shared/profile/macro.ts';
-import { familyOf, robotOf } from './boards.ts';
 import { useFleet } from './context.ts';
+import { factsOf, slotOffered, slotRangeOf, wishesFor, type Picked } from './downloads.ts';
 import { takesMotion } from './robots.ts';
-import styles from './Fleet.module.css';
+import styles from './FleetDownload.module.css';
 
-interface FleetDownloadProps {
-  readonly robots: readonly FleetRobot[];
-  act(work: () => Promise<unknown>): void;
-}
-
-export function FleetDownload({ robots, act }: FleetDownloadProps) {
+export function FleetDownload({ robots }: { readonly robots: readonly FleetRobot[] }) {
   const [isOpen, setOpen] = useState(false);
   const able = robots.filter(takesMotion);
   return (
@@ -37,131 +28,178 @@ export function FleetDownload({ robots, act }: FleetDownloadProps) {
         title={words.fleet.downloadTo({ count: able.length })}
         closeLabel={words.close}
         isOpen={isOpen}
+        wide
         onClose={() => setOpen(false)}
       >
-        {isOpen && <Choice robots={able} act={act} onDone={() => setOpen(false)} />}
+        {isOpen && <Choice robots={able} onDone={() => setOpen(false)} />}
       </Dialog>
     </>
   );
 }
 
-function Choice({ robots, act, onDone }: FleetDownloadProps & { onDone(): void }) {
-  const fleet = useFleet();
-  const documents = useDocuments();
-  const [chosen, setChosen] = useState('');
-  const [slot, setSlot] = useState<number>(SLOT.min + 21);
-  const document = documents.find(({ id }) => id === chosen) ?? documents[0];
-  const group = useGroup(document?.id ?? null);
-  if (document === undefined) {
+function Choice({ robots, onDone }: { readonly robots: readonly FleetRobot[]; onDone(): void }) {
+  const { library } = useFleet();
+  const { documents, problem: unread } = useDocuments();
+  const [picked, setPicked] = useState<readonly Picked[]>([]);
+  const { problem, isSending, send } = useSending(onDone);
+  if (robots.length === 0) return <p className={styles.dim}>{words.fleet.noneTakes}</p>;
+  if (documents === null) return <p role="status">{unread ?? words.fleet.readingLibrary}</p>;
+  if (documents.length === 0) {
     return <EmptyState title={words.fleet.noLibrary} hint={words.fleet.noLibraryHint} />;
   }
-  const { wishes, refused } = group === null ? { wishes: [], refused: [] } : wishesFor(group, robots, slot);
-  const replaced = robots.filter(({ slots }) =>
-    slots.some((one) => one.slot === slot && one.name !== group?.name),
-  );
+  const facts = new Map(picked.map((one) => [one.id, factsOf(one, picked, robots)]));
+  const isClear = [...facts.values()].every((each) => !each.isEmpty && !each.isSlotTwice);
+  const wishes = isClear ? wishesFor(picked, robots) : [];
+  const getting = wishes.reduce((sum, wish) => sum + wish.robots.length, 0);
+
+  async function pick(id: string): Promise<void> {
+    const { value: group } = groupFromText((await library.read(id)).text) as { value?: ActionGroup };
+    if (group === undefined) return;
+    setPicked((before) => {
+      const slot = slotOffered(
+        group,
+        robots,
+        before.map((one) => one.slot),
+      );
+      return before.some((one) => one.id === id) ? before : [...before, { id, group, slot }];
+    });
+  }
+
   return (
-    <div className={styles.choice}>
-      <span className={styles.named} aria-hidden="true">
-        {words.fleet.groupToStore}
-      </span>
-      <Select
-        label={words.fleet.groupToStore}
-        value={document.id}
-        options={documents.map(({ id, facts }) => ({ value: id, label: facts.name }))}
-        onChange={setChosen}
-      />
-      <span className={styles.named} aria-hidden="true">
-        {words.board.slot}
-      </span>
-      <NumberField
-        label={words.board.slot}
-        value={slot}
-        {...SLOT}
-        onChange={setSlot}
-        onRefused={() => () => undefined}
-      />
-      {refused.length > 0 && (
-        <p className={styles.warning}>
-          {words.fleet.doesNotFit({ boards: words.numbers.formatNames(refused) })}
-        </p>
-      )}
-      {replaced.length > 0 && (
-        <p className={styles.warning}>
-          {words.fleet.replaces({
-            slot,
-            names: words.numbers.formatNames(replaced.map(({ name }) => name)),
-          })}
-        </p>
-      )}
+    <>
+      <p className={styles.dim}>{words.fleet.downloadHint}</p>
+      <ul className={styles.groups} aria-label={words.slots.several.list}>
+        {documents.map(({ id, facts: { name, frames, durationMs } }) => {
+          const one = picked.find((each) => each.id === id);
+          const known = facts.get(id);
+          return (
+            <li key={id} className={styles.group}>
+              <label className={styles.choice}>
+                <input
+                  type="checkbox"
+                  checked={one !== undefined}
+                  onChange={({ target }) =>
+                    target.checked
+                      ? void pick(id)
+                      : setPicked((before) => before.filter((each) => each.id !== id))
+                  }
+                />
+                <span className={styles.name}>
+                  <span>{name}</span>
+                  <span className={styles.dim}>
+                    {words.slots.several.about({ count: frames, durationMs })}
+                  </span>
+                </span>
+              </label>
+              {one !== undefined && known !== undefined && (
+                <PickedGroup
+                  {...{ one, facts: known, range: slotRangeOf(robots) }}
+                  onSlot={(slot) =>
+                    setPicked((before) => before.map((each) => (each.id === id ? { ...each, slot } : each)))
+                  }
+                />
+              )}
+            </li>
+          );
+        })}
+      </ul>
+      <p role="alert" className={styles.warning}>
+        {problem}
+      </p>
       <Button
         tone="primary"
         icon="download"
-        isDisabled={wishes.length === 0}
-        onPress={() => {
-          act(() => Promise.all(wishes.map((wish) => fleet.api.download(wish))));
-          onDone();
-        }}
+        isDisabled={getting === 0 || isSending}
+        onPress={() => send(wishes)}
       >
-        {words.fleet.downloadNow({ count: wishes.reduce((sum, one) => sum + one.robots.length, 0) })}
+        {words.fleet.downloadNow({ groups: picked.length, count: getting })}
       </Button>
-    </div>
+    </>
   );
 }
 
-/** The groups of the library of the gateway that serves this page. */
-function useDocuments(): readonly Listed[] {
-  const [documents, setDocuments] = useState<readonly Listed[]>([]);
+interface PickedGroupProps {
+  readonly one: Picked;
+  readonly facts: ReturnType<typeof factsOf>;
+  readonly range: { readonly min: number; readonly max: number };
+  onSlot(slot: number): void;
+}
+
+/** Its slot, and what there is to know of it before it is sent. */
+function PickedGroup({ one, facts, range, onSlot }: PickedGroupProps) {
+  const { isEmpty, isSlotTwice, refusedBy, replacesOn } = facts;
+  const { formatNames } = words.numbers;
+  const notes = [
+    isEmpty && words.slots.several.noFrame,
+    isSlotTwice && words.slots.several.sameSlot({ slot: one.slot }),
+    refusedBy.length > 0 && words.fleet.doesNotFit({ boards: formatNames(refusedBy) }),
+    replacesOn.length > 0 && words.fleet.replaces({ slot: one.slot, names: formatNames(replacesOn) }),
+  ].filter((note) => note !== false);
+  return (
+    <>
+      <span className={styles.slot}>
+        <span className={styles.dim} aria-hidden="true">
+          {words.board.slot}
+        </span>
+        <NumberField
+          label={words.slots.several.slotOf({ name: one.group.name })}
+          size="small"
+          value={one.slot}
+          {...range}
+          onChange={onSlot}
+          onRefused={() => () => undefined}
+        />
+      </span>
+      {notes.map((note) => (
+        <p key={note} className={styles.warning}>
+          {note}
+        </p>
+      ))}
+    </>
+  );
+}
+
+/** Closes the dialog when the gateway has begun with all of it, and says why it has not. */
+function useSending(onDone: () => void) {
+  const fleet = useFleet();
+  const [problem, setProblem] = useState('');
+  const [isSending, setSending] = useState(false);
+
+  async function send(wishes: ReturnType<typeof wishesFor>): Promise<void> {
+    setSending(true);
+    setProblem('');
+    try {
+      await Promise.all(wishes.map((wish) => fleet.api.download(wish)));
+      onDone();
+    } catch (error) {
+      if (!(error instanceof GatewayProblem)) throw error;
+      setProblem(error.code === 'tooLarge' ? words.fleet.tooMuch : error.message);
+    } finally {
+      setSending(false);
+    }
+  }
+
+  return { problem, isSending, send: (wishes: ReturnType<typeof wishesFor>): void => void send(wishes) };
+}
+
+/** The groups of the library of the gateway that serves this page; null while they are being read, or cannot be. */
+function useDocuments() {
+  const { library } = useFleet();
+  const [documents, setDocuments] = useState<readonly Listed[] | null>(null);
+  const [problem, setProblem] = useState<string | null>(null);
   useEffect(() => {
     let isWanted = true;
-    void gatewayStore.list().then(({ documents: all }) => {
-      if (isWanted)
-        setDocuments(all.filter((one): one is Listed => one.facts.kind === 'group' && !one.isRemoved));
-    });
+    void library.list().then(
+      (listing) => {
+        if (isWanted) setDocuments(listedOf(listing, 'group').filter(({ isRemoved }) => !isRemoved));
+      },
+      (error: unknown) => {
+        if (isWanted) setProblem(error instanceof Error ? error.message : String(error));
+      },
+    );
     return () => {
       isWanted = false;
     };
-  }, []);
-  return documents;
-}
-
-function useGroup(id: string | null): ActionGroup | null {
-  const [read, setRead] = useState<{ readonly id: string; readonly group: ActionGroup } | null>(null);
-  useEffect(() => {
-    if (id === null) return;
-    void gatewayStore.read(id).then(({ text }) => {
-      const { value } = groupFromText(text) as { value?: ActionGroup };
-      if (value !== undefined) setRead({ id, group: value });
-    });
-  }, [id]);
-  return read?.id === id ? read.group : null;
-}
-
-/** One download for all robots that take the same frames; `refused` names the boards for which the group does not fit. */
-export function wishesFor(
-  group: ActionGroup,
-  robots: readonly FleetRobot[],
-  slot: number,
-): { readonly wishes: readonly FleetDownloadWish[]; readonly refused: readonly string[] } {
-  const byFrames = new Map<string, FleetDownloadWish>();
-  const refused = new Set<string>();
-  for (const robot of robots) {
-    const family = familyOf(robot.board);
-    const { frames, report } = compile(group, {
-      family,
-      robot: robotOf(robot),
-      maxErrorUnits: maxErrorOf(group, family),
-    });
-    if (report.problems.some(({ kind }) => kind !== 'tooFast')) {
-      refused.add(boardName(family));
-      continue;
-    }
-    const bodies = frames.map(({ durationMs, targets }) => ({
-      durationMs,
-      positions: Object.fromEntries(targets.map(({ servo, position }) => [servo, position])),
-    }));
-    const key = JSON.stringify(bodies);
-    const wish = byFrames.get(key) ?? { robots: [], group: { slot, name: group.name, frames: bodies } };
-    byFrames.set(key, { ...wish, robots: [...wish.robots, robot.id] });
-  }
-  return { wishes: [...byFrames.values()], refused: [...refused] };
+  }, [library]);
+  return { documents, problem };
 }

@@ -32,7 +32,8 @@ interface TaskProps {
 
 function Task({ task, robots, mayDrive }: TaskProps) {
   const fleet = useFleet();
-  const { parts, verb, name } = task;
+  const { parts, verb } = task;
+  const title = words.fleet.taskNames[verb]({ name: groupNames(task.names), by: task.by });
   const total = parts.length;
   const done = parts.filter(({ status }) => status === 'done').length;
   const failed = parts.filter(({ status }) => status === 'failed');
@@ -44,7 +45,7 @@ function Task({ task, robots, mayDrive }: TaskProps) {
     <li className={styles.task}>
       <div className={styles.taskHead}>
         <Mark truth={failed.length > 0 ? 'warning' : isOver ? 'confirmed' : 'commanded'} />
-        <span>{words.fleet.taskNames[verb]({ name, by: task.by })}</span>
+        <span>{title}</span>
         <span className={styles.dim}>{text}</span>
         {task.spreadMs !== null && (
           <span className={styles.dim}>{words.fleet.spread({ ms: Math.round(task.spreadMs) })}</span>
@@ -56,12 +57,10 @@ function Task({ task, robots, mayDrive }: TaskProps) {
         )}
       </div>
       {!isOver && (
-        <ProgressBar
-          label={words.fleet.taskNames[verb]({ name, by: task.by })}
-          done={share}
-          total={total}
-          text={text}
-        />
+        <>
+          <ProgressBar label={title} done={share} total={total} text={text} />
+          <Shares parts={parts} nameOf={nameOf} />
+        </>
       )}
       {failed.length > 0 && (
         <ul className={styles.reasons}>
@@ -71,6 +70,34 @@ function Task({ task, robots, mayDrive }: TaskProps) {
         </ul>
       )}
     </li>
+  );
+}
+
+const MOST_NAMED = 3;
+
+/** The groups of a task by their names, or their number. */
+export const groupNames = (names: readonly string[]): string =>
+  names.length > MOST_NAMED
+    ? words.fleet.groupCount({ count: names.length })
+    : words.numbers.formatNames(names);
+
+interface SharesProps {
+  readonly parts: FleetTask['parts'];
+  nameOf(id: string): string;
+}
+
+/** How far each robot is that is at work. */
+function Shares({ parts, nameOf }: SharesProps) {
+  const busy = parts.filter(({ status, share }) => status === 'busy' && share !== null);
+  if (busy.length === 0) return null;
+  return (
+    <ul className={styles.shares}>
+      {busy.map(({ robot, share }) => (
+        <li key={robot}>
+          {words.fleet.shareOf({ name: nameOf(robot), percent: words.numbers.formatPercent(share ?? 0) })}
+        </li>
+      ))}
+    </ul>
   );
 }
 

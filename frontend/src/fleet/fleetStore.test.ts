@@ -38,7 +38,7 @@ function followed(answers: readonly (Partial<FleetChanges> | Error)[], api: Part
     ...api,
   };
   const clock = createVirtualClock();
-  const fleet = createFleet(whole, clock);
+  const fleet = createFleet(whole, { list: unused, read: unused }, clock);
   return { fleet, clock, asked, done: fleet.follow(left.signal) };
 }
 

@@ -11,6 +11,7 @@ import type {
   FleetTask,
 } from '#shared/client/http.generated.ts';
 import { GatewayProblem } from '#shared/client/request.ts';
+import type { DocumentStore } from '#shared/files/documentStore.ts';
 import type { FleetApi } from './fleetApi.ts';
 import type { Order } from './robots.ts';
 
@@ -39,9 +40,13 @@ export interface Stopping {
   readonly problem: string | null;
 }
 
+export type FleetLibrary = Pick<DocumentStore, 'list' | 'read'>;
+
 export interface Fleet {
   readonly store: StoreApi<FleetState>;
   readonly api: FleetApi;
+  /** The documents of the gateway that serves the page. */
+  readonly library: FleetLibrary;
   /** Follows the fleet until `signal` ends it. */
   follow(signal: AbortSignal): Promise<void>;
   select(id: string, isSelected: boolean): void;
@@ -53,7 +58,7 @@ export interface Fleet {
 const MOST_EVENTS = 200;
 const RETRY_MS = 1000;
 
-export function createFleet(api: FleetApi, clock: Pick<Clock, 'after'>): Fleet {
+export function createFleet(api: FleetApi, library: FleetLibrary, clock: Pick<Clock, 'after'>): Fleet {
   const store = createStore<FleetState>(() => ({
     site: '',
     broker: null,
@@ -90,6 +95,7 @@ export function createFleet(api: FleetApi, clock: Pick<Clock, 'after'>): Fleet {
   return {
     store,
     api,
+    library,
     async follow(signal) {
       let since = 0;
       while (!signal.aborted) {

@@ -1,6 +1,10 @@
 // Robots of a fleet as the gallery and tests show them.
 
+import { factsOf } from '#shared/files/facts.ts';
+import { emptyGroup, groupToText, type ActionGroup } from '#shared/group/group.ts';
+import { insertFrame, setMeta } from '#shared/group/groupEdits.ts';
 import type { FleetRobot } from '#shared/client/http.generated.ts';
+import type { FleetLibrary } from './fleetStore.ts';
 
 type State = NonNullable<FleetRobot['state']>;
 
@@ -27,5 +31,38 @@ export function fleetRobot(
     ...{ groups: [], presence: 'present', seenMsAgo: null },
     state: state === null ? null : { ...ready, ...state },
     ...rest,
+  };
+}
+
+/** A group of two frames for these servos; of none, an empty one. */
+export function fleetGroup(name: string, servos: readonly number[], slot: number | null = null): ActionGroup {
+  const group = setMeta(emptyGroup(name, 'us'), { slot });
+  if (servos.length === 0) return group;
+  return [1300, 1700].reduce(
+    (sum, position) =>
+      insertFrame(sum, sum.frames.length, {
+        durationMs: 600,
+        targets: servos.map((servo) => ({ servo, position })),
+      }),
+    group,
+  );
+}
+
+export function fleetLibrary(groups: readonly ActionGroup[]): FleetLibrary {
+  return {
+    list: () =>
+      Promise.resolve({
+        documents: groups.map((group) => ({
+          ...{ id: group.name, revision: 1, isRemoved: false },
+          facts: factsOf(group, { updatedAtMs: 0, robot: 'Arm' }),
+        })),
+        ...{ damagedFile: null, changesLost: false },
+      }),
+    read: (id) => {
+      const group = groups.find(({ name }) => name === id);
+      return group === undefined
+        ? Promise.reject(new Error(`no group ${id}`))
+        : Promise.resolve({ text: groupToText(group), revision: 1 });
+    },
   };
 }

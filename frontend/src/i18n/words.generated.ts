@@ -2697,8 +2697,7 @@ export interface Messages {
     readonly run: (values: { readonly count: number }) => string;
     readonly download: string;
     readonly downloadTo: (values: { readonly count: number }) => string;
-    readonly groupToStore: string;
-    readonly downloadNow: (values: { readonly count: number }) => string;
+    readonly downloadNow: (values: { readonly groups: number; readonly count: number }) => string;
     readonly noLibrary: string;
     readonly noLibraryHint: string;
     readonly doesNotFit: (values: { readonly boards: string }) => string;
@@ -2761,5 +2760,11 @@ export interface Messages {
       readonly stop: string;
       readonly goOn: string;
     };
+    readonly downloadHint: string;
+    readonly tooMuch: string;
+    readonly readingLibrary: string;
+    readonly noneTakes: string;
+    readonly groupCount: (values: { readonly count: number }) => string;
+    readonly shareOf: (values: { readonly name: string; readonly percent: string }) => string;
   };
 }

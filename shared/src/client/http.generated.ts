@@ -214,7 +214,7 @@ export interface paths {
     };
     get?: never;
     put?: never;
-    /** Stores a group on each robot, in the same slot */
+    /** Stores the groups on each robot, one after the other */
     post: operations['fleetDownload'];
     delete?: never;
     options?: never;
@@ -1173,9 +1173,13 @@ export interface components {
       /** Cues */
       cues: components['schemas']['FleetCue'][];
     };
-    /** FleetDownloadWish */
+    /**
+     * FleetDownloadWish
+     * @description Each of the groups for the slot that it names, and all of them for each of the robots.
+     */
     FleetDownloadWish: {
-      group: components['schemas']['GroupBody'];
+      /** Groups */
+      groups: components['schemas']['GroupBody'][];
       /** Robots */
       robots: string[];
     };
@@ -1362,7 +1366,7 @@ export interface components {
     };
     /**
      * FleetTask
-     * @description What a person asked of several robots. `name`: of the action group. `spreadMs`: between the first and
+     * @description What a person asked of several robots. `names`: of the action groups. `spreadMs`: between the first and
      *     the last first bit of those that started together, by their own clocks; null where unknown.
      */
     FleetTask: {
@@ -1370,8 +1374,8 @@ export interface components {
       by: string;
       /** Id */
       id: string;
-      /** Name */
-      name: string;
+      /** Names */
+      names: string[];
       /** Parts */
       parts: components['schemas']['FleetTaskPart'][];
       /** Spreadms */

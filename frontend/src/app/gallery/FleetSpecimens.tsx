@@ -5,7 +5,7 @@ import type { FleetChanges } from '#shared/client/http.generated.ts';
 import type { FleetApi } from '../../fleet/fleetApi.ts';
 import { FleetPage } from '../../fleet/FleetPage.tsx';
 import { createFleet, type FleetState } from '../../fleet/fleetStore.ts';
-import { fleetRobot } from '../../fleet/samples.ts';
+import { fleetGroup, fleetLibrary, fleetRobot } from '../../fleet/samples.ts';
 import type { Exhibit } from './exhibit.ts';
 
 const AT_MS = 1_790_000_000_000;
@@ -28,16 +28,23 @@ const ROBOTS: FleetChanges['robots'] = [
   fleetRobot('Hexapod', { board: 'lsc-32', robot: 'Hexapod', state: { driver: 'Carla' } }),
 ];
 
+const LIBRARY = fleetLibrary([
+  fleetGroup('Wave', [1, 2, 3]),
+  fleetGroup('Nod', [5]),
+  fleetGroup('Turn around', [1, 6], 4),
+  fleetGroup('Crawl', [7, 8, 9, 10, 11, 12, 13]),
+]);
+
 const TASKS: FleetChanges['tasks'] = [
   {
-    ...{ id: '1', verb: 'run', name: 'Bow', by: 'Anna', spreadMs: 3.2 },
+    ...{ id: '1', verb: 'run', names: ['Bow'], by: 'Anna', spreadMs: 3.2 },
     parts: [
       { robot: 'Arm 1', status: 'done', share: null, detail: null },
       { robot: 'Arm 5', status: 'failed', share: null, detail: 'The robot is not connected.' },
     ],
   },
   {
-    ...{ id: '2', verb: 'download', name: 'Wave', by: 'Anna', spreadMs: null },
+    ...{ id: '2', verb: 'download', names: ['Wave', 'Bow'], by: 'Anna', spreadMs: null },
     parts: [
       { robot: 'Arm 1', status: 'done', share: null, detail: null },
       { robot: 'Arm 2', status: 'busy', share: 0.4, detail: null },
@@ -78,7 +85,7 @@ export const FLEET: readonly Exhibit[] = STATES.map(({ name, state }) => ({
 
 function Shown({ state }: { readonly state: Partial<FleetState> }) {
   const [fleet] = useState(() => {
-    const made = createFleet(answering(), { after: () => () => undefined });
+    const made = createFleet(answering(), LIBRARY, { after: () => () => undefined });
     made.store.setState({ site: 'lab', broker: { status: 'connected', detail: '' }, ...state });
     return made;
   });
@@ -87,7 +94,7 @@ function Shown({ state }: { readonly state: Partial<FleetState> }) {
 
 /** Everything is done at once. */
 function answering(): FleetApi {
-  const task = { id: '9', verb: 'run', name: 'Wave', by: 'Anna', spreadMs: null } as const;
+  const task = { id: '9', verb: 'run' as const, names: ['Wave'], by: 'Anna', spreadMs: null };
   const begun = () => Promise.resolve({ ...task, parts: [] });
   return {
     changes: () => new Promise(() => undefined),

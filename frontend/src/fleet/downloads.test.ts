@@ -1,0 +1,78 @@
+import { describe, expect, test } from 'vitest';
+import { factsOf, slotOffered, wishesFor, type Picked } from './downloads.ts';
+import { fleetGroup, fleetRobot } from './samples.ts';
+
+const arm = fleetRobot('a', { slots: [{ slot: 21, name: 'Wave' }] });
+const other = fleetRobot('b', { slots: [{ slot: 23, name: 'Bow' }] });
+const hexapod = fleetRobot('c', { board: 'lsc-32' });
+
+const picked = (name: string, slot: number, servos: readonly number[]): Picked => ({
+  ...{ id: name, slot },
+  group: fleetGroup(name, servos),
+});
+
+describe('the slot that is offered', () => {
+  test('is the next one that is free on all of the robots, and not of another chosen group', () => {
+    expect(slotOffered(fleetGroup('Nod', [1]), [arm, other], [])).toBe(22);
+    expect(slotOffered(fleetGroup('Nod', [1]), [arm, other], [22])).toBe(24);
+  });
+
+  test('is the one where a robot has the group already, or that the group names', () => {
+    expect(slotOffered(fleetGroup('Bow', [1]), [arm, other], [])).toBe(23);
+    expect(slotOffered(fleetGroup('Bow', [1], 9), [arm, other], [])).toBe(9);
+    expect(slotOffered(fleetGroup('Bow', [1], 9), [arm, other], [9])).toBe(22);
+  });
+
+  test('is one that every board has', () => {
+    const small = fleetRobot('d', { board: 'xarm' });
+    expect(slotOffered(fleetGroup('Nod', [1], 250), [arm, small], [])).not.toBe(250);
+  });
+});
+
+describe('the wishes', () => {
+  const wave = picked('Wave', 1, [1, 2]);
+  const crawl = picked('Crawl', 2, [12, 13]);
+
+  test('are one for all robots that take the same frames, with the groups that fit them', () => {
+    const wishes = wishesFor([wave, crawl], [arm, other, hexapod]);
+    expect(
+      wishes.map(({ robots, groups }) => [robots, groups.map(({ slot, name }) => [slot, name])]),
+    ).toEqual([
+      [['a', 'b'], [[1, 'Wave']]],
+      [
+        ['c'],
+        [
+          [1, 'Wave'],
+          [2, 'Crawl'],
+        ],
+      ],
+    ]);
+    expect(wishes[0]?.groups[0]?.frames[0]).toEqual({ durationMs: 600, positions: { 1: 1300, 2: 1300 } });
+  });
+
+  test('leave out a robot that no group fits', () => {
+    expect(wishesFor([crawl], [arm])).toEqual([]);
+  });
+});
+
+describe('what is said of a group before it is sent', () => {
+  test('names the boards that it does not fit, and the robots where it replaces another group', () => {
+    const crawl = picked('Crawl', 2, [12, 13]);
+    expect(factsOf(crawl, [crawl], [arm, other, hexapod])).toMatchObject({ replacesOn: [] });
+    expect(factsOf(crawl, [crawl], [arm, other, hexapod]).refusedBy).toHaveLength(1);
+    const nod = picked('Nod', 23, [1]);
+    expect(factsOf(nod, [nod], [arm, other, hexapod])).toMatchObject({ refusedBy: [], replacesOn: ['b'] });
+    const bow = picked('Bow', 23, [1]);
+    expect(factsOf(bow, [bow], [other]).replacesOn).toEqual([]);
+  });
+
+  test('says that it has no frame, and that another one has its slot', () => {
+    const none = picked('None', 23, []);
+    const nod = picked('Nod', 23, [1]);
+    expect(factsOf(none, [none, nod], [arm])).toMatchObject({
+      isEmpty: true,
+      isSlotTwice: true,
+      refusedBy: [],
+    });
+  });
+});
