@@ -1,73 +1,25 @@
 """What may go wrong on a broker, each with a real Mosquitto: docs/adr/0048 has the table."""
 
-import json
-import queue
-import secrets
 import signal
 import socket
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 from servodeck.callers import THIS_COMPUTER
-from servodeck.fleet.broker import Broker, Connection, Interest, Outgoing
+from servodeck.fleet.broker import Broker
 from servodeck.fleet.console import Console, NoAnswerError, RefusedError
-from servodeck.fleet.rules import Received
 from tests.client import Client
 from tests.fleet import WAIT_S, Gateway, console_of, eventually, fleet_on
 from tests.mosquitto import LAB, Mosquitto, needs_mosquitto
+from tests.raw_client import FOR_ARM, TARGETS, driving, move, raw_client
 from tests.samples import MOVE as MOVE_PACKET
 
 pytestmark = [pytest.mark.slow, needs_mosquitto]
 MOVE, RUN, STOP = 3, 6, 7
 NAMES = ("arm-1", "arm-2")
-TARGETS = [{"servo": 1, "position": 1500}]
-FOR_ARM = "sd/1/lab/arm-1/do/driver/anna/"
-REPLY = "sd/1/lab/reply/anna/raw"
-
-
-class Raw:
-    """A client that sends what it likes, as one user of the broker."""
-
-    def __init__(self, broker: Broker) -> None:
-        interest = Interest(1, wants_retained=True, as_published=True)
-        interests = {REPLY: interest} if broker.user == "anna" else {}
-        self.heard: queue.Queue[dict[str, Any]] = queue.Queue()
-        self.connections = 0
-        self.connection = Connection(broker, secrets.token_hex(4), interests, self, time.monotonic)
-        self.connection.start()
-
-    def connected(self) -> None:
-        self.connections += 1
-
-    def lost(self) -> None:
-        """It comes back."""
-
-    def received(self, received: Received) -> None:
-        self.heard.put(json.loads(received.payload))
-
-    def say(
-        self, topic: str, payload: bytes | dict[str, Any], *, is_retained: bool = False, qos: Any = 1
-    ) -> None:
-        data = payload if isinstance(payload, bytes) else json.dumps(payload).encode()
-        assert eventually(lambda: self.connection.is_connected)
-        self.connection.publish(Outgoing(topic, data, qos, is_retained, reply_to=REPLY))
-
-    def answer(self) -> dict[str, Any]:
-        return self.heard.get(timeout=WAIT_S)
-
-
-@contextmanager
-def raw_client(broker: Broker) -> Iterator[Raw]:
-    made = Raw(broker)
-    try:
-        yield made
-    finally:
-        made.connection.end()
 
 
 @pytest.fixture(scope="module")
@@ -91,20 +43,6 @@ def own_mosquitto(tmp_path: Path) -> Iterator[Mosquitto]:
 def arm(mosquitto: Mosquitto) -> Iterator[Gateway]:
     with fleet_on(mosquitto, ["arm-1"]) as (_, (gateway,)):
         yield gateway
-
-
-def move(n: int, nonce: str) -> dict[str, Any]:
-    return {"v": 1, "n": n, "nonce": nonce, "targets": TARGETS, "durationMs": 1500}
-
-
-def driving(raw: Raw) -> str:
-    """Gets the lease; the newest nonce."""
-    raw.say(FOR_ARM + "report", {"v": 1, "n": 1})
-    raw.say(FOR_ARM + "ask", {"v": 1, "n": 2, "nonce": raw.answer()["nonce"], "action": "request"})
-    done = raw.answer()
-    assert done["drives"]
-    nonce: str = done["nonce"]
-    return nonce
 
 
 def test_a_retained_request_is_refused_now_and_not_delivered_later(mosquitto: Mosquitto) -> None:

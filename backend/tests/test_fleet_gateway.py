@@ -5,9 +5,11 @@ from functools import partial
 
 import pytest
 
+from servodeck.callers import THIS_COMPUTER
 from servodeck.fleet.console import RefusedError
 from tests.fleet import Fleet, Gateway, console_of, eventually, fleet_on
 from tests.mosquitto import Mosquitto, needs_mosquitto
+from tests.raw_client import FOR_ARM, raw_client
 
 pytestmark = [pytest.mark.slow, needs_mosquitto]
 MOVE, RUN, STOP = 3, 6, 7
@@ -69,6 +71,21 @@ def test_stop_for_all_reaches_all_and_those_that_come_later(mosquitto: Mosquitto
             assert eventually(partial(has_stopped, gateway))
         late = maker.add("late", mosquitto.broker_for("late"))
         assert eventually(lambda: late.control.latch)
+
+
+def test_a_stop_that_is_repeated_is_done_again_and_answered_once(mosquitto: Mosquitto, fleet: Robots) -> None:
+    maker, (arm, *_) = fleet
+    with raw_client(mosquitto.broker_for("anna")) as raw:
+        raw.say(FOR_ARM + "stop", b"", correlation=b"one")
+        assert raw.answer()["kind"] == "done"
+        maker.call(lambda: arm.control.resume(THIS_COMPUTER))
+        raw.say(FOR_ARM + "stop", b"", correlation=b"one")
+        raw.say(FOR_ARM + "report", {"v": 1, "n": 1}, correlation=b"two")
+        done = raw.answer()
+        assert (done["n"], done["state"]["latch"]) == (1, True)
+        raw.say(FOR_ARM + "stop", b"", correlation=b"three")
+        raw.say(FOR_ARM + "stop", b"")
+        assert [raw.answer()["n"] for _ in range(2)] == [None, None]
 
 
 def has_stopped(gateway: Gateway) -> bool:

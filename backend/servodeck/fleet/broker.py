@@ -11,6 +11,7 @@ import ssl
 import sys
 import threading
 from collections.abc import Callable, Mapping
+from functools import cache
 from pathlib import Path
 from typing import Any, Literal, Protocol
 from urllib.parse import unquote, urlsplit
@@ -285,11 +286,22 @@ def properties_for(packet: int) -> Properties:
 
 
 def properties_of(outgoing: Outgoing) -> Properties:
-    properties = properties_for(PacketTypes.PUBLISH)
-    if outgoing.expires_s is not None:
-        properties.MessageExpiryInterval = outgoing.expires_s
+    if outgoing.reply_to is None and outgoing.correlation is None:
+        return expiring(outgoing.expires_s)
+    properties = new_expiring(outgoing.expires_s)
     if outgoing.reply_to is not None:
         properties.ResponseTopic = outgoing.reply_to
     if outgoing.correlation is not None:
         properties.CorrelationData = outgoing.correlation
     return properties
+
+
+def new_expiring(expires_s: int | None) -> Properties:
+    properties = properties_for(PacketTypes.PUBLISH)
+    if expires_s is not None:
+        properties.MessageExpiryInterval = expires_s
+    return properties
+
+
+# Those of states and most other messages: the library takes longer to make them than to send the message.
+expiring = cache(new_expiring)

@@ -337,7 +337,13 @@ class Console:
     ) -> dict[str, AnyAnswer]:
         """Waits until those that are expected have answered; others may have, too."""
         answers: dict[str, AnyAnswer] = {}
-        correlation = self._await_answers(lambda answer: answers.update({answer.gateway: answer}))
+        missing = set(expected)
+
+        def take(answer: AnyAnswer) -> None:
+            answers[answer.gateway] = answer
+            missing.discard(answer.gateway)
+
+        correlation = self._await_answers(take)
         self._send(ALL, verb, payload, correlation)
         if beside:
             self._connection.publish(beside)
@@ -345,7 +351,7 @@ class Console:
             again = threading.Timer(after_s, self._send, (ALL, verb, payload, correlation))
             again.daemon = True
             again.start()
-        self.until(lambda: answers.keys() >= set(expected), timeout_s)
+        self.until(lambda: not missing, timeout_s)
         self._forget(correlation)
         return answers
 

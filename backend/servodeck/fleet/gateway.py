@@ -35,6 +35,8 @@ STATE_S, LIVE_S, CHANGE_S = 1.0, 0.05, 0.1
 FRESH_S = 3
 ECHO_S = 3.0
 ALONE_S = 30.0
+# A console repeats a STOP for so long, and needs one answer.
+STOP_REPEATED_S = 0.5
 log = logging.getLogger("servodeck.fleet")
 
 
@@ -80,6 +82,7 @@ class FleetGateway:
         self._refused: Counter[str] = Counter()
         self._stops: deque[tuple[Stop, Received]] = deque()
         self._stops_lock = threading.Lock()
+        self._stops_answered: deque[tuple[tuple[str | None, bytes], float]] = deque(maxlen=8)
         self._echo_s = self._foreign_s = 0.0
         self._is_heard = False
         self._about: About | None = None
@@ -205,8 +208,20 @@ class FleetGateway:
         except GatewayError as raised:
             error = raised
         for origin, received in {stop.origin: received for stop, received in stops}.items():
-            if origin:
+            if origin and self._is_first(received):
                 self._send(received, encode(self._stopped(origin, error)))
+
+    def _is_first(self, received: Received) -> bool:
+        """Not the repetition of a STOP that was answered a moment ago: of a thousand gateways the second and
+        third answers would hold up the first ones.
+        """
+        if received.correlation is None:
+            return True
+        now, key = self._control.now(), (received.reply_to, received.correlation)
+        if any(key == one and now - at_s < STOP_REPEATED_S for one, at_s in self._stops_answered):
+            return False
+        self._stops_answered.append((key, now))
+        return True
 
     def _stopped(self, origin: Origin, error: GatewayError | None) -> Done | Refused:
         if error:
@@ -234,6 +249,7 @@ class FleetGateway:
 
     def _came(self) -> None:
         self._echo_s, self._is_heard, self._about = self._control.now(), False, None
+        self._stops_answered.clear()
         self._publish_about()
         self._soon.at_once()
 
