@@ -26,10 +26,11 @@ class Gateway:
     """One robot core and its client on the broker."""
 
     def __init__(self, name: str, broker: Broker, ahead_s: float = 0.0) -> None:
-        """Its clock is `ahead_s` of this process's, as another computer's is."""
+        """Its clock is `ahead_s` of this process's, as another computer's is; that may change."""
         self.name = name
+        self.ahead_s = ahead_s
         self.board = new_board()
-        self.control = Control(FakePorts(self.board), lambda: time.monotonic() + ahead_s, "doc", DEVICE)
+        self.control = Control(FakePorts(self.board), lambda: time.monotonic() + self.ahead_s, "doc", DEVICE)
         self.door = FleetGateway(self.control, broker, LAB, name)
 
     async def start(self) -> None:
@@ -47,6 +48,11 @@ class Gateway:
     def count(self, number: int) -> int:
         """Of the command with that number."""
         return sum(packet[3] == number for packet in self.packets())
+
+    def first_s(self, number: int, since_s: float) -> float | None:
+        """When the first such packet since then was written."""
+        times_s = (at_s for at_s, packet in self.board.written if packet[3] == number and at_s >= since_s)
+        return next(times_s, None)
 
 
 class Fleet:
@@ -107,12 +113,12 @@ def console_of(mosquitto: Mosquitto, user: str, *expected: str) -> Iterator[Cons
         yield console
 
 
-def eventually(is_so: Callable[[], bool]) -> bool:
+def eventually(is_so: Callable[[], bool], within_s: float = WAIT_S, every_s: float = 0.01) -> bool:
     """Looks again and again what another thread does."""
-    deadline_s = time.monotonic() + WAIT_S
+    deadline_s = time.monotonic() + within_s
     pause = threading.Event()
     while not is_so():
         if time.monotonic() > deadline_s:
             return False
-        pause.wait(0.01)
+        pause.wait(every_s)
     return True

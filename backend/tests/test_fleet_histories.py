@@ -9,7 +9,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any
 
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from servodeck.errors import GatewayError
@@ -21,12 +21,14 @@ from servodeck.fleet.topics import Verb
 from servodeck.intents import LeaseAction
 from servodeck.robot.control import Control
 from servodeck.robot.latch import Cause
+from tests.amount import IS_EXHAUSTIVE, TIMES
 from tests.boards import new_board
 from tests.client import Client, gateway_on
 from tests.fake_port import FakePort
 from tests.mosquitto import LAB
 from tests.virtual_time import in_virtual_time, now
 
+HISTORIES = 1000 * TIMES if IS_EXHAUSTIVE else 100
 RUN = 6
 YOUNG_S = 0.5
 # For the end of the motion before, or of a stop.
@@ -188,6 +190,7 @@ def is_due(wanted: Wanted, driver: str) -> bool:
     return wanted.is_committed and wanted.user == driver and wanted.from_s <= now() <= wanted.until_s
 
 
+@settings(max_examples=HISTORIES)
 @given(st.sampled_from(BEGINNINGS), st.lists(STEPS, max_size=25))
 @in_virtual_time
 async def test_a_run_leaves_only_for_a_driver_who_is_heard_and_never_behind_a_stop(
