@@ -140,6 +140,11 @@ async def test_a_stop_of_some_leaves_the_others(stage: Stage) -> None:
         assert (first.control.latch, second.control.latch) == (False, True)
 
 
+async def test_the_gateway_says_that_it_serves_a_fleet_and_has_no_robot(stage: Stage) -> None:
+    async with page_of(stage) as page:
+        assert (await page.client.get("/api/me")).json()["pages"] == ["fleet"]
+
+
 async def test_who_is_not_reached_is_named(stage: Stage) -> None:
     _, fleet, (first, _) = stage
     async with page_of(stage) as page:

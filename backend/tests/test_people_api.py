@@ -80,6 +80,7 @@ async def test_a_stranger_sees_that_and_no_more() -> None:
             "mode": "lan",
             "overheard": True,
             "you": None,
+            "pages": [],
         }
         refused = await stranger.ask("GET", "/api/status")
         assert (refused.status_code, refused.json()["code"]) == (401, "notPaired")

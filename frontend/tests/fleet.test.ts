@@ -88,6 +88,19 @@ test('several groups go to the selected robots; what is replaced and what does n
   await expect(dialog).toHaveCount(0);
 });
 
+test('the dashboard of a gateway with a fleet leads to its page, and that page back', async ({
+  page,
+  url,
+}) => {
+  await at(page, url, 'Owner of a shared robot, question');
+  await expect(page.getByRole('link', { name: 'All robots of the site' })).toHaveAttribute(
+    'href',
+    './fleet.html',
+  );
+  await at(page, url, 'Fleet');
+  await expect(page.getByRole('link', { name: 'This gateway’s robot' })).toHaveAttribute('href', './');
+});
+
 test('what does not work is said in words', async ({ page, url }) => {
   await at(page, url, 'Fleet, one not reached');
   await expect(page.getByText('7 of 8 stopped. Not reached: Arm 6.')).toBeVisible();

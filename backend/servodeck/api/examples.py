@@ -349,7 +349,7 @@ EXAMPLES: dict[tuple[str, str], Example] = {
         None, {"name": "Before the show", "atMs": 1795284000000, "text": TEXT}, ("notFound", "storageFull")
     ),
     ("DELETE", "/api/library/{document}/versions/{version}"): Example(None, errors=("notFound",)),
-    ("GET", "/api/me"): Example({"mode": "lan", "overheard": True, "you": YOU}),
+    ("GET", "/api/me"): Example({"mode": "lan", "overheard": True, "you": YOU, "pages": ["robot"]}),
     ("PATCH", "/api/me"): Example(YOU, {"name": "Anna's tablet"}, ("notFound",)),
     ("POST", "/api/pair"): Example(
         YOU,

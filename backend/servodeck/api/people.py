@@ -35,6 +35,7 @@ from servodeck.schema import Message
 
 MAX_TOKEN_DAYS = 3650
 MS_PER_DAY = 24 * 3600 * 1000
+Page = Literal["robot", "fleet"]
 PersonRole = Literal["viewer", "driver", "owner"]
 Name = Annotated[str, Field(max_length=64, pattern=r"^[^\x00-\x1f\x7f]*$")]
 GivenName = Annotated[str, Field(max_length=64, pattern=r"^[^\s\x00-\x1f\x7f][^\x00-\x1f\x7f]*$")]
@@ -47,13 +48,14 @@ class You(Message):
 
 
 class Me(Message):
-    """`you` is null for an unauthenticated caller. `overheard`: others on the network can read the
-    traffic.
+    """`you` is null for an unauthenticated caller. `overheard`: others on the network can read the traffic.
+    `pages`: what this gateway has for the caller: a robot of its own, a fleet.
     """
 
     mode: Mode
     overheard: bool
     you: You | None
+    pages: list[Page]
 
 
 class PairWish(Message):
@@ -168,11 +170,26 @@ Expiring = Annotated[Expiry, Depends(expiry_of)]
 
 
 @people_api.get("/me")
-async def me(entrance: Entered, caller: Annotated[Caller | None, PUBLIC]) -> Me:
+async def me(request: Request, entrance: Entered, caller: Annotated[Caller | None, PUBLIC]) -> Me:
     """The caller as this gateway knows it."""
     access = entrance.access
-    overheard = access.needs_pairing and not access.is_secure
-    return Me(mode=access.mode, overheard=overheard, you=you_of(caller) if caller else None)
+    return Me(
+        mode=access.mode,
+        overheard=access.needs_pairing and not access.is_secure,
+        you=you_of(caller) if caller else None,
+        pages=pages_for(caller, request),
+    )
+
+
+def pages_for(caller: Caller | None, request: Request) -> list[Page]:
+    if caller is None or not caller.may("viewer"):
+        return []
+    control: Control = request.app.state.control
+    has: dict[Page, bool] = {
+        "robot": control.board.port.device is not None,
+        "fleet": request.app.state.fleet is not None,
+    }
+    return [page for page in has if has[page]]
 
 
 async def saved(entrance: Entrance, note: Note) -> None:

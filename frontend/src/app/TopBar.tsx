@@ -8,7 +8,7 @@ import { LANGUAGE_CODES, LANGUAGES, words } from '../i18n/words.ts';
 import { nameOf } from '../robot/remembered.ts';
 import { RobotButton } from '../features/profiles/RobotDialog.tsx';
 import { BatteryReadout } from '../features/battery/BatteryReadout.tsx';
-import { IconButton } from '../ui/Button.tsx';
+import { IconButton, IconLink } from '../ui/Button.tsx';
 import { titleFor } from '../features/people/people.ts';
 import { boardName } from '../i18n/sentences.ts';
 import { LinkChip, StatusLine, type StatusLineProps } from '../features/connect/StatusLine.tsx';
@@ -65,6 +65,7 @@ export function TopBar({ onMoveHere }: Pick<StatusLineProps, 'onMoveHere'>) {
         <span className={styles.actions}>
           <ActionsButton />
         </span>
+        <FleetLink />
         <PeopleButton />
         <LanguageControl />
         <ThemeButton />
@@ -107,6 +108,14 @@ function ThemeButton() {
   const stores = useStores();
   const icon = THEME_ICONS[useView((state) => state.theme)];
   return <IconButton icon={icon} label={THEME.label(stores)} onPress={() => THEME.run(stores)} />;
+}
+
+/** Where this gateway serves a fleet. */
+function FleetLink() {
+  const { people } = useStores();
+  const me = useStore(people.store, (state) => state.me);
+  if (me?.pages.includes('fleet') !== true) return null;
+  return <IconLink icon="fleet" label={words.regions.fleet} href="./fleet.html" />;
 }
 
 function PeopleButton() {

@@ -5,6 +5,8 @@ import type { LinkState } from '#shared/robot/state.ts';
 import { INITIAL_STATE } from '#shared/robot/store.ts';
 import { beginAnewAsAnother, deviceName, isAnother, sentAway, wishIn } from './arrival.ts';
 
+const NONE: 'robot'[] = [];
+
 test.each([
   ['', null],
   ['#', null],
@@ -28,7 +30,7 @@ test.each([
 
 test('a person who was revoked, or may more or less now, is another one', () => {
   const ben = { id: 'ben', name: 'Ben', role: 'driver' } as const;
-  const me = { mode: 'lan', overheard: true } as const;
+  const me = { mode: 'lan', overheard: true, pages: NONE } as const;
   expect(isAnother(ben, { ...me, you: ben })).toBe(false);
   expect(isAnother(ben, { ...me, you: { ...ben, name: 'Bert' } })).toBe(false);
   expect(isAnother(ben, { ...me, you: { ...ben, role: 'viewer' } })).toBe(true);
@@ -44,8 +46,8 @@ test('a page that was revoked tells why it is out; one that has never been in do
     },
   };
   const you = { id: 'ben', name: 'Ben', role: 'driver' } as const;
-  const out = { mode: 'lan', overheard: true, you: null } as const;
-  sentAway(history, { mode: 'local', overheard: false, you });
+  const out = { mode: 'lan', overheard: true, you: null, pages: NONE } as const;
+  sentAway(history, { mode: 'local', overheard: false, you, pages: [] });
   expect(sentAway(history, out)).toBeNull();
   expect(sentAway(history, { ...out, you })).toBeNull();
   expect(sentAway(history, null)).toBeNull();
@@ -64,8 +66,8 @@ test.each(['local', 'lan'] as const)(
     const you = { id: 'local', name: 'This computer', role: 'owner' } as const;
     const answers = [
       null,
-      { mode, overheard: false, you },
-      { mode: 'lan' as const, overheard: true, you: null },
+      { mode, overheard: false, you, pages: [] },
+      { mode: 'lan' as const, overheard: true, you: null, pages: NONE },
     ];
     const store = createStore(() => ({ snapshot: INITIAL_STATE }));
     const begun: number[] = [];

@@ -28,7 +28,11 @@ async function start(): Promise<void> {
   const fleet = createFleet(gatewayFleet, gatewayStore, browserClock);
   root.render(
     <StrictMode>
-      <FleetPage fleet={fleet} mayDrive={role === 'driver' || role === 'owner'} />
+      <FleetPage
+        fleet={fleet}
+        mayDrive={role === 'driver' || role === 'owner'}
+        hasOwnRobot={me?.pages.includes('robot') === true}
+      />
     </StrictMode>,
   );
   await fleet.follow(new AbortController().signal);

@@ -23,14 +23,16 @@ interface FleetPageProps {
   readonly fleet: Fleet;
   /** What the person at this page may do. */
   readonly mayDrive: boolean;
+  /** The gateway of this page has a robot of its own. */
+  readonly hasOwnRobot: boolean;
 }
 
-export function FleetPage({ fleet, mayDrive }: FleetPageProps) {
+export function FleetPage({ fleet, mayDrive, hasOwnRobot }: FleetPageProps) {
   useSpokenLocale();
   return (
     <FleetContext value={fleet}>
       <div className={styles.page}>
-        <Header />
+        <Header hasOwnRobot={hasOwnRobot} />
         <StopKey label={words.fleet.stopAll} isDisabled={false} onStop={() => void fleet.stop(null)} />
         <Problems />
         <Robots mayDrive={mayDrive} />
@@ -42,7 +44,7 @@ export function FleetPage({ fleet, mayDrive }: FleetPageProps) {
   );
 }
 
-function Header() {
+function Header({ hasOwnRobot }: Pick<FleetPageProps, 'hasOwnRobot'>) {
   const site = useFleetState((state) => state.site);
   const robots = useFleetState((state) => state.robots);
   const waiting = robots.filter(needsPerson).length;
@@ -56,6 +58,11 @@ function Header() {
         <Mark truth={waiting === 0 ? 'confirmed' : 'warning'} />
         {waiting === 0 ? words.fleet.allWell : words.fleet.needPerson({ count: waiting })}
       </p>
+      {hasOwnRobot && (
+        <a className={styles.open} href="./">
+          {words.fleet.ownRobot}
+        </a>
+      )}
     </header>
   );
 }

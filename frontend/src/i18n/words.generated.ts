@@ -6,6 +6,7 @@ export interface Messages {
   readonly regions: {
     readonly top: string;
     readonly notices: string;
+    readonly fleet: string;
   };
   readonly tabs: {
     readonly live: string;
@@ -2766,5 +2767,6 @@ export interface Messages {
     readonly noneTakes: string;
     readonly groupCount: (values: { readonly count: number }) => string;
     readonly shareOf: (values: { readonly name: string; readonly percent: string }) => string;
+    readonly ownRobot: string;
   };
 }

@@ -1745,8 +1745,8 @@ export interface components {
     };
     /**
      * Me
-     * @description `you` is null for an unauthenticated caller. `overheard`: others on the network can read the
-     *     traffic.
+     * @description `you` is null for an unauthenticated caller. `overheard`: others on the network can read the traffic.
+     *     `pages`: what this gateway has for the caller: a robot of its own, a fleet.
      */
     Me: {
       /**
@@ -1756,6 +1756,8 @@ export interface components {
       mode: 'local' | 'lan' | 'proxy';
       /** Overheard */
       overheard: boolean;
+      /** Pages */
+      pages: ('robot' | 'fleet')[];
       you: components['schemas']['You'] | null;
     };
     /**

@@ -89,7 +89,7 @@ function Shown({ state }: { readonly state: Partial<FleetState> }) {
     made.store.setState({ site: 'lab', broker: { status: 'connected', detail: '' }, ...state });
     return made;
   });
-  return <FleetPage fleet={fleet} mayDrive />;
+  return <FleetPage fleet={fleet} mayDrive hasOwnRobot />;
 }
 
 /** Everything is done at once. */

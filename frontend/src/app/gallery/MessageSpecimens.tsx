@@ -49,7 +49,12 @@ export const MESSAGES: readonly Exhibit[] = [
       prepared(
         ({ people }) =>
           people.store.setState({
-            me: { mode: 'lan', overheard: true, you: { id: 'anna', name: 'Anna', role: 'owner' } },
+            me: {
+              mode: 'lan',
+              overheard: true,
+              you: { id: 'anna', name: 'Anna', role: 'owner' },
+              pages: ['robot', 'fleet'],
+            },
           }),
         SHARED,
       ),

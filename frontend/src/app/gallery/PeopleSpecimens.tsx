@@ -19,7 +19,7 @@ const PICTURE =
 const AT_MS = 1_790_000_000_000;
 
 const EMPTY: PeopleState = {
-  me: { mode: 'lan', overheard: true, you: { id: 'anna', name: 'Anna', role: 'owner' } },
+  me: { mode: 'lan', overheard: true, you: { id: 'anna', name: 'Anna', role: 'owner' }, pages: ['robot'] },
   people: [
     person('anna', 'Anna', 'owner', true),
     person('ben', 'Ben, whose name is rather long for one row', 'driver', true),
@@ -112,6 +112,7 @@ const GUEST: PeopleState['me'] = {
   mode: 'lan',
   overheard: true,
   you: { id: 'ben', name: 'Bert', role: 'driver' },
+  pages: ['robot'],
 };
 
 const nothing = (): void => undefined;

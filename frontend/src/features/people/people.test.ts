@@ -3,7 +3,10 @@ import { createPeople, PeopleError, type PeopleApi, type PeopleStore } from './p
 import type { Me } from '#shared/client/http.generated.ts';
 
 const BEN = { id: 'ben', name: 'Android', role: 'driver' } as const;
-const ANNA = { mode: 'lan', overheard: true, you: { id: 'anna', name: 'Anna', role: 'owner' } } as const;
+const ANNA = {
+  ...({ mode: 'lan', overheard: true, you: { id: 'anna', name: 'Anna', role: 'owner' } } as const),
+  pages: ['robot' as const],
+};
 const HOLDS_MS = 120_000;
 
 /** A gateway as far as invitations go: what it was asked, and those it still holds. */

@@ -195,6 +195,7 @@ const meSchema: v.GenericSchema<unknown, Me> = v.object({
   mode: v.picklist(['local', 'lan', 'proxy']),
   overheard: v.boolean(),
   you: v.nullable(youSchema),
+  pages: v.array(v.picklist(['robot', 'fleet'])),
 });
 const peopleSchema: v.GenericSchema<unknown, People> = v.object({
   people: v.array(

@@ -1,7 +1,7 @@
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
 import { peopleApi, readMe } from './people.ts';
 
-const ME = { mode: 'local', overheard: false, you: null };
+const ME = { mode: 'local', overheard: false, you: null, pages: [] };
 
 beforeEach(() => {
   vi.useFakeTimers();
