@@ -1,5 +1,5 @@
 """docs/fleet-protocol.md says what the models take: each of its examples is parsed by the model of its topic,
-and each verb has its row.
+and each verb has its row. docs/adr/0048 names the tests of all faults: they exist.
 """
 
 import re
@@ -12,7 +12,8 @@ from servodeck.fleet.messages import REPORTS, REQUESTS, Answer
 from servodeck.fleet.rules import LEAST_ROLE
 from servodeck.fleet.topics import VERBS, Command, Published, Reply, Site
 
-TEXT = (Path(__file__).parents[2] / "docs" / "fleet-protocol.md").read_text("utf-8")
+DOCS = Path(__file__).parents[2] / "docs"
+TEXT = (DOCS / "fleet-protocol.md").read_text("utf-8")
 EXAMPLES = re.findall(r"^`(sd/1/[^`]+)`\n\n```json\n(.+?)^```$", TEXT, re.MULTILINE | re.DOTALL)
 LAB = Site("lab")
 
@@ -48,6 +49,15 @@ def test_every_report_and_request_has_an_example() -> None:
 def test_the_table_has_each_verb_with_its_role() -> None:
     rows = dict(re.findall(r"^\| `(\w+)` +\| (\w+) ", TEXT, re.MULTILINE))
     assert rows == LEAST_ROLE
+
+
+def test_each_fault_is_played_by_a_test() -> None:
+    decision = (DOCS / "adr" / "0048-a-broker-as-a-door.md").read_text("utf-8")
+    _, *rows = re.findall(r"^\|.+\|(.+)\|$", decision, re.MULTILINE)
+    named = [re.findall(r"`(test_\w+)`", row) for row in rows[1:]]
+    assert all(named)
+    written = "".join(file.read_text("utf-8") for file in Path(__file__).parent.glob("test_fleet_*.py"))
+    assert {name for names in named for name in names} <= set(re.findall(r"def (test_\w+)\(", written))
 
 
 @pytest.mark.parametrize("name", ["", "a/b", "+", "#", "a b", "-a", "x" * 65])

@@ -76,6 +76,30 @@ def test_none_starts_where_a_clock_is_not_sure(
     assert_none_starts(console, gateways)
 
 
+@pytest.mark.exhaustive
+def test_clocks_are_measured_before_each_start(stage: tuple[Console, list[Gateway]]) -> None:
+    console, gateways = stage
+    for name in ("arm-1", "arm-3"):
+        console.ask(name, "ask", action="request")
+    with pytest.raises(FleetError, match="arm-2"):
+        start_together(console, NAMES, slot=3)
+    said = states_of(console, "arm-2")
+    gateways[1].ahead_s += 100.0
+    assert console.until(lambda: states_of(console, "arm-2") >= said + 3, 10)  # it has seen that it was away
+    drive_all(console)
+    start_s = start_together(console, NAMES, slot=3)
+    assert eventually(lambda: all(gateway.count(RUN) == 1 for gateway in gateways))
+    for gateway in gateways:
+        run_s = gateway.first_s(RUN, 0.0)
+        assert run_s
+        assert run_s >= start_s - 0.02
+
+
+def states_of(console: Console, name: str) -> int:
+    robot = console.robot(name)
+    return robot.state.count if robot and robot.state else 0
+
+
 def assert_none_starts(console: Console, gateways: list[Gateway]) -> None:
     """Also not behind the time that was agreed on: no promise is left to commit to."""
     assert all(gateway.count(RUN) == 0 for gateway in gateways)
