@@ -11,7 +11,8 @@ from typing import Any, TypeVar
 
 from servodeck.fleet.broker import Broker
 from servodeck.fleet.console import Console
-from servodeck.fleet.gateway import FleetGateway
+from servodeck.fleet.gateway import NO_PAGE, FleetGateway
+from servodeck.fleet.reports import Page
 from servodeck.robot.control import Control
 from tests.boards import new_board
 from tests.fake_port import FakePorts
@@ -25,13 +26,13 @@ WAIT_S = 10.0
 class Gateway:
     """One robot core and its client on the broker."""
 
-    def __init__(self, name: str, broker: Broker, ahead_s: float = 0.0) -> None:
+    def __init__(self, name: str, broker: Broker, ahead_s: float = 0.0, page: Page = NO_PAGE) -> None:
         """Its clock is `ahead_s` of this process's, as another computer's is; that may change."""
         self.name = name
         self.ahead_s = ahead_s
         self.board = new_board()
         self.control = Control(FakePorts(self.board), lambda: time.monotonic() + self.ahead_s, "doc", DEVICE)
-        self.door = FleetGateway(self.control, broker, LAB, name)
+        self.door = FleetGateway(self.control, broker, LAB, name, page)
 
     async def start(self) -> None:
         await self.control.use_port(DEVICE)
@@ -62,9 +63,9 @@ class Fleet:
         self._thread.start()
         self._gateways: list[Gateway] = []
 
-    def add(self, name: str, broker: Broker, ahead_s: float = 0.0) -> Gateway:
+    def add(self, name: str, broker: Broker, ahead_s: float = 0.0, page: Page = NO_PAGE) -> Gateway:
         async def made() -> Gateway:
-            gateway = Gateway(name, broker, ahead_s)
+            gateway = Gateway(name, broker, ahead_s, page)
             await gateway.start()
             return gateway
 
@@ -72,9 +73,9 @@ class Fleet:
         self._gateways.append(gateway)
         return gateway
 
-    def join(self, name: str, broker: Broker, ahead_s: float = 0.0) -> Gateway:
+    def join(self, name: str, broker: Broker, ahead_s: float = 0.0, page: Page = NO_PAGE) -> Gateway:
         """As `add`, until the broker has brought back what it said."""
-        gateway = self.add(name, broker, ahead_s)
+        gateway = self.add(name, broker, ahead_s, page)
         assert eventually(lambda: gateway.door.status().problem is None), gateway.door.status()
         return gateway
 

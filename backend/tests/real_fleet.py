@@ -34,7 +34,7 @@ class RealGateway:
         self.board.pull()
 
     def packets(self) -> list[tuple[float, int]]:
-        """Of each that has reached the board: when its first byte did, by `time.monotonic`, and the command."""
+        """Of each that has reached the board: when its first byte did (`time.monotonic`), and the command."""
         taken, packets, at = self.board.taken(), [], 0
         head = json.loads(self.board.log.read_text().partition("\n")[0])
         begun_s = head["startedAtEpochMs"] / 1000 - (time.time() - time.monotonic())

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 from servodeck.errors import GatewayError
 from servodeck.fleet.messages import REQUESTS, Done, Refused, TimelyRequest
-from servodeck.fleet.reports import Nonces, Reports
+from servodeck.fleet.reports import Nonces, Page, Reports
 from servodeck.fleet.rules import Accepted, Judge, Received, Stop
 from servodeck.fleet.sessions import FleetSession, Sessions
 from servodeck.fleet.topics import Verb
@@ -54,7 +54,7 @@ class Broker:
         self.judge = Judge(LAB, "arm-1", control.now)
         self.nonces = Nonces(control, "i", self.judge.issued)
         self.sessions = Sessions(
-            control, "arm-1", self.nonces, Reports(control, "arm-1", "i", "", self.nonces)
+            control, "arm-1", self.nonces, Reports(control, "arm-1", "i", Page(), self.nonces)
         )
         self.page = Client(control)
         self.said: list[tuple[str, bytes, bool]] = []

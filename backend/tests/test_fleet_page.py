@@ -153,6 +153,15 @@ async def test_who_is_not_reached_is_named(stage: Stage) -> None:
         assert said == {"reached": ["arm-2"], "notReached": ["arm-1"]}
 
 
+async def test_without_the_broker_nobody_is_said_to_be_stopped(stage: Stage) -> None:
+    mosquitto, _, _ = stage
+    async with page_of(stage) as page:
+        mosquitto.kill()
+        await page.until(lambda: set(presences(page).values()) == {"silent"})
+        said = await page.ask("stop", robots=None)
+        assert said == {"reached": [], "notReached": list(NAMES)}
+
+
 async def test_a_group_is_stored_on_all_and_run_on_all(stage: Stage) -> None:
     _, _, gateways = stage
     async with page_of(stage) as page:

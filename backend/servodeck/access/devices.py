@@ -98,6 +98,11 @@ class Devices:
         self._put(device)
         return device, f"{device.id}.{secret}"
 
+    def admit_again(self, kind: Kind, name: str, role: Role) -> tuple[Device, str]:
+        """As `admit`, in place of those of that kind and name."""
+        self._devices = {one.id: one for one in self.all if (one.kind, one.name) != (kind, name)}
+        return self.admit(kind, name, role)
+
     def find(self, credential: str) -> Device | None:
         """The device of that credential, which counts as seen now. Raises TokenExpiredError."""
         name, _, secret = credential.partition(".")

@@ -35,7 +35,9 @@ class FleetStopWish(Message):
 
 
 class FleetStopped(Message):
-    """`reached`: they have confirmed that they are stopped. `notReached`: they have not, within a second."""
+    """`reached`: they have confirmed that they are stopped. `notReached`: they have not, within a second, or
+    had no board to stop.
+    """
 
     reached: list[str]
     not_reached: list[str]
@@ -95,9 +97,9 @@ async def stop(wish: FleetStopWish, fleet: OfFleet) -> FleetStopped:
     """STOP of those robots, or of all; answers when each has confirmed it, or after a second."""
     if wish.robots is None:
         fleet.tasks.cancel_all()
-    missing = await asyncio.shield(fleet.driver.stop(wish.robots))
-    known = wish.robots if wish.robots is not None else list(fleet.view.robots())
-    return FleetStopped(reached=[one for one in known if one not in missing], not_reached=list(missing))
+    report = await asyncio.shield(fleet.driver.stop(wish.robots))
+    failed = sorted([*report.missing, *(name for name, _ in report.refused)])
+    return FleetStopped(reached=list(report.stopped), not_reached=failed)
 
 
 @fleet_api.post("/run", dependencies=[leaves("fleetAsked")])

@@ -4,6 +4,7 @@ Loads the library of MQTT only where a broker is named.
 """
 
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, NamedTuple, Protocol
 
@@ -12,6 +13,7 @@ import typer
 from servodeck.cli.options import PREFIX, USAGE, fail
 
 if TYPE_CHECKING:
+    from servodeck.access.devices import Devices
     from servodeck.fleet.broker import Broker
     from servodeck.fleet.service import FleetService
     from servodeck.fleet.topics import Site
@@ -183,13 +185,23 @@ class OnNoBroker:
         return None
 
 
-def on_broker_of(membership: Membership | None, control: "Control", page: Callable[[], str]) -> OnBroker:
-    """`page`: its address for others; empty where they reach none."""
+def on_broker_of(
+    membership: Membership | None, control: "Control", page: Callable[[], str], devices: "Devices"
+) -> OnBroker:
+    """`page`: its address for others; empty where they reach none. There the robots' page may stop the robot
+    straight, as a stop-only link does; an owner sees and revokes it among these.
+    """
     if membership is None:
         return OnNoBroker()
+    from servodeck.errors import OutOfRangeError
     from servodeck.fleet.gateway import FleetGateway
     from servodeck.fleet.home_assistant import HomeAssistant
+    from servodeck.fleet.reports import Page
 
     broker, site, name, prefix, folder = membership
     announced = HomeAssistant(site, name, prefix, folder).messages
-    return FleetGateway(control, broker, site, name, page(), announced)
+    address, token = page(), ""
+    if address:
+        with suppress(OutOfRangeError):  # as many as there may be are paired: it is stopped over the broker
+            token = devices.admit_again("stopLink", f"Robots of {site.name}", "stopper")[1]
+    return FleetGateway(control, broker, site, name, Page(address, token), announced)

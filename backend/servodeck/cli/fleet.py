@@ -184,8 +184,10 @@ def stop(console: "Console", names: Names = None, as_json: AsJson = False) -> No
     """Stop the robots that are named, or all of the site and those that come later. Names those that were
     not reached.
     """
+    from servodeck.fleet.stopping import stop_robots
+
     present = heard(console, names or ())
-    report = console.stop_some([robot.name for robot in present]) if names else console.stop_all()
+    report = stop_robots(console, [robot.name for robot in present] if names else None)
     if as_json:
         missing, refused = list(report.missing), dict(report.refused)
         print(json.dumps({"stopped": list(report.stopped), "refused": refused, "missing": missing}))

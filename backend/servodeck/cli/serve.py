@@ -261,7 +261,7 @@ def serve(
         read_robot=robots_in(library),
     )
 
-    on_broker = on_broker_of(membership, control, page)
+    on_broker = on_broker_of(membership, control, page, entrance.devices)
 
     def show(address: str) -> None:
         import webbrowser

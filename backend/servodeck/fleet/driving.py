@@ -11,8 +11,9 @@ from contextlib import suppress
 from functools import partial
 from typing import Any
 
-from servodeck.fleet.console import Console, FleetError, NoAnswerError, RefusedError, Robot
+from servodeck.fleet.console import Console, FleetError, NoAnswerError, RefusedError, Robot, StopReport
 from servodeck.fleet.messages import Done
+from servodeck.fleet.stopping import stop_robots
 from servodeck.fleet.together import new_name, spread_ms, start_together
 from servodeck.intents import GroupBody
 from servodeck.snapshots import JobState
@@ -58,13 +59,9 @@ class FleetDriver:
             with suppress(asyncio.CancelledError):
                 await self._beating
 
-    async def stop(self, robots: Sequence[str] | None) -> Sequence[str]:
-        """None: of all. Those that have not confirmed it in time, or had no board to stop."""
-        if robots is None:
-            report = await in_thread(self._console.stop_all)
-        else:
-            report = await in_thread(lambda: self._console.stop_some(robots))
-        return [*report.missing, *(name for name, _ in report.refused)]
+    async def stop(self, robots: Sequence[str] | None) -> StopReport:
+        """None: of all."""
+        return await in_thread(lambda: stop_robots(self._console, robots))
 
     async def run(self, robot: str, slot: int, times: int) -> None:
         """Until it has ended. Raises a FleetError."""

@@ -20,7 +20,7 @@ from servodeck.callers import Caller
 from servodeck.errors import GatewayError
 from servodeck.fleet.broker import Broker, Connection, Interest, Outgoing
 from servodeck.fleet.messages import About, Clock, Done, Online, Refused, State, encode
-from servodeck.fleet.reports import Facts, Nonces, Reports
+from servodeck.fleet.reports import Facts, Nonces, Page, Reports
 from servodeck.fleet.rules import Accepted, Judge, Origin, Received, Refusal, Repeated, Stop
 from servodeck.fleet.sessions import Sessions
 from servodeck.fleet.topics import ALL, Kind, Published, Site
@@ -37,6 +37,7 @@ ECHO_S = 3.0
 ALONE_S = 30.0
 # A console repeats a STOP for so long, and needs one answer.
 STOP_REPEATED_S = 0.5
+NO_PAGE = Page()
 log = logging.getLogger("servodeck.fleet")
 
 
@@ -61,12 +62,10 @@ class FleetGateway:
         broker: Broker,
         site: Site,
         name: str,
-        page: str = "",
+        page: Page = NO_PAGE,
         announced: Callable[[About], Iterable[Outgoing]] = lambda _: (),
     ) -> None:
-        """`page`: the address of the gateway's own page, if others can reach it. `announced`: what else is
-        published when the gateway says what it is.
-        """
+        """`announced`: what else is published when the gateway says what it is."""
         self._announced = announced
         self._control = control
         self._site = site

@@ -42,8 +42,9 @@ class Report(Message):
 
 class About(Report):
     """Retained. `robot`: its name, empty where none is described. `slots`: the groups that the gateway
-    stored. `page`: the address of its page, empty where it is not reachable from elsewhere. `lowBatteryMv`:
-    at or below, its battery is low; null where its description does not say.
+    stored. `page`: the address of its page, empty where it is not reachable from elsewhere. `stopToken`: with
+    it POST PAGE/api/stop takes a STOP, and nothing else; whoever may read this may stop over the broker, too.
+    `lowBatteryMv`: at or below, its battery is low; null where its description does not say.
     """
 
     name: Name
@@ -54,6 +55,7 @@ class About(Report):
     slots: dict[str, StoredGroup]
     broken_slots: list[int]
     page: str
+    stop_token: str = ""
     low_battery_mv: Whole | None = None
 
 

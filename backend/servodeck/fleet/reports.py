@@ -50,6 +50,16 @@ class Nonces:
 
 
 @value
+class Page:
+    """The gateway's own page for others, and the token with which it takes a STOP; empty where they reach
+    none.
+    """
+
+    address: str = ""
+    stop_token: str = ""
+
+
+@value
 class Facts:
     """A change of these is published at once."""
 
@@ -67,7 +77,7 @@ class Facts:
 
 
 class Reports:
-    def __init__(self, control: Control, name: str, instance: str, page: str, nonces: Nonces) -> None:
+    def __init__(self, control: Control, name: str, instance: str, page: Page, nonces: Nonces) -> None:
         self._control = control
         self._name = name
         self._instance = instance
@@ -91,7 +101,8 @@ class Reports:
             servos=facts.limits if facts else [],
             slots=control.board.slot_versions,
             broken_slots=control.board.broken_slots,
-            page=self._page,
+            page=self._page.address,
+            stop_token=self._page.stop_token,
             low_battery_mv=facts.low_battery_mv if facts else None,
         )
 

@@ -1348,7 +1348,8 @@ export interface components {
     };
     /**
      * FleetStopped
-     * @description `reached`: they have confirmed that they are stopped. `notReached`: they have not, within a second.
+     * @description `reached`: they have confirmed that they are stopped. `notReached`: they have not, within a second, or
+     *     had no board to stop.
      */
     FleetStopped: {
       /** Notreached */

@@ -1,0 +1,129 @@
+"""STOP of robots whose broker is gone, or who do not answer there: straight at their own pages, and who was
+not reached is said.
+"""
+
+import signal
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from http.server import BaseHTTPRequestHandler, HTTPServer
+from pathlib import Path
+
+import pytest
+
+from servodeck.fleet.reports import Page
+from servodeck.fleet.stopping import stop_robots
+from tests.fleet import WAIT_S, console_of, fleet_on
+from tests.mosquitto import Mosquitto, free_port, needs_mosquitto
+from tests.test_cli import Served
+
+pytestmark = [pytest.mark.slow, needs_mosquitto]
+NAMES = ("arm-1", "arm-2")
+TOKEN = "only.stops"
+
+
+class Pages(HTTPServer):
+    """The page of a gateway, as far as a STOP is concerned: which requests came."""
+
+    def __init__(self) -> None:
+        super().__init__(("127.0.0.1", 0), Answering)
+        self.requests: list[tuple[str, str | None]] = []
+
+    @property
+    def page(self) -> Page:
+        return Page(f"http://127.0.0.1:{self.server_port}/", TOKEN)
+
+
+class Answering(BaseHTTPRequestHandler):
+    def do_POST(self) -> None:
+        assert isinstance(self.server, Pages)
+        said = self.headers["Authorization"]
+        self.server.requests.append((self.path, said))
+        self.send_response(200 if said == f"Bearer {TOKEN}" else 401)
+        self.end_headers()
+
+    def log_message(self, *_: object) -> None:
+        """The test looks at the requests."""
+
+
+@contextmanager
+def pages() -> Iterator[Pages]:
+    with Pages() as server:
+        thread = threading.Thread(target=server.serve_forever, args=(0.01,))
+        thread.start()
+        try:
+            yield server
+        finally:
+            server.shutdown()
+            thread.join()
+
+
+@pytest.fixture
+def mosquitto(tmp_path: Path) -> Iterator[Mosquitto]:
+    made = Mosquitto(tmp_path / "broker", NAMES)
+    made.start()
+    yield made
+    made.kill()
+
+
+def test_without_the_broker_those_with_a_page_are_stopped_there_and_the_others_named(
+    mosquitto: Mosquitto,
+) -> None:
+    with pages() as server, fleet_on(mosquitto, ["arm-2"]) as (fleet, _):
+        fleet.join("arm-1", mosquitto.broker_for("arm-1"), page=server.page)
+        with console_of(mosquitto, "anna", *NAMES) as console:
+            mosquitto.kill()
+            assert console.until(lambda: console.problem is not None, WAIT_S)
+            report = stop_robots(console)
+            assert (report.stopped, report.refused, report.missing) == (("arm-1",), (), ("arm-2",))
+            assert server.requests == [("/api/stop", f"Bearer {TOKEN}")]
+            assert stop_robots(console, ["arm-2", "nobody"]).missing == ("arm-2", "nobody")
+
+
+def test_where_the_broker_freezes_they_are_stopped_at_their_pages(mosquitto: Mosquitto) -> None:
+    with pages() as server, fleet_on(mosquitto, ["arm-2"]) as (fleet, _):
+        fleet.join("arm-1", mosquitto.broker_for("arm-1"), page=server.page)
+        with console_of(mosquitto, "anna", *NAMES) as console:
+            mosquitto.signal(signal.SIGSTOP)
+            report = stop_robots(console)
+            assert (report.stopped, report.missing) == (("arm-1",), ("arm-2",))
+
+
+def test_a_broker_that_works_is_enough(mosquitto: Mosquitto) -> None:
+    with pages() as server, fleet_on(mosquitto, ["arm-2"]) as (fleet, _):
+        fleet.join("arm-1", mosquitto.broker_for("arm-1"), page=server.page)
+        with console_of(mosquitto, "anna", *NAMES) as console:
+            assert stop_robots(console).stopped == NAMES
+            assert server.requests == []
+
+
+def test_a_page_that_refuses_has_not_stopped(mosquitto: Mosquitto) -> None:
+    with pages() as server, fleet_on(mosquitto, []) as (fleet, _):
+        refused = Page(server.page.address, "of.another")
+        fleet.join("arm-1", mosquitto.broker_for("arm-1"), page=refused)
+        with console_of(mosquitto, "anna", "arm-1") as console:
+            mosquitto.kill()
+            assert console.until(lambda: console.problem is not None, WAIT_S)
+            assert stop_robots(console).missing == ("arm-1",)
+            assert len(server.requests) == 1
+
+
+@pytest.mark.exhaustive
+def test_a_real_gateway_takes_the_stop_at_its_page_and_nothing_else(
+    mosquitto: Mosquitto, tmp_path: Path
+) -> None:
+    port = free_port()
+    secret = mosquitto.folder / "secrets" / "arm-1"
+    options = ["--mqtt", f"mqtt://arm-1@127.0.0.1:{mosquitto.port}", "--mqtt-site", "lab"]
+    files = ["--mqtt-password-file", str(secret), "--data", str(tmp_path / "data")]
+    served = Served(
+        *options, *files, "--public-url", f"http://127.0.0.1:{port}", "--listen", f"127.0.0.1:{port}"
+    )
+    try:
+        with console_of(mosquitto, "anna", "arm-1") as console:
+            mosquitto.kill()
+            assert console.until(lambda: console.problem is not None, WAIT_S)
+            assert stop_robots(console).stopped == ("arm-1",)
+            served.read_until_stops(3)
+    finally:
+        served.end()
