@@ -8,7 +8,7 @@ import pytest
 from typer.testing import Result
 
 from servodeck.cli.options import FAILURE, TIMED_OUT, UNREACHABLE, USAGE
-from tests.fleet import Fleet, Gateway, eventually, fleet_on
+from tests.fleet import WAIT_S, Fleet, Gateway, console_of, eventually, fleet_on
 from tests.mosquitto import Mosquitto, free_port, needs_mosquitto
 from tests.test_cli import run
 
@@ -36,7 +36,8 @@ def robots(mosquitto: Mosquitto) -> Iterator[Robots]:
 def fleet(mosquitto: Mosquitto, *arguments: str, user: str = "anna") -> Result:
     secret = mosquitto.folder / "secrets" / user
     broker = ["--mqtt", f"mqtt://{user}@127.0.0.1:{mosquitto.port}", "--mqtt-site", "lab"]
-    role = [] if "--role" in arguments else ["--role", mosquitto.plan.users[user]]
+    given = mosquitto.plan.users.get(user)
+    role = [] if "--role" in arguments or given is None else ["--role", given]
     return run("fleet", *arguments, *broker, "--mqtt-password-file", str(secret), *role)
 
 
@@ -52,6 +53,27 @@ def test_list_shows_who_is_there(mosquitto: Mosquitto, robots: Robots) -> None:
         ("arm-1", False),
         ("arm-2", False),
     ]
+
+
+@needs_mosquitto
+def test_a_robot_that_will_not_come_back_is_taken_off_the_lists_by_its_own_user(tmp_path: Path) -> None:
+    own = Mosquitto(tmp_path / "broker", NAMES)
+    own.start()
+    try:
+        with fleet_on(own, ["arm-1"]):
+            pass
+        with console_of(own, "olga") as console:
+            assert console.until(lambda: console.robot("arm-1") is not None, WAIT_S)
+            refused = fleet(own, "forget", "arm-1", user="arm-2")
+            assert (refused.exit_code, refused.stderr) == (
+                FAILURE,
+                "The broker does not let arm-2 do that.\n",
+            )
+            assert fleet(own, "forget", "arm-1", user="arm-1").stdout == "arm-1 is off the lists.\n"
+            assert console.until(lambda: console.robot("arm-1") is None, WAIT_S)
+        assert fleet(own, "list", user="vera").stdout == "No robot is there.\n"
+    finally:
+        own.kill()
 
 
 @needs_mosquitto

@@ -142,6 +142,31 @@ def serve_page(
     )
 
 
+@fleet.command()
+def forget(
+    name: Annotated[str, typer.Argument(metavar="ROBOT")],
+    mqtt: MqttUrl = "",
+    mqtt_site: MqttSite = USUAL_SITE,
+    mqtt_password: MqttPassword = "",
+    mqtt_password_file: MqttPasswordFile = None,
+    mqtt_ca: MqttCa = None,
+    mqtt_cert: MqttCert = None,
+    mqtt_key: MqttKey = None,
+) -> None:
+    """Take a robot that will not come back off the lists. The user is that of its gateway, whose password is
+    in broker/secrets.
+    """
+    from servodeck.fleet.leaving import take_off
+
+    if not mqtt:
+        fail("Name the broker: --mqtt mqtts://ROBOT@HOST, or SERVODECK_MQTT.", USAGE)
+    options = MqttOptions(mqtt, mqtt_site, mqtt_password, mqtt_password_file, mqtt_ca, mqtt_cert, mqtt_key)
+    problem = take_off(broker_of(options), site_of(options), name)
+    if problem:
+        fail(problem)
+    print(f"{name} is off the lists.")
+
+
 @fleet.command("list")
 @on_console
 def list_robots(console: "Console", as_json: AsJson = False) -> None:
@@ -157,7 +182,7 @@ def list_robots(console: "Console", as_json: AsJson = False) -> None:
 
 
 def json_of(robot: "Robot") -> dict[str, Any]:
-    about = robot.about and robot.about.model_dump()
+    about = robot.about and robot.about.model_dump(exclude={"stop_token"})
     return {
         "name": robot.name,
         "presence": robot.presence,

@@ -385,6 +385,9 @@ class Console:
     def _take(self, received: Received) -> str:
         """The gateway that said it; empty for what other people said."""
         match self._site.parse(received.topic):
+            case Published(gateway, "about") if not received.payload:
+                self._heard.removed(gateway)
+                return gateway
             case Published(gateway, "about"):
                 self._heard.about(gateway, About.model_validate_json(received.payload))
                 return gateway

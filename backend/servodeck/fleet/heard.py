@@ -81,6 +81,13 @@ class Heard:
         with self._lock:
             self._of(name).about = about
 
+    def removed(self, name: str) -> None:
+        """The broker keeps nothing of it any more."""
+        with self._lock:
+            seen = self._seen.get(name)
+            if seen and seen.presence(self._now()) == "silent":
+                del self._seen[name]
+
     def live(self, name: str, live: Live) -> None:
         with self._lock:
             seen = self._of(name)
