@@ -7,10 +7,12 @@ import shutil
 import socket
 import ssl
 import subprocess
+import threading
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
+from typing import IO
 
 import pytest
 from httpx2 import Client
@@ -29,6 +31,7 @@ from tests.test_client import has
 ROOT = Path(__file__).resolve().parents[2]
 # `npm test` fetches one into build/.
 CADDY = shutil.which("caddy", path=f"{os.environ['PATH']}{os.pathsep}{ROOT / 'build/caddy/usr/bin'}")
+READY_S = 30.0
 CADDYFILE = ROOT / "packaging/caddy/Caddyfile"
 # Nothing of it leaves the folder or this computer, and it takes no usual port.
 AROUND = """\
@@ -96,19 +99,24 @@ def caddy(folder: Path, url: str, gateway: str) -> Iterator[ssl.SSLContext]:
     with subprocess.Popen(command, stderr=subprocess.PIPE, text=True, env={**here, **named}) as process:
         try:
             assert process.stderr
-            said = []
-            for line in process.stderr:
-                said.append(line)
-                if "certificate obtained successfully" in line:
-                    break
-            else:
-                pytest.fail("".join(said))
+            said: list[str] = []
+            is_ready = threading.Event()
+            threading.Thread(target=read, args=(process.stderr, said, is_ready), daemon=True).start()
+            assert is_ready.wait(READY_S), "".join(said)
             root = folder / "caddy/pki/authorities/local/root.crt"
             trust = ssl.create_default_context(cafile=str(root))
             has(lambda: shakes_hands(url, trust))  # it says so before it uses it
             yield trust
         finally:
             process.kill()
+
+
+def read(stream: IO[str], said: list[str], is_ready: threading.Event) -> None:
+    """To the end: once a pipe is full, who writes to it waits."""
+    for line in stream:
+        said.append(line)
+        if "certificate obtained successfully" in line:
+            is_ready.set()
 
 
 def shakes_hands(url: str, trust: ssl.SSLContext) -> bool:
