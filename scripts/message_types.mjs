@@ -11,6 +11,7 @@ import { readTree, typesText } from './words.mjs';
 
 const MESSAGES = 'shared/src/client/messages.generated.ts';
 const HTTP = 'shared/src/client/http.generated.ts';
+const DRIVE = 'frontend/src/fleet/drive.generated.ts';
 
 /** @typedef {{ content?: Record<string, { example?: unknown }> }} Part */
 /** @typedef {{ description?: string, security?: unknown, requestBody?: Part, responses: Record<string, Part> }} Operation */
@@ -27,17 +28,23 @@ const banner = (source) =>
   "// Made from the gateway's models by `npm run messages`; a check fails when the two differ. Change " +
   `${source} instead.`;
 
-async function messages() {
-  /** @type {{ title: string, version: number }} */
-  const schema = JSON.parse(await printedBy('servodeck.events'));
+/** The types of the schema that a module prints, and its version. @param {string} module */
+async function messagesOf(module) {
+  /** @type {{ title: string, version?: number }} */
+  const schema = JSON.parse(await printedBy(module));
   const types = await compile(schema, schema.title, {
-    bannerComment: banner('backend/servodeck/events.py'),
+    bannerComment: banner(`backend/${module.replaceAll('.', '/')}.py`),
     additionalProperties: false,
     ignoreMinAndMaxItems: true,
     unreachableDefinitions: true,
     style: { printWidth: 110, singleQuote: true },
   });
-  return `${types}/** Of these messages. */\nexport const PROTOCOL = ${schema.version};\n`;
+  return { types, version: schema.version };
+}
+
+async function messages() {
+  const { types, version } = await messagesOf('servodeck.events');
+  return `${types}/** Of these messages. */\nexport const PROTOCOL = ${version};\n`;
 }
 
 /** Routes, what they take and what they answer; every refusal is the same `{code, detail}`, and examples are for people. */
@@ -86,6 +93,8 @@ await main(async () => {
   const mayWrite = !process.argv.includes('--check');
   bring(mayWrite, 'frontend/src/i18n/words.generated.ts', typesText(readTree('en')), 'the English words');
   bring(mayWrite, MESSAGES, await messages(), "the gateway's models");
+  const drive = await messagesOf('servodeck.fleet.drive_messages');
+  bring(mayWrite, DRIVE, drive.types, "the gateway's models");
   bring(mayWrite, HTTP, await http(), "the gateway's routes");
   return 0;
 });

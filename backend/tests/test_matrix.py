@@ -43,6 +43,7 @@ ROLES: dict[tuple[str, str], Role | None] = {
     ("PUT", "/api/library/{document}/versions/{version}"): "driver",
     ("POST", "/api/library/drafts"): "viewer",
     ("GET", "/api/fleet"): "viewer",
+    ("WS", "/api/fleet/robots/{robot}/drive"): "driver",
     ("POST", "/api/fleet/stop"): "stopper",
     ("POST", "/api/fleet/run"): "driver",
     ("POST", "/api/fleet/download"): "driver",

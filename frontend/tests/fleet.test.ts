@@ -101,6 +101,39 @@ test('the dashboard of a gateway with a fleet leads to its page, and that page b
   await expect(page.getByRole('link', { name: 'This gateway’s robot' })).toHaveAttribute('href', './');
 });
 
+test('a robot is driven: a slider moves it, STOP is beside it, and Esc stops all', async ({ page, url }) => {
+  await at(page, url, 'Fleet');
+  await page.getByRole('button', { name: 'Drive Arm 1' }).click();
+  const panel = page.getByRole('dialog', { name: 'Drive Arm 1' });
+  await expect(panel.getByText('You drive')).toBeVisible();
+  const slider = panel.getByRole('slider', { name: 'Servo 2 position' });
+  await expect(slider).toHaveAttribute('aria-valuetext', '1380 µs, commanded');
+  await slider.focus();
+  await page.keyboard.press('ArrowRight');
+  await page.keyboard.press('Shift+ArrowRight');
+  await expect(slider).toHaveAttribute('aria-valuetext', '1490 µs, commanded');
+  await expect(panel.getByRole('slider', { name: 'Servo 6 position' })).toHaveAttribute(
+    'aria-valuetext',
+    'Unknown; the first move may be slow',
+  );
+  await panel.getByRole('button', { name: 'Stop Arm 1' }).click();
+  await expect(page.getByText('1 robot stopped')).toBeVisible();
+  await page.keyboard.press('Escape');
+  await expect(page.getByText('8 robots stopped')).toBeVisible();
+});
+
+test('who drives is named where the lease is not free', async ({ page, url }) => {
+  await at(page, url, 'Fleet, one driven by another person');
+  const panel = page.getByRole('dialog', { name: 'Drive Arm 2' });
+  await expect(panel.getByText('Request sent to Anna')).toBeVisible();
+  await expect(panel.getByRole('slider', { name: 'Servo 1 position' })).toHaveAttribute(
+    'aria-disabled',
+    'true',
+  );
+  await panel.getByRole('button', { name: 'Close' }).click();
+  await expect(panel).toHaveCount(0);
+});
+
 test('what does not work is said in words', async ({ page, url }) => {
   await at(page, url, 'Fleet, one not reached');
   await expect(page.getByText('7 of 8 stopped. Not reached: Arm 6.')).toBeVisible();

@@ -96,8 +96,9 @@ def audit_routes() -> tuple[APIRouter, ...]:
 
 def fleet() -> tuple[APIRouter, ...]:
     from servodeck.api.fleet import fleet_api
+    from servodeck.api.fleet_drive import drive_socket
 
-    return (fleet_api,)
+    return fleet_api, drive_socket
 
 
 def people() -> tuple[APIRouter, ...]:

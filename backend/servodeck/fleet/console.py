@@ -193,8 +193,8 @@ class Console:
         self._connection.unsubscribe(self._site.published(gateway, "live"))
 
     def request(self, gateway: str, verb: Verb, **fields: Any) -> "Future[Done]":
-        """`fields` as the request has them, but `v`, `n` and `nonce`. The result, or RefusedError, or
-        NoAnswerError where it cannot be sent.
+        """`fields` as the request has them, but `v` and `n`; `nonce` is the newest one by default. The
+        result, or RefusedError, or NoAnswerError where it cannot be sent.
         """
         answered: Future[Done] = Future()
 
@@ -240,13 +240,19 @@ class Console:
             why = f" Has {self._user} the role {self._role}?" if self._connection.was_denied else ""
             raise NoAnswerError(f"{gateway} did not answer in {timeout_s:g} s.{why}") from None
 
-    def beat(self) -> None:
-        """The driver is present: for all gateways of which this console has the lease."""
+    def beat(self, gateways: Collection[str] | None = None) -> None:
+        """The driver is present: for those of these gateways, or of all, whose lease this console has."""
         with self._lock:
-            newest = {name: self._heard.nonce_of(name) for name in self._drives}
+            beaten = self._drives if gateways is None else self._drives.intersection(gateways)
+            newest = {name: self._heard.nonce_of(name) for name in beaten}
             nonces = {name: nonce for name, nonce in newest.items() if nonce}
             if nonces:
                 self._send(ALL, "beat", encode(BeatRequest(n=self._next(), nonces=nonces)), b"")
+
+    def beat_for(self, gateway: str, nonce: str) -> None:
+        """The driver of that one was present when it had got that nonce."""
+        with self._lock:
+            self._send(gateway, "beat", encode(BeatRequest(n=self._next(), nonces={gateway: nonce})), b"")
 
     def stop(self, gateway: str) -> "Future[Done]":
         """STOP for one. As `request`."""
@@ -460,7 +466,7 @@ class Console:
         model, n = REQUESTS[verb], self._next()
         if issubclass(model, TimelyRequest):
             nonce = self._heard.nonce_of(gateway)
-            return None if nonce is None else encode(model(n=n, nonce=nonce, **fields))
+            return None if nonce is None else encode(model(**{"n": n, "nonce": nonce, **fields}))
         return encode(model(n=n, **fields))
 
     def _send(self, gateway: str, verb: Verb, payload: bytes, correlation: bytes) -> bool:

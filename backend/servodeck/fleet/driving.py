@@ -5,11 +5,12 @@ Knows a console; no HTTP. Nothing here decides whether a robot may move: its gat
 """
 
 import asyncio
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
 from contextlib import suppress
 from functools import partial
-from typing import Any
+from typing import Any, Protocol
 
 from servodeck.fleet.console import Console, FleetError, NoAnswerError, RefusedError, Robot, StopReport
 from servodeck.fleet.messages import Done
@@ -27,8 +28,16 @@ LEASE_S = 7.0
 # Between a report that a group runs or a download is in progress, and the request before it.
 BEGUN_S = 3.0
 
+# Who has a robot that a task of this page moves.
+TASK = "A task of this page"
+
 Share = Callable[[float | None], None]
 """Is told how much of the work is done, 0 to 1."""
+
+
+class Claimant(Protocol):
+    @property
+    def name(self) -> str: ...
 
 
 class FleetDriver:
@@ -39,6 +48,9 @@ class FleetDriver:
         self._beating: asyncio.Task[None] | None = None
         self._loop: asyncio.AbstractEventLoop | None = None
         self._news = asyncio.Event()
+        # Robots that tasks move now, and those that people drive: neither takes one from the other.
+        self._tasks: Counter[str] = Counter()
+        self._claims: dict[str, Claimant] = {}
 
     def start(self) -> None:
         self._loop = asyncio.get_running_loop()
@@ -77,12 +89,14 @@ class FleetDriver:
         for each where it has started. Answers with what knows how many ms apart they have begun.
         """
         name = new_name()
+        leased: list[str] = []
         try:
             for robot in slots:
                 await self._lease(robot)
+                leased.append(robot)
             await in_thread(lambda: start_together(self._console, list(slots), slots, times, name=name))
         except BaseException:
-            for robot in slots:
+            for robot in leased:
                 await self._release(robot)
             raise
         return lambda: spread_ms(self._console, list(slots), name)
@@ -114,14 +128,20 @@ class FleetDriver:
         finally:
             await self._release(robot)
 
-    async def resume(self, robot: str) -> None:
-        """Robots that come later are not stopped any more, either. Raises a FleetError."""
-        self._console.withdraw_holds()
-        await self._ask(robot, "report")  # whose answer has a nonce that is new enough
-        await self._ask(robot, "resume")
+    def claim(self, robot: str, claimant: "Claimant") -> str | None:
+        """From now on, or still, it is this page that drives the robot: else the name of the one who does."""
+        if self._tasks[robot] > 0:
+            return TASK
+        holder = self._claims.setdefault(robot, claimant)
+        return None if holder is claimant else holder.name
 
-    async def _lease(self, robot: str) -> None:
-        """Raises a FleetError where another driver keeps it."""
+    def drop(self, robot: str, claimant: "Claimant") -> None:
+        """Its claim ends; its lease does when its robot's gateway hears no beat any more."""
+        if self._claims.get(robot) is claimant:
+            del self._claims[robot]
+
+    async def obtain(self, robot: str) -> None:
+        """The lease. Raises a FleetError where another driver keeps it."""
         if (await self._ask(robot, "ask", action="request")).drives:
             return
         if not await self._until(robot, lambda heard: self._console.drives(heard.name), LEASE_S):
@@ -130,9 +150,34 @@ class FleetDriver:
             raise RefusedError(robot, "notDriving", f"{driver or 'Another client'} drives it.")
         await self._ask(robot, "report")  # whose answer has a nonce that is new enough
 
-    async def _release(self, robot: str) -> None:
+    async def give_back(self, robot: str) -> None:
+        """The lease, if it is there."""
         with suppress(FleetError):
             await self._ask(robot, "ask", action="release")
+
+    async def resume(self, robot: str) -> None:
+        """Robots that come later are not stopped any more, either. Raises a FleetError."""
+        self._console.withdraw_holds()
+        await self._ask(robot, "report")  # whose answer has a nonce that is new enough
+        await self._ask(robot, "resume")
+
+    async def _lease(self, robot: str) -> None:
+        """For a task. Raises a FleetError where another driver keeps it."""
+        claimant = self._claims.get(robot)
+        if claimant:
+            raise RefusedError(robot, "notDriving", f"{claimant.name} drives it.")
+        self._tasks[robot] += 1
+        try:
+            await self.obtain(robot)
+        except BaseException:
+            self._tasks[robot] -= 1
+            raise
+
+    async def _release(self, robot: str) -> None:
+        """After `_lease` of it."""
+        self._tasks[robot] -= 1
+        if self._tasks[robot] == 0:
+            await self.give_back(robot)
 
     async def _stored(self, robot: str, job_id: str, progress: Callable[[JobState], None]) -> None:
         while True:
@@ -189,7 +234,7 @@ class FleetDriver:
     async def _beat(self) -> None:
         while True:
             if self._is_watched():
-                self._console.beat()
+                self._console.beat([robot for robot, count in self._tasks.items() if count])
             await asyncio.sleep(BEAT_S)
 
 

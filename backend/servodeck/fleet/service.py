@@ -4,12 +4,14 @@ people ask of several robots at once.
 Knows no HTTP. `start` and `end` are called on the gateway's loop.
 """
 
+import asyncio
 from collections.abc import Callable
 from pathlib import Path
 
 from servodeck.callers import Role
 from servodeck.fleet.broker import Broker
 from servodeck.fleet.console import Console
+from servodeck.fleet.drive import DriveSession
 from servodeck.fleet.driving import FleetDriver
 from servodeck.fleet.tasks import Tasks
 from servodeck.fleet.topics import Site
@@ -29,6 +31,10 @@ class FleetService:
         self.view = FleetView(self._console, site.name, folder, now_ms)
         self.driver = FleetDriver(self._console, lambda: self.view.is_watched)
         self.tasks = Tasks(self.view)
+
+    def drive(self, robot: str, name: str) -> DriveSession:
+        """For one page. `name` of the person."""
+        return DriveSession(robot, name, self._console, self.driver, asyncio.get_running_loop().time)
 
     def start(self) -> None:
         self.driver.start()

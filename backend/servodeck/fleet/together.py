@@ -34,9 +34,9 @@ def start_together(
     Returns at the start, with its time by the console's clock; raises a FleetError where nothing starts,
     unless a gateway that had committed cannot be reached any more.
     """
-    clocks = {gateway: clock_of(console, gateway) for gateway in gateways}
+    clocks = {gateway: clock_of(console, gateway, gateways) for gateway in gateways}
     name, start_s = name or new_name(), console.now_s + lead_s
-    console.beat()
+    console.beat(gateways)
     try:
         prepared = {
             gateway: console.request(
@@ -53,7 +53,7 @@ def start_together(
         }
         for gateway, answered in prepared.items():
             console.result_of(gateway, answered, start_s - DECIDED_S - console.now_s)
-        console.beat()
+        console.beat(gateways)
         committed = console.commit(name, gateways, start_s - DECIDED_S - console.now_s)
         if missing := set(gateways) - committed:
             raise NoAnswerError(f"{', '.join(sorted(missing))}: not ready in time, so none is started.")
@@ -61,7 +61,7 @@ def start_together(
         console.cancel(name, gateways, DECIDED_S)
         raise
     while (left_s := start_s - console.now_s) > 0:
-        console.beat()
+        console.beat(gateways)
         console.until(lambda: False, min(left_s, BEAT_S))
     return start_s
 
@@ -78,10 +78,12 @@ def spread_ms(console: Console, gateways: Collection[str], name: str) -> float |
     return max(late_ms) - min(late_ms) if len(late_ms) > 1 else None
 
 
-def clock_of(console: Console, gateway: str) -> tuple[float, float]:
-    """As `Console.clock`, of the quickest of several rounds: what is slow, is so in one direction mostly."""
+def clock_of(console: Console, gateway: str, gateways: Collection[str]) -> tuple[float, float]:
+    """As `Console.clock`, of the quickest of several rounds: what is slow, is so in one direction mostly.
+    Meanwhile all of them hear a beat.
+    """
     rounds = [console.clock(gateway) for _ in range(ROUNDS)]
-    console.beat()
+    console.beat(gateways)
     ahead_ms, uncertain_ms = min(rounds, key=lambda one: one[1])
     if uncertain_ms > UNCERTAIN_MS:
         raise UncertainError(f"The clock of {gateway} is known to {uncertain_ms:.0f} ms only.")

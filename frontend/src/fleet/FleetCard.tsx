@@ -10,10 +10,10 @@ import { Button } from '../ui/Button.tsx';
 import { Chip, type Truth } from '../ui/Chip.tsx';
 import { cx } from '../ui/cx.ts';
 import { familyOf, isBatteryLow, usualRobotOf } from './boards.ts';
-import { conditionOf, type Condition } from './robots.ts';
+import { conditionOf, takesMotion, type Condition } from './robots.ts';
 import styles from './Fleet.module.css';
 
-const TRUTH: Readonly<Record<Condition, Truth>> = {
+export const TRUTH: Readonly<Record<Condition, Truth>> = {
   ...{
     cloned: 'danger',
     lost: 'danger',
@@ -30,10 +30,18 @@ interface FleetCardProps {
   readonly isSelected: boolean;
   onSelect(id: string, isSelected: boolean): void;
   onStop(id: string): void;
+  /** Null where this person may not. */
+  readonly onDrive: ((id: string) => void) | null;
 }
 
 /** Memoised: of a thousand robots some twenty change at a time. */
-export const FleetCard = memo(function FleetCard({ robot, isSelected, onSelect, onStop }: FleetCardProps) {
+export const FleetCard = memo(function FleetCard({
+  robot,
+  isSelected,
+  onSelect,
+  onStop,
+  onDrive,
+}: FleetCardProps) {
   const condition = conditionOf(robot);
   const family = familyOf(robot.board);
   return (
@@ -66,6 +74,11 @@ export const FleetCard = memo(function FleetCard({ robot, isSelected, onSelect, 
           <a className={styles.open} href={robot.page} target="_blank" rel="noreferrer">
             {words.fleet.open}
           </a>
+        )}
+        {onDrive !== null && takesMotion(robot) && (
+          <Button aria-label={words.drive.title({ name: robot.name })} onPress={() => onDrive(robot.id)}>
+            {words.drive.open}
+          </Button>
         )}
         <Button
           tone="danger"

@@ -1,5 +1,6 @@
 // The fleet page: STOP of all robots, what needs a person first, and what is asked of the selected ones. Knows no gateway's routes.
 
+import { useCallback, useState } from 'react';
 import type { FleetRobot } from '#shared/client/http.generated.ts';
 import { words } from '../i18n/whole.ts';
 import { useSpokenLocale } from '../i18n/words.ts';
@@ -10,12 +11,15 @@ import { EmptyState } from '../ui/Panel.tsx';
 import { Select } from '../ui/Select.tsx';
 import { StopKey } from '../ui/StopKey.tsx';
 import field from '../ui/Field.module.css';
+import { DrivePanel } from './DrivePanel.tsx';
 import { FleetCard } from './FleetCard.tsx';
 import { FleetActions } from './FleetActions.tsx';
 import { Events, Tasks } from './FleetWork.tsx';
 import { CueList } from './CueList.tsx';
 import { FleetContext, useFleet, useFleetState } from './context.ts';
-import type { Fleet, Stopping } from './fleetStore.ts';
+import type { Driving } from './driving.ts';
+import type { Fleet } from './fleetStore.ts';
+import { stopText } from './stopText.ts';
 import { groupsIn, inOrder, matches, needsPerson, type Order } from './robots.ts';
 import styles from './Fleet.module.css';
 
@@ -25,9 +29,11 @@ interface FleetPageProps {
   readonly mayDrive: boolean;
   /** The gateway of this page has a robot of its own. */
   readonly hasOwnRobot: boolean;
+  /** The robot that is driven at first; null: none. */
+  readonly driven?: string | null;
 }
 
-export function FleetPage({ fleet, mayDrive, hasOwnRobot }: FleetPageProps) {
+export function FleetPage({ fleet, mayDrive, hasOwnRobot, driven = null }: FleetPageProps) {
   useSpokenLocale();
   return (
     <FleetContext value={fleet}>
@@ -35,7 +41,7 @@ export function FleetPage({ fleet, mayDrive, hasOwnRobot }: FleetPageProps) {
         <Header hasOwnRobot={hasOwnRobot} />
         <StopKey label={words.fleet.stopAll} isDisabled={false} onStop={() => void fleet.stop(null)} />
         <Problems />
-        <Robots mayDrive={mayDrive} />
+        <Robots mayDrive={mayDrive} first={driven} />
         <CueList mayDrive={mayDrive} />
         <Tasks mayDrive={mayDrive} />
         <Events />
@@ -84,25 +90,27 @@ function Problems() {
   );
 }
 
-export function stopText({ count, notReached, problem }: Stopping, robots: readonly FleetRobot[]): string {
-  if (problem !== null) return words.fleet.stopFailed({ detail: problem });
-  if (notReached === null) return words.fleet.stopping({ count });
-  if (notReached.length === 0) return words.fleet.stopped({ count });
-  const names = notReached.map((id) => robots.find((one) => one.id === id)?.name ?? id);
-  return words.fleet.notReached({
-    stopped: count - notReached.length,
-    count,
-    names: words.numbers.formatNames(names),
-  });
+interface Driven {
+  /** As it was at first: one that leaves the list is still driven. */
+  readonly robot: FleetRobot;
+  readonly driving: Driving;
 }
 
-function Robots({ mayDrive }: { readonly mayDrive: boolean }) {
+function driveOf(fleet: Fleet, id: string): Driven | null {
+  const robot = fleet.store.getState().robots.find((one) => one.id === id);
+  return robot === undefined ? null : { robot, driving: fleet.drive(id) };
+}
+
+function Robots({ mayDrive, first }: { readonly mayDrive: boolean; readonly first: string | null }) {
   const fleet = useFleet();
   const robots = useFleetState((state) => state.robots);
   const search = useFleetState((state) => state.search);
   const group = useFleetState((state) => state.group);
   const order = useFleetState((state) => state.order);
   const selected = useFleetState((state) => state.selected);
+  const [driven, setDriven] = useState<Driven | null>(() => (first === null ? null : driveOf(fleet, first)));
+  const drive = useCallback((id: string) => setDriven(driveOf(fleet, id)), [fleet]);
+  const stopOne = useCallback((id: string) => void fleet.stop([id]), [fleet]);
   const shown = inOrder(
     robots.filter((one) => (group === null || one.groups.includes(group)) && matches(one, search)),
     order,
@@ -137,6 +145,17 @@ function Robots({ mayDrive }: { readonly mayDrive: boolean }) {
         </Button>
       </div>
       {selected.size > 0 && <FleetActions mayDrive={mayDrive} />}
+      {driven !== null && (
+        <DrivePanel
+          robot={robots.find(({ id }) => id === driven.robot.id) ?? driven.robot}
+          driving={driven.driving}
+          onAgain={() => drive(driven.robot.id)}
+          onClose={() => {
+            driven.driving.end();
+            setDriven(null);
+          }}
+        />
+      )}
       {shown.length === 0 ? (
         <EmptyState title={words.fleet.noMatch} hint={words.fleet.noMatchHint} />
       ) : (
@@ -147,7 +166,8 @@ function Robots({ mayDrive }: { readonly mayDrive: boolean }) {
               robot={robot}
               isSelected={selected.has(robot.id)}
               onSelect={fleet.select}
-              onStop={(id) => void fleet.stop([id])}
+              onStop={stopOne}
+              onDrive={mayDrive ? drive : null}
             />
           ))}
         </ul>

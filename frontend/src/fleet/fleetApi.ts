@@ -10,6 +10,7 @@ import type {
   FleetTask,
 } from '#shared/client/http.generated.ts';
 import { request } from '../robot/request.ts';
+import { openDriveChannel, type DriveChannel, type DriveListener } from './driveChannel.ts';
 
 const WITHIN_MS = 5000;
 /** The gateway answers when something changes, or after 10 s. */
@@ -25,6 +26,8 @@ export interface FleetApi {
   /** Asks those again at which it failed. */
   retry(task: string): Promise<FleetTask>;
   resume(robots: readonly string[]): Promise<FleetTask>;
+  /** Drives that robot for as long as the channel is open. */
+  drive(robot: string, listener: DriveListener): DriveChannel;
   /** The cues of a show, in place of those before. */
   setCues(cues: readonly FleetCue[]): Promise<void>;
   /** The groups of robots, by name. */
@@ -55,6 +58,7 @@ export const gatewayFleet: FleetApi = {
       withinMs: WITHIN_MS,
       body: { robots: [...robots] },
     })) as FleetTask,
+  drive: openDriveChannel,
   setCues: async (cues) => {
     await request('put', '/api/fleet/cues', { withinMs: WITHIN_MS, body: { cues: [...cues] } });
   },

@@ -31,6 +31,7 @@ function followed(answers: readonly (Partial<FleetChanges> | Error)[], api: Part
       run: unused,
       download: unused,
       resume: unused,
+      drive: unused,
       retry: unused,
       setGroups: unused,
       setCues: unused,

@@ -12,6 +12,7 @@ import type {
 } from '#shared/client/http.generated.ts';
 import { GatewayProblem } from '#shared/client/request.ts';
 import type { DocumentStore } from '#shared/files/documentStore.ts';
+import { createDriving, type Driving } from './driving.ts';
 import type { FleetApi } from './fleetApi.ts';
 import type { Order } from './robots.ts';
 
@@ -51,6 +52,8 @@ export interface Fleet {
   follow(signal: AbortSignal): Promise<void>;
   select(id: string, isSelected: boolean): void;
   selectOnly(ids: readonly string[]): void;
+  /** From now on until its end. */
+  drive(id: string): Driving;
   /** null: all robots of the site. */
   stop(ids: readonly string[] | null): Promise<void>;
 }
@@ -58,7 +61,7 @@ export interface Fleet {
 const MOST_EVENTS = 200;
 const RETRY_MS = 1000;
 
-export function createFleet(api: FleetApi, library: FleetLibrary, clock: Pick<Clock, 'after'>): Fleet {
+export function createFleet(api: FleetApi, library: FleetLibrary, clock: Clock): Fleet {
   const store = createStore<FleetState>(() => ({
     site: '',
     broker: null,
@@ -117,6 +120,7 @@ export function createFleet(api: FleetApi, library: FleetLibrary, clock: Pick<Cl
       else selected.delete(id);
       store.setState({ selected });
     },
+    drive: (id) => createDriving((listener) => api.drive(id, listener), clock),
     selectOnly: (ids) => store.setState({ selected: new Set(ids) }),
     async stop(ids) {
       const count = ids?.length ?? store.getState().robots.length;

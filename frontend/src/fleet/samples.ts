@@ -4,6 +4,8 @@ import { factsOf } from '#shared/files/facts.ts';
 import { emptyGroup, groupToText, type ActionGroup } from '#shared/group/group.ts';
 import { insertFrame, setMeta } from '#shared/group/groupEdits.ts';
 import type { FleetRobot } from '#shared/client/http.generated.ts';
+import type { DriveLease } from './drive.generated.ts';
+import type { DriveChannel, DriveListener } from './driveChannel.ts';
 import type { FleetLibrary } from './fleetStore.ts';
 
 type State = NonNullable<FleetRobot['state']>;
@@ -63,6 +65,40 @@ export function fleetLibrary(groups: readonly ActionGroup[]): FleetLibrary {
       return group === undefined
         ? Promise.reject(new Error(`no group ${id}`))
         : Promise.resolve({ text: groupToText(group), revision: 1 });
+    },
+  };
+}
+
+const LIVE_MS = 50;
+
+/** A robot whose first servos were moved, and that goes where it is told at once. Of one that waits for the lease there are no reports. */
+export function drivenRobot(lease: DriveLease, listener: DriveListener): DriveChannel {
+  let servos = [
+    { servo: 1, start: 1500, target: 1900, begunMsAgo: 300, durationMs: 600 },
+    ...[2, 3, 4].map((servo) => ({
+      servo,
+      start: 1500,
+      target: 1500 - 60 * servo,
+      begunMsAgo: 900,
+      durationMs: 600,
+    })),
+  ];
+  let count = 0;
+  const report = (): void => {
+    count += 1;
+    const motion = { servos, runSlot: null, released: [], reported: [] };
+    listener.heard({ type: 'live', nonce: String(count), latch: false, motion });
+  };
+  queueMicrotask(() => listener.heard(lease));
+  const reporting = lease.lease === 'driving' ? setInterval(report, LIVE_MS) : undefined;
+  return {
+    send(wish) {
+      if (wish.type === 'release') clearInterval(reporting);
+      if (wish.type !== 'move') return;
+      const moved = wish.targets.map(({ servo, position }) => ({
+        ...{ servo, start: position, target: position, begunMsAgo: 100, durationMs: 100 },
+      }));
+      servos = [...servos.filter(({ servo }) => moved.every((one) => one.servo !== servo)), ...moved];
     },
   };
 }

@@ -2769,4 +2769,11 @@ export interface Messages {
     readonly shareOf: (values: { readonly name: string; readonly percent: string }) => string;
     readonly ownRobot: string;
   };
+  readonly drive: {
+    readonly open: string;
+    readonly title: (values: { readonly name: string }) => string;
+    readonly requesting: string;
+    readonly ended: string;
+    readonly again: string;
+  };
 }

@@ -5,7 +5,7 @@ import type { FleetChanges } from '#shared/client/http.generated.ts';
 import type { FleetApi } from '../../fleet/fleetApi.ts';
 import { FleetPage } from '../../fleet/FleetPage.tsx';
 import { createFleet, type FleetState } from '../../fleet/fleetStore.ts';
-import { fleetGroup, fleetLibrary, fleetRobot } from '../../fleet/samples.ts';
+import { drivenRobot, fleetGroup, fleetLibrary, fleetRobot } from '../../fleet/samples.ts';
 import type { Exhibit } from './exhibit.ts';
 
 const AT_MS = 1_790_000_000_000;
@@ -52,7 +52,17 @@ const TASKS: FleetChanges['tasks'] = [
   },
 ];
 
-const STATES: readonly { readonly name: string; readonly state: Partial<FleetState> }[] = [
+const DRIVES = { type: 'lease', lease: 'driving', driver: 'Ben' } as const;
+const WAITS = { type: 'lease', lease: 'requested', driver: 'Anna' } as const;
+
+interface Named {
+  readonly name: string;
+  readonly state: Partial<FleetState>;
+  /** The robot that is driven. */
+  readonly driven?: string;
+}
+
+const STATES: readonly Named[] = [
   {
     name: 'Fleet',
     state: {
@@ -71,6 +81,8 @@ const STATES: readonly { readonly name: string; readonly state: Partial<FleetSta
     name: 'Fleet, one not reached',
     state: { robots: ROBOTS, stopping: { count: 8, notReached: ['Arm 6'], problem: null } },
   },
+  { name: 'Fleet, one driven', state: { robots: ROBOTS }, driven: 'Arm 1' },
+  { name: 'Fleet, one driven by another person', state: { robots: ROBOTS }, driven: 'Arm 2' },
   { name: 'Fleet, no robots', state: {} },
   {
     name: 'Fleet, broker lost',
@@ -78,18 +90,18 @@ const STATES: readonly { readonly name: string; readonly state: Partial<FleetSta
   },
 ];
 
-export const FLEET: readonly Exhibit[] = STATES.map(({ name, state }) => ({
+export const FLEET: readonly Exhibit[] = STATES.map(({ name, state, driven }) => ({
   name,
-  content: <Shown state={state} />,
+  content: <Shown state={state} driven={driven} />,
 }));
 
-function Shown({ state }: { readonly state: Partial<FleetState> }) {
+function Shown({ state, driven }: { readonly state: Named['state']; readonly driven: Named['driven'] }) {
   const [fleet] = useState(() => {
-    const made = createFleet(answering(), LIBRARY, { after: () => () => undefined });
+    const made = createFleet(answering(), LIBRARY, { now: () => 0, after: () => () => undefined });
     made.store.setState({ site: 'lab', broker: { status: 'connected', detail: '' }, ...state });
     return made;
   });
-  return <FleetPage fleet={fleet} mayDrive hasOwnRobot />;
+  return <FleetPage fleet={fleet} mayDrive hasOwnRobot driven={driven ?? null} />;
 }
 
 /** Everything is done at once. */
@@ -100,6 +112,7 @@ function answering(): FleetApi {
     changes: () => new Promise(() => undefined),
     stop: (robots) => Promise.resolve({ reached: [...(robots ?? [])], notReached: [] }),
     ...{ run: begun, download: begun, resume: begun, retry: begun },
+    drive: (robot, listener) => drivenRobot(robot === 'Arm 2' ? WAITS : DRIVES, listener),
     setGroups: () => Promise.resolve(),
     setCues: () => Promise.resolve(),
   };

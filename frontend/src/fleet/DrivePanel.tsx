@@ -1,0 +1,195 @@
+// A dialog in which one robot of the fleet is driven over the broker: its picture, who drives, a slider for each servo, a run of a stored
+// group, and STOP always in view. Who closes it gives the lease back.
+
+import { useEffect, useState } from 'react';
+import { useStore } from 'zustand';
+import type { FleetRobot } from '#shared/client/http.generated.ts';
+import { GatewayProblem } from '#shared/client/request.ts';
+import { words } from '../i18n/whole.ts';
+import { RobotThumb } from '../features/picture/PoseThumb.tsx';
+import { moveDurationMs } from '../robot/moves.ts';
+import { Button } from '../ui/Button.tsx';
+import { Chip, Mark } from '../ui/Chip.tsx';
+import { Dialog } from '../ui/Dialog.tsx';
+import { Select } from '../ui/Select.tsx';
+import { StopPress } from '../ui/StopKey.tsx';
+import { familyOf, robotOf } from './boards.ts';
+import { useFleet, useFleetState } from './context.ts';
+import { DriveSlider } from './DriveSlider.tsx';
+import type { Driving, DrivingState } from './driving.ts';
+import { conditionText, TRUTH } from './FleetCard.tsx';
+import { placeOf, poseOf } from './pose.ts';
+import { hasMissed, stopText } from './stopText.ts';
+import { conditionOf } from './robots.ts';
+import styles from './Drive.module.css';
+
+interface DrivePanelProps {
+  readonly robot: FleetRobot;
+  readonly driving: Driving;
+  /** Drives again, after it has ended. */
+  onAgain(): void;
+  onClose(): void;
+}
+
+export function DrivePanel({ robot, driving, onAgain, onClose }: DrivePanelProps) {
+  useEffect(() => {
+    const follow = (): void => driving.see(document.visibilityState === 'visible');
+    follow();
+    document.addEventListener('visibilitychange', follow);
+    return () => document.removeEventListener('visibilitychange', follow);
+  }, [driving]);
+  return (
+    <Dialog
+      title={words.drive.title({ name: robot.name })}
+      closeLabel={words.close}
+      isOpen
+      full
+      onClose={onClose}
+    >
+      <Controls {...{ robot, driving, onAgain }} />
+    </Dialog>
+  );
+}
+
+function Controls({ robot, driving, onAgain }: Omit<DrivePanelProps, 'onClose'>) {
+  const fleet = useFleet();
+  const stopping = useFleetState((all) => all.stopping);
+  const state = useStore(driving.store);
+  const family = familyOf(robot.board);
+  const profile = robotOf(robot);
+  const { motion, own } = state;
+  const condition = conditionOf(robot);
+  const isStopped = state.latch || condition === 'stopped';
+  const resume = (): void =>
+    void fleet.api.resume([robot.id]).catch((error: unknown) => {
+      if (!(error instanceof GatewayProblem)) throw error;
+      driving.store.setState({ refusal: error.message });
+    });
+  const isBlocked = state.lease !== 'driving' || isStopped || state.motion === null;
+  const pose = poseOf(
+    motion,
+    profile.servos.map(({ servo }) => servo),
+  );
+  return (
+    <div className={styles.panel}>
+      <div className={styles.side}>
+        <div className={styles.picture}>
+          <RobotThumb robot={profile} pose={pose} changed={[]} family={family} />
+        </div>
+        <Chip truth={TRUTH[condition]}>{conditionText(robot, condition)}</Chip>
+        <Lease {...{ state, driving, onAgain }} />
+        <div className={styles.stop}>
+          <StopPress isDisabled={false} onStop={() => void fleet.stop([robot.id])}>
+            {words.fleet.stopOne({ name: robot.name })}
+          </StopPress>
+        </div>
+        {isStopped ? (
+          <Button wide onPress={resume}>
+            {words.stop.resume}
+          </Button>
+        ) : (
+          <RunGroup {...{ robot, driving, isBlocked }} />
+        )}
+        <div role="alert" className={styles.refusal}>
+          {state.refusal !== '' && <p>{state.refusal}</p>}
+          {stopping !== null && hasMissed(stopping) && <p>{stopText(stopping, [robot])}</p>}
+        </div>
+      </div>
+      <ul className={styles.servos} aria-label={words.servos.title}>
+        {profile.servos.map((servo) => {
+          const place = placeOf(motion, servo.servo);
+          return (
+            <DriveSlider
+              key={servo.servo}
+              {...{ servo, isBlocked, unit: family.unit }}
+              place={{ ...place, target: own.get(servo.servo) ?? place.target }}
+              onMove={(position, isLeap) =>
+                driving.move(
+                  servo.servo,
+                  position,
+                  moveDurationMs(
+                    isLeap ? 'leap' : 'hand',
+                    [{ servo: servo.servo, position }],
+                    family,
+                    (one) => placeOf(motion, one),
+                  ),
+                )
+              }
+            />
+          );
+        })}
+      </ul>
+    </div>
+  );
+}
+
+interface LeaseProps {
+  readonly state: DrivingState;
+  readonly driving: Driving;
+  onAgain(): void;
+}
+
+/** Who drives, and how to drive again. */
+function Lease({ state: { link, lease, driver, reason }, driving, onAgain }: LeaseProps) {
+  if (link === 'ended') {
+    return (
+      <div className={styles.lease} role="status">
+        <span className={styles.who}>
+          <Mark truth="unknown" />
+          {reason === '' ? words.drive.ended : reason}
+        </span>
+        <Button wide onPress={onAgain}>
+          {words.drive.again}
+        </Button>
+      </div>
+    );
+  }
+  return (
+    <div className={styles.lease} role="status">
+      <span className={styles.who}>
+        <Mark truth={lease === 'driving' ? 'confirmed' : 'unknown'} />
+        {leaseText(lease, driver)}
+      </span>
+      {lease === 'none' && (
+        <Button wide onPress={() => driving.request()}>
+          {words.lease.request}
+        </Button>
+      )}
+    </div>
+  );
+}
+
+function leaseText(lease: DrivingState['lease'], driver: string | null): string {
+  if (lease === 'driving') return words.lease.drives;
+  if (lease === 'requested')
+    return driver === null ? words.drive.requesting : words.lease.asked({ name: driver });
+  return driver === null ? words.lease.noDriver : words.lease.driver({ name: driver });
+}
+
+interface RunGroupProps {
+  readonly robot: FleetRobot;
+  readonly driving: Driving;
+  readonly isBlocked: boolean;
+}
+
+function RunGroup({ robot: { slots }, driving, isBlocked }: RunGroupProps) {
+  const [wanted, setWanted] = useState<number | null>(null);
+  const slot = slots.find((one) => one.slot === wanted) ?? slots[0];
+  if (slot === undefined) return null;
+  return (
+    <div className={styles.run}>
+      <Select
+        label={words.fleet.groupToRun}
+        value={String(slot.slot)}
+        options={slots.map((one) => ({
+          value: String(one.slot),
+          label: one.name === '' ? words.slots.name({ slot: one.slot }) : one.name,
+        }))}
+        onChange={(value) => setWanted(Number(value))}
+      />
+      <Button icon="play" isDisabled={isBlocked} onPress={() => driving.run(slot.slot)}>
+        {words.fleet.run({ count: 1 })}
+      </Button>
+    </div>
+  );
+}
