@@ -248,12 +248,15 @@ ServoNumber = Annotated[int, Field(ge=1, le=253)]
 
 
 class ServoLimits(Message):
-    """The limits of a servo, in its board's unit, and its name."""
+    """The limits of a servo, its trim, which is in them already, all in its board's unit, and its name. A
+    page of before stored no trim.
+    """
 
     servo: ServoNumber
     name: Annotated[str, Field(min_length=1, max_length=64)]
     min: Annotated[int, Field(ge=0, le=65535)]
     max: Annotated[int, Field(ge=0, le=65535)]
+    trim: Annotated[int, Field(ge=-65535, le=65535)] = 0
 
 
 class RobotState(Message):

@@ -12,7 +12,7 @@ from tests.scripted import refusal
 
 
 def limits(top: int) -> list[dict[str, Any]]:
-    return [{"servo": 2, "name": "Elbow", "min": 900, "max": top}]
+    return [{"servo": 2, "name": "Elbow", "min": 900, "max": top, "trim": 0}]
 
 
 def robot(top: int = 1800, expected: int = 0, **facts: object) -> dict[str, Any]:

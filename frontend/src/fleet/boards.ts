@@ -19,10 +19,15 @@ export function usualRobotOf(board: string): Robot {
   return readyRobot(id, known, robotNames(id));
 }
 
-/** With the names and limits that its gateway holds it to. */
+/** With the names, limits and trims that its gateway holds it to; the gateway counts as its board does. */
 export function robotOf({ board, limits }: FleetRobot): Robot {
   const usual = usualRobotOf(board);
-  const own = new Map(limits.map(({ servo, ...rest }) => [servo, rest]));
+  const own = new Map(
+    limits.map(({ servo, name, min, max, trim }) => [
+      servo,
+      { name, trim, min: min - trim, max: max - trim },
+    ]),
+  );
   return { ...usual, servos: usual.servos.map((one) => ({ ...one, ...own.get(one.servo) })) };
 }
 

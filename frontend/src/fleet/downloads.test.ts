@@ -50,6 +50,19 @@ describe('the wishes', () => {
     expect(wishes[0]?.groups[0]?.frames[0]).toEqual({ durationMs: 600, positions: { 1: 1300, 2: 1300 } });
   });
 
+  test('give each robot its own trims, within its own limits', () => {
+    const limits = (trim: number) => [{ servo: 1, name: 'Base', min: 900 + trim, max: 2100 + trim, trim }];
+    const [trimmed, narrow] = [
+      fleetRobot('d', { limits: limits(20) }),
+      fleetRobot('e', { limits: [{ ...limits(0)[0]!, max: 1200 }] }),
+    ];
+    const wishes = wishesFor([wave], [arm, trimmed, narrow]);
+    expect(wishes.map(({ robots, groups }) => [robots, groups[0]?.frames[0]?.positions])).toEqual([
+      [['a'], { 1: 1300, 2: 1300 }],
+      [['d'], { 1: 1320, 2: 1300 }],
+    ]);
+  });
+
   test('leave out a robot that no group fits', () => {
     expect(wishesFor([crawl], [arm])).toEqual([]);
   });

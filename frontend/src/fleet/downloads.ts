@@ -5,6 +5,7 @@ import { compile } from '#shared/group/compile.ts';
 import { maxErrorOf, type ActionGroup } from '#shared/group/group.ts';
 import { slotFor } from '#shared/group/slotPlaces.ts';
 import { EMPTY_SLOT_BOOK } from '#shared/group/slotBook.ts';
+import { onBoard } from '#shared/profile/robot.ts';
 import type { Range } from '#shared/codec/families.ts';
 import type { FleetDownloadWish, FleetRobot } from '#shared/client/http.generated.ts';
 import { boardName } from '../i18n/sentences.ts';
@@ -100,11 +101,15 @@ function framesFor(group: ActionGroup, robot: FleetRobot): Body['frames'] | null
 
 function compileFor(group: ActionGroup, robot: FleetRobot): Body['frames'] | null {
   const family = familyOf(robot.board);
-  const options = { family, robot: robotOf(robot), maxErrorUnits: maxErrorOf(group, family) };
-  const { frames, report } = compile(group, options);
+  const own = robotOf(robot);
+  const { frames, report } = compile(group, {
+    family,
+    robot: own,
+    maxErrorUnits: maxErrorOf(group, family),
+  });
   if (frames.length === 0 || report.problems.some(({ kind }) => kind !== 'tooFast')) return null;
   return frames.map(({ durationMs, targets }) => ({
     durationMs,
-    positions: Object.fromEntries(targets.map(({ servo, position }) => [servo, position])),
+    positions: Object.fromEntries(onBoard(own, targets).map(({ servo, position }) => [servo, position])),
   }));
 }

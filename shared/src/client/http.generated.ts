@@ -1230,7 +1230,7 @@ export interface components {
       /** Id */
       id: string;
       /** Limits */
-      limits: components['schemas']['ServoLimits'][];
+      limits: components['schemas']['ServoLimits-Output'][];
       /** Lowbatterymv */
       lowBatteryMv: number | null;
       /** Name */
@@ -2237,7 +2237,7 @@ export interface components {
        */
       kind: 'robot';
       /** Limits */
-      limits: components['schemas']['ServoLimits'][];
+      limits: components['schemas']['ServoLimits-Input'][];
       /** Lowbatterymv */
       lowBatteryMv?: number | null;
       /** Name */
@@ -2261,7 +2261,7 @@ export interface components {
        */
       kind: 'robot';
       /** Limits */
-      limits: components['schemas']['ServoLimits'][];
+      limits: components['schemas']['ServoLimits-Output'][];
       /** Lowbatterymv */
       lowBatteryMv: number | null;
       /** Name */
@@ -2321,9 +2321,10 @@ export interface components {
     };
     /**
      * ServoLimits
-     * @description The limits of a servo, in its board's unit, and its name.
+     * @description The limits of a servo, its trim, which is in them already, all in its board's unit, and its name. A
+     *     page of before stored no trim.
      */
-    ServoLimits: {
+    'ServoLimits-Input': {
       /** Max */
       max: number;
       /** Min */
@@ -2332,6 +2333,31 @@ export interface components {
       name: string;
       /** Servo */
       servo: number;
+      /**
+       * Trim
+       * @default 0
+       */
+      trim?: number;
+    };
+    /**
+     * ServoLimits
+     * @description The limits of a servo, its trim, which is in them already, all in its board's unit, and its name. A
+     *     page of before stored no trim.
+     */
+    'ServoLimits-Output': {
+      /** Max */
+      max: number;
+      /** Min */
+      min: number;
+      /** Name */
+      name: string;
+      /** Servo */
+      servo: number;
+      /**
+       * Trim
+       * @default 0
+       */
+      trim: number;
     };
     /**
      * ServoPosition
@@ -2619,7 +2645,8 @@ export type RobotFactsOutput = components['schemas']['RobotFacts-Output'];
 export type RunBegun = components['schemas']['RunBegun'];
 export type Running = components['schemas']['Running'];
 export type RunWish = components['schemas']['RunWish'];
-export type ServoLimits = components['schemas']['ServoLimits'];
+export type ServoLimitsInput = components['schemas']['ServoLimits-Input'];
+export type ServoLimitsOutput = components['schemas']['ServoLimits-Output'];
 export type ServoPosition = components['schemas']['ServoPosition'];
 export type SilentEvidence = components['schemas']['SilentEvidence'];
 export type Status = components['schemas']['Status'];

@@ -83,7 +83,14 @@ const robotFactsSchema = v.strictObject({
   board: name,
   updatedAtMs: count,
   limits: v.array(
-    v.strictObject({ servo: whole(0, 0xff), name: v.string(), min: whole(0, 0xffff), max: whole(0, 0xffff) }),
+    v.strictObject({
+      servo: whole(0, 0xff),
+      name: v.string(),
+      min: whole(0, 0xffff),
+      max: whole(0, 0xffff),
+      /** In both limits already. */
+      trim: v.optional(whole(-0xffff, 0xffff), 0),
+    }),
   ),
   poses: v.array(
     v.strictObject({

@@ -221,18 +221,20 @@ export function onBoard(robot: Robot, targets: readonly ServoTarget[]): readonly
   }));
 }
 
-/** Each servo's limits as the board counts. */
+/** Each servo's limits as the board counts, and the trim that is in them. */
 export function limitsOnBoard(robot: Robot): readonly NamedLimits[] {
   return robot.servos.map(({ servo, name: called, min, max, trim }) => ({
     ...{ servo, name: called },
     min: min + trim,
     max: max + trim,
+    trim,
   }));
 }
 
 interface NamedLimits extends Range {
   readonly servo: number;
   readonly name: string;
+  readonly trim: number;
 }
 
 /** What the person means by a position of the board. */
