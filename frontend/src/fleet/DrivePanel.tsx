@@ -7,6 +7,7 @@ import type { FleetRobot } from '#shared/client/http.generated.ts';
 import { GatewayProblem } from '#shared/client/request.ts';
 import { words } from '../i18n/whole.ts';
 import { RobotThumb } from '../features/picture/PoseThumb.tsx';
+import { servoOf } from '#shared/profile/robot.ts';
 import { moveDurationMs } from '../robot/moves.ts';
 import { Button } from '../ui/Button.tsx';
 import { Chip, Mark } from '../ui/Chip.tsx';
@@ -66,10 +67,11 @@ function Controls({ robot, driving, onAgain }: Omit<DrivePanelProps, 'onClose'>)
       driving.store.setState({ refusal: error.message });
     });
   const isBlocked = state.lease !== 'driving' || isStopped || state.motion === null;
-  const pose = poseOf(
-    motion,
-    profile.servos.map(({ servo }) => servo),
-  );
+  const pose = poseOf(motion, profile.servos);
+  const durationOf = (servo: number, position: number, isLeap: boolean): number =>
+    moveDurationMs(isLeap ? 'leap' : 'hand', [{ servo, position }], family, (one) =>
+      placeOf(motion, servoOf(profile, one) ?? { servo: one, trim: 0 }),
+    );
   return (
     <div className={styles.panel}>
       <div className={styles.side}>
@@ -97,23 +99,16 @@ function Controls({ robot, driving, onAgain }: Omit<DrivePanelProps, 'onClose'>)
       </div>
       <ul className={styles.servos} aria-label={words.servos.title}>
         {profile.servos.map((servo) => {
-          const place = placeOf(motion, servo.servo);
+          const { servo: number, trim } = servo;
+          const place = placeOf(motion, servo);
+          const commanded = own.get(number);
           return (
             <DriveSlider
-              key={servo.servo}
+              key={number}
               {...{ servo, isBlocked, unit: family.unit }}
-              place={{ ...place, target: own.get(servo.servo) ?? place.target }}
+              place={{ ...place, target: commanded === undefined ? place.target : commanded - trim }}
               onMove={(position, isLeap) =>
-                driving.move(
-                  servo.servo,
-                  position,
-                  moveDurationMs(
-                    isLeap ? 'leap' : 'hand',
-                    [{ servo: servo.servo, position }],
-                    family,
-                    (one) => placeOf(motion, one),
-                  ),
-                )
+                driving.move(number, position + trim, durationOf(number, position, isLeap))
               }
             />
           );

@@ -1,5 +1,7 @@
-// Where the servos of a driven robot are by its latest report: the target that was commanded last, and the estimated or reported position. Pure.
+// Where the servos of a driven robot are by its latest report: the target that was commanded last, and the estimated or reported position,
+// as a person counts, without the servo's trim. Pure.
 
+import type { RobotServo } from '#shared/profile/robot.ts';
 import type { MotionState } from './drive.generated.ts';
 
 export interface ServoPlace {
@@ -9,7 +11,15 @@ export interface ServoPlace {
 
 const NOWHERE: ServoPlace = { target: null, estimated: null };
 
-export function placeOf(motion: MotionState | null, servo: number): ServoPlace {
+type Trimmed = Pick<RobotServo, 'servo' | 'trim'>;
+
+export function placeOf(motion: MotionState | null, { servo, trim }: Trimmed): ServoPlace {
+  const { target, estimated } = onBoardAt(motion, servo);
+  const asMeant = (onBoard: number | null): number | null => (onBoard === null ? null : onBoard - trim);
+  return { target: asMeant(target), estimated: asMeant(estimated) };
+}
+
+function onBoardAt(motion: MotionState | null, servo: number): ServoPlace {
   if (motion === null) return NOWHERE;
   const way = motion.servos.find((one) => one.servo === servo);
   const reported = motion.reported.find((one) => one.servo === servo && one.isCurrent)?.position ?? null;
@@ -25,11 +35,11 @@ function estimateOf({ start, target, begunMsAgo, durationMs }: MotionState['serv
 }
 
 /** Of all servos whose position is known. */
-export function poseOf(motion: MotionState | null, servos: readonly number[]): ReadonlyMap<number, number> {
+export function poseOf(motion: MotionState | null, servos: readonly Trimmed[]): ReadonlyMap<number, number> {
   return new Map(
     servos.flatMap((servo) => {
       const { estimated } = placeOf(motion, servo);
-      return estimated === null ? [] : [[servo, estimated] as const];
+      return estimated === null ? [] : [[servo.servo, estimated] as const];
     }),
   );
 }
