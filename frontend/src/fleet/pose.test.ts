@@ -7,6 +7,8 @@ const trimmed = { servo: 1, trim: 20 };
 const moving = (start: number | null): MotionState => ({
   servos: [{ servo: 1, start, target: 1600, begunMsAgo: 500, durationMs: 1000 }],
   reported: [],
+  runSlot: null,
+  released: [],
 });
 
 describe('the place of a servo', () => {

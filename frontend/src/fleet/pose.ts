@@ -15,8 +15,8 @@ type Trimmed = Pick<RobotServo, 'servo' | 'trim'>;
 
 export function placeOf(motion: MotionState | null, { servo, trim }: Trimmed): ServoPlace {
   const { target, estimated } = onBoardAt(motion, servo);
-  const asMeant = (onBoard: number | null): number | null => (onBoard === null ? null : onBoard - trim);
-  return { target: asMeant(target), estimated: asMeant(estimated) };
+  const untrimmed = (onBoard: number | null): number | null => (onBoard === null ? null : onBoard - trim);
+  return { target: untrimmed(target), estimated: untrimmed(estimated) };
 }
 
 function onBoardAt(motion: MotionState | null, servo: number): ServoPlace {
