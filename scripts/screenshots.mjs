@@ -8,12 +8,13 @@ import { chromium } from '@playwright/test';
 import { preview } from 'vite';
 import { findBrowser } from './browser.mjs';
 import { endChild, startChild } from './children.mjs';
+import { answerForFleet } from './fleet_sample.mjs';
 import { python } from './python.mjs';
 import { SetupProblem, at, main, say } from './steps.mjs';
 import { messagesOf, readTree } from './words.mjs';
 
 /** @typedef {import('@playwright/test').Page} Page */
-/** @typedef {{ width: number, height: number, colorScheme?: 'light', workspace?: string, region?: string, dialog?: string, isOwner?: boolean, act?: (page: Page) => Promise<unknown> }} Shot */
+/** @typedef {{ width: number, height: number, colorScheme?: 'light', workspace?: string, region?: string, dialog?: string, isOwner?: boolean, entry?: string, answers?: (page: Page) => Promise<unknown>, act?: (page: Page) => Promise<unknown> }} Shot */
 
 const DESK = { width: 1440, height: 900 };
 /** High enough for a panel as a whole. */
@@ -198,6 +199,17 @@ const SHOTS = {
     dialog: 'Connect a robot',
     act: (page) => connect(page, 'Board or other'),
   },
+  fleet: {
+    ...ANIMATE,
+    height: 790,
+    entry: 'fleet.html',
+    answers: answerForFleet,
+    async act(page) {
+      await page.getByRole('checkbox', { name: 'Select arm-1', exact: true }).check();
+      await page.getByRole('checkbox', { name: 'Select arm-4', exact: true }).check();
+      await page.mouse.move(0, 0);
+    },
+  },
   stopped: { ...DESK, act: (page) => press(page, /^Stop/) },
   disconnected: {
     ...ANIMATE,
@@ -258,13 +270,14 @@ async function take(browser, url, invitation, name) {
   const shot = SHOTS[shown];
   if (shot === undefined)
     throw new SetupProblem(`No picture is called ${name}: ${Object.keys(SHOTS).join(', ')}`);
-  const { width, height, colorScheme = 'dark', workspace = 'live', isOwner = false, act } = shot;
+  const { width, height, colorScheme = 'dark', workspace = 'live', isOwner = false, entry = '', act } = shot;
   language = inLanguage;
   const locale = language === 'en' ? 'en-GB' : 'zh-CN';
   const context = await browser.newContext({ viewport: { width, height }, colorScheme, locale });
   const page = await context.newPage();
   await page.addInitScript((tab) => sessionStorage.setItem('servodeck.tab', tab), workspace);
-  await (isOwner ? comeIn(page, invitation) : page.goto(url));
+  await shot.answers?.(page);
+  await (isOwner ? comeIn(page, invitation) : page.goto(new URL(entry, url).href));
   await page.waitForTimeout(SETTLE_MS);
   await act?.(page);
   await page.waitForTimeout(1000);
