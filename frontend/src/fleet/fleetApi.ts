@@ -12,7 +12,7 @@ import type {
 import { request } from '../robot/request.ts';
 import { openDriveChannel, type DriveChannel, type DriveListener } from './driveChannel.ts';
 
-const WITHIN_MS = 5000;
+const ANSWER_WITHIN_MS = 5000;
 /** The gateway answers when something changes, or after 10 s. */
 const CHANGES_WITHIN_MS = 20_000;
 
@@ -42,27 +42,28 @@ export const gatewayFleet: FleetApi = {
     })) as FleetChanges,
   stop: async (robots) =>
     (await request('post', '/api/fleet/stop', {
-      withinMs: WITHIN_MS,
+      withinMs: ANSWER_WITHIN_MS,
       body: { robots: robots === null ? null : [...robots] },
     })) as FleetStopped,
-  run: async (body) => (await request('post', '/api/fleet/run', { withinMs: WITHIN_MS, body })) as FleetTask,
+  run: async (body) =>
+    (await request('post', '/api/fleet/run', { withinMs: ANSWER_WITHIN_MS, body })) as FleetTask,
   download: async (body) =>
-    (await request('post', '/api/fleet/download', { withinMs: WITHIN_MS, body })) as FleetTask,
+    (await request('post', '/api/fleet/download', { withinMs: ANSWER_WITHIN_MS, body })) as FleetTask,
   retry: async (task) =>
     (await request('post', '/api/fleet/tasks/{task}/retry', {
-      withinMs: WITHIN_MS,
+      withinMs: ANSWER_WITHIN_MS,
       values: { task },
     })) as FleetTask,
   resume: async (robots) =>
     (await request('post', '/api/fleet/resume', {
-      withinMs: WITHIN_MS,
+      withinMs: ANSWER_WITHIN_MS,
       body: { robots: [...robots] },
     })) as FleetTask,
   drive: openDriveChannel,
   setCues: async (cues) => {
-    await request('put', '/api/fleet/cues', { withinMs: WITHIN_MS, body: { cues: [...cues] } });
+    await request('put', '/api/fleet/cues', { withinMs: ANSWER_WITHIN_MS, body: { cues: [...cues] } });
   },
   setGroups: async (groups) => {
-    await request('put', '/api/fleet/groups', { withinMs: WITHIN_MS, body: { groups } });
+    await request('put', '/api/fleet/groups', { withinMs: ANSWER_WITHIN_MS, body: { groups } });
   },
 };
