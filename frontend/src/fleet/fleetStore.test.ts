@@ -93,3 +93,17 @@ test('a stop says whom it has not reached, and that it was not sent at all', asy
   await fleet.stop(null);
   expect(fleet.store.getState().stopping?.problem).toBe('The broker is gone.');
 });
+
+test('what a stop did is shown until all have resumed', async () => {
+  const at = (latch: boolean) => [fleetRobot('a', { state: { latch } }), fleetRobot('b')];
+  const { fleet, done } = followed([
+    { revision: 1, robots: at(false) },
+    { revision: 2, robots: at(true) },
+    { revision: 3, robots: at(false) },
+  ]);
+  const shown: (number | undefined)[] = [];
+  fleet.store.setState({ stopping: { count: 2, notReached: [], problem: null } });
+  fleet.store.subscribe(({ stopping }) => shown.push(stopping?.count));
+  await done;
+  expect(shown).toEqual([2, 2, undefined]);
+});

@@ -58,6 +58,8 @@ export interface Fleet {
   stop(ids: readonly string[] | null): Promise<void>;
 }
 
+const isStopped = ({ state }: FleetRobot): boolean => state?.latch === true;
+
 const MOST_EVENTS = 200;
 const RETRY_MS = 1000;
 
@@ -83,6 +85,7 @@ export function createFleet(api: FleetApi, library: FleetLibrary, clock: Clock):
     const gone = new Set(changes.removed);
     const known = isWhole ? changes.robots : merged(robots, changes.robots).filter(({ id }) => !gone.has(id));
     const ids = new Set(known.map(({ id }) => id));
+    const haveAllResumed = robots.some(isStopped) && !known.some(isStopped);
     store.setState({
       site: changes.site,
       broker: changes.broker,
@@ -91,6 +94,7 @@ export function createFleet(api: FleetApi, library: FleetLibrary, clock: Clock):
       tasks: isWhole ? changes.tasks : merged(tasks, changes.tasks),
       events: [...(isWhole ? [] : events), ...changes.events].slice(-MOST_EVENTS),
       cues: changes.cues,
+      ...(haveAllResumed && { stopping: null }),
       selected: new Set([...selected].filter((id) => ids.has(id))),
     });
   }
