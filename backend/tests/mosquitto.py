@@ -90,6 +90,11 @@ class Mosquitto:
         assert self._process
         self._process.send_signal(number)
 
+    @property
+    def pid(self) -> int:
+        assert self._process
+        return self._process.pid
+
     def broker_for(self, user: str, password: str | None = None) -> Broker:
         secret = password or (self.folder / "secrets" / user).read_text().strip()
         scheme, ca = ("mqtts", self._encryption.certificate) if self._encryption else ("mqtt", None)

@@ -24,8 +24,7 @@ class Proxy:
         """To that port of this computer."""
         self._to_port = port
         self._delay_s = delay_s
-        self.sent = b""
-        """By all clients."""
+        self._sent: list[bytes] = []
         self._loop = asyncio.new_event_loop()
         self._thread = threading.Thread(target=self._loop.run_forever, daemon=True)
         self._thread.start()
@@ -41,6 +40,11 @@ class Proxy:
         """What was held back passes now."""
         self._loop.call_soon_threadsafe(self._up.set)
         self._loop.call_soon_threadsafe(self._down.set)
+
+    @property
+    def sent(self) -> bytes:
+        """By all clients."""
+        return b"".join(self._sent)
 
     def end(self) -> None:
         self._do(self._stop())
@@ -84,6 +88,7 @@ class Proxy:
         finally:
             to_broker.close()
             to_client.close()
+            await asyncio.gather(to_broker.wait_closed(), to_client.wait_closed(), return_exceptions=True)
             self._tasks.discard(task)
 
     async def _pass(
@@ -108,7 +113,8 @@ class Proxy:
                     piece = await source.read(CHUNK_BYTES)
                 except ConnectionError:
                     piece = b""
-                self.sent += piece if keeps else b""
+                if keeps:
+                    self._sent.append(piece)
                 pieces.put_nowait((self._loop.time() + random.uniform(*self._delay_s), piece))
 
 
