@@ -17,7 +17,7 @@ from servodeck.access.guard import Guard
 from servodeck.api.app import create_app
 from servodeck.events import PROTOCOL
 from servodeck.fleet.broker import parse_broker
-from servodeck.fleet.console import Console, RefusedError
+from servodeck.fleet.console import Console
 from servodeck.fleet.drive import DriveSession
 from servodeck.fleet.drive_messages import (
     AnyDriveNews,
@@ -32,6 +32,7 @@ from servodeck.fleet.drive_messages import (
 from servodeck.fleet.driving import TASK, FleetDriver
 from servodeck.fleet.heard import Robot
 from servodeck.fleet.messages import Done, Live, State
+from servodeck.fleet.outcomes import RefusedError
 from servodeck.fleet.service import FleetService
 from servodeck.intents import Target
 from servodeck.library.library import wall_clock_ms

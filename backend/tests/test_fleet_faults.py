@@ -10,7 +10,8 @@ import pytest
 
 from servodeck.callers import THIS_COMPUTER
 from servodeck.fleet.broker import Broker
-from servodeck.fleet.console import Console, NoAnswerError, RefusedError
+from servodeck.fleet.console import Console
+from servodeck.fleet.outcomes import NoAnswerError, RefusedError
 from tests.client import Client
 from tests.fleet import WAIT_S, Gateway, console_of, eventually, fleet_on
 from tests.mosquitto import LAB, Mosquitto, needs_mosquitto

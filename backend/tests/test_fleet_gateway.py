@@ -6,10 +6,11 @@ from functools import partial
 import pytest
 
 from servodeck.callers import THIS_COMPUTER
-from servodeck.fleet.console import RefusedError
+from servodeck.fleet.outcomes import RefusedError
+from servodeck.fleet.rules import Received
 from tests.fleet import Fleet, Gateway, console_of, eventually, fleet_on
 from tests.mosquitto import Mosquitto, needs_mosquitto
-from tests.raw_client import FOR_ARM, raw_client
+from tests.raw_client import FOR_ARM, REPLY, raw_client
 
 pytestmark = [pytest.mark.slow, needs_mosquitto]
 MOVE, RUN, STOP = 3, 6, 7
@@ -86,6 +87,20 @@ def test_a_stop_that_is_repeated_is_done_again_and_answered_once(mosquitto: Mosq
         raw.say(FOR_ARM + "stop", b"", correlation=b"three")
         raw.say(FOR_ARM + "stop", b"")
         assert [raw.answer()["n"] for _ in range(2)] == [None, None]
+
+
+def test_stops_that_come_together_are_answered_each(mosquitto: Mosquitto, fleet: Robots) -> None:
+    maker, (arm, *_) = fleet
+
+    def stop_twice() -> None:
+        for correlation in (b"one", b"two"):
+            arm.door.received(Received(FOR_ARM + "stop", b"", False, 0.0, REPLY, correlation))
+
+    with raw_client(mosquitto.broker_for("anna")) as raw:
+        raw.say(FOR_ARM + "report", {"v": 1, "n": 1})
+        assert raw.answer()["kind"] == "done"
+        maker.call(stop_twice)  # before the loop gets to either
+        assert [raw.answer()["kind"] for _ in range(2)] == ["done", "done"]
 
 
 def has_stopped(gateway: Gateway) -> bool:

@@ -13,8 +13,9 @@ from pathlib import Path
 import pytest
 
 from servodeck.fleet.broker import Broker
-from servodeck.fleet.console import Console, NoAnswerError, RefusedError
+from servodeck.fleet.console import Console
 from servodeck.fleet.messages import Done
+from servodeck.fleet.outcomes import NoAnswerError, RefusedError
 from tests.fleet import WAIT_S, console_of, eventually, fleet_on
 from tests.mosquitto import LAB, USERS, Mosquitto, needs_mosquitto
 from tests.raw_client import FOR_ARM, TARGETS, driving, move, raw_client

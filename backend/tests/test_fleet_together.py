@@ -5,7 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from servodeck.fleet.console import Console, FleetError, RefusedError
+from servodeck.fleet.console import Console
+from servodeck.fleet.outcomes import FleetError, RefusedError
 from servodeck.fleet.together import UncertainError, start_together
 from tests.fleet import Gateway, console_of, eventually, fleet_on
 from tests.mosquitto import Mosquitto, needs_mosquitto

@@ -15,9 +15,9 @@ from starlette.requests import HTTPConnection
 from servodeck.api.routes import DRIVER, STOPPER, VIEWER, leaves, routes
 from servodeck.callers import Caller
 from servodeck.errors import NotFoundError, OutOfRangeError
-from servodeck.fleet.console import FleetError
 from servodeck.fleet.download import Download
 from servodeck.fleet.driving import Share
+from servodeck.fleet.outcomes import FleetError
 from servodeck.fleet.service import FleetService
 from servodeck.fleet.tasks import Order, Spread
 from servodeck.fleet.view import FleetChanges, FleetCues, FleetGroups, FleetTask

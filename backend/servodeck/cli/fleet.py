@@ -33,7 +33,8 @@ from servodeck.cli.options import FAILURE, INTERRUPTED, TIMED_OUT, UNREACHABLE, 
 from servodeck.cli.serve import Data, Lan, Listen, OpenPage, PublicUrl, serve
 
 if TYPE_CHECKING:
-    from servodeck.fleet.console import Console, Robot
+    from servodeck.fleet.console import Console
+    from servodeck.fleet.heard import Robot
 
 CONNECT_S = 5.0
 # All that are there answer at once; so long for the slowest of them.
@@ -81,7 +82,7 @@ def on_console(command: Callable[..., None]) -> Callable[..., None]:
     @wraps(command)
     def run(**options: Any) -> None:
         end_loading()
-        from servodeck.fleet.console import FleetError
+        from servodeck.fleet.outcomes import FleetError
 
         with console_at(**{name: options.pop(name) for name in where}) as console:
             if not console.until(lambda: console.problem is None, CONNECT_S):
@@ -264,7 +265,7 @@ def run(
     ] = False,
 ) -> None:
     """Run a group of the boards of these robots and wait for its end; Ctrl-C stops it."""
-    from servodeck.fleet.console import FleetError
+    from servodeck.fleet.outcomes import FleetError
 
     if together and continue_for_s is not None:
         fail("--together waits for the end: leave out --continue.", USAGE)
@@ -322,7 +323,7 @@ def drive(console: "Console", name: str) -> None:
 
 def release(console: "Console", names: Iterable[str]) -> None:
     """Ends their runs and needs no resume. One that does not answer ends its run by itself, and stops."""
-    from servodeck.fleet.console import FleetError
+    from servodeck.fleet.outcomes import FleetError
 
     for name in filter(console.drives, names):
         with suppress(FleetError):
@@ -365,7 +366,7 @@ def download(
     to: Annotated[list[str], typer.Option(help="A robot. May be repeated.")],
 ) -> None:
     """Store groups on the boards of robots, one after the other on each."""
-    from servodeck.fleet.console import FleetError
+    from servodeck.fleet.outcomes import FleetError
 
     bodies = [group_of(text) for text in groups]
     heard(console, to)

@@ -25,70 +25,30 @@ from pydantic import TypeAdapter, ValidationError
 
 from servodeck.callers import Role
 from servodeck.fleet.broker import Broker, Connection, Interest, Outgoing
-from servodeck.fleet.heard import Heard, Presence, Robot
+from servodeck.fleet.exchange import NOBODY, Exchange
+from servodeck.fleet.heard import Heard, Robot
 from servodeck.fleet.messages import (
-    REQUESTS,
     About,
     Answer,
     AnyAnswer,
-    BeatRequest,
-    CancelRequest,
     Clock,
-    CommitRequest,
     Done,
     Live,
     Online,
-    RefusalCode,
     Refused,
-    ReportRequest,
     State,
-    SyncRequest,
-    TimelyRequest,
-    encode,
 )
+from servodeck.fleet.outcomes import NoAnswerError, RefusedError, StopReport, report_of
 from servodeck.fleet.rules import Received
 from servodeck.fleet.topics import ALL, Hold, Published, Reply, Site, Verb
-from servodeck.value import value
 
 ANSWER_S = 2.0
 STOP_S = 1.0
 STOP_AGAIN_S = (0.07, 0.14)
 LOOK_S = 0.1
 HOLD_S = 3600
-EXPIRES_S = 1
-QOS_0: Collection[Verb] = ("move", "beat", "sync")
 
 answer_adapter: TypeAdapter[AnyAnswer] = TypeAdapter(Answer)
-
-# With what its methods return.
-__all__ = ["Console", "FleetError", "NoAnswerError", "Presence", "RefusedError", "Robot", "StopReport"]
-
-
-class FleetError(Exception):
-    """A request that was not done."""
-
-
-class RefusedError(FleetError):
-    def __init__(self, gateway: str, code: RefusalCode, detail: str) -> None:
-        super().__init__(f"{gateway}: {detail}")
-        self.gateway = gateway
-        self.code = code
-        self.detail = detail
-
-
-class NoAnswerError(FleetError):
-    """It was not sent, or nothing came back in time: whether it was done is unknown."""
-
-
-@value
-class StopReport:
-    """Those that latched, those that latched but have no port to stop, with the reason, and those that were
-    there and did not answer.
-    """
-
-    stopped: tuple[str, ...]
-    refused: tuple[tuple[str, str], ...]
-    missing: tuple[str, ...]
 
 
 class Console:
@@ -111,26 +71,26 @@ class Console:
         self._role: Role = role
         self._changed = changed
         self._now = now
-        self._session = secrets.token_hex(4)
-        self._reply_to = site.reply(self._user, self._session)
         self._lock = threading.Lock()
-        self._n = 0
         self._heard = Heard(now)
-        self._pending: dict[bytes, Callable[[AnyAnswer], None]] = {}
         self._drives: set[str] = set()
         self._waits: set[str] = set()
         self._holds: set[str] = set()
         self._news = threading.Condition()
+        session = secrets.token_hex(4)
+        reply_to = site.reply(self._user, session)
         state = Interest(0, wants_retained=True, as_published=False)
         interests = {
             site.published("+", "about"): state,
             site.published("+", "state"): state,
             site.published("+", "online"): Interest(1, wants_retained=False, as_published=False),
             site.holds(): state,
-            self._reply_to: Interest(1, wants_retained=False, as_published=True),
+            reply_to: Interest(1, wants_retained=False, as_published=True),
         }
-        client_id = f"{self._user}-{self._session}"
-        self._connection = Connection(broker, client_id, interests, self, now)
+        self._connection = Connection(broker, f"{self._user}-{session}", interests, self, now)
+        self._exchange = Exchange(
+            self._connection.publish, site, role, self._user, reply_to, self._heard.nonce_of
+        )
 
     def __enter__(self) -> Self:
         self.start()
@@ -209,13 +169,11 @@ class Console:
                     self._set_waits(gateway, fields["action"] == "request" and not answer.drives)
                 settle(lambda: answered.set_result(answer))
 
-        correlation = self._await_answers(take)
-        answered.add_done_callback(lambda _: self._forget(correlation))
-        with self._lock:  # so that requests leave in the order of their numbers
-            payload = self._payload(gateway, verb, fields)
-            is_sent = payload is not None and self._send(gateway, verb, payload, correlation)
+        correlation = self._exchange.expect(take)
+        answered.add_done_callback(lambda _: self._exchange.forget(correlation))
+        is_sent = self._exchange.send(gateway, verb, fields, correlation)
         if not is_sent:
-            problem = f"{gateway} has not been heard." if payload is None else f"Not sent: {self.problem}"
+            problem = f"{gateway} has not been heard." if is_sent is None else f"Not sent: {self.problem}"
             answered.set_exception(NoAnswerError(problem))
         return answered
 
@@ -245,14 +203,13 @@ class Console:
         with self._lock:
             beaten = self._drives if gateways is None else self._drives.intersection(gateways)
             newest = {name: self._heard.nonce_of(name) for name in beaten}
-            nonces = {name: nonce for name, nonce in newest.items() if nonce}
-            if nonces:
-                self._send(ALL, "beat", encode(BeatRequest(n=self._next(), nonces=nonces)), b"")
+        nonces = {name: nonce for name, nonce in newest.items() if nonce}
+        if nonces:
+            self._exchange.send(ALL, "beat", {"nonces": nonces}, NOBODY)
 
     def beat_for(self, gateway: str, nonce: str) -> None:
         """The driver of that one was present when it had got that nonce."""
-        with self._lock:
-            self._send(gateway, "beat", encode(BeatRequest(n=self._next(), nonces={gateway: nonce})), b"")
+        self._exchange.send(gateway, "beat", {"nonces": {gateway: nonce}}, NOBODY)
 
     def stop(self, gateway: str) -> "Future[Done]":
         """STOP for one. As `request`."""
@@ -275,17 +232,17 @@ class Console:
         present = {robot.name for robot in self.robots() if robot.presence != "silent"}
         topic = self._site.hold(self._role, self._user)
         hold = Outgoing(topic, secrets.token_hex(8).encode(), 1, True, HOLD_S)
-        answers = self._ask_all("stop", b"", present, timeout_s, STOP_AGAIN_S, hold)
+        answers = self._ask_all("stop", {}, present, timeout_s, STOP_AGAIN_S, hold)
         refused = {name: answer.detail for name, answer in answers.items() if isinstance(answer, Refused)}
         return report_of(answers.keys() - refused.keys(), refused, present - answers.keys())
 
     def commit(self, name: str, gateways: Collection[str], timeout_s: float) -> set[str]:
         """The promise of that name. Those of the gateways that have agreed in time."""
-        return self._agreed("commit", CommitRequest, name, gateways, timeout_s)
+        return self._agreed("commit", name, gateways, timeout_s)
 
     def cancel(self, name: str, gateways: Collection[str], timeout_s: float) -> set[str]:
         """As `commit`: the promise is given up."""
-        return self._agreed("cancel", CancelRequest, name, gateways, timeout_s)
+        return self._agreed("cancel", name, gateways, timeout_s)
 
     def clock(self, gateway: str, timeout_s: float = ANSWER_S) -> tuple[float, float]:
         """By how many ms the gateway's clock is ahead of this one, and to how many ms that is sure: half of
@@ -299,17 +256,15 @@ class Console:
                 reading = (answer.clock_ms - asked_ms - took_ms / 2, took_ms / 2)
                 settle(lambda: read.set_result(reading))
 
-        correlation = self._await_answers(take)
-        with self._lock:
-            payload = encode(SyncRequest(n=self._next()))
-            asked_ms = self._now() * 1000
-            self._send(gateway, "sync", payload, correlation)
+        correlation = self._exchange.expect(take)
+        asked_ms = self._now() * 1000
+        self._exchange.send(gateway, "sync", {}, correlation)
         try:
             return read.result(timeout_s)
         except FutureTimeoutError:
             raise NoAnswerError(f"{gateway} did not say its time in {timeout_s:g} s.") from None
         finally:
-            self._forget(correlation)
+            self._exchange.forget(correlation)
 
     @property
     def holds(self) -> frozenset[str]:
@@ -324,18 +279,14 @@ class Console:
         for topic in self.holds | {self._site.hold(self._role, self._user)}:
             self._connection.publish(Outgoing(topic, b"", 1, True))
 
-    def _agreed(
-        self, verb: Verb, model: type[CommitRequest], name: str, gateways: Collection[str], timeout_s: float
-    ) -> set[str]:
-        with self._lock:
-            payload = encode(model(n=self._next(), name=name))
-        answers = self._ask_all(verb, payload, gateways, timeout_s)
+    def _agreed(self, verb: Verb, name: str, gateways: Collection[str], timeout_s: float) -> set[str]:
+        answers = self._ask_all(verb, {"name": name}, gateways, timeout_s)
         return {gateway for gateway, answer in answers.items() if isinstance(answer, Done)}
 
     def _ask_all(
         self,
         verb: Verb,
-        payload: bytes,
+        fields: dict[str, Any],
         expected: Collection[str],
         timeout_s: float,
         again_s: Collection[float] = (),
@@ -349,33 +300,23 @@ class Console:
             answers[answer.gateway] = answer
             missing.discard(answer.gateway)
 
-        correlation = self._await_answers(take)
-        self._send(ALL, verb, payload, correlation)
+        correlation = self._exchange.expect(take)
+        self._exchange.send(ALL, verb, fields, correlation)
         if beside:
             self._connection.publish(beside)
         for after_s in again_s:
-            again = threading.Timer(after_s, self._send, (ALL, verb, payload, correlation))
+            again = threading.Timer(after_s, self._exchange.send, (ALL, verb, fields, correlation))
             again.daemon = True
             again.start()
         self.until(lambda: not missing, timeout_s)
-        self._forget(correlation)
+        self._exchange.forget(correlation)
         return answers
-
-    def _await_answers(self, take: Callable[[AnyAnswer], None]) -> bytes:
-        """`take` is called in the connection's thread; the correlation of the request."""
-        correlation = secrets.token_bytes(8)
-        self._pending[correlation] = take
-        return correlation
-
-    def _forget(self, correlation: bytes) -> None:
-        self._pending.pop(correlation, None)
 
     # In the connection's thread
 
     def connected(self) -> None:
         """Those that are there say so at once."""
-        with self._lock:
-            self._send(ALL, "report", encode(ReportRequest(n=self._next())), b"")
+        self._exchange.send(ALL, "report", {}, NOBODY)
         self._say("")
 
     def lost(self) -> None:
@@ -429,9 +370,7 @@ class Console:
         answer = answer_adapter.validate_json(received.payload)
         if isinstance(answer, Done) and answer.state:
             self._take_state(answer.gateway, answer.state, received.at_s)
-        take = self._pending.get(received.correlation or b"")
-        if take:
-            take(answer)
+        self._exchange.answered(answer, received.correlation)
         return answer.gateway
 
     def _set_waits(self, gateway: str, waits: bool) -> None:
@@ -452,39 +391,6 @@ class Console:
         with self._news:
             self._news.notify_all()
         self._changed(gateway)
-
-    # Within the lock
-
-    def _next(self) -> int:
-        self._n += 1
-        return self._n
-
-    def _payload(self, gateway: str, verb: Verb, fields: dict[str, Any]) -> bytes | None:
-        """None where it needs a nonce, and the gateway has said none. Raises ValidationError."""
-        if verb == "stop":
-            return b""
-        model, n = REQUESTS[verb], self._next()
-        if issubclass(model, TimelyRequest):
-            nonce = self._heard.nonce_of(gateway)
-            return None if nonce is None else encode(model(**{"n": n, "nonce": nonce, **fields}))
-        return encode(model(n=n, **fields))
-
-    def _send(self, gateway: str, verb: Verb, payload: bytes, correlation: bytes) -> bool:
-        topic = self._site.command(gateway, self._role, self._user, verb)
-        return self._connection.publish(
-            Outgoing(
-                topic,
-                payload,
-                0 if verb in QOS_0 else 1,
-                expires_s=None if verb == "stop" else EXPIRES_S,  # a late stop is better than none
-                reply_to=self._reply_to,
-                correlation=correlation,
-            )
-        )
-
-
-def report_of(stopped: Collection[str], refused: dict[str, str], missing: Collection[str]) -> StopReport:
-    return StopReport(tuple(sorted(stopped)), tuple(sorted(refused.items())), tuple(sorted(missing)))
 
 
 def settle(act: Callable[[], None]) -> None:

@@ -12,7 +12,7 @@ from concurrent.futures import Future
 from contextlib import suppress
 from typing import Any
 
-from servodeck.fleet.console import Console, FleetError, RefusedError
+from servodeck.fleet.console import Console
 from servodeck.fleet.drive_messages import (
     AnyDriveNews,
     AnyDriveWish,
@@ -28,6 +28,7 @@ from servodeck.fleet.drive_messages import (
 from servodeck.fleet.driving import FleetDriver
 from servodeck.fleet.heard import Robot
 from servodeck.fleet.messages import Done, MoveRequest, RefusalCode
+from servodeck.fleet.outcomes import FleetError, RefusedError
 from servodeck.intents import Target
 from servodeck.robot.lease import GONE_S
 

@@ -12,8 +12,10 @@ from contextlib import suppress
 from functools import partial
 from typing import Any, Protocol
 
-from servodeck.fleet.console import Console, FleetError, NoAnswerError, RefusedError, Robot, StopReport
+from servodeck.fleet.console import Console
+from servodeck.fleet.heard import Robot
 from servodeck.fleet.messages import Done
+from servodeck.fleet.outcomes import FleetError, NoAnswerError, RefusedError, StopReport
 from servodeck.fleet.stopping import stop_robots
 from servodeck.fleet.together import new_name, spread_ms, start_together
 from servodeck.intents import GroupBody

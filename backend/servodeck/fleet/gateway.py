@@ -11,7 +11,7 @@ import logging
 import secrets
 import threading
 from collections import Counter, deque
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 from pydantic import ValidationError
@@ -37,6 +37,7 @@ ECHO_S = 3.0
 ALONE_S = 30.0
 # A console repeats a STOP for so long, and needs one answer.
 STOP_REPEATED_S = 0.5
+STOPS_ANSWERED_AT_ONCE = 8
 NO_PAGE = Page()
 log = logging.getLogger("servodeck.fleet")
 
@@ -206,8 +207,8 @@ class FleetGateway:
             self._control.stop(Cause("person", stops[0][0].user))
         except GatewayError as raised:
             error = raised
-        for origin, received in {stop.origin: received for stop, received in stops}.items():
-            if origin and self._is_first(received):
+        for origin, received in to_be_answered(stops):
+            if self._is_first(received):
                 self._send(received, encode(self._stopped(origin, error)))
 
     def _is_first(self, received: Received) -> bool:
@@ -331,3 +332,16 @@ def interests_of(site: Site, name: str) -> dict[str, Interest]:
         site.published(name, "state"): fresh,
         site.published(name, "online"): fresh,
     }
+
+
+def to_be_answered(stops: Sequence[tuple[Stop, Received]]) -> list[tuple[Origin, Received]]:
+    """One of each correlation, and of each session the latest ones: a flood gets no flood of answers."""
+    by_session: dict[Origin, dict[bytes | None, Received]] = {}
+    for stop, received in stops:
+        if stop.origin:
+            by_session.setdefault(stop.origin, {})[received.correlation] = received
+    return [
+        (origin, received)
+        for origin, asked in by_session.items()
+        for received in list(asked.values())[-STOPS_ANSWERED_AT_ONCE:]
+    ]

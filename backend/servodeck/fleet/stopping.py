@@ -9,8 +9,10 @@ from concurrent.futures import ThreadPoolExecutor, wait
 from http.client import HTTPException
 from typing import Any
 
-from servodeck.fleet.console import STOP_S, Console, Robot, StopReport, report_of
+from servodeck.fleet.console import STOP_S, Console
+from servodeck.fleet.heard import Robot
 from servodeck.fleet.messages import About
+from servodeck.fleet.outcomes import StopReport, report_of
 
 # Over a broker that works all have confirmed it by then.
 GRACE_S = 0.25

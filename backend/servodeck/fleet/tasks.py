@@ -10,8 +10,8 @@ from collections.abc import Awaitable, Callable, Sequence
 from typing import Literal
 
 from servodeck.errors import ConflictError, NotFoundError
-from servodeck.fleet.console import FleetError, RefusedError
 from servodeck.fleet.driving import Share
+from servodeck.fleet.outcomes import FleetError, RefusedError
 from servodeck.fleet.view import FleetTask, FleetTaskPart, FleetView, PartStatus
 from servodeck.value import value
 

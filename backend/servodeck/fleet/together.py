@@ -7,7 +7,8 @@ Knows the console; no topic and no payload.
 import secrets
 from collections.abc import Collection, Mapping
 
-from servodeck.fleet.console import Console, FleetError, NoAnswerError
+from servodeck.fleet.console import Console
+from servodeck.fleet.outcomes import FleetError, NoAnswerError
 
 ROUNDS = 16
 UNCERTAIN_MS = 20.0

@@ -15,7 +15,8 @@ from typing import Annotated, Literal, TypeVar
 from pydantic import Field, ValidationError
 
 from servodeck.files import BackgroundFile
-from servodeck.fleet.console import Console, Presence, Robot
+from servodeck.fleet.console import Console
+from servodeck.fleet.heard import Presence, Robot
 from servodeck.fleet.messages import State
 from servodeck.schema import Message
 from servodeck.snapshots import BatteryState, LinkStatus, ServoLimits, StoredGroup, Whole
