@@ -93,10 +93,7 @@ test('the dashboard of a gateway with a fleet leads to its page, and that page b
   url,
 }) => {
   await at(page, url, 'Owner of a shared robot, question');
-  await expect(page.getByRole('link', { name: 'All robots of the site' })).toHaveAttribute(
-    'href',
-    './fleet.html',
-  );
+  await expect(page.getByRole('link', { name: 'All robots' })).toHaveAttribute('href', './fleet.html');
   await at(page, url, 'Fleet');
   await expect(page.getByRole('link', { name: 'This gateway’s robot' })).toHaveAttribute('href', './');
 });

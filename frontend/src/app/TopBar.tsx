@@ -8,7 +8,7 @@ import { LANGUAGE_CODES, LANGUAGES, words } from '../i18n/words.ts';
 import { nameOf } from '../robot/remembered.ts';
 import { RobotButton } from '../features/profiles/RobotDialog.tsx';
 import { BatteryReadout } from '../features/battery/BatteryReadout.tsx';
-import { IconButton, IconLink } from '../ui/Button.tsx';
+import { IconButton } from '../ui/Button.tsx';
 import { titleFor } from '../features/people/people.ts';
 import { boardName } from '../i18n/sentences.ts';
 import { LinkChip, StatusLine, type StatusLineProps } from '../features/connect/StatusLine.tsx';
@@ -115,7 +115,12 @@ function FleetLink() {
   const { people } = useStores();
   const me = useStore(people.store, (state) => state.me);
   if (me?.pages.includes('fleet') !== true) return null;
-  return <IconLink icon="fleet" label={words.regions.fleet} href="./fleet.html" />;
+  const label = words.regions.fleet;
+  return (
+    <a className={styles.control} href="./fleet.html" aria-label={label} title={label}>
+      <Icon name="fleet" />
+    </a>
+  );
 }
 
 function PeopleButton() {

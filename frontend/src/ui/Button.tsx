@@ -85,24 +85,6 @@ export function IconButton({ icon, label, keys, whyNot, onPress, ...props }: Ico
   );
 }
 
-/** A way to another page of ours, looking as the icon buttons beside it do. */
-export function IconLink({
-  icon,
-  label,
-  href,
-}: Pick<IconButtonProps, 'icon' | 'label'> & { readonly href: string }) {
-  return (
-    <a
-      {...hinted({ hint: label })}
-      aria-label={label}
-      className={cx(styles.button, styles.quiet, styles.square)}
-      href={href}
-    >
-      <Icon name={icon} />
-    </a>
-  );
-}
-
 interface ActionButtonProps<Context, Shown> {
   readonly action: Action<Context, Shown>;
   readonly shown: Shown;

@@ -27,7 +27,7 @@ const PATHS = {
   mirror: 'M8 2v12M6 4.5L2.5 11.5H6zM10 4.5l3.5 7H10z',
   flip: 'M2 8h12M4.5 6L11.5 2.5V6zM4.5 10l7 3.5V10z',
   buttons: 'M2.5 2.5h4.5v4.5H2.5zM9 2.5h4.5v4.5H9zM2.5 9h4.5v4.5H2.5zM9 9h4.5v4.5H9z',
-  fleet: 'M6 2.5h4v4H6zM1.5 9.5h4v4h-4zM10.5 9.5h4v4h-4zM8 6.5V8M3.5 9.5V8h9v1.5',
+  fleet: 'M6 3h4v4H6zM3 10h4v4H3zM9 10h4v4H9z',
   kiosk: 'M2.5 3h11v7.5h-11zM6 13.5h4M8 10.5v3',
   refresh: 'M13 3v3.5H9.5M12.7 6.2A5 5 0 1 0 13 9',
   pose: 'M3 13h10M8 13V9L4.5 6.5 8 3.5l4 1.5',
