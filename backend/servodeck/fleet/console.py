@@ -295,10 +295,13 @@ class Console:
         """Waits until those that are expected have answered; others may have, too."""
         answers: dict[str, AnyAnswer] = {}
         missing = set(expected)
+        are_all_there = threading.Event()  # who looked at each of a thousand answers would hold up the next
 
         def take(answer: AnyAnswer) -> None:
             answers[answer.gateway] = answer
             missing.discard(answer.gateway)
+            if not missing:
+                are_all_there.set()
 
         correlation = self._exchange.expect(take)
         self._exchange.send(ALL, verb, fields, correlation)
@@ -308,9 +311,10 @@ class Console:
             again = threading.Timer(after_s, self._exchange.send, (ALL, verb, fields, correlation))
             again.daemon = True
             again.start()
-        self.until(lambda: not missing, timeout_s)
+        if missing:
+            are_all_there.wait(timeout_s)
         self._exchange.forget(correlation)
-        return answers
+        return dict(answers)  # a late one may still come
 
     # In the connection's thread
 
