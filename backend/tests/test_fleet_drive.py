@@ -365,6 +365,7 @@ def arm(tmp_path: Path) -> Iterator[tuple[Mosquitto, Gateway]]:
 
 @needs_mosquitto
 @pytest.mark.slow
+@pytest.mark.exhaustive  # in real time: a computer that stalls for 0.75 s stops the robot sooner
 async def test_a_robot_whose_page_is_lost_while_it_moves_is_stopped(arm: tuple[Mosquitto, Gateway]) -> None:
     mosquitto, gateway = arm
     service = FleetService(mosquitto.broker_for("anna"), LAB, None, wall_clock_ms)
