@@ -56,7 +56,7 @@ interface Thousand {
   readonly backMs: number;
 }
 
-interface Voices {
+interface OfConsole {
   readonly stateMs: readonly number[];
   readonly stopKnownMs: readonly number[];
   readonly missing: number;
@@ -68,7 +68,7 @@ export async function measureFleet(): Promise<Figure[]> {
   const quick = await measured<Together>('fleet.py', [ROBOTS, ROUNDS, 0]);
   const jittered = await measured<Together>('fleet.py', [ROBOTS, JITTER_ROUNDS, JITTER_MS]);
   const wires = await measured<Wires>('fleet_wires.py', [PRESSES, LOCAL_PRESSES]);
-  const voices = await measured<Voices>('fleet_console.py', [THOUSAND, SECONDS, PRESSES]);
+  const ofConsole = await measured<OfConsole>('fleet_console.py', [THOUSAND, SECONDS, PRESSES]);
   const thousand = await measured<Thousand>('fleet_thousand.py', [
     ...[THOUSAND, DRIVEN, SECONDS, STORMY_PRESSES],
   ]);
@@ -80,7 +80,7 @@ export async function measureFleet(): Promise<Figure[]> {
       `each message 0–${JITTER_MS} ms later, both ways, by a proxy, ${JITTER_ROUNDS} times`,
     ),
     ...wireFigures(wires),
-    ...voiceFigures(voices),
+    ...consoleFigures(ofConsole),
     ...thousandFigures(thousand),
   ];
 }
@@ -148,19 +148,19 @@ function wireFigures({ allMs, quietMs, floodedMs, floodPerS }: Wires): Figure[] 
 }
 
 /** What is left of a thousand where each has a computer of its own: the broker and the console. */
-function voiceFigures({ stateMs, stopKnownMs, missing }: Voices): Figure[] {
+function consoleFigures({ stateMs, stopKnownMs, missing }: OfConsole): Figure[] {
   const many = `${THOUSAND} gateways at 1 Hz for which one client speaks, ${SECONDS} s`;
   return [
-    figure('voices.stateP50Ms', stateMs, 50, `from a state's publication to the console, ${many}`),
-    figure('voices.stateP99Ms', stateMs, 99, `the slow ones of ${stateMs.length}`),
+    figure('console.stateP50Ms', stateMs, 50, `from a state's publication to the console, ${many}`),
+    figure('console.stateP99Ms', stateMs, 99, `the slow ones of ${stateMs.length}`),
     figure(
-      'voices.stopKnownP50Ms',
+      'console.stopKnownP50Ms',
       stopKnownMs,
       50,
       `STOP for all until all answers are there, ${PRESSES} presses; ${missing} were missing`,
     ),
     {
-      ...figure('voices.stopKnownP99Ms', stopKnownMs, 99, `the slow ones of these`),
+      ...figure('console.stopKnownP99Ms', stopKnownMs, 99, `the slow ones of these`),
       limit: { atMost: THOUSAND_KNOWN_MS },
     },
   ];

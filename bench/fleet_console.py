@@ -19,7 +19,7 @@ from servodeck.fleet.rules import Received
 from tests.fleet import console_of, eventually, fleet_on
 from tests.mosquitto import Mosquitto
 
-VOICES = "voices"
+STAND_IN = "stand-in"
 PATIENCE_S = 60.0
 KNOWN_S = 10.0
 
@@ -27,20 +27,20 @@ KNOWN_S = 10.0
 def main() -> None:
     robots, seconds, presses = map(int, sys.argv[1:])
     with TemporaryDirectory() as folder:
-        mosquitto = Mosquitto(Path(folder) / "broker", ["arm-0", VOICES])
+        mosquitto = Mosquitto(Path(folder) / "broker", ["arm-0", STAND_IN])
         with (mosquitto.folder / "acl").open("a") as acl:
-            acl.write(f"user {VOICES}\ntopic readwrite #\n")
+            acl.write(f"user {STAND_IN}\ntopic readwrite #\n")
         mosquitto.start()
         try:
             state = Path(folder) / "state.json"
             state.write_text(state_of_one(mosquitto))
-            command = [sys.executable, "bench/fleet_voices.py", str(mosquitto.port)]
+            command = [sys.executable, "bench/fleet_stand_in.py", str(mosquitto.port)]
             files = [str(mosquitto.folder / "secrets"), str(robots), str(state)]
-            with console_of(mosquitto, "anna") as console, subprocess.Popen([*command, *files]) as voices:
+            with console_of(mosquitto, "anna") as console, subprocess.Popen([*command, *files]) as stand_in:
                 try:
                     figures = measured(console, robots, seconds, presses)
                 finally:
-                    voices.kill()
+                    stand_in.kill()
         finally:
             mosquitto.kill()
     json.dump(figures, sys.stdout)

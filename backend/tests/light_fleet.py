@@ -193,7 +193,7 @@ class Answers:
         return len(self._gateways)
 
     def motion(self) -> int:
-        """How often they were told to move."""
+        """How often motion was commanded."""
         return sum(gateway.count(MOVE) + gateway.count(RUN) for gateway in self._gateways)
 
     def first(self, command: str, since_s: str) -> dict[str, float]:

@@ -295,7 +295,7 @@ class Console:
         """Waits until those that are expected have answered; others may have, too."""
         answers: dict[str, AnyAnswer] = {}
         missing = set(expected)
-        are_all_there = threading.Event()  # who looked at each of a thousand answers would hold up the next
+        are_all_there = threading.Event()  # to wake up for each of a thousand would delay the next
 
         def take(answer: AnyAnswer) -> None:
             answers[answer.gateway] = answer

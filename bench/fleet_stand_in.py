@@ -3,7 +3,7 @@ of each to a STOP for all, with the state that follows. What gateways do before 
 here.
 
 Each state has the time at which it left as its nonce, by `time.monotonic`.
-Usage: fleet_voices.py PORT SECRETS ROBOTS STATE_FILE
+Usage: fleet_stand_in.py PORT SECRETS ROBOTS STATE_FILE
 """
 
 import json
@@ -21,16 +21,16 @@ from servodeck.fleet.broker import properties_for
 from servodeck.fleet.topics import ALL
 from tests.mosquitto import LAB
 
-VOICES = "voices"
+STAND_IN = "stand-in"
 STEPS_PER_S = 50
 
 
 def main() -> None:
     port, secrets, robots, file = int(sys.argv[1]), Path(sys.argv[2]), int(sys.argv[3]), Path(sys.argv[4])
-    names = [f"voice-{number}" for number in range(robots)]
+    names = [f"arm-{number + 1}" for number in range(robots)]
     state = json.loads(file.read_text())
     stops: SimpleQueue[tuple[str, bytes]] = SimpleQueue()
-    client = connected(port, secrets, VOICES)
+    client = connected(port, secrets, STAND_IN)
 
     def heard(_client: mqtt.Client, _data: Any, message: mqtt.MQTTMessage) -> None:
         asked: Any = message.properties
