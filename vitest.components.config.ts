@@ -2,6 +2,7 @@
 // of vitest.config.ts: Vitest sets for every project the `process.env.NODE_ENV` that one of them defines.
 
 import { resolve } from 'node:path';
+import type { LaunchOptions } from '@playwright/test';
 import { playwright } from '@vitest/browser-playwright';
 import { defineConfig } from 'vitest/config';
 import { BROWSER_WINDOW, commands } from './frontend/tests/harness/commands.ts';
@@ -9,6 +10,13 @@ import { browserArgs, findBrowser } from './scripts/browser.mjs';
 import { words } from './scripts/words.mjs';
 
 const executablePath = findBrowser();
+
+/** A browser begins a session of its own and sets its own priority. */
+function inBackground(browser: string): LaunchOptions {
+  if (process.platform !== 'linux') return { executablePath: browser };
+  const executablePath = resolve(import.meta.dirname, 'scripts/background.sh');
+  return { executablePath, env: { ...process.env, IN_BACKGROUND: browser } };
+}
 
 export default defineConfig({
   plugins: [words()],
@@ -47,7 +55,10 @@ export default defineConfig({
       screenshotFailures: false,
       viewport: { width: 1440, height: 900 },
       provider: playwright({
-        launchOptions: { args: [...browserArgs], ...(executablePath === null ? {} : { executablePath }) },
+        launchOptions: {
+          args: [...browserArgs],
+          ...(executablePath === null ? {} : inBackground(executablePath)),
+        },
         contextOptions: { locale: 'en-GB', viewport: BROWSER_WINDOW },
       }),
       commands,

@@ -66,10 +66,15 @@ export async function runTasks(tasks) {
   return results;
 }
 
+/** @param {Task['command']} command @returns {Task['command']} */
+function inBackground(command) {
+  return process.platform === 'linux' ? ['setsid', at('scripts/background.sh'), ...command] : command;
+}
+
 /** @param {Task} task @returns {Promise<Result & {output: string}>} */
 async function runTask(task) {
   await task.waitsFor?.();
-  const [command, ...args] = task.command;
+  const [command, ...args] = task.givesWay ? inBackground(task.command) : task.command;
   const running = execa(command, args, {
     cwd: at(''),
     env: { ...colours, ...task.env },
