@@ -12,8 +12,6 @@ import { percentile } from './statistics.ts';
 
 const ROBOTS = amount(30, 4);
 const ROUNDS = amount(6, 1);
-/** To measure thirty clocks takes half a minute there. */
-const JITTER_ROUNDS = amount(2, 1);
 const JITTER_MS = 30;
 const PRESSES = amount(20, 1);
 const LOCAL_PRESSES = amount(30, 2);
@@ -66,7 +64,7 @@ export async function measureFleet(): Promise<Figure[]> {
   if (!existsSync('/proc/self/stat')) return []; // only Linux keeps such files
   await brokerForTests();
   const quick = await measured<Together>('fleet.py', [ROBOTS, ROUNDS, 0]);
-  const jittered = await measured<Together>('fleet.py', [ROBOTS, JITTER_ROUNDS, JITTER_MS]);
+  const jittered = await measured<Together>('fleet.py', [ROBOTS, ROUNDS, JITTER_MS]);
   const wires = await measured<Wires>('fleet_wires.py', [PRESSES, LOCAL_PRESSES]);
   const ofConsole = await measured<OfConsole>('fleet_console.py', [THOUSAND, SECONDS, PRESSES]);
   const thousand = await measured<Thousand>('fleet_thousand.py', [
@@ -77,7 +75,7 @@ export async function measureFleet(): Promise<Figure[]> {
     ...togetherFigures(
       'jitter.',
       jittered,
-      `each message 0–${JITTER_MS} ms later, both ways, by a proxy, ${JITTER_ROUNDS} times`,
+      `each message 0–${JITTER_MS} ms later, both ways, by a proxy, ${ROUNDS} times`,
     ),
     ...wireFigures(wires),
     ...consoleFigures(ofConsole),

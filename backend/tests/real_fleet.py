@@ -3,7 +3,6 @@ simulated board on a pty of its own.
 """
 
 import json
-import time
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
@@ -37,7 +36,7 @@ class RealGateway:
         """Of each that has reached the board: when its first byte did (`time.monotonic`), and the command."""
         taken, packets, at = self.board.taken(), [], 0
         head = json.loads(self.board.log.read_text().partition("\n")[0])
-        begun_s = head["startedAtEpochMs"] / 1000 - (time.time() - time.monotonic())
+        begun_s = head["startedAtMonotonicMs"] / 1000
         while at + COMMAND_AT < len(taken):
             packets.append((begun_s + taken[at][0] / 1000, taken[at + COMMAND_AT][1]))
             at += LENGTH_AT + taken[at + LENGTH_AT][1]

@@ -19,6 +19,8 @@ NAMES = tuple(f"arm-{number}" for number in range(1, 9))
 PULLED = "arm-3"
 MOVE, RUN, STOP = 3, 6, 7
 SLOT = 4
+# As a clock has to be, before it is relied on.
+SURE_S = 0.02
 FRAMES = [{"durationMs": 500, "positions": {"1": position}} for position in (1200, 1800)]
 # Sixteen processes beside other tests.
 PATIENCE_S = 60.0
@@ -51,8 +53,9 @@ def store(anna: Console) -> None:
 
 
 def run_together_until_stopped(anna: Console, stan: Console, gateways: Sequence[RealGateway]) -> None:
-    start_together(anna, NAMES, SLOT, times=0)
+    start_s = start_together(anna, NAMES, SLOT, times=0)
     assert eventually(lambda: all(one.count(RUN) == 1 for one in gateways))
+    assert all(one.count(RUN, since_s=start_s - SURE_S) == 1 for one in gateways)
     pressed_s = time.monotonic()
     report = stan.stop_all(PATIENCE_S)
     assert report.stopped == NAMES

@@ -25,6 +25,7 @@ from pydantic import TypeAdapter, ValidationError
 
 from servodeck.callers import Role
 from servodeck.fleet.broker import Broker, Connection, Interest, Outgoing
+from servodeck.fleet.clocks import Reading
 from servodeck.fleet.exchange import NOBODY, Exchange
 from servodeck.fleet.heard import Heard, Robot
 from servodeck.fleet.messages import (
@@ -244,16 +245,14 @@ class Console:
         """As `commit`: the promise is given up."""
         return self._agreed("cancel", name, gateways, timeout_s)
 
-    def clock(self, gateway: str, timeout_s: float = ANSWER_S) -> tuple[float, float]:
-        """By how many ms the gateway's clock is ahead of this one, and to how many ms that is sure: half of
-        the time that question and answer took. Raises NoAnswerError.
-        """
-        read: Future[tuple[float, float]] = Future()
+    def clock(self, gateway: str, timeout_s: float = ANSWER_S) -> Reading:
+        """Reads the gateway's clock once. Raises NoAnswerError."""
+        read: Future[Reading] = Future()
 
         def take(answer: AnyAnswer) -> None:
-            took_ms = self._now() * 1000 - asked_ms
+            heard_ms = self._now() * 1000
             if isinstance(answer, Clock):
-                reading = (answer.clock_ms - asked_ms - took_ms / 2, took_ms / 2)
+                reading = Reading(asked_ms, answer.clock_ms, heard_ms)
                 settle(lambda: read.set_result(reading))
 
         correlation = self._exchange.expect(take)

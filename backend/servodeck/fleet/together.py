@@ -6,11 +6,16 @@ Knows the console; no topic and no payload.
 
 import secrets
 from collections.abc import Collection, Mapping
+from concurrent.futures import FIRST_EXCEPTION, ThreadPoolExecutor, wait
 
+from servodeck.fleet.clocks import Offset, offset_of
 from servodeck.fleet.console import Console
 from servodeck.fleet.outcomes import FleetError, NoAnswerError
 
-ROUNDS = 16
+# A clock is asked until it is sure, and so often at most.
+ROUNDS, SURE_MS = 20, 1.0
+# So many clocks; with more the answers would wait for each other here.
+AT_ONCE = 8
 UNCERTAIN_MS = 20.0
 # From the last measured clock to the start; and before it so long all have to have committed.
 LEAD_S, DECIDED_S = 1.0, 0.2
@@ -35,7 +40,7 @@ def start_together(
     Returns at the start, with its time by the console's clock; raises a FleetError where nothing starts,
     unless a gateway that had committed cannot be reached any more.
     """
-    clocks = {gateway: clock_of(console, gateway, gateways) for gateway in gateways}
+    offsets = offsets_of(console, gateways)
     name, start_s = name or new_name(), console.now_s + lead_s
     console.beat(gateways)
     try:
@@ -47,10 +52,10 @@ def start_together(
                 slot=slot if isinstance(slot, int) else slot[gateway],
                 times=times,
                 version=(versions or {}).get(gateway),
-                start_ms=start_s * 1000 + ahead_ms,
-                uncertainty_ms=uncertain_ms,
+                start_ms=start_s * 1000 + offset.ahead_ms,
+                uncertainty_ms=offset.uncertainty_ms,
             )
-            for gateway, (ahead_ms, uncertain_ms) in clocks.items()
+            for gateway, offset in offsets.items()
         }
         for gateway, answered in prepared.items():
             console.result_of(gateway, answered, start_s - DECIDED_S - console.now_s)
@@ -79,13 +84,26 @@ def spread_ms(console: Console, gateways: Collection[str], name: str) -> float |
     return max(late_ms) - min(late_ms) if len(late_ms) > 1 else None
 
 
-def clock_of(console: Console, gateway: str, gateways: Collection[str]) -> tuple[float, float]:
-    """As `Console.clock`, of the quickest of several rounds: what is slow, is so in one direction mostly.
-    Meanwhile all of them hear a beat.
-    """
-    rounds = [console.clock(gateway) for _ in range(ROUNDS)]
-    console.beat(gateways)
-    ahead_ms, uncertain_ms = min(rounds, key=lambda one: one[1])
-    if uncertain_ms > UNCERTAIN_MS:
-        raise UncertainError(f"The clock of {gateway} is known to {uncertain_ms:.0f} ms only.")
-    return ahead_ms, uncertain_ms
+def offsets_of(console: Console, gateways: Collection[str]) -> dict[str, Offset]:
+    """Of all their clocks. Meanwhile the gateways hear beats."""
+    with ThreadPoolExecutor(AT_ONCE) as pool:
+        measuring = {gateway: pool.submit(measured_offset, console, gateway) for gateway in gateways}
+        left = {*measuring.values()}
+        try:
+            while left:
+                console.beat(gateways)
+                done, left = wait(left, BEAT_S, FIRST_EXCEPTION)
+                for one in done:
+                    one.result()
+        finally:
+            pool.shutdown(cancel_futures=True)
+    return {gateway: one.result() for gateway, one in measuring.items()}
+
+
+def measured_offset(console: Console, gateway: str) -> Offset:
+    readings = [console.clock(gateway)]
+    while (offset := offset_of(readings)).uncertainty_ms > SURE_MS and len(readings) < ROUNDS:
+        readings.append(console.clock(gateway))
+    if offset.uncertainty_ms > UNCERTAIN_MS:
+        raise UncertainError(f"The clock of {gateway} is known to {offset.uncertainty_ms:.0f} ms only.")
+    return offset

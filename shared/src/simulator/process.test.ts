@@ -81,7 +81,7 @@ test('on stdio it answers the battery query, writes the bus log and ends with it
   child.stdin.end();
   expect(await exitCode(child)).toBe(0);
   const lines = readFileSync(log, 'utf8').trim().split('\n');
-  expect(lines[0]).toMatch(/^\{"startedAtEpochMs":\d+(\.\d+)?\}$/);
+  expect(lines[0]).toMatch(/^\{"startedAtEpochMs":\d+(\.\d+)?,"startedAtMonotonicMs":\d+(\.\d+)?\}$/);
   expect(lines[1]).toMatch(/^\{"atMs":\d+(\.\d{1,3})?,"direction":"in","byte":85\}$/);
   expect(lines).toHaveLength(11);
 });

@@ -87,8 +87,13 @@ interface BusLog {
 /** JSON lines, written beside the board: a disk that stands still holds up the log, never a byte on the line. */
 function openBusLog(path: string): BusLog {
   const file = createWriteStream(path, { fd: openSync(path, 'w') });
-  // Not `Date.now()`: that one is cut to whole milliseconds.
-  file.write(`${JSON.stringify({ startedAtEpochMs: performance.timeOrigin + startedAtMs })}\n`);
+  const head = {
+    // Not `Date.now()`: that one is cut to whole milliseconds.
+    startedAtEpochMs: performance.timeOrigin + startedAtMs,
+    // By the clock that other programs of a Linux computer read, too, and that nobody sets.
+    startedAtMonotonicMs: startedAtMs - performance.now() + Number(process.hrtime.bigint()) / 1e6,
+  };
+  file.write(`${JSON.stringify(head)}\n`);
   file.on('finish', () => process.exit(0));
   return {
     add(entry) {
