@@ -29,9 +29,14 @@ NODE = shutil.which("node")
 LAB = Site("lab")
 
 # What Node-RED gives to a function node: https://nodered.org/docs/user-guide/writing-functions
-RUN_FUNCTION = """
+# A context takes names and paths of properties as keys, and no other text.
+RUN_FUNCTION = r"""
 const { code, msg, flow, env } = JSON.parse(require('node:fs').readFileSync(0, 'utf8'));
-const context = { get: (key) => flow[key], set: (key, value) => { flow[key] = value; } };
+const name = (key) => {
+  if (/^[A-Za-z_$][\w$]*$/.test(key)) return key;
+  throw new Error(`Invalid property expression: ${key}`);
+};
+const context = { get: (key) => flow[name(key)], set: (key, value) => { flow[name(key)] = value; } };
 const words = [];
 const node = { warn: (text) => words.push(text), status: ({ text }) => words.push(text) };
 const variables = { get: (key) => env[key] };

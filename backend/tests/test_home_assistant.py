@@ -120,6 +120,12 @@ def test_a_group_has_a_button_that_is_off_and_none_allows_motion_again() -> None
     assert "availability" not in buttons["stop"]
 
 
+@pytest.mark.parametrize(("robot", "model"), [("Desk arm", "Desk arm (doc)"), ("", "doc")])
+def test_the_model_is_robot_and_board(robot: str, model: str) -> None:
+    about = ABOUT.model_copy(update={"robot": robot, "board": "doc"})
+    assert discovery(LAB, about, {})["device"]["model"] == model
+
+
 def test_what_is_gone_is_removed() -> None:
     empty = ABOUT.model_copy(update={"slots": {}, "low_battery_mv": None})
     components = discovery(LAB, empty, {"run_4": "button", "low_battery": "binary_sensor"})["components"]

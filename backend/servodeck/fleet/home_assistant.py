@@ -149,7 +149,7 @@ def discovery(site: Site, about: About, known: Mapping[str, str]) -> dict[str, A
         "device": {
             "identifiers": [identifier],
             "name": about.name,
-            "model": " ".join(filter(None, (about.robot, f"({about.board})"))),
+            "model": f"{about.robot} ({about.board})" if about.robot else about.board,
             "sw_version": about.version,
             **({"configuration_url": about.page} if about.page else {}),
         },
