@@ -127,6 +127,8 @@ export default defineConfig({
     rolldownOptions: {
       input: ['index.html', 'fleet.html'].map((name) => path.resolve(import.meta.dirname, 'frontend', name)),
       output: {
+        // A character less in each of the many names that the first load knows.
+        chunkFileNames: 'assets/[name]-[hash:7].js',
         codeSplitting: {
           groups: [
             // Changes less often than the page: a browser keeps it.

@@ -36,6 +36,31 @@ test('the selected robots get what they have in common; who takes no part is nam
   await expect(page.getByRole('list', { name: 'Robots' }).getByRole('listitem')).toHaveCount(1);
 });
 
+test('a number that a run does not take is refused with the numbers that it takes', async ({ page, url }) => {
+  await at(page, url, 'Fleet');
+  const actions = page.getByRole('group', { name: '3 robots selected' });
+  const times = actions.getByRole('textbox', { name: 'Times' });
+  await times.fill('0');
+  await times.press('Enter');
+  await expect(actions).toContainText('Times: 0 is out of range; it takes 1 to 255.');
+  await expect(times).toHaveValue('1');
+  await times.fill('2');
+  await times.press('Enter');
+  await expect(actions).not.toContainText('out of range');
+});
+
+test('those that all take no part for one reason are not listed one by one', async ({ page, url }) => {
+  await at(page, url, 'Fleet');
+  const stopped = page.getByRole('checkbox', { name: 'Select Arm 4' });
+  await page.getByRole('button', { name: 'Select all 8' }).click();
+  await page.getByRole('button', { name: 'Select none' }).click();
+  await expect(page.getByText('Select robots to act on several at once.')).toBeVisible();
+  await stopped.check();
+  await expect(page.getByRole('group', { name: '1 robot selected' })).toContainText(
+    'Take no part: Arm 4 (Stopped).',
+  );
+});
+
 test('Esc stops all, also while a person types; the button of a selection stops it alone', async ({
   page,
   url,

@@ -7,11 +7,11 @@ import { SLOT_TIMES } from '#shared/profile/macro.ts';
 import { words } from '../i18n/whole.ts';
 import { Button, IconButton } from '../ui/Button.tsx';
 import { Mark } from '../ui/Chip.tsx';
-import { NumberField } from '../ui/NumberField.tsx';
 import { Select } from '../ui/Select.tsx';
 import { useFleet, useFleetState } from './context.ts';
 import { cueState, wishOf } from './cues.ts';
 import { groupsIn } from './robots.ts';
+import { RangeField } from './RangeField.tsx';
 import styles from './Fleet.module.css';
 
 const ALL = '';
@@ -132,14 +132,13 @@ function AddCue({ robots, onAdd }: AddCueProps) {
         ]}
         onChange={setGroup}
       />
-      <NumberField
+      <RangeField
         label={words.fleet.timesOfCue}
         value={times}
         min={1}
         max={SLOT_TIMES.max}
         unit={words.macros.times}
         onChange={setTimes}
-        onRefused={() => () => undefined}
       />
       <Select<'stop' | 'goOn'>
         label={words.fleet.ifOneFails}

@@ -7,7 +7,6 @@ import type { FleetRobot } from '#shared/client/http.generated.ts';
 import { words } from '../i18n/whole.ts';
 import { Button } from '../ui/Button.tsx';
 import { Select } from '../ui/Select.tsx';
-import { NumberField } from '../ui/NumberField.tsx';
 import field from '../ui/Field.module.css';
 import { cx } from '../ui/cx.ts';
 import { SLOT_TIMES } from '#shared/profile/macro.ts';
@@ -15,6 +14,7 @@ import { useFleet, useFleetState } from './context.ts';
 import { FleetDownload } from './FleetDownload.tsx';
 import { conditionOf, takesMotion } from './robots.ts';
 import { commonGroups, slotOf } from './slots.ts';
+import { RangeField } from './RangeField.tsx';
 import styles from './Fleet.module.css';
 
 export function FleetActions({ mayDrive }: { readonly mayDrive: boolean }) {
@@ -86,14 +86,13 @@ function Run({ robots, act }: PartProps) {
         options={names.map((value) => ({ value, label: value }))}
         onChange={setWanted}
       />
-      <NumberField
+      <RangeField
         label={words.fleet.times}
         value={times}
         min={1}
         max={SLOT_TIMES.max}
         unit={words.macros.times}
         onChange={setTimes}
-        onRefused={() => () => undefined}
       />
       {able.length > 1 && (
         <label className={styles.check}>
@@ -170,15 +169,17 @@ function Grouping({ robots, ids, act }: GroupingProps) {
 function Unable({ robots }: { readonly robots: readonly FleetRobot[] }) {
   const unable = robots.filter((one) => !takesMotion(one));
   if (unable.length === 0) return null;
+  const reasons = unable.map((one) => words.fleet.conditions[conditionOf(one)]);
+  const [reason = ''] = reasons;
+  const isOneReason =
+    unable.length > 1 && unable.length === robots.length && reasons.every((one) => one === reason);
+  const names = (): string =>
+    words.numbers.formatNames(
+      unable.map(({ name }, at) => words.fleet.because({ name, reason: reasons[at] ?? '' })),
+    );
   return (
     <p className={styles.dim}>
-      {words.fleet.unable({
-        names: words.numbers.formatNames(
-          unable.map((one) =>
-            words.fleet.because({ name: one.name, reason: words.fleet.conditions[conditionOf(one)] }),
-          ),
-        ),
-      })}
+      {isOneReason ? words.fleet.noneAble({ reason }) : words.fleet.unable({ names: names() })}
     </p>
   );
 }

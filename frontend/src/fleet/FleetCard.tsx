@@ -69,7 +69,7 @@ export const FleetCard = memo(function FleetCard({
         </div>
       </div>
       <footer className={styles.foot}>
-        <span className={styles.dim}>{robot.version}</span>
+        <span className={styles.dim}>{words.fleet.version({ version: robot.version })}</span>
         {robot.page !== '' && (
           <a className={styles.open} href={robot.page} target="_blank" rel="noreferrer">
             {words.fleet.open}

@@ -9,11 +9,11 @@ import type { FleetRobot } from '#shared/client/http.generated.ts';
 import { words } from '../i18n/whole.ts';
 import { Button } from '../ui/Button.tsx';
 import { Dialog } from '../ui/Dialog.tsx';
-import { NumberField } from '../ui/NumberField.tsx';
 import { EmptyState } from '../ui/Panel.tsx';
 import { useFleet } from './context.ts';
 import { factsOf, slotOffered, slotRangeOf, wishesFor, type Picked } from './downloads.ts';
 import { takesMotion } from './robots.ts';
+import { RangeField } from './RangeField.tsx';
 import styles from './FleetDownload.module.css';
 
 export function FleetDownload({ robots }: { readonly robots: readonly FleetRobot[] }) {
@@ -45,7 +45,8 @@ function Choice({ robots, onDone }: { readonly robots: readonly FleetRobot[]; on
   if (robots.length === 0) return <p className={styles.dim}>{words.fleet.noneTakes}</p>;
   if (documents === null) return <p role="status">{unread ?? words.fleet.readingLibrary}</p>;
   if (documents.length === 0) {
-    return <EmptyState title={words.fleet.noLibrary} hint={words.fleet.noLibraryHint} />;
+    const action = <a href="./">{words.fleet.makeGroups}</a>;
+    return <EmptyState title={words.fleet.noLibrary} hint={words.fleet.noLibraryHint} action={action} />;
   }
   const facts = new Map(picked.map((one) => [one.id, factsOf(one, picked, robots)]));
   const isClear = [...facts.values()].every((each) => !each.isEmpty && !each.isSlotTwice);
@@ -141,13 +142,12 @@ function PickedGroup({ one, facts, range, onSlot }: PickedGroupProps) {
         <span className={styles.dim} aria-hidden="true">
           {words.board.slot}
         </span>
-        <NumberField
+        <RangeField
           label={words.slots.several.slotOf({ name: one.group.name })}
           size="small"
           value={one.slot}
           {...range}
           onChange={onSlot}
-          onRefused={() => () => undefined}
         />
       </span>
       {notes.map((note) => (

@@ -41,10 +41,12 @@ export function FleetPage({ fleet, mayDrive, hasOwnRobot, driven = null }: Fleet
         <Header hasOwnRobot={hasOwnRobot} />
         <StopKey label={words.fleet.stopAll} isDisabled={false} onStop={() => void fleet.stop(null)} />
         <Problems />
-        <Robots mayDrive={mayDrive} first={driven} />
-        <CueList mayDrive={mayDrive} />
-        <Tasks mayDrive={mayDrive} />
-        <Events />
+        <main className={styles.main}>
+          <Robots mayDrive={mayDrive} first={driven} />
+          <CueList mayDrive={mayDrive} />
+          <Tasks mayDrive={mayDrive} />
+          <Events />
+        </main>
       </div>
     </FleetContext>
   );
@@ -64,11 +66,9 @@ function Header({ hasOwnRobot }: Pick<FleetPageProps, 'hasOwnRobot'>) {
         <Mark truth={waiting === 0 ? 'confirmed' : 'warning'} />
         {waiting === 0 ? words.fleet.allWell : words.fleet.needPerson({ count: waiting })}
       </p>
-      {hasOwnRobot && (
-        <a className={styles.open} href="./">
-          {words.fleet.ownRobot}
-        </a>
-      )}
+      <a className={styles.open} href="./">
+        {hasOwnRobot ? words.fleet.ownRobot : words.fleet.makeGroups}
+      </a>
     </header>
   );
 }
@@ -143,6 +143,7 @@ function Robots({ mayDrive, first }: { readonly mayDrive: boolean; readonly firs
         <Button tone="quiet" onPress={() => fleet.selectOnly(isAll ? [] : shown.map(({ id }) => id))}>
           {isAll ? words.fleet.selectNone : words.fleet.selectAll({ count: shown.length })}
         </Button>
+        {selected.size === 0 && <p className={styles.dim}>{words.fleet.selectHint}</p>}
       </div>
       {selected.size > 0 && <FleetActions mayDrive={mayDrive} />}
       {driven !== null && (

@@ -2690,6 +2690,7 @@ export interface Messages {
     readonly select: (values: { readonly name: string }) => string;
     readonly selectAll: (values: { readonly count: number }) => string;
     readonly selectNone: string;
+    readonly selectHint: string;
     readonly selected: (values: { readonly count: number }) => string;
     readonly resume: (values: { readonly count: number }) => string;
     readonly noCommon: string;
@@ -2704,6 +2705,8 @@ export interface Messages {
     readonly doesNotFit: (values: { readonly boards: string }) => string;
     readonly replaces: (values: { readonly slot: number; readonly names: string }) => string;
     readonly unable: (values: { readonly names: string }) => string;
+    readonly noneAble: (values: { readonly reason: string }) => string;
+    readonly version: (values: { readonly version: string }) => string;
     readonly because: (values: { readonly name: string; readonly reason: string }) => string;
     readonly drives: (values: { readonly name: string }) => string;
     readonly open: string;
@@ -2767,6 +2770,7 @@ export interface Messages {
     readonly noneTakes: string;
     readonly groupCount: (values: { readonly count: number }) => string;
     readonly shareOf: (values: { readonly name: string; readonly percent: string }) => string;
+    readonly makeGroups: string;
     readonly ownRobot: string;
   };
   readonly drive: {
