@@ -37,28 +37,21 @@ def main() -> None:
     logging.disable(logging.WARNING)  # of brokers that come and go
     robots, rounds, most_ms = map(int, sys.argv[1:])
     names = [f"arm-{number}" for number in range(robots)]
-    figures: dict[str, list[float]] = {
-        "startErrorMs": [],
-        "stopByteMs": [],
-        "stopKnownMs": [],
-        "startedOf": [],
-    }
-    with TemporaryDirectory() as folder:
-        mosquitto = Mosquitto(Path(folder) / "broker", names)
-        mosquitto.start()
-        try:
-            with proxy_before(mosquitto.port, most_ms) as port:
-                for _ in range(rounds):
-                    ahead_s = {name: number * AHEAD_S for number, name in enumerate(names)}
-                    fleet = LightFleet(mosquitto, ahead_s, port, in_each=IN_EACH)
-                    try:
-                        with console_of(mosquitto, "anna") as console:
-                            must(eventually(lambda: all(map(console.is_present, names)), PATIENCE_S))
-                            measure(console, names, fleet, figures)
-                    finally:
-                        fleet.end()
-        finally:
-            mosquitto.kill()
+    figures: dict[str, list[float]] = {key: [] for key in KEYS}
+    with (
+        TemporaryDirectory() as folder,
+        Mosquitto(Path(folder) / "broker", names) as mosquitto,
+        proxy_before(mosquitto.port, most_ms) as port,
+    ):
+        for _ in range(rounds):
+            ahead_s = {name: number * AHEAD_S for number, name in enumerate(names)}
+            fleet = LightFleet(mosquitto, ahead_s, port, in_each=IN_EACH)
+            try:
+                with console_of(mosquitto, "anna") as console:
+                    must(eventually(lambda: all(map(console.is_present, names)), PATIENCE_S))
+                    measure(console, names, fleet, figures)
+            finally:
+                fleet.end()
     json.dump(figures, sys.stdout)
 
 

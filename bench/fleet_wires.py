@@ -34,27 +34,26 @@ def main() -> None:
     presses, local_presses = map(int, sys.argv[1:])
     with TemporaryDirectory() as name:
         folder = Path(name)
-        mosquitto = Mosquitto(folder / "broker", NAMES)
-        mosquitto.start()
-        try:
-            with real_fleet(mosquitto, NAMES, folder) as gateways, console_of(mosquitto, "anna") as console:
-                must(eventually(lambda: all(map(console.is_present, NAMES)), PATIENCE_S))
-                all_ms = [ms for _ in range(presses) for ms in stop_all(console, gateways)]
-                quiet_ms = [stop_locally(gateways[0]) for _ in range(local_presses)]
-                flood = subprocess.Popen(
-                    [sys.executable, "bench/fleet_flood.py", str(mosquitto.port), str(mosquitto.folder)],
-                    stdin=subprocess.PIPE,
-                    stdout=subprocess.PIPE,
-                    text=True,
-                )
-                assert flood.stdout
-                flood.stdout.readline()
-                begun_s = time.monotonic()
-                flooded_ms = [stop_locally(gateways[0]) for _ in range(local_presses)]
-                sent = int(flood.communicate("")[0])
-                per_s = sent / (time.monotonic() - begun_s)
-        finally:
-            mosquitto.kill()
+        with (
+            Mosquitto(folder / "broker", NAMES) as mosquitto,
+            real_fleet(mosquitto, NAMES, folder) as gateways,
+            console_of(mosquitto, "anna") as console,
+        ):
+            must(eventually(lambda: all(map(console.is_present, NAMES)), PATIENCE_S))
+            all_ms = [ms for _ in range(presses) for ms in stop_all(console, gateways)]
+            quiet_ms = [stop_locally(gateways[0]) for _ in range(local_presses)]
+            flood = subprocess.Popen(
+                [sys.executable, "bench/fleet_flood.py", str(mosquitto.port), str(mosquitto.folder)],
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                text=True,
+            )
+            assert flood.stdout
+            flood.stdout.readline()
+            begun_s = time.monotonic()
+            flooded_ms = [stop_locally(gateways[0]) for _ in range(local_presses)]
+            sent = int(flood.communicate("")[0])
+            per_s = sent / (time.monotonic() - begun_s)
     json.dump({"allMs": all_ms, "quietMs": quiet_ms, "floodedMs": flooded_ms, "floodPerS": per_s}, sys.stdout)
 
 

@@ -10,7 +10,7 @@ import subprocess
 import threading
 from collections.abc import Sequence
 from pathlib import Path
-from typing import IO
+from typing import IO, Self
 
 import pytest
 
@@ -72,6 +72,13 @@ class Mosquitto:
         is_ready = threading.Event()
         threading.Thread(target=drain, args=(self._process.stderr, is_ready), daemon=True).start()
         assert is_ready.wait(READY_S)
+
+    def __enter__(self) -> Self:
+        self.start()
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self.kill()
 
     def kill(self) -> None:
         if self._process:

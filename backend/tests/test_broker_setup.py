@@ -47,10 +47,8 @@ def certificates(tmp_path: Path) -> Path:
 def mosquitto(certificates: Path) -> Iterator[Mosquitto]:
     folder = certificates / "broker"
     encryption = Encryption(folder / "broker.pem", folder / "broker.key")
-    made = Mosquitto(folder, ["arm-1"], encryption)
-    made.start()
-    yield made
-    made.kill()
+    with Mosquitto(folder, ["arm-1"], encryption) as made:
+        yield made
 
 
 @pytest.mark.slow

@@ -21,10 +21,8 @@ Robots = tuple[Fleet, list[Gateway]]
 
 @pytest.fixture(scope="module")
 def mosquitto(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Mosquitto]:
-    made = Mosquitto(tmp_path_factory.mktemp("broker"), NAMES)
-    made.start()
-    yield made
-    made.kill()
+    with Mosquitto(tmp_path_factory.mktemp("broker"), NAMES) as made:
+        yield made
 
 
 @pytest.fixture
@@ -57,9 +55,7 @@ def test_list_shows_who_is_there(mosquitto: Mosquitto, robots: Robots) -> None:
 
 @needs_mosquitto
 def test_a_robot_that_will_not_come_back_is_taken_off_the_lists_by_its_own_user(tmp_path: Path) -> None:
-    own = Mosquitto(tmp_path / "broker", NAMES)
-    own.start()
-    try:
+    with Mosquitto(tmp_path / "broker", NAMES) as own:
         with fleet_on(own, ["arm-1"]):
             pass
         with console_of(own, "olga") as console:
@@ -72,8 +68,6 @@ def test_a_robot_that_will_not_come_back_is_taken_off_the_lists_by_its_own_user(
             assert fleet(own, "forget", "arm-1", user="arm-1").stdout == "arm-1 is off the lists.\n"
             assert console.until(lambda: console.robot("arm-1") is None, WAIT_S)
         assert fleet(own, "list", user="vera").stdout == "No robot is there.\n"
-    finally:
-        own.kill()
 
 
 @needs_mosquitto

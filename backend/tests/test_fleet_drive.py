@@ -354,13 +354,11 @@ class Socket:
 
 @pytest.fixture
 def arm(tmp_path: Path) -> Iterator[tuple[Mosquitto, Gateway]]:
-    mosquitto = Mosquitto(tmp_path / "broker", (ARM,))
-    mosquitto.start()
-    try:
-        with fleet_on(mosquitto, (ARM,)) as (_, [gateway]):
-            yield mosquitto, gateway
-    finally:
-        mosquitto.kill()
+    with (
+        Mosquitto(tmp_path / "broker", (ARM,)) as mosquitto,
+        fleet_on(mosquitto, (ARM,)) as (_, [gateway]),
+    ):
+        yield mosquitto, gateway
 
 
 @needs_mosquitto

@@ -27,22 +27,18 @@ PATIENCE_S = 60.0
 
 
 def test_eight_gateways_run_together_and_stop_whatever_breaks(tmp_path: Path) -> None:
-    mosquitto = Mosquitto(tmp_path / "broker", NAMES)
-    mosquitto.start()
-    try:
-        with (
-            real_fleet(mosquitto, NAMES, tmp_path) as gateways,
-            console_of(mosquitto, "anna") as anna,
-            console_of(mosquitto, "stan") as stan,
-        ):
-            assert all_are(anna, is_ready)
-            assert all_are(stan, is_ready)
-            store(anna)
-            run_together_until_stopped(anna, stan, gateways)
-            lose_a_cable(anna, gateways)
-            lose_the_broker(anna, gateways, mosquitto)
-    finally:
-        mosquitto.kill()
+    with (
+        Mosquitto(tmp_path / "broker", NAMES) as mosquitto,
+        real_fleet(mosquitto, NAMES, tmp_path) as gateways,
+        console_of(mosquitto, "anna") as anna,
+        console_of(mosquitto, "stan") as stan,
+    ):
+        assert all_are(anna, is_ready)
+        assert all_are(stan, is_ready)
+        store(anna)
+        run_together_until_stopped(anna, stan, gateways)
+        lose_a_cable(anna, gateways)
+        lose_the_broker(anna, gateways, mosquitto)
 
 
 def store(anna: Console) -> None:

@@ -25,19 +25,15 @@ NAMES = ("arm-1", "arm-2")
 
 @pytest.fixture(scope="module")
 def mosquitto(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Mosquitto]:
-    made = Mosquitto(tmp_path_factory.mktemp("broker"), NAMES)
-    made.start()
-    yield made
-    made.kill()
+    with Mosquitto(tmp_path_factory.mktemp("broker"), NAMES) as made:
+        yield made
 
 
 @pytest.fixture
 def own_mosquitto(tmp_path: Path) -> Iterator[Mosquitto]:
     """For a test that harms it."""
-    made = Mosquitto(tmp_path / "broker", NAMES)
-    made.start()
-    yield made
-    made.kill()
+    with Mosquitto(tmp_path / "broker", NAMES) as made:
+        yield made
 
 
 @pytest.fixture
@@ -100,11 +96,12 @@ def test_of_two_consoles_one_drives(mosquitto: Mosquitto, arm: Gateway) -> None:
     assert arm.count(MOVE) == 0
 
 
-def test_nothing_waits_for_a_gateway_that_is_away(mosquitto: Mosquitto) -> None:
+def test_nothing_waits_for_a_gateway_that_is_away(mosquitto: Mosquitto, arm: Gateway) -> None:
     with raw_client(mosquitto.broker_for("anna")) as raw:
         for n in range(20):
             raw.say("sd/1/lab/arm-2/do/driver/anna/move", move(n, "x.1-1"))
         raw.say(FOR_ARM + "report", {"v": 1, "n": 1})
+        assert raw.answer()["gateway"] == arm.name  # so the broker has had the moves, too
         with fleet_on(mosquitto, ["arm-2"]) as (_, (late,)), console_of(mosquitto, "vera", "arm-2"):
             assert late.door.status().refused == {}
             assert late.count(MOVE) == 0
@@ -310,18 +307,17 @@ def beating(console: Console, is_so: Callable[[], bool]) -> Callable[[], bool]:
 @pytest.mark.exhaustive
 def test_eight_come_back_after_the_broker_was_killed(tmp_path: Path) -> None:
     names = [f"arm-{number}" for number in range(8)]
-    mosquitto = Mosquitto(tmp_path / "broker", names)
-    mosquitto.start()
-    try:
-        with fleet_on(mosquitto, names), console_of(mosquitto, "anna", *names) as anna:
-            assert anna.stop_all().stopped == tuple(names)
-            mosquitto.kill()
-            assert anna.until(lambda: all(robot.presence == "silent" for robot in anna.robots()), WAIT_S)
-            mosquitto.start()
-            assert anna.until(lambda: all(map(anna.is_present, names)), WAIT_S)
-            assert all(robot.state and robot.state.latch for robot in anna.robots())
-    finally:
+    with (
+        Mosquitto(tmp_path / "broker", names) as mosquitto,
+        fleet_on(mosquitto, names),
+        console_of(mosquitto, "anna", *names) as anna,
+    ):
+        assert anna.stop_all().stopped == tuple(names)
         mosquitto.kill()
+        assert anna.until(lambda: all(robot.presence == "silent" for robot in anna.robots()), WAIT_S)
+        mosquitto.start()
+        assert anna.until(lambda: all(map(anna.is_present, names)), WAIT_S)
+        assert all(robot.state and robot.state.latch for robot in anna.robots())
 
 
 @pytest.mark.exhaustive

@@ -21,10 +21,8 @@ TARGETS = [{"servo": 1, "position": 1500}]
 
 @pytest.fixture(scope="module")
 def mosquitto(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Mosquitto]:
-    made = Mosquitto(tmp_path_factory.mktemp("broker"), (*NAMES, "late"))
-    made.start()
-    yield made
-    made.kill()
+    with Mosquitto(tmp_path_factory.mktemp("broker"), (*NAMES, "late")) as made:
+        yield made
 
 
 @pytest.fixture

@@ -29,10 +29,8 @@ YOUNG_S = 0.5
 
 @pytest.fixture
 def mosquitto(tmp_path: Path) -> Iterator[Mosquitto]:
-    made = Mosquitto(tmp_path / "broker", NAMES)
-    made.start()
-    yield made
-    made.kill()
+    with Mosquitto(tmp_path / "broker", NAMES) as made:
+        yield made
 
 
 @contextmanager

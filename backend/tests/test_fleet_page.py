@@ -39,13 +39,11 @@ Stage = tuple[Mosquitto, Fleet, list[Gateway]]
 
 @pytest.fixture
 def stage(tmp_path: Path) -> Iterator[Stage]:
-    mosquitto = Mosquitto(tmp_path / "broker", NAMES)
-    mosquitto.start()
-    try:
-        with fleet_on(mosquitto, NAMES) as (fleet, gateways):
-            yield mosquitto, fleet, gateways
-    finally:
-        mosquitto.kill()
+    with (
+        Mosquitto(tmp_path / "broker", NAMES) as mosquitto,
+        fleet_on(mosquitto, NAMES) as (fleet, gateways),
+    ):
+        yield mosquitto, fleet, gateways
 
 
 @pytest.fixture(autouse=True)

@@ -47,10 +47,8 @@ def encryption(tmp_path_factory: pytest.TempPathFactory) -> Encryption:
 
 @pytest.fixture
 def mosquitto(tmp_path: Path, encryption: Encryption) -> Iterator[Mosquitto]:
-    made = Mosquitto(tmp_path / "broker", ["arm-1"], encryption)
-    made.start()
-    yield made
-    made.kill()
+    with Mosquitto(tmp_path / "broker", ["arm-1"], encryption) as made:
+        yield made
 
 
 def fleet_of(served: Served) -> dict[str, object]:
@@ -91,9 +89,7 @@ def is_silent(console: Console) -> bool:
 
 @needs_mosquitto
 def test_a_browser_s_way_leads_there_too(tmp_path: Path) -> None:
-    broker = Mosquitto(tmp_path / "broker", ["arm-1"], websocket=True)
-    broker.start()
-    try:
+    with Mosquitto(tmp_path / "broker", ["arm-1"], websocket=True) as broker:
         secret = (broker.folder / "secrets" / "anna").read_text().strip()
         by_websocket = parse_broker(f"ws://anna@127.0.0.1:{broker.websocket_port}", secret)
         with fleet_on(broker, ["arm-1"]), Console(by_websocket, LAB, "driver") as console:
@@ -101,17 +97,13 @@ def test_a_browser_s_way_leads_there_too(tmp_path: Path) -> None:
             assert console.ask("arm-1", "ask", action="request").drives
         with socket.socket() as other, pytest.raises(ConnectionRefusedError):
             other.connect(("127.0.0.2", broker.websocket_port))  # on this one interface only
-    finally:
-        broker.kill()
 
 
 @needs_mosquitto
 @needs_openssl
 def test_a_broker_may_want_a_certificate_of_each(tmp_path: Path, encryption: Encryption) -> None:
     strict = Encryption(encryption.certificate, encryption.key, encryption.certificate)
-    broker = Mosquitto(tmp_path / "broker", ["arm-1"], strict)
-    broker.start()
-    try:
+    with Mosquitto(tmp_path / "broker", ["arm-1"], strict) as broker:
         secret = (broker.folder / "secrets" / "anna").read_text().strip()
         url, ca = f"mqtts://anna@127.0.0.1:{broker.port}", encryption.certificate
         with Console(parse_broker(url, secret, ca), LAB, "driver") as console:
@@ -119,27 +111,23 @@ def test_a_broker_may_want_a_certificate_of_each(tmp_path: Path, encryption: Enc
             assert console.problem
         with Console(parse_broker(url, secret, ca, ca, encryption.key), LAB, "driver") as console:
             assert console.until(lambda: console.problem is None, WAIT_S), console.problem
-    finally:
-        broker.kill()
 
 
 @pytest.mark.exhaustive
 @needs_mosquitto
 def test_a_frozen_gateway_is_silent_and_comes_back(tmp_path: Path) -> None:
-    broker = Mosquitto(tmp_path / "broker", ["arm-1"])
-    broker.start()
-    secret = broker.folder / "secrets" / "arm-1"
-    options = ["--mqtt", f"mqtt://arm-1@127.0.0.1:{broker.port}", "--mqtt-site", "lab"]
-    served = Served(*options, "--mqtt-password-file", str(secret), "--data", str(tmp_path / "data"))
-    try:
-        with console_of(broker, "olga", "arm-1") as console:
-            served.process.send_signal(signal.SIGSTOP)
-            assert console.until(lambda: is_silent(console), WAIT_S)
-            served.process.send_signal(signal.SIGCONT)
-            assert console.until(lambda: console.is_present("arm-1"), WAIT_S)
-    finally:
-        served.end()
-        broker.kill()
+    with Mosquitto(tmp_path / "broker", ["arm-1"]) as broker:
+        secret = broker.folder / "secrets" / "arm-1"
+        options = ["--mqtt", f"mqtt://arm-1@127.0.0.1:{broker.port}", "--mqtt-site", "lab"]
+        served = Served(*options, "--mqtt-password-file", str(secret), "--data", str(tmp_path / "data"))
+        try:
+            with console_of(broker, "olga", "arm-1") as console:
+                served.process.send_signal(signal.SIGSTOP)
+                assert console.until(lambda: is_silent(console), WAIT_S)
+                served.process.send_signal(signal.SIGCONT)
+                assert console.until(lambda: console.is_present("arm-1"), WAIT_S)
+        finally:
+            served.end()
 
 
 @pytest.mark.parametrize(

@@ -60,10 +60,8 @@ def pages() -> Iterator[Pages]:
 
 @pytest.fixture
 def mosquitto(tmp_path: Path) -> Iterator[Mosquitto]:
-    made = Mosquitto(tmp_path / "broker", NAMES)
-    made.start()
-    yield made
-    made.kill()
+    with Mosquitto(tmp_path / "broker", NAMES) as made:
+        yield made
 
 
 def test_without_the_broker_those_with_a_page_are_stopped_there_and_the_others_named(

@@ -20,26 +20,25 @@ PATIENCE_S, LOOK_S = 300.0, 0.5
 
 
 def test_a_thousand_are_stopped_and_come_back_stopped(tmp_path: Path) -> None:
-    mosquitto = Mosquitto(tmp_path / "broker", NAMES)
-    mosquitto.start()
-    try:
-        with light_fleet(mosquitto, NAMES) as fleet, console_of(mosquitto, "anna") as console:
-            assert becomes(console, "present")
-            pressed_s = time.monotonic()
-            console.stop_all(PATIENCE_S)
-            assert patiently(lambda: fleet.count("latched") == len(NAMES))
-            assert patiently(lambda: fleet.first_s(STOP, pressed_s).keys() == set(NAMES))
-            mosquitto.kill()
-            assert becomes(console, "silent")
-            assert fleet.count("connected") == 0
-            mosquitto.start()
-            assert becomes(console, "present")
-            assert patiently(lambda: are_shown_stopped(console))
-            assert patiently(lambda: fleet.count("connected") == len(NAMES))
-            assert fleet.count("latched") == len(NAMES)
-            assert fleet.count("motion") == 0
-    finally:
+    with (
+        Mosquitto(tmp_path / "broker", NAMES) as mosquitto,
+        light_fleet(mosquitto, NAMES) as fleet,
+        console_of(mosquitto, "anna") as console,
+    ):
+        assert becomes(console, "present")
+        pressed_s = time.monotonic()
+        console.stop_all(PATIENCE_S)
+        assert patiently(lambda: fleet.count("latched") == len(NAMES))
+        assert patiently(lambda: fleet.first_s(STOP, pressed_s).keys() == set(NAMES))
         mosquitto.kill()
+        assert becomes(console, "silent")
+        assert fleet.count("connected") == 0
+        mosquitto.start()
+        assert becomes(console, "present")
+        assert patiently(lambda: are_shown_stopped(console))
+        assert patiently(lambda: fleet.count("connected") == len(NAMES))
+        assert fleet.count("latched") == len(NAMES)
+        assert fleet.count("motion") == 0
 
 
 def patiently(is_so: Callable[[], bool]) -> bool:

@@ -19,18 +19,13 @@ RUN, STOP = 6, 7
 
 @pytest.fixture
 def stage(tmp_path: Path) -> Iterator[tuple[Console, list[Gateway]]]:
-    mosquitto = Mosquitto(tmp_path / "broker", NAMES)
-    mosquitto.start()
-    try:
-        with fleet_on(mosquitto, []) as (fleet, _):
-            gateways = [
-                fleet.join(name, mosquitto.broker_for(name), ahead_s)
-                for name, ahead_s in zip(NAMES, AHEAD_S, strict=True)
-            ]
-            with console_of(mosquitto, "anna", *NAMES) as console:
-                yield console, gateways
-    finally:
-        mosquitto.kill()
+    with Mosquitto(tmp_path / "broker", NAMES) as mosquitto, fleet_on(mosquitto, []) as (fleet, _):
+        gateways = [
+            fleet.join(name, mosquitto.broker_for(name), ahead_s)
+            for name, ahead_s in zip(NAMES, AHEAD_S, strict=True)
+        ]
+        with console_of(mosquitto, "anna", *NAMES) as console:
+            yield console, gateways
 
 
 def drive_all(console: Console) -> None:
