@@ -1,4 +1,5 @@
-import { afterEach, expect, test, vi } from 'vitest';
+import { afterEach, expect, test } from 'vitest';
+import { eventually } from '#shared/testing/eventually.ts';
 import { createVirtualClock } from '#shared/testing/virtualClock.ts';
 import { undoLabel } from '#shared/document/history.ts';
 import { speak, words } from '../i18n/words.ts';
@@ -18,7 +19,7 @@ async function visit(tags: readonly string[], texts = new Map<string, string>())
   return view;
 }
 
-const spoken = (locale: string) => vi.waitFor(() => expect(words.locale).toBe(locale));
+const spoken = (locale: string) => eventually(() => expect(words.locale).toBe(locale));
 
 test('the page begins in the language of the browser', async () => {
   await visit(['zh-CN', 'en']);

@@ -3,6 +3,7 @@
 
 import fc from 'fast-check';
 import { afterEach, expect, test, vi } from 'vitest';
+import { eventually } from '#shared/testing/eventually.ts';
 import { family as familyOf } from '#shared/codec/families.ts';
 import { wireMs } from '#shared/codec/packet.ts';
 import { TIMES } from '#shared/testing/cases.ts';
@@ -180,7 +181,7 @@ test('STOP while frames are played: whatever was under way, the robot is taken t
       targets: [{ servo: 1, position: 600 + 30 * index }],
     }));
     session.play(frames).catch((error: unknown) => expect(error).toMatchObject({ code: 'latched' }));
-    await vi.waitFor(async () => {
+    await eventually(async () => {
       await clock.advance(20);
       expect(posted.map(({ type }) => type)).toContain('play');
     });

@@ -1,6 +1,7 @@
 // The robot at a gateway: which messages its intents become, and what it shows of the gateway's.
 
 import { afterEach, describe, expect, test, vi } from 'vitest';
+import { eventually } from '#shared/testing/eventually.ts';
 import type { Command, Frame } from '#shared/codec/commands.ts';
 import { encodeCommand } from '#shared/codec/encode.ts';
 import { family as familyOf } from '#shared/codec/families.ts';
@@ -226,13 +227,13 @@ describe('a packet by hand', () => {
     const { robot, posted } = gateway;
     const packet = encodeCommand({ kind: 'move', targets: TARGET, durationMs: 1_500 }, familyOf('doc'));
     robot.move([{ servo: 1, position: 1_100 }], 1_500);
-    await vi.waitFor(() => expect(posted).toHaveLength(1));
+    await eventually(() => expect(posted).toHaveLength(1));
     robot.move(
       [1, 2].map((servo) => ({ servo, position: 1_200 })),
       1_500,
     );
     const sent = robot.sendRaw(packet);
-    await vi.waitFor(() => expect(posted).toHaveLength(2));
+    await eventually(() => expect(posted).toHaveLength(2));
     gateway.done();
     await settled(gateway);
     await sent;
@@ -308,7 +309,7 @@ describe('the log', () => {
     robot.subscribe({ traffic: (entry) => entry.direction === 'out' && kinds.push(entry.command?.kind) });
     say(left({ kind: 'run', slot: 3, times: 2 }));
     const sent = robot.sendRaw(encodeCommand({ kind: 'stop' }, familyOf('doc')));
-    await vi.waitFor(() => expect(types(gateway)).toEqual(['stopGroup']));
+    await eventually(() => expect(types(gateway)).toEqual(['stopGroup']));
     done();
     await sent;
     expect(kinds).toEqual(['run']);
@@ -337,7 +338,7 @@ describe('playing', () => {
     const gateway = await createGateway();
     const { robot, say } = gateway;
     const played = robot.play(WAVE, { times: 3 });
-    await vi.waitFor(async () => {
+    await eventually(async () => {
       await settled(gateway);
       expect(gateway.posted).toMatchObject([{ type: 'play', times: 3, loopFrom: 0 }]);
     });
@@ -512,7 +513,7 @@ describe('downloads', () => {
   test('one is asked for, followed and noted', async () => {
     const { robot, requests, say, state, clock } = await withJobs();
     const done = robot.download([{ slot: 5, frames: WAVE }]);
-    await vi.waitFor(async () => {
+    await eventually(async () => {
       await clock.advance(20);
       expect(requests).toEqual(['POST api/download']);
     });
@@ -562,7 +563,7 @@ describe('downloads', () => {
     const { robot, requests, say, state, clock } = await withJobs();
     const groups = [5, 9, 12].map((slot) => ({ slot, frames: WAVE }));
     const done = robot.download(groups).catch((error: unknown) => error);
-    await vi.waitFor(async () => {
+    await eventually(async () => {
       await clock.advance(20);
       expect(requests).toHaveLength(1);
     });

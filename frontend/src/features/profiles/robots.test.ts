@@ -1,4 +1,5 @@
-import { describe, expect, test, vi } from 'vitest';
+import { describe, expect, test } from 'vitest';
+import { eventually } from '#shared/testing/eventually.ts';
 import { createVirtualClock } from '#shared/testing/virtualClock.ts';
 import { READY_ROBOTS, readyRobot, type ReadyRobotId } from '#shared/profile/readyRobots.ts';
 import type { Robot } from '#shared/profile/robot.ts';
@@ -48,7 +49,7 @@ describe('robots', () => {
     const before = robots.current();
     expect(robots.edit(() => 'limits', narrowed)).toBe(false);
     expect(robots.current()).toBe(before);
-    await vi.waitFor(() =>
+    await eventually(() =>
       expect(noticeTexts()).toEqual([expect.stringContaining('Elbow (servo 4): its lowest position 2000')]),
     );
   });

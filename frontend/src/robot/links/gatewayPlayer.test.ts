@@ -1,4 +1,5 @@
 import { afterEach, expect, test, vi } from 'vitest';
+import { eventually } from '#shared/testing/eventually.ts';
 import type { Frame } from '#shared/codec/commands.ts';
 import { LinkError } from '#shared/robot/linkError.ts';
 import { createGatewayPlayer } from './gatewayPlayer.ts';
@@ -117,7 +118,7 @@ test('one that is ended while its request is on its way is ended when it has arr
   player.stop();
   expect(await played).toMatchObject({ isWhole: false });
   answer(202, STATE);
-  await vi.waitFor(() => expect(posted).toEqual([{ type: 'stopPlaying' }]));
+  await eventually(() => expect(posted).toEqual([{ type: 'stopPlaying' }]));
 });
 
 test('with the gateway gone nothing waits for its end', async () => {

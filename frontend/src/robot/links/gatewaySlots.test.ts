@@ -1,4 +1,5 @@
 import { afterEach, expect, test, vi } from 'vitest';
+import { eventually } from '#shared/testing/eventually.ts';
 import { fingerprintOf } from '#shared/group/fingerprint.ts';
 import { LinkError } from '#shared/robot/linkError.ts';
 import { createGatewaySlots } from './gatewaySlots.ts';
@@ -91,7 +92,7 @@ test('an earlier one, or another’s, says nothing of it', async () => {
   answer(202, RUNNING);
   await turns();
   expect(ends).toEqual([]);
-  await vi.waitFor(() => {
+  await eventually(() => {
     slots.jobChanged(DONE);
     expect(ends).toEqual(['done']);
   });
@@ -111,7 +112,7 @@ test('with the gateway gone nothing waits for it, and nothing is shown', async (
   await turns();
   answer(202, RUNNING);
   slots.jobChanged(RUNNING);
-  await vi.waitFor(async () => {
+  await eventually(async () => {
     slots.gone(new LinkError('gatewayUnreachable', 'gone'));
     expect(await Promise.race([failed, turns().then(() => 'waits')])).toMatchObject({
       code: 'gatewayUnreachable',
@@ -157,7 +158,7 @@ test('a full board is handed over at once as one job, in portions that the gatew
   const bodies = () => requests.map(({ body }) => body as { groups: { slot: number }[]; behind?: string });
   const handedOver = () => bodies().flatMap(({ groups }) => groups.map(({ slot }) => slot));
   for (let count = 1; handedOver().length < FULL_BOARD.length; count += 1) {
-    await vi.waitFor(() => expect(requests).toHaveLength(count));
+    await eventually(() => expect(requests).toHaveLength(count));
     answer(202, RUNNING);
   }
   expect(handedOver()).toEqual(FULL_BOARD.map(({ slot }) => slot));
@@ -174,7 +175,7 @@ test('a download that ends while the rest of it is handed over ends with its own
   const failed = slots.store(FULL_BOARD).catch((error: unknown) => error);
   await turns();
   answer(202, RUNNING);
-  await vi.waitFor(() => expect(requests).toHaveLength(2));
+  await eventually(() => expect(requests).toHaveLength(2));
   slots.jobChanged({ ...RUNNING, status: 'failed', code: 'latched', detail: 'Stopped.' });
   answer(409, { code: 'cancelled', detail: 'That download has ended.' });
   expect(await failed).toMatchObject({ code: 'latched' });
@@ -187,7 +188,7 @@ test('what the gateway does not take of the rest is the error', async () => {
   const failed = slots.store(FULL_BOARD).catch((error: unknown) => error);
   await turns();
   answer(202, RUNNING);
-  await vi.waitFor(() => expect(requests).toHaveLength(2));
+  await eventually(() => expect(requests).toHaveLength(2));
   answer(409, { code: 'notDriving', detail: 'Bert drives.' });
   expect(await failed).toMatchObject({ code: 'notDriving' });
 });

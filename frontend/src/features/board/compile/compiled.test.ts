@@ -1,4 +1,5 @@
-import { describe, expect, test, vi } from 'vitest';
+import { describe, expect, test } from 'vitest';
+import { eventually } from '#shared/testing/eventually.ts';
 import { insertFrame, setMeta } from '#shared/group/groupEdits.ts';
 import { groupFromText, groupToText } from '#shared/group/group.ts';
 import { createCompiled, obstacles } from './compiled.ts';
@@ -104,7 +105,7 @@ describe('the group as the board gets it', () => {
     add(1200);
     await clock.advance(300);
     orders[3]!.fail();
-    await vi.waitFor(() => expect(frames()).toEqual([4, true]));
+    await eventually(() => expect(frames()).toEqual([4, true]));
   });
 
   test('needs fewer frames where a larger error may be', async () => {
