@@ -1,5 +1,6 @@
 """Gateways on a real Mosquitto, and consoles: what they say, requests, the lease, STOP."""
 
+import json
 from collections.abc import Iterator
 from functools import partial
 
@@ -99,6 +100,28 @@ def test_stops_that_come_together_are_answered_each(mosquitto: Mosquitto, fleet:
         assert raw.answer()["kind"] == "done"
         maker.call(stop_twice)  # before the loop gets to either
         assert [raw.answer()["kind"] for _ in range(2)] == ["done", "done"]
+
+
+@pytest.mark.parametrize("verbs", [("resume", "stop"), ("stop", "resume", "stop")])
+def test_a_resume_that_came_before_a_stop_does_not_undo_it(
+    mosquitto: Mosquitto, fleet: Robots, verbs: tuple[str, ...]
+) -> None:
+    maker, (arm, *_) = fleet
+
+    def receive(resume: bytes) -> None:
+        """Before the loop gets to any of them."""
+        for verb in verbs:
+            payload = resume if verb == "resume" else b""
+            at_s = arm.control.now()
+            arm.door.received(Received(FOR_ARM + verb, payload, False, at_s, REPLY, verb.encode()))
+
+    with raw_client(mosquitto.broker_for("anna")) as raw:
+        maker.call(arm.control.stop)
+        raw.say(FOR_ARM + "report", {"v": 1, "n": 1})
+        resume = json.dumps({"v": 1, "n": 2, "nonce": raw.answer()["nonce"]}).encode()
+        maker.call(partial(receive, resume))
+        assert sorted(raw.answer()["kind"] for _ in range(2)) == ["done", "refused"]
+        assert arm.control.latch
 
 
 def has_stopped(gateway: Gateway) -> bool:

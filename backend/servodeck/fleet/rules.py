@@ -82,9 +82,12 @@ class Stop:
 
 @value
 class Accepted:
+    """`at_s`: its arrival."""
+
     origin: Origin
     verb: Verb
     request: AnyRequest
+    at_s: float
 
 
 @value
@@ -216,7 +219,7 @@ class Judge:
                 return Ignored()
             if nonce not in self._nonces:
                 return Refusal(origin, request.n, "expired", "This beat is too old.")
-        return Accepted(origin, verb, request)
+        return Accepted(origin, verb, request, at_s)
 
     def _is_fresh(self, nonce: str, at_s: float, within_s: float) -> bool:
         issued_s = self._nonces.get(nonce)

@@ -10,7 +10,7 @@ from typing import Any
 
 from servodeck import metrics
 from servodeck.callers import Caller
-from servodeck.errors import GatewayError, NotDrivingError
+from servodeck.errors import CancelledError, GatewayError, NotDrivingError
 from servodeck.fleet.messages import (
     AskRequest,
     BeatRequest,
@@ -98,6 +98,8 @@ class Sessions:
     async def _answered(self, session: FleetSession, accepted: Accepted, send: Send) -> None:
         n = accepted.request.n
         try:
+            if isinstance(accepted.request, ResumeRequest) and self._control.stopped_s >= accepted.at_s:
+                raise CancelledError("STOP was pressed after this was requested.")
             done = await self._acts[type(accepted.request)](session, accepted.request)
         except GatewayError as error:
             metrics.refused[error.code] += 1
