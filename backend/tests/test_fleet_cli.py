@@ -3,6 +3,7 @@
 import json
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 from typer.testing import Result
@@ -93,6 +94,33 @@ def test_stop_names_what_it_did_not_stop(mosquitto: Mosquitto, robots: Robots) -
     report = json.loads(result.stdout)
     assert (report["stopped"], list(report["refused"]), report["missing"]) == (["arm-2"], ["arm-1"], [])
     assert fleet(mosquitto, "resume", "arm-2").exit_code == 0
+
+
+@needs_mosquitto
+def test_those_that_are_there_are_stopped_where_another_is_not(mosquitto: Mosquitto, robots: Robots) -> None:
+    _, (one, other) = robots
+    result = fleet(mosquitto, "stop", "arm-1", "arm-9", "--json")
+    assert result.exit_code == FAILURE
+    report = json.loads(result.stdout)
+    assert (report["stopped"], report["missing"]) == (["arm-1"], ["arm-9"])
+    assert (one.control.latch, other.control.latch) == (True, False)
+
+
+@needs_mosquitto
+def test_a_stop_of_all_does_not_wait_until_it_is_known_who_is_there(
+    mosquitto: Mosquitto, robots: Robots, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    _, gateways = robots
+    had_stopped: list[bool] = []
+
+    def heard(*_: Any) -> None:
+        had_stopped.append(eventually(lambda: all(one.control.latch for one in gateways), 2.0))
+
+    monkeypatch.setattr("servodeck.cli.fleet.heard", heard)
+    fleet(mosquitto, "stop")
+    assert had_stopped == [True]
+    monkeypatch.undo()
+    assert fleet(mosquitto, "resume").exit_code == 0
 
 
 @needs_mosquitto

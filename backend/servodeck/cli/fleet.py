@@ -212,8 +212,15 @@ def stop(console: "Console", names: Names = None, as_json: AsJson = False) -> No
     """
     from servodeck.fleet.stopping import stop_robots
 
-    present = heard(console, names or ())
-    report = stop_robots(console, [robot.name for robot in present] if names else None)
+    # At once; who is there, and so has to answer, is heard meanwhile.
+    if names:
+        for name in names:
+            console.stop(name)
+        console.until(lambda: all(map(console.is_present, names)), HEAR_S)
+    else:
+        console.stop_all(0.0)
+        heard(console)
+    report = stop_robots(console, names or None)
     if as_json:
         missing, refused = list(report.missing), dict(report.refused)
         print(json.dumps({"stopped": list(report.stopped), "refused": refused, "missing": missing}))
