@@ -98,8 +98,7 @@ class FleetDriver:
                 leased.append(robot)
             await in_thread(lambda: start_together(self._console, list(slots), slots, times, name=name))
         except BaseException:
-            for robot in leased:
-                await self._release(robot)
+            await self._release(*leased)
             raise
         return lambda: spread_ms(self._console, list(slots), name)
 
@@ -175,11 +174,14 @@ class FleetDriver:
             self._tasks[robot] -= 1
             raise
 
-    async def _release(self, robot: str) -> None:
-        """After `_lease` of it."""
-        self._tasks[robot] -= 1
-        if self._tasks[robot] == 0:
-            await self.give_back(robot)
+    async def _release(self, *robots: str) -> None:
+        """After `_lease` of each. All are asked before an answer is awaited: who waits may be cancelled again."""
+        self._tasks.subtract(robots)
+        free = [robot for robot in robots if self._tasks[robot] == 0]
+        for robot in free:
+            del self._tasks[robot]
+        sent = [(robot, self._console.request(robot, "ask", action="release")) for robot in free]
+        await asyncio.gather(*(self._answer(*each) for each in sent), return_exceptions=True)
 
     async def _stored(self, robot: str, job_id: str, progress: Callable[[JobState], None]) -> None:
         while True:
