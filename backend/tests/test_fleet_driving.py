@@ -10,7 +10,8 @@ import pytest
 from servodeck.fleet.console import Console
 from servodeck.fleet.driving import FleetDriver
 from servodeck.fleet.messages import Done
-from tests.test_fleet_drive import FakeConsole, SomebodyElse
+from tests.test_fleet_drive import FakeConsole, Page, SomebodyElse
+from tests.virtual_time import in_virtual_time
 
 ARMS = ("arm-1", "arm-2", "arm-3")
 
@@ -40,3 +41,35 @@ async def test_no_robot_stays_with_a_start_that_is_cancelled_twice(monkeypatch: 
     assert [driver.claim(robot, SomebodyElse()) for robot in ARMS] == [None] * 3
     released = [fields["robot"] for _, _, fields in console.asked if fields.get("action") == "release"]
     assert released == list(ARMS)
+
+
+@in_virtual_time
+async def test_a_request_for_the_lease_does_not_outlive_its_task() -> None:
+    console = FakeConsole()
+    console.grants = False
+    driver = FleetDriver(cast("Console", console), lambda: True)
+    task = asyncio.create_task(driver.run("arm-1", 3, 1))
+    await asyncio.sleep(1)
+    task.cancel()
+    await asyncio.gather(task, return_exceptions=True)
+    actions = [fields["action"] for _, verb, fields in console.asked if verb == "ask"]
+    assert actions == ["request", "release"]
+
+
+@in_virtual_time
+async def test_a_page_that_waits_for_the_lease_and_leaves_withdraws_its_request() -> None:
+    from servodeck.fleet.drive_messages import DriveRelease
+
+    for how in ("release", "gone"):
+        console = FakeConsole()
+        console.grants = False
+        page = Page(console, FleetDriver(cast("Console", console), lambda: True))
+        await asyncio.sleep(1)
+        if how == "release":
+            page.session.take(DriveRelease(type="release"))
+        else:
+            page.running.cancel()
+        await asyncio.sleep(0.2)
+        actions = [fields["action"] for _, verb, fields in console.asked if verb == "ask"]
+        assert actions == ["request", "release"], how
+        await page.end()

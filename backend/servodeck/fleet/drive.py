@@ -77,6 +77,8 @@ class DriveSession:
             self._leaves = True
             if self._timer:
                 self._timer.cancel()
+            if self._waits:
+                self._begin(self._driver.give_back(self._robot))
             self._driver.drop(self._robot, self)
 
     async def next(self) -> AnyDriveNews:
@@ -109,6 +111,11 @@ class DriveSession:
     def _drives(self) -> bool:
         is_ours = self._driver.claim(self._robot, self) is None
         return is_ours and self._console.drives(self._robot)
+
+    @property
+    def _waits(self) -> bool:
+        """For the lease, of which its driver may let it pass."""
+        return self._has_asked and self._wants_lease and not self._console.drives(self._robot)
 
     def _take_beat(self, nonce: str | None) -> None:
         self._heard_s = self._now()
@@ -188,7 +195,9 @@ class DriveSession:
 
     async def _leave(self) -> None:
         """Others get the robot once it is free."""
-        if self._drives:
+        has_asked = self._drives or self._waits
+        self._wants_lease = False
+        if has_asked:
             await self._driver.give_back(self._robot)
         self._has_ended.set()
 

@@ -171,11 +171,11 @@ class FleetDriver:
         try:
             await self.obtain(robot)
         except BaseException:
-            self._tasks[robot] -= 1
+            await self._release(robot)  # a request that waits is withdrawn
             raise
 
     async def _release(self, *robots: str) -> None:
-        """After `_lease` of each. All are asked before an answer is awaited: who waits may be cancelled again."""
+        """After `_lease` of each. All are asked before an answer is awaited, in which it may be cancelled."""
         self._tasks.subtract(robots)
         free = [robot for robot in robots if self._tasks[robot] == 0]
         for robot in free:
