@@ -8,6 +8,7 @@ from typing import Any, cast
 import pytest
 
 from servodeck.fleet.console import Console
+from servodeck.fleet.drive_messages import DriveRelease
 from servodeck.fleet.driving import FleetDriver
 from servodeck.fleet.messages import Done
 from tests.test_fleet_drive import FakeConsole, Page, SomebodyElse
@@ -58,8 +59,6 @@ async def test_a_request_for_the_lease_does_not_outlive_its_task() -> None:
 
 @in_virtual_time
 async def test_a_page_that_waits_for_the_lease_and_leaves_withdraws_its_request() -> None:
-    from servodeck.fleet.drive_messages import DriveRelease
-
     for how in ("release", "gone"):
         console = FakeConsole()
         console.grants = False
@@ -73,3 +72,18 @@ async def test_a_page_that_waits_for_the_lease_and_leaves_withdraws_its_request(
         actions = [fields["action"] for _, verb, fields in console.asked if verb == "ask"]
         assert actions == ["request", "release"], how
         await page.end()
+
+
+@in_virtual_time
+async def test_what_a_person_began_who_has_gone_ends_before_the_next_one_drives() -> None:
+    console = FakeConsole()
+    driver = FleetDriver(cast("Console", console), lambda: True)
+    ben = Page(console, driver, "Ben")
+    await asyncio.sleep(0.1)
+    await ben.end()
+    carla = Page(console, driver, "Carla")
+    await asyncio.sleep(0.2)
+    actions = [fields["action"] for _, verb, fields in console.asked if verb == "ask"]
+    assert carla.leases()[-1] == ("driving", "Carla")
+    assert actions == ["request", "release", "request"]
+    await carla.end()

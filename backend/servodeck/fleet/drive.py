@@ -53,6 +53,8 @@ class DriveSession:
         self._heard_s = now()
         self._beat_s = self._moved_s = self._heard_s - 1
         self._wants_lease, self._has_asked, self._drove, self._leaves = True, False, False, False
+        # By this page: a lease that is there may be of somebody who has gone without giving it back.
+        self._has_obtained = False
         self._waiting: dict[int, tuple[float, Target]] = {}
         self._move: DriveMove | None = None
         self._moves = 0
@@ -110,12 +112,12 @@ class DriveSession:
     @property
     def _drives(self) -> bool:
         is_ours = self._driver.claim(self._robot, self) is None
-        return is_ours and self._console.drives(self._robot)
+        return is_ours and self._has_obtained and self._console.drives(self._robot)
 
     @property
     def _waits(self) -> bool:
         """For the lease, of which its driver may let it pass."""
-        return self._has_asked and self._wants_lease and not self._console.drives(self._robot)
+        return self._has_asked and self._wants_lease and not self._has_obtained
 
     def _take_beat(self, nonce: str | None) -> None:
         self._heard_s = self._now()
@@ -171,7 +173,9 @@ class DriveSession:
         other = self._driver.claim(self._robot, self)
         drives = self._drives
         if self._drove and not drives:
-            self._wants_lease = False  # it has passed to somebody else: a person asks for it again
+            self._wants_lease = self._has_obtained = (
+                False  # it has passed to somebody else: a person asks for it again
+            )
         elif other is None and self._wants_lease and not self._has_asked and not drives:
             self._has_asked = True
             self._begin(self._ask())
@@ -203,7 +207,10 @@ class DriveSession:
 
     async def _ask(self) -> None:
         try:
+            if self._console.drives(self._robot):  # for who has gone: their motion ends
+                await self._driver.give_back(self._robot)
             await self._driver.obtain(self._robot)
+            self._has_obtained = True
         except FleetError as error:
             self._wants_lease = False
             self._refuse(error)
