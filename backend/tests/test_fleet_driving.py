@@ -87,3 +87,17 @@ async def test_what_a_person_began_who_has_gone_ends_before_the_next_one_drives(
     assert carla.leases()[-1] == ("driving", "Carla")
     assert actions == ["request", "release", "request"]
     await carla.end()
+
+
+@in_virtual_time
+async def test_an_old_target_does_not_leave_with_a_newer_nonce() -> None:
+    console = FakeConsole()
+    driver = FleetDriver(cast("Console", console), lambda: True)
+    page = Page(console, driver, "Ben")
+    await asyncio.sleep(0.1)
+    page.move(1000, servo=1, nonce="old")
+    page.move(1200, servo=2, nonce="new")
+    await asyncio.sleep(0.2)
+    sent = [(f["nonce"], [t.servo for t in f["targets"]]) for _, verb, f in console.asked if verb == "move"]
+    assert sent == [("old", [1]), ("new", [2])]
+    await page.end()

@@ -55,8 +55,8 @@ class DriveSession:
         self._wants_lease, self._has_asked, self._drove, self._leaves = True, False, False, False
         # By this page: a lease that is there may be of somebody who has gone without giving it back.
         self._has_obtained = False
-        self._waiting: dict[int, tuple[float, Target]] = {}
-        self._move: DriveMove | None = None
+        # Of each servo: when its target came, and with which move.
+        self._waiting: dict[int, tuple[float, Target, DriveMove]] = {}
         self._moves = 0
         self._timer: asyncio.TimerHandle | None = None
         self._working: set[asyncio.Task[None]] = set()
@@ -127,21 +127,28 @@ class DriveSession:
 
     def _take_move(self, move: DriveMove) -> None:
         now = self._now()
-        self._move = move
-        self._waiting |= {target.servo: (now, target) for target in move.targets}
+        self._waiting |= {target.servo: (now, target, move) for target in move.targets}
         if self._timer is None:
             wait_s = max(0.0, self._moved_s + MOVE_S - now)
             self._timer = asyncio.get_running_loop().call_later(wait_s, self._send_move)
 
     def _send_move(self) -> None:
-        """The newest target of each servo, unless that is too old, too."""
-        now, move = self._now(), self._move
+        """The newest target of each servo, unless that is too old, too; with the nonce that it came with,
+        which shows its age.
+        """
+        now = self._now()
         waiting, self._waiting, self._timer = self._waiting, {}, None
-        targets = [target for at_s, target in waiting.values() if now - at_s <= MoveRequest.WITHIN_S]
-        if move and targets and self._drives and not self._leaves:
+        by_nonce: dict[str, tuple[list[Target], DriveMove]] = {}
+        for at_s, target, move in waiting.values():
+            if now - at_s <= MoveRequest.WITHIN_S:
+                targets, _ = by_nonce.get(move.nonce, ([], move))
+                by_nonce[move.nonce] = [*targets, target], move
+        if not self._drives or self._leaves:
+            return
+        self._moves += 1
+        for nonce, (targets, move) in by_nonce.items():
             self._moved_s = now
-            self._moves += 1
-            fields = {"targets": targets, "duration_ms": move.duration_ms, "nonce": move.nonce}
+            fields = {"targets": targets, "duration_ms": move.duration_ms, "nonce": nonce}
             self._follow(self._console.request(self._robot, "move", **fields), self._moves)
 
     def _follow(self, answered: "Future[Done]", number: int | None = None) -> None:
