@@ -9,9 +9,9 @@ import pytest
 
 from servodeck.fleet.console import Console
 from servodeck.fleet.drive_messages import DriveRelease
-from servodeck.fleet.driving import FleetDriver
+from servodeck.fleet.driving import ANSWER_S, FleetDriver
 from servodeck.fleet.messages import Done
-from tests.test_fleet_drive import FakeConsole, Page, SomebodyElse
+from tests.test_fleet_drive import ARM, FakeConsole, Page, SomebodyElse
 from tests.virtual_time import in_virtual_time
 
 ARMS = ("arm-1", "arm-2", "arm-3")
@@ -101,3 +101,29 @@ async def test_an_old_target_does_not_leave_with_a_newer_nonce() -> None:
     sent = [(f["nonce"], [t.servo for t in f["targets"]]) for _, verb, f in console.asked if verb == "move"]
     assert sent == [("old", [1]), ("new", [2])]
     await page.end()
+
+
+class SilentConsole(FakeConsole):
+    """Of a robot that answers no move."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.unanswered: list[Future[Done]] = []
+
+    def request(self, gateway: str, verb: str, **fields: Any) -> "Future[Done]":
+        if verb != "move":
+            return super().request(gateway, verb, **fields)
+        self.unanswered.append(Future())
+        return self.unanswered[-1]
+
+
+@in_virtual_time
+async def test_an_answer_that_never_comes_is_not_waited_for_without_end() -> None:
+    console = SilentConsole()
+    page = Page(console, FleetDriver(cast("Console", console), lambda: True))
+    await asyncio.sleep(0.1)
+    page.move(1000)
+    await asyncio.sleep(ANSWER_S + 1)
+    await page.end()
+    assert [answered.cancelled() for answered in console.unanswered] == [True]
+    assert page.refusals() == [f"{ARM} did not answer in {ANSWER_S:g} s."]

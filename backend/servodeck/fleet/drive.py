@@ -156,7 +156,7 @@ class DriveSession:
 
         async def answer() -> None:
             try:
-                await asyncio.wrap_future(answered)
+                await self._driver.answer(self._robot, answered)
             except FleetError as error:
                 if number in (None, self._moves):
                     self._refuse(error)

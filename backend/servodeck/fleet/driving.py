@@ -123,7 +123,7 @@ class FleetDriver:
             for place, groups in enumerate(messages):
                 # In a thread: to write a large one takes milliseconds, in which a stop would wait.
                 sent = await in_thread(partial(self._console.request, robot, "download", groups=groups))
-                job = (await self._answer(robot, sent)).job
+                job = (await self.answer(robot, sent)).job
                 assert job is not None  # the answer to a download has one
                 await self._stored(robot, job.id, partial(progress, place))
         finally:
@@ -181,7 +181,7 @@ class FleetDriver:
         for robot in free:
             del self._tasks[robot]
         sent = [(robot, self._console.request(robot, "ask", action="release")) for robot in free]
-        await asyncio.gather(*(self._answer(*each) for each in sent), return_exceptions=True)
+        await asyncio.gather(*(self.answer(*each) for each in sent), return_exceptions=True)
 
     async def _stored(self, robot: str, job_id: str, progress: Callable[[JobState], None]) -> None:
         while True:
@@ -226,9 +226,10 @@ class FleetDriver:
         return heard
 
     async def _ask(self, robot: str, verb: Any, **fields: Any) -> Done:
-        return await self._answer(robot, self._console.request(robot, verb, **fields))
+        return await self.answer(robot, self._console.request(robot, verb, **fields))
 
-    async def _answer(self, robot: str, answered: "Future[Done]") -> Done:
+    async def answer(self, robot: str, answered: "Future[Done]") -> Done:
+        """To a request to that robot. Raises a FleetError, also where none comes in time."""
         try:
             async with asyncio.timeout(ANSWER_S):
                 return await asyncio.wrap_future(answered)
