@@ -5,6 +5,7 @@ Knows a console; no HTTP. Nothing here decides whether a robot may move: its gat
 """
 
 import asyncio
+import threading
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
@@ -47,6 +48,8 @@ class FleetDriver:
         """`is_watched`: a person looks at the page. Without one, groups are stopped after two seconds."""
         self._console = console
         self._is_watched = is_watched
+        # At the latest beat; for threads.
+        self._was_watched = True
         self._beating: asyncio.Task[None] | None = None
         self._loop: asyncio.AbstractEventLoop | None = None
         self._news = asyncio.Event()
@@ -90,14 +93,26 @@ class FleetDriver:
         """All at the same time, or none. Raises a FleetError that names whom it failed at; `finish` follows
         for each where it has started. Answers with what knows how many ms apart they have begun.
         """
-        name = new_name()
+        name, has_ended = new_name(), threading.Event()
         leased: list[str] = []
+
+        def start() -> float:
+            return start_together(
+                self._console,
+                list(slots),
+                slots,
+                times,
+                name=name,
+                is_wanted=lambda: self._was_watched and not has_ended.is_set(),
+            )
+
         try:
             for robot in slots:
                 await self._lease(robot)
                 leased.append(robot)
-            await in_thread(lambda: start_together(self._console, list(slots), slots, times, name=name))
+            await in_thread(start)
         except BaseException:
+            has_ended.set()  # its thread goes on
             await self._release(*leased)
             raise
         return lambda: spread_ms(self._console, list(slots), name)
@@ -238,7 +253,8 @@ class FleetDriver:
 
     async def _beat(self) -> None:
         while True:
-            if self._is_watched():
+            self._was_watched = self._is_watched()
+            if self._was_watched:
                 self._console.beat([robot for robot, count in self._tasks.items() if count])
             await asyncio.sleep(BEAT_S)
 

@@ -5,7 +5,7 @@ Knows the console; no topic and no payload.
 """
 
 import secrets
-from collections.abc import Collection, Mapping
+from collections.abc import Callable, Collection, Mapping
 from concurrent.futures import FIRST_EXCEPTION, ThreadPoolExecutor, wait
 
 from servodeck.fleet.clocks import Offset, offset_of
@@ -26,6 +26,13 @@ class UncertainError(FleetError):
     """The clock of a gateway is not known well enough over this network."""
 
 
+class GivenUpError(FleetError):
+    """Nobody wants this start any more."""
+
+    def __init__(self) -> None:
+        super().__init__("It was given up before it started.")
+
+
 def start_together(
     console: Console,
     gateways: Collection[str],
@@ -34,13 +41,20 @@ def start_together(
     versions: Mapping[str, str] | None = None,
     lead_s: float = LEAD_S,
     name: str = "",
+    is_wanted: Callable[[], bool] = lambda: True,
 ) -> float:
     """On robots of which the console has the lease. `slot`: the same one of all, or one of each. `versions`:
-    by gateway, what its slot has to hold. `name` is what gateways call this start in their state.
+    by gateway, what its slot has to hold. `name` is what gateways call this start in their state. Once it is
+    not wanted any more, nothing is asked for, and what was promised is cancelled.
     Returns at the start, with its time by the console's clock; raises a FleetError where nothing starts,
     unless a gateway that had committed cannot be reached any more.
     """
-    offsets = offsets_of(console, gateways)
+
+    def judge_wanted() -> None:
+        if not is_wanted():
+            raise GivenUpError
+
+    offsets = offsets_of(console, gateways, judge_wanted)
     name, start_s = name or new_name(), console.now_s + lead_s
     console.beat(gateways)
     try:
@@ -59,16 +73,18 @@ def start_together(
         }
         for gateway, answered in prepared.items():
             console.result_of(gateway, answered, start_s - DECIDED_S - console.now_s)
+        judge_wanted()
         console.beat(gateways)
         committed = console.commit(name, gateways, start_s - DECIDED_S - console.now_s)
         if missing := set(gateways) - committed:
             raise NoAnswerError(f"{', '.join(sorted(missing))}: not ready in time, so none is started.")
+        while (left_s := start_s - console.now_s) > 0:
+            judge_wanted()
+            console.beat(gateways)
+            console.until(lambda: False, min(left_s, BEAT_S))
     except FleetError:
         console.cancel(name, gateways, DECIDED_S)
         raise
-    while (left_s := start_s - console.now_s) > 0:
-        console.beat(gateways)
-        console.until(lambda: False, min(left_s, BEAT_S))
     return start_s
 
 
@@ -84,19 +100,23 @@ def spread_ms(console: Console, gateways: Collection[str], name: str) -> float |
     return max(late_ms) - min(late_ms) if len(late_ms) > 1 else None
 
 
-def offsets_of(console: Console, gateways: Collection[str]) -> dict[str, Offset]:
+def offsets_of(
+    console: Console, gateways: Collection[str], judge_wanted: Callable[[], None]
+) -> dict[str, Offset]:
     """Of all their clocks. Meanwhile the gateways hear beats."""
     with ThreadPoolExecutor(AT_ONCE) as pool:
         measuring = {gateway: pool.submit(measured_offset, console, gateway) for gateway in gateways}
         left = {*measuring.values()}
         try:
             while left:
+                judge_wanted()
                 console.beat(gateways)
                 done, left = wait(left, BEAT_S, FIRST_EXCEPTION)
                 for one in done:
                     one.result()
         finally:
             pool.shutdown(cancel_futures=True)
+    judge_wanted()
     return {gateway: one.result() for gateway, one in measuring.items()}
 
 
