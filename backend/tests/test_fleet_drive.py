@@ -86,6 +86,9 @@ class FakeConsole:
     def drives(self, _: str) -> bool:
         return self.has_lease
 
+    def withdraw_holds(self) -> None:
+        """Not of interest."""
+
     def beat(self, gateways: Sequence[str]) -> None:
         """Of the tasks."""
         self.beats += [(round(now(), 3), gateway) for gateway in gateways]

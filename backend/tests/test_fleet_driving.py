@@ -11,6 +11,7 @@ from servodeck.fleet.console import Console
 from servodeck.fleet.drive_messages import DriveRelease
 from servodeck.fleet.driving import ANSWER_S, FleetDriver
 from servodeck.fleet.messages import Done
+from servodeck.fleet.outcomes import RefusedError
 from tests.test_fleet_drive import ARM, FakeConsole, Page, SomebodyElse
 from tests.virtual_time import in_virtual_time
 
@@ -127,3 +128,36 @@ async def test_an_answer_that_never_comes_is_not_waited_for_without_end() -> Non
     await page.end()
     assert [answered.cancelled() for answered in console.unanswered] == [True]
     assert page.refusals() == [f"{ARM} did not answer in {ANSWER_S:g} s."]
+
+
+@in_virtual_time
+async def test_what_waits_for_a_lease_ends_with_a_stop(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("servodeck.fleet.driving.stop_robots", lambda *_: None)
+    for stopped in ([ARM], None):
+        console = FakeConsole()
+        console.grants = False
+        driver = FleetDriver(cast("Console", console), lambda: True)
+        task = asyncio.create_task(driver.run(ARM, 3, 1))
+        await asyncio.sleep(1)
+        await driver.stop(stopped)
+        await driver.resume(ARM)
+        console.has_lease = True  # its driver has let it pass
+        [error] = await asyncio.gather(task, return_exceptions=True)
+        assert isinstance(error, RefusedError)
+        assert "run" not in console.verbs()
+
+
+@in_virtual_time
+async def test_a_resume_that_is_on_its_way_does_not_undo_a_stop(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("servodeck.fleet.driving.stop_robots", lambda *_: None)
+    console = FakeConsole()
+    driver = FleetDriver(cast("Console", console), lambda: True)
+    task = asyncio.create_task(driver.resume(ARM))
+    await asyncio.sleep(0)
+    assert console.verbs() == ["report"]
+    await driver.stop([ARM])
+    [error] = await asyncio.gather(task, return_exceptions=True)
+    assert isinstance(error, RefusedError)
+    assert console.verbs() == ["report"]

@@ -58,16 +58,19 @@ class Measured(FakeConsole):
         return False
 
 
-@pytest.mark.parametrize("why", ["stopped", "nobody watches"])
-async def test_nothing_starts_together_that_was_given_up(why: str) -> None:
+@pytest.mark.parametrize("why", ["stopped", "nobody watches", "one is stopped"])
+async def test_nothing_starts_together_that_was_given_up(why: str, monkeypatch: pytest.MonkeyPatch) -> None:
     console, is_watched = Measured(), True
     before = {*threading.enumerate()}
+    monkeypatch.setattr("servodeck.fleet.driving.stop_robots", lambda *_: None)
     driver = FleetDriver(cast("Console", console), lambda: is_watched)
     driver.start()
     task = asyncio.create_task(driver.start_together(dict.fromkeys(ARMS, 3), 1))
     assert await asyncio.to_thread(console.is_asked.wait, 5)
     if why == "stopped":
         task.cancel()
+    elif why == "one is stopped":
+        await driver.stop(["arm-2"])
     else:
         is_watched = False
     await asyncio.sleep(0.4)

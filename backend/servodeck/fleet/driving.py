@@ -56,6 +56,9 @@ class FleetDriver:
         # Robots that tasks move now, and those that people drive: neither takes one from the other.
         self._tasks: Counter[str] = Counter()
         self._claims: dict[str, Claimant] = {}
+        # How often each robot was stopped here, and all of them.
+        self._stops: Counter[str] = Counter()
+        self._stops_of_all = 0
 
     def start(self) -> None:
         self._loop = asyncio.get_running_loop()
@@ -77,7 +80,11 @@ class FleetDriver:
                 await self._beating
 
     async def stop(self, robots: Sequence[str] | None) -> StopReport:
-        """None: of all."""
+        """None: of all. What waits to ask them for something does not do so any more."""
+        if robots is None:
+            self._stops_of_all += 1
+        else:
+            self._stops.update(robot for robot in robots if self._console.robot(robot))
         return await in_thread(lambda: stop_robots(self._console, robots))
 
     async def run(self, robot: str, slot: int, times: int) -> None:
@@ -94,6 +101,7 @@ class FleetDriver:
         for each where it has started. Answers with what knows how many ms apart they have begun.
         """
         name, has_ended = new_name(), threading.Event()
+        stops = self._stops_of(*slots)
         leased: list[str] = []
 
         def start() -> float:
@@ -103,7 +111,9 @@ class FleetDriver:
                 slots,
                 times,
                 name=name,
-                is_wanted=lambda: self._was_watched and not has_ended.is_set(),
+                is_wanted=lambda: (
+                    self._was_watched and not has_ended.is_set() and self._stops_of(*slots) == stops
+                ),
             )
 
         try:
@@ -173,18 +183,30 @@ class FleetDriver:
 
     async def resume(self, robot: str) -> None:
         """Robots that come later are not stopped any more, either. Raises a FleetError."""
+        stops = self._stops_of(robot)
         self._console.withdraw_holds()
         await self._ask(robot, "report")  # whose answer has a nonce that is new enough
+        self._judge_stops(robot, stops)
         await self._ask(robot, "resume")
+
+    def _stops_of(self, *robots: str) -> int:
+        return self._stops_of_all + sum(self._stops[robot] for robot in robots)
+
+    def _judge_stops(self, robot: str, stops: int) -> None:
+        """Raises RefusedError where it was stopped since there were so many."""
+        if self._stops_of(robot) != stops:
+            raise RefusedError(robot, "cancelled", "It was stopped.")
 
     async def _lease(self, robot: str) -> None:
         """For a task. Raises a FleetError where another driver keeps it."""
         claimant = self._claims.get(robot)
         if claimant:
             raise RefusedError(robot, "notDriving", f"{claimant.name} drives it.")
+        stops = self._stops_of(robot)
         self._tasks[robot] += 1
         try:
             await self.obtain(robot)
+            self._judge_stops(robot, stops)
         except BaseException:
             await self._release(robot)  # a request that waits is withdrawn
             raise
