@@ -8,11 +8,17 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from http.server import BaseHTTPRequestHandler, HTTPServer
 from pathlib import Path
+from typing import cast
 
 import pytest
 
+from servodeck.fleet.console import Console
+from servodeck.fleet.heard import Robot
+from servodeck.fleet.messages import About, State
+from servodeck.fleet.outcomes import StopReport, report_of
 from servodeck.fleet.reports import Page
 from servodeck.fleet.stopping import stop_robots
+from servodeck.snapshots import LinkState
 from tests.fleet import WAIT_S, console_of, fleet_on
 from tests.mosquitto import Mosquitto, free_port, needs_mosquitto
 from tests.test_cli import Served
@@ -125,3 +131,31 @@ def test_a_real_gateway_takes_the_stop_at_its_page_and_nothing_else(
             served.read_until_stops(3)
     finally:
         served.end()
+
+
+class Nobody:
+    """A console whose broker lets nothing through, and that has heard these robots."""
+
+    def __init__(self, *robots: Robot) -> None:
+        self._robots = list(robots)
+
+    def robots(self) -> list[Robot]:
+        return self._robots
+
+    def stop_all(self) -> StopReport:
+        threading.Event().wait(0.4)
+        return report_of((), {}, [one.name for one in self._robots])
+
+
+def robot_at(name: str, page: Page, *, latch: bool = False) -> Robot:
+    about = About.model_construct(page=page.address, stop_token=page.stop_token)
+    state = State.model_construct(latch=latch, link=LinkState(status="ready"))
+    return Robot(name, "present", about, state, None)
+
+
+def test_one_that_was_stopped_before_is_stopped_again() -> None:
+    """It may have been resumed meanwhile, and the broker does not say so."""
+    with pages() as server:
+        console = Nobody(robot_at("arm-1", server.page, latch=True))
+        assert stop_robots(cast("Console", console)).stopped == ("arm-1",)
+        assert len(server.requests) == 1

@@ -11,7 +11,7 @@ from typing import Any
 
 from servodeck.fleet.console import STOP_S, Console
 from servodeck.fleet.heard import Robot
-from servodeck.fleet.messages import About
+from servodeck.fleet.messages import About, State
 from servodeck.fleet.outcomes import StopReport, report_of
 
 # Over a broker that works all have confirmed it by then.
@@ -28,14 +28,19 @@ def stop_robots(console: Console, names: Collection[str] | None = None) -> StopR
     def over_broker() -> StopReport:
         return console.stop_all() if names is None else console.stop_some(names)
 
-    known = set(names) if names is not None else {robot.name for robot in console.robots()}
+    before = {robot.name: robot.state for robot in console.robots()}
+    known = set(names) if names is not None else set(before)
     threads = ThreadPoolExecutor(AT_ONCE, thread_name_prefix="stop")
     try:
         sent = threads.submit(over_broker)
         wait([sent], GRACE_S)
         answered = answered_in(sent.result()) if sent.done() else frozenset()
         asked = known - answered
-        unconfirmed = [one for one in console.robots() if one.name in asked and not has_stopped(one)]
+        unconfirmed = [
+            one
+            for one in console.robots()
+            if one.name in asked and not has_stopped(one, before.get(one.name))
+        ]
         straight = {one.name: threads.submit(stop_straight, one.about) for one in unconfirmed if one.about}
         report = sent.result()
         wait(straight.values(), STOP_S)
@@ -52,8 +57,10 @@ def answered_in(report: StopReport) -> frozenset[str]:
     return frozenset([*report.stopped, *(name for name, _ in report.refused)])
 
 
-def has_stopped(robot: Robot) -> bool:
-    return robot.presence == "present" and robot.state is not None and robot.state.latch
+def has_stopped(robot: Robot, before: State | None) -> bool:
+    """It has said so since; one that was stopped before may have been resumed."""
+    state = robot.state
+    return robot.presence == "present" and state is not None and state is not before and state.latch
 
 
 def stop_straight(about: About) -> bool:
