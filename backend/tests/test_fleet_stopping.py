@@ -3,6 +3,7 @@ not reached is said.
 """
 
 import signal
+import socket
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -159,3 +160,10 @@ def test_one_that_was_stopped_before_is_stopped_again() -> None:
         console = Nobody(robot_at("arm-1", server.page, latch=True))
         assert stop_robots(cast("Console", console)).stopped == ("arm-1",)
         assert len(server.requests) == 1
+
+
+def test_many_that_are_switched_off_hold_up_no_stop_of_the_others() -> None:
+    with pages() as server, socket.create_server(("127.0.0.1", 0)) as silent:
+        off = Page(f"http://127.0.0.1:{silent.getsockname()[1]}", TOKEN)
+        robots = [*(robot_at(f"arm-{number}", off) for number in range(80)), robot_at("z", server.page)]
+        assert stop_robots(cast("Console", Nobody(*robots))).stopped == ("z",)

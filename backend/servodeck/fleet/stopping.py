@@ -17,7 +17,8 @@ from servodeck.fleet.outcomes import StopReport, report_of
 # Over a broker that works all have confirmed it by then.
 GRACE_S = 0.25
 STRAIGHT_S = 1.0
-AT_ONCE = 32
+# Those that are switched off take all of that second, in which the others must not wait.
+AT_ONCE = 256
 
 
 def stop_robots(console: Console, names: Collection[str] | None = None) -> StopReport:
