@@ -35,6 +35,7 @@ class Pages(HTTPServer):
     def __init__(self) -> None:
         super().__init__(("127.0.0.1", 0), Answering)
         self.requests: list[tuple[str, str | None]] = []
+        self.answer = b'{"latch": true, "halted": true, "unheld": null}'
 
     @property
     def page(self) -> Page:
@@ -48,6 +49,7 @@ class Answering(BaseHTTPRequestHandler):
         self.server.requests.append((self.path, said))
         self.send_response(200 if said == f"Bearer {TOKEN}" else 401)
         self.end_headers()
+        self.wfile.write(self.server.answer)
 
     def log_message(self, *_: object) -> None:
         """The test looks at the requests."""
@@ -167,3 +169,11 @@ def test_many_that_are_switched_off_hold_up_no_stop_of_the_others() -> None:
         off = Page(f"http://127.0.0.1:{silent.getsockname()[1]}", TOKEN)
         robots = [*(robot_at(f"arm-{number}", off) for number in range(80)), robot_at("z", server.page)]
         assert stop_robots(cast("Console", Nobody(*robots))).stopped == ("z",)
+
+
+def test_whatever_answers_at_an_address_that_was_a_robots_has_not_stopped_it() -> None:
+    with pages() as server:
+        server.answer = b"<html>Welcome</html>"
+        console = Nobody(robot_at("arm-1", server.page))
+        assert stop_robots(cast("Console", console)).missing == ("arm-1",)
+        assert len(server.requests) == 1

@@ -4,6 +4,7 @@ own page: the broker may be gone, or what is between.
 Knows a console, and HTTP as a client; no robot core.
 """
 
+import json
 from collections.abc import Collection
 from concurrent.futures import ThreadPoolExecutor, wait
 from http.client import HTTPException
@@ -17,6 +18,7 @@ from servodeck.fleet.outcomes import StopReport, report_of
 # Over a broker that works all have confirmed it by then.
 GRACE_S = 0.25
 STRAIGHT_S = 1.0
+ANSWER_BYTES = 16 * 1024
 # Those that are switched off take all of that second, in which the others must not wait.
 AT_ONCE = 256
 
@@ -80,7 +82,9 @@ def stop_straight(about: About) -> bool:
     headers = {"Authorization": f"Bearer {about.stop_token}"}
     request = Request(f"{about.page.rstrip('/')}/api/stop", b"", headers, method="POST")
     try:
-        build_opener(Nowhere, ProxyHandler({})).open(request, timeout=STRAIGHT_S).close()
+        with build_opener(Nowhere, ProxyHandler({})).open(request, timeout=STRAIGHT_S) as response:
+            said = json.loads(response.read(ANSWER_BYTES))
     except (OSError, HTTPException, ValueError):
         return False
-    return True
+    # Something else may have the address by now.
+    return isinstance(said, dict) and said.get("latch") is True
