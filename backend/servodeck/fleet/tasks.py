@@ -126,6 +126,7 @@ class Tasks:
         for old in list(self._tasks)[:-MOST_TASKS]:
             if old not in self._running:
                 del self._tasks[old], self._orders[old]
+                self._view.forget_task(old)
 
 
 def reason_of(error: FleetError) -> str:

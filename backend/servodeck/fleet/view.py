@@ -211,6 +211,9 @@ class FleetView:
         self._revision += 1
         self._tasks[task.id] = (self._revision, task)
 
+    def forget_task(self, task_id: str) -> None:
+        self._tasks.pop(task_id, None)
+
     async def set_groups(self, wanted: FleetGroups) -> None:
         """Raises a StorageError where the disk refuses; they hold until the end then."""
         self._groups = {name: list(dict.fromkeys(members)) for name, members in wanted.groups.items()}
