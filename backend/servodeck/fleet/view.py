@@ -8,7 +8,7 @@ Knows what a console has heard; no broker, no HTTP.
 import asyncio
 import logging
 from collections import deque
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Awaitable, Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Annotated, Literal, TypeVar
 
@@ -163,6 +163,11 @@ class FleetGroups(Message):
     ]
 
 
+async def stays() -> bool:
+    """Of one that cannot leave."""
+    return False
+
+
 class FleetView:
     def __init__(self, console: Console, site: str, folder: Path | None, now_ms: Callable[[], int]) -> None:
         """`now_ms` since 1970. Without a folder groups are forgotten at the end."""
@@ -185,11 +190,13 @@ class FleetView:
         self._seen_at_ms: dict[str, int] = {}
         self._asked_at_s = -PRESENT_S
 
-    async def changes(self, since: int) -> FleetChanges:
-        """Waits until there are any, for some seconds at most. A `since` of another start gets all of it."""
+    async def changes(self, since: int, has_left: Callable[[], Awaitable[bool]] = stays) -> FleetChanges:
+        """Waits until there are any, for some seconds at most, and while who asks has not left. A `since` of
+        another start gets all of it.
+        """
         clock = asyncio.get_running_loop().time
         until_s = clock() + LONGEST_WAIT_S
-        while True:
+        while not await has_left():
             self._asked_at_s = clock()
             self._look()
             if not 0 < since <= self._revision:
@@ -197,6 +204,7 @@ class FleetView:
             if since < self._revision or clock() >= until_s:
                 return self._since(since)
             await asyncio.sleep(EACH_S)
+        return self._since(since)
 
     @property
     def is_watched(self) -> bool:
