@@ -151,6 +151,16 @@ async def test_who_is_not_reached_is_named(stage: Stage) -> None:
         assert said == {"reached": ["arm-2"], "notReached": ["arm-1"]}
 
 
+@pytest.mark.parametrize("name", ["a+b", "#", "a\0b", "arm-1/about", ""])
+async def test_a_name_that_no_robot_can_have_keeps_no_stop_from_the_others(stage: Stage, name: str) -> None:
+    _, _, (first, _) = stage
+    async with page_of(stage) as page:
+        said = await page.ask("stop", robots=[name, "arm-1"])
+        assert said == {"reached": ["arm-1"], "notReached": [name]}
+        assert first.control.latch
+        assert presences(page) == dict.fromkeys(NAMES, "present")
+
+
 async def test_without_the_broker_nobody_is_said_to_be_stopped(stage: Stage) -> None:
     mosquitto, _, _ = stage
     async with page_of(stage) as page:

@@ -12,7 +12,7 @@ from typing import Any
 from servodeck.callers import Role
 from servodeck.fleet.broker import Outgoing
 from servodeck.fleet.messages import REQUESTS, AnyAnswer, TimelyRequest, encode
-from servodeck.fleet.topics import Site, Verb
+from servodeck.fleet.topics import ALL, Site, Verb, is_gateway_name
 
 EXPIRES_S = 1
 QOS_0: Collection[Verb] = ("move", "beat", "sync")
@@ -57,9 +57,11 @@ class Exchange:
             take(answer)
 
     def send(self, gateway: str, verb: Verb, fields: dict[str, Any], correlation: bytes) -> bool | None:
-        """Whether it has left; None where it needs a nonce, and the robot has said none. Raises
-        ValidationError.
+        """Whether it has left; None where it needs a nonce, and the robot has said none, or no robot has that
+        name. Raises ValidationError.
         """
+        if gateway != ALL and not is_gateway_name(gateway):
+            return None
         if verb == "stop":  # has no number, and waits for no other request
             return self._leave(gateway, verb, b"", correlation)
         with self._lock:  # so that requests leave in the order of their numbers
