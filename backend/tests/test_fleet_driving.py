@@ -10,9 +10,9 @@ import pytest
 from servodeck.fleet.console import Console
 from servodeck.fleet.drive_messages import DriveRelease
 from servodeck.fleet.driving import ANSWER_S, FleetDriver
-from servodeck.fleet.messages import Done
+from servodeck.fleet.messages import Done, Started, State
 from servodeck.fleet.outcomes import RefusedError
-from tests.test_fleet_drive import ARM, FakeConsole, Page, SomebodyElse
+from tests.test_fleet_drive import ARM, FakeConsole, Page, SomebodyElse, state_of
 from tests.virtual_time import in_virtual_time
 
 ARMS = ("arm-1", "arm-2", "arm-3")
@@ -161,3 +161,21 @@ async def test_a_resume_that_is_on_its_way_does_not_undo_a_stop(monkeypatch: pyt
     [error] = await asyncio.gather(task, return_exceptions=True)
     assert isinstance(error, RefusedError)
     assert console.verbs() == ["report"]
+
+
+@pytest.mark.parametrize("started", [None, "another", "this"])
+async def test_one_that_did_not_start_with_the_others_has_not_done_it(
+    monkeypatch: pytest.MonkeyPatch, started: str | None
+) -> None:
+    """What it had promised is void where something else moves the robot then."""
+    monkeypatch.setattr("servodeck.fleet.driving.start_together", lambda *_, **__: 0.0)
+    monkeypatch.setattr("servodeck.fleet.driving.new_name", lambda: "this")
+    monkeypatch.setattr("servodeck.fleet.driving.BEGUN_S", 0.05)
+    console = FakeConsole()
+    said = Started(name=started, late_ms=1.0) if started else None
+    console.state = State.model_construct(**{**dict(state_of()), "started": said})
+    driver = FleetDriver(cast("Console", console), lambda: True)
+    await driver.start_together({ARM: 3}, 1)
+    [error] = await asyncio.gather(driver.finish(ARM), return_exceptions=True)
+    assert (error is None) == (started == "this"), error
+    assert driver.claim(ARM, SomebodyElse()) is None

@@ -56,6 +56,8 @@ class FleetDriver:
         # Robots that tasks move now, and those that people drive: neither takes one from the other.
         self._tasks: Counter[str] = Counter()
         self._claims: dict[str, Claimant] = {}
+        # The name of the start together that each robot has yet to finish.
+        self._starts: dict[str, str] = {}
         # How often each robot was stopped here, and all of them.
         self._stops: Counter[str] = Counter()
         self._stops_of_all = 0
@@ -125,12 +127,13 @@ class FleetDriver:
             has_ended.set()  # its thread goes on
             await self._release(*leased)
             raise
+        self._starts |= dict.fromkeys(slots, name)
         return lambda: spread_ms(self._console, list(slots), name)
 
     async def finish(self, robot: str) -> None:
-        """Until what was started has ended. Raises a FleetError."""
+        """Until what was started has ended. Raises a FleetError, also where it did not start."""
         try:
-            await self._over(robot)
+            await self._over(robot, self._starts.pop(robot, None))
         finally:
             await self._release(robot)
 
@@ -232,8 +235,9 @@ class FleetDriver:
                     raise RefusedError(robot, job.code or "cancelled", job.detail or "It was cancelled.")
             await self._next()
 
-    async def _over(self, robot: str) -> None:
-        await self._until(robot, is_running, BEGUN_S)
+    async def _over(self, robot: str, start: str | None = None) -> None:
+        """`start`: the name of the one that it has promised to take part in."""
+        has_begun = await self._until(robot, is_running, BEGUN_S)
         while is_running(heard := self._present(robot)):
             if heard.state and heard.state.link.status == "lost":
                 raise RefusedError(robot, "lost", "The link to the robot was lost: what it does is unknown.")
@@ -241,6 +245,9 @@ class FleetDriver:
         state = self._present(robot).state
         if state and state.latch:
             raise RefusedError(robot, "latched", f"It was stopped by {state.stopped_by or 'its gateway'}.")
+        was_short = state is not None and state.started is not None and state.started.name == start
+        if start and not has_begun and not was_short:
+            raise RefusedError(robot, "cancelled", "It did not start.")
 
     async def _until(self, robot: str, is_so: Callable[[Robot], bool], within_s: float) -> bool:
         with suppress(TimeoutError):
