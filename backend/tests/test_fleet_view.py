@@ -74,3 +74,28 @@ async def test_who_has_left_does_not_watch(monkeypatch: pytest.MonkeyPatch) -> N
     inbox.put_nowait({"type": "http.disconnect"})
     async with asyncio.timeout(2):
         await asked
+
+
+async def test_a_defect_at_one_robot_keeps_no_stop_from_the_others() -> None:
+    async def carry_out(robot: str, _share: Share) -> None:
+        assert robot != "arm-1"
+        await asyncio.sleep(60)
+
+    view = view_of()
+    tasks = Tasks(view)
+    tasks.begin(Order("run", ["Bow"], "anna", carry_out), ["arm-1", "arm-2"])
+    await asyncio.sleep(0.01)
+    tasks.cancel_all()
+    await asyncio.sleep(0.01)
+    [task] = (await view.changes(0)).tasks
+    assert [part.status for part in task.parts] == ["failed", "failed"]
+
+
+async def test_a_task_that_is_stopped_before_its_first_step_has_failed() -> None:
+    view = view_of()
+    tasks = Tasks(view)
+    tasks.begin(Order("run", ["Bow"], "anna", done_at_once), ["arm-1"])
+    tasks.cancel_all()
+    await asyncio.sleep(0.01)
+    [task] = (await view.changes(0)).tasks
+    assert [part.status for part in task.parts] == ["failed"]

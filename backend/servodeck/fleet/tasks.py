@@ -6,6 +6,7 @@ Knows tasks and their view; not what is asked, no HTTP.
 
 import asyncio
 import itertools
+import logging
 from collections.abc import Awaitable, Callable, Sequence
 from typing import Literal
 
@@ -19,6 +20,8 @@ MOST_TASKS = 20
 Spread = Callable[[], float | None]
 """How many ms apart robots have started together, as far as they have said."""
 STOPPED = "It was stopped."
+MISTAKE = "The gateway made a mistake; its log says more."
+log = logging.getLogger("servodeck.fleet")
 
 
 @value
@@ -73,7 +76,15 @@ class Tasks:
     def _start(self, task_id: str, robots: Sequence[str]) -> None:
         work = asyncio.create_task(self._work(task_id, robots))
         self._running[task_id] = work
-        work.add_done_callback(lambda _: self._running.pop(task_id, None))
+        work.add_done_callback(lambda _: self._ended(task_id))
+
+    def _ended(self, task_id: str) -> None:
+        """What was cancelled before its first step has not failed by itself."""
+        self._running.pop(task_id, None)
+        task = self._tasks.get(task_id)
+        for part in task.parts if task else ():
+            if part.status in ("waiting", "busy"):
+                self._part(task_id, part.robot, "failed", detail=STOPPED)
 
     async def _work(self, task_id: str, robots: Sequence[str]) -> None:
         begin, spread = self._orders[task_id].begin, no_spread
@@ -100,6 +111,9 @@ class Tasks:
         except asyncio.CancelledError:
             self._part(task_id, robot, "failed", detail=STOPPED)
             raise
+        except Exception:  # a defect of ours: a STOP has to end the others nevertheless
+            log.exception("a task has failed")
+            self._part(task_id, robot, "failed", detail=MISTAKE)
         else:
             self._part(task_id, robot, "done")
 
