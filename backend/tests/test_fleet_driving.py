@@ -2,6 +2,7 @@
 
 import asyncio
 import threading
+from collections.abc import Sequence
 from concurrent.futures import Future
 from typing import Any, cast
 
@@ -9,9 +10,11 @@ import pytest
 
 from servodeck.fleet.console import Console
 from servodeck.fleet.drive_messages import DriveRelease
-from servodeck.fleet.driving import ANSWER_S, FleetDriver
+from servodeck.fleet.driving import ANSWER_S, FleetDriver, Share
 from servodeck.fleet.messages import Done, Started, State
 from servodeck.fleet.outcomes import RefusedError
+from servodeck.fleet.tasks import Order, Spread, Tasks
+from servodeck.fleet.view import FleetTask, FleetView
 from tests.test_fleet_drive import ARM, FakeConsole, Page, SomebodyElse, state_of
 from tests.virtual_time import in_virtual_time
 
@@ -179,3 +182,28 @@ async def test_one_that_did_not_start_with_the_others_has_not_done_it(
     [error] = await asyncio.gather(driver.finish(ARM), return_exceptions=True)
     assert (error is None) == (started == "this"), error
     assert driver.claim(ARM, SomebodyElse()) is None
+
+
+class Shown:
+    """The view, of which nothing is asked here."""
+
+    def put_task(self, _: FleetTask) -> None:
+        """Not of interest."""
+
+
+async def test_a_task_that_is_stopped_at_its_start_keeps_no_robot(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("servodeck.fleet.driving.start_together", lambda *_, **__: 0.0)
+    driver = FleetDriver(cast("Console", FakeConsole()), lambda: True)
+    tasks = Tasks(cast("FleetView", Shown()))
+
+    async def begin(robots: Sequence[str]) -> Spread:
+        spread = await driver.start_together(dict.fromkeys(robots, 3), 1)
+        asyncio.get_running_loop().call_soon(tasks.cancel_all)
+        return spread
+
+    async def finish(robot: str, _share: Share) -> None:
+        await driver.finish(robot)
+
+    tasks.begin(Order("run", [""], "anna", finish, begin), ARMS)
+    await asyncio.sleep(0.2)
+    assert [driver.claim(robot, SomebodyElse()) for robot in ARMS] == [None] * 3

@@ -97,7 +97,15 @@ class Tasks:
                 for robot in robots:
                     self._part(task_id, robot, "failed", detail=detail)
                 return
-        await asyncio.gather(*(self._one(task_id, robot) for robot in robots))
+        parts = [asyncio.create_task(self._one(task_id, robot)) for robot in robots]
+        try:
+            await asyncio.sleep(0)  # one that is cancelled before its first step would give nothing back
+            await asyncio.gather(*parts)
+        except asyncio.CancelledError:
+            for part in parts:
+                part.cancel()
+            await asyncio.gather(*parts, return_exceptions=True)
+            raise
         self._set(self._tasks[task_id].model_copy(update={"spread_ms": spread()}))
 
     async def _one(self, task_id: str, robot: str) -> None:
