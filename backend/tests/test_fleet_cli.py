@@ -72,6 +72,15 @@ def test_a_robot_that_will_not_come_back_is_taken_off_the_lists_by_its_own_user(
 
 
 @needs_mosquitto
+def test_what_the_broker_has_not_confirmed_is_not_said_to_be_off_the_lists(
+    mosquitto: Mosquitto, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("servodeck.fleet.broker.END_S", 0.0)
+    result = fleet(mosquitto, "forget", "arm-1", user="arm-2")
+    assert (result.exit_code, result.stdout) == (FAILURE, "")
+
+
+@needs_mosquitto
 def test_stop_and_resume_one_or_all(mosquitto: Mosquitto, robots: Robots) -> None:
     _, (one, other) = robots
     result = fleet(mosquitto, "stop", "arm-2")

@@ -4,6 +4,7 @@ gateways and consoles.
 Knows topics as text, payloads as bytes and credentials; no message of ours.
 """
 
+import contextlib
 import logging
 import random
 import socket
@@ -193,13 +194,17 @@ class Connection:
         if self.is_connected:
             self._client.unsubscribe(topic)
 
-    def end(self, last: Outgoing | None = None) -> None:
-        """`last` is sent before, if the broker takes it within a moment."""
+    def end(self, last: Outgoing | None = None) -> bool:
+        """`last` is sent before; whether the broker has answered to it within a moment."""
         self._ended.set()
+        is_answered = False
         if last and self.is_connected:
             info = self._client.publish(last.topic, last.payload, 1, last.is_retained)
-            info.wait_for_publish(END_S)
+            with contextlib.suppress(RuntimeError):  # the connection has just been lost
+                info.wait_for_publish(END_S)
+                is_answered = info.is_published()
         self._client.disconnect()
+        return is_answered
 
     # In its thread
 

@@ -45,5 +45,7 @@ def take_off(broker: Broker, site: Site, name: str) -> str | None:
         return problem
     for each in first:
         leaving.connection.publish(each)
-    leaving.connection.end(last)
-    return f"The broker does not let {broker.user} do that." if leaving.connection.was_denied else None
+    is_answered = leaving.connection.end(last)
+    if leaving.connection.was_denied:
+        return f"The broker does not let {broker.user} do that."
+    return None if is_answered else f"The broker has not confirmed it: {name} may still be on the lists."
