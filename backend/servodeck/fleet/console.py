@@ -48,6 +48,8 @@ STOP_S = 1.0
 STOP_AGAIN_S = (0.07, 0.14)
 LOOK_S = 0.1
 HOLD_S = 3600
+# Gateways of one message, which no gateway may find too large.
+BEATS_AT_ONCE = 140
 
 answer_adapter: TypeAdapter[AnyAnswer] = TypeAdapter(Answer)
 
@@ -204,8 +206,9 @@ class Console:
         with self._lock:
             beaten = self._drives if gateways is None else self._drives.intersection(gateways)
             newest = {name: self._heard.nonce_of(name) for name in beaten}
-        nonces = {name: nonce for name, nonce in newest.items() if nonce}
-        if nonces:
+        known = [(name, nonce) for name, nonce in newest.items() if nonce]
+        for begin in range(0, len(known), BEATS_AT_ONCE):
+            nonces = dict(known[begin : begin + BEATS_AT_ONCE])
             self._exchange.send(ALL, "beat", {"nonces": nonces}, NOBODY)
 
     def beat_for(self, gateway: str, nonce: str) -> None:
