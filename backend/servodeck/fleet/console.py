@@ -76,8 +76,9 @@ class Console:
         self._now = now
         self._lock = threading.Lock()
         self._heard = Heard(now)
-        self._drives: set[str] = set()
-        self._waits: set[str] = set()
+        # In which epoch: one user may have several sessions, of which one drives.
+        self._drives: dict[str, int] = {}
+        self._waits: dict[str, int] = {}
         self._holds: set[str] = set()
         self._news = threading.Condition()
         session = secrets.token_hex(4)
@@ -167,9 +168,10 @@ class Console:
                 settle(lambda: answered.set_exception(error))
             elif isinstance(answer, Done):
                 self._heard.nonce(gateway, answer.nonce)
-                self._set_drives(gateway, answer.drives)
+                self._set_drives(gateway, answer.epoch if answer.drives else None)
                 if verb == "ask":
-                    self._set_waits(gateway, fields["action"] == "request" and not answer.drives)
+                    waits = fields["action"] == "request" and not answer.drives
+                    self._set_waits(gateway, answer.epoch if waits else None)
                 settle(lambda: answered.set_result(answer))
 
         correlation = self._exchange.expect(take)
@@ -204,7 +206,7 @@ class Console:
     def beat(self, gateways: Collection[str] | None = None) -> None:
         """The driver is present: for those of these gateways, or of all, whose lease this console has."""
         with self._lock:
-            beaten = self._drives if gateways is None else self._drives.intersection(gateways)
+            beaten = self._drives.keys() if gateways is None else self._drives.keys() & gateways
             newest = {name: self._heard.nonce_of(name) for name in beaten}
         known = [(name, nonce) for name, nonce in newest.items() if nonce]
         for begin in range(0, len(known), BEATS_AT_ONCE):
@@ -367,10 +369,14 @@ class Console:
             return
         is_ours = state.driver == self._user
         with self._lock:
-            has_got_it = is_ours and gateway in self._waits
-            self._waits -= {gateway} if has_got_it else set()
-        if has_got_it or not is_ours:
-            self._set_drives(gateway, has_got_it)
+            has_got_it = is_ours and state.epoch > self._waits.get(gateway, state.epoch)
+            if has_got_it:
+                del self._waits[gateway]
+            has_passed = state.epoch > self._drives.get(gateway, state.epoch)
+        if has_got_it:
+            self._set_drives(gateway, state.epoch)
+        elif has_passed or not is_ours:
+            self._set_drives(gateway, None)
 
     def _take_answer(self, received: Received) -> str:
         answer = answer_adapter.validate_json(received.payload)
@@ -379,15 +385,19 @@ class Console:
         self._exchange.answered(answer, received.correlation)
         return answer.gateway
 
-    def _set_waits(self, gateway: str, waits: bool) -> None:
-        """For the lease: its driver may let it pass later."""
+    def _set_waits(self, gateway: str, epoch: int | None) -> None:
+        """For the lease, since that epoch: its driver may let it pass later."""
         with self._lock:
-            (self._waits.add if waits else self._waits.discard)(gateway)
+            self._waits.pop(gateway, None)
+            if epoch is not None:
+                self._waits[gateway] = epoch
 
-    def _set_drives(self, gateway: str, drives: bool) -> None:
+    def _set_drives(self, gateway: str, epoch: int | None) -> None:
+        drives = epoch is not None
         with self._lock:
-            did = gateway in self._drives
-            (self._drives.add if drives else self._drives.discard)(gateway)
+            did = self._drives.pop(gateway, None) is not None
+            if epoch is not None:
+                self._drives[gateway] = epoch
         if drives and not did:
             self.watch(gateway)
         elif did and not drives:
