@@ -12,7 +12,7 @@ from servodeck.fleet.driving import Share
 from servodeck.fleet.heard import Robot
 from servodeck.fleet.service import FleetService
 from servodeck.fleet.tasks import MOST_TASKS, Order, Tasks
-from servodeck.fleet.view import FleetView
+from servodeck.fleet.view import FleetGroups, FleetRobot, FleetView
 from servodeck.library.library import wall_clock_ms
 from servodeck.robot.control import Control
 from tests.fake_port import FakePorts
@@ -99,3 +99,22 @@ async def test_a_task_that_is_stopped_before_its_first_step_has_failed() -> None
     await asyncio.sleep(0.01)
     [task] = (await view.changes(0)).tasks
     assert [part.status for part in task.parts] == ["failed"]
+
+
+async def test_a_robot_that_is_as_before_is_not_made_again_for_each_page(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """With a thousand robots and some pages nothing else would be done, no STOP either."""
+    made: list[FleetRobot] = []
+
+    def make(**fields: Any) -> FleetRobot:
+        made.append(FleetRobot(**fields))
+        return made[-1]
+
+    monkeypatch.setattr("servodeck.fleet.view.FleetRobot", make)
+    view = view_of()
+    for _ in range(5):
+        assert len((await view.changes(0)).robots) == 1
+    assert len(made) == 1
+    await view.set_groups(FleetGroups(groups={"Table 1": ["arm-1"]}))
+    assert (await view.changes(0)).robots[0].groups == ["Table 1"]

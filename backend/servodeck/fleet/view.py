@@ -17,9 +17,10 @@ from pydantic import Field, ValidationError
 from servodeck.files import BackgroundFile
 from servodeck.fleet.console import Console
 from servodeck.fleet.heard import Presence, Robot
-from servodeck.fleet.messages import State
+from servodeck.fleet.messages import About, State
 from servodeck.schema import Message
 from servodeck.snapshots import BatteryState, LinkStatus, ServoLimits, StoredGroup, Whole
+from servodeck.value import value
 
 T = TypeVar("T")
 M = TypeVar("M", bound=Message)
@@ -163,6 +164,27 @@ class FleetGroups(Message):
     ]
 
 
+@value
+class Basis:
+    """What a robot is shown by. To make it takes as long as to look at a hundred that are as before."""
+
+    about: About | None
+    state: State | None
+    presence: Presence
+    seen_ms_ago: int | None
+    groups_of: Mapping[str, list[str]]
+
+    def is_of(self, before: "Basis | None") -> bool:
+        """It is as it was then: reports and groups are replaced, never changed."""
+        return (
+            before is not None
+            and self.about is before.about
+            and self.state is before.state
+            and self.groups_of is before.groups_of
+            and (self.presence, self.seen_ms_ago) == (before.presence, before.seen_ms_ago)
+        )
+
+
 async def stays() -> bool:
     """Of one that cannot leave."""
     return False
@@ -183,6 +205,7 @@ class FleetView:
         self._file = BackgroundFile(file, lambda: FleetGroups(groups=self._groups).model_dump_json())
         self._revision = 1
         self._robots: dict[str, tuple[int, FleetRobot]] = {}
+        self._bases: dict[str, Basis] = {}
         self._removed: dict[str, int] = {}
         self._tasks: dict[str, tuple[int, FleetTask]] = {}
         self._events: deque[tuple[int, FleetEvent]] = deque(maxlen=KEPT_EVENTS)
@@ -246,8 +269,13 @@ class FleetView:
         if broker != self._broker:
             self._broker = broker
             self._revision += 1
-        heard = {one.name: self._robot(one) for one in self._console.robots()}
-        for name, robot in heard.items():
+        heard = {one.name: one for one in self._console.robots()}
+        for name, one in heard.items():
+            basis = Basis(one.about, one.state, one.presence, self._seen_ms_ago(one), self._groups_of)
+            if basis.is_of(self._bases.get(name)):
+                continue
+            self._bases[name] = basis
+            robot = self._robot(name, basis)
             _, before = self._robots.get(name, (0, None))
             if robot != before:
                 self._revision += 1
@@ -256,7 +284,7 @@ class FleetView:
                 self._note(before, robot)
         for name in self._robots.keys() - heard.keys():
             self._revision += 1
-            del self._robots[name]
+            del self._robots[name], self._bases[name]
             self._removed[name] = self._revision
 
     def _note(self, before: FleetRobot | None, robot: FleetRobot) -> None:
@@ -285,8 +313,8 @@ class FleetView:
             events=[event for revision, event in self._events if revision > since],
         )
 
-    def _robot(self, heard: Robot) -> FleetRobot:
-        about, state, name = heard.about, heard.state, heard.name
+    def _robot(self, name: str, basis: "Basis") -> FleetRobot:
+        about, state = basis.about, basis.state
         slots = about.slots if about else {}
         return FleetRobot(
             id=name,
@@ -299,8 +327,8 @@ class FleetView:
             low_battery_mv=about.low_battery_mv if about else None,
             slots=[FleetSlot(slot=int(slot), name=group.name) for slot, group in slots.items()],
             groups=self._groups_of.get(name, []),
-            presence=heard.presence,
-            seen_ms_ago=self._seen_ms_ago(heard),
+            presence=basis.presence,
+            seen_ms_ago=basis.seen_ms_ago,
             state=state_of(state, slots) if state else None,
         )
 
