@@ -161,6 +161,22 @@ def test_a_download_that_is_refused_leaves_no_driver(
 
 
 @needs_mosquitto
+@pytest.mark.parametrize("is_download", [False, True])
+def test_where_another_drives_one_of_them_none_is_kept(
+    mosquitto: Mosquitto, robots: Robots, tmp_path: Path, *, is_download: bool
+) -> None:
+    _, (one, _) = robots
+    file = tmp_path / "wave.json"
+    file.write_text(json.dumps({"name": "Wave", "frames": FRAMES}))
+    download = ["download", f"3={file}", "--to", "arm-1", "--to", "arm-2"]
+    with console_of(mosquitto, "olga", *NAMES) as console:
+        assert console.ask("arm-2", "ask", action="request").drives
+        result = fleet(mosquitto, *(download if is_download else ["run", "3", "arm-1", "arm-2"]))
+        assert (result.exit_code, result.stderr) == (FAILURE, "olga drives arm-2. Wait, or ask there.\n")
+        assert one.control.driving.driver is None
+
+
+@needs_mosquitto
 def test_several_start_together_or_none(mosquitto: Mosquitto, robots: Robots) -> None:
     _, gateways = robots
     assert fleet(mosquitto, "stop", "arm-2").exit_code == 0

@@ -321,11 +321,14 @@ def begin_together(console: "Console", names: Sequence[str], slot: int, times: i
 
 
 def drive(console: "Console", name: str) -> None:
+    """Raises FleetError where another client drives it."""
+    from servodeck.fleet.outcomes import FleetError
+
     if not console.ask(name, "ask", action="request").drives:
         console.ask(name, "ask", action="release")
         robot = console.robot(name)
         driver = robot.state.driver if robot and robot.state else None
-        fail(f"{driver or 'Somebody'} drives {name}. Wait, or ask there.")
+        raise FleetError(f"{driver or 'Somebody'} drives {name}. Wait, or ask there.")
 
 
 def release(console: "Console", names: Iterable[str]) -> None:
