@@ -9,6 +9,7 @@ import type {
   FleetStopped,
   FleetTask,
 } from '#shared/client/http.generated.ts';
+import { GatewayProblem } from '#shared/client/request.ts';
 import { request } from '../robot/request.ts';
 import { openDriveChannel, type DriveChannel, type DriveListener } from './driveChannel.ts';
 
@@ -34,31 +35,46 @@ export interface FleetApi {
   setGroups(groups: FleetGroups['groups']): Promise<void>;
 }
 
+/** An answer that was cut off, or is another program's, is none: it says nothing of the fleet. */
+async function answerOf<Answer>(requested: Promise<unknown>): Promise<Answer> {
+  const answer = await requested;
+  if (typeof answer !== 'object' || answer === null)
+    throw new GatewayProblem(null, 'the gateway’s answer is none');
+  return answer as Answer;
+}
+
 export const gatewayFleet: FleetApi = {
-  changes: async (since) =>
-    (await request('get', '/api/fleet', {
-      withinMs: CHANGES_WITHIN_MS,
-      query: { since },
-    })) as FleetChanges,
-  stop: async (robots) =>
-    (await request('post', '/api/fleet/stop', {
-      withinMs: ANSWER_WITHIN_MS,
-      body: { robots: robots === null ? null : [...robots] },
-    })) as FleetStopped,
-  run: async (body) =>
-    (await request('post', '/api/fleet/run', { withinMs: ANSWER_WITHIN_MS, body })) as FleetTask,
-  download: async (body) =>
-    (await request('post', '/api/fleet/download', { withinMs: ANSWER_WITHIN_MS, body })) as FleetTask,
-  retry: async (task) =>
-    (await request('post', '/api/fleet/tasks/{task}/retry', {
-      withinMs: ANSWER_WITHIN_MS,
-      values: { task },
-    })) as FleetTask,
-  resume: async (robots) =>
-    (await request('post', '/api/fleet/resume', {
-      withinMs: ANSWER_WITHIN_MS,
-      body: { robots: [...robots] },
-    })) as FleetTask,
+  changes: (since) =>
+    answerOf<FleetChanges>(
+      request('get', '/api/fleet', {
+        withinMs: CHANGES_WITHIN_MS,
+        query: { since },
+      }),
+    ),
+  stop: (robots) =>
+    answerOf<FleetStopped>(
+      request('post', '/api/fleet/stop', {
+        withinMs: ANSWER_WITHIN_MS,
+        body: { robots: robots === null ? null : [...robots] },
+      }),
+    ),
+  run: (body) => answerOf<FleetTask>(request('post', '/api/fleet/run', { withinMs: ANSWER_WITHIN_MS, body })),
+  download: (body) =>
+    answerOf<FleetTask>(request('post', '/api/fleet/download', { withinMs: ANSWER_WITHIN_MS, body })),
+  retry: (task) =>
+    answerOf<FleetTask>(
+      request('post', '/api/fleet/tasks/{task}/retry', {
+        withinMs: ANSWER_WITHIN_MS,
+        values: { task },
+      }),
+    ),
+  resume: (robots) =>
+    answerOf<FleetTask>(
+      request('post', '/api/fleet/resume', {
+        withinMs: ANSWER_WITHIN_MS,
+        body: { robots: [...robots] },
+      }),
+    ),
   drive: openDriveChannel,
   setCues: async (cues) => {
     await request('put', '/api/fleet/cues', { withinMs: ANSWER_WITHIN_MS, body: { cues: [...cues] } });
