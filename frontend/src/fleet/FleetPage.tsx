@@ -81,7 +81,9 @@ function Problems() {
   const robots = useFleetState((state) => state.robots);
   return (
     <div role="alert" className={styles.problems}>
-      {problem !== null && <p>{words.fleet.noGateway({ detail: problem })}</p>}
+      {problem !== null && (
+        <p>{problem === '' ? words.fleet.noGateway : words.fleet.gatewayRefuses({ detail: problem })}</p>
+      )}
       {problem === null && broker !== null && broker.status !== 'connected' && (
         <p>{words.fleet.noBroker({ detail: broker.detail })}</p>
       )}

@@ -1,10 +1,11 @@
 import { expect, test } from 'vitest';
 import { createVirtualClock } from '#shared/testing/virtualClock.ts';
 import { GatewayProblem } from '#shared/client/request.ts';
-import type { FleetChanges } from '#shared/client/http.generated.ts';
+import type { FleetChanges, FleetStopped } from '#shared/client/http.generated.ts';
 import type { FleetApi } from './fleetApi.ts';
 import { createFleet } from './fleetStore.ts';
 import { fleetRobot } from './samples.ts';
+import { stopText } from './stopText.ts';
 
 const CHANGES: FleetChanges = {
   ...{ revision: 1, isWhole: true, site: 'lab', broker: { status: 'connected', detail: '' } },
@@ -73,7 +74,7 @@ test('while the gateway is away the page says so, and asks for all of it later',
     { revision: 5, robots: [fleetRobot('a')] },
   ]);
   await clock.advance(0);
-  expect(fleet.store.getState().problem).toBe('the gateway does not answer');
+  expect(fleet.store.getState().problem).toBe('');
   expect(fleet.store.getState().robots).toHaveLength(1);
   await clock.advance(1000);
   await done;
@@ -92,6 +93,51 @@ test('a stop says whom it has not reached, and that it was not sent at all', asy
   expect(fleet.store.getState().stopping).toEqual({ count: 2, notReached: ['b'], problem: null });
   await fleet.stop(null);
   expect(fleet.store.getState().stopping?.problem).toBe('The broker is gone.');
+});
+
+test('a stop that no gateway has answered may have been sent all the same', async () => {
+  const { fleet } = followed([{}], {
+    stop: () => Promise.reject(new GatewayProblem(null, 'the gateway does not answer')),
+  });
+  await fleet.stop(null);
+  const { stopping } = fleet.store.getState();
+  expect(stopping).not.toBeNull();
+  expect(stopping && stopText(stopping, [])).toContain('Stop may not have been sent.');
+});
+
+test('as many are counted as the gateway has stopped, also those that this page has not heard of', async () => {
+  const { fleet } = followed([{}], {
+    stop: () => Promise.resolve({ reached: ['a', 'b'], notReached: ['c'] }),
+  });
+  await fleet.stop(null);
+  expect(fleet.store.getState().stopping).toEqual({ count: 3, notReached: ['c'], problem: null });
+});
+
+test('a stop of others does not hide whom the one before has not reached', async () => {
+  const { fleet } = followed([{}], {
+    stop: (robots) =>
+      Promise.resolve({ reached: [...(robots ?? ['a'])], notReached: robots === null ? ['b'] : [] }),
+  });
+  const shown = () => fleet.store.getState().stopping;
+  await fleet.stop(null);
+  await fleet.stop(['a']);
+  expect(shown()).toEqual({ count: 2, notReached: ['b'], problem: null });
+  await fleet.stop(['b']);
+  expect(shown()).toEqual({ count: 1, notReached: [], problem: null });
+});
+
+test('the answer to a stop that comes after that to a newer one adds only whom it has not reached', async () => {
+  const answers: ((stopped: FleetStopped) => void)[] = [];
+  const { fleet } = followed([{}], { stop: () => new Promise((resolve) => answers.push(resolve)) });
+  const shown = () => fleet.store.getState().stopping;
+  const all = fleet.stop(null);
+  const one = fleet.stop(['a']);
+  answers[1]?.({ reached: ['a'], notReached: [] });
+  await one;
+  expect(shown()).toEqual({ count: 1, notReached: [], problem: null });
+  answers[0]?.({ reached: ['c'], notReached: ['a', 'b'] });
+  await all;
+  expect(shown()).toEqual({ count: 2, notReached: ['b'], problem: null });
 });
 
 test('what a stop did is shown until all have resumed', async () => {

@@ -19,7 +19,7 @@ import type { Order } from './robots.ts';
 export interface FleetState {
   readonly site: string;
   readonly broker: FleetChanges['broker'] | null;
-  /** Why the gateway of this page does not answer; null while it does. */
+  /** Why the gateway of this page says nothing of the fleet: empty where it does not answer; null while it does. */
   readonly problem: string | null;
   readonly robots: readonly FleetRobot[];
   readonly tasks: readonly FleetTask[];
@@ -33,11 +33,11 @@ export interface FleetState {
   readonly stopping: Stopping | null;
 }
 
-/** The latest STOP of this page: of which robots, and whom it has not reached; `notReached` is null while it is sent. */
+/** The latest STOP of this page: of how many robots, and whom it has not reached; `notReached` is null while it is sent. */
 export interface Stopping {
   readonly count: number;
   readonly notReached: readonly string[] | null;
-  /** Why nothing was sent; null where it was. */
+  /** Why nothing was sent; empty where no gateway has answered, null where it was sent. */
   readonly problem: string | null;
 }
 
@@ -99,6 +99,24 @@ export function createFleet(api: FleetApi, library: FleetLibrary, clock: Clock):
     });
   }
 
+  let latest: Sent = { ids: [], missed: [] };
+
+  /** Those that a STOP before has not reached, and this one does not try to: they may still move. */
+  function missedBefore(ids: readonly string[] | null): readonly string[] {
+    const { stopping } = store.getState();
+    if (ids === null || stopping === null) return [];
+    return without(stopping.notReached ?? latest.missed, ids);
+  }
+
+  /** What became of the latest STOP, once that is known. */
+  function show(): void {
+    const { done, missed } = latest;
+    if (done === undefined) return;
+    const more = without([...new Set(missed)], done.notReached);
+    const notReached = [...done.notReached, ...more];
+    store.setState({ stopping: { count: done.count + more.length, notReached, problem: null } });
+  }
+
   return {
     store,
     api,
@@ -112,7 +130,7 @@ export function createFleet(api: FleetApi, library: FleetLibrary, clock: Clock):
           since = changes.revision;
         } catch (error) {
           if (!(error instanceof GatewayProblem)) throw error;
-          store.setState({ problem: error.message });
+          store.setState({ problem: reasonOf(error) });
           since = 0;
           await pause(RETRY_MS);
         }
@@ -127,18 +145,37 @@ export function createFleet(api: FleetApi, library: FleetLibrary, clock: Clock):
     drive: (id) => createDriving((listener) => api.drive(id, listener), clock),
     selectOnly: (ids) => store.setState({ selected: new Set(ids) }),
     async stop(ids) {
+      const own: Sent = { ids, missed: missedBefore(ids) };
+      latest = own;
       const count = ids?.length ?? store.getState().robots.length;
       store.setState({ stopping: { count, notReached: null, problem: null } });
       try {
-        const { notReached } = await api.stop(ids);
-        store.setState({ stopping: { count, notReached, problem: null } });
+        const { reached, notReached } = await api.stop(ids);
+        if (own === latest) own.done = { count: reached.length + notReached.length, notReached };
+        else if (latest.ids !== null) latest.missed = [...latest.missed, ...without(notReached, latest.ids)];
+        show();
       } catch (error) {
         if (!(error instanceof GatewayProblem)) throw error;
-        store.setState({ stopping: { count, notReached: ids ?? [], problem: error.message } });
+        if (own !== latest && ids !== null) return;
+        latest = own;
+        store.setState({ stopping: { count, notReached: ids ?? [], problem: reasonOf(error) } });
       }
     },
   };
 }
+
+/** A STOP that was sent: its robots, null for all, and those that another one has not reached. */
+interface Sent {
+  readonly ids: readonly string[] | null;
+  missed: readonly string[];
+  done?: Pick<Stopping, 'count'> & { readonly notReached: readonly string[] };
+}
+
+const without = (all: readonly string[], some: readonly string[]): readonly string[] =>
+  all.filter((one) => !some.includes(one));
+
+/** The gateway's own words; empty where it has not answered. */
+const reasonOf = ({ code, message }: GatewayProblem): string => (code === null ? '' : message);
 
 /** Newer ones in place of older ones of the same id, new ones behind. */
 function merged<T extends { readonly id: string }>(known: readonly T[], changed: readonly T[]): readonly T[] {

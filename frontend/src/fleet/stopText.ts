@@ -9,6 +9,7 @@ export const hasMissed = ({ notReached, problem }: Stopping): boolean =>
   problem !== null || (notReached?.length ?? 0) > 0;
 
 export function stopText({ count, notReached, problem }: Stopping, robots: readonly FleetRobot[]): string {
+  if (problem === '') return words.fleet.stopUnanswered;
   if (problem !== null) return words.fleet.stopFailed({ detail: problem });
   if (notReached === null) return words.fleet.stopping({ count });
   if (notReached.length === 0) return words.fleet.stopped({ count });

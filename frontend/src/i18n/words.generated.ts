@@ -2667,8 +2667,10 @@ export interface Messages {
     readonly stopping: (values: { readonly count: number }) => string;
     readonly stopped: (values: { readonly count: number }) => string;
     readonly notReached: (values: { readonly stopped: number; readonly count: number; readonly names: string }) => string;
+    readonly stopUnanswered: string;
     readonly stopFailed: (values: { readonly detail: string }) => string;
-    readonly noGateway: (values: { readonly detail: string }) => string;
+    readonly noGateway: string;
+    readonly gatewayRefuses: (values: { readonly detail: string }) => string;
     readonly noBroker: (values: { readonly detail: string }) => string;
     readonly none: string;
     readonly noneHint: string;

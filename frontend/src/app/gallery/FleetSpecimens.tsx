@@ -110,7 +110,8 @@ function answering(): FleetApi {
   const begun = () => Promise.resolve({ ...task, parts: [] });
   return {
     changes: () => new Promise(() => undefined),
-    stop: (robots) => Promise.resolve({ reached: [...(robots ?? [])], notReached: [] }),
+    stop: (robots) =>
+      Promise.resolve({ reached: [...(robots ?? ROBOTS.map(({ id }) => id))], notReached: [] }),
     ...{ run: begun, download: begun, resume: begun, retry: begun },
     drive: (robot, listener) => drivenRobot(robot === 'Arm 2' ? WAITS : DRIVES, listener),
     setGroups: () => Promise.resolve(),
