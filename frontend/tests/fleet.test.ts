@@ -88,6 +88,52 @@ test('a cue says who is ready, GO starts it and makes the next one current', asy
   await expect(steps.nth(0)).toHaveAttribute('aria-current', 'step');
 });
 
+test('cues added one right after the other are all kept, and the current one stays current', async ({
+  page,
+  url,
+}) => {
+  await at(page, url, 'Fleet');
+  const cues = page.getByRole('region', { name: 'Cues' });
+  const steps = cues.getByRole('listitem');
+  await cues.getByRole('button', { name: 'Add cue' }).click();
+  await cues.getByRole('button', { name: 'Add cue' }).click();
+  await expect(steps).toHaveCount(4);
+  await cues.getByRole('button', { name: 'GO' }).click();
+  await expect(steps.nth(1)).toHaveAttribute('aria-current', 'step');
+  await cues.getByRole('button', { name: 'Remove the cue Wave' }).click();
+  await expect(steps).toHaveCount(3);
+  await expect(steps.nth(0)).toContainText('Bow');
+  await expect(steps.nth(0)).toHaveAttribute('aria-current', 'step');
+});
+
+test('what the gateway refuses is said where it was asked, and a cue stays current', async ({
+  page,
+  url,
+}) => {
+  const refusal = 'The gateway is being updated.';
+  await at(page, url, 'Fleet, refused');
+  const tasks = page.getByRole('region', { name: 'Tasks' });
+  await tasks.getByRole('button', { name: 'Try 1 again' }).click();
+  await expect(tasks).toContainText(refusal);
+  const cues = page.getByRole('region', { name: 'Cues' });
+  await cues.getByRole('button', { name: 'GO' }).click();
+  await expect(cues).toContainText(refusal);
+  await expect(cues.getByRole('listitem').nth(0)).toHaveAttribute('aria-current', 'step');
+  await page.getByRole('button', { name: 'Download …' }).click();
+  const dialog = page.getByRole('dialog');
+  await dialog.getByRole('checkbox', { name: 'Nod' }).click();
+  await expect(dialog).toContainText('Nod cannot be read from the library.');
+});
+
+test('putting robots into a group does not hide whom a stop has not reached', async ({ page, url }) => {
+  await at(page, url, 'Fleet, one not reached');
+  await page.getByRole('checkbox', { name: 'Select Arm 1' }).check();
+  await page.getByRole('textbox', { name: 'Group name' }).fill('Table 9');
+  await page.getByRole('button', { name: 'Put into group' }).click();
+  await expect(page.getByRole('combobox', { name: 'Group of robots' })).toContainText('Table 9');
+  await expect(page.getByText('Not reached: Arm 6.')).toBeVisible();
+});
+
 test('several groups go to the selected robots; what is replaced and what does not fit is said before', async ({
   page,
   url,

@@ -1,13 +1,13 @@
 // The cues of a show: GO starts the current one and makes the next one current. Who is missing is named before.
 
-import { useState } from 'react';
-import { GatewayProblem } from '#shared/client/request.ts';
+import { useRef, useState } from 'react';
 import type { FleetCue, FleetRobot } from '#shared/client/http.generated.ts';
 import { SLOT_TIMES } from '#shared/profile/macro.ts';
 import { words } from '../i18n/whole.ts';
 import { Button, IconButton } from '../ui/Button.tsx';
 import { Mark } from '../ui/Chip.tsx';
 import { Select } from '../ui/Select.tsx';
+import { useAsking } from './asking.ts';
 import { useFleet, useFleetState } from './context.ts';
 import { cueState, wishOf } from './cues.ts';
 import { groupsIn } from './robots.ts';
@@ -21,17 +21,24 @@ export function CueList({ mayDrive }: { readonly mayDrive: boolean }) {
   const robots = useFleetState((state) => state.robots);
   const cues = useFleetState((state) => state.cues);
   const [next, setNext] = useState(0);
-  const [problem, setProblem] = useState('');
+  const { problem, ask } = useAsking();
+  const isStarting = useRef(false);
   const current = cues[next];
   const wish = current === undefined ? null : wishOf(current, robots);
-  const act = (work: () => Promise<unknown>): void => {
-    setProblem('');
-    void work().catch((error: unknown) => {
-      if (!(error instanceof GatewayProblem)) throw error;
-      setProblem(error.message);
-    });
-  };
-  const setCues = (wanted: readonly FleetCue[]): void => act(() => fleet.api.setCues(wanted));
+  async function go(): Promise<void> {
+    if (wish === null || isStarting.current) return;
+    isStarting.current = true;
+    try {
+      await fleet.api.run(wish);
+      setNext(next + 1);
+    } finally {
+      isStarting.current = false;
+    }
+  }
+  async function remove(at: number): Promise<void> {
+    await fleet.setCues(cues.filter((_, index) => index !== at));
+    if (at < next) setNext(next - 1);
+  }
   if (!mayDrive || robots.length === 0) return null;
   return (
     <section className={styles.work} aria-label={words.fleet.cues}>
@@ -39,16 +46,7 @@ export function CueList({ mayDrive }: { readonly mayDrive: boolean }) {
         <h2>{words.fleet.cues}</h2>
         {cues.length > 0 && (
           <>
-            <Button
-              tone="primary"
-              icon="play"
-              isDisabled={wish === null}
-              onPress={() => {
-                if (wish === null) return;
-                act(() => fleet.api.run(wish));
-                setNext(next + 1);
-              }}
-            >
+            <Button tone="primary" icon="play" isDisabled={wish === null} onPress={() => ask(go)}>
               {words.fleet.go}
             </Button>
             <Button isDisabled={next >= cues.length} onPress={() => setNext(next + 1)}>
@@ -74,12 +72,12 @@ export function CueList({ mayDrive }: { readonly mayDrive: boolean }) {
             <IconButton
               icon="trash"
               label={words.fleet.removeCue({ name: cue.name })}
-              onPress={() => setCues(cues.filter((_, at) => at !== index))}
+              onPress={() => ask(() => remove(index))}
             />
           </li>
         ))}
       </ol>
-      <AddCue robots={robots} onAdd={(cue) => setCues([...cues, cue])} />
+      <AddCue robots={robots} onAdd={(cue) => ask(() => fleet.setCues([...cues, cue]))} />
     </section>
   );
 }

@@ -14,6 +14,7 @@ import { Chip, Mark } from '../ui/Chip.tsx';
 import { Dialog } from '../ui/Dialog.tsx';
 import { Select } from '../ui/Select.tsx';
 import { StopPress } from '../ui/StopKey.tsx';
+import { refusalText } from './asking.ts';
 import { familyOf, robotOf } from './boards.ts';
 import { useFleet, useFleetState } from './context.ts';
 import { DriveSlider } from './DriveSlider.tsx';
@@ -64,7 +65,7 @@ function Controls({ robot, driving, onAgain }: Omit<DrivePanelProps, 'onClose'>)
   const resume = (): void =>
     void fleet.api.resume([robot.id]).catch((error: unknown) => {
       if (!(error instanceof GatewayProblem)) throw error;
-      driving.store.setState({ refusal: error.message });
+      driving.store.setState({ refusal: refusalText(error) });
     });
   const isBlocked = state.lease !== 'driving' || isStopped || state.motion === null;
   const pose = poseOf(motion, profile.servos);

@@ -2,7 +2,6 @@
 // group of robots. A robot that cannot take part is named with the reason before anything is sent.
 
 import { useState } from 'react';
-import { GatewayProblem } from '#shared/client/request.ts';
 import type { FleetRobot } from '#shared/client/http.generated.ts';
 import { words } from '../i18n/whole.ts';
 import { Button } from '../ui/Button.tsx';
@@ -10,6 +9,7 @@ import { Select } from '../ui/Select.tsx';
 import field from '../ui/Field.module.css';
 import { cx } from '../ui/cx.ts';
 import { SLOT_TIMES } from '#shared/profile/macro.ts';
+import { useAsking } from './asking.ts';
 import { useFleet, useFleetState } from './context.ts';
 import { FleetDownload } from './FleetDownload.tsx';
 import { conditionOf, takesMotion } from './robots.ts';
@@ -23,14 +23,10 @@ export function FleetActions({ mayDrive }: { readonly mayDrive: boolean }) {
   const selected = useFleetState((state) => state.selected);
   const chosen = robots.filter(({ id }) => selected.has(id));
   const ids = chosen.map(({ id }) => id);
-  const [problem, setProblem] = useState('');
+  const { problem, ask } = useAsking();
   const act = (work: () => Promise<unknown>): void => {
-    setProblem('');
     fleet.store.setState({ stopping: null }); // what the latest stop did is no news any more
-    void work().catch((error: unknown) => {
-      if (!(error instanceof GatewayProblem)) throw error;
-      setProblem(error.message);
-    });
+    ask(work);
   };
   return (
     <div className={styles.actions} role="group" aria-label={words.fleet.selected({ count: chosen.length })}>
@@ -47,7 +43,7 @@ export function FleetActions({ mayDrive }: { readonly mayDrive: boolean }) {
           )}
           <Run robots={chosen} act={act} />
           <FleetDownload robots={chosen} />
-          <Grouping robots={robots} ids={ids} act={act} />
+          <Grouping robots={robots} ids={ids} act={ask} />
         </>
       )}
       <Unable robots={chosen} />
@@ -132,9 +128,7 @@ function Grouping({ robots, ids, act }: GroupingProps) {
       for (const each of Object.keys(groups))
         groups[each] = (groups[each] ?? []).filter((id) => !ids.includes(id));
       if (group !== '') groups[group] = [...(groups[group] ?? []), ...ids];
-      await fleet.api.setGroups(
-        Object.fromEntries(Object.entries(groups).filter(([, all]) => all.length > 0)),
-      );
+      await fleet.setGroups(Object.fromEntries(Object.entries(groups).filter(([, all]) => all.length > 0)));
       setName('');
     });
   return (

@@ -1,15 +1,16 @@
 // Stores groups of the library on the selected robots, each in a slot of its own. What does not fit, and what is replaced, stands beside
 // each group before anything is sent.
 
-import { useEffect, useState } from 'react';
+import { useEffect, useRef, useState } from 'react';
 import { groupFromText, type ActionGroup } from '#shared/group/group.ts';
 import { listedOf, type Listed } from '#shared/files/documentStore.ts';
 import { GatewayProblem } from '#shared/client/request.ts';
-import type { FleetRobot } from '#shared/client/http.generated.ts';
+import type { FleetDownloadWish, FleetRobot } from '#shared/client/http.generated.ts';
 import { words } from '../i18n/whole.ts';
 import { Button } from '../ui/Button.tsx';
 import { Dialog } from '../ui/Dialog.tsx';
 import { EmptyState } from '../ui/Panel.tsx';
+import { refusalText } from './asking.ts';
 import { useFleet } from './context.ts';
 import { factsOf, slotOffered, slotRangeOf, wishesFor, type Picked } from './downloads.ts';
 import { takesMotion } from './robots.ts';
@@ -39,11 +40,13 @@ export function FleetDownload({ robots }: { readonly robots: readonly FleetRobot
 
 function Choice({ robots, onDone }: { readonly robots: readonly FleetRobot[]; onDone(): void }) {
   const { library } = useFleet();
-  const { documents, problem: unread } = useDocuments();
+  const { documents, isUnread } = useDocuments();
   const [picked, setPicked] = useState<readonly Picked[]>([]);
+  const [unreadGroup, setUnreadGroup] = useState<string | null>(null);
   const { problem, isSending, send } = useSending(onDone);
   if (robots.length === 0) return <p className={styles.dim}>{words.fleet.noneTakes}</p>;
-  if (documents === null) return <p role="status">{unread ?? words.fleet.readingLibrary}</p>;
+  if (documents === null)
+    return <p role="status">{isUnread ? words.fleet.libraryUnread : words.fleet.readingLibrary}</p>;
   if (documents.length === 0) {
     const action = <a href="./">{words.fleet.makeGroups}</a>;
     return <EmptyState title={words.fleet.noLibrary} hint={words.fleet.noLibraryHint} action={action} />;
@@ -53,9 +56,16 @@ function Choice({ robots, onDone }: { readonly robots: readonly FleetRobot[]; on
   const wishes = isClear ? wishesFor(picked, robots) : [];
   const getting = wishes.reduce((sum, wish) => sum + wish.robots.length, 0);
 
-  async function pick(id: string): Promise<void> {
-    const { value: group } = groupFromText((await library.read(id)).text) as { value?: ActionGroup };
-    if (group === undefined) return;
+  async function pick(id: string, name: string): Promise<void> {
+    setUnreadGroup(null);
+    const group = await library.read(id).then(
+      ({ text }) => (groupFromText(text) as { value?: ActionGroup }).value,
+      () => undefined,
+    );
+    if (group === undefined) {
+      setUnreadGroup(name);
+      return;
+    }
     setPicked((before) => {
       const slot = slotOffered(
         group,
@@ -81,7 +91,7 @@ function Choice({ robots, onDone }: { readonly robots: readonly FleetRobot[]; on
                   checked={one !== undefined}
                   onChange={({ target }) =>
                     target.checked
-                      ? void pick(id)
+                      ? void pick(id, name)
                       : setPicked((before) => before.filter((each) => each.id !== id))
                   }
                 />
@@ -105,7 +115,7 @@ function Choice({ robots, onDone }: { readonly robots: readonly FleetRobot[]; on
         })}
       </ul>
       <p role="alert" className={styles.warning}>
-        {problem}
+        {unreadGroup === null ? problem : words.fleet.groupUnread({ name: unreadGroup })}
       </p>
       <Button
         tone="primary"
@@ -164,42 +174,51 @@ function useSending(onDone: () => void) {
   const fleet = useFleet();
   const [problem, setProblem] = useState('');
   const [isSending, setSending] = useState(false);
+  /** What has begun is not sent again after another one was refused. */
+  const begun = useRef(new Set<string>());
 
-  async function send(wishes: ReturnType<typeof wishesFor>): Promise<void> {
+  async function begin(wish: FleetDownloadWish): Promise<void> {
+    const key = JSON.stringify(wish);
+    if (begun.current.has(key)) return;
+    await fleet.api.download(wish);
+    begun.current.add(key);
+  }
+
+  async function send(wishes: readonly FleetDownloadWish[]): Promise<void> {
     setSending(true);
     setProblem('');
     try {
-      await Promise.all(wishes.map((wish) => fleet.api.download(wish)));
+      await Promise.all(wishes.map(begin));
       onDone();
     } catch (error) {
       if (!(error instanceof GatewayProblem)) throw error;
-      setProblem(error.code === 'tooLarge' ? words.fleet.tooMuch : error.message);
+      setProblem(error.code === 'tooLarge' ? words.fleet.tooMuch : refusalText(error));
     } finally {
       setSending(false);
     }
   }
 
-  return { problem, isSending, send: (wishes: ReturnType<typeof wishesFor>): void => void send(wishes) };
+  return { problem, isSending, send: (wishes: readonly FleetDownloadWish[]): void => void send(wishes) };
 }
 
 /** The groups of the library of the gateway that serves this page; null while they are being read, or cannot be. */
 function useDocuments() {
   const { library } = useFleet();
   const [documents, setDocuments] = useState<readonly Listed[] | null>(null);
-  const [problem, setProblem] = useState<string | null>(null);
+  const [isUnread, setUnread] = useState(false);
   useEffect(() => {
     let isWanted = true;
     void library.list().then(
       (listing) => {
         if (isWanted) setDocuments(listedOf(listing, 'group').filter(({ isRemoved }) => !isRemoved));
       },
-      (error: unknown) => {
-        if (isWanted) setProblem(error instanceof Error ? error.message : String(error));
+      () => {
+        if (isWanted) setUnread(true);
       },
     );
     return () => {
       isWanted = false;
     };
   }, [library]);
-  return { documents, problem };
+  return { documents, isUnread };
 }

@@ -5,6 +5,7 @@ import { words } from '../i18n/whole.ts';
 import { Button } from '../ui/Button.tsx';
 import { Mark } from '../ui/Chip.tsx';
 import { ProgressBar } from '../ui/ProgressBar.tsx';
+import { useAsking } from './asking.ts';
 import { useFleet, useFleetState } from './context.ts';
 import styles from './Fleet.module.css';
 
@@ -32,6 +33,7 @@ interface TaskProps {
 
 function Task({ task, robots, mayDrive }: TaskProps) {
   const fleet = useFleet();
+  const { problem, ask } = useAsking();
   const { parts, verb } = task;
   const title = words.fleet.taskNames[verb]({ name: groupNames(task.names), by: task.by });
   const total = parts.length;
@@ -51,11 +53,14 @@ function Task({ task, robots, mayDrive }: TaskProps) {
           <span className={styles.dim}>{words.fleet.spread({ ms: Math.round(task.spreadMs) })}</span>
         )}
         {mayDrive && isOver && failed.length > 0 && (
-          <Button onPress={() => void fleet.api.retry(task.id)}>
+          <Button onPress={() => ask(() => fleet.api.retry(task.id))}>
             {words.fleet.retry({ count: failed.length })}
           </Button>
         )}
       </div>
+      <p role="alert" className={styles.warning}>
+        {problem}
+      </p>
       {!isOver && (
         <>
           <ProgressBar label={title} done={share} total={total} text={text} />

@@ -7,6 +7,7 @@ import type {
   FleetChanges,
   FleetCue,
   FleetEvent,
+  FleetGroups,
   FleetRobot,
   FleetTask,
 } from '#shared/client/http.generated.ts';
@@ -52,6 +53,10 @@ export interface Fleet {
   follow(signal: AbortSignal): Promise<void>;
   select(id: string, isSelected: boolean): void;
   selectOnly(ids: readonly string[]): void;
+  /** In place of the ones before, and shown at once: one that is added next stands behind them. Rejects with a GatewayProblem. */
+  setCues(cues: readonly FleetCue[]): Promise<void>;
+  /** The robots of each group, in the same way. */
+  setGroups(groups: FleetGroups['groups']): Promise<void>;
   /** From now on until its end. */
   drive(id: string): Driving;
   /** null: all robots of the site. */
@@ -141,6 +146,20 @@ export function createFleet(api: FleetApi, library: FleetLibrary, clock: Clock):
       if (isSelected) selected.add(id);
       else selected.delete(id);
       store.setState({ selected });
+    },
+    async setCues(cues) {
+      await api.setCues(cues);
+      store.setState({ cues });
+    },
+    async setGroups(groups) {
+      await api.setGroups(groups);
+      const groupsOf = (id: string): string[] =>
+        Object.keys(groups)
+          .filter((name) => groups[name]?.includes(id))
+          .sort();
+      store.setState(({ robots }) => ({
+        robots: robots.map((robot) => ({ ...robot, groups: groupsOf(robot.id) })),
+      }));
     },
     drive: (id) => createDriving((listener) => api.drive(id, listener), clock),
     selectOnly: (ids) => store.setState({ selected: new Set(ids) }),

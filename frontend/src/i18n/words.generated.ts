@@ -2768,6 +2768,9 @@ export interface Messages {
     };
     readonly downloadHint: string;
     readonly tooMuch: string;
+    readonly unanswered: string;
+    readonly libraryUnread: string;
+    readonly groupUnread: (values: { readonly name: string }) => string;
     readonly readingLibrary: string;
     readonly noneTakes: string;
     readonly groupCount: (values: { readonly count: number }) => string;

@@ -2,6 +2,7 @@
 
 import { useState } from 'react';
 import type { FleetChanges } from '#shared/client/http.generated.ts';
+import { GatewayProblem } from '#shared/client/request.ts';
 import type { FleetApi } from '../../fleet/fleetApi.ts';
 import { FleetPage } from '../../fleet/FleetPage.tsx';
 import { createFleet, type FleetState } from '../../fleet/fleetStore.ts';
@@ -35,6 +36,8 @@ const LIBRARY = fleetLibrary([
   fleetGroup('Crawl', [7, 8, 9, 10, 11, 12, 13]),
 ]);
 
+const UNREAD = { ...LIBRARY, read: () => Promise.reject(new Error('the gateway does not answer')) };
+
 const TASKS: FleetChanges['tasks'] = [
   {
     ...{ id: '1', verb: 'run', names: ['Bow'], by: 'Anna', spreadMs: 3.2 },
@@ -60,22 +63,26 @@ interface Named {
   readonly state: Partial<FleetState>;
   /** The robot that is driven. */
   readonly driven?: string;
+  /** The gateway refuses whatever is asked. */
+  readonly refuses?: boolean;
 }
+
+const FLEET_AT_WORK: Partial<FleetState> = {
+  ...{ robots: ROBOTS, tasks: TASKS, selected: new Set(['Arm 1', 'Arm 2', 'Arm 4']) },
+  cues: [
+    { name: 'Wave', robots: 'Table 1', times: 2, stopsOthers: true },
+    { name: 'Bow', robots: '', times: 1, stopsOthers: false },
+  ],
+  events: [
+    { atMs: AT_MS, robot: 'Arm 4', kind: 'stopped', by: 'Ben' },
+    { atMs: AT_MS + 60_000, robot: 'Arm 5', kind: 'lost', by: null },
+  ],
+};
 
 const STATES: readonly Named[] = [
   {
     name: 'Fleet',
-    state: {
-      ...{ robots: ROBOTS, tasks: TASKS, selected: new Set(['Arm 1', 'Arm 2', 'Arm 4']) },
-      cues: [
-        { name: 'Wave', robots: 'Table 1', times: 2, stopsOthers: true },
-        { name: 'Bow', robots: '', times: 1, stopsOthers: false },
-      ],
-      events: [
-        { atMs: AT_MS, robot: 'Arm 4', kind: 'stopped', by: 'Ben' },
-        { atMs: AT_MS + 60_000, robot: 'Arm 5', kind: 'lost', by: null },
-      ],
-    },
+    state: FLEET_AT_WORK,
   },
   {
     name: 'Fleet, one not reached',
@@ -83,6 +90,7 @@ const STATES: readonly Named[] = [
   },
   { name: 'Fleet, one driven', state: { robots: ROBOTS }, driven: 'Arm 1' },
   { name: 'Fleet, one driven by another person', state: { robots: ROBOTS }, driven: 'Arm 2' },
+  { name: 'Fleet, refused', state: FLEET_AT_WORK, refuses: true },
   { name: 'Fleet, no robots', state: {} },
   {
     name: 'Fleet, broker lost',
@@ -90,14 +98,17 @@ const STATES: readonly Named[] = [
   },
 ];
 
-export const FLEET: readonly Exhibit[] = STATES.map(({ name, state, driven }) => ({
-  name,
-  content: <Shown state={state} driven={driven} />,
+export const FLEET: readonly Exhibit[] = STATES.map((named) => ({
+  name: named.name,
+  content: <Shown {...named} />,
 }));
 
-function Shown({ state, driven }: { readonly state: Named['state']; readonly driven: Named['driven'] }) {
+function Shown({ state, driven, refuses = false }: Named) {
   const [fleet] = useState(() => {
-    const made = createFleet(answering(), LIBRARY, { now: () => 0, after: () => () => undefined });
+    const made = createFleet(refuses ? refusing() : answering(), refuses ? UNREAD : LIBRARY, {
+      now: () => 0,
+      after: () => () => undefined,
+    });
     made.store.setState({ site: 'lab', broker: { status: 'connected', detail: '' }, ...state });
     return made;
   });
@@ -116,5 +127,20 @@ function answering(): FleetApi {
     drive: (robot, listener) => drivenRobot(robot === 'Arm 2' ? WAITS : DRIVES, listener),
     setGroups: () => Promise.resolve(),
     setCues: () => Promise.resolve(),
+  };
+}
+
+function refusing(): FleetApi {
+  const refused = () => Promise.reject(new GatewayProblem('conflict', 'The gateway is being updated.'));
+  return {
+    ...answering(),
+    ...{
+      run: refused,
+      download: refused,
+      resume: refused,
+      retry: refused,
+      setGroups: refused,
+      setCues: refused,
+    },
   };
 }
