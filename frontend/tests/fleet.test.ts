@@ -134,6 +134,15 @@ test('putting robots into a group does not hide whom a stop has not reached', as
   await expect(page.getByText('Not reached: Arm 6.')).toBeVisible();
 });
 
+test('a group that its last robot leaves is not searched for any more', async ({ page, url }) => {
+  await at(page, url, 'Fleet');
+  const cards = page.getByRole('list', { name: 'Robots' }).getByRole('listitem');
+  await page.getByRole('combobox', { name: 'Group of robots' }).selectOption('Table 1');
+  await expect(cards).toHaveCount(2);
+  await page.getByRole('button', { name: 'Take out of group' }).click();
+  await expect(cards).toHaveCount(8);
+});
+
 test('several groups go to the selected robots; what is replaced and what does not fit is said before', async ({
   page,
   url,

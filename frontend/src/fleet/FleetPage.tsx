@@ -20,7 +20,7 @@ import { FleetContext, useFleet, useFleetState } from './context.ts';
 import type { Driving } from './driving.ts';
 import type { Fleet } from './fleetStore.ts';
 import { stopText } from './stopText.ts';
-import { groupsIn, inOrder, matches, needsPerson, type Order } from './robots.ts';
+import { groupShown, groupsIn, inOrder, matches, needsPerson, type Order } from './robots.ts';
 import styles from './Fleet.module.css';
 
 interface FleetPageProps {
@@ -107,12 +107,13 @@ function Robots({ mayDrive, first }: { readonly mayDrive: boolean; readonly firs
   const fleet = useFleet();
   const robots = useFleetState((state) => state.robots);
   const search = useFleetState((state) => state.search);
-  const group = useFleetState((state) => state.group);
+  const wanted = useFleetState((state) => state.group);
   const order = useFleetState((state) => state.order);
   const selected = useFleetState((state) => state.selected);
   const [driven, setDriven] = useState<Driven | null>(() => (first === null ? null : driveOf(fleet, first)));
   const drive = useCallback((id: string) => setDriven(driveOf(fleet, id)), [fleet]);
   const stopOne = useCallback((id: string) => void fleet.stop([id]), [fleet]);
+  const group = groupShown(wanted, robots);
   const shown = inOrder(
     robots.filter((one) => (group === null || one.groups.includes(group)) && matches(one, search)),
     order,
@@ -183,7 +184,8 @@ const ALL = '';
 
 function GroupSelect({ robots }: { readonly robots: readonly FleetRobot[] }) {
   const fleet = useFleet();
-  const group = useFleetState((state) => state.group);
+  const wanted = useFleetState((state) => state.group);
+  const group = groupShown(wanted, robots);
   const names = groupsIn(robots);
   if (names.length === 0) return null;
   return (

@@ -55,6 +55,10 @@ export function matches(robot: FleetRobot, search: string): boolean {
     .every((word) => text.includes(word));
 }
 
+/** The chosen group of robots; null, which is all of them, where the last robot has left it. */
+export const groupShown = (group: string | null, robots: readonly FleetRobot[]): string | null =>
+  group !== null && robots.some(({ groups }) => groups.includes(group)) ? group : null;
+
 /** The names of all groups of robots, in order. */
 export function groupsIn(robots: readonly FleetRobot[]): readonly string[] {
   return [...new Set(robots.flatMap(({ groups }) => groups))].sort((one, other) =>
