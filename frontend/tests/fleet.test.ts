@@ -143,6 +143,14 @@ test('a group that its last robot leaves is not searched for any more', async ({
   await expect(cards).toHaveCount(8);
 });
 
+test('selected robots that the search hides are named', async ({ page, url }) => {
+  await at(page, url, 'Fleet');
+  const actions = page.getByRole('group', { name: '3 robots selected' });
+  await expect(actions).not.toContainText('not shown');
+  await page.getByRole('searchbox', { name: 'Search robots' }).fill('arm 2');
+  await expect(actions).toContainText('Selected too, but not shown: Arm 1 and Arm 4.');
+});
+
 test('several groups go to the selected robots; what is replaced and what does not fit is said before', async ({
   page,
   url,

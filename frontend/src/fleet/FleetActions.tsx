@@ -17,7 +17,13 @@ import { commonGroups, slotOf } from './slots.ts';
 import { RangeField } from './RangeField.tsx';
 import styles from './Fleet.module.css';
 
-export function FleetActions({ mayDrive }: { readonly mayDrive: boolean }) {
+interface FleetActionsProps {
+  readonly mayDrive: boolean;
+  /** The robots in view: search and group hide the others, also selected ones. */
+  readonly shown: readonly FleetRobot[];
+}
+
+export function FleetActions({ mayDrive, shown }: FleetActionsProps) {
   const fleet = useFleet();
   const robots = useFleetState((state) => state.robots);
   const selected = useFleetState((state) => state.selected);
@@ -47,6 +53,7 @@ export function FleetActions({ mayDrive }: { readonly mayDrive: boolean }) {
         </>
       )}
       <Unable robots={chosen} />
+      <Hidden robots={chosen.filter((one) => !shown.includes(one))} />
       <p role="alert" className={styles.warning}>
         {problem}
       </p>
@@ -157,6 +164,13 @@ function Grouping({ robots, ids, act }: GroupingProps) {
       )}
     </form>
   );
+}
+
+/** Those of the selected robots that search or group hide. */
+function Hidden({ robots }: { readonly robots: readonly FleetRobot[] }) {
+  if (robots.length === 0) return null;
+  const names = words.numbers.formatNames(robots.map(({ name }) => name));
+  return <p className={styles.warning}>{words.fleet.hidden({ names })}</p>;
 }
 
 /** Those of the selected robots that take no part, by name and reason. */

@@ -148,7 +148,7 @@ function Robots({ mayDrive, first }: { readonly mayDrive: boolean; readonly firs
         </Button>
         {selected.size === 0 && <p className={styles.dim}>{words.fleet.selectHint}</p>}
       </div>
-      {selected.size > 0 && <FleetActions mayDrive={mayDrive} />}
+      {selected.size > 0 && <FleetActions mayDrive={mayDrive} shown={shown} />}
       {driven !== null && (
         <DrivePanel
           robot={robots.find(({ id }) => id === driven.robot.id) ?? driven.robot}

@@ -2707,6 +2707,7 @@ export interface Messages {
     readonly doesNotFit: (values: { readonly boards: string }) => string;
     readonly replaces: (values: { readonly slot: number; readonly names: string }) => string;
     readonly unable: (values: { readonly names: string }) => string;
+    readonly hidden: (values: { readonly names: string }) => string;
     readonly noneAble: (values: { readonly reason: string }) => string;
     readonly version: (values: { readonly version: string }) => string;
     readonly because: (values: { readonly name: string; readonly reason: string }) => string;
