@@ -151,6 +151,27 @@ test('selected robots that the search hides are named', async ({ page, url }) =>
   await expect(actions).toContainText('Selected too, but not shown: Arm 1 and Arm 4.');
 });
 
+test('by keyboard no control of a card is reached under the bar of the selection', async ({ page, url }) => {
+  await page.setViewportSize({ width: 1024, height: 600 });
+  await at(page, url, 'Fleet');
+  await page.getByRole('button', { name: 'GO' }).focus();
+  const isCovered = (): Promise<boolean> =>
+    page.evaluate(() => {
+      const focused = document.activeElement;
+      const { x, y, width, height } = focused?.getBoundingClientRect() ?? new DOMRect();
+      const top = document.elementFromPoint(x + width / 2, y + height / 2);
+      return top !== focused && focused?.contains(top) !== true;
+    });
+  const seen: string[] = [];
+  while (!seen.at(-1)?.startsWith('Select Arm 7')) {
+    await page.keyboard.press('Shift+Tab');
+    const name = await page.evaluate(() => document.activeElement?.getAttribute('aria-label') ?? '');
+    seen.push(`${name}${(await isCovered()) ? ' is covered' : ''}`);
+  }
+  expect(seen).toContain('Open Arm 1');
+  expect(seen.filter((one) => one.endsWith('is covered'))).toEqual([]);
+});
+
 test('several groups go to the selected robots; what is replaced and what does not fit is said before', async ({
   page,
   url,

@@ -71,7 +71,13 @@ export const FleetCard = memo(function FleetCard({
       <footer className={styles.foot}>
         <span className={styles.dim}>{words.fleet.version({ version: robot.version })}</span>
         {robot.page !== '' && (
-          <a className={styles.open} href={robot.page} target="_blank" rel="noreferrer">
+          <a
+            className={styles.open}
+            href={robot.page}
+            target="_blank"
+            rel="noreferrer"
+            aria-label={words.fleet.openPage({ name: robot.name })}
+          >
             {words.fleet.open}
           </a>
         )}

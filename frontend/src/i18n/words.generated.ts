@@ -2713,6 +2713,7 @@ export interface Messages {
     readonly because: (values: { readonly name: string; readonly reason: string }) => string;
     readonly drives: (values: { readonly name: string }) => string;
     readonly open: string;
+    readonly openPage: (values: { readonly name: string }) => string;
     readonly running: (values: { readonly name: string }) => string;
     readonly runningSlot: (values: { readonly slot: number }) => string;
     readonly lastSeen: (values: { readonly age: string }) => string;
