@@ -245,6 +245,10 @@ test('what does not work is said in words', async ({ page, url }) => {
   await expect(page.getByText('7 of 8 stopped. Not reached: Arm 6.')).toBeVisible();
   await at(page, url, 'Fleet, no robots');
   await expect(page.getByText('No robots yet')).toBeVisible();
+  await expect(page.getByText('No robot needs a person')).toHaveCount(0);
+  await at(page, url, 'Fleet, nothing heard yet');
+  await expect(page.getByText('Nothing has been heard of the robots yet.')).toBeVisible();
+  await expect(page.getByText('No robots yet')).toHaveCount(0);
   await at(page, url, 'Fleet, broker lost');
   await expect(page.getByText('The broker cannot be reached.')).toBeVisible();
 });

@@ -18,7 +18,7 @@ import { Events, Tasks } from './FleetWork.tsx';
 import { CueList } from './CueList.tsx';
 import { FleetContext, useFleet, useFleetState } from './context.ts';
 import type { Driving } from './driving.ts';
-import type { Fleet } from './fleetStore.ts';
+import type { Fleet, FleetState } from './fleetStore.ts';
 import { stopText } from './stopText.ts';
 import { groupShown, groupsIn, inOrder, matches, needsPerson, type Order } from './robots.ts';
 import styles from './Fleet.module.css';
@@ -55,16 +55,27 @@ export function FleetPage({ fleet, mayDrive, hasOwnRobot, driven = null }: Fleet
 function Header({ hasOwnRobot }: Pick<FleetPageProps, 'hasOwnRobot'>) {
   const site = useFleetState((state) => state.site);
   const robots = useFleetState((state) => state.robots);
+  const isCurrent = useFleetState(isHeard);
   const waiting = robots.filter(needsPerson).length;
   return (
     <header className={styles.header}>
       <div>
         <h1>{words.fleet.title}</h1>
-        <p className={styles.dim}>{words.fleet.siteCount({ site, count: robots.length })}</p>
+        {site !== '' && <p className={styles.dim}>{words.fleet.siteCount({ site, count: robots.length })}</p>}
       </div>
       <p className={styles.summary} role="status">
-        <Mark truth={waiting === 0 ? 'confirmed' : 'warning'} />
-        {waiting === 0 ? words.fleet.allWell : words.fleet.needPerson({ count: waiting })}
+        {waiting > 0 && (
+          <>
+            <Mark truth="warning" />
+            {words.fleet.needPerson({ count: waiting })}
+          </>
+        )}
+        {waiting === 0 && isCurrent && robots.length > 0 && (
+          <>
+            <Mark truth="confirmed" />
+            {words.fleet.allWell}
+          </>
+        )}
       </p>
       <a className={styles.open} href="./">
         {hasOwnRobot ? words.fleet.ownRobot : words.fleet.makeGroups}
@@ -72,6 +83,10 @@ function Header({ hasOwnRobot }: Pick<FleetPageProps, 'hasOwnRobot'>) {
     </header>
   );
 }
+
+/** What the page shows is what the robots say now. */
+const isHeard = ({ problem, broker }: FleetState): boolean =>
+  problem === null && broker?.status === 'connected';
 
 /** What stands between this page and the robots, and what the latest STOP did. */
 function Problems() {
@@ -98,8 +113,8 @@ interface Driven {
   readonly driving: Driving;
 }
 
-function driveOf(fleet: Fleet, id: string): Driven | null {
-  const robot = fleet.store.getState().robots.find((one) => one.id === id);
+function driveOf(fleet: Fleet, id: string, known?: FleetRobot): Driven | null {
+  const robot = fleet.store.getState().robots.find((one) => one.id === id) ?? known;
   return robot === undefined ? null : { robot, driving: fleet.drive(id) };
 }
 
@@ -113,13 +128,34 @@ function Robots({ mayDrive, first }: { readonly mayDrive: boolean; readonly firs
   const [driven, setDriven] = useState<Driven | null>(() => (first === null ? null : driveOf(fleet, first)));
   const drive = useCallback((id: string) => setDriven(driveOf(fleet, id)), [fleet]);
   const stopOne = useCallback((id: string) => void fleet.stop([id]), [fleet]);
+  const isCurrent = useFleetState(isHeard);
   const group = groupShown(wanted, robots);
   const shown = inOrder(
     robots.filter((one) => (group === null || one.groups.includes(group)) && matches(one, search)),
     order,
   );
+  const panel = driven !== null && (
+    <DrivePanel
+      robot={robots.find(({ id }) => id === driven.robot.id) ?? driven.robot}
+      driving={driven.driving}
+      onAgain={() => setDriven(driveOf(fleet, driven.robot.id, driven.robot))}
+      onClose={() => {
+        driven.driving.end();
+        setDriven(null);
+      }}
+    />
+  );
   if (robots.length === 0) {
-    return <EmptyState title={words.fleet.none} hint={words.fleet.noneHint} className={styles.empty} />;
+    return (
+      <>
+        {panel}
+        {isCurrent ? (
+          <EmptyState title={words.fleet.none} hint={words.fleet.noneHint} className={styles.empty} />
+        ) : (
+          <p className={styles.dim}>{words.fleet.notHeard}</p>
+        )}
+      </>
+    );
   }
   const isAll = shown.length > 0 && shown.every(({ id }) => selected.has(id));
   return (
@@ -149,17 +185,7 @@ function Robots({ mayDrive, first }: { readonly mayDrive: boolean; readonly firs
         {selected.size === 0 && <p className={styles.dim}>{words.fleet.selectHint}</p>}
       </div>
       {selected.size > 0 && <FleetActions mayDrive={mayDrive} shown={shown} />}
-      {driven !== null && (
-        <DrivePanel
-          robot={robots.find(({ id }) => id === driven.robot.id) ?? driven.robot}
-          driving={driven.driving}
-          onAgain={() => drive(driven.robot.id)}
-          onClose={() => {
-            driven.driving.end();
-            setDriven(null);
-          }}
-        />
-      )}
+      {panel}
       {shown.length === 0 ? (
         <EmptyState title={words.fleet.noMatch} hint={words.fleet.noMatchHint} />
       ) : (

@@ -2672,6 +2672,7 @@ export interface Messages {
     readonly noGateway: string;
     readonly gatewayRefuses: (values: { readonly detail: string }) => string;
     readonly noBroker: (values: { readonly detail: string }) => string;
+    readonly notHeard: string;
     readonly none: string;
     readonly noneHint: string;
     readonly robots: string;

@@ -92,6 +92,7 @@ const STATES: readonly Named[] = [
   { name: 'Fleet, one driven by another person', state: { robots: ROBOTS }, driven: 'Arm 2' },
   { name: 'Fleet, refused', state: FLEET_AT_WORK, refuses: true },
   { name: 'Fleet, no robots', state: {} },
+  { name: 'Fleet, nothing heard yet', state: { site: '', broker: null } },
   {
     name: 'Fleet, broker lost',
     state: { robots: ROBOTS, broker: { status: 'connecting', detail: 'The broker cannot be reached.' } },
