@@ -67,7 +67,7 @@ function Controls({ robot, driving, onAgain }: Omit<DrivePanelProps, 'onClose'>)
       if (!(error instanceof GatewayProblem)) throw error;
       driving.store.setState({ refusal: refusalText(error) });
     });
-  const isBlocked = state.lease !== 'driving' || isStopped || state.motion === null;
+  const isBlocked = state.lease !== 'driving' || isStopped || state.motion === null || state.isQuiet;
   const pose = poseOf(motion, profile.servos);
   const durationOf = (servo: number, position: number, isLeap: boolean): number =>
     moveDurationMs(isLeap ? 'leap' : 'hand', [{ servo, position }], family, (one) =>
@@ -126,7 +126,7 @@ interface LeaseProps {
 }
 
 /** Who drives, and how to drive again. */
-function Lease({ state: { link, lease, driver, reason }, driving, onAgain }: LeaseProps) {
+function Lease({ state: { link, lease, driver, reason, isQuiet }, driving, onAgain }: LeaseProps) {
   if (link === 'ended') {
     return (
       <div className={styles.lease} role="status">
@@ -143,8 +143,8 @@ function Lease({ state: { link, lease, driver, reason }, driving, onAgain }: Lea
   return (
     <div className={styles.lease} role="status">
       <span className={styles.who}>
-        <Mark truth={lease === 'driving' ? 'confirmed' : 'unknown'} />
-        {leaseText(lease, driver)}
+        <Mark truth={lease === 'driving' && !isQuiet ? 'confirmed' : 'unknown'} />
+        {lease === 'driving' && isQuiet ? words.drive.quiet : leaseText(lease, driver)}
       </span>
       {lease === 'none' && (
         <Button wide onPress={() => driving.request()}>

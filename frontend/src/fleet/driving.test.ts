@@ -91,6 +91,20 @@ test('a target of this page is shown until the robot says its own', async () => 
   expect(driving.store.getState().own.size).toBe(0);
 });
 
+test('where no report comes, what is shown is said to be old, and nothing waits for the next one', async () => {
+  const { driving, sent, live, clock } = driven();
+  driving.move(1, 1000, 0);
+  await clock.advance(1000);
+  expect(driving.store.getState()).toMatchObject({ isQuiet: true, own: new Map() });
+  driving.move(1, 1100, 0);
+  live('late');
+  expect(movesIn(sent)).toEqual([]);
+  expect(driving.store.getState().isQuiet).toBe(false);
+  driving.end();
+  await clock.advance(1000);
+  expect(driving.store.getState().isQuiet).toBe(false);
+});
+
 test('the end gives the lease back; a connection that is lost is an end, too', () => {
   const ending = driven();
   ending.driving.end();

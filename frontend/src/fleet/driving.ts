@@ -8,6 +8,8 @@ import type { DriveLease, DriveLive, DriveNews } from './drive.generated.ts';
 
 /** So long a target of this page is shown in place of the robot's own, which comes a little later; then it is not sent any more, either. */
 const OWN_MS = 400;
+/** A robot that is driven reports twenty times a second: without a report for so long, nothing is known of it. */
+const QUIET_MS = 1000;
 
 export interface DrivingState {
   readonly link: 'opening' | 'open' | 'ended';
@@ -17,6 +19,8 @@ export interface DrivingState {
   readonly driver: string | null;
   readonly latch: boolean;
   readonly motion: DriveLive['motion'];
+  /** There has been no report for a while: what is shown is old. */
+  readonly isQuiet: boolean;
   /** Targets of this page that the robot has not confirmed yet. */
   readonly own: ReadonlyMap<number, number>;
   /** Why the latest wish was refused; empty where it was not. */
@@ -43,16 +47,17 @@ interface Waiting {
 
 export function createDriving(
   open: (listener: DriveListener) => DriveChannel,
-  { now }: Pick<Clock, 'now'>,
+  { now, after }: Clock,
 ): Driving {
   const store = createStore<DrivingState>(() => ({
     ...{ link: 'opening', reason: '', lease: 'requested', driver: null, latch: false, motion: null },
-    ...{ own: new Map(), refusal: '' },
+    ...{ isQuiet: false, own: new Map(), refusal: '' },
   }));
   let nonce: string | null = null;
   let isSeen = true;
   let waiting: Waiting | null = null;
   let ownMs = 0;
+  let stopWaiting = (): void => undefined;
 
   const hasEnded = (): boolean => store.getState().link === 'ended';
   const drives = (): boolean => store.getState().lease === 'driving' && !hasEnded();
@@ -74,10 +79,14 @@ export function createDriving(
 
   function heardLive(news: DriveLive): void {
     nonce = news.nonce;
+    stopWaiting();
+    stopWaiting = after(QUIET_MS, () => {
+      if (drives()) store.setState({ isQuiet: true, own: new Map() });
+    });
     const { own, motion } = store.getState();
     const isConfirmed = news.latch || now() - ownMs > OWN_MS;
     store.setState({
-      ...{ latch: news.latch, motion: news.motion ?? motion },
+      ...{ latch: news.latch, motion: news.motion ?? motion, isQuiet: false },
       ...(isConfirmed && own.size > 0 && { own: new Map() }),
     });
     if (news.latch) waiting = null;
@@ -95,6 +104,7 @@ export function createDriving(
   const channel = open({
     heard,
     ended: (reason) => {
+      stopWaiting();
       if (!hasEnded()) store.setState({ link: 'ended', reason, lease: 'none', own: new Map() });
     },
   });
@@ -102,7 +112,7 @@ export function createDriving(
   return {
     store,
     move(servo, position, durationMs) {
-      if (!drives() || !isSeen || store.getState().latch) return;
+      if (!drives() || !isSeen || store.getState().latch || store.getState().isQuiet) return;
       ownMs = now();
       const before = waiting !== null && ownMs - waiting.atMs <= OWN_MS ? waiting.targets : [];
       waiting = { targets: new Map([...before, [servo, position]]), durationMs, atMs: ownMs };
@@ -122,6 +132,7 @@ export function createDriving(
     },
     end() {
       if (hasEnded()) return;
+      stopWaiting();
       channel.send({ type: 'release' });
       store.setState({ link: 'ended', reason: '', lease: 'none' });
     },

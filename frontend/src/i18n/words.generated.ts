@@ -2785,6 +2785,7 @@ export interface Messages {
     readonly open: string;
     readonly title: (values: { readonly name: string }) => string;
     readonly requesting: string;
+    readonly quiet: string;
     readonly ended: string;
     readonly again: string;
   };
