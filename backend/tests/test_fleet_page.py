@@ -13,6 +13,7 @@ import pytest
 from httpx2 import AsyncClient
 
 from servodeck.api.app import create_app
+from servodeck.fleet.broker import parse_broker
 from servodeck.fleet.messages import ResumeRequest
 from servodeck.fleet.service import FleetService
 from servodeck.fleet.view import GROUPS_FILE
@@ -300,6 +301,20 @@ async def test_a_page_that_is_closed_has_no_driver_any_more_and_the_group_is_sto
         await page.ask("run", runs=[{"robot": "arm-1", "slot": 4}], times=60000)
         await awaits(lambda: first.count(RUN) == 1)
         await awaits(lambda: first.count(STOP) > 0)  # nobody asks for changes any more
+
+
+async def test_a_request_that_waits_on_is_no_page_that_watches(monkeypatch: pytest.MonkeyPatch) -> None:
+    for name, seconds in (("LONGEST_WAIT_S", 5.0), ("PRESENT_S", 0.2)):
+        monkeypatch.setattr(f"servodeck.fleet.view.{name}", seconds)
+    view = FleetService(parse_broker("mqtt://anna@127.0.0.1:1", "", None), LAB, None, wall_clock_ms).view
+    revision = (await view.changes(0)).revision
+    left = asyncio.create_task(view.changes(revision))  # as a server goes on with it when its page is closed
+    await asyncio.sleep(0.1)
+    assert view.is_watched
+    await asyncio.sleep(0.3)
+    assert not left.done()
+    assert not view.is_watched
+    left.cancel()
 
 
 async def test_groups_of_robots_are_kept(stage: Stage, tmp_path: Path) -> None:

@@ -5,21 +5,11 @@ from typing import Any, cast
 
 import pytest
 
-from servodeck.api.app import create_app
-from servodeck.fleet.broker import parse_broker
 from servodeck.fleet.console import Console
 from servodeck.fleet.driving import Share
 from servodeck.fleet.heard import Robot
-from servodeck.fleet.service import FleetService
 from servodeck.fleet.tasks import MOST_TASKS, Order, Tasks
 from servodeck.fleet.view import FleetGroups, FleetRobot, FleetView
-from servodeck.library.library import wall_clock_ms
-from servodeck.robot.control import Control
-from tests.fake_port import FakePorts
-from tests.knocking import scope_of
-from tests.mosquitto import LAB
-from tests.running import NO_LIBRARY, PORT, entrance_to
-from tests.test_gate import headers_of
 
 
 class Site:
@@ -46,34 +36,6 @@ async def test_of_many_tasks_the_latest_are_kept() -> None:
         tasks.begin(Order("run", ["Bow"], "anna", done_at_once), ["arm-1"])
         await asyncio.sleep(0.001)
     assert len((await view.changes(0)).tasks) == MOST_TASKS
-
-
-async def test_who_has_left_does_not_watch(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Otherwise a group would run on for as long as an answer is waited for."""
-    monkeypatch.setattr("servodeck.fleet.view.EACH_S", 0.02)
-    service = FleetService(parse_broker("mqtt://anna@127.0.0.1:1"), LAB, None, wall_clock_ms)
-    app = create_app(
-        Control(FakePorts(), asyncio.get_running_loop().time, "doc", None),
-        NO_LIBRARY,
-        entrance_to(),
-        fleet=service,
-    )
-    host = f"localhost:{PORT}"
-    scope = scope_of("http", "GET", "/api/fleet", headers_of(host, f"http://{host}"))
-    inbox: asyncio.Queue[dict[str, Any]] = asyncio.Queue()
-    inbox.put_nowait({"type": "http.request"})
-    sent: list[Any] = []
-
-    async def send(message: Any) -> None:
-        sent.append(message)
-
-    revision = (await service.view.changes(0)).revision
-    asked = asyncio.create_task(app({**scope, "query_string": f"since={revision}".encode()}, inbox.get, send))
-    await asyncio.sleep(0.2)
-    assert not asked.done(), sent
-    inbox.put_nowait({"type": "http.disconnect"})
-    async with asyncio.timeout(2):
-        await asked
 
 
 async def test_a_defect_at_one_robot_keeps_no_stop_from_the_others() -> None:

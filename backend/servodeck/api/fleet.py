@@ -10,7 +10,7 @@ from typing import Annotated
 
 from fastapi import Depends, Query
 from pydantic import Field
-from starlette.requests import HTTPConnection, Request
+from starlette.requests import HTTPConnection
 
 from servodeck.api.routes import DRIVER, STOPPER, VIEWER, leaves, routes
 from servodeck.callers import Caller
@@ -86,10 +86,10 @@ fleet_api = routes("/api/fleet", "fleet")
 
 @fleet_api.get("", dependencies=[VIEWER])
 async def changes(
-    request: Request, fleet: OfFleet, since: Annotated[int, Query(ge=0, description="0: all of it.")] = 0
+    fleet: OfFleet, since: Annotated[int, Query(ge=0, description="0: all of it.")] = 0
 ) -> FleetChanges:
-    """What has changed since that revision; waits until something has, for 10 s at most."""
-    return await fleet.view.changes(since, request.is_disconnected)
+    """What has changed since that revision; waits until something has, for a second or so at most."""
+    return await fleet.view.changes(since)
 
 
 @fleet_api.post("/stop", dependencies=[STOPPER, leaves("fleetStopped")])

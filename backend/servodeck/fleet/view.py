@@ -8,7 +8,7 @@ Knows what a console has heard; no broker, no HTTP.
 import asyncio
 import logging
 from collections import deque
-from collections.abc import Awaitable, Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Annotated, Literal, TypeVar
 
@@ -29,9 +29,9 @@ CUES_FILE = "fleet-cues.json"
 KEPT_EVENTS = 200
 # How often a page hears of changes at most: a viewer may ask twice a second.
 EACH_S = 0.6
-# A page that waits longer could take its gateway for dead.
-LONGEST_WAIT_S = 10.0
-# A page asks again at once; a request that was lost takes a second.
+# Nobody tells that the page behind a request that waits is gone: a page has to ask again soon.
+LONGEST_WAIT_S = 1.2
+# It asks again at once; a request that was lost takes a second.
 PRESENT_S = 2.5
 AGE_STEP_MS = 10_000
 log = logging.getLogger("servodeck.fleet")
@@ -185,11 +185,6 @@ class Basis:
         )
 
 
-async def stays() -> bool:
-    """Of one that cannot leave."""
-    return False
-
-
 class FleetView:
     def __init__(self, console: Console, site: str, folder: Path | None, now_ms: Callable[[], int]) -> None:
         """`now_ms` since 1970. Without a folder groups are forgotten at the end."""
@@ -213,21 +208,18 @@ class FleetView:
         self._seen_at_ms: dict[str, int] = {}
         self._asked_at_s = -PRESENT_S
 
-    async def changes(self, since: int, has_left: Callable[[], Awaitable[bool]] = stays) -> FleetChanges:
-        """Waits until there are any, for some seconds at most, and while who asks has not left. A `since` of
-        another start gets all of it.
-        """
+    async def changes(self, since: int) -> FleetChanges:
+        """Waits until there are any, for a moment at most. A `since` of another start gets all of it."""
         clock = asyncio.get_running_loop().time
-        until_s = clock() + LONGEST_WAIT_S
-        while not await has_left():
-            self._asked_at_s = clock()
+        self._asked_at_s = clock()
+        until_s = self._asked_at_s + LONGEST_WAIT_S
+        while True:
             self._look()
             if not 0 < since <= self._revision:
                 return self._since(0)
             if since < self._revision or clock() >= until_s:
                 return self._since(since)
             await asyncio.sleep(EACH_S)
-        return self._since(since)
 
     @property
     def is_watched(self) -> bool:

@@ -14,8 +14,6 @@ import { request } from '../robot/request.ts';
 import { openDriveChannel, type DriveChannel, type DriveListener } from './driveChannel.ts';
 
 const ANSWER_WITHIN_MS = 5000;
-/** The gateway answers when something changes, or after 10 s. */
-const CHANGES_WITHIN_MS = 20_000;
 
 export interface FleetApi {
   /** What has changed since that revision; 0: all of it. */
@@ -47,7 +45,7 @@ export const gatewayFleet: FleetApi = {
   changes: (since) =>
     answerOf<FleetChanges>(
       request('get', '/api/fleet', {
-        withinMs: CHANGES_WITHIN_MS,
+        withinMs: ANSWER_WITHIN_MS,
         query: { since },
       }),
     ),
