@@ -17,6 +17,7 @@ test('who needs a person comes first, and the head says how many', async ({ page
   await expect(cards.nth(2)).toContainText('Last seen 2 min. ago');
   await expect(cards.nth(3)).toContainText('Stopped by Ben');
   await expect(cards.nth(4)).toContainText('Battery low');
+  await expect(cards.nth(4)).toContainText('Running Bow');
   await expect(page.getByText('Arm 5: The robot is not connected.')).toBeVisible();
   await expect(page.getByRole('button', { name: 'Try 1 again' })).toBeEnabled();
 });

@@ -61,6 +61,7 @@ export const FleetCard = memo(function FleetCard({
         </div>
         <div className={styles.facts}>
           <Chip truth={TRUTH[condition]}>{conditionText(robot, condition)}</Chip>
+          {condition === 'low' && robot.state?.running && <span>{runningText(robot.state.running)}</span>}
           <span>{robot.robot === '' ? boardName(family) : robot.robot}</span>
           <span className={styles.dim}>{driverText(robot)}</span>
           <span className={styles.volts} data-low={isBatteryLow(robot)}>

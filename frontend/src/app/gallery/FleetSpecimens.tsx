@@ -21,7 +21,11 @@ const ROBOTS: FleetChanges['robots'] = [
     ...{ slots: SLOTS, groups: ['Table 1'] },
     state: { driver: 'Anna', running: { slot: 3, name: 'Wave' } },
   }),
-  fleetRobot('Arm 3', { slots: SLOTS, groups: ['Table 2'], state: { batteryMv: 6100 } }),
+  fleetRobot('Arm 3', {
+    slots: SLOTS,
+    groups: ['Table 2'],
+    state: { batteryMv: 6100, running: { slot: 4, name: 'Bow' } },
+  }),
   fleetRobot('Arm 4', { slots: SLOTS, state: { latch: true, stoppedBy: 'Ben' } }),
   fleetRobot('Arm 5', { state: { link: 'lost', batteryMv: null } }),
   fleetRobot('Arm 6', { presence: 'silent', seenMsAgo: 130_000 }),
