@@ -225,7 +225,7 @@ class Console:
         """STOP for these alone. Waits until all have answered."""
         sent = {name: self.stop(name) for name in gateways}
         wait(sent.values(), timeout_s)
-        missing = {name for name, answered in sent.items() if not answered.done()}
+        missing = {name for name, answered in sent.items() if answered.cancel()}  # nobody waits any more
         errors = {name: sent[name].exception() for name in sent.keys() - missing}
         missing |= {name for name, error in errors.items() if isinstance(error, NoAnswerError)}
         refused = {n: error.detail for n, error in errors.items() if isinstance(error, RefusedError)}

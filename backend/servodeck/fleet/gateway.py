@@ -207,6 +207,7 @@ class FleetGateway:
             self._control.stop(Cause("person", stops[0][0].user))
         except GatewayError as raised:
             error = raised
+        self._sessions.stopped(max(received.at_s for _, received in stops))
         for origin, received in to_be_answered(stops):
             if self._is_first(received):
                 self._send(received, encode(self._stopped(origin, error)))

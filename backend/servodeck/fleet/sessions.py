@@ -72,6 +72,8 @@ class Sessions:
             CancelRequest: self._cancel,
         }
         self._promises = Promises(control, self._keep_promise, reports.note_start)
+        # When it was done, and when it had come.
+        self._stop = (control.stopped_s, control.stopped_s)
 
     @property
     def drives(self) -> bool:
@@ -95,10 +97,19 @@ class Sessions:
             self._control.leave(session)
         self._sessions.clear()
 
+    def stopped(self, came_s: float) -> None:
+        """STOP was done just now, of which the latest one came at that time over the broker."""
+        self._stop = (self._control.stopped_s, came_s)
+
+    def _stop_came_s(self) -> float:
+        """The latest one, over the broker or not."""
+        done_s, came_s = self._stop
+        return came_s if done_s == self._control.stopped_s else self._control.stopped_s
+
     async def _answered(self, session: FleetSession, accepted: Accepted, send: Send) -> None:
         n = accepted.request.n
         try:
-            if isinstance(accepted.request, ResumeRequest) and self._control.stopped_s >= accepted.at_s:
+            if isinstance(accepted.request, ResumeRequest) and self._stop_came_s() >= accepted.at_s:
                 raise CancelledError("STOP was pressed after this was requested.")
             done = await self._acts[type(accepted.request)](session, accepted.request)
         except GatewayError as error:
