@@ -13,7 +13,7 @@ import { useAsking } from './asking.ts';
 import { useFleet, useFleetState } from './context.ts';
 import { FleetDownload } from './FleetDownload.tsx';
 import { conditionOf, takesMotion } from './robots.ts';
-import { commonGroups, slotOf } from './slots.ts';
+import { choiceFor, commonGroups, slotOf, type Choice } from './slots.ts';
 import { RangeField } from './RangeField.tsx';
 import styles from './Fleet.module.css';
 
@@ -47,7 +47,7 @@ export function FleetActions({ mayDrive, shown }: FleetActionsProps) {
               {words.fleet.resume({ count: stoppedIn(chosen).length })}
             </Button>
           )}
-          <Run robots={chosen} act={act} />
+          <Run robots={chosen} selection={[...selected].sort().join(' ')} act={act} />
           <FleetDownload robots={chosen} />
           <Grouping robots={robots} ids={ids} act={ask} />
         </>
@@ -69,15 +69,18 @@ interface PartProps {
   act(work: () => Promise<unknown>): void;
 }
 
-function Run({ robots, act }: PartProps) {
+function Run({ robots, selection, act }: PartProps & Pick<Choice, 'selection'>) {
   const fleet = useFleet();
   const able = robots.filter(takesMotion);
   const names = commonGroups(able);
-  const [wanted, setWanted] = useState('');
+  const [before, setChoice] = useState<Choice>({ selection, name: '' });
+  const choice = choiceFor(before, selection, names);
+  if (choice !== before) setChoice(choice);
   const [times, setTimes] = useState(1);
   const [wantsTogether, setTogether] = useState(true);
   const together = wantsTogether && able.length > 1;
-  const name = names.includes(wanted) ? wanted : (names[0] ?? '');
+  const { name } = choice;
+  const isCommon = names.includes(name);
   if (names.length === 0)
     return able.length === 0 ? null : <p className={styles.dim}>{words.fleet.noCommon}</p>;
   const runs = able.map((robot) => ({ robot: robot.id, slot: slotOf(robot, name) }));
@@ -86,8 +89,8 @@ function Run({ robots, act }: PartProps) {
       <Select
         label={words.fleet.groupToRun}
         value={name}
-        options={names.map((value) => ({ value, label: value }))}
-        onChange={setWanted}
+        options={(isCommon ? names : [name, ...names]).map((value) => ({ value, label: value }))}
+        onChange={(wanted) => setChoice({ selection, name: wanted })}
       />
       <RangeField
         label={words.fleet.times}
@@ -110,10 +113,12 @@ function Run({ robots, act }: PartProps) {
       <Button
         icon="play"
         tone="primary"
+        isDisabled={!isCommon}
         onPress={() => act(() => fleet.api.run({ name, runs, times, together }))}
       >
         {words.fleet.run({ count: able.length })}
       </Button>
+      {!isCommon && <p className={styles.warning}>{words.fleet.notCommon({ name })}</p>}
     </div>
   );
 }

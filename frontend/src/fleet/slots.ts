@@ -11,6 +11,22 @@ export function commonGroups(robots: readonly FleetRobot[]): readonly string[] {
     .sort((one, other) => one.localeCompare(other, undefined, { numeric: true }));
 }
 
+/** The group to run, and for which selection it was chosen. */
+export interface Choice {
+  readonly selection: string;
+  readonly name: string;
+}
+
+/**
+ * Another selection may bring another group. For the same one it stays, also where a robot has come or gone meanwhile and not all have
+ * it any more: a press shall run nothing that was not read before.
+ */
+export function choiceFor(before: Choice, selection: string, names: readonly string[]): Choice {
+  const [first] = names;
+  if (first === undefined || (before.selection === selection && before.name !== '')) return before;
+  return { selection, name: names.includes(before.name) ? before.name : first };
+}
+
 /** The lowest slot with that group. */
 export function slotOf({ slots }: FleetRobot, name: string): number {
   return Math.min(...slots.filter((one) => one.name === name).map(({ slot }) => slot));

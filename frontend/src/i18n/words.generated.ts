@@ -2697,6 +2697,7 @@ export interface Messages {
     readonly selected: (values: { readonly count: number }) => string;
     readonly resume: (values: { readonly count: number }) => string;
     readonly noCommon: string;
+    readonly notCommon: (values: { readonly name: string }) => string;
     readonly groupToRun: string;
     readonly times: string;
     readonly run: (values: { readonly count: number }) => string;
