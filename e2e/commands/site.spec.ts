@@ -35,6 +35,7 @@ test('a site without a gateway works without a network, and is updated when a pe
   const dashboard = dashboardOf(page);
   await page.goto(server.url);
   await settled(dashboard);
+  await page.waitForLoadState('networkidle'); // it fetches its later parts while nobody does anything
 
   await context.setOffline(true);
   await page.reload();
