@@ -1,4 +1,4 @@
-"""What the page of a fleet is told, of robots that the test makes up."""
+"""What the fleet page gets of robots that the test defines."""
 
 import asyncio
 from typing import Any, cast

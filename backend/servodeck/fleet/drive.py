@@ -180,9 +180,8 @@ class DriveSession:
         other = self._driver.claim(self._robot, self)
         drives = self._drives
         if self._drove and not drives:
-            self._wants_lease = self._has_obtained = (
-                False  # it has passed to somebody else: a person asks for it again
-            )
+            # It has passed to somebody else: a person asks for it again.
+            self._wants_lease = self._has_obtained = False
         elif other is None and self._wants_lease and not self._has_asked and not drives:
             self._has_asked = True
             self._begin(self._ask())

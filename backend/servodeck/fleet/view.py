@@ -305,7 +305,7 @@ class FleetView:
             events=[event for revision, event in self._events if revision > since],
         )
 
-    def _robot(self, name: str, basis: "Basis") -> FleetRobot:
+    def _robot(self, name: str, basis: Basis) -> FleetRobot:
         about, state = basis.about, basis.state
         slots = about.slots if about else {}
         return FleetRobot(

@@ -169,7 +169,7 @@ function Robots({ mayDrive, first }: { readonly mayDrive: boolean; readonly firs
           value={search}
           onChange={({ target }) => fleet.store.setState({ search: target.value })}
         />
-        <GroupSelect robots={robots} />
+        <GroupSelect robots={robots} group={group} />
         <Select<Order>
           label={words.fleet.order}
           value={order}
@@ -208,10 +208,13 @@ function Robots({ mayDrive, first }: { readonly mayDrive: boolean; readonly firs
 
 const ALL = '';
 
-function GroupSelect({ robots }: { readonly robots: readonly FleetRobot[] }) {
+interface GroupSelectProps {
+  readonly robots: readonly FleetRobot[];
+  readonly group: string | null;
+}
+
+function GroupSelect({ robots, group }: GroupSelectProps) {
   const fleet = useFleet();
-  const wanted = useFleetState((state) => state.group);
-  const group = groupShown(wanted, robots);
   const names = groupsIn(robots);
   if (names.length === 0) return null;
   return (
