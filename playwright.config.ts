@@ -1,6 +1,7 @@
 // How the end-to-end tests meet a browser. Fixtures start their own gateways and boards on free ports, so tests may run
 // side by side and nothing has to be running before. A project is a way to a robot; tasks tagged `@everyWay` run over each.
 
+import { availableParallelism } from 'node:os';
 import { defineConfig } from '@playwright/test';
 import type { Way } from './e2e/fixtures/test.ts';
 import { browserArgs, findBrowser } from './scripts/browser.mjs';
@@ -11,8 +12,8 @@ export default defineConfig<object, { way: Way }>({
   testDir: 'e2e',
   outputDir: 'test-results',
   fullyParallel: true,
-  // Each with a browser, a gateway and a board of its own, which wait for each other most of the time.
-  workers: 2,
+  // Each has a browser, a gateway and a board, which use two processors at times: more at once would hold each other up.
+  workers: Math.max(1, Math.floor(availableParallelism() / 2)),
   // What one panel or a rarer way proves waits for `npm run test:all`.
   ...(process.env.EXHAUSTIVE === '1' ? {} : { grepInvert: /@exhaustive/ }),
   forbidOnly: Boolean(process.env.CI),

@@ -143,13 +143,16 @@ export class Locator {
       const element = this.element();
       if (!isVisible(element)) throw new Error(`not to be seen: ${this.selector}`);
       if (isRefused(element)) throw new Error(`disabled: ${this.selector}`);
+      if (!isMetAt(element, metAt(pointOf(element, position)))) {
+        element.scrollIntoView({ block: 'center', inline: 'center', behavior: 'instant' });
+        await realFrame();
+      }
       const at = pointOf(element, position);
-      if (at !== null) return at;
-      element.scrollIntoView({ block: 'center', inline: 'center', behavior: 'instant' });
-      await realFrame();
-      const scrolled = pointOf(element, position);
-      if (scrolled !== null) return scrolled;
-      throw new Error(`something else is before it: ${this.selector}`);
+      const met = metAt(at);
+      if (at !== null && isMetAt(element, met)) return at;
+      throw new Error(
+        `${met === null ? 'nothing of the page' : shortly(met)} is before it: ${this.selector}`,
+      );
     }, timeout);
   }
 
@@ -303,8 +306,10 @@ function pointOf(element: HTMLElement, position?: Point): Point | null {
   if (box === undefined) return null;
   const x = position === undefined ? box.x + box.width / 2 : box.x + position.x;
   const y = position === undefined ? box.y + box.height / 2 : box.y + position.y;
-  return isMetAt(element, document.elementFromPoint(x, y)) ? { x, y } : null;
+  return { x, y };
 }
+
+const metAt = (at: Point | null): Element | null => at && document.elementFromPoint(at.x, at.y);
 
 function isMetAt(element: HTMLElement, met: EventTarget | null): boolean {
   const label =
@@ -331,5 +336,7 @@ async function otherMet(element: HTMLElement, press: () => Promise<void>): Promi
 }
 
 function described({ type, target }: Event): string {
-  return `${type} on ${target instanceof Element ? target.outerHTML.slice(0, 200) : 'the page'}`;
+  return `${type} on ${target instanceof Element ? shortly(target) : 'the page'}`;
 }
+
+const shortly = (element: Element): string => element.outerHTML.slice(0, 200);

@@ -110,6 +110,13 @@ test('on TCP it answers one host after the other, one at a time', async () => {
   }
 });
 
+test('as through a USB adapter, a short packet comes in one piece', async () => {
+  const child = start('--stdio');
+  child.stdin.write(bytesOf(READ_BATTERY));
+  const piece = await new Promise<Uint8Array>((resolve) => child.stdout.once('data', resolve));
+  expect(hexOf(piece)).toBe(ANSWER);
+});
+
 test('--board says which board it is', async () => {
   const child = start('--stdio', '--board', 'lsc-16', '--baud', '0');
   child.stdin.write(bytesOf(run(8, 1)));

@@ -24,6 +24,8 @@ Faults: droppedByte, doubledByte, flippedByte, insertedByte, stray55 [=PROBABILI
 /** What the usual serial drivers buffer. */
 const DRIVER_BYTES = 4096;
 const DRAIN_POLL_MS = 50;
+/** The latency timer of usual USB adapters. */
+const ADAPTER_MS = 16;
 
 const startedAtMs = performance.now();
 
@@ -104,6 +106,30 @@ function openBusLog(path: string): BusLog {
   };
 }
 
+interface Adapter {
+  readonly send: (bytes: Uint8Array) => void;
+  /** Passes on what it has gathered. */
+  readonly flush: () => void;
+}
+
+/** The USB adapter: what the board sends within its latency goes on together, also where this program is late. */
+function createAdapter(passOn: (bytes: Uint8Array) => void): Adapter {
+  let gathered: Uint8Array[] = [];
+
+  function flush(): void {
+    if (gathered.length === 0) return;
+    passOn(Buffer.concat(gathered));
+    gathered = [];
+  }
+
+  function send(bytes: Uint8Array): void {
+    if (gathered.length === 0) setTimeout(flush, ADAPTER_MS);
+    gathered.push(bytes);
+  }
+
+  return { send, flush };
+}
+
 type Wire = Pick<BoardOptions, 'send' | 'onUnplug'>;
 type Build = (wire: Wire) => Board;
 
@@ -123,12 +149,16 @@ function feed(board: Board, source: Readable): void {
 }
 
 function serveStdio(build: Build, end: () => void): void {
-  const board = build({
-    send: (bytes) => process.stdout.write(bytes),
-    onUnplug: end,
-  });
+  const adapter = createAdapter((bytes) => process.stdout.write(bytes));
+  const board = build({ send: adapter.send, onUnplug: flushAndEnd });
+
+  function flushAndEnd(): void {
+    adapter.flush();
+    end();
+  }
+
   feed(board, process.stdin);
-  process.stdin.on('end', end);
+  process.stdin.on('end', flushAndEnd);
   // The reader is gone: nothing of us is wanted any more.
   process.stdout.on('error', end);
 }
@@ -136,7 +166,14 @@ function serveStdio(build: Build, end: () => void): void {
 /** One host at a time, as on a cable; the board stays on between two of them. */
 function serveTcp(build: Build, { host, port }: { host: string; port: number }, end: () => void): void {
   let client: Socket | null = null;
-  const board = build({ send: (bytes) => client?.write(bytes), onUnplug: end });
+  const adapter = createAdapter((bytes) => client?.write(bytes));
+  const board = build({
+    send: adapter.send,
+    onUnplug() {
+      adapter.flush();
+      end();
+    },
+  });
   const server = createServer({ noDelay: true }, (socket) => {
     socket.on('error', () => socket.destroy());
     if (client) {
