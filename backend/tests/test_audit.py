@@ -74,7 +74,7 @@ ACTS: dict[tuple[str, str], Act | None] = {
     ("POST", "/api/fleet/download"): "fleetAsked",
     ("POST", "/api/fleet/resume"): "fleetAsked",
     ("POST", "/api/fleet/tasks/{task}/retry"): "fleetAsked",
-    ("PUT", "/api/fleet/groups"): "fleetGrouped",
+    ("POST", "/api/fleet/groups"): "fleetGrouped",
     ("PUT", "/api/fleet/cues"): "fleetGrouped",
     ("PUT", "/api/robot"): "robotChosen",
     ("PUT", "/api/board"): ROBOT,

@@ -11,6 +11,7 @@ import pytest
 from servodeck.fleet.console import Console
 from servodeck.fleet.drive_messages import DriveRelease
 from servodeck.fleet.driving import ANSWER_S, FleetDriver, Share
+from servodeck.fleet.heard import Heard
 from servodeck.fleet.messages import Done, Started, State
 from servodeck.fleet.outcomes import RefusedError
 from servodeck.fleet.tasks import Order, Spread, Tasks
@@ -138,13 +139,16 @@ async def test_what_waits_for_a_lease_ends_with_a_stop(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr("servodeck.fleet.driving.stop_robots", lambda *_: None)
-    for stopped in ([ARM], None):
+    for stopped in ([ARM], None, "at its own page"):
         console = FakeConsole()
         console.grants = False
         driver = FleetDriver(cast("Console", console), lambda: True)
         task = asyncio.create_task(driver.run(ARM, 3, 1))
         await asyncio.sleep(1)
-        await driver.stop(stopped)
+        if isinstance(stopped, str):
+            console.stops += 1
+        else:
+            await driver.stop(stopped)
         await driver.resume(ARM)
         console.has_lease = True  # its driver has let it pass
         [error] = await asyncio.gather(task, return_exceptions=True)
@@ -164,6 +168,26 @@ async def test_a_resume_that_is_on_its_way_does_not_undo_a_stop(monkeypatch: pyt
     [error] = await asyncio.gather(task, return_exceptions=True)
     assert isinstance(error, RefusedError)
     assert console.verbs() == ["report"]
+
+
+@in_virtual_time
+async def test_a_resume_just_after_a_stop_is_not_undone_by_the_news_of_that_stop() -> None:
+    console = FakeConsole()
+    driver = FleetDriver(cast("Console", console), lambda: True)
+    task = asyncio.create_task(driver.resume(ARM))
+    await asyncio.sleep(0)
+    console.stops += 1  # the report that is awaited says so
+    await task
+    assert console.verbs() == ["report", "resume"]
+
+
+def test_each_stop_of_a_robot_is_counted_once() -> None:
+    heard = Heard(lambda: 0.0)
+    for latch in (True, True, False, True):
+        said = {**dict(state_of()), "instance": "i", "is_cloned": False, "latch": latch}
+        heard.state(ARM, State.model_construct(**said), 0.0)
+    [robot] = heard.robots()
+    assert robot.stops == 2
 
 
 @pytest.mark.parametrize("started", [None, "another", "this"])

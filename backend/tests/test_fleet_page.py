@@ -319,12 +319,27 @@ async def test_a_request_that_waits_on_is_no_page_that_watches(monkeypatch: pyte
 
 async def test_groups_of_robots_are_kept(stage: Stage, tmp_path: Path) -> None:
     async with page_of(stage, tmp_path) as page:
-        wanted = {"groups": {"Table 1": ["arm-2"]}}
-        assert (await page.client.put("/api/fleet/groups", json=wanted)).status_code == 204
-        await page.until(lambda: page.robots["arm-2"]["groups"] == ["Table 1"])
-    assert json.loads((tmp_path / GROUPS_FILE).read_text("utf-8")) == wanted
+        for robots, group in (
+            (["arm-1", "arm-2", "arm-away"], "Table 1"),
+            (["arm-1"], "Table 2"),
+            (["arm-1"], ""),
+            (["arm-2"], "Table 2"),
+        ):
+            wish = {"robots": robots, "group": group}
+            assert (await page.client.post("/api/fleet/groups", json=wish)).status_code == 204
+        await page.until(lambda: page.robots["arm-2"]["groups"] == ["Table 2"])
+    kept = {"Table 1": ["arm-away"], "Table 2": ["arm-2"]}
+    assert json.loads((tmp_path / GROUPS_FILE).read_text("utf-8")) == {"groups": kept}
     async with page_of(stage, tmp_path) as page:
-        assert page.robots["arm-2"]["groups"] == ["Table 1"]
+        assert page.robots["arm-2"]["groups"] == ["Table 2"]
+        assert page.robots["arm-1"]["groups"] == []
+        many = [f"arm-{number}" for number in range(1000)]
+        answers = [
+            await page.client.post("/api/fleet/groups", json={"robots": robots, "group": "Table 3"})
+            for robots in (many, ["one more"])
+        ]
+        assert [answer.status_code for answer in answers] == [204, 422]
+        assert answers[1].json()["code"] == "outOfRange"
 
 
 async def test_cues_are_kept(stage: Stage, tmp_path: Path) -> None:

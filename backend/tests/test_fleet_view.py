@@ -9,7 +9,7 @@ from servodeck.fleet.console import Console
 from servodeck.fleet.driving import Share
 from servodeck.fleet.heard import Robot
 from servodeck.fleet.tasks import MOST_TASKS, Order, Tasks
-from servodeck.fleet.view import FleetGroups, FleetRobot, FleetView
+from servodeck.fleet.view import FleetRobot, FleetView
 
 
 class Site:
@@ -78,5 +78,5 @@ async def test_a_robot_that_is_as_before_is_not_made_again_for_each_page(
     for _ in range(5):
         assert len((await view.changes(0)).robots) == 1
     assert len(made) == 1
-    await view.set_groups(FleetGroups(groups={"Table 1": ["arm-1"]}))
+    await view.group(["arm-1"], "Table 1")
     assert (await view.changes(0)).robots[0].groups == ["Table 1"]

@@ -49,7 +49,7 @@ ROLES: dict[tuple[str, str], Role | None] = {
     ("POST", "/api/fleet/download"): "driver",
     ("POST", "/api/fleet/resume"): "driver",
     ("POST", "/api/fleet/tasks/{task}/retry"): "driver",
-    ("PUT", "/api/fleet/groups"): "driver",
+    ("POST", "/api/fleet/groups"): "driver",
     ("PUT", "/api/fleet/cues"): "driver",
     ("POST", "/api/library/restore"): "driver",
     ("POST", "/api/resume"): "driver",

@@ -15,6 +15,8 @@ test('who needs a person comes first, and the head says how many', async ({ page
   await expect(cards.nth(0)).toContainText('Name used twice');
   await expect(cards.nth(1)).toContainText('Robot not connected');
   await expect(cards.nth(2)).toContainText('Last seen 2 min. ago');
+  await expect(cards.nth(2)).toContainText('Last known: 7.50 V');
+  await expect(cards.nth(2)).not.toContainText('No driver');
   await expect(cards.nth(3)).toContainText('Stopped by Ben');
   await expect(cards.nth(4)).toContainText('Battery low');
   await expect(cards.nth(4)).toContainText('Running Bow');
@@ -87,6 +89,8 @@ test('a cue says who is ready, GO starts it and makes the next one current', asy
   await expect(cues.getByRole('button', { name: 'GO' })).toBeDisabled();
   await cues.getByRole('button', { name: 'Back to start' }).click();
   await expect(steps.nth(0)).toHaveAttribute('aria-current', 'step');
+  await steps.nth(1).getByRole('button', { name: 'Bow, All robots' }).click();
+  await expect(steps.nth(1)).toHaveAttribute('aria-current', 'step');
 });
 
 test('cues added one right after the other are all kept, and the current one stays current', async ({
@@ -239,6 +243,16 @@ test('who drives is named where the lease is not free', async ({ page, url }) =>
   );
   await panel.getByRole('button', { name: 'Close' }).click();
   await expect(panel).toHaveCount(0);
+});
+
+test('why a robot did not resume is said where it was asked', async ({ page, url }) => {
+  await at(page, url, 'Fleet, one that does not resume');
+  const panel = page.getByRole('dialog', { name: 'Drive Arm 4' });
+  await panel.getByRole('button', { name: 'Resume' }).click();
+  await expect(panel.getByText('STOP was pressed after this was requested.')).toBeVisible();
+  await at(page, url, 'Fleet, one that is refused');
+  await panel.getByRole('button', { name: 'Resume' }).click();
+  await expect(panel.getByText('The gateway is being updated.')).toBeVisible();
 });
 
 test('what does not work is said in words', async ({ page, url }) => {

@@ -224,7 +224,9 @@ EXAMPLES: dict[tuple[str, str], Example] = {
     ),
     ("POST", "/api/fleet/tasks/{task}/retry"): Example(FLEET_TASK, errors=("notFound", "conflict")),
     ("PUT", "/api/fleet/cues"): Example(None, {"cues": [FLEET_CUE]}, ("notFound",)),
-    ("PUT", "/api/fleet/groups"): Example(None, {"groups": {"Table 1": ["arm-1", "arm-2"]}}, ("notFound",)),
+    ("POST", "/api/fleet/groups"): Example(
+        None, {"robots": ["arm-1", "arm-2"], "group": "Table 1"}, ("notFound",)
+    ),
     ("GET", "/api/battery"): Example({"batteryMv": 7500}, errors=("closed", "lost", "noAnswer")),
     ("POST", "/api/stop"): Example(
         {"latch": True, "halted": True, "unheld": None}, errors=("closed", "lost")

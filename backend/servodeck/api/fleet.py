@@ -20,7 +20,7 @@ from servodeck.fleet.driving import Share
 from servodeck.fleet.outcomes import FleetError
 from servodeck.fleet.service import FleetService
 from servodeck.fleet.tasks import Order, Spread
-from servodeck.fleet.view import FleetChanges, FleetCues, FleetGroups, FleetTask
+from servodeck.fleet.view import FleetChanges, FleetCues, FleetTask
 from servodeck.intents import GroupBody, Slot
 from servodeck.schema import Message
 
@@ -67,6 +67,13 @@ class FleetDownloadWish(Message):
 
 class FleetResumeWish(Message):
     robots: RobotIds
+
+
+class FleetGroupWish(Message):
+    """`group` empty: into none."""
+
+    robots: RobotIds
+    group: Annotated[str, Field(max_length=64)]
 
 
 async def fleet_of(connection: HTTPConnection) -> FleetService:
@@ -163,7 +170,7 @@ async def set_cues(wanted: FleetCues, fleet: OfFleet) -> None:
     await fleet.view.set_cues(wanted)
 
 
-@fleet_api.put("/groups", status_code=204, dependencies=[DRIVER, leaves("fleetGrouped")])
-async def set_groups(wanted: FleetGroups, fleet: OfFleet) -> None:
-    """The groups into which people sort the robots, in place of the ones before."""
-    await fleet.view.set_groups(wanted)
+@fleet_api.post("/groups", status_code=204, dependencies=[DRIVER, leaves("fleetGrouped")])
+async def group(wish: FleetGroupWish, fleet: OfFleet) -> None:
+    """Puts robots into a group of robots, and takes them out of the others."""
+    await fleet.view.group(wish.robots, wish.group)

@@ -186,19 +186,19 @@ class FleetDriver:
 
     async def resume(self, robot: str) -> None:
         """Robots that come later are not stopped any more, either. Raises a FleetError."""
-        stops = self._stops_of(robot)
+        stops = self._stops_here(robot)
         self._console.withdraw_holds()
         await self._ask(robot, "report")  # whose answer has a nonce that is new enough
-        self._judge_stops(robot, stops)
+        judge_unchanged(robot, stops, self._stops_here(robot))
         await self._ask(robot, "resume")
 
-    def _stops_of(self, *robots: str) -> int:
+    def _stops_here(self, *robots: str) -> int:
         return self._stops_of_all + sum(self._stops[robot] for robot in robots)
 
-    def _judge_stops(self, robot: str, stops: int) -> None:
-        """Raises RefusedError where it was stopped since there were so many."""
-        if self._stops_of(robot) != stops:
-            raise RefusedError(robot, "cancelled", "It was stopped.")
+    def _stops_of(self, *robots: str) -> int:
+        """Here, at their own pages or anywhere else."""
+        heard = [self._console.robot(robot) for robot in robots]
+        return self._stops_here(*robots) + sum(one.stops for one in heard if one)
 
     async def _lease(self, robot: str) -> None:
         """For a task. Raises a FleetError where another driver keeps it."""
@@ -209,7 +209,7 @@ class FleetDriver:
         self._tasks[robot] += 1
         try:
             await self.obtain(robot)
-            self._judge_stops(robot, stops)
+            judge_unchanged(robot, stops, self._stops_of(robot))
         except BaseException:
             await self._release(robot)  # a request that waits is withdrawn
             raise
@@ -290,3 +290,9 @@ class FleetDriver:
 
 def is_running(heard: Robot) -> bool:
     return heard.state is not None and heard.state.running is not None
+
+
+def judge_unchanged(robot: str, stops_before: int, stops: int) -> None:
+    """Raises RefusedError where it was stopped in between."""
+    if stops != stops_before:
+        raise RefusedError(robot, "cancelled", "It was stopped.")

@@ -21,7 +21,7 @@ Presence = Literal["present", "silent", "cloned"]
 @value
 class Robot:
     """As it was heard last. `silent`: without a fresh state; `about` and `state` may be what was retained.
-    `live`: of one that is watched.
+    `live`: of one that is watched. `stops`: how often it was heard to have been stopped.
     """
 
     name: str
@@ -29,6 +29,7 @@ class Robot:
     about: About | None
     state: State | None
     live: Live | None
+    stops: int = 0
 
 
 class Seen:
@@ -39,6 +40,7 @@ class Seen:
         self.state: State | None = None
         self.live: Live | None = None
         self.nonce: str | None = None
+        self.stops = 0
         self.heard_s = -inf
         self.instances: dict[str, float] = {}
 
@@ -97,6 +99,8 @@ class Heard:
         """`heard_s` is None for one that the broker had retained."""
         with self._lock:
             seen = self._of(name)
+            if state.latch and not (seen.state and seen.state.latch):
+                seen.stops += 1
             seen.state = state
             if heard_s is not None:
                 seen.nonce, seen.heard_s = state.nonce, heard_s
@@ -116,4 +120,4 @@ class Heard:
         return self._seen.setdefault(name, Seen())
 
     def _robot(self, name: str, seen: Seen) -> Robot:
-        return Robot(name, seen.presence(self._now()), seen.about, seen.state, seen.live)
+        return Robot(name, seen.presence(self._now()), seen.about, seen.state, seen.live, seen.stops)

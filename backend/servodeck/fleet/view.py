@@ -14,6 +14,7 @@ from typing import Annotated, Literal, TypeVar
 
 from pydantic import Field, ValidationError
 
+from servodeck.errors import OutOfRangeError
 from servodeck.files import BackgroundFile
 from servodeck.fleet.console import Console
 from servodeck.fleet.heard import Presence, Robot
@@ -157,7 +158,7 @@ Members = Annotated[list[Annotated[str, Field(max_length=64)]], Field(max_length
 
 
 class FleetGroups(Message):
-    """The robots of each group, by its name."""
+    """The robots of each group, by its name: as it is kept in a file."""
 
     groups: Annotated[
         dict[Annotated[str, Field(min_length=1, max_length=64)], Members], Field(max_length=100)
@@ -238,9 +239,19 @@ class FleetView:
     def forget_task(self, task_id: str) -> None:
         self._tasks.pop(task_id, None)
 
-    async def set_groups(self, wanted: FleetGroups) -> None:
-        """Raises a StorageError where the disk refuses; they hold until the end then."""
-        self._groups = {name: list(dict.fromkeys(members)) for name, members in wanted.groups.items()}
+    async def group(self, robots: Sequence[str], group: str) -> None:
+        """Into that group alone; empty: into none. Robots that are away stay where they are. Raises an
+        OutOfRangeError, and a StorageError where the disk refuses: they hold until the end then.
+        """
+        moved = set(robots)
+        groups = {name: [one for one in all_ if one not in moved] for name, all_ in self._groups.items()}
+        if group:
+            groups[group] = [*groups.get(group, []), *dict.fromkeys(robots)]
+        try:
+            wanted = FleetGroups(groups={name: members for name, members in groups.items() if members})
+        except ValidationError:
+            raise OutOfRangeError("There are at most 100 groups, of 1000 robots each.") from None
+        self._groups = wanted.groups
         self._groups_of = groups_of(self._groups)
         self._look()
         await self._file.saved()

@@ -8,7 +8,8 @@ import { readMe } from '../features/people/people.ts';
 import { browserClock } from '../robot/links/browserClock.ts';
 import { gatewayFleet } from '../fleet/fleetApi.ts';
 import { FleetPage } from '../fleet/FleetPage.tsx';
-import { createFleet } from '../fleet/fleetStore.ts';
+import { createFleet, type Fleet } from '../fleet/fleetStore.ts';
+import { readText, saveText, storageOf } from '../state/storage.ts';
 import '../ui/fonts.css';
 import '../ui/tokens.css';
 import '../ui/base.css';
@@ -16,6 +17,17 @@ import '../ui/base.css';
 const element = document.getElementById('page');
 if (element === null) throw new Error('fleet.html has no #page');
 const root = createRoot(element);
+
+const CUE_KEY = 'servodeck.fleet.cue';
+
+/** A page that is loaded again in the middle of a show goes on there. */
+function keepPlace({ store }: Fleet): void {
+  const storage = storageOf(() => window.sessionStorage);
+  store.setState({ nextCue: Number(readText(storage, CUE_KEY)) || 0 });
+  store.subscribe(({ nextCue }, before) => {
+    if (nextCue !== before.nextCue) saveText(storage, CUE_KEY, String(nextCue));
+  });
+}
 
 async function start(): Promise<void> {
   await speak(preferredLanguage(navigator.languages));
@@ -26,6 +38,7 @@ async function start(): Promise<void> {
     return;
   }
   const fleet = createFleet(gatewayFleet, gatewayStore, browserClock);
+  keepPlace(fleet);
   root.render(
     <StrictMode>
       <FleetPage

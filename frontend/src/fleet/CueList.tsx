@@ -20,7 +20,8 @@ export function CueList({ mayDrive }: { readonly mayDrive: boolean }) {
   const fleet = useFleet();
   const robots = useFleetState((state) => state.robots);
   const cues = useFleetState((state) => state.cues);
-  const [next, setNext] = useState(0);
+  const next = useFleetState((state) => state.nextCue);
+  const setNext = (nextCue: number): void => fleet.store.setState({ nextCue });
   const { problem, ask } = useAsking();
   const isStarting = useRef(false);
   const current = cues[next];
@@ -61,6 +62,7 @@ export function CueList({ mayDrive }: { readonly mayDrive: boolean }) {
       <p role="alert" className={styles.warning}>
         {problem}
       </p>
+      {cues.length > 1 && <p className={styles.dim}>{words.fleet.cueHint}</p>}
       <ol className={styles.list}>
         {cues.map((cue, index) => (
           <li
@@ -68,7 +70,7 @@ export function CueList({ mayDrive }: { readonly mayDrive: boolean }) {
             className={styles.cue}
             aria-current={index === next ? 'step' : undefined}
           >
-            <Cue cue={cue} robots={robots} />
+            <Cue cue={cue} robots={robots} onChoose={() => setNext(index)} />
             <IconButton
               icon="trash"
               label={words.fleet.removeCue({ name: cue.name })}
@@ -82,13 +84,22 @@ export function CueList({ mayDrive }: { readonly mayDrive: boolean }) {
   );
 }
 
-function Cue({ cue, robots }: { readonly cue: FleetCue; readonly robots: readonly FleetRobot[] }) {
+interface CueProps {
+  readonly cue: FleetCue;
+  readonly robots: readonly FleetRobot[];
+  /** GO starts it next. */
+  onChoose(): void;
+}
+
+function Cue({ cue, robots, onChoose }: CueProps) {
   const { ready, missing } = cueState(cue, robots);
   const where = cue.robots === ALL ? words.fleet.everyGroup : cue.robots;
   return (
     <>
       <Mark truth={missing.length > 0 ? 'warning' : 'confirmed'} />
-      <span className={styles.cueName}>{words.fleet.cue({ name: cue.name, where, times: cue.times })}</span>
+      <button type="button" className={styles.cueName} title={words.fleet.chooseCue} onClick={onChoose}>
+        {words.fleet.cue({ name: cue.name, where, times: cue.times })}
+      </button>
       <span className={styles.dim}>
         {words.fleet.ready({ ready: ready.length, count: ready.length + missing.length })}
         {missing.length > 0 &&

@@ -3,8 +3,7 @@
 
 import { useEffect, useState } from 'react';
 import { useStore } from 'zustand';
-import type { FleetRobot } from '#shared/client/http.generated.ts';
-import { GatewayProblem } from '#shared/client/request.ts';
+import type { FleetRobot, FleetTask } from '#shared/client/http.generated.ts';
 import { words } from '../i18n/whole.ts';
 import { RobotThumb } from '../features/picture/PoseThumb.tsx';
 import { servoOf } from '#shared/profile/robot.ts';
@@ -14,7 +13,7 @@ import { Chip, Mark } from '../ui/Chip.tsx';
 import { Dialog } from '../ui/Dialog.tsx';
 import { Select } from '../ui/Select.tsx';
 import { StopPress } from '../ui/StopKey.tsx';
-import { refusalText } from './asking.ts';
+import { useAsking } from './asking.ts';
 import { familyOf, robotOf } from './boards.ts';
 import { useFleet, useFleetState } from './context.ts';
 import { DriveSlider } from './DriveSlider.tsx';
@@ -62,11 +61,10 @@ function Controls({ robot, driving, onAgain }: Omit<DrivePanelProps, 'onClose'>)
   const { motion, own } = state;
   const condition = conditionOf(robot);
   const isStopped = state.latch || condition === 'stopped';
-  const resume = (): void =>
-    void fleet.api.resume([robot.id]).catch((error: unknown) => {
-      if (!(error instanceof GatewayProblem)) throw error;
-      driving.store.setState({ refusal: refusalText(error) });
-    });
+  const { problem, ask } = useAsking();
+  const [resumed, setResumed] = useState('');
+  const failure = useFleetState(({ tasks }) => failureOf(tasks, resumed));
+  const resume = (): void => ask(async () => setResumed((await fleet.api.resume([robot.id])).id));
   const isBlocked = state.lease !== 'driving' || isStopped || state.motion === null || state.isQuiet;
   const pose = poseOf(motion, profile.servos);
   const durationOf = (servo: number, position: number, isLeap: boolean): number =>
@@ -94,7 +92,9 @@ function Controls({ robot, driving, onAgain }: Omit<DrivePanelProps, 'onClose'>)
           <RunGroup {...{ robot, driving, isBlocked }} />
         )}
         <div role="alert" className={styles.refusal}>
-          {state.refusal !== '' && <p>{state.refusal}</p>}
+          {[state.refusal, isStopped ? problem || failure : ''].filter(Boolean).map((text) => (
+            <p key={text}>{text}</p>
+          ))}
           {stopping !== null && hasMissed(stopping) && <p>{stopText(stopping, [robot])}</p>}
         </div>
       </div>
@@ -117,6 +117,12 @@ function Controls({ robot, driving, onAgain }: Omit<DrivePanelProps, 'onClose'>)
       </ul>
     </div>
   );
+}
+
+/** Why the task failed at its robot; empty where it did not, or has not yet. */
+function failureOf(tasks: readonly FleetTask[], id: string): string {
+  const task = tasks.find((one) => one.id === id);
+  return task?.parts.find(({ status }) => status === 'failed')?.detail ?? '';
 }
 
 interface LeaseProps {

@@ -49,7 +49,7 @@ export function FleetActions({ mayDrive, shown }: FleetActionsProps) {
           )}
           <Run robots={chosen} selection={[...selected].sort().join(' ')} act={act} />
           <FleetDownload robots={chosen} />
-          <Grouping robots={robots} ids={ids} act={ask} />
+          <Grouping robots={chosen} act={ask} />
         </>
       )}
       <Unable robots={chosen} />
@@ -123,24 +123,14 @@ function Run({ robots, selection, act }: PartProps & Pick<Choice, 'selection'>) 
   );
 }
 
-interface GroupingProps {
-  readonly robots: readonly FleetRobot[];
-  readonly ids: readonly string[];
-  act(work: () => Promise<unknown>): void;
-}
-
 /** Puts the selected robots into a group by its name, or takes them out of all. */
-function Grouping({ robots, ids, act }: GroupingProps) {
+function Grouping({ robots, act }: PartProps) {
   const fleet = useFleet();
+  const ids = robots.map(({ id }) => id);
   const [name, setName] = useState('');
   const put = (group: string): void =>
     act(async () => {
-      const groups: Record<string, string[]> = {};
-      for (const one of robots) for (const each of one.groups) (groups[each] ??= []).push(one.id);
-      for (const each of Object.keys(groups))
-        groups[each] = (groups[each] ?? []).filter((id) => !ids.includes(id));
-      if (group !== '') groups[group] = [...(groups[group] ?? []), ...ids];
-      await fleet.setGroups(Object.fromEntries(Object.entries(groups).filter(([, all]) => all.length > 0)));
+      await fleet.group(ids, group);
       setName('');
     });
   return (
@@ -162,7 +152,7 @@ function Grouping({ robots, ids, act }: GroupingProps) {
       <Button type="submit" isDisabled={name.trim() === ''}>
         {words.fleet.putIntoGroup}
       </Button>
-      {robots.some(({ id, groups }) => ids.includes(id) && groups.length > 0) && (
+      {robots.some(({ groups }) => groups.length > 0) && (
         <Button tone="quiet" onPress={() => put('')}>
           {words.fleet.ungroup}
         </Button>

@@ -63,10 +63,16 @@ export const FleetCard = memo(function FleetCard({
           <Chip truth={TRUTH[condition]}>{conditionText(robot, condition)}</Chip>
           {condition === 'low' && robot.state?.running && <span>{runningText(robot.state.running)}</span>}
           <span>{robot.robot === '' ? boardName(family) : robot.robot}</span>
-          <span className={styles.dim}>{driverText(robot)}</span>
-          <span className={styles.volts} data-low={isBatteryLow(robot)}>
-            {voltsOf(robot)}
-          </span>
+          {condition === 'silent' ? (
+            <span className={styles.dim}>{words.fleet.lastVolts({ volts: voltsOf(robot) })}</span>
+          ) : (
+            <>
+              <span className={styles.dim}>{driverText(robot)}</span>
+              <span className={styles.volts} data-low={isBatteryLow(robot)}>
+                {voltsOf(robot)}
+              </span>
+            </>
+          )}
         </div>
       </div>
       <footer className={styles.foot}>

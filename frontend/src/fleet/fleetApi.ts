@@ -4,7 +4,6 @@ import type {
   FleetChanges,
   FleetCue,
   FleetDownloadWish,
-  FleetGroups,
   FleetRunWish,
   FleetStopped,
   FleetTask,
@@ -29,8 +28,8 @@ export interface FleetApi {
   drive(robot: string, listener: DriveListener): DriveChannel;
   /** The cues of a show, in place of those before. */
   setCues(cues: readonly FleetCue[]): Promise<void>;
-  /** The groups of robots, by name. */
-  setGroups(groups: FleetGroups['groups']): Promise<void>;
+  /** Puts these robots into that group of robots alone; empty: into none. */
+  group(robots: readonly string[], group: string): Promise<void>;
 }
 
 /** An answer that was cut off, or is another program's, is none: it says nothing of the fleet. */
@@ -77,7 +76,8 @@ export const gatewayFleet: FleetApi = {
   setCues: async (cues) => {
     await request('put', '/api/fleet/cues', { withinMs: ANSWER_WITHIN_MS, body: { cues: [...cues] } });
   },
-  setGroups: async (groups) => {
-    await request('put', '/api/fleet/groups', { withinMs: ANSWER_WITHIN_MS, body: { groups } });
+  group: async (robots, group) => {
+    const body = { robots: [...robots], group };
+    await request('post', '/api/fleet/groups', { withinMs: ANSWER_WITHIN_MS, body });
   },
 };

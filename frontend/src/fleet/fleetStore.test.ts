@@ -34,7 +34,7 @@ function followed(answers: readonly (Partial<FleetChanges> | Error)[], api: Part
       resume: unused,
       drive: unused,
       retry: unused,
-      setGroups: unused,
+      group: unused,
       setCues: unused,
     },
     ...api,
@@ -43,6 +43,22 @@ function followed(answers: readonly (Partial<FleetChanges> | Error)[], api: Part
   const fleet = createFleet(whole, { list: unused, read: unused }, clock);
   return { fleet, clock, asked, done: fleet.follow(left.signal) };
 }
+
+test('a robot is in the group that it was put into, at once, and the others stay in theirs', async () => {
+  const robots = [fleetRobot('a', { groups: ['Table 1'] }), fleetRobot('b', { groups: ['Table 1'] })];
+  const asked: unknown[] = [];
+  const group = (...wish: unknown[]) => Promise.resolve(void asked.push(wish));
+  const { fleet, done } = followed([{ robots }], { group });
+  await done;
+  await fleet.group(['a'], 'Table 2');
+  expect(fleet.store.getState().robots.map(({ groups }) => groups)).toEqual([['Table 2'], ['Table 1']]);
+  await fleet.group(['a'], '');
+  expect(fleet.store.getState().robots[0]?.groups).toEqual([]);
+  expect(asked).toEqual([
+    [['a'], 'Table 2'],
+    [['a'], ''],
+  ]);
+});
 
 test('changes are merged into what is known, and what is gone leaves the selection', async () => {
   const [one, other] = [fleetRobot('a'), fleetRobot('b')];

@@ -7,7 +7,6 @@ import type {
   FleetChanges,
   FleetCue,
   FleetEvent,
-  FleetGroups,
   FleetRobot,
   FleetTask,
 } from '#shared/client/http.generated.ts';
@@ -26,6 +25,8 @@ export interface FleetState {
   readonly tasks: readonly FleetTask[];
   readonly events: readonly FleetEvent[];
   readonly cues: readonly FleetCue[];
+  /** The place of the cue that GO starts; behind the last one when the show is over. */
+  readonly nextCue: number;
   readonly selected: ReadonlySet<string>;
   readonly search: string;
   /** The chosen group of robots; null: all. */
@@ -55,8 +56,8 @@ export interface Fleet {
   selectOnly(ids: readonly string[]): void;
   /** In place of the ones before, and shown at once: one that is added next stands behind them. Rejects with a GatewayProblem. */
   setCues(cues: readonly FleetCue[]): Promise<void>;
-  /** The robots of each group, in the same way. */
-  setGroups(groups: FleetGroups['groups']): Promise<void>;
+  /** Puts these robots into that group of robots alone, shown at once; empty: into none. Rejects with a GatewayProblem. */
+  group(ids: readonly string[], group: string): Promise<void>;
   /** From now on until its end. */
   drive(id: string): Driving;
   /** null: all robots of the site. */
@@ -77,6 +78,7 @@ export function createFleet(api: FleetApi, library: FleetLibrary, clock: Clock):
     tasks: [],
     events: [],
     cues: [],
+    nextCue: 0,
     selected: new Set(),
     search: '',
     group: null,
@@ -151,14 +153,11 @@ export function createFleet(api: FleetApi, library: FleetLibrary, clock: Clock):
       await api.setCues(cues);
       store.setState({ cues });
     },
-    async setGroups(groups) {
-      await api.setGroups(groups);
-      const groupsOf = (id: string): string[] =>
-        Object.keys(groups)
-          .filter((name) => groups[name]?.includes(id))
-          .sort();
+    async group(ids, group) {
+      await api.group(ids, group);
+      const groups = group === '' ? [] : [group];
       store.setState(({ robots }) => ({
-        robots: robots.map((robot) => ({ ...robot, groups: groupsOf(robot.id) })),
+        robots: robots.map((robot) => (ids.includes(robot.id) ? { ...robot, groups } : robot)),
       }));
     },
     drive: (id) => createDriving((listener) => api.drive(id, listener), clock),

@@ -2719,6 +2719,7 @@ export interface Messages {
     readonly running: (values: { readonly name: string }) => string;
     readonly runningSlot: (values: { readonly slot: number }) => string;
     readonly lastSeen: (values: { readonly age: string }) => string;
+    readonly lastVolts: (values: { readonly volts: string }) => string;
     readonly conditions: {
       readonly lost: string;
       readonly silent: string;
@@ -2753,6 +2754,8 @@ export interface Messages {
     readonly noDriver: string;
     readonly spread: (values: { readonly ms: number }) => string;
     readonly cues: string;
+    readonly chooseCue: string;
+    readonly cueHint: string;
     readonly go: string;
     readonly skip: string;
     readonly backToStart: string;

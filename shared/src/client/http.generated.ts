@@ -230,9 +230,9 @@ export interface paths {
       cookie?: never;
     };
     get?: never;
-    /** The groups into which people sort the robots, in place of the ones before */
-    put: operations['fleetSetGroups'];
-    post?: never;
+    put?: never;
+    /** Puts robots into a group of robots, and takes them out of the others */
+    post: operations['fleetGroup'];
     delete?: never;
     options?: never;
     head?: never;
@@ -1201,14 +1201,14 @@ export interface components {
       robot: string;
     };
     /**
-     * FleetGroups
-     * @description The robots of each group, by its name.
+     * FleetGroupWish
+     * @description `group` empty: into none.
      */
-    FleetGroups: {
-      /** Groups */
-      groups: {
-        [key: string]: string[];
-      };
+    FleetGroupWish: {
+      /** Group */
+      group: string;
+      /** Robots */
+      robots: string[];
     };
     /** FleetResumeWish */
     FleetResumeWish: {
@@ -2592,7 +2592,7 @@ export type FleetCue = components['schemas']['FleetCue'];
 export type FleetCues = components['schemas']['FleetCues'];
 export type FleetDownloadWish = components['schemas']['FleetDownloadWish'];
 export type FleetEvent = components['schemas']['FleetEvent'];
-export type FleetGroups = components['schemas']['FleetGroups'];
+export type FleetGroupWish = components['schemas']['FleetGroupWish'];
 export type FleetResumeWish = components['schemas']['FleetResumeWish'];
 export type FleetRobot = components['schemas']['FleetRobot'];
 export type FleetRun = components['schemas']['FleetRun'];
@@ -3054,7 +3054,7 @@ export interface operations {
       };
     };
   };
-  fleetSetGroups: {
+  fleetGroup: {
     parameters: {
       query?: never;
       header?: never;
@@ -3063,7 +3063,7 @@ export interface operations {
     };
     requestBody: {
       content: {
-        'application/json': components['schemas']['FleetGroups'];
+        'application/json': components['schemas']['FleetGroupWish'];
       };
     };
     responses: {

@@ -59,6 +59,8 @@ const TASKS: FleetChanges['tasks'] = [
   },
 ];
 
+/** The task that is begun by whatever is asked. */
+const BEGUN = '9';
 const DRIVES = { type: 'lease', lease: 'driving', driver: 'Ben' } as const;
 const WAITS = { type: 'lease', lease: 'requested', driver: 'Anna' } as const;
 
@@ -94,6 +96,25 @@ const STATES: readonly Named[] = [
   },
   { name: 'Fleet, one driven', state: { robots: ROBOTS }, driven: 'Arm 1' },
   { name: 'Fleet, one driven by another person', state: { robots: ROBOTS }, driven: 'Arm 2' },
+  {
+    name: 'Fleet, one that does not resume',
+    state: {
+      robots: ROBOTS,
+      tasks: [
+        {
+          ...{ id: BEGUN, verb: 'resume', names: [], by: 'Anna', spreadMs: null },
+          parts: [
+            {
+              ...{ robot: 'Arm 4', status: 'failed', share: null },
+              detail: 'STOP was pressed after this was requested.',
+            },
+          ],
+        },
+      ],
+    },
+    driven: 'Arm 4',
+  },
+  { name: 'Fleet, one that is refused', state: { robots: ROBOTS }, driven: 'Arm 4', refuses: true },
   { name: 'Fleet, refused', state: FLEET_AT_WORK, refuses: true },
   { name: 'Fleet, no robots', state: {} },
   { name: 'Fleet, nothing heard yet', state: { site: '', broker: null } },
@@ -122,7 +143,7 @@ function Shown({ state, driven, refuses = false }: Named) {
 
 /** Everything is done at once. */
 function answering(): FleetApi {
-  const task = { id: '9', verb: 'run' as const, names: ['Wave'], by: 'Anna', spreadMs: null };
+  const task = { id: BEGUN, verb: 'run' as const, names: ['Wave'], by: 'Anna', spreadMs: null };
   const begun = () => Promise.resolve({ ...task, parts: [] });
   return {
     changes: () => new Promise(() => undefined),
@@ -130,7 +151,7 @@ function answering(): FleetApi {
       Promise.resolve({ reached: [...(robots ?? ROBOTS.map(({ id }) => id))], notReached: [] }),
     ...{ run: begun, download: begun, resume: begun, retry: begun },
     drive: (robot, listener) => drivenRobot(robot === 'Arm 2' ? WAITS : DRIVES, listener),
-    setGroups: () => Promise.resolve(),
+    group: () => Promise.resolve(),
     setCues: () => Promise.resolve(),
   };
 }
@@ -144,7 +165,7 @@ function refusing(): FleetApi {
       download: refused,
       resume: refused,
       retry: refused,
-      setGroups: refused,
+      group: refused,
       setCues: refused,
     },
   };
