@@ -15,7 +15,8 @@ from servodeck.fleet.heard import Heard
 from servodeck.fleet.messages import Done, Started, State
 from servodeck.fleet.outcomes import RefusedError
 from servodeck.fleet.tasks import Order, Spread, Tasks
-from servodeck.fleet.view import FleetTask, FleetView
+from servodeck.fleet.view import FleetView
+from servodeck.fleet.view_messages import FleetTask
 from tests.test_fleet_drive import ARM, FakeConsole, Page, SomebodyElse, state_of
 from tests.virtual_time import in_virtual_time
 

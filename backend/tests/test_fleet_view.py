@@ -9,7 +9,8 @@ from servodeck.fleet.console import Console
 from servodeck.fleet.driving import Share
 from servodeck.fleet.heard import Robot
 from servodeck.fleet.tasks import MOST_TASKS, Order, Tasks
-from servodeck.fleet.view import FleetRobot, FleetView
+from servodeck.fleet.view import FleetView
+from servodeck.fleet.view_messages import FleetRobot
 
 
 class Site:

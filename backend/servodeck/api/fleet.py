@@ -20,7 +20,7 @@ from servodeck.fleet.driving import Share
 from servodeck.fleet.outcomes import FleetError
 from servodeck.fleet.service import FleetService
 from servodeck.fleet.tasks import Order, Spread
-from servodeck.fleet.view import FleetChanges, FleetCues, FleetTask
+from servodeck.fleet.view_messages import FleetChanges, FleetCues, FleetTask
 from servodeck.intents import GroupBody, Slot
 from servodeck.schema import Message
 

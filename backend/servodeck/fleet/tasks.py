@@ -13,7 +13,8 @@ from typing import Literal
 from servodeck.errors import ConflictError, NotFoundError
 from servodeck.fleet.driving import Share
 from servodeck.fleet.outcomes import FleetError, RefusedError
-from servodeck.fleet.view import FleetTask, FleetTaskPart, FleetView, PartStatus
+from servodeck.fleet.view import FleetView
+from servodeck.fleet.view_messages import FleetTask, FleetTaskPart, PartStatus
 from servodeck.value import value
 
 MOST_TASKS = 20
