@@ -319,20 +319,32 @@ function isMetAt(element: HTMLElement, met: EventTarget | null): boolean {
 
 const PRESSING = ['pointerdown', 'mousedown', 'pointerup', 'mouseup', 'click', 'dblclick'];
 
-/** What a press meets instead of it, null for nothing. Then nothing of the page hears of the press. */
+/**
+ * What a press meets instead of it, null for nothing: then nothing of the page hears of the press. Also where it moves away
+ * under the press, as on a list that is measured after it was drawn: a person presses again.
+ */
 async function otherMet(element: HTMLElement, press: () => Promise<void>): Promise<string | null> {
   const listening = new AbortController();
-  let other: string | null = 'no event';
+  const place = (): string => JSON.stringify(element.getBoundingClientRect());
+  const before = place();
+  const met: Met = { other: 'no event', isClicked: false };
   const judge = (event: Event): void => {
-    if (other === 'no event') other = isMetAt(element, event.target) ? null : described(event);
-    if (other === null) return;
+    if (met.other === 'no event') met.other = isMetAt(element, event.target) ? null : described(event);
+    if (event.type === 'click') met.isClicked = isMetAt(element, event.target);
+    if (met.other === null) return;
     event.preventDefault();
     event.stopImmediatePropagation();
   };
   for (const type of PRESSING)
     window.addEventListener(type, judge, { capture: true, signal: listening.signal });
   await press().finally(() => listening.abort());
-  return other;
+  const hasMovedAway = !met.isClicked && element.isConnected && place() !== before;
+  return met.other ?? (hasMovedAway ? 'another place' : null);
+}
+
+interface Met {
+  other: string | null;
+  isClicked: boolean;
 }
 
 function described({ type, target }: Event): string {
