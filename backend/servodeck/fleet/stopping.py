@@ -25,7 +25,8 @@ AT_ONCE = 256
 
 def stop_robots(console: Console, names: Collection[str] | None = None) -> StopReport:
     """Blocks. None: all of the site, and those that connect later. Each robot that was ever heard is in the
-    report: one that is silent may still move.
+    report: one that is silent may still move, and of two gateways with one name one may have
+    answered for both.
     """
 
     def over_broker() -> StopReport:
@@ -52,7 +53,8 @@ def stop_robots(console: Console, names: Collection[str] | None = None) -> StopR
     finally:
         threads.shutdown(wait=False, cancel_futures=True)
     refused = {name: detail for name, detail in report.refused if name in known}
-    stopped = (reached | set(report.stopped)) - refused.keys()
+    cloned = {one.name for one in console.robots() if one.presence == "cloned"}
+    stopped = (reached | set(report.stopped)) - refused.keys() - cloned
     return report_of(stopped, refused, known - stopped - refused.keys())
 
 
