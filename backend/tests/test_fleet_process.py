@@ -182,6 +182,7 @@ def test_a_simulated_board_runs_and_is_stopped_over_the_broker(tmp_path: Path) -
     served = Served(*where, *files, "--serial", str(board.link), pty=Pty(), is_named=False)
     try:
         with console_of(broker, "anna", "arm-1") as console:
+            assert console.until(lambda: has_port(console), WAIT_S)
             frames = [{"durationMs": 500, "positions": {"1": position}} for position in (1200, 1800)]
             console.ask("arm-1", "ask", action="request")
             console.ask("arm-1", "download", groups=[{"slot": 4, "frames": frames}])
@@ -194,6 +195,11 @@ def test_a_simulated_board_runs_and_is_stopped_over_the_broker(tmp_path: Path) -
         served.end()
         broker.kill()
         board.pull()
+
+
+def has_port(console: Console) -> bool:
+    robot = console.robot("arm-1")
+    return robot is not None and robot.state is not None and robot.state.link.status == "ready"
 
 
 def has_stored(console: Console) -> bool:

@@ -38,6 +38,13 @@ Share = Callable[[float | None], None]
 """Is told how much of the work is done, 0 to 1."""
 
 
+class GivenUpError(FleetError):
+    """Nobody wants this start any more."""
+
+    def __init__(self) -> None:
+        super().__init__("It was given up before it started.")
+
+
 class Claimant(Protocol):
     @property
     def name(self) -> str: ...
@@ -103,8 +110,14 @@ class FleetDriver:
         for each where it has started. Answers with what knows how many ms apart they have begun.
         """
         name, has_ended = new_name(), threading.Event()
-        stops = self._stops_of(*slots)
+        stops = {robot: self._stops_of(robot) for robot in slots}
         leased: list[str] = []
+
+        def judge_wanted() -> None:
+            for robot, before in stops.items():
+                judge_unchanged(robot, before, self._stops_of(robot))
+            if not self._was_watched or has_ended.is_set():
+                raise GivenUpError
 
         def start() -> float:
             return start_together(
@@ -113,9 +126,7 @@ class FleetDriver:
                 slots,
                 times,
                 name=name,
-                is_wanted=lambda: (
-                    self._was_watched and not has_ended.is_set() and self._stops_of(*slots) == stops
-                ),
+                judge_wanted=judge_wanted,
             )
 
         try:
@@ -192,13 +203,13 @@ class FleetDriver:
         judge_unchanged(robot, stops, self._stops_here(robot))
         await self._ask(robot, "resume")
 
-    def _stops_here(self, *robots: str) -> int:
-        return self._stops_of_all + sum(self._stops[robot] for robot in robots)
+    def _stops_here(self, robot: str) -> int:
+        return self._stops_of_all + self._stops[robot]
 
-    def _stops_of(self, *robots: str) -> int:
-        """Here, at their own pages or anywhere else."""
-        heard = [self._console.robot(robot) for robot in robots]
-        return self._stops_here(*robots) + sum(one.stops for one in heard if one)
+    def _stops_of(self, robot: str) -> int:
+        """Here, at its own page or anywhere else."""
+        heard = self._console.robot(robot)
+        return self._stops_here(robot) + (heard.stops if heard else 0)
 
     async def _lease(self, robot: str) -> None:
         """For a task. Raises a FleetError where another driver keeps it."""

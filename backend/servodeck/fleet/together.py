@@ -26,13 +26,6 @@ class UncertainError(FleetError):
     """The clock of a gateway is not known well enough over this network."""
 
 
-class GivenUpError(FleetError):
-    """Nobody wants this start any more."""
-
-    def __init__(self) -> None:
-        super().__init__("It was given up before it started.")
-
-
 def start_together(
     console: Console,
     gateways: Collection[str],
@@ -41,19 +34,15 @@ def start_together(
     versions: Mapping[str, str] | None = None,
     lead_s: float = LEAD_S,
     name: str = "",
-    is_wanted: Callable[[], bool] = lambda: True,
+    judge_wanted: Callable[[], None] = lambda: None,
 ) -> float:
     """On robots of which the console has the lease. `slot`: the same one of all, or one of each. `versions`:
-    by gateway, what its slot has to hold. `name` is what gateways call this start in their state. Once it is
-    not wanted any more, nothing is asked for, and what was promised is cancelled.
+    by gateway, what its slot has to hold. `name` is what gateways call this start in their state.
+    `judge_wanted` raises a FleetError once it is not wanted any more: then nothing is asked for, and what was
+    promised is cancelled.
     Returns at the start, with its time by the console's clock; raises a FleetError where nothing starts,
     unless a gateway that had committed cannot be reached any more.
     """
-
-    def judge_wanted() -> None:
-        if not is_wanted():
-            raise GivenUpError
-
     offsets = offsets_of(console, gateways, judge_wanted)
     name, start_s = name or new_name(), console.now_s + lead_s
     console.beat(gateways)
