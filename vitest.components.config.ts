@@ -43,14 +43,15 @@ export default defineConfig({
     expect: { requireAssertions: true },
     include: ['frontend/tests/**/*.test.{ts,tsx}'],
     setupFiles: ['frontend/tests/harness/setup.ts'],
-    // Both end what hangs: nothing here waits for a real clock, and all gives way to what does.
-    testTimeout: 180_000,
+    // Ends what hangs: nothing here waits for a real clock.
+    testTimeout: 60_000,
     // A window for each core of a small machine: each reads all modules of the page.
     maxWorkers: 2,
     // One window for all files of a worker: each test opens the page anew, and its modules are read once.
     isolate: false,
     browser: {
       enabled: true,
+      // A browser that gives way needs its time until it is there.
       connectTimeout: 180_000,
       headless: true,
       screenshotFailures: false,

@@ -38,13 +38,6 @@ Share = Callable[[float | None], None]
 """Is told how much of the work is done, 0 to 1."""
 
 
-class GivenUpError(FleetError):
-    """Nobody wants this start any more."""
-
-    def __init__(self) -> None:
-        super().__init__("It was given up before it started.")
-
-
 class Claimant(Protocol):
     @property
     def name(self) -> str: ...
@@ -115,9 +108,9 @@ class FleetDriver:
 
         def judge_wanted() -> None:
             for robot, before in stops.items():
-                judge_unchanged(robot, before, self._stops_of(robot))
+                judge_not_stopped(robot, before, self._stops_of(robot))
             if not self._was_watched or has_ended.is_set():
-                raise GivenUpError
+                raise FleetError("It was given up before it started.")
 
         def start() -> float:
             return start_together(
@@ -200,7 +193,7 @@ class FleetDriver:
         stops = self._stops_here(robot)
         self._console.withdraw_holds()
         await self._ask(robot, "report")  # whose answer has a nonce that is new enough
-        judge_unchanged(robot, stops, self._stops_here(robot))
+        judge_not_stopped(robot, stops, self._stops_here(robot))
         await self._ask(robot, "resume")
 
     def _stops_here(self, robot: str) -> int:
@@ -220,7 +213,7 @@ class FleetDriver:
         self._tasks[robot] += 1
         try:
             await self.obtain(robot)
-            judge_unchanged(robot, stops, self._stops_of(robot))
+            judge_not_stopped(robot, stops, self._stops_of(robot))
         except BaseException:
             await self._release(robot)  # a request that waits is withdrawn
             raise
@@ -303,7 +296,7 @@ def is_running(heard: Robot) -> bool:
     return heard.state is not None and heard.state.running is not None
 
 
-def judge_unchanged(robot: str, stops_before: int, stops: int) -> None:
+def judge_not_stopped(robot: str, stops_before: int, stops: int) -> None:
     """Raises RefusedError where it was stopped in between."""
     if stops != stops_before:
         raise RefusedError(robot, "cancelled", "It was stopped.")

@@ -130,7 +130,9 @@ class FleetView:
         OutOfRangeError, and a StorageError where the disk refuses: they hold until the end then.
         """
         moved = set(robots)
-        groups = {name: [one for one in all_ if one not in moved] for name, all_ in self._groups.items()}
+        groups = {
+            name: [one for one in members if one not in moved] for name, members in self._groups.items()
+        }
         if group:
             groups[group] = [*groups.get(group, []), *dict.fromkeys(robots)]
         try:

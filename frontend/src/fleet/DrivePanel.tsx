@@ -92,9 +92,8 @@ function Controls({ robot, driving, onAgain }: Omit<DrivePanelProps, 'onClose'>)
           <RunGroup {...{ robot, driving, isBlocked }} />
         )}
         <div role="alert" className={styles.refusal}>
-          {[state.refusal, isStopped ? problem || failure : ''].filter(Boolean).map((text) => (
-            <p key={text}>{text}</p>
-          ))}
+          {state.refusal !== '' && <p>{state.refusal}</p>}
+          {isStopped && (problem !== '' || failure !== '') && <p>{problem || failure}</p>}
           {stopping !== null && hasMissed(stopping) && <p>{stopText(stopping, [robot])}</p>}
         </div>
       </div>

@@ -124,7 +124,7 @@ const BESIDE_EACH_MS = 32;
 let turnsBeside = 0;
 let turnBeside: Promise<void> | null = null;
 
-/** The same for all that wait, whoever waits for whom. */
+/** Shared by all waits, also by those within each other. */
 function nextTurnBeside(): Promise<void> {
   turnBeside ??= realMoment(BESIDE_EACH_MS).then(() => {
     turnsBeside += 1;

@@ -106,32 +106,29 @@ function openBusLog(path: string): BusLog {
   };
 }
 
-interface Adapter {
-  readonly send: (bytes: Uint8Array) => void;
-  /** Passes on what it has gathered. */
-  readonly flush: () => void;
-}
+type Wire = Pick<BoardOptions, 'send' | 'onUnplug'>;
+type Build = (wire: Wire) => Board;
 
-/** The USB adapter: what the board sends within its latency goes on together, also where this program is late. */
-function createAdapter(passOn: (bytes: Uint8Array) => void): Adapter {
+/** With a USB adapter between: what the board sends within its latency goes on together, also where this program is late. */
+function throughAdapter({ send, onUnplug }: Wire): Wire {
   let gathered: Uint8Array[] = [];
 
   function flush(): void {
-    if (gathered.length === 0) return;
-    passOn(Buffer.concat(gathered));
+    if (gathered.length > 0) send(Buffer.concat(gathered));
     gathered = [];
   }
 
-  function send(bytes: Uint8Array): void {
-    if (gathered.length === 0) setTimeout(flush, ADAPTER_MS);
-    gathered.push(bytes);
-  }
-
-  return { send, flush };
+  return {
+    send(bytes) {
+      if (gathered.length === 0) setTimeout(flush, ADAPTER_MS);
+      gathered.push(bytes);
+    },
+    onUnplug() {
+      flush();
+      onUnplug?.();
+    },
+  };
 }
-
-type Wire = Pick<BoardOptions, 'send' | 'onUnplug'>;
-type Build = (wire: Wire) => Board;
 
 /** Reads no faster than the line takes it, as a driver does: a flooding host waits, not this program's memory. */
 function feed(board: Board, source: Readable): void {
@@ -149,16 +146,12 @@ function feed(board: Board, source: Readable): void {
 }
 
 function serveStdio(build: Build, end: () => void): void {
-  const adapter = createAdapter((bytes) => process.stdout.write(bytes));
-  const board = build({ send: adapter.send, onUnplug: flushAndEnd });
-
-  function flushAndEnd(): void {
-    adapter.flush();
-    end();
-  }
-
+  const board = build({
+    send: (bytes) => process.stdout.write(bytes),
+    onUnplug: end,
+  });
   feed(board, process.stdin);
-  process.stdin.on('end', flushAndEnd);
+  process.stdin.on('end', end);
   // The reader is gone: nothing of us is wanted any more.
   process.stdout.on('error', end);
 }
@@ -166,14 +159,7 @@ function serveStdio(build: Build, end: () => void): void {
 /** One host at a time, as on a cable; the board stays on between two of them. */
 function serveTcp(build: Build, { host, port }: { host: string; port: number }, end: () => void): void {
   let client: Socket | null = null;
-  const adapter = createAdapter((bytes) => client?.write(bytes));
-  const board = build({
-    send: adapter.send,
-    onUnplug() {
-      adapter.flush();
-      end();
-    },
-  });
+  const board = build({ send: (bytes) => client?.write(bytes), onUnplug: end });
   const server = createServer({ noDelay: true }, (socket) => {
     socket.on('error', () => socket.destroy());
     if (client) {
@@ -216,7 +202,7 @@ function main(): void {
     baud: wholeNumber('baud', values.baud, 0, 1_000_000),
     ...(log && { onByte: log.add }),
   };
-  const build: Build = (wire) => createBoard({ ...settings, ...wire });
+  const build: Build = (wire) => createBoard({ ...settings, ...throughAdapter(wire) });
   process.on('SIGTERM', end);
   process.on('SIGINT', end);
   if (values.tcp === undefined) serveStdio(build, end);
