@@ -134,7 +134,7 @@ export class Locator {
 
   // Acting.
 
-  /** Where a press meets it: scrolled into sight, with nothing before it. */
+  /** Where a press meets it: scrolled into sight, at rest for a frame, with nothing before it. */
   #place(
     { position, timeout }: Pick<ClickOptions, 'position' | 'timeout'> = {},
     isRefused: (element: Element) => boolean = isDisabled,
@@ -143,11 +143,12 @@ export class Locator {
       const element = this.element();
       if (!isVisible(element)) throw new Error(`not to be seen: ${this.selector}`);
       if (isRefused(element)) throw new Error(`disabled: ${this.selector}`);
-      if (!isMetAt(element, metAt(pointOf(element, position)))) {
+      if (!isMetAt(element, metAt(pointOf(element, position))))
         element.scrollIntoView({ block: 'center', inline: 'center', behavior: 'instant' });
-        await realFrame();
-      }
+      const scrolled = pointOf(element, position);
+      await realFrame();
       const at = pointOf(element, position);
+      if (at?.x !== scrolled?.x || at?.y !== scrolled?.y) throw new Error(`it moves: ${this.selector}`);
       const met = metAt(at);
       if (at !== null && isMetAt(element, met)) return at;
       throw new Error(
@@ -319,32 +320,20 @@ function isMetAt(element: HTMLElement, met: EventTarget | null): boolean {
 
 const PRESSING = ['pointerdown', 'mousedown', 'pointerup', 'mouseup', 'click', 'dblclick'];
 
-/**
- * What a press meets instead of it, null for nothing: then nothing of the page hears of the press. Also where it moves away
- * under the press, as on a list that is measured after it was drawn: a person presses again.
- */
+/** What a press meets instead of it, null for nothing. Then nothing of the page hears of the press. */
 async function otherMet(element: HTMLElement, press: () => Promise<void>): Promise<string | null> {
   const listening = new AbortController();
-  const place = (): string => JSON.stringify(element.getBoundingClientRect());
-  const before = place();
-  const met: Met = { other: 'no event', isClicked: false };
+  let other: string | null = 'no event';
   const judge = (event: Event): void => {
-    if (met.other === 'no event') met.other = isMetAt(element, event.target) ? null : described(event);
-    if (event.type === 'click') met.isClicked = isMetAt(element, event.target);
-    if (met.other === null) return;
+    if (other === 'no event') other = isMetAt(element, event.target) ? null : described(event);
+    if (other === null) return;
     event.preventDefault();
     event.stopImmediatePropagation();
   };
   for (const type of PRESSING)
     window.addEventListener(type, judge, { capture: true, signal: listening.signal });
   await press().finally(() => listening.abort());
-  const hasMovedAway = !met.isClicked && element.isConnected && place() !== before;
-  return met.other ?? (hasMovedAway ? 'another place' : null);
-}
-
-interface Met {
-  other: string | null;
-  isClicked: boolean;
+  return other;
 }
 
 function described({ type, target }: Event): string {
