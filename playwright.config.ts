@@ -34,6 +34,10 @@ export default defineConfig<object, { way: Way }>({
       grep: [/@everyWay/, / real(?:Serial|Bluetooth|Hid)\//],
       use: { way: 'webSerial' },
     },
+    // What people have is written anew only when a person asks for it: npm run keep.
+    ...(process.env.KEEP === undefined
+      ? []
+      : [{ name: 'keep', testDir: 'e2e/kept', use: { way: 'webSerial' as const } }]),
   ],
   use: {
     locale: 'en-GB',

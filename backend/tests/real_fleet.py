@@ -18,15 +18,15 @@ LENGTH_AT = 2
 
 
 class RealGateway:
-    def __init__(self, name: str, mosquitto: Mosquitto, folder: Path) -> None:
-        """On the broker by and by."""
+    def __init__(self, name: str, mosquitto: Mosquitto, folder: Path, *more: str) -> None:
+        """On the broker by and by; `more`: options of `servodeck serve`."""
         self.name = name
         self.board = Board(folder / f"{name}.port", folder / f"{name}.jsonl")
         self.board.plug()
         where = ["--mqtt", f"mqtt://{name}@127.0.0.1:{mosquitto.port}", "--mqtt-site", LAB.name]
         files = ["--mqtt-password-file", str(mosquitto.folder / "secrets" / name)]
         data = ["--data", str(folder / f"{name}.data"), "--serial", str(self.board.link)]
-        self.served = Served(*where, *files, *data, pty=Pty(), is_named=False)
+        self.served = Served(*where, *files, *data, *more, pty=Pty(), is_named=False)
 
     def end(self) -> None:
         self.served.end()
@@ -47,10 +47,12 @@ class RealGateway:
 
 
 @contextmanager
-def real_fleet(mosquitto: Mosquitto, names: Sequence[str], folder: Path) -> Iterator[list[RealGateway]]:
+def real_fleet(
+    mosquitto: Mosquitto, names: Sequence[str], folder: Path, *more: str
+) -> Iterator[list[RealGateway]]:
     """They take seconds to start, so all at once."""
     with ThreadPoolExecutor(len(names)) as pool:
-        starting = [pool.submit(RealGateway, name, mosquitto, folder) for name in names]
+        starting = [pool.submit(RealGateway, name, mosquitto, folder, *more) for name in names]
     try:
         yield [one.result() for one in starting]
     finally:
