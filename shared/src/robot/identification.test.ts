@@ -156,6 +156,33 @@ describe('a board that was known', () => {
   });
 });
 
+describe('a simulated board', () => {
+  test('is what its starter says without a question, and contradicts who takes it for another', async () => {
+    const rig = await createRig({ profile: 'xarm', family: FAMILIES.xarm });
+    const { session, clock } = rig;
+    expect(session.state.link).toEqual({ status: 'ready' });
+    await session.choose(FAMILIES.xarm);
+    expect(kindsHeard(rig)).toEqual([]);
+    await session.choose(FAMILIES['lsc-16']);
+    expect(session.state.link).toEqual({ status: 'identifying' });
+    await clock.advance(3_000);
+    expect(session.state.link).toMatchObject({ status: 'refused', error: { code: 'wrongBoard' } });
+    await session.close();
+    await session.open();
+    await clock.advance(3_000);
+    expect(session.state.link).toMatchObject({ status: 'refused', error: { code: 'wrongBoard' } });
+    await session.choose(FAMILIES.xarm);
+    expect(session.state.link).toEqual({ status: 'ready' });
+  });
+
+  test('is not asked while it moves', async () => {
+    const { session, clock } = await createRig({ profile: 'xarm', family: FAMILIES.xarm });
+    session.move([{ servo: 1, position: 500 }], 2000);
+    await clock.advance(100);
+    await expect(session.choose(FAMILIES['lsc-16'])).rejects.toThrow(LinkError);
+  });
+});
+
 describe('the heartbeat', () => {
   const watched = (profile: ProfileName, id: FamilyId): Promise<Rig> =>
     createRig({ profile, family: family(id), isWatched: () => true });

@@ -60,6 +60,8 @@ export function createIdentification(options: IdentificationOptions): Identifica
   const { clock, store, queue, replies, identifies, drive, entered } = options;
   const exchange = createExchange(UNKNOWN_BOARD, clock, queue, replies);
   let claim = options.family;
+  /** Until another family is chosen, the word of the starter may be enough. */
+  let asks = identifies;
   let lineIsOpen = false;
   /** Counts what makes a round of questions pointless: the line went, or another round began. */
   let round = 0;
@@ -138,7 +140,7 @@ export function createIdentification(options: IdentificationOptions): Identifica
     begin() {
       lineIsOpen = true;
       store.update({ identity: NOTHING_HEARD });
-      if (identifies) begunCheck();
+      if (asks) begunCheck();
       else accept(false);
     },
     ended() {
@@ -152,10 +154,15 @@ export function createIdentification(options: IdentificationOptions): Identifica
       begunCheck();
     },
     choose(family) {
+      const isOpen = lineIsOpen && status() !== 'identifying';
+      // A board that was not asked was taken at the word of its starter, which was another one.
+      const mustAsk = isOpen && family !== claim && store.state.identity.evidence.length === 0;
+      if (mustAsk) requireIdle(store.state, options);
+      if (family !== claim) asks = true;
       claim = family;
-      if (!lineIsOpen || status() === 'identifying') return;
+      if (!isOpen) return;
       // What a board that is silent answered once says nothing of what is there now.
-      if (status() === 'stale') begunCheck();
+      if (mustAsk || status() === 'stale') begunCheck();
       else judge();
     },
     familyOnLine: () => (status() === 'identifying' ? UNKNOWN_BOARD : store.state.family),
@@ -163,7 +170,7 @@ export function createIdentification(options: IdentificationOptions): Identifica
       hears(bytes);
       heartbeat.heard();
       if (status() !== 'stale' || report.kind === 'unknown') return;
-      if (identifies) begunCheck();
+      if (asks) begunCheck();
       else accept(false);
     },
     heardNoise(bytes) {
