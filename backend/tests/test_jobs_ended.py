@@ -45,7 +45,7 @@ async def test_what_ends_it_is_said_and_leaves_the_slot_broken(end: str) -> None
             case "port closed":
                 await control.close_port()
             case "port changed":
-                await control.use_port("/dev/other")
+                await control.use_port("/dev/other", "doc")
             case "shut down":
                 await control.shut_down()
         told_s = now()

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 import pytest
-from httpx2 import AsyncClient
+from httpx2 import AsyncClient, Client
 from websockets.asyncio.client import ClientConnection, connect
 
 from servodeck.cli.options import FAILURE
@@ -155,6 +155,33 @@ def test_without_a_page_and_without_an_option_the_command_line_finds_out_which_b
         served.end()
     kinds = {packet[COMMAND_AT] for _, packet in asyncio.run(board.packets_taken())}
     assert kinds == {STOP[COMMAND_AT], BATTERY[COMMAND_AT], MOVE[COMMAND_AT], POSITIONS}
+
+
+@pytest.mark.exhaustive
+@pytest.mark.parametrize("board", ["xarm"], indirect=True)
+def test_behind_npm_start_another_port_is_identified_before_anything_moves(
+    board: Board, tmp_path: Path
+) -> None:
+    simulated = Board(tmp_path / "simulated", tmp_path / "simulated.jsonl")
+    simulated.plug()
+    place = ("--serial", str(simulated.link), "--data", str(tmp_path / "data"))
+    served = Served(*place, "--simulated", pty=Pty(), is_named=False, identifies_board=True)
+    at = ("--url", served.url)
+    try:
+        assert run("move", "1=1500", *at).exit_code == 0
+        assert run("battery", *at).stdout.startswith("7.")
+        for device in (board.link, simulated.link):
+            with Client(base_url=served.url) as client:
+                assert client.put("/api/port", json={"device": str(device)}).is_success
+            assert " V" not in run("status", *at).stdout
+            if device == board.link:
+                refused = run("move", "1=500", *at)
+                assert "It answers like: bus-ctrl, xarm." in refused.stderr
+        assert run("move", "1=1500", *at).exit_code == 0
+    finally:
+        served.end()
+        simulated.pull()
+    assert MOVE[COMMAND_AT] not in {packet[COMMAND_AT] for _, packet in asyncio.run(board.packets_taken())}
 
 
 SLOT, START, END, FRAME_MS = 5, 1000, 2000, 4000

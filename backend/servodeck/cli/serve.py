@@ -213,8 +213,10 @@ def serve(
     from servodeck.robot.driving import first_epoch
 
     allow_descriptors()
-    recalls_board = not (board or simulated)
-    board = board or ("doc" if simulated else UNKNOWN.id)
+    # Without a port named, the one that is opened is a remembered one, which no option describes.
+    is_simulated = simulated and bool(serial)
+    recalls_board = not (board or is_simulated)
+    board = board or ("doc" if is_simulated else UNKNOWN.id)
     if board not in FAMILIES:
         fail(f"There is no board family {board}. Choose one of: {', '.join(FAMILIES)}.", USAGE)
     senders = senders_to(notify, notify_file)
@@ -249,13 +251,12 @@ def serve(
         time.monotonic,
         board,
         serial or None,
-        simulated=simulated,
+        simulated=is_simulated,
         epoch=first_epoch(folder),
         slot_memory=SlotMemory(folder),
         remembered=remembered,
         recalls_board=recalls_board,
-        # A simulated one is what its starter names.
-        identifies_board=not simulated,
+        identifies_board=True,
         polls_battery=True,
         is_monitored=bool(senders),
         read_robot=robots_in(library),

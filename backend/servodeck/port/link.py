@@ -133,7 +133,8 @@ class Link:
         same.
         """
         first: asyncio.Future[None] = asyncio.get_running_loop().create_future()
-        await self._begin(device, first, lambda: self._keep_open(Whereabouts(device), first))
+        whereabouts = Whereabouts(device)
+        await self._begin(device, whereabouts, first, lambda: self._keep_open(whereabouts, first))
         await first
 
     async def find_rate(self) -> tuple[int, Heard] | None:
@@ -154,15 +155,20 @@ class Link:
                 fail(found, error)
             await self._keep_open(whereabouts, asyncio.get_running_loop().create_future())
 
-        await self._begin(device, found, listen)
+        await self._begin(device, whereabouts, found, listen)
         return await found
 
     async def _begin(
-        self, device: str, outcome: asyncio.Future[Any], work: Callable[[], Coroutine[Any, Any, None]]
+        self,
+        device: str,
+        whereabouts: Whereabouts,
+        outcome: asyncio.Future[Any],
+        work: Callable[[], Coroutine[Any, Any, None]],
     ) -> None:
         """`work` in place of what is done with a port so far."""
         async with self._changing:
             await self._end()
+            self._whereabouts = whereabouts
             self._show(PortState(device=device, status="opening"))
             self._task = asyncio.create_task(work())
             # Not in the task itself: one that is cancelled before its first step runs no line of its own.
@@ -172,6 +178,7 @@ class Link:
         """Closes the port and stays closed."""
         async with self._changing:
             await self._end()
+            self._whereabouts = None
             self._show(CLOSED)
 
     async def _end(self) -> None:
@@ -183,7 +190,6 @@ class Link:
 
     async def _keep_open(self, whereabouts: Whereabouts, first: asyncio.Future[None]) -> None:
         back_off = BackOff()
-        self._whereabouts = whereabouts
         while True:
             try:
                 await self._serve(whereabouts, first, back_off)

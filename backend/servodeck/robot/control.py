@@ -33,10 +33,11 @@ from servodeck.port.diagnosis import Heard
 from servodeck.port.link import Ports
 from servodeck.port.wire import Left, Owner
 from servodeck.protocol.decoder import NoiseEvent
-from servodeck.protocol.families import FAMILIES
+from servodeck.protocol.families import FAMILIES, UNKNOWN, Family
 from servodeck.protocol.values import Command, Report
 from servodeck.robot.acts import Acts
 from servodeck.robot.board.board import Board
+from servodeck.robot.board.port_families import PortFamilies
 from servodeck.robot.board.slots import SlotMemory
 from servodeck.robot.broadcast import Broadcast
 from servodeck.robot.driving import Driving
@@ -44,7 +45,7 @@ from servodeck.robot.hub import AGAINST_THE_RULES, Hub, Relay, Session
 from servodeck.robot.latch import Cause, Latch, Watch
 from servodeck.robot.motion.halt_plan import Unheld
 from servodeck.robot.operations import Operations
-from servodeck.robot.profile import ReadFacts, RecalledBoard, RobotLimits, RobotOfBoard, no_robot
+from servodeck.robot.profile import ReadFacts, RobotLimits, RobotOfBoard, no_robot
 from servodeck.robot.requests import Requests
 from servodeck.snapshots import JobState, LatchedBy, PlayState, UnheldServos
 
@@ -73,12 +74,12 @@ class Control:
     ) -> None:
         """`named_device` is the port named at the start: always offered, even where the system does not list
         it. `simulated`: it leads to a simulated board. `epoch`: the first epoch of the leases. `slot_memory`
-        and `remembered` outlive the process; without them nothing does. `recalls_board`: the family is the
-        one chosen last for the port. `identifies_board`: the board is identified at each opening, before
-        anything moves, and watched afterwards; otherwise it is taken for the given family. `polls_battery`:
-        the battery is read for all clients. `is_monitored`: also while no client is connected. `read_robot`
-        reads the library.
-
+        and `remembered` outlive the process; without them nothing does. `board` is the family at the port
+        that is used first; `recalls_board`: an unknown one is the one chosen last for the port.
+        `identifies_board`: the board is identified at each opening, before anything moves, and watched
+        afterwards, unless it is a simulated one that is what its starter names; otherwise it is taken for the
+        family that was named for its port. `polls_battery`: the battery is read for all clients.
+        `is_monitored`: also while no client is connected. `read_robot` reads the library.
         """
         self.named_device = named_device
         self._is_monitored = is_monitored
@@ -87,18 +88,21 @@ class Control:
         self._latch = Latch(self._latch_changed)
         self.limits = RobotLimits()
         self.remembered = remembered or Remembered()
-        self._recalled_board = RecalledBoard(self.remembered, is_wanted=recalls_board)
+        family = FAMILIES[board]
+        is_named = not (recalls_board and family is UNKNOWN)
+        self._families = PortFamilies(
+            self.remembered, family if is_named else None, named_device if simulated else None
+        )
         self.robot = RobotOfBoard(self.limits, read_robot, self.remembered, self._robot_changed)
         self.hub = Hub()
         self._watch = Watch(self)
         self.driving = Driving(self.hub, now, epoch, self._watch)
         self._relay = Relay(self.hub, now, lambda: self.driving.driver)
-        simulated_device = named_device if simulated else None
         self.board = Board(
             ports,
             now,
-            board,
-            simulated_device,
+            family,
+            self._families,
             slot_memory or SlotMemory(),
             self,
             self._leaving,
@@ -243,7 +247,7 @@ class Control:
         if board not in FAMILIES:
             raise OutOfRangeError(f"board is {board}, allowed: {', '.join(FAMILIES)}")
         self.board.choose_family(board)
-        self._recalled_board.chosen(self.board)
+        self._note_choice(FAMILIES[board])
         self._see_robot()
 
     def allow_unattended(self, session: Session, for_ms: int | None) -> None:
@@ -274,12 +278,11 @@ class Control:
     async def use_port(self, device: str, board: str | None = None) -> None:
         await self.board.quiet()
         self.robot.leave()
-        if board:
-            self._recalled_board.is_wanted = True
-            self.board.recall(board)
+        family = FAMILIES[board] if board else None
+        self._families.use(device, family)
         await self.board.link.use(device)
-        if board:
-            self._recalled_board.chosen(self.board)
+        if family:
+            self._note_choice(family)
 
     async def find_rate(self, caller: Caller) -> tuple[int, Heard] | None:
         """Listens on the port at other speeds, where the robot is at rest and no other client drives.
@@ -305,9 +308,6 @@ class Control:
         self.hub.close()
 
     # Events of the board
-
-    def port_opened(self) -> None:
-        self._recalled_board.port_opened(self.board)
 
     def board_lost(self) -> None:
         if not self.latch:
@@ -353,6 +353,12 @@ class Control:
             self.board.halts.halt_again()
 
     # Inside
+
+    def _note_choice(self, family: Family) -> None:
+        """A family that the answers of the board contradict is not remembered."""
+        board = self.board
+        if board.identification.state.status != "refused" or family is UNKNOWN:
+            self._families.chosen(family, board.link.state.device, board.link.place)
 
     def _leaving(self, owner: Owner, command: Command, at_s: float) -> None:
         # Moves of pages are merged and leave in the name of the driver; those of a play are one act.

@@ -11,9 +11,8 @@ from collections.abc import Callable, Iterable, Sequence
 from servodeck.errors import ConflictError, GatewayError, MovingError, NotFoundError, OutOfRangeError
 from servodeck.files import Remembered
 from servodeck.port.wire import Owner
-from servodeck.protocol.families import FAMILIES, UNITS, UNKNOWN, Family
+from servodeck.protocol.families import UNITS, Family
 from servodeck.protocol.values import Command, Move, ServoTarget
-from servodeck.robot.board.board import Board
 from servodeck.snapshots import NamedPose, RobotFacts, RobotState, ServoLimits
 from servodeck.threads import in_thread
 
@@ -211,25 +210,3 @@ class RobotOfBoard:
     def _key(self) -> str:
         assert self._board
         return " ".join(self._board)
-
-
-class RecalledBoard:
-    def __init__(self, remembered: Remembered, *, is_wanted: bool) -> None:
-        """Not wanted where an option names the family."""
-        self._remembered = remembered
-        self.is_wanted = is_wanted
-
-    def port_opened(self, board: Board) -> None:
-        known = self._remembered.board_at(board.link.place)
-        if self.is_wanted and board.identification.claim is UNKNOWN and known in FAMILIES:
-            board.recall(known)
-
-    def chosen(self, board: Board) -> None:
-        """A person has chosen it. What the board's answers contradict is not stored; a simulated one is what
-        its starter names, each time anew.
-        """
-        family, status = board.identification.claim, board.identification.state.status
-        is_contradicted = status == "refused" and family is not UNKNOWN
-        if board.port.status in ("open", "lost") and not board.port.simulated and not is_contradicted:
-            self._remembered.remember_board(board.link.place, None if family is UNKNOWN else family.id)
-            self._remembered.save_soon()

@@ -33,6 +33,7 @@ from servodeck.robot.board.identification import Identification, Status
 from servodeck.robot.board.identity import identity_state
 from servodeck.robot.board.move_buffer import MoveBuffer
 from servodeck.robot.board.playing import Plays
+from servodeck.robot.board.port_families import PortFamilies
 from servodeck.robot.board.readings import BatteryReader, Readings
 from servodeck.robot.board.replies import Replies
 from servodeck.robot.board.slots import SlotMemory
@@ -44,9 +45,6 @@ DRAIN_S = 2.0
 
 
 class BoardEvents(Protocol):
-    def port_opened(self) -> None:
-        """Before the first packet; `board_changed` follows."""
-
     def board_lost(self) -> None:
         """An open port was lost, or the board has fallen silent; `board_changed` follows."""
 
@@ -86,8 +84,8 @@ class Board:
         self,
         ports: Ports,
         now: Callable[[], float],
-        family_id: str,
-        simulated_device: str | None,
+        family: Family,
+        families: PortFamilies,
         slot_memory: SlotMemory,
         events: BoardEvents,
         leaving: Callable[[Owner, Command, float], None],
@@ -95,13 +93,14 @@ class Board:
         identifies: bool = False,
         polls_battery: bool = False,
     ) -> None:
-        """`identifies`: the family `family_id` is checked at each opening, and the board is watched
-        afterwards. `polls_battery`: the battery is read regularly. `simulated_device`: the port of a
-        simulated board. `leaving` gets each command that moves, ends or stores something, with its owner and
+        """`family` before the first opening; from then on `families` names it for each port. `identifies`:
+        that is checked at each opening, and the board is watched afterwards. `polls_battery`: the battery is
+        read regularly. `leaving` gets each command that moves, ends or stores something, with its owner and
         the time when its last bit leaves.
         """
-        self.family_id = family_id
-        self._simulated_device = simulated_device
+        self.family_id = family.id
+        self._families = families
+        self._is_new_port = False
         self._events = events
         self._command_leaves = leaving
         self._now = now
@@ -110,16 +109,14 @@ class Board:
         self.replies = Replies()
         self.battery = BatteryReader(self, self.replies, now, polls=polls_battery)
         self.readings = Readings(self, self.replies, self.battery, now)
-        self.identification = Identification(
-            self, self.readings.answer_to, FAMILIES[family_id], identifies=identifies
-        )
+        self.identification = Identification(self, self.readings.answer_to, family, identifies=identifies)
         self.jobs = Jobs(self, self.replies, now, slot_memory)
         self.moves = MoveBuffer(self, now, events.board_changed)
         self.plays = Plays(self.moves, self._play_changed, now)
         self.unattended = Unattended(now, events.unattended_time_over, events.board_changed)
         self.halts = Halts(self, now, events.stopped_again)
         self.activity = Activity(
-            *(FAMILIES[family_id], self.plays, self.unattended, now),
+            *(family, self.plays, self.unattended, now),
             stop_again=self.halts.halt_again,
             run_ended=self.battery.motion_ended,
         )
@@ -137,7 +134,7 @@ class Board:
     def port(self) -> PortState:
         """The state of the port, for clients."""
         state = self.link.state
-        is_simulated = state.device is not None and state.device == self._simulated_device
+        is_simulated = self._families.is_simulated(state.device)
         withheld = sorted(self.link.withheld)
         return state.model_copy(update={"simulated": is_simulated, "withheld": withheld})
 
@@ -168,11 +165,6 @@ class Board:
         """
         self.jobs.judge_idle()
         self.identification.choose(FAMILIES[family])
-
-    def recall(self, family: str) -> None:
-        """The next board is taken for that family until a person chooses another."""
-        self.identification.claim = FAMILIES[family]
-        self.family_id = family
 
     def _drop_all(self, reason: GatewayError) -> None:
         """Packets that wait for the wire are dropped, except stops."""
@@ -210,12 +202,12 @@ class Board:
     def port_opened(self, wire: Wire) -> None:
         metrics.totals.port_openings += 1
         self.battery.port_opened()
-        self._events.port_opened()
         self.activity.lose()
         if not self.halts.was_lost:
             self.activity.opened()
         self.halts.port_opened(wire)
-        self.identification.begin()
+        claim = self.identification.claim
+        self.identification.begin(is_vouched=self._families.is_vouched(self.link.state.device, claim))
 
     def port_lost(self, unfinished: CommandPacket | None) -> None:
         metrics.totals.port_losses += 1
@@ -230,6 +222,8 @@ class Board:
             self.identification.ended()
             self.moves.drop(PortLostError("The serial port is no longer open."))
             self.activity.lose()  # also for packets that left just before
+        if self.link.state.status in ("opening", "closed"):
+            self._forget_board()
         self._events.board_changed()
 
     # Events and questions of the identification
@@ -302,7 +296,23 @@ class Board:
             self.battery.motion_ended()
         self._events.play_changed(state)
 
+    def _forget_board(self) -> None:
+        """Another board may be at the next port."""
+        self.battery.forget()
+        self.jobs.forget()
+        self._is_new_port = True
+        self._take_for_named()
+
+    def _take_for_named(self) -> None:
+        """The board at the port is driven as the family that was named for it."""
+        if device := self.link.state.device:
+            self.identification.claim = self._families.at(device, self.link.place)
+            self.drive(self.identification.claim)
+
     def _make_wire(self, port: OpenPort) -> Wire:
+        if self._is_new_port:  # its place is known only now
+            self._is_new_port = False
+            self._take_for_named()
         gap_s = self.family.service_gap_ms / 1000
         return Wire(
             port,

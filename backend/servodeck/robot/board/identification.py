@@ -61,8 +61,8 @@ class IdentifiedBoard(Protocol):
 
 class Identification:
     def __init__(self, board: IdentifiedBoard, ask: SendQuestion, claim: Family, *, identifies: bool) -> None:
-        """`claim`: the family that the board is driven as until a person names another. `identifies`: that is
-        checked by harmless questions at each opening, and the board is watched afterwards.
+        """`claim`: the family that the board is driven as until another is named. `identifies`: that is
+        checked by harmless questions, and the board is watched afterwards.
         """
         self.claim = claim
         self.evidence: Sequence[Evidence] = ()
@@ -70,6 +70,7 @@ class Identification:
         self._board = board
         self._ask = ask
         self._identifies = identifies
+        self._is_vouched = False
         self._noise_bytes = 0
         self._echoes = 0
         self._check: asyncio.Task[None] | None = None
@@ -107,10 +108,10 @@ class Identification:
                 "The board is unknown and no port is open to identify it. Open a port, or choose the board."
             )
 
-    def begin(self) -> None:
-        """The line is open."""
-        self.evidence = ()
-        if self._identifies:
+    def begin(self, *, is_vouched: bool = False) -> None:
+        """The line is open. `is_vouched`: the claim needs no check, until another is named."""
+        self._is_vouched = is_vouched
+        if self._asks:
             self._begin_check()
         else:
             self._judge()
@@ -119,6 +120,7 @@ class Identification:
         """The line is down."""
         self._end_check()
         self._heartbeat.stop()
+        self.evidence = ()
         self._enter(BoardStatus("closed"))
 
     def choose(self, family: Family) -> None:
@@ -126,13 +128,16 @@ class Identification:
         question might end a motion.
         """
         status = self.state.status
-        if family is UNKNOWN and status != "closed" and not self._board.is_idle():
+        is_unasked = status not in ("closed", "identifying") and self._identifies and not self.evidence
+        must_ask = is_unasked and family is not self.claim
+        if (must_ask or (family is UNKNOWN and status != "closed")) and not self._board.is_idle():
             raise MovingError("The robot is moving: wait until it rests, or stop it first.")
+        self._is_vouched = self._is_vouched and family is self.claim
         self.claim = family
         if family is UNKNOWN or status == "closed":
             self._board.drive(family)
         # Earlier answers of a board that is silent now may be of another board.
-        if self._identifies and (family is UNKNOWN or status == "stale") and status != "closed":
+        if must_ask or (self._asks and (family is UNKNOWN or status == "stale") and status != "closed"):
             self._begin_check()
         elif status not in ("closed", "identifying"):
             self._judge()
@@ -142,7 +147,7 @@ class Identification:
         self._heartbeat.heard()
         if self.state.status != "stale" or isinstance(report, UnknownReport):
             return
-        if self._identifies:
+        if self._asks:
             self._begin_check()
         else:
             self._accept(is_silent=False)
@@ -153,8 +158,13 @@ class Identification:
 
     # Inside
 
+    @property
+    def _asks(self) -> bool:
+        return self._identifies and not self._is_vouched
+
     def _begin_check(self) -> None:
         self._end_check()
+        self.evidence = ()
         self._heartbeat.stop()
         self._enter(BoardStatus("identifying"))
         self._check = asyncio.create_task(self._ask_all())
@@ -212,7 +222,7 @@ class Identification:
             self._enter(BoardStatus("stale", silence()))
 
     def _heartbeat_question(self) -> Question | None:
-        if not self._identifies:
+        if not self._asks:
             return None
         # A board that is silent is queried also while no client looks: one may come over HTTP.
         may_ask = self._board.may_ask() or (self.state.status == "stale" and self._board.is_idle())

@@ -110,6 +110,10 @@ class Jobs:
             job.task.cancel()
             self._finish(job, error)
 
+    def forget(self) -> None:
+        """Another board may be at the port: it owes no answer and erases nothing."""
+        self._owed_until_s = self._erasing_until_s = float("-inf")
+
     def disown(self, caller_id: str, error: GatewayError) -> None:
         """Ends the download of that caller, which may not drive any more."""
         if self._current and self._current.by.id == caller_id:
