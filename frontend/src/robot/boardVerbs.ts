@@ -94,12 +94,12 @@ export function createBoardVerbs({
     const slots = groups.map(({ slot }) => slot);
     try {
       await current.download(groups);
-      notices.show('info', downloadedSentence(slots));
+      notices.ofBoard.show('info', downloadedSentence(slots));
       return true;
     } catch (error) {
       if (!(error instanceof LinkError && error.code === 'cancelled')) throw error;
       const broken = slots.find((slot) => current.state.brokenSlots.includes(slot));
-      notices.show('warning', downloadCancelled(broken ?? null));
+      notices.ofBoard.show('warning', downloadCancelled(broken ?? null));
       return false;
     }
   }
@@ -113,7 +113,10 @@ export function createBoardVerbs({
     run: (slot, times, settled) => attemptRun((current) => current.run(slot, times), settled),
     stopGroup: () => attempt((current) => current.stopGroup()),
     erase: (settled) =>
-      attempt((current) => current.erase().then(() => notices.show('info', words.board.erased)), settled),
+      attempt(
+        (current) => current.erase().then(() => notices.ofBoard.show('info', words.board.erased)),
+        settled,
+      ),
     readBattery: () => attempt((current) => current.readBattery()),
     watchBattery: () =>
       void now()
@@ -123,7 +126,7 @@ export function createBoardVerbs({
     readDetails: () => attempt((current) => current.readVersion().then(() => current.readOffsets())),
     setSpeed: (slot, percent) =>
       attempt((current) =>
-        current.setSpeed(slot, percent).then(() => notices.show('info', speedSent(slot, percent))),
+        current.setSpeed(slot, percent).then(() => notices.ofBoard.show('info', speedSent(slot, percent))),
       ),
     release: (servos, settled) => attempt((current) => current.release(servos), settled),
     download(groups, settled = () => undefined) {
@@ -146,8 +149,9 @@ export function createBoardVerbs({
           times,
           loopFrom,
         });
-        if (skippedFrames > 0) notices.show('warning', words.play.skipped({ frames: skippedFrames }));
-        else if (lateFrames > 0) notices.show('info', words.play.late({ frames: lateFrames, ms: latestMs }));
+        if (skippedFrames > 0) notices.ofBoard.show('warning', words.play.skipped({ frames: skippedFrames }));
+        else if (lateFrames > 0)
+          notices.ofBoard.show('info', words.play.late({ frames: lateFrames, ms: latestMs }));
         return isWhole;
       }, settled);
     },

@@ -16,7 +16,7 @@ import type { GrantedBoard, HidHere } from './links/webHid.ts';
 import { words } from '../i18n/words.ts';
 import type { FoundRate, GatewayPort } from './gatewayPorts.ts';
 import { hasGateway, readGateway, SURE_WITHIN_MS, type GatewayStatus } from './gatewayApi.ts';
-import { createWays, loadBluetooth, loadHid, type Opening } from './ways.ts';
+import { createWays, followWay, loadBluetooth, loadHid, type Opening } from './ways.ts';
 
 export interface ConnectState {
   /** What the simulated robot in the page is. */
@@ -140,24 +140,20 @@ export function createConnector(options: ConnectorOptions): Connector {
     const { robot, way } = opening;
     current = opening;
     store.setState({ openDevice: opening.port });
-    // Before the page itself hears that it is ready: where the gateway's port was changed, it leads to another board.
-    let wasReady = false;
     let isNew = true;
+    // Before the page itself hears of the state.
+    followWay(opening, (next) => device.describe(robot, next));
     robot.subscribe({
       state({ link: { status }, family }) {
-        if (status === 'ready' && !wasReady) {
-          device.describe(robot, way());
-          if (isNew) describeRobot(family.id);
+        if (status === 'ready' && isNew) {
+          describeRobot(family.id);
           isNew = false;
         }
-        wasReady = status === 'ready';
       },
     });
     device.attach(robot, way());
     // A first attempt that fails is in the link's state, with its sentence and its next try.
     await robot.open().catch(() => undefined);
-    // The gateway reports its port only once it is open.
-    device.describe(robot, way());
   }
 
   /** As what the person has said it is. */

@@ -14,10 +14,16 @@ import { INITIAL_STATE } from '#shared/robot/store.ts';
 import type { Motions, ServoMotion, SessionState } from '#shared/robot/state.ts';
 import { personName } from '../i18n/sentences.ts';
 import { words } from '../i18n/words.ts';
+import { nameOf } from './remembered.ts';
 import { createBoardVerbs, type BoardVerbs, createLateNotices } from './boardVerbs.ts';
 import { createMovingWatch, createTargetBook, moveDurationMs, type Pace, createLimitGate } from './moves.ts';
 import type { Notices } from '../state/notices.ts';
-import { createTrafficLog, type TrafficLog, createUnsolicitedAnswers } from './traffic.ts';
+import {
+  createTrafficLog,
+  type TrafficLog,
+  createUnsolicitedAnswers,
+  type UnsolicitedAnswers,
+} from './traffic.ts';
 
 export type WayKind = 'webSerial' | 'webHid' | 'webBluetooth' | 'gateway' | 'simulated';
 
@@ -111,6 +117,9 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
   let autoReconnect = true;
   let saidOfResume = '';
   let calibrated: number | null = null;
+  /** Names the board that was connected last. */
+  let boardName = '';
+  let unsolicited: UnsolicitedAnswers = () => undefined;
 
   const robot = (): RobotProfile => robots.current().robot;
   const inRobotUnits = (servo: number, onBoardAt: number): number => fromBoard(robot(), servo, onBoardAt);
@@ -208,7 +217,7 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
   }
 
   function showError(error: unknown): void {
-    notices.showError(error);
+    notices.ofBoard.showError(error);
     lateNotices.report(error);
   }
 
@@ -242,6 +251,14 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     await former?.close();
   }
 
+  function noteWay(way: Way): void {
+    unsolicited = createUnsolicitedAnswers(() => notices.ofBoard.show('warning', words.link.sharedBoard));
+    // A gateway's way has no label before its port is known.
+    if (way.label === '' || nameOf(way) === boardName) return;
+    boardName = nameOf(way);
+    notices.boardLeft();
+  }
+
   const verbs = createBoardVerbs({ session: () => session, ...{ gate, notices, lateNotices, showError } });
 
   return {
@@ -254,8 +271,8 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
       session = next;
       session.setAutoReconnect(autoReconnect);
       store.setState({ way });
+      noteWay(way);
       noteState(next.state);
-      const unsolicited = createUnsolicitedAnswers(() => notices.show('warning', words.link.sharedBoard));
       unsubscribe = next.subscribe({
         state: noteState,
         traffic(entry) {
@@ -267,7 +284,9 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
       });
     },
     describe(described, way) {
-      if (described === session) store.setState({ way });
+      if (described !== session) return;
+      store.setState({ way });
+      noteWay(way);
     },
     detach,
     motions,

@@ -23,6 +23,20 @@ export interface Opening {
   readonly port: object | null;
 }
 
+/** Calls `changed` when it leads elsewhere: the port of a gateway becomes known, or was changed. */
+export function followWay({ robot, way }: Opening, changed: (way: Way) => void): void {
+  let { label, isSimulated } = way();
+  robot.subscribe({
+    state() {
+      const next = way();
+      // A gateway that does not answer says nothing of its port.
+      if (next.label === '' || (next.label === label && next.isSimulated === isSimulated)) return;
+      ({ label, isSimulated } = next);
+      changed(next);
+    },
+  });
+}
+
 export interface WaysOptions {
   readonly clock: Clock;
   readonly boards: Boards;

@@ -21,6 +21,8 @@ export interface Notice {
   readonly text: string;
   /** Of an error. */
   readonly code?: LinkErrorCode | undefined;
+  /** It holds for the board that is connected, and for no other. */
+  readonly isOfBoard: boolean;
   readonly action?: NoticeAction | undefined;
 }
 
@@ -32,6 +34,10 @@ export interface Notices {
   show(tone: NoticeTone, text: string, action?: NoticeAction): void;
   /** Says why a field rejects an input. Returns a function that removes the message. */
   refuse(text: string): () => void;
+  /** Messages about the board that is connected, until `boardLeft`. */
+  readonly ofBoard: Pick<Notices, 'show' | 'showError'>;
+  /** Another board is connected: messages about the one before are removed. */
+  boardLeft(): void;
   /** Removes a message that no longer applies. */
   takeBack(text: string): void;
   /** Removes the messages about such errors. */
@@ -60,25 +66,32 @@ export function createNotices(clock: Clock): Notices {
     store.setState((notices) => notices.filter((notice) => !isOld(notice)), true);
   }
 
-  const show: Notices['show'] = (tone, text, action) => add({ tone, text, action });
+  const show: Notices['show'] = (tone, text, action) => add({ tone, text, action, isOfBoard: false });
   const dismiss = (shown: number): void => remove(({ id }) => id === shown);
   const takeBack = (old: string): void => remove(({ text }) => text === old);
 
+  function showError(error: unknown, isOfBoard = false): void {
+    const { code, message, cause, heldBy } = asLinkError(error);
+    const detail = cause instanceof RangeRefusal ? rangeText(cause) : message;
+    if (code === 'cancelled') return;
+    const text = linkSentence({ code, message: detail, heldBy });
+    add({ tone: code === 'internal' ? 'danger' : 'warning', text, code, isOfBoard });
+  }
+
   return {
     ...{ store, said, show, takeBack },
+    ofBoard: {
+      show: (tone, text, action) => add({ tone, text, action, isOfBoard: true }),
+      showError: (error) => showError(error, true),
+    },
+    boardLeft: () => remove(({ isOfBoard }) => isOfBoard),
     refuse(text) {
       show('warning', text);
       return () => takeBack(text);
     },
     takeBackErrors: (codes) => remove(({ code }) => code !== undefined && codes.includes(code)),
     say: (text) => said.setState(text, true),
-    showError(error) {
-      const { code, message, cause, heldBy } = asLinkError(error);
-      const detail = cause instanceof RangeRefusal ? rangeText(cause) : message;
-      if (code === 'cancelled') return;
-      const text = linkSentence({ code, message: detail, heldBy });
-      add({ tone: code === 'internal' ? 'danger' : 'warning', text, code });
-    },
+    showError: (error) => showError(error),
     dismiss,
   };
 }

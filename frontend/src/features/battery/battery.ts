@@ -68,7 +68,7 @@ export function createBattery(device: Device, robots: RobotProfiles): BatterySto
 
   /** A connection to another board means another battery; a reconnection to the same one does not. */
   function noteWay({ way }: DeviceState): void {
-    if (way === null || nameOf(way) === wayName) return;
+    if (way === null || way.label === '' || nameOf(way) === wayName) return;
     wayName = nameOf(way);
     store.setState(NOTHING_READ);
   }
@@ -181,9 +181,9 @@ export function applyBatteryPolicy(options: BatteryPolicyOptions): void {
 
   function cross(level: Level): void {
     restIsDue = level === 'danger' && policy() === 'rest';
-    if (level !== 'danger') notices.show('warning', words.battery.warned({ volts: volts() }));
-    else if (policy() === 'tell') notices.show('danger', words.battery.alarmed({ volts: volts() }));
-    else notices.show('danger', words.battery.alarmedRefusing({ volts: volts() }));
+    if (level !== 'danger') notices.ofBoard.show('warning', words.battery.warned({ volts: volts() }));
+    else if (policy() === 'tell') notices.ofBoard.show('danger', words.battery.alarmed({ volts: volts() }));
+    else notices.ofBoard.show('danger', words.battery.alarmedRefusing({ volts: volts() }));
   }
 
   const mayRest = (): boolean =>
@@ -192,7 +192,7 @@ export function applyBatteryPolicy(options: BatteryPolicyOptions): void {
   const announcement = (): string => words.battery.goingToRest({ ms: REST_WARNING_MS });
 
   function announceRest(): void {
-    notices.show('danger', announcement());
+    notices.ofBoard.show('danger', announcement());
     cancelRest = clock.after(REST_WARNING_MS, () => {
       cancelRest = null;
       if (mayRest()) goToRest();
@@ -212,7 +212,7 @@ export function applyBatteryPolicy(options: BatteryPolicyOptions): void {
       cancelRest = isThere ? null : clock.after(LOOK_EVERY_MS, look);
       if (!isThere) return;
       notices.takeBack(announcement());
-      notices.show('danger', words.battery.rested({ volts: volts() }));
+      notices.ofBoard.show('danger', words.battery.rested({ volts: volts() }));
       device.halt('battery');
     });
   }
@@ -239,7 +239,7 @@ export function applyBatteryPolicy(options: BatteryPolicyOptions): void {
   device.store.subscribe(giveUpWhereStopped);
   device.guardRuns((anyway) => {
     if (policy() === 'tell' || !isAlarm()) return true;
-    notices.show('warning', words.battery.runRefused({ volts: volts() }), {
+    notices.ofBoard.show('warning', words.battery.runRefused({ volts: volts() }), {
       label: words.battery.anyway,
       act: anyway,
     });
