@@ -16,8 +16,10 @@ from servodeck.files import Remembered
 from servodeck.protocol.decoder import COMMAND_AT
 from servodeck.robot.board.slots import SlotMemory
 from servodeck.robot.control import Control
+from tests.boards import old_board
 from tests.client import Client
-from tests.fake_port import FakePort
+from tests.downloading import ended
+from tests.fake_port import FakePort, FakePorts
 from tests.lockstep import ENTRY, NODE, Simulator, SteppedBoard
 from tests.running import NO_LIBRARY, client_of, entrance_to
 from tests.samples import BATTERY_REPORT
@@ -247,3 +249,33 @@ async def test_a_port_that_is_closed_leaves_no_battery_behind(simulator: Simulat
         await asyncio.sleep(0.1)
         await here.client.delete("/api/port")
         assert (await here.status())["battery"] is None
+
+
+@in_virtual_time
+async def test_behind_a_restart_a_run_of_a_known_group_is_known_at_once() -> None:
+    """Taken for a board that might answer the questions of its identification, it was taken to be deaf."""
+    remembered = Remembered()
+    remembered.remember_board(STARTED, "openarm-old")
+    control = Control(
+        FakePorts(old_board()),
+        now,
+        "unknown",
+        remembered=remembered,
+        recalls_board=True,
+        identifies_board=True,
+    )
+    await control.use_port(STARTED)
+    while control.board.link_state.status == "identifying":
+        await asyncio.sleep(0.01)
+    frames = [{"durationMs": 500, "positions": {"1": 1500}}]
+    async with client_of(create_app(control, NO_LIBRARY, entrance_to(now=now))) as client:
+        job = await client.post("/api/download", json={"groups": [{"slot": 5, "frames": frames}]})
+        await ended(control, control.board.jobs.find(job.json()["id"]))
+        assert (await client.post("/api/slots/5/run", json={"times": 1})).is_success
+        assert (await client.get("/api/status")).json()["running"]["endsInMs"] <= 510
+        await asyncio.sleep(0.7)
+        job = await client.post("/api/download", json={"groups": [{"slot": 5, "frames": frames}]})
+        assert job.is_success, job.text
+        await ended(control, control.board.jobs.find(job.json()["id"]))
+    assert not control.latch
+    await control.board.link.close()
