@@ -15,6 +15,7 @@ from servodeck.intents import ClientMessage, MessageId
 from servodeck.packet_models import CommandModel, ReportModel
 from servodeck.schema import Message, schema_of
 from servodeck.snapshots import (
+    ActivityState,
     BatteryState,
     IdentityState,
     JobState,
@@ -67,7 +68,15 @@ class WelcomeMessage(GatewayState):
     job: JobState | None
     play: PlayState | None
     motion: MotionState
+    activity: ActivityState
     battery: Annotated[BatteryState, Field(discriminator="kind")]
+
+
+class ActivityMessage(Message):
+    """What the robot does has changed."""
+
+    type: Literal["activity"] = "activity"
+    activity: ActivityState
 
 
 class BatteryMessage(Message):
@@ -184,6 +193,7 @@ class TickMessage(Message):
 
 GatewayMessage = Annotated[
     WelcomeMessage
+    | ActivityMessage
     | BatteryMessage
     | DoneMessage
     | RefusedMessage

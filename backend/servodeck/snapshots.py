@@ -150,6 +150,22 @@ class Running(Message):
     ends_in_ms: int | None
 
 
+class ShownRun(Running):
+    """`begunMsAgo`: since it left, or since the board reported it. `acknowledged`: the board has received it."""
+
+    begun_ms_ago: int
+    acknowledged: bool
+
+
+class ActivityState(Message):
+    """What the robot does, whoever began it: the group that may run, and `mayMove`: anything moves, or may as
+    far as the gateway knows, also behind the end of a group.
+    """
+
+    running: ShownRun | None
+    may_move: bool
+
+
 class StoredGroup(Message):
     """The group that was last stored in a slot: its version, name, document in the library, author and time
     in milliseconds since 1970; null where unknown.

@@ -38,7 +38,7 @@ ANNA = Caller("anna", "Anna", "driver")
 
 
 class Client(Session):
-    """`lease` is the latest one that it got; `beats` False is a tab that froze."""
+    """`lease` and `activity` are the latest ones that it got; `beats` False is a tab that froze."""
 
     def __init__(self, control: Control, caller: Caller = THIS_COMPUTER) -> None:
         super().__init__(caller)
@@ -46,15 +46,20 @@ class Client(Session):
         self.beats = True
         self.nonce: str | None = None
         self.lease: dict[str, Any] = {}
+        self.activity: dict[str, Any] = {}
         self.followed: list[bytes] = []
         control.join(self)
 
     def put(self, text: str) -> None:
         message = json.loads(text)
+        if message["type"] == "welcome":
+            self.activity = message["activity"]
         if message["type"] == "tick":
             self._answer(message["nonce"])
         elif message["type"] == "lease":
             self.lease = message["lease"]
+        elif message["type"] == "activity":
+            self.activity = message["activity"]
         else:
             super().put(text)
 

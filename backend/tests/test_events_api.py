@@ -128,6 +128,7 @@ async def test_each_event_has_an_id_and_a_reconnect_gets_a_gap() -> None:
 @in_virtual_time
 async def test_an_idle_stream_gets_a_line_now_and_then() -> None:
     async with listening() as here:
+        await asyncio.sleep(0.2)  # the port was just opened: until then something might still move
         here.listener.sent.clear()
         await asyncio.sleep(2.5 * SILENCE_S)
         assert [message["body"] for message in here.listener.sent] == [b":\n\n"] * 2

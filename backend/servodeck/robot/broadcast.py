@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 from servodeck import __version__
-from servodeck.events import StateMessage, WelcomeMessage, encode
+from servodeck.events import ActivityMessage, StateMessage, WelcomeMessage, encode
 from servodeck.robot.board.board import Board
 from servodeck.robot.driving import Driving
 from servodeck.robot.hub import Hub, Session
@@ -41,6 +41,7 @@ class Broadcast:
             job=board.jobs.latest,
             play=board.plays.latest,
             motion=board.motion.snapshot(self._now()),
+            activity=board.activity.state(),
             battery=board.battery.snapshot(),
             **self._state_fields(),
         )
@@ -49,6 +50,10 @@ class Broadcast:
     def state(self, but: Session | None = None) -> None:
         if self._hub.sessions:  # the message classes are built with the first message, after the start
             self._hub.send_all(StateMessage(**self._state_fields()), but)
+
+    def activity(self) -> None:
+        if self._hub.sessions:
+            self._hub.send_all(ActivityMessage(activity=self._board.activity.state()))
 
     def _state_fields(self) -> dict[str, Any]:
         """The fields of `GatewayState`."""

@@ -326,6 +326,9 @@ class Control:
         self._broadcast.state()
         self._see_robot()
 
+    def activity_changed(self) -> None:
+        self._broadcast.activity()
+
     def battery_changed(self) -> None:
         self.hub.send_all(BatteryMessage(battery=self.board.battery.snapshot()))
 

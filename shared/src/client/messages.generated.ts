@@ -22,6 +22,7 @@ export type ClientMessage =
   | HeartbeatMessage;
 export type GatewayMessage =
   | WelcomeMessage
+  | ActivityMessage
   | BatteryMessage
   | DoneMessage
   | RefusedMessage
@@ -290,6 +291,7 @@ export interface WelcomeMessage {
   job: JobState | null;
   play: PlayState | null;
   motion: MotionState;
+  activity: ActivityState;
   battery: BatteryUnread | BatteryRead | BatterySilent;
 }
 /**
@@ -667,6 +669,24 @@ export interface ReportedPosition {
   ageMs: number;
   isCurrent: boolean;
 }
+/**
+ * What the robot does, whoever began it: the group that may run, and `mayMove`: anything moves, or may as
+ * far as the gateway knows, also behind the end of a group.
+ */
+export interface ActivityState {
+  running: ShownRun | null;
+  mayMove: boolean;
+}
+/**
+ * `begunMsAgo`: since it left, or since the board reported it. `acknowledged`: the board has received it.
+ */
+export interface ShownRun {
+  slot: number;
+  times: number;
+  endsInMs: number | null;
+  begunMsAgo: number;
+  acknowledged: boolean;
+}
 export interface BatteryUnread {
   kind: 'unread';
 }
@@ -681,6 +701,13 @@ export interface BatteryRead {
 export interface BatterySilent {
   kind: 'silent';
   lastMv: number | null;
+}
+/**
+ * What the robot does has changed.
+ */
+export interface ActivityMessage {
+  type: 'activity';
+  activity: ActivityState;
 }
 /**
  * The board has reported its battery, or has stopped answering about it.

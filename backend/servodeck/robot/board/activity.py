@@ -12,13 +12,21 @@ from dataclasses import replace
 
 from servodeck.protocol.families import Family
 from servodeck.protocol.packets import STOP, CommandPacket, encoded
-from servodeck.protocol.timings import HEARTBEAT
+from servodeck.protocol.timings import ESTIMATE, HEARTBEAT
 from servodeck.protocol.values import Command, Move, Report, Run
 from servodeck.robot.board.estimate import Estimate
 from servodeck.robot.board.playing import Playing, Plays
 from servodeck.robot.hub import Session
-from servodeck.snapshots import Running, UnattendedRun
+from servodeck.snapshots import ActivityState, Running, ShownRun, UnattendedRun
 from servodeck.value import value
+
+
+# A move that follows so soon is the same motion to a client: it hears of both only once.
+LINGERS_S = ESTIMATE.last_ticks_ms / 1000
+# Timers may fire as early as that.
+SOONEST_S = 0.001
+# A motion of unknown length is looked at so often.
+LONGEST_WAIT_S = 3600.0
 
 
 class Activity:
@@ -30,8 +38,11 @@ class Activity:
         now: Callable[[], float],
         stop_again: Callable[[], object],
         run_ended: Callable[[], None],
+        changed: Callable[[], None],
     ) -> None:
-        """`stop_again` is called where the board may have missed the stops."""
+        """`stop_again` is called where the board may have missed the stops, `changed` when `state` has changed,
+        but for the time.
+        """
         self.unattended = unattended
         self._plays = plays
         self._now = now
@@ -42,6 +53,10 @@ class Activity:
             now, lambda: self._motion.deaf_until_s, lambda: self._is_moving() and stop_again()
         )
         self._followed: Run | Playing | None = None
+        self._changed = changed
+        self._shown: tuple[object, ...] = (None, False)
+        self._may_move = False
+        self._looking: asyncio.TimerHandle | None = None
 
     @property
     def motion(self) -> Estimate:
@@ -74,6 +89,16 @@ class Activity:
         ends_in_ms = None if ends_in_s is None else math.ceil(ends_in_s * 1000)
         return Running(slot=motion.run.slot, times=motion.run.times, ends_in_ms=ends_in_ms)
 
+    def state(self) -> ActivityState:
+        """For clients."""
+        running, motion = self.running(), self.motion
+        shown = running and ShownRun(
+            **running.model_dump(),
+            begun_ms_ago=round((self._now() - motion.run_begun_s()) * 1000),
+            acknowledged=motion.is_acknowledged,
+        )
+        return ActivityState(running=shown, may_move=self._may_move)
+
     def is_at_rest(self) -> bool:
         """Nothing moves, nor may anything unknown: flash work freezes servos and then lets them jump (S29,
         S39), and a move powers a released servo again (X7).
@@ -105,6 +130,7 @@ class Activity:
         self.unattended.follow(run)
         if before and not run:
             self._run_ended()
+        self._look()
 
     def hold(self, held: Sequence[CommandPacket], family: Family) -> CommandPacket | None:
         """As the robot stands when it leaves. The servos of the packets that are `held` are held already: a
@@ -130,16 +156,48 @@ class Activity:
         self._silence = Silence()
         self._stop_again.void()
         self.unattended.follow(None)
+        self._look()
 
     def filled(self, at_s: float) -> None:
         """The last bit of the filler leaves then that ends the packet that was cut."""
         self._motion.filled(at_s)
+        self._look()
 
     def forget(self, family: Family) -> None:
         """It may be another board, and its last owner may have begun a motion."""
         self._motion = Estimate(family)
         self.opened()
         self.lose()
+
+    def _look(self) -> None:
+        """Whether anything moves has changed, or will without a further event."""
+        if self._looking:
+            self._looking.cancel()
+            self._looking = None
+        now = self._now()
+        rests_in_s = self.motion.rests_in_s(now)
+        moves = self._plays.present is not None or rests_in_s is None or rests_in_s > 0
+        if moves:
+            self._may_move, look_in_s = True, LONGEST_WAIT_S if rests_in_s is None else rests_in_s
+            self._look_in(max(SOONEST_S, look_in_s), self._look)
+        elif self._may_move:
+            self._look_in(LINGERS_S, self._rests)
+        self._show()
+
+    def _look_in(self, seconds: float, look: Callable[[], None]) -> None:
+        self._looking = asyncio.get_running_loop().call_later(seconds, look)
+
+    def _rests(self) -> None:
+        self._looking, self._may_move = None, False
+        self._show()
+
+    def _show(self) -> None:
+        motion, now = self.motion, self._now()
+        run = (motion.run, motion.run_begun_s()) if motion.group_may_run(now) else None
+        shown = (run, run and motion.is_acknowledged, self._may_move)
+        if shown != self._shown:
+            self._shown = shown
+            self._changed()
 
     def _is_moving(self) -> bool:
         return self.motion.group_may_run(self._now()) or self.motion.is_moving(self._now())

@@ -59,6 +59,8 @@ class BoardEvents(Protocol):
     def is_watched(self) -> bool:
         """A client is connected, or the board is read for notifications."""
 
+    def activity_changed(self) -> None: ...
+
     def battery_changed(self) -> None: ...
 
     def job_changed(self, state: JobState) -> None: ...
@@ -119,6 +121,7 @@ class Board:
             *(family, self.plays, self.unattended, now),
             stop_again=self.halts.halt_again,
             run_ended=self.battery.motion_ended,
+            changed=events.activity_changed,
         )
 
     @property

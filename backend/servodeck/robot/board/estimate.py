@@ -21,6 +21,7 @@ from servodeck.protocol.values import (
     Release,
     Report,
     Run,
+    RunAccepted,
     RunFinished,
     RunStarted,
     RunStopped,
@@ -77,6 +78,8 @@ class Estimate:
         self._requested: Run | None = None
         """The run that left last."""
         self._run_at_ms = -inf
+        self.is_acknowledged = False
+        """The board has said that it received that run."""
         self._over_ms = -inf
         """The board may still report the end of its group until then, and is taken to play it."""
         self._unheard_until_ms = -inf
@@ -114,6 +117,7 @@ class Estimate:
         if isinstance(command, Run) and self._motion.run:
             self._run = self._requested = command
             self._run_at_ms, self._over_ms = at_ms, -inf
+            self.is_acknowledged = False
         elif isinstance(command, Stop) and is_heard:
             self._over_ms = -inf
         elif isinstance(command, Move) and not is_heard:
@@ -127,6 +131,8 @@ class Estimate:
             self._reported |= {one.servo: (one.position, at_s) for one in report.positions}
         if isinstance(report, Erased) and Erased in self._motion.answers_owed:
             self._memory.empty()
+        if isinstance(report, RunAccepted):
+            self.is_acknowledged = True
         if isinstance(report, RunStarted):
             self._started(report, at_ms)
         elif isinstance(report, RunFinished | RunStopped):
@@ -182,6 +188,17 @@ class Estimate:
     def run(self) -> Run | None:
         """The group that may run: it was not stopped, and as far as is known it has not ended."""
         return self._run
+
+    def run_begun_s(self) -> float:
+        """When the run left that may run."""
+        return self._run_at_ms / 1000
+
+    def rests_in_s(self, now: float) -> float | None:
+        """At most, until nothing may move any more; None where that is unknown."""
+        if self.group_may_run(now):
+            return self.group_ends_in_s(now)
+        left_ms = self._motion.restless_until_ms - self._advance(now)
+        return max(self.moves_for_s(now), left_ms / 1000)
 
     def group_may_run(self, now: float) -> bool:
         self._advance(now)
@@ -306,6 +323,7 @@ class Estimate:
     def _started(self, report: RunStarted, at_ms: float) -> None:
         """By a key or a pad at the board; one that was requested may have been stopped since."""
         is_ours = self._requested is not None and self._requested.slot == report.slot
+        self.is_acknowledged = True
         if is_ours and self._run is None and at_ms - self._run_at_ms < RUN_REPORT_MS:
             return
         self._motion = after_report(self._motion, report, at_ms, self)
