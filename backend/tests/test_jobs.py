@@ -183,10 +183,10 @@ async def test_a_group_of_this_gateway_is_over_after_its_time_where_the_board_sa
         anna = Client(control)
         await ended(control, begin(control, WAVE))
         await anna.send(encode(Run(SLOT, 2), FAMILIES["openarm-old"]))
-        await asyncio.sleep(3.0)
+        await asyncio.sleep(2.99)
         with pytest.raises(MovingError):
             begin(control, WAVE)
-        await asyncio.sleep(timings.RUN.end_grace_ms / 1000 + 0.1)
+        await asyncio.sleep(timings.ESTIMATE.last_ticks_ms / 1000)
         begin(control, WAVE)
 
 

@@ -54,7 +54,7 @@ from servodeck.robot.motion.motion import (
     hears,
     latest_end_ms,
 )
-from servodeck.robot.motion.reports import after_cut, after_end, after_report
+from servodeck.robot.motion.reports import after_cut, after_end, after_report, reports_end
 from servodeck.snapshots import MotionState, ReportedPosition, ServoWay
 
 # Longer than the board takes to report the start or end of a run: neither shall be taken for the next one's.
@@ -189,6 +189,11 @@ class Estimate:
         """The group that may run: it was not stopped, and as far as is known it has not ended."""
         return self._run
 
+    @property
+    def _grace_ms(self) -> float:
+        """A board that reports the end of its groups is waited for; where none is reported, ours counts."""
+        return RUN.end_grace_ms if reports_end(self.family) else 0
+
     def run_begun_s(self) -> float:
         """When the run left that may run."""
         return self._run_at_ms / 1000
@@ -207,7 +212,7 @@ class Estimate:
     def group_ends_in_s(self, now: float) -> float | None:
         """At the latest, for a group that may run; None where only the board could report it."""
         now_ms = self._advance(now)
-        end_ms = latest_end_ms(self._motion, self) + RUN.end_grace_ms if self._motion.run else self._over_ms
+        end_ms = latest_end_ms(self._motion, self) + self._grace_ms if self._motion.run else self._over_ms
         left_ms = max(0.0, end_ms - now_ms)
         return None if left_ms > LONGEST_SHOWN_MS else left_ms / 1000
 
@@ -306,7 +311,7 @@ class Estimate:
         end_ms = latest_end_ms(self._motion, self) if ran else -inf
         self._motion = advance(self._motion, now_ms, self)
         if ran and not self._motion.run:
-            self._over_ms = end_ms + RUN.end_grace_ms
+            self._over_ms = end_ms + self._grace_ms
         if not self._motion.run and now_ms >= self._over_ms:
             self._run = None
         return now_ms

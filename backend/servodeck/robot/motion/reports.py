@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from math import inf
 
+from servodeck.protocol.families import Family
 from servodeck.protocol.timings import ESTIMATE
 from servodeck.protocol.values import AllPositions, Positions, Report, Run, RunStarted, ServoTarget
 from servodeck.robot.motion.deadlines import longest_ms
@@ -19,6 +20,11 @@ from servodeck.robot.motion.model import (
 )
 from servodeck.robot.motion.motion import advance, playback_of, restless
 from servodeck.robot.motion.tracks import last_end_ms, stands
+
+
+def reports_end(family: Family) -> bool:
+    """A board that says when it takes a run also says when the group has ended (S18, S48, X1)."""
+    return "run" in family.answers or family.run_reports_name_slot
 
 
 def after_report(motion: Motion, report: Report, at_ms: float, board: KnownBoard) -> Motion:
