@@ -2,10 +2,15 @@
 // does is motion.ts.
 
 import type { ServoTarget } from '../codec/commands.ts';
+import type { Family } from '../codec/families.ts';
 import type { Report, ReportKind } from '../codec/reports.ts';
 import { afterPositions, runningUnknown, type KnownBoard, type Motion, LAST_TICKS_MS } from './model.ts';
 import { advance, LONGEST_DEAFNESS_MS, playbackOf, restless } from './motion.ts';
 import { lastEndMs, stands } from './tracks.ts';
+
+/** A board that says when it takes a run also says when the group has ended (S18, S48, X1). */
+export const reportsEnd = ({ answers, runReportsNameSlot }: Family): boolean =>
+  answers.includes('run') || runReportsNameSlot;
 
 /** After the board said so at `atMs`; the end of a group is `afterEnd`. */
 export function afterReport(motion: Motion, report: Report, atMs: number, board: KnownBoard): Motion {

@@ -59,6 +59,8 @@ export interface RobotEstimate {
   /** The motion that continues in spite of a STOP pressed then, whose last packet left just now. */
   unheldSince(pressedMs: number): Unheld | null;
   moving(): boolean;
+  /** What is known of the group that may run: with its frames, when it ends. */
+  groupRuns(): 'no' | 'known' | 'unknown';
   /** The group that runs is taken to have ended, without a word of the board. */
   groupEnded(): void;
   stored(slot: number, frames: readonly Frame[]): void;
@@ -159,6 +161,11 @@ export function createRobotEstimate(family: Family, clock: Clock): RobotEstimate
     moving() {
       const { run, restlessUntilMs } = now();
       return run !== null || restlessUntilMs > clock.now() || remainingMs(now(), clock.now()) > 0;
+    },
+    groupRuns() {
+      const { run } = now();
+      if (run === null) return 'no';
+      return run.kind === 'unknown' ? 'unknown' : 'known';
     },
     groupEnded: () => (motion = afterCut(motion, clock.now(), board)),
     stored: (slot, frames) => changeMemory(() => memory.store(slot, frames)),

@@ -69,6 +69,8 @@ export function createGroups(core: Core, slotMemory: SlotMemory | undefined): Gr
       if (error instanceof LinkError && error.code === 'overslept') running.ended();
       else running.confirm('unknown');
       throw error;
+    } finally {
+      running.follow();
     }
   }
 
@@ -111,7 +113,10 @@ export function createGroups(core: Core, slotMemory: SlotMemory | undefined): Gr
     linked: storing.linked,
     heard(report) {
       estimate.heard(report);
-      if (report.kind === 'runStarted') running.began(report.slot, report.times, 'acknowledged');
+      if (report.kind === 'runStarted') {
+        running.began(report.slot, report.times, 'acknowledged');
+        running.follow();
+      }
       if (report.kind === 'runFinished' || report.kind === 'runStopped') running.ended();
     },
     unlinked() {

@@ -253,6 +253,7 @@ export function createLocalRobot(options: LocalRobotOptions): Robot {
     play: (frames, playing) => driver.player.play(frames, playing?.times ?? 1, playing?.loopFrom ?? 0),
     stopPlaying: () => driver.player.stop(),
     motions: () => driver.core.estimate.motions(),
+    isMoving: () => driver.core.estimate.moving(),
   };
 }
 

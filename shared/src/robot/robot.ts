@@ -65,6 +65,8 @@ export interface Robot {
   stopPlaying(): void;
   /** As of now. */
   motions(): Motions;
+  /** Something moves or may, as far as can be known, also behind the end of a group. */
+  isMoving(): boolean;
 }
 
 export interface PlayOptions {

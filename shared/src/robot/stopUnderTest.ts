@@ -62,7 +62,7 @@ export const SLOW_FLASH: readonly Fault[] = [{ name: 'slowErase', sectorMs: 400 
 const STORED_WITHIN_MS = 12_000;
 
 /** A session that fails says so in its own tests; here it only matters what the robot does afterwards. */
-function take({ session, channel, clock }: Rig, step: StopStep): Promise<void> {
+export function take({ session, channel, clock }: Rig, step: StopStep): Promise<void> {
   switch (step.kind) {
     case 'wait':
       return clock.advance(step.ms);
@@ -129,7 +129,7 @@ export function foreignFlash(profile: ProfileName, frames: readonly Frame[]): Fl
 }
 
 /** On a board that has been on for a while, two servos at known places, a group stored. */
-async function prepared(profile: ProfileName, history: StopHistory): Promise<Rig> {
+export async function prepared(profile: ProfileName, history: StopHistory): Promise<Rig> {
   const family = familyOf(profile);
   const rig = await createRig({
     ...{ profile, family, flash: foreignFlash(profile, history.unknown) },

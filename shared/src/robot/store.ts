@@ -8,7 +8,9 @@ import { NOTHING_HEARD } from './identity.ts';
 import type { SessionEvents, SessionState, Activity } from './state.ts';
 import type { Clock } from '../clock.ts';
 import type { RobotEstimate } from './estimate.ts';
+import { reportsEnd } from '../motion/reports.ts';
 import { RUN_END_GRACE_MS } from './timings.ts';
+import timings from '../../protocol/timings.json' with { type: 'json' };
 
 export interface SessionStore {
   readonly state: SessionState;
@@ -90,43 +92,64 @@ type Truth = Extract<Activity, { kind: 'running' }>['truth'];
 export interface Running {
   began(slot: number, times: number, truth: Truth): void;
   confirm(truth: Truth): void;
+  /** The board has it: from now on it lasts as long as the estimate says. */
+  follow(): void;
   ended(): void;
   /** Its end is not waited for any more. */
   forget(): void;
 }
 
-/**
- * The group that the board runs: from when, how true that is, and its end, which the board's own word may be missing for. Sends nothing.
- */
+const LOOK_MS = timings.estimate.lastTicksMs / 2;
+const LONGEST_DEAFNESS_MS = timings.estimate.longestDeafnessMs;
+
+/** The group that the board runs: from when, how true that is, and its end, which not every board reports. Sends nothing. */
 export function createRunning(
   clock: Clock,
   store: SessionStore,
-  estimate: () => Pick<RobotEstimate, 'groupMs' | 'groupEnded'>,
+  estimate: () => Pick<RobotEstimate, 'groupRuns' | 'groupMs' | 'groupEnded'>,
 ): Running {
-  let cancelEndTimer = (): void => undefined;
+  let cancelLook = (): void => undefined;
 
   function ended(): void {
-    cancelEndTimer();
+    cancelLook();
     if (store.state.activity.kind === 'running') store.update({ activity: { kind: 'idle' } });
+  }
+
+  /** By then a group of known frames has ended, though the board may have taken it up late. */
+  function latestEndMs({ slot, times, sinceMs }: Extract<Activity, { kind: 'running' }>): number {
+    const passMs = estimate().groupMs(slot);
+    if (times === 0 || passMs === null) return Infinity;
+    return sinceMs + passMs * times + LONGEST_DEAFNESS_MS + RUN_END_GRACE_MS;
+  }
+
+  /** `waitedMs`: for the report of an end that was computed. */
+  function look(waitedMs: number): void {
+    const { activity, family } = store.state;
+    if (activity.kind !== 'running') return;
+    const runs = estimate().groupRuns();
+    if (runs === 'unknown' && clock.now() >= latestEndMs(activity)) {
+      estimate().groupEnded();
+      return ended();
+    }
+    const isReported = reportsEnd(family) && estimate().groupMs(activity.slot) !== 0;
+    if (runs === 'no' && waitedMs >= (isReported ? RUN_END_GRACE_MS : 0)) return ended();
+    cancelLook = clock.after(LOOK_MS, () => look(runs === 'no' ? waitedMs + LOOK_MS : 0));
   }
 
   return {
     began(slot, times, truth) {
+      cancelLook();
       store.update({ activity: { kind: 'running', slot, times, sinceMs: clock.now(), truth } });
-      cancelEndTimer();
-      const passMs = estimate().groupMs(slot);
-      if (times === 0 || passMs === null) return;
-      // The board's own word for the end may be lost on the way.
-      cancelEndTimer = clock.after(passMs * times + RUN_END_GRACE_MS, () => {
-        estimate().groupEnded();
-        ended();
-      });
     },
     confirm(truth) {
       const { activity } = store.state;
       if (activity.kind === 'running') store.update({ activity: { ...activity, truth } });
     },
+    follow() {
+      cancelLook();
+      look(0);
+    },
     ended,
-    forget: () => cancelEndTimer(),
+    forget: () => cancelLook(),
   };
 }
