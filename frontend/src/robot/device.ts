@@ -110,7 +110,7 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
   const store = createStore<DeviceState>(() => ({ family, ...NOTHING }));
   const traffic = createTrafficLog();
   const book = createTargetBook(clock);
-  const watch = createMovingWatch(clock, isUnderWay);
+  const watch = createMovingWatch(clock, isUnderWay, () => session?.isMoving() ?? false);
   const lateNotices = createLateNotices(clock, notices);
   let session: Robot | null = null;
   let unsubscribe = (): void => undefined;
@@ -163,7 +163,10 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
   }
 
   function isUnderWay(): boolean {
+    if (session === null) return false;
+    if (session.isMoving()) return true;
     const motion = motions();
+    // What was requested and has not left.
     return robot().servos.some(({ servo }) => {
       const { target, estimated } = motion(servo);
       // Without a target we moved it nowhere, even where the board said where it is.

@@ -244,12 +244,25 @@ describe('a packet by hand', () => {
   });
 });
 
+const running = (slot: number, times: number, acknowledged = false): GatewayMessage => ({
+  type: 'activity',
+  activity: { running: { slot, times, endsInMs: null, begunMsAgo: 400, acknowledged }, mayMove: true },
+});
+const RESTS: GatewayMessage = { type: 'activity', activity: { running: null, mayMove: false } };
+
+function refusedRun(gateway: GatewayUnderTest): void {
+  gateway.say(RESTS);
+  gateway.refuse('latched');
+}
+
 describe('groups of the board', () => {
-  async function running(): Promise<GatewayUnderTest & { readonly run: Promise<unknown> }> {
+  async function asked(): Promise<GatewayUnderTest & { readonly run: Promise<unknown> }> {
     const gateway = await createGateway();
     const run = gateway.robot.run(3, 2).catch((error: unknown) => error);
     await settled(gateway);
     expect(gateway.posted).toMatchObject([{ type: 'run', slot: 3, times: 2, nonce: '1-1' }]);
+    expect(gateway.robot.state.activity).toMatchObject({ kind: 'running', slot: 3, truth: 'requested' });
+    gateway.say(running(3, 2));
     return { ...gateway, run };
   }
 
@@ -257,7 +270,7 @@ describe('groups of the board', () => {
     ['acknowledged', 'acknowledged'],
     ['sent', 'requested'],
   ] as const)('a run that is %s', async (outcome, truth) => {
-    const { robot, run, done, posted } = await running();
+    const { robot, run, done, posted, say } = await asked();
     done(outcome);
     expect(await run).toBeUndefined();
     expect(robot.state.activity).toMatchObject({ kind: 'running', slot: 3, times: 2, truth });
@@ -265,14 +278,16 @@ describe('groups of the board', () => {
     expect(posted.at(-1)).toMatchObject({ type: 'stopGroup' });
     done();
     await stopped;
+    expect(robot.state.activity.kind).toBe('running');
+    say(RESTS);
     expect(robot.state.activity).toEqual({ kind: 'idle' });
   });
 
   test.each([
     ['silent', (gateway: GatewayUnderTest) => gateway.done('silent'), 'noAnswer', 'running'],
-    ['refused', (gateway: GatewayUnderTest) => gateway.refuse('latched'), 'latched', 'idle'],
+    ['refused', (gateway: GatewayUnderTest) => refusedRun(gateway), 'latched', 'idle'],
   ] as const)('a run that is %s', async (_, answer, code, kind) => {
-    const gateway = await running();
+    const gateway = await asked();
     answer(gateway);
     expect(await gateway.run).toMatchObject({ code });
     const { activity } = gateway.robot.state;
@@ -280,8 +295,37 @@ describe('groups of the board', () => {
     if (kind === 'running') expect(activity).toMatchObject({ truth: 'unknown' });
   });
 
+  test('a run that another client began is shown from its begin to its end, also to a page that comes late', async () => {
+    const { robot, clock, say, cut } = await createGateway();
+    say(running(30, 1));
+    const activity = { kind: 'running', slot: 30, times: 1, sinceMs: clock.now() - 400 } as const;
+    expect(robot.state.activity).toEqual({ ...activity, truth: 'requested' });
+    expect(robot.isMoving()).toBe(true);
+    say(running(30, 1, true));
+    expect(robot.state.activity).toEqual({ ...activity, truth: 'acknowledged' });
+    say({ type: 'activity', activity: { running: null, mayMove: true } });
+    expect([robot.state.activity.kind, robot.isMoving()]).toEqual(['idle', true]);
+    say(RESTS);
+    expect(robot.isMoving()).toBe(false);
+    say(running(30, 1));
+    cut();
+    expect([robot.state.activity.kind, robot.isMoving()]).toEqual(['idle', false]);
+    const { activity: now } = running(31, 0) as Extract<GatewayMessage, { type: 'activity' }>;
+    const late = await createGateway({ welcome: { activity: now } });
+    expect(late.robot.state.activity).toMatchObject({ kind: 'running', slot: 31, times: 0 });
+  });
+
+  test('a group that the gateway knows to have ended keeps nobody from a download, though its frames are unknown here', async () => {
+    const { robot, say, clock } = await createGateway();
+    say(running(30, 1), { type: 'left', commands: [{ kind: 'run', slot: 30, times: 1 }] });
+    await clock.advance(2000);
+    say(RESTS);
+    const stored = robot.download([{ slot: 3, frames: WAVE }]).catch((error: unknown) => error);
+    expect(await stored).not.toMatchObject({ code: 'busy' });
+  });
+
   test('a run whose gateway is gone failed for that', async () => {
-    const { run, cut } = await running();
+    const { run, cut } = await asked();
     cut();
     expect(await run).toMatchObject({ code: 'gatewayUnreachable' });
   });
@@ -410,7 +454,9 @@ describe('what moved before the page came', () => {
   });
 
   test('while a group may run nothing may begin that needs a robot at rest', async () => {
-    const { robot } = await createGateway({ welcome: { motion: { ...MOVED, servos: [], runSlot: 4 } } });
+    const { activity } = running(4, 1) as Extract<GatewayMessage, { type: 'activity' }>;
+    const motion = { ...MOVED, servos: [], runSlot: 4 };
+    const { robot } = await createGateway({ welcome: { motion, activity } });
     await expect(robot.download([{ slot: 3, frames: WAVE }])).rejects.toMatchObject({ code: 'busy' });
   });
 

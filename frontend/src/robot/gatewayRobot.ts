@@ -65,7 +65,7 @@ export function createGatewayRobot({ url, clock, mayDrive = true }: GatewayRobot
     ...{ clock, driving, slots, sendUnheardStop },
     dropMoves: () => moves.clear(),
   });
-  const { store, running, latch } = snapshot;
+  const { store, runs, latch } = snapshot;
   const link = createLink({ clock, open: socket.open, close: socket.close, changed: snapshot.lineChanged });
   const moves = createGatewayMoves({
     ...{ clock, begin, post: socket.post, nextId: socket.nextId },
@@ -115,20 +115,20 @@ export function createGatewayRobot({ url, clock, mayDrive = true }: GatewayRobot
   }
 
   const rest = {
-    isMoving: () => snapshot.estimate.moving(),
+    isMoving: snapshot.isMoving,
     isUnsettled: () => moves.servos().length > 0,
   };
 
   async function run(slot: number, times: number): Promise<void> {
     requireRunnable(store.state, slot, times);
-    running.began(slot, times, 'requested');
+    runs.began(slot, times);
     try {
       const outcome = await askDriving((id, nonce) => ({ type: 'run', id, slot, times, nonce }));
-      if (outcome === 'acknowledged') running.confirm(outcome);
       if (outcome === 'silent') throw new LinkError('noAnswer', 'the board did not say that it runs it');
+      runs.settled(outcome === 'acknowledged' ? outcome : 'requested');
     } catch (error) {
-      if (error instanceof LinkError && UNCERTAIN.includes(error.code)) running.confirm('unknown');
-      else running.ended();
+      if (error instanceof LinkError && UNCERTAIN.includes(error.code)) runs.settled('unknown');
+      else runs.refused();
       throw error;
     }
   }
@@ -136,7 +136,6 @@ export function createGatewayRobot({ url, clock, mayDrive = true }: GatewayRobot
   async function stopGroup(): Promise<void> {
     requireReady(store.state);
     await socket.ask((id) => ({ type: 'stopGroup', id }));
-    running.ended();
   }
 
   async function release(servos: readonly number[]): Promise<void> {
@@ -269,13 +268,14 @@ export function createGatewayRobot({ url, clock, mayDrive = true }: GatewayRobot
       requireRest(store.state, rest);
       requireCarried(store.state, 'erase');
       refuseUnfit({ kind: 'erase' }, store.state.family);
-      store.update({ activity: { kind: 'erasing' } });
+      snapshot.erasing(true);
       snapshot.estimate.unstored();
       try {
         await askDriving((id, nonce) => ({ type: 'erase', id, nonce }));
         store.update({ brokenSlots: [] });
       } finally {
-        store.update({ storedSlots: snapshot.estimate.storedSlots(), activity: { kind: 'idle' } });
+        store.update({ storedSlots: snapshot.estimate.storedSlots() });
+        snapshot.erasing(false);
       }
     },
     readBattery,
@@ -306,5 +306,6 @@ export function createGatewayRobot({ url, clock, mayDrive = true }: GatewayRobot
     },
     stopPlaying,
     motions: () => snapshot.estimate.motions(),
+    isMoving: snapshot.isMoving,
   };
 }

@@ -41,6 +41,7 @@ const WELCOME: WelcomeMessage = {
   ...READY,
   ...{ type: 'welcome', version: 'test', robot: null, lease: FREE, job: null, play: null },
   motion: { servos: [], runSlot: null, released: [], reported: [] },
+  activity: { running: null, mayMove: false },
   battery: { kind: 'unread' },
 };
 
@@ -142,7 +143,15 @@ export async function createGateway(options: GatewayOptions = {}): Promise<Gatew
     ...{ clock, robot, posted, say },
     state(changes) {
       state = { ...state, ...changes, type: 'welcome' };
-      const { lease: _lease, job: _job, play: _play, motion: _motion, battery: _battery, ...rest } = state;
+      const {
+        lease: _lease,
+        job: _job,
+        play: _play,
+        motion: _motion,
+        activity: _activity,
+        battery: _battery,
+        ...rest
+      } = state;
       say({ ...rest, type: 'state' });
     },
     done: (outcome = 'sent') => say({ type: 'done', id: newestId(), outcome }),

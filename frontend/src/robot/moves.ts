@@ -128,13 +128,19 @@ const LOOK_EACH_MS = 100;
 /** Longer than a hand rests between two drags. */
 const LINGER_MS = 600;
 
-export function createMovingWatch(clock: Clock, isUnderWay: () => boolean): MovingWatch {
+/** `isUnderWay` is looked at now and then, `surelyMoves` each time: it costs little. */
+export function createMovingWatch(
+  clock: Clock,
+  isUnderWay: () => boolean,
+  surelyMoves: () => boolean,
+): MovingWatch {
   let lookedMs = -Infinity;
   let movedMs = -Infinity;
   return {
     isMoving() {
       const nowMs = clock.now();
-      if (nowMs - lookedMs >= LOOK_EACH_MS) {
+      if (surelyMoves()) movedMs = nowMs;
+      else if (nowMs - lookedMs >= LOOK_EACH_MS) {
         lookedMs = nowMs;
         if (isUnderWay()) movedMs = nowMs;
       }

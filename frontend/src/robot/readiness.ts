@@ -4,7 +4,14 @@
 import { isWatching } from '#shared/robot/lease.ts';
 import type { Family } from '#shared/codec/families.ts';
 import type { LinkErrorCode } from '#shared/robot/linkError.ts';
-import { wasCommanded, type LinkState, type ServoMotion, type SessionState } from '#shared/robot/state.ts';
+import {
+  wasCommanded,
+  type Activity,
+  type LinkState,
+  type ServoMotion,
+  type SessionState,
+} from '#shared/robot/state.ts';
+import type { DeviceState } from './device.ts';
 
 export type Hindrance =
   | 'closed'
@@ -20,6 +27,19 @@ export type Hindrance =
 export function tellsPositions({ commands }: Family): boolean {
   return commands.includes('readPositions') || commands.includes('readAllPositions');
 }
+
+export type ShownActivity = Activity | { readonly kind: 'moving' };
+
+/** What people are told that the robot does, wherever it is shown: `idle` only where nothing may move, as far as can be known. */
+export function shownActivity({
+  snapshot,
+  isMoving,
+}: Pick<DeviceState, 'snapshot' | 'isMoving'>): ShownActivity {
+  const { activity } = snapshot;
+  return activity.kind === 'idle' && isMoving ? MOVING : activity;
+}
+
+const MOVING = { kind: 'moving' } as const;
 
 /** A question moves nothing, so it may go out while stopped; on some boards it would end a running group. */
 export function mayAsk({ link, activity }: SessionState, { queryKillsRun }: Family): boolean {

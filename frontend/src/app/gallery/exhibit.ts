@@ -108,6 +108,7 @@ export function frozenSession(
     play: () => Promise.resolve({ lateFrames: 0, latestMs: 0, skippedFrames: 0, isWhole: true }),
     stopPlaying: () => undefined,
     motions: () => (servo) => motions[servo] ?? { target: null, estimated: null },
+    isMoving: () => false,
   };
 }
 

@@ -3,7 +3,7 @@
 import { useId, useRef, type ReactNode, type RefObject } from 'react';
 import { slotTrigger } from '#shared/codec/families.ts';
 import type { Activity } from '#shared/robot/state.ts';
-import { motionHindrance } from '../../robot/readiness.ts';
+import { motionHindrance, shownActivity } from '../../robot/readiness.ts';
 import {
   useSnapshot,
   useStores,
@@ -102,7 +102,7 @@ function SlotField() {
 }
 
 function Now() {
-  const activity = useSnapshot((snapshot) => snapshot.activity);
+  const activity = useDevice(shownActivity);
   if (activity.kind === 'downloading') return <DownloadProgress />;
   if (activity.kind === 'running') return <Running activity={activity} />;
   return <AtAGlance />;

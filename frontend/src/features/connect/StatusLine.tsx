@@ -5,7 +5,8 @@ import type { Unheld } from '#shared/motion/haltPlan.ts';
 import { useDevice, useDocument, useIsTeaching, useSnapshot, useStores, usePlayedFrame } from '../stores.ts';
 import { mayResume } from '#shared/robot/lease.ts';
 import type { LinkErrorCode } from '#shared/robot/linkError.ts';
-import type { Activity, Latch, LinkState } from '#shared/robot/state.ts';
+import type { Latch, LinkState } from '#shared/robot/state.ts';
+import { shownActivity, type ShownActivity } from '../../robot/readiness.ts';
 import { Button } from '../../ui/Button.tsx';
 import { Mark, type Truth } from '../../ui/Chip.tsx';
 import { cx } from '../../ui/cx.ts';
@@ -34,13 +35,12 @@ export interface StatusLineProps {
 export function StatusLine({ className, onMoveHere }: StatusLineProps) {
   const link = useSnapshot((snapshot) => snapshot.link);
   const latch = useSnapshot((snapshot) => snapshot.latch);
-  const activity = useSnapshot((snapshot) => snapshot.activity);
+  const activity = useDevice(shownActivity);
   const isShared = useSnapshot((snapshot) => snapshot.lease !== null);
   const played = usePlayed();
   const isTeaching = useIsTeaching();
   const isDown = link.status === 'lost' || link.status === 'refused';
   const isCalm = link.status === 'ready' && latch === null;
-  const isMoving = useDevice((device) => device.isMoving) && activity.kind === 'idle';
   return (
     <div
       className={cx(
@@ -63,10 +63,8 @@ export function StatusLine({ className, onMoveHere }: StatusLineProps) {
         <Said truth="warning" text={words.teach.status} />
       ) : (
         <Said
-          truth={isMoving ? 'estimated' : activityTruth(activity)}
-          text={
-            link.status !== 'ready' ? '' : isMoving ? words.activity.moving : activityWords(activity, played)
-          }
+          truth={activityTruth(activity)}
+          text={link.status === 'ready' ? activityWords(activity, played) : ''}
         />
       )}
       {isShared && <LeaseStatus />}
@@ -156,8 +154,9 @@ function Countdown({ untilMs }: { readonly untilMs: number }) {
   return words.link.retryIn({ seconds: secondsLeft(untilMs - nowMs) });
 }
 
-function activityTruth(activity: Activity): Truth {
+function activityTruth(activity: ShownActivity): Truth {
   if (activity.kind === 'idle') return 'neutral';
+  if (activity.kind === 'moving') return 'estimated';
   if (activity.kind !== 'running') return 'commanded';
   return ({ requested: 'commanded', acknowledged: 'confirmed', unknown: 'unknown' } as const)[activity.truth];
 }
@@ -174,10 +173,12 @@ function usePlayed(): Played | null {
   return index === null ? null : { frame: index + 1, count };
 }
 
-function activityWords(activity: Activity, played: Played | null): string {
+function activityWords(activity: ShownActivity, played: Played | null): string {
   switch (activity.kind) {
     case 'idle':
       return words.activity.idle;
+    case 'moving':
+      return words.activity.moving;
     case 'running':
       return words.activity.summary({
         activity: words.activity.running(activity),

@@ -11,8 +11,6 @@ import { createRobotEstimate, type RobotEstimate } from '#shared/robot/estimate.
 import { NOTHING_HEARD } from '#shared/robot/identity.ts';
 import type { LineState } from '#shared/robot/link.ts';
 import {
-  createRunning,
-  type Running,
   createSessionStore,
   noteCommand,
   noteReport,
@@ -32,7 +30,13 @@ import {
   type BoardAtGateway,
 } from './gatewayValues.ts';
 import type { Driving } from './driving.ts';
-import type { BatteryMessage, PlayState, StateMessage } from '#shared/client/messages.generated.ts';
+import type {
+  ActivityState,
+  BatteryMessage,
+  PlayState,
+  ShownRun,
+  StateMessage,
+} from '#shared/client/messages.generated.ts';
 
 export interface GatewaySnapshotOptions {
   readonly clock: Clock;
@@ -44,11 +48,26 @@ export interface GatewaySnapshotOptions {
   sendUnheardStop(): boolean;
 }
 
+export interface RequestedRuns {
+  began(slot: number, times: number): void;
+  /** The gateway has answered, or cannot be heard any more. */
+  settled(truth: Truth): void;
+  refused(): void;
+}
+
+type RunActivity = Extract<Activity, { kind: 'running' }>;
+type Truth = RunActivity['truth'];
+
 export interface GatewaySnapshot {
   readonly store: SessionStore;
   readonly estimate: RobotEstimate;
-  readonly running: Running;
+  /** Runs that this page requests: how far that is known, until the gateway says that the group runs. */
+  readonly runs: RequestedRuns;
   readonly latch: MotionLatch;
+  /** Anything moves, or may, as far as the gateway knows. */
+  isMoving(): boolean;
+  /** This page has the board erase its slots, or not any more. */
+  erasing(isErasing: boolean): void;
   /** Why the gateway refuses motion, whatever this page shows; null where it does not. */
   readonly latchedBy: LatchReason | null;
   heard(message: Exclude<Said, { type: 'tick' | 'played' }>): void;
@@ -64,7 +83,12 @@ export function createGatewaySnapshot(options: GatewaySnapshotOptions): GatewayS
   const { clock, driving, slots } = options;
   const store = createSessionStore({ family: UNKNOWN_BOARD, canShare: true, withheld: [] });
   let estimate = createRobotEstimate(UNKNOWN_BOARD, clock);
-  const running = createRunning(clock, store, () => estimate);
+  /** Whoever began it. */
+  let run: RunActivity | null = null;
+  let mayMove = false;
+  /** `isPending`: the gateway has not answered yet. */
+  let requestedRun: { readonly run: RunActivity; readonly isPending: boolean } | null = null;
+  let isErasing = false;
   let isOpen = false;
   /** What the gateway said last, shown while the link is open. */
   let board: BoardAtGateway | null = null;
@@ -85,6 +109,7 @@ export function createGatewaySnapshot(options: GatewaySnapshotOptions): GatewayS
         driving.leaseChanged(message.lease);
         document = message.robot?.id ?? null;
         before = motionBefore(message.motion, clock.now());
+        activityChanged(message.activity);
         slots.jobChanged(message.job);
         play = message.play;
         battery = batteryOf(message.battery, clock.now());
@@ -93,6 +118,10 @@ export function createGatewaySnapshot(options: GatewaySnapshotOptions): GatewayS
         break;
       case 'state':
         stateChanged(message);
+        break;
+      case 'activity':
+        activityChanged(message.activity);
+        showActivity();
         break;
       case 'battery':
         battery = batteryOf(message.battery, clock.now());
@@ -117,7 +146,7 @@ export function createGatewaySnapshot(options: GatewaySnapshotOptions): GatewayS
         break;
       case 'play':
         play = message.play;
-        showPlay();
+        showActivity();
         break;
       case 'received':
         if (isOpen) received(reportIn(message), fromHex(message.bytes));
@@ -169,7 +198,7 @@ export function createGatewaySnapshot(options: GatewaySnapshotOptions): GatewayS
     latchAsGateway();
     if (board !== null) showBoard(board);
     else entered({ status: 'identifying' });
-    showPlay();
+    showActivity();
   }
 
   /** The gateway identifies the board: its result counts. */
@@ -199,6 +228,7 @@ export function createGatewaySnapshot(options: GatewaySnapshotOptions): GatewayS
     store.update({ link: next });
     if (next.status === previous) return;
     if (previous === 'ready') unlinked(next);
+    showActivity();
   }
 
   function becomesReady(): void {
@@ -223,8 +253,9 @@ export function createGatewaySnapshot(options: GatewaySnapshotOptions): GatewayS
   /** Requests from here and has not left, or is not known to have ended. */
   function drop(): void {
     options.dropMoves();
-    running.forget();
-    store.update({ waitingToStart: [], activity: downloadActivity() });
+    requestedRun = null;
+    store.update({ waitingToStart: [] });
+    showActivity();
   }
 
   function showLease(): void {
@@ -270,18 +301,43 @@ export function createGatewaySnapshot(options: GatewaySnapshotOptions): GatewayS
   function received(report: Report, bytes: Uint8Array): void {
     store.emit('traffic', { atMs: clock.now(), direction: 'in', bytes, report });
     estimate.heard(report);
-    if (report.kind === 'runStarted') running.began(report.slot, report.times, 'acknowledged');
-    if (report.kind === 'runFinished' || report.kind === 'runStopped') running.ended();
     noteReport(store, report, clock.now());
     if (report.kind === 'runStopped') latch.change({ stop: 'confirmed' });
   }
 
-  function showPlay(): void {
-    if (!isOpen) return;
+  function activityChanged({ running, mayMove: next }: ActivityState): void {
+    mayMove = next;
+    run = running && runActivity(running);
+    if (requestedRun?.isPending !== true) endUnknownRun();
+  }
+
+  /** Where its frames are unknown here, so is its end. */
+  function endUnknownRun(): void {
+    if (run === null && estimate.groupRuns() !== 'no') estimate.groupEnded();
+  }
+
+  function runActivity({ slot, times, begunMsAgo, acknowledged }: ShownRun): RunActivity {
+    const own = requestedRun?.run;
+    const truth = own?.slot === slot && own.times === times ? own.truth : 'requested';
+    const sinceMs = clock.now() - begunMsAgo;
+    return { kind: 'running', slot, times, sinceMs, truth: acknowledged ? 'acknowledged' : truth };
+  }
+
+  function activityNow(): Activity {
+    if (isErasing) return { kind: 'erasing' };
+    const storing = downloadActivity();
+    if (storing.kind !== 'idle' || !isOpen) return storing;
     if (play?.status === 'playing') {
       const { frameIndex, frameCount } = play;
-      store.update({ activity: { kind: 'playing', frameIndex, frameCount } });
-    } else if (store.state.activity.kind === 'playing') store.update({ activity: IDLE });
+      return { kind: 'playing', frameIndex, frameCount };
+    }
+    if (store.state.link.status !== 'ready') return IDLE;
+    return run ?? (requestedRun?.isPending === true ? requestedRun.run : IDLE);
+  }
+
+  function showActivity(): void {
+    const next = activityNow();
+    if (!isSame(next, store.state.activity)) store.update({ activity: next });
   }
 
   function downloadActivity(): Activity {
@@ -303,8 +359,7 @@ export function createGatewaySnapshot(options: GatewaySnapshotOptions): GatewayS
     if (brokenSlots.join() !== store.state.brokenSlots.join()) store.update({ brokenSlots });
     if (versions !== store.state.slotVersions) store.update({ slotVersions: versions });
     showStoredSlots();
-    const { kind } = store.state.activity;
-    if (kind === 'idle' || kind === 'downloading') store.update({ activity: downloadActivity() });
+    showActivity();
   }
 
   function showStoredSlots(): void {
@@ -325,7 +380,29 @@ export function createGatewaySnapshot(options: GatewaySnapshotOptions): GatewayS
     get estimate() {
       return estimate;
     },
-    running,
+    runs: {
+      began(slot, times) {
+        const own = { kind: 'running', slot, times, sinceMs: clock.now(), truth: 'requested' } as const;
+        requestedRun = { run: own, isPending: true };
+        showActivity();
+      },
+      settled(truth) {
+        if (requestedRun === null) return;
+        requestedRun = { run: { ...requestedRun.run, truth }, isPending: false };
+        if (run !== null && run.truth === 'requested') run = { ...run, truth };
+        endUnknownRun();
+        showActivity();
+      },
+      refused() {
+        requestedRun = null;
+        showActivity();
+      },
+    },
+    isMoving: () => isOpen && mayMove,
+    erasing(next) {
+      isErasing = next;
+      showActivity();
+    },
     get latchedBy() {
       return latchedBy;
     },
@@ -335,6 +412,10 @@ export function createGatewaySnapshot(options: GatewaySnapshotOptions): GatewayS
       showStoredSlots();
     },
   };
+}
+
+function isSame(one: Activity, other: Activity): boolean {
+  return JSON.stringify(one) === JSON.stringify(other);
 }
 
 function batteryOf(battery: BatteryMessage['battery'], nowMs: number): Battery {
