@@ -151,7 +151,9 @@ class Running(Message):
 
 
 class ShownRun(Running):
-    """`begunMsAgo`: since it left, or since the board reported it. `acknowledged`: the board has received it."""
+    """`begunMsAgo`: since it left, or since the board reported it. `acknowledged`: the board has received
+    it.
+    """
 
     begun_ms_ago: int
     acknowledged: bool

@@ -1,7 +1,7 @@
 """What every page shows as the robot's activity, against what the simulated board does: over generated
-histories no pulse changes while a page shows "Idle", whoever began the motion. The page shows what the gateway
-says (frontend/src/robot/links/gatewaySnapshot.ts); where it shows a stop or a link that is down, it says
-nothing of motion.
+histories no pulse changes while a page shows "Idle", whoever began the motion. The page shows what the
+gateway says (frontend/src/robot/links/gatewaySnapshot.ts); where it shows a stop or a link that is
+down, it says nothing of motion.
 
 Not known to the gateway, and so left out: motion that a pad or key of a board begins that reports no run
 (OpenArm), and what others began before the port was opened.
@@ -9,7 +9,6 @@ Not known to the gateway, and so left out: motion that a pad or key of a board b
 
 import asyncio
 import json
-from collections.abc import Iterator
 from typing import Any
 
 import pytest

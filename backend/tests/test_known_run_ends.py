@@ -1,6 +1,6 @@
-"""A counted run of a group that the gateway knows is over at its computed end, and never before the robot stands:
-from then on no driver who leaves or falls silent stops and latches, a download begins, and pages show "Idle".
-Where a board reports the end, that counts. Real simulated boards, virtual time.
+"""A counted run of a group that the gateway knows is over at its computed end, and never before the robot
+stands: from then on no driver who leaves or falls silent stops and latches, a download begins, and pages show
+"Idle". Where a board reports the end, that counts. Real simulated boards, virtual time.
 """
 
 import asyncio
@@ -11,8 +11,9 @@ from math import ceil
 import pytest
 
 from servodeck.errors import MovingError
+from servodeck.protocol.decoder import COMMAND_AT
 from servodeck.protocol.families import FAMILIES
-from servodeck.protocol.timings import ESTIMATE, LEASE, wire_ms
+from servodeck.protocol.timings import ESTIMATE, LEASE, wire_ms, wire_s
 from tests.amount import named, seeds
 from tests.lockstep import ENTRY, NODE, History, Simulator, SteppedBoard
 from tests.samples import RUN
@@ -42,7 +43,7 @@ LATER_S = 2 * LEASE.silent_ms / 1000
 
 def computed_s(board: str, history: History, times: int) -> float:
     """The latest end of that run behind its packet, by boards.md (S42, S43, L7)."""
-    frames_ms = [frame["durationMs"] for frame in history["known"]]
+    frames_ms: list[int] = [frame["durationMs"] for frame in history["known"]]
     if FAMILIES[board].motion.groups == "deadlines":
         return (times * sum(frames_ms) + wire_ms(7)) / 1000
     polls = [ceil(ms / ESTIMATE.poll_step_ms) + ESTIMATE.spare_polls for ms in frames_ms]
@@ -56,10 +57,10 @@ async def ends(simulator: Simulator, family: str, history: History, door: str, t
     control, activity = here.control, here.control.board.activity
     await asyncio.sleep(1)
     here.say({"type": "run", "slot": KNOWN_SLOT, "times": times})
-    while not board.runs:
-        await asyncio.sleep(LOOK_S)
-    left_s = now() + len(RUN) * 0.00105
-    ends_s = left_s + computed_s(family, history, times)
+    await asyncio.sleep(LOOK_S)
+    begun_s, packet = board.ports[-1].written[-1]
+    assert packet[COMMAND_AT] == RUN[COMMAND_AT]
+    ends_s = begun_s + wire_s(len(packet)) + computed_s(family, history, times)
     if door == "silent before":
         await asyncio.sleep(max(0.0, ends_s + LAST_TICKS_S + BEAT_S - now() - LEASE.silent_ms / 1000))
         here.page.beats = False

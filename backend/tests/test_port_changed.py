@@ -265,8 +265,7 @@ async def test_behind_a_restart_a_run_of_a_known_group_is_known_at_once() -> Non
         identifies_board=True,
     )
     await control.use_port(STARTED)
-    while control.board.link_state.status == "identifying":
-        await asyncio.sleep(0.01)
+    await control.until_identified()
     frames = [{"durationMs": 500, "positions": {"1": 1500}}]
     async with client_of(create_app(control, NO_LIBRARY, entrance_to(now=now))) as client:
         job = await client.post("/api/download", json={"groups": [{"slot": 5, "frames": frames}]})

@@ -678,7 +678,8 @@ export interface ActivityState {
   mayMove: boolean;
 }
 /**
- * `begunMsAgo`: since it left, or since the board reported it. `acknowledged`: the board has received it.
+ * `begunMsAgo`: since it left, or since the board reported it. `acknowledged`: the board has received
+ * it.
  */
 export interface ShownRun {
   slot: number;

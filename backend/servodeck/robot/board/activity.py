@@ -20,7 +20,6 @@ from servodeck.robot.hub import Session
 from servodeck.snapshots import ActivityState, Running, ShownRun, UnattendedRun
 from servodeck.value import value
 
-
 # A move that follows so soon is the same motion to a client: it hears of both only once.
 LINGERS_S = ESTIMATE.last_ticks_ms / 1000
 # Timers may fire as early as that.
@@ -40,8 +39,8 @@ class Activity:
         run_ended: Callable[[], None],
         changed: Callable[[], None],
     ) -> None:
-        """`stop_again` is called where the board may have missed the stops, `changed` when `state` has changed,
-        but for the time.
+        """`stop_again` is called where the board may have missed the stops, `changed` when `state` is another
+        besides its times.
         """
         self.unattended = unattended
         self._plays = plays
@@ -92,7 +91,9 @@ class Activity:
     def state(self) -> ActivityState:
         """For clients."""
         running, motion = self.running(), self.motion
-        shown = running and ShownRun(
+        if running is None:
+            return ActivityState(running=None, may_move=self._may_move)
+        shown = ShownRun(
             **running.model_dump(),
             begun_ms_ago=round((self._now() - motion.run_begun_s()) * 1000),
             acknowledged=motion.is_acknowledged,
