@@ -5,7 +5,7 @@ import { useStores, useView, useDevice } from '../features/stores.ts';
 import type { LanguageChoice, Theme } from '../features/view.ts';
 import { Icon, type IconName } from '../ui/Icon.tsx';
 import { LANGUAGE_CODES, LANGUAGES, words } from '../i18n/words.ts';
-import { nameOf } from '../robot/remembered.ts';
+import { nameOf } from '../robot/device.ts';
 import { RobotButton } from '../features/profiles/RobotDialog.tsx';
 import { BatteryReadout } from '../features/battery/BatteryReadout.tsx';
 import { IconButton } from '../ui/Button.tsx';

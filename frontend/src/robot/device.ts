@@ -14,7 +14,6 @@ import { INITIAL_STATE } from '#shared/robot/store.ts';
 import type { Motions, ServoMotion, SessionState } from '#shared/robot/state.ts';
 import { personName } from '../i18n/sentences.ts';
 import { words } from '../i18n/words.ts';
-import { nameOf } from './remembered.ts';
 import { createBoardVerbs, type BoardVerbs, createLateNotices } from './boardVerbs.ts';
 import { createMovingWatch, createTargetBook, moveDurationMs, type Pace, createLimitGate } from './moves.ts';
 import type { Notices } from '../state/notices.ts';
@@ -34,6 +33,9 @@ export interface Way {
   /** Nothing real moves, whichever way leads there. */
   readonly isSimulated: boolean;
 }
+
+/** Boards have no name of their own: the device they are on is all there is to know them by. */
+export const nameOf = ({ kind, label }: Pick<Way, 'kind' | 'label'>): string => `${kind} ${label}`;
 
 export interface DeviceState {
   readonly family: Family;

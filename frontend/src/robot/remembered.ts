@@ -5,7 +5,7 @@
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import { FAMILIES, type FamilyId } from '#shared/codec/families.ts';
 import type { SlotMemory } from '#shared/robot/download.ts';
-import type { Way, WayKind, Device, DeviceState } from './device.ts';
+import { nameOf, type Way, type WayKind, type Device, type DeviceState } from './device.ts';
 import { readText, saveText, type TextStorage, createThrottle } from '../state/storage.ts';
 import type { Robot, RobotServo } from '#shared/profile/robot.ts';
 import type { ServoTarget } from '#shared/codec/commands.ts';
@@ -24,13 +24,10 @@ export interface Boards {
   rename(way: BoardWay, nickname: string): void;
 }
 
-/** Boards have no name of their own: the device they are on is all there is to know them by. */
 type BoardWay = Pick<Way, 'kind' | 'label'>;
 
 export const NICKNAME_LENGTH = 64;
 const BOARDS_KEY = 'servodeck.boards';
-
-export const nameOf = ({ kind, label }: BoardWay): string => `${kind} ${label}`;
 
 export function createBoards(storage: TextStorage): Boards {
   const store = createStore(() => load(storage));
@@ -144,7 +141,7 @@ interface LastPose {
 }
 
 type Poses = Readonly<Record<string, LastPose>>;
-/** By the way's name, see `nameOf` in remembered.ts. */
+/** By the way's name, see `nameOf` in device.ts. */
 export type LastPoses = StoreApi<Poses>;
 
 const KEY = 'servodeck.lastPoses';

@@ -61,7 +61,7 @@ export function createIdentification(options: IdentificationOptions): Identifica
   const exchange = createExchange(UNKNOWN_BOARD, clock, queue, replies);
   let claim = options.family;
   /** Until another family is chosen, the word of the starter may be enough. */
-  let asks = identifies;
+  let isDoubted = identifies;
   let lineIsOpen = false;
   /** Counts what makes a round of questions pointless: the line went, or another round began. */
   let round = 0;
@@ -140,7 +140,7 @@ export function createIdentification(options: IdentificationOptions): Identifica
     begin() {
       lineIsOpen = true;
       store.update({ identity: NOTHING_HEARD });
-      if (asks) begunCheck();
+      if (isDoubted) begunCheck();
       else accept(false);
     },
     ended() {
@@ -158,7 +158,7 @@ export function createIdentification(options: IdentificationOptions): Identifica
       // A board that was not asked was taken at the word of its starter, which was another one.
       const mustAsk = isOpen && family !== claim && store.state.identity.evidence.length === 0;
       if (mustAsk) requireIdle(store.state, options);
-      if (family !== claim) asks = true;
+      if (family !== claim) isDoubted = true;
       claim = family;
       if (!isOpen) return;
       // What a board that is silent answered once says nothing of what is there now.
@@ -170,7 +170,7 @@ export function createIdentification(options: IdentificationOptions): Identifica
       hears(bytes);
       heartbeat.heard();
       if (status() !== 'stale' || report.kind === 'unknown') return;
-      if (asks) begunCheck();
+      if (isDoubted) begunCheck();
       else accept(false);
     },
     heardNoise(bytes) {

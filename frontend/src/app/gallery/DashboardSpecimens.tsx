@@ -14,7 +14,7 @@ import { LogPanel } from '../../features/log/LogPanel.tsx';
 import { ThisBoard } from '../../features/connect/identity/ThisBoard.tsx';
 import { LivePanel } from '../workspaces/parts.tsx';
 import type { BatteryStore } from '../../features/battery/battery.ts';
-import { nameOf } from '../../robot/remembered.ts';
+import { nameOf } from '../../robot/device.ts';
 import type { RobotStore } from '../../features/profiles/robots.ts';
 import { editServoView, type Stores } from '../../features/stores.ts';
 import { TopBar } from '../TopBar.tsx';

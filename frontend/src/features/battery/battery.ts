@@ -13,8 +13,7 @@ import {
   isActionable,
   type Level,
 } from '#shared/profile/battery.ts';
-import { nameOf } from '../../robot/remembered.ts';
-import type { Device, DeviceState, RobotProfiles } from '../../robot/device.ts';
+import { nameOf, type Device, type DeviceState, type RobotProfiles } from '../../robot/device.ts';
 import { BATTERY_AFTER_RUN_MS, BATTERY_EVERY_MS } from '#shared/robot/timings.ts';
 import { homeTargets } from '#shared/profile/poseShapes.ts';
 import type { BatteryPolicy } from '#shared/profile/robot.ts';

@@ -389,7 +389,7 @@ export function createGatewaySnapshot(options: GatewaySnapshotOptions): GatewayS
       settled(truth) {
         if (requestedRun === null) return;
         requestedRun = { run: { ...requestedRun.run, truth }, isPending: false };
-        if (run !== null && run.truth === 'requested') run = { ...run, truth };
+        if (run?.truth === 'requested') run = { ...run, truth };
         endUnknownRun();
         showActivity();
       },

@@ -18,7 +18,7 @@ import {
 import type { SlotGroup } from '#shared/robot/state.ts';
 import { downloadedSentence, downloadCancelled } from '../../../i18n/sentences.ts';
 import { words } from '../../../i18n/words.ts';
-import { nameOf } from '../../../robot/remembered.ts';
+import { nameOf } from '../../../robot/device.ts';
 import { boardFingerprint } from '#shared/group/fingerprint.ts';
 import type { Settled } from '../../../robot/boardVerbs.ts';
 import type { Device, DeviceState } from '../../../robot/device.ts';
