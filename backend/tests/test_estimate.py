@@ -7,6 +7,8 @@ from servodeck.protocol import timings
 from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.values import (
     Command,
+    Download,
+    Frame,
     Move,
     Positions,
     ReadBattery,
@@ -197,6 +199,14 @@ def test_the_end_of_a_group_that_starts_the_next_one_says_nothing() -> None:
     assert motion.group_may_run(6.0)
     motion.heard(RunStopped(), 7.0)
     assert not motion.group_may_run(8.0)
+
+
+def test_the_end_is_that_of_the_only_group_that_can_run_also_where_its_run_may_have_come_late() -> None:
+    motion = estimate_after((0.0, Download(5, 1, 0, Frame(300, ()))), (0.3, Run(5, 1)))
+    assert motion.group_may_run(1.3)
+    motion.heard(RunFinished(None), 1.3)
+    assert not motion.group_may_run(1.5)
+    assert motion.restless_for_s(1.5) == 0
 
 
 def test_a_known_group_is_over_after_its_time_unless_it_has_no_end_or_another_one_ran() -> None:

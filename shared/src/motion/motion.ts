@@ -204,7 +204,8 @@ function afterUnheard(motion: Motion, command: Command, atMs: number, { family }
   const deafUntilMs = owed.length > 0 ? atMs + LONGEST_DEAFNESS_MS : motion.deafUntilMs;
   const answersOwed = [...motion.answersOwed, ...owed];
   const later = { ...motion, deafUntilMs, answersOwed, mayHoldPacket: true };
-  if (command.kind === 'run') return runningUnknown(later, null);
+  // Nothing else can run, so its end will be the end of that group.
+  if (command.kind === 'run') return runningUnknown(later, motion.run === null ? command.slot : null);
   if (command.kind === 'move') return perhapsMoved(later, command, atMs, family);
   if (command.kind === 'stop') return perhapsStopped(later, atMs, family);
   const held = heldUp(later.tracks, atMs, deafUntilMs);

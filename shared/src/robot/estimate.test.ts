@@ -52,3 +52,22 @@ test("a servo that LeArm's group blurred is moved slowly, but not for as long as
   await clock.advance(3_000);
   expect(robot.softened({ kind: 'move', ...frame, durationMs: 20 }).durationMs).toBe(1_500);
 });
+
+test('the end that is reported is that of the only group that can run, also where its run may have come late', async () => {
+  const clock = createVirtualClock();
+  const robot = createRobotEstimate(family('doc'), clock);
+  robot.applied({
+    kind: 'download',
+    slot: 5,
+    frameCount: 1,
+    frameIndex: 0,
+    frame: { durationMs: 300, targets: [] },
+  });
+  await clock.advance(300);
+  robot.applied({ kind: 'run', slot: 5, times: 1 });
+  await clock.advance(1_000);
+  expect(robot.moving()).toBe(true);
+  robot.heard({ kind: 'runFinished', slot: null });
+  await clock.advance(200);
+  expect(robot.moving()).toBe(false);
+});

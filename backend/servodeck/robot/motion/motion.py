@@ -259,7 +259,9 @@ def after_unheard(motion: Motion, command: Command, at_ms: float, board: KnownBo
     )
     if isinstance(command, Run):
         until_ms = later.deaf_until_ms + longest_ms(command, family)
-        return running_unknown(later, None, until_ms=max(until_ms, latest_end_ms(motion, board)))
+        # Where nothing else runs, its end will be the end of that group.
+        slot = command.slot if motion.run is None else None
+        return running_unknown(later, slot, until_ms=max(until_ms, latest_end_ms(motion, board)))
     if isinstance(command, Move):
         return perhaps_moved(later, command, at_ms, family)
     if isinstance(command, Stop):
