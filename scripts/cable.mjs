@@ -38,7 +38,10 @@ export async function simulatedBoard({
   let board = null;
 
   function start(/** @type {(line: string) => void} */ hear) {
-    if (tcp) return startChild(process.execPath, [simulator, '--tcp', tcp, ...simulatorArgs], hear);
+    if (tcp) {
+      const args = [simulator, '--tcp', tcp, '--exit-with-stdin', ...simulatorArgs];
+      return startChild(process.execPath, args, hear);
+    }
     const speaks = program ?? [process.execPath, simulator, '--stdio', ...simulatorArgs];
     const kind = [...(hid ? ['--hid'] : []), ...(baud === undefined ? [] : ['--baud', String(baud)])];
     return startChild(python, ['scripts/pty_board.py', ...kind, '--link', link, '--', ...speaks], hear);

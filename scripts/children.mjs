@@ -63,13 +63,18 @@ export async function endChildren() {
   for (const child of [...living].reverse()) await endChild(child);
 }
 
+/** Of Windows, SIGBREAK is Ctrl-Break and SIGHUP a console that was closed. */
+const endingSignals = onWindows
+  ? ['SIGINT', 'SIGTERM', 'SIGHUP', 'SIGBREAK']
+  : ['SIGINT', 'SIGTERM', 'SIGQUIT', 'SIGHUP'];
+
 /**
  * Calls `leave` once: on Ctrl-C, on a polite kill, on a closed terminal, and when npm or its shell is gone.
  * npm signals only its shell, and that shell does not pass it on; hence the watch.
  * @param {() => void} leave
  */
 export function onEnd(leave) {
-  for (const signal of ['SIGINT', 'SIGTERM', 'SIGHUP']) process.on(signal, leave);
+  for (const signal of endingSignals) process.on(signal, leave);
   const parent = process.ppid;
   const npm = process.env.npm_lifecycle_event ? parentOf(parent) : null;
   const watch = setInterval(() => {

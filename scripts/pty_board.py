@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import argparse
 import contextlib
+import errno
 import fcntl
 import os
 import select
@@ -17,6 +18,7 @@ import signal
 import subprocess
 import sys
 import termios
+import time
 import tty
 from pathlib import Path
 from types import FrameType
@@ -27,6 +29,8 @@ REPORT_BYTES = 64
 LENGTH_AT = 2
 PARENT_POLL_SECONDS = 0.5
 END_SECONDS = 2.0
+# A gateway that the same parent started stops the robot and is gone within three seconds.
+FAREWELL_SECONDS = 4.0
 
 
 class Relay:
@@ -95,10 +99,33 @@ class AtSpeed(Relay):
         return is_open
 
 
-def relay_until_end(to_program: Relay, from_program: Relay, parent: int) -> None:
-    """Pass bytes both ways until the program closes its side or the parent process is gone."""
+class Parent:
+    """The process that started this one."""
+
+    def __init__(self) -> None:
+        self._id = os.getppid()
+        self._gone_at: float | None = None
+
+    def is_gone(self) -> bool:
+        if self._gone_at is None and os.getppid() != self._id:
+            self._gone_at = time.monotonic()
+        return self._gone_at is not None
+
+    def is_forgotten(self) -> bool:
+        """Gone for so long that nothing else of it can still be ending."""
+        return self._gone_at is not None and time.monotonic() - self._gone_at > FAREWELL_SECONDS
+
+
+def relay_until_end(to_program: Relay, from_program: Relay, parent: Parent, slave: int) -> None:
+    """Pass bytes both ways until the program closes its side. Once the parent process is gone, until the last
+    other program has closed the port: a gateway stops the robot first.
+    """
     relays = (to_program, from_program)
-    while os.getppid() == parent:
+    holds_slave = True
+    while not parent.is_forgotten():
+        if parent.is_gone() and holds_slave:
+            os.close(slave)
+            holds_slave = False
         readers = [relay.source for relay in relays if not relay.pending]
         writers = [relay.sink for relay in relays if relay.pending]
         readable, _, _ = select.select(readers, writers, [], PARENT_POLL_SECONDS)
@@ -146,7 +173,7 @@ def own_terminal(slave: int) -> None:
 
 
 def serve(link: Path, command: list[str], *, hid: bool = False, baud: int | None = None) -> int:
-    parent = os.getppid()
+    parent = Parent()
     # Our own hold on the slave side keeps bytes and the port alive while no other program has it open.
     master, slave = os.openpty()
     tty.setraw(slave)
@@ -168,13 +195,18 @@ def serve(link: Path, command: list[str], *, hid: bool = False, baud: int | None
                 to_program(master, program.stdin.fileno()),
                 said,
                 parent,
+                slave,
             )
         except BrokenPipeError:
             pass  # the program died between two turns of the loop
+        except OSError as error:
+            if error.errno != errno.EIO:  # the last program has closed the port
+                raise
         finally:
             remove_link(link, name)
             os.close(master)
-            os.close(slave)
+            with contextlib.suppress(OSError):  # closed behind the parent's end
+                os.close(slave)
             code = end_program(program)
     return code
 
@@ -191,7 +223,7 @@ def main() -> int:
     parser.add_argument("--baud", type=int, help="the speed at which the program is heard; else at any")
     parser.add_argument("command", nargs="+", help="the program and its arguments, after --")
     arguments = parser.parse_args()
-    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGQUIT, signal.SIGHUP):
         signal.signal(number, leave)
     return serve(arguments.link, arguments.command, hid=arguments.hid, baud=arguments.baud)
 

@@ -139,10 +139,11 @@ export function writeStamp(stamp, inputs) {
  * @param {() => Promise<number>} work resolves to the exit code once nothing is left to wait for
  */
 export async function main(work) {
-  // Whoever reads what is said may have read enough (`| head`): the work goes on.
-  process.stdout.on('error', (/** @type {NodeJS.ErrnoException} */ error) => {
-    if (error.code !== 'EPIPE') throw error;
-  });
+  // Whoever reads what is said may have read enough (`| head`), or closed the terminal: the work goes on.
+  for (const stream of [process.stdout, process.stderr])
+    stream.on('error', (/** @type {NodeJS.ErrnoException} */ error) => {
+      if (error.code !== 'EPIPE' && error.code !== 'EIO') throw error;
+    });
   try {
     process.exitCode = await work();
   } catch (error) {

@@ -140,7 +140,7 @@ def test_what_hangs_for_ever_does_not_put_it_off(hang: str, code: int) -> None:
     served.end()
 
 
-@pytest.mark.parametrize("again", ["SIGTERM", "SIGINT", "end of stdin"])
+@pytest.mark.parametrize("again", ["SIGTERM", "SIGINT", "SIGHUP", "end of stdin"])
 def test_a_second_request_to_end_changes_nothing(tmp_path: Path, again: str) -> None:
     served = Served("--data", str(tmp_path), "--exit-with-stdin", "--log-level", "warning")
     assert served.process.stdin

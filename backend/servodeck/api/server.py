@@ -14,6 +14,7 @@ import sys
 import threading
 from collections.abc import Callable, Iterator
 from types import FrameType
+from typing import Any
 
 import uvicorn
 
@@ -39,7 +40,8 @@ CANCEL_S = 2
 END_S = 2.5
 FORCED = 1
 log = logging.getLogger("servodeck.server")
-SIGNALS = (signal.SIGINT, signal.SIGTERM)
+# SIGHUP: the terminal was closed. SIGBREAK, on Windows: Ctrl-Break.
+ENDING = ("SIGINT", "SIGTERM", "SIGQUIT", "SIGHUP", "SIGBREAK")
 
 
 class Server(uvicorn.Server):
@@ -121,17 +123,73 @@ class Server(uvicorn.Server):
         if threading.current_thread() is not threading.main_thread():
             yield
             return
-        before = {number: signal.signal(number, self._on_signal) for number in SIGNALS}
+        before = {number: signal.signal(number, self._on_signal) for number in ending_signals()}
+        has_ended = threading.Event()
+        watch_console(self._told_to_end, has_ended)
         try:
             yield
         finally:
+            has_ended.set()
             for number, handler in before.items():
                 signal.signal(number, handler)
 
     def _on_signal(self, _number: int, _frame: FrameType | None) -> None:
         """A second signal, or one after the end of stdin, changes nothing: it ends soon, and in order."""
+        self._told_to_end()
+
+    def _told_to_end(self) -> None:
         end_for_sure()
         self.leave()
+
+
+def ending_signals() -> list[signal.Signals]:
+    """The signals of this system that request an end. SIGHUP that was ignored at the start stays ignored:
+    `nohup` says that the program outlives its terminal.
+    """
+    known = [signal.Signals[name] for name in ENDING if name in signal.Signals.__members__]
+    return [each for each in known if each.name != "SIGHUP" or signal.getsignal(each) is not signal.SIG_IGN]
+
+
+def ignore_signals() -> None:
+    """The process is about to end: the shell of a closed terminal may send its signal again."""
+    for number in ending_signals():
+        signal.signal(number, signal.SIG_IGN)
+
+
+# Events of a Windows console behind which the process ends as soon as they are handled: its window was
+# closed, the user logs off, the system shuts down. Python makes no signal of them in time.
+CONSOLE_CLOSED = (2, 5, 6)
+
+
+def watch_console(end: Callable[[], None], has_ended: threading.Event) -> None:
+    """Calls `end` where a Windows console ends, and keeps the process until the robot is stopped. No other
+    system has such events.
+    """
+    if sys.platform == "win32":
+        import ctypes
+
+        handler = ctypes.WINFUNCTYPE(ctypes.c_int, ctypes.c_uint)(console_handler(end, has_ended))
+        KEPT.append(handler)
+        ctypes.WinDLL("kernel32").SetConsoleCtrlHandler(handler, 1)
+
+
+KEPT: list[Any] = []
+"""Handlers that the system calls, for as long as the process lives."""
+
+
+def console_handler(end: Callable[[], None], has_ended: threading.Event) -> Callable[[int], bool]:
+    """Windows calls it in a thread of its own; False leaves the event to Python, which makes a signal of
+    it.
+    """
+
+    def handle(event: int) -> bool:
+        if event not in CONSOLE_CLOSED:
+            return False
+        end()
+        has_ended.wait(END_S)
+        return True
+
+    return handle
 
 
 def end_for_sure() -> None:

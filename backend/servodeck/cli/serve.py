@@ -201,7 +201,7 @@ def serve(
     from servodeck.access.audit_file import AuditFile
     from servodeck.api.app import create_app
     from servodeck.api.health import allow_descriptors
-    from servodeck.api.server import Server, leave_with_stdin
+    from servodeck.api.server import Server, ignore_signals, leave_with_stdin
     from servodeck.cli.options import data_folder
     from servodeck.cli.terminal import greeting, set_up_logs, urls_for_others
     from servodeck.errors import StorageError
@@ -301,6 +301,7 @@ def serve(
     if announcement:
         announcement.start()
     server.run([listener])
+    ignore_signals()
     if announcement:
         announcement.end()
     on_broker.end()

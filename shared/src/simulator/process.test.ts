@@ -123,13 +123,34 @@ test('--board says which board it is', async () => {
   expect(await firstBytes(child.stdout, 7)).toBe('55 55 05 06 08 01 00');
 });
 
-test('it ends on SIGTERM, and by itself when the unplug fault strikes', async () => {
-  const terminated = start('--stdio', '--baud', '0');
-  terminated.stdin.write(bytesOf(READ_BATTERY));
-  await firstBytes(terminated.stdout, 6);
-  terminated.kill('SIGTERM');
-  expect(await exitCode(terminated)).toBe(0);
+test.each(['SIGTERM', 'SIGINT', 'SIGHUP', 'SIGQUIT'] as const)(
+  'on %s it ends with its bus log written',
+  async (signal) => {
+    const log = join(folder, `${signal}.jsonl`);
+    const told = start('--stdio', '--baud', '0', '--bus-log', log);
+    told.stdin.write(bytesOf(READ_BATTERY));
+    await firstBytes(told.stdout, 6);
+    told.kill(signal);
+    expect(await exitCode(told)).toBe(0);
+    expect(readFileSync(log, 'utf8').trim().split('\n')).toHaveLength(11);
+  },
+);
 
+test('on TCP it ends behind its starter, once its host has gone', async () => {
+  const child = start('--tcp', '127.0.0.1:0', '--baud', '0', '--exit-with-stdin');
+  const port = Number(/:(\d+)$/.exec(await firstLine(child.stderr))?.[1]);
+  const socket = connect(port, '127.0.0.1');
+  socket.write(bytesOf(READ_BATTERY));
+  await firstBytes(socket, 6);
+  child.stdin.end();
+  // A host that ends at the same time still reaches the board.
+  socket.write(bytesOf(READ_BATTERY));
+  expect(await firstBytes(socket, 6)).toBe(ANSWER);
+  socket.end();
+  expect(await exitCode(child)).toBe(0);
+});
+
+test('it ends by itself when the unplug fault strikes', async () => {
   const unplugged = start('--stdio', '--fault', 'unplug=byte7');
   unplugged.stdin.write(bytesOf(READ_BATTERY));
   expect(await firstBytes(unplugged.stdout, 3)).toBe('55 55 04');

@@ -14,9 +14,10 @@ import { isProfileName, type ProfileName } from './profileNames.ts';
 import { PROFILES } from './profiles.ts';
 
 const USAGE = `Usage: simulator (--stdio | --tcp HOST:PORT) [--board NAME] [--seed N] [--fault NAME[=VALUE]]... [--battery-mv N]
-                 [--servos N] [--baud N] [--bus-log FILE]
+                 [--servos N] [--baud N] [--bus-log FILE] [--exit-with-stdin]
 Boards: ${Object.keys(PROFILES).join(', ')}
-A simulated servo board. Port 0 takes a free port; baud 0 takes no time on the wire.
+A simulated servo board. Port 0 takes a free port; baud 0 takes no time on the wire. With --exit-with-stdin a board
+on TCP ends with the program that started it, once its host has closed the connection.
 Faults: droppedByte, doubledByte, flippedByte, insertedByte, stray55 [=PROBABILITY],
         lostAck, doubledAck, foreignAck [=NTH|=PROBABILITY], lateAck=MS[@NTH|@PROBABILITY], slowErase[=MS|=never],
         lowBattery[=MV], padRun=SLOT@MS, keyRun=MS, modeKey=MS, reboot=MS, brownOut=MS, unplug=MS|byteN`;
@@ -26,6 +27,14 @@ const DRIVER_BYTES = 4096;
 const DRAIN_POLL_MS = 50;
 /** The latency timer of usual USB adapters. */
 const ADAPTER_MS = 16;
+
+/** A gateway stops the robot and is gone within three seconds of the end of what started both. */
+const FAREWELL_MS = 4000;
+/** Of Windows, SIGBREAK is Ctrl-Break and SIGHUP a console that was closed. */
+const ENDING: readonly NodeJS.Signals[] =
+  process.platform === 'win32'
+    ? ['SIGINT', 'SIGTERM', 'SIGHUP', 'SIGBREAK']
+    : ['SIGINT', 'SIGTERM', 'SIGQUIT', 'SIGHUP'];
 
 const startedAtMs = performance.now();
 
@@ -55,6 +64,7 @@ function readArguments() {
       servos: { type: 'string' },
       baud: { type: 'string', default: '9600' },
       'bus-log': { type: 'string' },
+      'exit-with-stdin': { type: 'boolean', default: false },
       help: { type: 'boolean', default: false },
     },
   });
@@ -151,13 +161,26 @@ function serveStdio(build: Build, end: () => void): void {
     onUnplug: end,
   });
   feed(board, process.stdin);
-  process.stdin.on('end', end);
+
+  function endBehindTheLine(): void {
+    if (board.waitingBytes() === 0) end();
+    else setTimeout(endBehindTheLine, ADAPTER_MS);
+  }
+
+  // The last stop of a gateway is still on the line.
+  process.stdin.on('end', endBehindTheLine);
   // The reader is gone: nothing of us is wanted any more.
   process.stdout.on('error', end);
 }
 
+interface Tcp {
+  readonly host: string;
+  readonly port: number;
+  readonly endsWithStdin: boolean;
+}
+
 /** One host at a time, as on a cable; the board stays on between two of them. */
-function serveTcp(build: Build, { host, port }: { host: string; port: number }, end: () => void): void {
+function serveTcp(build: Build, { host, port, endsWithStdin }: Tcp, end: () => void): void {
   let client: Socket | null = null;
   const board = build({ send: (bytes) => client?.write(bytes), onUnplug: end });
   const server = createServer({ noDelay: true }, (socket) => {
@@ -174,6 +197,15 @@ function serveTcp(build: Build, { host, port }: { host: string; port: number }, 
     say(error.message);
     process.exit(1);
   });
+  if (endsWithStdin)
+    process.stdin.resume().on('end', () => {
+      if (!client) {
+        end();
+        return;
+      }
+      client.on('close', end);
+      setTimeout(end, FAREWELL_MS);
+    });
   server.listen(port, host, () => {
     const bound = server.address();
     if (bound !== null && typeof bound === 'object') {
@@ -203,10 +235,9 @@ function main(): void {
     ...(log && { onByte: log.add }),
   };
   const build: Build = (wire) => createBoard({ ...settings, ...throughAdapter(wire) });
-  process.on('SIGTERM', end);
-  process.on('SIGINT', end);
+  for (const signal of ENDING) process.on(signal, end);
   if (values.tcp === undefined) serveStdio(build, end);
-  else serveTcp(build, address(values.tcp), end);
+  else serveTcp(build, { ...address(values.tcp), endsWithStdin: values['exit-with-stdin'] }, end);
 }
 
 try {
