@@ -130,13 +130,14 @@ BatteryState = BatteryUnread | BatteryRead | BatterySilent
 
 class UnattendedRun(Message):
     """A run that may continue without its driver `by`, for `endsInMs` at most. `slot` is null where the
-    gateway plays.
+    gateway plays. `isMove`: it is a move of the program `by`, which ends by itself.
     """
 
     slot: int | None
     times: int
     by: str
     ends_in_ms: int
+    is_move: bool = False
 
 
 class Running(Message):

@@ -144,6 +144,19 @@ def test_a_driver_that_is_heard_again_in_time_continues_driving() -> None:
     assert (lease.driver, recorder.take()) == ("anna", ["quiet"])
 
 
+def test_motion_with_beats_is_not_covered_by_what_was_permitted_before() -> None:
+    lease, recorder = new_lease()
+    lease.request("script", 0.0)
+    lease.vouch("script", 30.0)
+    lease.begin_beats("anna", 1.0)
+    lease.begin_beats("script", 1.0)
+    lease.vouch("script", 1.9)
+    lease.advance(1.9 + SILENT_S - 0.001)
+    assert recorder.take() == []
+    lease.advance(1.9 + SILENT_S)
+    assert recorder.take() == ["quiet", "silent", "lost", "changed"]
+
+
 def test_a_program_is_waited_for_as_long_as_what_it_asked_lasts_and_two_seconds() -> None:
     lease, recorder = new_lease()
     lease.request("script", 0.0)
@@ -151,10 +164,9 @@ def test_a_program_is_waited_for_as_long_as_what_it_asked_lasts_and_two_seconds(
     lease.vouch("script", 3.0)
     lease.vouch("anna", 90.0)
     for at_s, expected in (
-        (10.0 + QUIET_S - 0.001, []),
-        (10.0 + QUIET_S, ["quiet"]),
+        (10.0 + QUIET_S, []),
         (10.0 + SILENT_S - 0.001, []),
-        (10.0 + SILENT_S, ["silent", "lost", "changed"]),
+        (10.0 + SILENT_S, ["quiet", "silent", "lost", "changed"]),
     ):
         assert lease.due_s() is not None
         lease.advance(at_s)

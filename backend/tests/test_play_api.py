@@ -63,7 +63,13 @@ async def test_it_may_continue_without_a_heartbeat_for_as_long_as_was_allowed_an
         await asyncio.sleep(8)
         status = (await here.client.get("/api/status")).json()
         assert (status["driver"], status["play"]["status"]) == (None, "playing")
-        assert status["unattended"] == {"slot": None, "times": 0, "by": "Dance", "endsInMs": 2000}
+        assert status["unattended"] == {
+            "slot": None,
+            "times": 0,
+            "by": "Dance",
+            "endsInMs": 2000,
+            "isMove": False,
+        }
         await asyncio.sleep(3)
         assert (await latest(here))["status"] == "ended"
         assert here.control.latch is False

@@ -41,7 +41,13 @@ async def test_it_outlives_the_silence_and_the_leaving_of_its_driver_and_everybo
         async with gateway_on(port) as control:
             bert = Client(control, BERT)
             anna = await begin(control)
-            assert await unattended_of(bert) == {"slot": 8, "times": 1, "by": "Anna", "endsInMs": 60_000}
+            assert await unattended_of(bert) == {
+                "slot": 8,
+                "times": 1,
+                "by": "Anna",
+                "endsInMs": 60_000,
+                "isMove": False,
+            }
             anna.beats = False
             if leaves:
                 control.leave(anna)
@@ -49,7 +55,13 @@ async def test_it_outlives_the_silence_and_the_leaving_of_its_driver_and_everybo
             assert control.driving.driver is None
             assert (port.packets(), control.latch) == ([STOP, RUN], False)
             late = Client(control, BERT)
-            assert await unattended_of(late) == {"slot": 8, "times": 1, "by": "Anna", "endsInMs": 30_000}
+            assert await unattended_of(late) == {
+                "slot": 8,
+                "times": 1,
+                "by": "Anna",
+                "endsInMs": 30_000,
+                "isMove": False,
+            }
 
 
 @in_virtual_time
@@ -132,7 +144,13 @@ async def test_an_endless_run_ends_when_its_time_is_over() -> None:
         anna = Client(control, ANNA)
         await anna.send(ENDLESS)
         take(ContinueMessage(type="continue", for_ms=60_000), anna, control)
-        assert await unattended_of(anna) == {"slot": 8, "times": 0, "by": "Anna", "endsInMs": 60_000}
+        assert await unattended_of(anna) == {
+            "slot": 8,
+            "times": 0,
+            "by": "Anna",
+            "endsInMs": 60_000,
+            "isMove": False,
+        }
         control.leave(anna)
         await asyncio.sleep(59)
         assert port.packets() == [STOP, ENDLESS]

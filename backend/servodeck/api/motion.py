@@ -24,6 +24,13 @@ from servodeck.robot.scripts import ScriptAction, Scripts
 from servodeck.schema import Message
 from servodeck.snapshots import JobState, LeaseState, Name, NamedPose, Outcome, PlayState
 
+Beats = Annotated[
+    bool,
+    Field(
+        description="The move ends with the `heartbeat` of this program: it is stopped 2 s after the last "
+        "one. Without it, the request permits the move to its end."
+    ),
+]
 Take = Annotated[bool, Field(description="An owner's: without asking the driver.")]
 
 
@@ -35,6 +42,7 @@ class MoveWish(Message):
         dict[Servo, Annotated[int, Field(ge=0, le=0xFFFF)]], Field(min_length=1, max_length=253)
     ]
     take: Take = False
+    beats: Beats = False
     wait_ms: WaitMs | None = None
 
 
@@ -134,7 +142,7 @@ async def move(
 
     """
     positions = {int(servo): position for servo, position in wish.positions.items()}
-    begun = await begin_move(request, caller, scripts, wish.time_ms, positions, take=wish.take)
+    begun = await begin_move(request, caller, scripts, positions, wish)
     return begun.model_copy(update={"ended": await waits.moved(begun.over_in_ms, wish.wait_ms)})
 
 
@@ -142,15 +150,15 @@ async def begin_move(
     request: Request,
     caller: Caller,
     scripts: Scripts,
-    time_ms: int,
     positions: Mapping[int, int],
-    *,
-    take: bool,
+    wish: "MoveWish | ApplyWish",
 ) -> MoveBegun:
     async def is_wanted() -> bool:
         return not await request.is_disconnected()
 
-    moved = await scripts.move(caller, time_ms, positions, take=take, is_wanted=is_wanted)
+    moved = await scripts.move(
+        caller, wish.time_ms, positions, take=wish.take, beats=wish.beats, is_wanted=is_wanted
+    )
     return MoveBegun(packets=moved.packets, over_in_ms=moved.over_in_ms, first_moves=list(moved.first_moves))
 
 
@@ -202,6 +210,7 @@ class Poses(Message):
 class ApplyWish(Message):
     time_ms: Annotated[int, Field(ge=0, le=30_000)] = 1500
     take: Take = False
+    beats: Beats = False
     wait_ms: WaitMs | None = None
 
 
@@ -230,7 +239,7 @@ async def apply(
     control.board.identification.judge_known()
     found = control.robot.pose(pose, control.board.family)
     positions = {target.servo: target.position for target in found.targets}
-    begun = await begin_move(request, caller, scripts, wish.time_ms, positions, take=wish.take)
+    begun = await begin_move(request, caller, scripts, positions, wish)
     return begun.model_copy(update={"ended": await waits.moved(begun.over_in_ms, wish.wait_ms)})
 
 

@@ -199,6 +199,7 @@ class Control:
         stop. `unheld` has the motion that could not be held.
         """
         self._latch.close(cause, self.now())
+        self.board.unattended.end_move()
         self.acts.note("stopped", cause.name, "" if cause.by == "person" else cause.by)
         self.board.jobs.end(LatchedError("STOP ended the download before it was complete."))
         left = self.board.halts.halt(LatchedError("STOP was pressed before this was sent."))

@@ -124,11 +124,17 @@ class Driving:
         return self.lease.issue(self._now())
 
     def vouch(self, session: Session, for_s: float) -> None:
-        """The motion that the program requested lasts for so long from now; ignored for a session that has
-        ended.
+        """The motion that the program requested is permitted for so long from now, 0: it is a heartbeat;
+        ignored for a session that has ended.
         """
         if not session.ended.is_set():
             self.lease.vouch(session, self._now() + for_s)
+            self._plan()
+
+    def begin_beats(self, session: Session) -> None:
+        """The motion that the program begins ends with its heartbeats."""
+        if not session.ended.is_set():
+            self.lease.begin_beats(session, self._now())
             self._plan()
 
     def judge_request(self, caller: Caller, nonce: str) -> None:

@@ -109,6 +109,7 @@ class Watch:
 
     def lease_changed(self) -> None:
         driving = self._control.driving
+        self._control.board.unattended.end_move(but=driving.driver)
         if driving.driver and self._control.board.unattended.by not in (None, driving.driver):
             self.end_quietly(NotDrivingError("Another client drives now."))
         self._control.acts.driver_is(driving.driver)

@@ -63,7 +63,7 @@ class Lease(Generic[H]):
         self._events = events
         self._answer_until_s = 0.0
         self._heard_s = 0.0
-        self._patience_s = GONE_S
+        self._is_program = False
         self._programs: set[H] = set()
         self._count = 0
         self._issued: dict[str, float] = {}
@@ -130,14 +130,24 @@ class Lease(Generic[H]):
             self._heard_s, self.silence = issued_s, "none"
 
     def vouch(self, who: H, until_s: float) -> None:
-        """The motion of a program lasts until then, which counts as a heartbeat at that time, because
-        programs send none. A silent program loses the lease sooner than a person.
+        """The motion of a program is permitted until then, which counts as a heartbeat at that time. Until
+        now: it is a heartbeat. A silent program loses the lease sooner than a person, and its motion is
+        stopped later: it sends fewer heartbeats.
         """
         self._programs.add(who)
         if who is self.driver:
-            self._patience_s = SILENT_S
+            self._is_program = True
             if until_s > self._heard_s:
                 self._heard_s, self.silence = until_s, "none"
+
+    def begin_beats(self, who: H, now: float) -> None:
+        """A program begins motion that ends with its heartbeats: no permission of an earlier motion covers
+        it.
+        """
+        self._programs.add(who)
+        if who is self.driver:
+            self._is_program = True
+            self._heard_s, self.silence = now, "none"
 
     def permit(self, who: H, nonce: str | None, now: float, within_s: float = COMMAND_S) -> Permit:
         """For one command. Raises NotDrivingError or ExpiredError."""
@@ -176,7 +186,7 @@ class Lease(Generic[H]):
         """When `advance` has something to do, if nothing is heard until then."""
         if self.driver is None:
             return None
-        rung_s = self._heard_s + min(NEXT_RUNG_S[self.silence], self._patience_s)
+        rung_s = self._heard_s + (SILENT_S if self._is_program else NEXT_RUNG_S[self.silence])
         return rung_s if self.requester is None else min(rung_s, self._answer_until_s)
 
     def advance(self, now: float) -> None:
@@ -188,13 +198,14 @@ class Lease(Generic[H]):
             self._pass_on(now)
 
     def _climb(self, silence_s: float) -> None:
-        if self.silence == "none" and silence_s >= QUIET_S:
+        quiet_s, gone_s = (SILENT_S, SILENT_S) if self._is_program else (QUIET_S, GONE_S)
+        if self.silence == "none" and silence_s >= quiet_s:
             self.silence = "quiet"
             self._events.driver_quiet()
         if self.silence == "quiet" and silence_s >= SILENT_S:
             self.silence = "silent"
             self._events.driver_silent()
-        if silence_s >= self._patience_s and self.driver is not None:
+        if silence_s >= gone_s and self.driver is not None:
             self._events.driver_lost()
             self._pass_on(self._heard_s + silence_s)
 
@@ -213,7 +224,7 @@ class Lease(Generic[H]):
         self.epoch += 1
         self.driver, self.requester, self.giver = who, None, giver
         self.silence, self._heard_s = "none", now
-        self._patience_s = SILENT_S if who in self._programs else GONE_S
+        self._is_program = who in self._programs
         self._issued.clear()
         if before is not None:
             self._events.driver_changed()

@@ -63,15 +63,19 @@ class Moved:
 
 
 class ScriptClaim:
-    """Of a program, which sends one request at a time and has no heartbeat: it requests the lease with each
-    request, and holds it for as long as the motion lasts.
+    """Of a program, which sends one request at a time: it requests the lease with each request, and holds it
+    for as long as the motion lasts.
     """
 
-    def __init__(self, control: Control, session: Session, *, take: bool) -> None:
+    def __init__(self, control: Control, session: Session, *, take: bool, beats: bool = False) -> None:
+        """`beats`: its motion ends with its heartbeats (docs/adr/0056). Otherwise the request is its
+        permission for the time of the motion.
+        """
         self.session = session
         self._driving = control.driving
         self._now = control.now
         self._take = take
+        self._beats = beats
 
     def claim(self) -> None:
         self._driving.claim_for(self.session, take=self._take)
@@ -84,8 +88,11 @@ class ScriptClaim:
         """Each of its packets gets a new permit."""
 
     def lasts(self, left: Left, for_s: float) -> None:
+        if self._beats:
+            self._driving.begin_beats(self.session)
+        permitted_s = 0.0 if self._beats else for_s
         self._driving.vouch(self.session, 0.0)
-        left.add_done_callback(lambda _: self._driving.vouch(self.session, for_s))
+        left.add_done_callback(lambda _: self._driving.vouch(self.session, permitted_s))
 
 
 class ScriptGrant(Grant):
@@ -124,19 +131,24 @@ class Scripts:
         positions: Mapping[int, int],
         *,
         take: bool,
+        beats: bool,
         is_wanted: IsWanted,
     ) -> Moved:
-        """Until its last packet has left; what is not wanted any more does not leave."""
+        """Until its last packet has left; what is not wanted any more does not leave. `beats`: the move ends
+        with the heartbeats of its program.
+        """
         session = self._session_of(caller)
-        return await session.do(self._move(session, duration_ms, positions, take=take, is_wanted=is_wanted))
+        claim = ScriptClaim(self._control, session, take=take, beats=beats)
+        moved = await session.do(self._move(claim, duration_ms, positions, is_wanted))
+        if not beats:
+            self._control.board.unattended.allow_move(session, duration_ms / 1000)
+        return moved
 
     async def _move(
         self,
-        session: ScriptSession,
+        claim: ScriptClaim,
         duration_ms: int,
         positions: Mapping[int, int],
-        *,
-        take: bool,
         is_wanted: IsWanted,
     ) -> Moved:
         control = self._control
@@ -145,8 +157,8 @@ class Scripts:
             raise MovingError(end_of_group(control.board.motion.group_ends_in_s(now)))
         plan = plan_move(duration_ms, positions, family, control.board.motion, now, control.limits.name_of)
         for step in plan.steps:
-            control.limits.judge(step.move, session)
-        grant = Grant(control, ScriptClaim(control, session, take=take))
+            control.limits.judge(step.move, claim.session)
+        grant = Grant(control, claim)
         for step in plan.steps:
             await asyncio.sleep(step.after_s)
             if not await is_wanted():

@@ -789,6 +789,7 @@ export interface Messages {
     readonly asker: (values: { readonly name: string }) => string;
     readonly keepsRunning: (values: { readonly slot: number; readonly name: string }) => string;
     readonly playKeepsRunning: (values: { readonly name: string }) => string;
+    readonly moveKeepsGoing: (values: { readonly name: string }) => string;
     readonly given: (values: { readonly name: string }) => string;
   };
   readonly record: {

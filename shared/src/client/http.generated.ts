@@ -853,6 +853,12 @@ export interface components {
     /** ApplyWish */
     ApplyWish: {
       /**
+       * Beats
+       * @description The move ends with the `heartbeat` of this program: it is stopped 2 s after the last one. Without it, the request permits the move to its end.
+       * @default false
+       */
+      beats?: boolean;
+      /**
        * Take
        * @description An owner's: without asking the driver.
        * @default false
@@ -1780,6 +1786,12 @@ export interface components {
      * @description `positions` by servo number, in the board's unit; all of them at once.
      */
     MoveWish: {
+      /**
+       * Beats
+       * @description The move ends with the `heartbeat` of this program: it is stopped 2 s after the last one. Without it, the request permits the move to its end.
+       * @default false
+       */
+      beats?: boolean;
       /** Positions */
       positions: {
         [key: string]: number;
@@ -2485,13 +2497,18 @@ export interface components {
     /**
      * UnattendedRun
      * @description A run that may continue without its driver `by`, for `endsInMs` at most. `slot` is null where the
-     *     gateway plays.
+     *     gateway plays. `isMove`: it is a move of the program `by`, which ends by itself.
      */
     UnattendedRun: {
       /** By */
       by: string;
       /** Endsinms */
       endsInMs: number;
+      /**
+       * Ismove
+       * @default false
+       */
+      isMove: boolean;
       /** Slot */
       slot: number | null;
       /** Times */

@@ -463,13 +463,14 @@ export interface NoiseEvidence {
 }
 /**
  * A run that may continue without its driver `by`, for `endsInMs` at most. `slot` is null where the
- * gateway plays.
+ * gateway plays. `isMove`: it is a move of the program `by`, which ends by itself.
  */
 export interface UnattendedRun {
   slot: number | null;
   times: number;
   by: string;
   endsInMs: number;
+  isMove: boolean;
 }
 /**
  * The group that was last stored in a slot: its version, name, document in the library, author and time

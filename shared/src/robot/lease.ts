@@ -10,6 +10,8 @@ export interface Unattended {
   readonly by: string;
   /** At the latest, from when this was said. */
   readonly endsInMs: number;
+  /** A move of a program, which ends by itself. */
+  readonly isMove: boolean;
 }
 
 /** A client that is connected and may drive. */

@@ -12,7 +12,7 @@ from dataclasses import replace
 
 from servodeck.protocol.families import Family
 from servodeck.protocol.packets import STOP, CommandPacket, encoded
-from servodeck.protocol.timings import ESTIMATE, HEARTBEAT
+from servodeck.protocol.timings import ESTIMATE, HEARTBEAT, LEASE
 from servodeck.protocol.values import Command, Move, Report, Run
 from servodeck.robot.board.estimate import Estimate
 from servodeck.robot.board.playing import Playing, Plays
@@ -204,6 +204,7 @@ class Activity:
         return self.motion.group_may_run(self._now()) or self.motion.is_moving(self._now())
 
 
+SILENT_S = LEASE.silent_ms / 1000
 ANSWER_S = 0.5  # the longest answer, that for six positions, takes 450 ms (X7)
 
 
@@ -279,6 +280,12 @@ class AllowedRun:
     until_s: float
 
 
+@value
+class AllowedMove:
+    by: Session
+    until_s: float
+
+
 class Unattended:
     def __init__(
         self, now: Callable[[], float], over: Callable[[], None], changed: Callable[[], None]
@@ -289,6 +296,8 @@ class Unattended:
         self._changed = changed
         self._present: AllowedRun | None = None
         self._timer: asyncio.TimerHandle | None = None
+        self._move: AllowedMove | None = None
+        self._move_timer: asyncio.TimerHandle | None = None
 
     @property
     def by(self) -> Session | None:
@@ -296,15 +305,34 @@ class Unattended:
 
     def snapshot(self) -> UnattendedRun | None:
         if self._present is None:
-            return None
+            return self._move_snapshot()
         run, left_s = self._present.run, max(0.0, self._present.until_s - self._now())
         slot = run.slot if isinstance(run, Run) else None
         return UnattendedRun(
             slot=slot, times=run.times, by=self._present.by.caller.name, ends_in_ms=round(left_s * 1000)
         )
 
+    def _move_snapshot(self) -> UnattendedRun | None:
+        if self._move is None:
+            return None
+        left_s = max(0.0, self._move.until_s - self._now())
+        name = self._move.by.caller.name
+        return UnattendedRun(slot=None, times=1, by=name, ends_in_ms=round(left_s * 1000), is_move=True)
+
     def allow(self, run: Run | Playing, by: Session, for_s: float) -> None:
         self._show(AllowedRun(run, by, self._now() + for_s))
+
+    def allow_move(self, by: Session, for_s: float) -> None:
+        """A move that ends by itself, also without the program that began it. Clients see it where it
+        outlives that program's silence.
+        """
+        if for_s > SILENT_S:
+            self._show_move(AllowedMove(by, self._now() + for_s))
+
+    def end_move(self, but: Session | None = None) -> None:
+        """It has ended or was stopped; that of `but` continues."""
+        if self._move and self._move.by is not but:
+            self._show_move(None)
 
     def end(self) -> None:
         """It has no owner any more, or its driver is back."""
@@ -313,8 +341,19 @@ class Unattended:
 
     def follow(self, run: Run | Playing | None) -> None:
         """`run` is the present run as far as is known; the permission was for one run alone."""
+        if run:
+            self.end_move()
         if self._present and self._present.run is not run:
             self._show(None)
+
+    def _show_move(self, move: "AllowedMove | None") -> None:
+        if self._move_timer:
+            self._move_timer.cancel()
+        self._move, self._move_timer = move, None
+        if move:
+            delay_s = move.until_s - self._now()
+            self._move_timer = asyncio.get_running_loop().call_later(delay_s, self.end_move)
+        self._changed()
 
     def _show(self, allowed: AllowedRun | None) -> None:
         if self._timer:

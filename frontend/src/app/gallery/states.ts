@@ -47,7 +47,7 @@ export const LEASE: Lease = {
 
 export const WATCHED: Lease = { ...LEASE, you: 'Cleo', drives: false };
 
-const ALONE: Unattended = { slot: 5, times: 20, by: 'Anna', endsInMs: 245_000 };
+const ALONE: Unattended = { slot: 5, times: 20, by: 'Anna', endsInMs: 245_000, isMove: false };
 
 const PRESENT: Lease['candidates'] = [
   { id: 'bert', name: 'Bert' },

@@ -94,8 +94,9 @@ function mayKeepRunning({ slot }: Unattended): string {
   return slot === null ? words.lease.playingMayContinue : words.lease.mayKeepRunning({ slot });
 }
 
-function keepsRunningText({ slot, by }: Unattended, you: string): string {
+function keepsRunningText({ slot, by, isMove }: Unattended, you: string): string {
   const name = personWithin(by, you);
+  if (isMove) return words.lease.moveKeepsGoing({ name });
   return slot === null ? words.lease.playKeepsRunning({ name }) : words.lease.keepsRunning({ slot, name });
 }
 
