@@ -17,6 +17,7 @@ from servodeck.access import addresses
 from servodeck.callers import Caller
 from servodeck.client import TimedOutError, UnreachableError
 from servodeck.errors import (
+    ClosedError,
     ForbiddenError,
     LatchedError,
     MalformedError,
@@ -183,11 +184,12 @@ def test_a_run_is_waited_for_until_the_board_reports_its_end(here: Served, port:
 
 
 def test_a_run_that_does_not_end_in_time_is_stopped(here: Served, port: BoardPort) -> None:
-    with Robot(here.url) as robot, pytest.raises(TimedOutError):
-        robot.run(8, timeout=0.3)
-    has(lambda: STOP in sent(port))
-    with pytest.raises(ValueError, match="repeats until stopped"):
-        robot.run(8, times=0)
+    with Robot(here.url) as robot:
+        with pytest.raises(TimedOutError):
+            robot.run(8, timeout=0.3)
+        has(lambda: STOP in sent(port))
+        with pytest.raises(ValueError, match="repeats until stopped"):
+            robot.run(8, times=0)
 
 
 @pytest.mark.exhaustive
@@ -389,4 +391,86 @@ def test_a_gateway_that_does_not_answer_ends_in_the_time_out(here: Served) -> No
         begun_s = time.monotonic()
         with pytest.raises(UnreachableError):
             Robot(url, timeout=0.3).status()
-        assert time.monotonic() - begun_s < 2
+        assert time.monotonic() - begun_s < 0.4
+
+
+def test_a_gateway_that_vanishes_is_noticed_within_the_time_out_whatever_was_asked(here: Served) -> None:
+    """One that was reached and then takes requests without answering; a move may take half a minute."""
+    with closing(socket.create_server(("127.0.0.1", 0))) as silent:
+        robot = Robot(f"http://127.0.0.1:{silent.getsockname()[1]}", timeout=0.5)
+        for ask in (
+            lambda: robot.move({1: 1500}, units="board"),
+            lambda: robot.pose("home"),
+            lambda: robot.run(8),
+            lambda: robot.play([(0.5, {1: 1500})], units="board"),
+            lambda: robot.download(8, [(0.5, {1: 1500})], units="board"),
+            robot.battery,
+            robot.snapshot,
+            robot.stop,
+            robot.resume,
+        ):
+            begun_s = time.monotonic()
+            with pytest.raises(UnreachableError):
+                ask()
+            assert time.monotonic() - begun_s < 0.6
+        with pytest.raises(UnreachableError):
+            robot.close()
+
+
+def test_a_time_out_ends_the_motion_on_time(here: Served, port: BoardPort) -> None:
+    frames = [(1.5, {1: 1800}), (2.0, {1: 1200})]
+    with Robot(here.url) as robot:
+        for begin in (
+            lambda: robot.move({1: 1800}, units="board", seconds=5, timeout=0.5),
+            lambda: robot.pose("home", seconds=5, timeout=0.5),
+            lambda: robot.play(frames, units="board", timeout=0.5),
+            lambda: robot.run(8, timeout=0.5),
+        ):
+            begun_s, before = time.monotonic(), len(sent(port))
+            with pytest.raises(TimedOutError):
+                begin()
+            assert 0.5 <= time.monotonic() - begun_s < 0.6
+            has(lambda: sent(port)[before:].count(STOP) >= 3)  # noqa: B023
+
+
+def test_a_closed_robot_refuses_every_method(here: Served, port: BoardPort) -> None:
+    robot = Robot(here.url)
+    robot.close()
+    robot.close()
+    for ask in (
+        lambda: robot.move({1: 1500}, units="board"),
+        lambda: robot.pose("home"),
+        lambda: robot.run(8),
+        lambda: robot.play([(0.5, {1: 1500})], units="board"),
+        lambda: robot.download(8, [(0.5, {1: 1500})], units="board"),
+        robot.erase,
+        robot.stop,
+        robot.resume,
+        robot.request_lease,
+        robot.release,
+        robot.snapshot,
+        robot.status,
+        robot.battery,
+        robot.poses,
+        robot.servos,
+        lambda: next(robot.events()),
+    ):
+        with pytest.raises(ClosedError, match="was closed"):
+            ask()
+    assert sent(port) == []
+
+
+def test_unknown_units_and_a_servo_that_is_named_twice_are_refused(here: Served, port: BoardPort) -> None:
+    with Robot(here.url) as robot:
+        for units in ("degrees", "rad", "Deg", "", None):
+            with pytest.raises(OutOfRangeError, match=f"units is {units}, allowed: deg, board"):
+                robot.move({1: 30}, units=units)  # type: ignore[arg-type]
+            with pytest.raises(OutOfRangeError, match=f"units is {units}, allowed: deg, board"):
+                robot.play([(1.5, {1: 30})], units=units)  # type: ignore[arg-type]
+            with pytest.raises(OutOfRangeError, match=f"units is {units}, allowed: deg, board"):
+                robot.download(5, [(1.5, {1: 30})], units=units)  # type: ignore[arg-type]
+        with pytest.raises(OutOfRangeError, match="Servo 1 is named twice, the second time as 1"):
+            robot.move({"Base": 10, 1: -10}, units="deg")
+        with pytest.raises(OutOfRangeError, match="Servo 1 is named twice, the second time as base"):
+            robot.play([(1.5, {"1": 1500, "base": 1600})], units="board")
+    assert sent(port) == []

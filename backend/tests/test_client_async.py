@@ -6,7 +6,7 @@ import inspect
 import pytest
 
 from servodeck import AsyncRobot, Robot
-from servodeck.errors import LatchedError
+from servodeck.errors import ClosedError, LatchedError
 from tests.samples import STOP
 from tests.scripted import move
 from tests.served_robot import Served
@@ -52,6 +52,30 @@ async def test_a_method_that_is_cancelled_stops_its_motion(here: Served, port: B
         await moving
     await asyncio.to_thread(has, lambda: STOP in sent(port))
     await robot.close()
+
+
+async def test_a_closed_robot_refuses_every_method(here: Served, port: BoardPort) -> None:
+    robot = AsyncRobot(here.url)
+    await robot.close()
+    await robot.close()
+    for ask in (
+        lambda: robot.move({1: 1500}, units="board"),
+        lambda: robot.run(8),
+        robot.stop,
+        robot.status,
+        robot.snapshot,
+        lambda: anext(robot.events()),
+    ):
+        with pytest.raises(ClosedError, match="was closed"):
+            await ask()
+    assert sent(port) == []
+
+
+async def test_a_move_that_is_not_waited_for_goes_to_its_end(here: Served, port: BoardPort) -> None:
+    async with AsyncRobot(here.url) as robot:
+        await robot.move({1: 1800}, units="board", seconds=3, wait=False)
+        await asyncio.sleep(3.2)  # longer than without a heartbeat
+        assert sent(port) == [move(3000, s1=1800)]
 
 
 async def test_what_it_began_is_stopped_at_the_end(here: Served, port: BoardPort) -> None:

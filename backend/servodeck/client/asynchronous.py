@@ -11,6 +11,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any, Self, TypeVar
 
+from servodeck.client.ending import at_exit
 from servodeck.client.errors import UnreachableError
 from servodeck.client.gateway import (
     FIRST_PAUSE_S,
@@ -23,9 +24,9 @@ from servodeck.client.gateway import (
     Welcome,
 )
 from servodeck.client.opening import TIMEOUT_S, gateway_at
-from servodeck.client.robot import left
+from servodeck.client.robot import carry_out, left
 from servodeck.client.values import Event, Json, Servo, Snapshot
-from servodeck.client.vocabulary import POSE_S, Frames, Outcome, Positions, Units, Vocabulary
+from servodeck.client.vocabulary import LEAVE_S, POSE_S, Frames, Outcome, Positions, Units, Vocabulary
 from servodeck.errors import BusyError, GatewayError
 from servodeck.threads import in_thread
 
@@ -52,6 +53,7 @@ class AsyncRobot:
         self._beating: asyncio.Task[None] | None = None
         self._begun = 0
         self._opening: asyncio.Task[Gateway] | None = None
+        at_exit(self._leave)
 
     async def __aenter__(self) -> Self:
         try:
@@ -73,7 +75,7 @@ class AsyncRobot:
             self._beating.cancel()
             await asyncio.wait([self._beating])
         try:
-            await self._do(self._vocabulary.release())
+            await self._carry_out(self._vocabulary.close())
         finally:
             if self._opening:
                 await self._close(self._opening)
@@ -95,6 +97,8 @@ class AsyncRobot:
         timeout: float | None = None,  # noqa: ASYNC109 (as Robot has it)
     ) -> None:
         await self._do(self._vocabulary.move(positions, units, seconds, wait=wait, timeout=timeout))
+        if not wait:
+            self._beat()
 
     async def pose(
         self,
@@ -105,6 +109,8 @@ class AsyncRobot:
         timeout: float | None = None,  # noqa: ASYNC109
     ) -> None:
         await self._do(self._vocabulary.pose(pose, seconds, wait=wait, timeout=timeout))
+        if not wait:
+            self._beat()
 
     async def run(
         self,
@@ -188,6 +194,7 @@ class AsyncRobot:
         return await self._do(self._vocabulary.servos())
 
     async def events(self, *, seconds: float | None = None) -> AsyncGenerator[Event, None]:
+        self._vocabulary.judge_open()
         until_s = None if seconds is None else time.monotonic() + seconds
         last_id, pause_s, was_open = None, FIRST_PAUSE_S, False
         while left(until_s) > 0:
@@ -213,10 +220,25 @@ class AsyncRobot:
 
     async def _opened(self) -> Gateway:
         if self._opening is None:
-            self._opening = asyncio.create_task(in_thread(self._open))
+            self._opening = asyncio.create_task(self._open_in_thread())
         return await asyncio.shield(self._opening)
 
+    async def _open_in_thread(self) -> Gateway:
+        gateway = await in_thread(self._open)
+        gateway.mind_signals()
+        return gateway
+
+    def _leave(self) -> None:
+        """The program ends without having closed it."""
+        opening = self._opening
+        if opening and opening.done() and not opening.cancelled() and opening.exception() is None:
+            carry_out(opening.result(), self._vocabulary.close(LEAVE_S))
+
     async def _do(self, steps: Steps[T]) -> T:
+        self._vocabulary.judge_open()
+        return await self._carry_out(steps)
+
+    async def _carry_out(self, steps: Steps[T]) -> T:
         answer: Any = None
         try:
             step = next(steps)

@@ -8,11 +8,12 @@ import asyncio
 import atexit
 import concurrent.futures
 import contextlib
+import math
 import queue
 import tempfile
 import threading
 import time
-from collections.abc import Coroutine
+from collections.abc import Callable, Coroutine
 from pathlib import Path
 from typing import Any, TypeVar
 from urllib.parse import unquote
@@ -24,6 +25,7 @@ from servodeck.access.devices import Devices, NoDeviceStore
 from servodeck.access.entrance import Entrance
 from servodeck.api.app import create_app
 from servodeck.api.library import robots_in
+from servodeck.client.ending import before_signals, no_signals
 from servodeck.client.errors import UnreachableError
 from servodeck.client.transport import GATEWAY_PORT, Answer, Headers
 from servodeck.client.values import robot_in, servos_of
@@ -55,8 +57,10 @@ class DirectTransport:
         self._thread = threading.Thread(target=self._loop.run_forever, name="robot", daemon=True)
         self._thread.start()
         self._control: Control | None = None
+        self._ending: concurrent.futures.Future[None] | None = None
         self._is_closed = False
         atexit.register(self.close)  # a program that ends stops its robot
+        self.mind_signals()
         try:
             self._app = self._result_of(self._opened(device, board, has_robot=facts is not None), OPEN_S)
         except BaseException:
@@ -81,7 +85,14 @@ class DirectTransport:
         )
 
     def request(
-        self, method: str, path: str, headers: Headers, body: bytes | None, timeout_s: float
+        self,
+        method: str,
+        path: str,
+        headers: Headers,
+        body: bytes | None,
+        timeout_s: float,
+        look_s: float = math.inf,  # noqa: ARG002 (it cannot vanish)
+        look: Callable[[], object] = lambda: None,  # noqa: ARG002
     ) -> Answer:
         return self._result_of(self._request(method, path, headers, body or b""), timeout_s)
 
@@ -93,14 +104,22 @@ class DirectTransport:
         stream.begin(timeout_s)
         return stream
 
+    def mind_signals(self) -> None:
+        before_signals(self.close)
+
     def close(self) -> None:
-        """Stops the robot and closes the port."""
+        """Stops the robot and closes the port. A second call, as by a signal in the middle of the first,
+        waits until the robot is stopped.
+        """
+        if self._ending is None:
+            self._ending = asyncio.run_coroutine_threadsafe(self._ended(), self._loop)
+        with contextlib.suppress(concurrent.futures.TimeoutError):
+            self._ending.result(CLOSE_S)
         if self._is_closed:
             return
         self._is_closed = True
         atexit.unregister(self.close)
-        with contextlib.suppress(UnreachableError):
-            self._result_of(self._ended(), CLOSE_S)
+        no_signals(self.close)
         self._loop.call_soon_threadsafe(self._loop.stop)
         self._thread.join(CLOSE_S)
         if not self._thread.is_alive():

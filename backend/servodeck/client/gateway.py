@@ -5,6 +5,7 @@ Knows the shape of requests and answers; not their order, which is in vocabulary
 """
 
 import json
+import math
 import secrets
 import time
 from collections.abc import Generator, Iterator
@@ -39,6 +40,8 @@ class Call:
     is_safe: bool = False
     more_s: float = 0.0
     """How much longer than other requests it may take."""
+    most_s: float = math.inf
+    """The program waits no longer for it."""
 
 
 @value
@@ -71,8 +74,7 @@ class Gateway:
         if call.is_keyed:
             headers["Idempotency-Key"] = secrets.token_hex(16)
         may_repeat = call.is_keyed or call.is_safe
-        allowed_s = self.timeout_s + call.more_s
-        until_s = time.monotonic() + allowed_s
+        until_s = time.monotonic() + min(self.timeout_s + call.more_s, call.most_s)
         while True:
             answer = self._answer(call, headers, body, until_s, may_repeat=may_repeat)
             try:
@@ -88,14 +90,24 @@ class Gateway:
         self, call: Call, headers: dict[str, str], body: bytes | None, until_s: float, *, may_repeat: bool
     ) -> Answer:
         """Again where its answer was lost, or where a gateway that was there before is not. One that was
-        never there is an error at once.
+        never there is an error at once, one that has gone after `timeout_s`.
         """
-        pause_s = FIRST_PAUSE_S
+        pause_s, heard_s = FIRST_PAUSE_S, time.monotonic()
+
+        def look() -> None:
+            """Raises UnreachableError where the gateway, which is still at work, is not there any more."""
+            nonlocal heard_s
+            self._transport.request("GET", "/api/status", self._headers, None, self.timeout_s / 2)
+            heard_s = time.monotonic()
+
         while True:
             left_s = max(0.001, until_s - time.monotonic())
             try:
-                answer = self._transport.request(call.method, call.path, headers, body, left_s)
+                answer = self._transport.request(
+                    call.method, call.path, headers, body, left_s, self.timeout_s / 2, look
+                )
             except UnreachableError as error:
+                until_s = min(until_s, heard_s + self.timeout_s)
                 self._was_reached = self._was_reached or not isinstance(error, NotSentError)
                 if not (may_repeat and self._was_reached) or time.monotonic() + pause_s >= until_s:
                     raise
@@ -114,6 +126,12 @@ class Gateway:
 
     def events(self, last_id: str | None) -> "EventStream":
         return EventStream(self._stream(last_id), last_id)
+
+    def mind_signals(self) -> None:
+        """Where the port is this program's, a signal that ends the program stops the robot first. Called in
+        the main thread.
+        """
+        self._transport.mind_signals()
 
     def close(self) -> None:
         self._transport.close()

@@ -11,11 +11,12 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any, Self, TypeVar
 
+from servodeck.client.ending import at_exit
 from servodeck.client.errors import UnreachableError
-from servodeck.client.gateway import FIRST_PAUSE_S, LONGEST_PAUSE_S, Call, Pause, Steps
+from servodeck.client.gateway import FIRST_PAUSE_S, LONGEST_PAUSE_S, Call, Gateway, Pause, Steps
 from servodeck.client.opening import TIMEOUT_S, gateway_at
 from servodeck.client.values import Event, Json, Servo, Snapshot
-from servodeck.client.vocabulary import POSE_S, Frames, Outcome, Positions, Units, Vocabulary
+from servodeck.client.vocabulary import LEAVE_S, POSE_S, Frames, Outcome, Positions, Units, Vocabulary
 from servodeck.errors import BusyError, GatewayError
 
 T = TypeVar("T")
@@ -47,6 +48,7 @@ class Robot:
         self._beating: threading.Thread | None = None
         self._begun = 0
         self._lock = threading.Lock()
+        at_exit(self._leave)
 
     def __enter__(self) -> Self:
         return self
@@ -61,7 +63,7 @@ class Robot:
         """Stops what this program has in motion, and releases its lease. May be called twice."""
         self._ended.set()
         try:
-            self._do(self._vocabulary.release())
+            carry_out(self._gateway, self._vocabulary.close())
         finally:
             self._gateway.close()
 
@@ -78,15 +80,19 @@ class Robot:
     ) -> None:
         """Moves servos together, by name or number: `{"Base": 30}`. `units`: "deg" from home, or "board".
         The first move of a servo takes at least 1.5 s. `wait`: until they have arrived; after `timeout`
-        seconds they are stopped.
+        seconds they are stopped. Not waited for, it continues until this program ends.
         """
         self._do(self._vocabulary.move(positions, units, seconds, wait=wait, timeout=timeout))
+        if not wait:
+            self._beat()
 
     def pose(
         self, pose: str | int, *, seconds: float = POSE_S, wait: bool = True, timeout: float | None = None
     ) -> None:
         """Moves to a pose of the robot, by name or number; "home" is number 0."""
         self._do(self._vocabulary.pose(pose, seconds, wait=wait, timeout=timeout))
+        if not wait:
+            self._beat()
 
     def run(
         self,
@@ -195,6 +201,7 @@ class Robot:
         """Every change as an event, for so long; the first one, `welcome`, has the whole state. A lost
         stream is opened again: then `gap` and `welcome` come.
         """
+        self._vocabulary.judge_open()
         until_s = None if seconds is None else time.monotonic() + seconds
         last_id, pause_s, was_open = None, FIRST_PAUSE_S, False
         while (left_s := left(until_s)) > 0:
@@ -214,26 +221,14 @@ class Robot:
 
     # Inside
 
+    def _leave(self) -> None:
+        """The program ends without having closed it."""
+        self._ended.set()
+        carry_out(self._gateway, self._vocabulary.close(LEAVE_S))
+
     def _do(self, steps: Steps[T]) -> T:
-        answer: Any = None
-        try:
-            step = next(steps)
-            while True:
-                try:
-                    if isinstance(step, Pause):
-                        time.sleep(step.seconds)
-                        answer = None
-                    elif isinstance(step, Call):
-                        answer = self._gateway.call(step)
-                    else:
-                        answer = self._gateway.welcome()
-                except BaseException as error:  # noqa: BLE001 (the steps judge it)
-                    step = steps.throw(error)
-                else:
-                    step = steps.send(answer)
-        except StopIteration as ended:
-            result: T = ended.value
-            return result
+        self._vocabulary.judge_open()
+        return carry_out(self._gateway, steps)
 
     def _beat(self) -> None:
         with self._lock:
@@ -267,6 +262,28 @@ class Robot:
                     answer = None
                 elif isinstance(step, Call):
                     answer = self._gateway.call(step)
+
+
+def carry_out(gateway: Gateway, steps: Steps[T]) -> T:
+    answer: Any = None
+    try:
+        step = next(steps)
+        while True:
+            try:
+                if isinstance(step, Pause):
+                    time.sleep(step.seconds)
+                    answer = None
+                elif isinstance(step, Call):
+                    answer = gateway.call(step)
+                else:
+                    answer = gateway.welcome()
+            except BaseException as error:  # noqa: BLE001 (the steps judge it)
+                step = steps.throw(error)
+            else:
+                step = steps.send(answer)
+    except StopIteration as ended:
+        result: T = ended.value
+        return result
 
 
 def left(until_s: float | None) -> float:

@@ -4,8 +4,11 @@ Knows HTTP; no request of ours and no JSON.
 """
 
 import contextlib
+import math
+import selectors
 import socket
-from collections.abc import Mapping
+import time
+from collections.abc import Callable, Mapping
 from contextlib import closing
 from http.client import HTTPConnection, HTTPException, HTTPSConnection
 from typing import Protocol
@@ -49,10 +52,20 @@ class Transport(Protocol):
     """Calls come from several threads. Both requests raise UnreachableError."""
 
     def request(
-        self, method: str, path: str, headers: Headers, body: bytes | None, timeout_s: float
-    ) -> Answer: ...
+        self,
+        method: str,
+        path: str,
+        headers: Headers,
+        body: bytes | None,
+        timeout_s: float,
+        look_s: float = ...,
+        look: Callable[[], object] = ...,
+    ) -> Answer:
+        """`look` is called each `look_s` while no answer comes, and raises what ends the waiting."""
 
     def stream(self, path: str, headers: Headers, timeout_s: float) -> Stream: ...
+
+    def mind_signals(self) -> None: ...
 
     def close(self) -> None: ...
 
@@ -69,12 +82,25 @@ class HttpTransport:
         self._path = parts.path.rstrip("/")
 
     def request(
-        self, method: str, path: str, headers: Headers, body: bytes | None, timeout_s: float
+        self,
+        method: str,
+        path: str,
+        headers: Headers,
+        body: bytes | None,
+        timeout_s: float,
+        look_s: float = math.inf,
+        look: Callable[[], object] = lambda: None,
     ) -> Answer:
-        connection = self._connected(timeout_s)
+        until_s = time.monotonic() + timeout_s
+        connection = self._connected(min(timeout_s, 2 * look_s))
         with closing(connection):
             try:
                 connection.request(method, self._path + path, body, dict(headers))
+                while not has_data(connection.sock, min(look_s, until_s - time.monotonic())):
+                    if time.monotonic() >= until_s:
+                        raise TimeoutError("timed out")
+                    look()
+                connection.sock.settimeout(max(0.001, until_s - time.monotonic()))
                 answer = connection.getresponse()
                 return Answer(answer.status, dict(answer.getheaders()), answer.read())
             except (OSError, HTTPException) as error:
@@ -88,6 +114,9 @@ class HttpTransport:
             connection.close()
             raise UnreachableError(f"The gateway does not answer: {error}.") from error
 
+    def mind_signals(self) -> None:
+        """The gateway stops what moves when no heartbeat comes."""
+
     def close(self) -> None:
         """Each request has its own connection."""
 
@@ -99,6 +128,13 @@ class HttpTransport:
             connection.close()
             raise NotSentError(f"No gateway answers at {self._host}: {error}.") from error
         return connection
+
+
+def has_data(source: socket.socket, within_s: float) -> bool:
+    """Whether something has come, also the end, in that time."""
+    with selectors.DefaultSelector() as selector:
+        selector.register(source, selectors.EVENT_READ)
+        return bool(selector.select(max(0.0, within_s)))
 
 
 class HttpStream:

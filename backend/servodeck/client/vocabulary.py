@@ -6,20 +6,24 @@ Knows routes and their bodies; no transport, thread or event loop.
 
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
-from typing import Any, Literal
+from dataclasses import replace
+from math import inf
+from typing import Any, Literal, get_args
 from urllib.parse import quote
 
-from servodeck.client.errors import TimedOutError, error_of
+from servodeck.client.errors import TimedOutError, UnreachableError, error_of
 from servodeck.client.gateway import Call, Pause, Steps, Welcome
 from servodeck.client.values import Json, Servo, Servos, Snapshot, robot_in, servos_of, snapshot_of
 from servodeck.errors import (
     CancelledError,
+    ClosedError,
     ForbiddenError,
     GatewayError,
     LatchedError,
     NotDrivingError,
     NotFoundError,
     NotPairedError,
+    OutOfRangeError,
 )
 from servodeck.protocol.timings import LEASE, PROGRAM
 
@@ -31,14 +35,17 @@ Outcome = Literal["acknowledged", "silent", "sent"]
 Frames = Iterable[tuple[float, Positions]]
 """Each: the seconds that it takes, and where servos are at its end."""
 
+KNOWN_UNITS = get_args(Units)
 POSE_S = PROGRAM.move_ms / 1000
-# The gateway stops a run two seconds after the last one.
+# The gateway stops motion two seconds after the last one.
 BEAT_S = LEASE.silent_ms / 2000
 LOOK_S = PROGRAM.look_ms / 1000
 UNKNOWN_END_S = PROGRAM.unknown_end_ms / 1000
 AFTER_END_S = PROGRAM.after_end_ms / 1000
 IDENTIFIED_S = PROGRAM.identified_ms / 1000
 START_S = PROGRAM.first_move_ms / 1000
+# Behind the end of its program the gateway stops what moves by itself.
+LEAVE_S = LEASE.silent_ms / 1000
 REMEMBERED_S = PROGRAM.names_ms / 1000
 LATE_S = PROGRAM.late_ms / 1000
 
@@ -51,28 +58,44 @@ class Vocabulary:
         self._servos: tuple[float, Servos] | None = None
         self.may_drive = False
         """This program has requested motion or the lease, and has not released it since."""
+        self._moves_until_s = -inf
+        """Until then a move of this program may be under way, which needs heartbeats."""
+        self._is_closed = False
+
+    def judge_open(self) -> None:
+        """Raises ClosedError."""
+        if self._is_closed:
+            raise ClosedError("This robot was closed: its program makes a new one.")
+
+    def close(self, most_s: float = inf) -> Steps[None]:
+        """As `release`; the program may do nothing else any more."""
+        self._is_closed = True
+        yield from self.release(most_s)
 
     # Motion
 
     def move(
         self, positions: Positions, units: Units, seconds: float, *, wait: bool, timeout: float | None
     ) -> Steps[None]:
+        until_s = self._until(timeout if wait else None)
         wanted = yield from self._positions(positions, units)
         body = {"timeMs": round(seconds * 1000), "positions": wanted}
-        yield from self._move("/api/move", body, len(wanted), wait=wait, timeout=timeout)
+        yield from self._move("/api/move", body, len(wanted), until_s, wait=wait)
 
     def pose(self, pose: str | int, seconds: float, *, wait: bool, timeout: float | None) -> Steps[None]:
         path = f"/api/poses/{quote(str(pose), safe='')}/apply"
-        yield from self._move(path, {"timeMs": round(seconds * 1000)}, 32, wait=wait, timeout=timeout)
+        until_s = self._until(timeout if wait else None)
+        yield from self._move(path, {"timeMs": round(seconds * 1000)}, 32, until_s, wait=wait)
 
-    def _move(self, path: str, body: Json, servos: int, *, wait: bool, timeout: float | None) -> Steps[None]:
+    def _move(self, path: str, body: Json, servos: int, until_s: float, *, wait: bool) -> Steps[None]:
         more_s = IDENTIFIED_S + START_S * servos
-        begun = yield from self._begin(path, body, more_s)
+        begun = yield from self._begin(path, {**body, "beats": True}, more_s, until_s)
+        over_s = self._now() + begun["overInMs"] / 1000 + LATE_S
+        self._moves_until_s = max(self._moves_until_s, over_s)
         if wait:
-            yield from self._ended(self._moved(begun["overInMs"] / 1000), timeout)
+            yield from self._ended(self._moved(over_s), until_s)
 
-    def _moved(self, over_in_s: float) -> Steps[None]:
-        until_s = self._now() + over_in_s + LATE_S
+    def _moved(self, until_s: float) -> Steps[None]:
         while (left_s := until_s - self._now()) > 0:
             yield Pause(min(left_s, BEAT_S))
             yield from self._look()
@@ -83,13 +106,14 @@ class Vocabulary:
     ) -> Steps[Outcome]:
         if wait and times == 0 and timeout is None:
             raise ValueError("times=0 repeats until stopped: add a timeout, or wait=False.")
+        until_s = self._until(timeout if wait else None)
         slot = group if isinstance(group, int) else (yield from self._slot_of(group))
         body: dict[str, Any] = {"times": times}
         if alone is not None:
             body["continueForMs"] = round(alone * 1000)
-        begun = yield from self._begin(f"/api/slots/{slot}/run", body, IDENTIFIED_S + AFTER_END_S)
+        begun = yield from self._begin(f"/api/slots/{slot}/run", body, IDENTIFIED_S + AFTER_END_S, until_s)
         if wait:
-            yield from self._ended(self._ran(slot, timeout), timeout)
+            yield from self._ended(self._ran(slot, timeout), until_s)
         outcome: Outcome = begun["outcome"]
         return outcome
 
@@ -130,13 +154,14 @@ class Vocabulary:
     ) -> Steps[None]:
         if wait and times == 0 and timeout is None:
             raise ValueError("times=0 repeats until stopped: add a timeout, or wait=False.")
+        until_s = self._until(timeout if wait else None)
         bodies = yield from self._frames(frames, units)
         body: dict[str, Any] = {"frames": bodies, "times": times, "loopFrom": loop_from}
         if alone is not None:
             body["continueForMs"] = round(alone * 1000)
-        begun = yield from self._begin("/api/play", body, IDENTIFIED_S)
+        begun = yield from self._begin("/api/play", body, IDENTIFIED_S, until_s)
         if wait:
-            yield from self._ended(self._played(begun["id"]), timeout)
+            yield from self._ended(self._played(begun["id"]), until_s)
 
     def _played(self, play_id: str) -> Steps[None]:
         beaten_s = self._now()
@@ -154,12 +179,13 @@ class Vocabulary:
             yield Pause(LOOK_S)
 
     def beats(self) -> Steps[None]:
-        """For what runs or is played and is not waited for: heartbeats until it has ended."""
+        """For what moves, runs or is played and is not waited for: heartbeats until it has ended."""
         while True:
             status = yield Call("GET", "/api/status", is_safe=True)
             play = status["play"]
             is_played = play is not None and play["status"] == "playing"
-            if not (is_played or status["running"]):
+            may_move = self._now() < self._moves_until_s and not status["latch"]
+            if not (is_played or status["running"] or may_move):
                 return
             if not (yield from self._beat()):
                 return
@@ -180,12 +206,13 @@ class Vocabulary:
         group: dict[str, Any] = {"slot": slot, "name": name, "frames": bodies}
         if replaces is not None:
             group["replaces"] = replaces
-        job: Json = yield from self._begin("/api/download", {"groups": [group]}, IDENTIFIED_S)
-        path, until_s = f"/api/jobs/{job['id']}", None if timeout is None else self._now() + timeout
+        until_s = self._until(timeout if wait else None)
+        job: Json = yield from self._begin("/api/download", {"groups": [group]}, IDENTIFIED_S, until_s)
+        path = f"/api/jobs/{job['id']}"
         try:
             while wait and job["status"] == "running":
                 self._judge_time(until_s, "The download did not end in time, so it was cancelled.")
-                yield Pause(LOOK_S)
+                yield Pause(min(LOOK_S, max(0.0, until_s - self._now())))
                 job = yield Call("GET", path, is_safe=True)
         except BaseException as error:
             if not isinstance(error, GeneratorExit):
@@ -215,13 +242,14 @@ class Vocabulary:
         lease = yield Call("POST", "/api/lease", {"action": action}, is_safe=True)
         return bool(lease["drives"])
 
-    def release(self) -> Steps[None]:
+    def release(self, most_s: float = inf) -> Steps[None]:
         """Ends what this program has in motion, without a latch; no other client's motion."""
         if self.may_drive:
             # A caller who may not drive has nothing in motion: the gateway has seen to that.
             with suppress(ForbiddenError, NotPairedError):
-                yield Call("POST", "/api/lease", {"action": "release"}, is_safe=True)
+                yield Call("POST", "/api/lease", {"action": "release"}, is_safe=True, most_s=most_s)
             self.may_drive = False
+            self._moves_until_s = -inf
 
     # Looking
 
@@ -244,20 +272,30 @@ class Vocabulary:
 
     # Inside
 
-    def _begin(self, path: str, body: Json, more_s: float) -> Steps[Any]:
+    def _until(self, timeout: float | None) -> float:
+        return inf if timeout is None else self._now() + timeout
+
+    def _begin(self, path: str, body: Json, more_s: float, until_s: float) -> Steps[Any]:
         self.may_drive = True
-        request = Call("POST", path, {**body, "take": self._take}, is_keyed=True, more_s=more_s)
+        most_s = max(0.0, until_s - self._now())
+        whole = {**body, "take": self._take}
         try:
-            return (yield request)
+            return (yield Call("POST", path, whole, is_keyed=True, more_s=more_s, most_s=most_s))
+        except UnreachableError:
+            if self._now() >= until_s:  # it may have begun
+                yield from self.release()
+                self._judge_time(until_s, LATE_WORDS)
+            raise
         except (GatewayError, GeneratorExit):
             raise
         except BaseException:  # the program ends while the motion begins
             yield from self.release()
             raise
 
-    def _ended(self, waiting: Steps[None], timeout: float | None) -> Steps[None]:
-        """Whatever ends the waiting early ends the motion."""
-        until_s = None if timeout is None else self._now() + timeout
+    def _ended(self, waiting: Steps[None], until_s: float) -> Steps[None]:
+        """Whatever ends the waiting early ends the motion. A gateway that is not there any more ends it by
+        itself, because no heartbeat follows.
+        """
         try:
             answer: Any = None
             while True:
@@ -265,16 +303,22 @@ class Vocabulary:
                     step = waiting.send(answer)
                 except StopIteration:
                     return
-                self._judge_time(until_s, "It did not end in time, so it was stopped.")
-                answer = yield step
+                self._judge_time(until_s, LATE_WORDS)
+                answer = yield within(step, until_s - self._now())
+        except UnreachableError:
+            waiting.close()
+            if self._now() >= until_s:
+                yield from self.release()
+                self._judge_time(until_s, LATE_WORDS)
+            raise
         except BaseException as error:
             waiting.close()
             if not isinstance(error, LatchedError | NotDrivingError | GeneratorExit):
                 yield from self.release()
             raise
 
-    def _judge_time(self, until_s: float | None, words: str) -> None:
-        if until_s is not None and self._now() >= until_s:
+    def _judge_time(self, until_s: float, words: str) -> None:
+        if self._now() >= until_s:
             raise TimedOutError(words)
 
     def _look(self) -> Steps[Json]:
@@ -291,6 +335,8 @@ class Vocabulary:
         return bool(lease["drives"])
 
     def _positions(self, positions: Positions, units: Units) -> Steps[dict[str, float]]:
+        if units not in KNOWN_UNITS:
+            raise OutOfRangeError(f"units is {units}, allowed: {', '.join(KNOWN_UNITS)}")
         if units == "board" and all(isinstance(servo, int) for servo in positions):
             return {str(servo): whole(at) for servo, at in positions.items()}
         servos = yield from self._described()
@@ -302,6 +348,8 @@ class Vocabulary:
         wanted: dict[str, float] = {}
         for servo, at in positions.items():
             number = numbers[servo]
+            if str(number) in wanted:
+                raise OutOfRangeError(f"Servo {number} is named twice, the second time as {servo}.")
             wanted[str(number)] = servos.position_at(number, at) if units == "deg" else whole(at)
         return wanted
 
@@ -324,6 +372,20 @@ class Vocabulary:
         servos = Servos(known, welcome["board"])
         self._servos = self._now(), servos
         return servos
+
+
+LATE_WORDS = "It did not end in time, so it was stopped."
+
+
+def within(step: Call | Pause | Welcome, left_s: float) -> Call | Pause | Welcome:
+    """The same, which takes no longer."""
+    match step:
+        case Call():
+            return replace(step, most_s=min(step.most_s, left_s))
+        case Pause():
+            return Pause(min(step.seconds, left_s))
+        case _:
+            return step
 
 
 def whole(at: float) -> float:
