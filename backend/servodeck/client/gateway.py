@@ -102,10 +102,9 @@ class Gateway:
 
         while True:
             left_s = max(0.001, until_s - time.monotonic())
+            look_s = self.timeout_s / 2 if left_s > self.timeout_s else math.inf
             try:
-                answer = self._transport.request(
-                    call.method, call.path, headers, body, left_s, self.timeout_s / 2, look
-                )
+                answer = self._transport.request(call.method, call.path, headers, body, left_s, look_s, look)
             except UnreachableError as error:
                 until_s = min(until_s, heard_s + self.timeout_s)
                 self._was_reached = self._was_reached or not isinstance(error, NotSentError)

@@ -38,6 +38,8 @@ export interface CallOptions {
   readonly isSafe?: boolean;
   /** How much longer than other requests it may take. */
   readonly moreS?: number;
+  /** In seconds of `performance.now()`: the program waits no longer for it. */
+  readonly untilS?: number;
   readonly signal?: AbortSignal | undefined;
 }
 
@@ -63,28 +65,35 @@ export function gatewayAt(where: string, token: string, timeoutS: number): Gatew
   };
   let wasReached = false;
 
+  const timeoutMs = timeoutS * 1000;
+
   async function attempt<P extends Path, V extends Verb<P>>(
     { verb, path, given }: { verb: V; path: P; given: Given<P, V> },
     at: Place,
     untilMs: number,
     signal: AbortSignal | undefined,
+    presence: Presence,
   ): Promise<Answer<P, V>> {
-    const limit = AbortSignal.timeout(Math.ceil(Math.max(1, untilMs - performance.now())));
+    const leftMs = Math.max(1, untilMs - performance.now());
+    const limits = [AbortSignal.timeout(Math.ceil(leftMs)), ...(signal ? [signal] : [])];
+    if (leftMs > timeoutMs) limits.push(presence.watch());
     try {
-      const answer = await request(at, verb, path, given, signal ? AbortSignal.any([signal, limit]) : limit);
+      const answer = await request(at, verb, path, given, AbortSignal.any(limits));
       wasReached = true;
       return answer as Answer<P, V>;
     } catch (error) {
       signal?.throwIfAborted();
       wasReached ||= error instanceof GatewayProblem && (error.code !== null || wasLost(error));
       throw error;
+    } finally {
+      presence.end();
     }
   }
 
   async function* stream(lastId: string | null, ended: AbortSignal): AsyncGenerator<[string | null, Event]> {
     const silence = new AbortController();
     const lastEvent = lastId === null ? {} : { 'last-event-id': lastId };
-    let timer = setTimeout(() => silence.abort(), timeoutS * 1000);
+    let timer = setTimeout(() => silence.abort(), timeoutMs);
     try {
       const response = await fetch(`${place.base}api/events`, {
         headers: { ...place.headers, ...lastEvent },
@@ -109,15 +118,18 @@ export function gatewayAt(where: string, token: string, timeoutS: number): Gatew
   }
 
   return {
-    async call(verb, path, given, { isKeyed = false, isSafe = false, moreS = 0, signal } = {}) {
-      const untilMs = performance.now() + (timeoutS + moreS) * 1000;
+    async call(verb, path, given, options = {}) {
+      const { isKeyed = false, isSafe = false, moreS = 0, untilS = Infinity, signal } = options;
+      const presence = presenceOf(place, timeoutMs / 2);
+      let untilMs = Math.min(performance.now() + timeoutMs + moreS * 1000, untilS * 1000);
       const key = isKeyed ? { 'idempotency-key': newKey() } : {};
       const at = { ...place, headers: { ...place.headers, ...key } };
       for (let pauseMs = FIRST_PAUSE_MS; ; pauseMs *= 2) {
         try {
-          return await attempt({ verb, path, given }, at, untilMs, signal);
+          return await attempt({ verb, path, given }, at, untilMs, signal, presence);
         } catch (error) {
           if (!(error instanceof GatewayProblem)) throw error;
+          if (error.code === null) untilMs = Math.min(untilMs, presence.heardMs() + timeoutMs);
           const again =
             error.code === null ? (isKeyed || isSafe) && wasReached : error.code === 'tooMany' && isSafe;
           const waitMs = error.retryAfterMs ?? pauseMs;
@@ -148,6 +160,48 @@ export function gatewayAt(where: string, token: string, timeoutS: number): Gatew
         await pause(pauseMs, signal).catch(() => undefined);
       }
     },
+  };
+}
+
+/** Whether the gateway is still there while one request takes long. */
+interface Presence {
+  /** Aborted when the gateway does not answer any more. */
+  watch(): AbortSignal;
+  end(): void;
+  /** When it was there for the last time; at the beginning, now. */
+  heardMs(): number;
+}
+
+/** Asks each `lookMs`, and allows as long for an answer. */
+function presenceOf(place: Place, lookMs: number): Presence {
+  let heardMs = performance.now();
+  let timer: ReturnType<typeof setTimeout> | undefined;
+
+  async function look(gone: AbortController): Promise<void> {
+    const isThere = await request(place, 'get', '/api/status', {}, AbortSignal.timeout(lookMs)).then(
+      () => true,
+      (error: unknown) => error instanceof GatewayProblem && error.code !== null,
+    );
+    if (timer === undefined) return;
+    if (!isThere) {
+      gone.abort();
+      return;
+    }
+    heardMs = performance.now();
+    timer = setTimeout(() => void look(gone), lookMs);
+  }
+
+  return {
+    watch() {
+      const gone = new AbortController();
+      timer = setTimeout(() => void look(gone), lookMs);
+      return gone.signal;
+    },
+    end() {
+      clearTimeout(timer);
+      timer = undefined;
+    },
+    heardMs: () => heardMs,
   };
 }
 

@@ -36,6 +36,7 @@ export interface GatewayUnderTest {
   readonly url: string;
   /** What the board has heard so far, oldest first. */
   heard(): readonly Command[];
+  pulse(servo: number): number;
   end(): Promise<void>;
 }
 
@@ -74,6 +75,7 @@ export async function startGateway(): Promise<GatewayUnderTest> {
       decoder.idle(); // what is complete is believed
       return heard;
     },
+    pulse: (servo) => board.pulse(servo),
     async end() {
       child?.stdin?.end();
       if (child !== undefined) await endChild(child);

@@ -2,12 +2,12 @@
 // motion and lease; no servo, no name and no unit.
 
 import timings from '../../protocol/timings.json' with { type: 'json' };
-import { GatewayError, TimedOutError } from './errors.ts';
+import { GatewayError, TimedOutError, UnreachableError } from './errors.ts';
 import { pause, type Gateway } from './gateway.ts';
 import type { LeaseState, LeaseWish, Status } from './http.generated.ts';
 import type { Answer, Given, Path, Verb } from './request.ts';
 
-/** The gateway stops a run two seconds after the last one. */
+/** The gateway stops motion two seconds after the last one. */
 const BEAT_S = timings.lease.silentMs / 2000;
 export const LOOK_S = timings.program.lookMs / 1000;
 const UNKNOWN_END_S = timings.program.unknownEndMs / 1000;
@@ -15,10 +15,21 @@ const AFTER_END_S = timings.program.afterEndMs / 1000;
 const LATE_S = timings.program.lateMs / 1000;
 const IDENTIFIED_S = timings.program.identifiedMs / 1000;
 
-/** After so many seconds, and whenever the signal is aborted, the motion that is waited for is stopped. */
-interface Patience {
+/** At that time, by `now`, and whenever the signal is aborted, the motion that is waited for is stopped. */
+export interface Patience {
+  readonly untilS: number;
+  readonly signal: AbortSignal | undefined;
+}
+
+interface Limits {
+  readonly wait: boolean;
   readonly timeout: number | undefined;
   readonly signal: AbortSignal | undefined;
+}
+
+/** From now on; without `wait` there is nothing to be impatient of. */
+export function patienceOf({ wait, timeout, signal }: Limits): Patience {
+  return { untilS: wait && timeout !== undefined ? now() + timeout : Infinity, signal };
 }
 
 /** Flash takes its time. */
@@ -31,6 +42,8 @@ export class Motions {
   readonly #closed: AbortSignal;
   /** This program has requested motion or the lease, and has not released it since. */
   #mayDrive = false;
+  /** By `now`: until then a move of this program may be under way, which needs heartbeats. */
+  #movesUntilS = -Infinity;
   #beating: Promise<unknown> = Promise.resolve();
 
   /** `closed`: no heartbeat leaves any more. */
@@ -44,15 +57,21 @@ export class Motions {
     verb: V,
     path: P,
     given: Given<P, V>,
-    { moreS = 0, signal }: { moreS?: number; signal: AbortSignal | undefined },
+    { moreS = 0, untilS, signal }: Patience & { readonly moreS?: number },
   ): Promise<Answer<P, V>> {
     this.#mayDrive = true;
-    const options = { isKeyed: true, moreS: IDENTIFIED_S + moreS, signal };
+    const options = { isKeyed: true, moreS: IDENTIFIED_S + moreS, untilS, signal };
     return this.#gateway.call(verb, path, given, options).catch(async (error: unknown) => {
-      // The program ends while the motion begins.
-      if (!(error instanceof GatewayError)) await this.release();
-      throw error;
+      const isLate = error instanceof UnreachableError && now() >= untilS;
+      // It may have begun, or the program ends while it begins.
+      if (isLate || !(error instanceof GatewayError)) await this.release();
+      throw isLate ? new TimedOutError(LATE_WORDS) : error;
     });
+  }
+
+  /** A move has begun that is over in so many seconds. */
+  begun(overInS: number): void {
+    this.#movesUntilS = Math.max(this.#movesUntilS, now() + overInS + LATE_S);
   }
 
   /** Every slot of the board. The gateway recognises no repeat of it, so it has no key. */
@@ -73,6 +92,7 @@ export class Motions {
       if (!isOf(error, 'forbidden', 'notPaired')) throw error;
     });
     this.#mayDrive = false;
+    this.#movesUntilS = -Infinity;
   }
 
   /** When the last heartbeat has left. */
@@ -80,24 +100,23 @@ export class Motions {
     await this.#beating;
   }
 
-  moved(overInS: number, { timeout, signal }: Patience): Promise<void> {
-    return this.#waited(async () => {
-      const untilS = now() + overInS + LATE_S;
-      const judge = timeJudge(timeout);
-      for (let leftS = untilS - now(); leftS > 0; leftS = untilS - now()) {
-        await pause(Math.min(leftS, BEAT_S, timeout ?? BEAT_S) * 1000, signal);
-        judge();
-        await this.#look(signal);
+  moved(overInS: number, patience: Patience): Promise<void> {
+    const overS = now() + overInS + LATE_S;
+    return this.#waited(patience, async () => {
+      for (let leftS = overS - now(); leftS > 0; leftS = overS - now()) {
+        await rest(Math.min(leftS, BEAT_S), patience);
+        await this.#look(patience);
         await this.#heartbeat();
       }
     });
   }
 
-  ran(slot: number, { timeout, signal }: Patience): Promise<void> {
-    return this.#waited(async () => {
-      let untilS = now() + (timeout ?? UNKNOWN_END_S);
-      let [beatenS, isComputed] = [now(), timeout !== undefined];
-      for (let { running } = await this.#look(signal); running; { running } = await this.#look(signal)) {
+  ran(slot: number, patience: Patience): Promise<void> {
+    return this.#waited(patience, async () => {
+      const isLimited = patience.untilS < Infinity;
+      let untilS = isLimited ? patience.untilS : now() + UNKNOWN_END_S;
+      let [beatenS, isComputed] = [now(), isLimited];
+      for (let { running } = await this.#look(patience); running; { running } = await this.#look(patience)) {
         if (running.slot !== slot)
           throw new GatewayError('cancelled', `Another group runs now: slot ${running.slot}.`);
         if (!isComputed && running.endsInMs !== null)
@@ -105,26 +124,24 @@ export class Motions {
         if (now() > untilS)
           throw new TimedOutError(`The end of slot ${slot} was not reported in time, so it was stopped.`);
         beatenS = await this.#beatAfter(beatenS);
-        await pause(LOOK_S * 1000, signal);
+        await rest(LOOK_S, patience);
       }
     });
   }
 
-  played(id: string, { timeout, signal }: Patience): Promise<void> {
-    return this.#waited(async () => {
-      const judge = timeJudge(timeout);
+  played(id: string, patience: Patience): Promise<void> {
+    return this.#waited(patience, async () => {
       for (let beatenS = now(); ; beatenS = await this.#beatAfter(beatenS)) {
-        const { play } = await this.#look(signal);
+        const { play } = await this.#look(patience);
         if (play?.id !== id) throw new GatewayError('cancelled', 'Another group is played now.');
         if (play.status === 'ended') throw endedWith(play);
         if (play.status === 'done') return;
-        judge();
-        await pause(LOOK_S * 1000, signal);
+        await rest(LOOK_S, patience);
       }
     });
   }
 
-  /** For what runs or is played and is not waited for: heartbeats until it has ended. */
+  /** For what moves, runs or is played and is not waited for: heartbeats until it has ended. */
   beat(): void {
     const beats = async (): Promise<void> => {
       while (await this.#mayMove()) {
@@ -137,17 +154,22 @@ export class Motions {
   }
 
   async #mayMove(): Promise<boolean> {
-    const { play, running } = await this.#gateway.call('get', '/api/status', {}, { isSafe: true });
-    return play?.status === 'playing' || running !== null;
+    const { play, running, latch } = await this.#gateway.call('get', '/api/status', {}, { isSafe: true });
+    return play?.status === 'playing' || running !== null || (now() < this.#movesUntilS && !latch);
   }
 
-  /** Whatever ends the waiting early ends the motion. */
-  async #waited(work: () => Promise<void>): Promise<void> {
+  /**
+   * Whatever ends the waiting early ends the motion. A gateway that is not there any more ends it by itself, because no heartbeat
+   * follows.
+   */
+  async #waited({ untilS }: Patience, work: () => Promise<void>): Promise<void> {
     try {
       await work();
     } catch (error) {
-      if (!isOf(error, 'latched', 'notDriving')) await this.release();
-      throw error;
+      const isLate = error instanceof UnreachableError && now() >= untilS;
+      const isGone = error instanceof UnreachableError && !isLate;
+      if (!isGone && !isOf(error, 'latched', 'notDriving')) await this.release();
+      throw isLate ? new TimedOutError(LATE_WORDS) : error;
     }
   }
 
@@ -165,22 +187,23 @@ export class Motions {
   }
 
   /** Rejects where the motion of this program has ended with a stop. */
-  async #look(signal: AbortSignal | undefined): Promise<Status> {
-    const status = await this.#gateway.call('get', '/api/status', {}, { isSafe: true, signal });
+  async #look({ untilS, signal }: Patience): Promise<Status> {
+    const status = await this.#gateway.call('get', '/api/status', {}, { isSafe: true, untilS, signal });
     if (status.latch) throw new GatewayError('latched', 'Stopped: motion is refused until a person resumes.');
     return status;
   }
 }
 
-/** Throws a TimedOutError after so many seconds from now. */
-export function timeJudge(
-  timeout: number | undefined,
-  words = 'It did not end in time, so it was stopped.',
-): () => void {
-  const untilS = now() + (timeout ?? Infinity);
-  return () => {
-    if (now() >= untilS) throw new TimedOutError(words);
-  };
+const LATE_WORDS = 'It did not end in time, so it was stopped.';
+
+/** So many seconds. Throws a TimedOutError where the patience ends before. */
+export async function rest(
+  forS: number,
+  { untilS, signal }: Patience,
+  lateWords = LATE_WORDS,
+): Promise<void> {
+  await pause(Math.max(0, Math.min(forS, untilS - now())) * 1000, signal);
+  if (now() >= untilS) throw new TimedOutError(lateWords);
 }
 
 const isOf = (error: unknown, ...codes: readonly string[]): boolean =>

@@ -6,7 +6,7 @@ import { GatewayError } from './errors.ts';
 import type { Gateway } from './gateway.ts';
 import type { FrameBody } from './http.generated.ts';
 import { now } from './motions.ts';
-import type { Frames, Positions, Units } from './options.ts';
+import { UNITS, type Frames, type Positions, type Units } from './options.ts';
 import { numberOf, positionOf, servosIn, snapshotOf, type Servo } from './values.ts';
 
 const REMEMBERED_S = timings.program.namesMs / 1000;
@@ -42,6 +42,8 @@ export class Names {
 
   /** By servo number, in the board's unit. */
   async positions(positions: Positions, units: Units, signal?: AbortSignal): Promise<Record<string, number>> {
+    if (!UNITS.includes(units))
+      throw new GatewayError('outOfRange', `units is ${units as string}, allowed: ${UNITS.join(', ')}`);
     const entries = Object.entries(positions);
     if (units === 'board' && entries.every(([servo]) => isNumber(servo))) return Object.fromEntries(entries);
     let { known, board } = await this.described({ signal });
@@ -49,12 +51,14 @@ export class Names {
       isNumber(servo) || known.some(({ name }) => name.toLowerCase() === servo.toLowerCase());
     if (!entries.every(([servo]) => isKnown(servo)))
       ({ known, board } = await this.described({ isNew: true, signal }));
-    return Object.fromEntries(
-      entries.map(([servo, at]) => {
-        const number = numberOf(known, servo);
-        return [number, units === 'deg' ? positionOf(known, board, number, at) : at];
-      }),
-    );
+    const wanted = new Map<number, number>();
+    for (const [servo, at] of entries) {
+      const number = numberOf(known, servo);
+      if (wanted.has(number))
+        throw new GatewayError('outOfRange', `Servo ${number} is named twice, the second time as ${servo}.`);
+      wanted.set(number, units === 'deg' ? positionOf(known, board, number, at) : at);
+    }
+    return Object.fromEntries(wanted);
   }
 
   async frames(frames: Frames, units: Units, signal?: AbortSignal): Promise<FrameBody[]> {

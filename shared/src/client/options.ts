@@ -1,7 +1,8 @@
-// The words that methods of `Servodeck` take; times in seconds. Types alone.
+// The words that methods of `Servodeck` take; times in seconds.
 
 /** Degrees from home, or the board's unit. */
 export type Units = 'deg' | 'board';
+export const UNITS: readonly Units[] = ['deg', 'board'];
 /** Of servos by name or number. */
 export type Positions = Readonly<Record<string | number, number>>;
 /** Each: the seconds that it takes, and where servos are at its end. */

@@ -69,7 +69,11 @@ export async function request<P extends Path, V extends Verb<P>>(
   }).catch((error: unknown) => {
     throw new GatewayProblem(null, 'the gateway does not answer', [], { cause: error });
   });
-  return readAnswer(response);
+  const answer = await readAnswer(response);
+  // Its head came in time, its body did not.
+  if (answer === null && signal.aborted)
+    throw new GatewayProblem(null, 'the gateway does not answer', [], { cause: signal.reason });
+  return answer;
 }
 
 /** What it holds. Rejects with a GatewayProblem where it is a refusal. */

@@ -7,6 +7,8 @@ import type { Command, CommandKind } from '../codec/commands.ts';
 import { startGateway, type GatewayUnderTest } from './gatewayUnderTest.ts';
 import { GatewayError, Servodeck, TimedOutError, UnreachableError } from './servodeck.ts';
 
+/** Time-outs here are 500 ms; a quiet computer takes 600. */
+const BUSY_MS = 900;
 let gateway: GatewayUnderTest;
 let robot: Servodeck;
 let begun = 0;
@@ -20,8 +22,10 @@ beforeEach(() => {
   begun = gateway.heard().length;
 });
 afterEach(async () => {
-  await robot.resume();
   await robot.close();
+  const next = new Servodeck(gateway.url);
+  await next.resume();
+  await next.close();
 });
 
 /** What the board has heard in this test. */
@@ -103,7 +107,89 @@ test('a motion that is not awaited to its end is stopped: by time, by a signal, 
   await robot.play(frames, { ...endless, wait: false });
   expect((await robot.status()).play?.status).toBe('playing');
   await robot[Symbol.asyncDispose]();
-  expect(await robot.status()).toMatchObject({ play: { status: 'ended' }, driver: null });
+  const status = await new Servodeck(gateway.url).status();
+  expect(status).toMatchObject({ play: { status: 'ended' }, driver: null });
+});
+
+test('a closed robot refuses every method', async () => {
+  await robot.close();
+  await robot.close();
+  const frames = [[0.5, { 1: 1500 }]] as const;
+  for (const ask of [
+    () => robot.move({ 1: 1500 }, { units: 'board' }),
+    () => robot.pose('home'),
+    () => robot.run(8),
+    () => robot.play(frames, { units: 'board' }),
+    () => robot.download(8, frames, { units: 'board' }),
+    () => robot.erase(),
+    () => robot.stop(),
+    () => robot.resume(),
+    () => robot.requestLease(),
+    () => robot.release(),
+    () => robot.snapshot(),
+    () => robot.status(),
+    () => robot.battery(),
+    () => robot.poses(),
+    () => robot.servos(),
+    () => robot.events().next(),
+  ])
+    expect(await codeOf(ask())).toBe('closed');
+});
+
+test('unknown units, and a servo that is named twice, are refused by name', async () => {
+  const frames = [[1.5, { 1: 30 }]] as const;
+  for (const word of ['degrees', 'rad', 'Deg', '']) {
+    const units = word as 'deg';
+    const said = `units is ${word}, allowed: deg, board`;
+    await expect(robot.move({ 1: 30 }, { units })).rejects.toThrow(said);
+    await expect(robot.play(frames, { units })).rejects.toThrow(said);
+    await expect(robot.download(5, frames, { units })).rejects.toThrow(said);
+  }
+  await expect(robot.move({ Base: 10, 1: -10 }, { units: 'deg' })).rejects.toThrow(
+    'Servo 1 is named twice, the second time as Base',
+  );
+  // What still comes are the stops of the test before.
+  expect(moves().filter(({ durationMs }) => durationMs !== 20)).toEqual([]);
+  expect(heard('download')).toEqual([]);
+});
+
+test('a time-out ends the motion on time', async () => {
+  const frames = [
+    [1.5, { 1: 1800 }],
+    [2, { 1: 1200 }],
+  ] as const;
+  for (const begin of [
+    () => robot.move({ 1: 1800 }, { units: 'board', seconds: 5, timeout: 0.5 }),
+    () => robot.pose('home', { seconds: 5, timeout: 0.5 }),
+    () => robot.play(frames, { units: 'board', timeout: 0.5 }),
+    () => robot.run(8, { timeout: 0.5 }),
+  ]) {
+    const beganMs = performance.now();
+    await expect(begin()).rejects.toBeInstanceOf(TimedOutError);
+    expect(performance.now() - beganMs).toBeLessThan(BUSY_MS);
+  }
+});
+
+test('a gateway that vanishes is noticed within the time-out, whatever was asked', async () => {
+  const silent = createServer(() => undefined);
+  await new Promise<void>((resolve) => void silent.listen(0, '127.0.0.1', resolve));
+  const far = new Servodeck(`http://127.0.0.1:${(silent.address() as AddressInfo).port}`, { timeout: 0.5 });
+  const frames = [[0.5, { 1: 1500 }]] as const;
+  const beganMs = performance.now();
+  const asked = [
+    far.move({ 1: 1500 }, { units: 'board' }),
+    far.pose('home'),
+    far.run(8),
+    far.play(frames, { units: 'board' }),
+    far.download(8, frames, { units: 'board' }),
+    far.snapshot(),
+    far.stop(),
+  ];
+  for (const answer of await Promise.allSettled(asked))
+    expect(answer).toMatchObject({ status: 'rejected', reason: { name: 'UnreachableError' } });
+  expect(performance.now() - beganMs).toBeLessThan(BUSY_MS);
+  silent.closeAllConnections();
+  silent.close();
 });
 
 test('a request whose answer was lost is sent again with its key, and moves the robot once', async () => {

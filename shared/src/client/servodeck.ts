@@ -4,9 +4,10 @@
 /// <reference lib="esnext.disposable" preserve="true" />
 
 import timings from '../../protocol/timings.json' with { type: 'json' };
-import { gatewayAt, pause, type Event, type Gateway } from './gateway.ts';
+import { GatewayError } from './errors.ts';
+import { gatewayAt, type Event, type Gateway } from './gateway.ts';
 import type { JobState, Status, UnheldServos } from './http.generated.ts';
-import { endedWith, LOOK_S, Motions, timeJudge } from './motions.ts';
+import { endedWith, LOOK_S, Motions, patienceOf, rest, type Patience } from './motions.ts';
 import { Names } from './names.ts';
 import type {
   DownloadOptions,
@@ -54,7 +55,7 @@ export class Servodeck {
   async close(): Promise<void> {
     this.#closed.abort();
     await this.#motions.ended();
-    await this.release();
+    await this.#motions.release();
   }
 
   // Motion
@@ -64,11 +65,14 @@ export class Servodeck {
     positions: Positions,
     { units, seconds = POSE_S, wait = true, timeout, signal }: MoveOptions,
   ): Promise<void> {
+    this.#judgeOpen();
+    const patience = patienceOf({ wait, timeout, signal });
     const wanted = await this.#names.positions(positions, units, signal);
-    const body = { timeMs: Math.round(seconds * 1000), positions: wanted, take: this.#take };
+    const timeMs = Math.round(seconds * 1000);
+    const body = { timeMs, positions: wanted, take: this.#take, beats: true };
     const moreS = START_S * Object.keys(wanted).length;
-    const { overInMs } = await this.#motions.begin('post', '/api/move', { body }, { moreS, signal });
-    if (wait) await this.#motions.moved(overInMs / 1000, { timeout, signal });
+    const { overInMs } = await this.#motions.begin('post', '/api/move', { body }, { moreS, ...patience });
+    await this.#moves(overInMs / 1000, wait, patience);
   }
 
   /** Moves to a pose of the robot, by name or number; "home" is number 0. */
@@ -76,14 +80,22 @@ export class Servodeck {
     pose: string | number,
     { seconds = POSE_S, wait = true, timeout, signal }: PoseOptions = {},
   ): Promise<void> {
-    const body = { timeMs: Math.round(seconds * 1000), take: this.#take };
+    this.#judgeOpen();
+    const patience = patienceOf({ wait, timeout, signal });
+    const body = { timeMs: Math.round(seconds * 1000), take: this.#take, beats: true };
     const given = { values: { pose: String(pose) }, body };
     const moreS = START_S * MOST_SERVOS;
     const { overInMs } = await this.#motions.begin('post', '/api/poses/{pose}/apply', given, {
       moreS,
-      signal,
+      ...patience,
     });
-    if (wait) await this.#motions.moved(overInMs / 1000, { timeout, signal });
+    await this.#moves(overInMs / 1000, wait, patience);
+  }
+
+  async #moves(overInS: number, wait: boolean, patience: Patience): Promise<void> {
+    this.#motions.begun(overInS);
+    if (wait) await this.#motions.moved(overInS, patience);
+    else this.#motions.beat();
   }
 
   /** Runs a group of the board, by its name or slot. */
@@ -91,14 +103,16 @@ export class Servodeck {
     group: string | number,
     { times = 1, wait = true, timeout, alone, signal }: RunOptions = {},
   ): Promise<Outcome> {
+    this.#judgeOpen();
     judgeEnd(times, wait, timeout);
+    const patience = patienceOf({ wait, timeout, signal });
     const slot = typeof group === 'number' ? group : await this.#names.slotOf(group);
     const given = { values: { slot }, body: { times, take: this.#take, ...continuing(alone) } };
     const { outcome } = await this.#motions.begin('post', '/api/slots/{slot}/run', given, {
       moreS: TAKEN_S,
-      signal,
+      ...patience,
     });
-    if (wait) await this.#motions.ran(slot, { timeout, signal });
+    if (wait) await this.#motions.ran(slot, patience);
     else if (alone === undefined) this.#motions.beat();
     return outcome;
   }
@@ -108,11 +122,13 @@ export class Servodeck {
     frames: Frames,
     { units, times = 1, loopFrom = 0, wait = true, timeout, alone, signal }: PlayOptions,
   ): Promise<void> {
+    this.#judgeOpen();
     judgeEnd(times, wait, timeout);
+    const patience = patienceOf({ wait, timeout, signal });
     const bodies = await this.#names.frames(frames, units, signal);
     const body = { frames: bodies, times, loopFrom, take: this.#take, ...continuing(alone) };
-    const { id } = await this.#motions.begin('post', '/api/play', { body }, { signal });
-    if (wait) await this.#motions.played(id, { timeout, signal });
+    const { id } = await this.#motions.begin('post', '/api/play', { body }, patience);
+    if (wait) await this.#motions.played(id, patience);
     else if (alone === undefined) this.#motions.beat();
   }
 
@@ -122,16 +138,17 @@ export class Servodeck {
     frames: Frames,
     { units, name = '', replaces, wait = true, timeout, signal }: DownloadOptions,
   ): Promise<JobState> {
+    this.#judgeOpen();
+    const patience = patienceOf({ wait, timeout, signal });
     const bodies = await this.#names.frames(frames, units, signal);
     const group = { slot, name, version: '', frames: bodies, ...(replaces !== undefined && { replaces }) };
     const body = { groups: [group], take: this.#take };
-    let job: JobState = await this.#motions.begin('post', '/api/download', { body }, { signal });
+    let job: JobState = await this.#motions.begin('post', '/api/download', { body }, patience);
     const given = { values: { job: job.id } };
-    const judge = timeJudge(timeout, 'The download did not end in time, so it was cancelled.');
+    const lateWords = 'The download did not end in time, so it was cancelled.';
     try {
       while (wait && job.status === 'running') {
-        judge();
-        await pause(LOOK_S * 1000, signal);
+        await rest(LOOK_S, patience, lateWords);
         job = await this.#gateway.call('get', '/api/jobs/{job}', given, { isSafe: true, signal });
       }
     } catch (error) {
@@ -143,8 +160,9 @@ export class Servodeck {
   }
 
   /** Erases every slot of the board, for good. Owners only. */
-  erase(): Promise<void> {
-    return this.#motions.erase(this.#take);
+  async erase(): Promise<void> {
+    this.#judgeOpen();
+    await this.#motions.erase(this.#take);
   }
 
   // The right to drive
@@ -154,49 +172,58 @@ export class Servodeck {
    * `servos` and `forMs`; null: all is held.
    */
   async stop(): Promise<UnheldServos | null> {
+    this.#judgeOpen();
     return (await this.#gateway.call('post', '/api/stop', {}, { isSafe: true })).unheld;
   }
 
   /** Allows motion again. Moves nothing. Look at the robot first. */
   async resume(): Promise<void> {
+    this.#judgeOpen();
     await this.#gateway.call('post', '/api/resume', {});
   }
 
   /** Whether this program drives now; otherwise the driver has 5 s to refuse. Motion does it by itself. */
   async requestLease(): Promise<boolean> {
+    this.#judgeOpen();
     return (await this.#motions.lease(this.#take ? 'take' : 'request')).drives;
   }
 
   /** Stops what this program has in motion, without a latch, and releases its lease. */
-  release(): Promise<void> {
-    return this.#motions.release();
+  async release(): Promise<void> {
+    this.#judgeOpen();
+    await this.#motions.release();
   }
 
   // Looking
 
   /** The state of gateway, board and motion. */
   async snapshot(): Promise<Snapshot> {
+    this.#judgeOpen();
     return snapshotOf(await this.#gateway.welcome());
   }
 
   /** As `GET /api/status` has it. */
-  status(): Promise<Status> {
+  async status(): Promise<Status> {
+    this.#judgeOpen();
     return this.#gateway.call('get', '/api/status', {}, { isSafe: true });
   }
 
   /** In millivolts: queries the board now. */
   async battery(): Promise<number> {
+    this.#judgeOpen();
     return (await this.#gateway.call('get', '/api/battery', {}, { isSafe: true })).batteryMv;
   }
 
   /** The names of the robot's poses, by number. */
   async poses(): Promise<Readonly<Record<number, string>>> {
+    this.#judgeOpen();
     const { poses } = await this.#gateway.call('get', '/api/poses', {}, { isSafe: true });
     return Object.fromEntries(poses.map(({ id, name }) => [id, name]));
   }
 
   /** Those that the robot on the board describes. */
   async servos(): Promise<readonly Servo[]> {
+    this.#judgeOpen();
     return (await this.#names.described({ isNew: true })).known;
   }
 
@@ -208,12 +235,19 @@ export class Servodeck {
     Event,
     void
   > {
+    this.#judgeOpen();
     const limits = [
       this.#closed.signal,
       signal,
       seconds === undefined ? undefined : AbortSignal.timeout(Math.round(seconds * 1000)),
     ];
     yield* this.#gateway.events(AbortSignal.any(limits.filter((one) => one !== undefined)));
+  }
+
+  /** Throws a GatewayError. */
+  #judgeOpen(): void {
+    if (this.#closed.signal.aborted)
+      throw new GatewayError('closed', 'This robot was closed: its program makes a new one.');
   }
 }
 
