@@ -171,6 +171,7 @@ async def test_a_proposal_that_does_not_fit_is_explained_and_not_stored(here: Se
         {"seconds": 0.5, "degrees": {"Base": 95}},
         {"seconds": 0.5, "degrees": {"Wrist": 0, "Gripper": 0}},
         {"seconds": 40, "degrees": {"Gripper": 10}},
+        {"seconds": 1, "degrees": {"Base": 10, "1": -10}},
     ]
     async with assistant(here) as client:
         answer, _ = await proposed(client, "Too far", frames)
@@ -179,8 +180,27 @@ async def test_a_proposal_that_does_not_fit_is_explained_and_not_stored(here: Se
             "Frame 1: Base (servo 1) cannot go to 95 degrees: -90 to 90.",
             "Frame 2: no servo is called Wrist. There are: Base, Elbow, Gripper.",
             "Frame 3: 40000 ms; the board takes 20 to 30000.",
+            "Frame 4: Base (servo 1) is named twice.",
         ]
         assert (await told(client, "list_groups"))["result"] == []
+
+
+async def test_what_a_tool_does_not_take_is_refused_by_name(here: Served, port: BoardPort) -> None:
+    async with assistant(here) as client:
+        degrees = {"Base": 0.3}
+        said = await refusal(client, "move_servos", degrees=degrees, units="rad")
+        assert said == "malformed: units is no argument of move_servos, allowed: degrees, seconds"
+        frames = [{"seconds": 1, "degrees": degrees, "units": "rad"}]
+        assert "units" in await refusal(client, "propose_group", name="Rad", frames=frames)
+        frames = [{"seconds": 1, "degrees": degrees, "easing": "bounce"}]
+        assert "'linear', 'in', 'out' or 'inOut'" in await refusal(
+            client, "propose_group", name="Bounce", frames=frames
+        )
+        twice = await refusal(client, "move_servos", degrees={"Base": 10, "1": -10})
+        assert twice == "outOfRange: Servo 1 is named twice, the second time as 1."
+        assert sent(port) == []
+        await told(client, "stop", units="rad")
+        assert here.running.control.latch
 
 
 async def test_a_fast_turn_is_remarked_upon(here: Served) -> None:

@@ -463,6 +463,7 @@ def test_a_closed_robot_refuses_every_method(here: Served, port: BoardPort) -> N
 
 
 def test_unknown_units_and_a_servo_that_is_named_twice_are_refused(here: Served, port: BoardPort) -> None:
+    twice: dict[str | int, float] = {"Base": 10, 1: -10}
     with Robot(here.url) as robot:
         for units in ("degrees", "rad", "Deg", "", None):
             with pytest.raises(OutOfRangeError, match=f"units is {units}, allowed: deg, board"):
@@ -472,7 +473,7 @@ def test_unknown_units_and_a_servo_that_is_named_twice_are_refused(here: Served,
             with pytest.raises(OutOfRangeError, match=f"units is {units}, allowed: deg, board"):
                 robot.download(5, [(1.5, {1: 30})], units=units)  # type: ignore[arg-type]
         with pytest.raises(OutOfRangeError, match="Servo 1 is named twice, the second time as 1"):
-            robot.move({"Base": 10, 1: -10}, units="deg")
+            robot.move(twice, units="deg")
         with pytest.raises(OutOfRangeError, match="Servo 1 is named twice, the second time as base"):
             robot.play([(1.5, {"1": 1500, "base": 1600})], units="board")
     assert sent(port) == []

@@ -131,6 +131,20 @@ def test_an_early_end_is_reported_with_the_stored_groups(
     assert ended.stdout.splitlines()[-1].startswith("1 of 2 groups are stored. STOP ended")
 
 
+def test_what_a_group_has_not_and_what_is_given_twice_is_refused_by_name(tmp_path: Path) -> None:
+    frames = '"frames": [{"durationMs": 500, "positions": {"1": 1500, "1": 900}}]'
+    for text, why in (
+        (f"{{{frames}}}", "has 1 twice"),
+        ('{"frames": [], "times": 3}', "has times, which a group has not"),
+        ('{"frames": [], "units": "deg"}', "has units, which a group has not"),
+    ):
+        file = tmp_path / "wave.json"
+        file.write_text(text)
+        for command in (["download", f"5={file}"], ["play", str(file)]):
+            refused = run(*command, "--url", "http://127.0.0.1:9")
+            assert (refused.exit_code, why in refused.stderr) == (USAGE, True), refused.stderr
+
+
 @pytest.mark.parametrize(
     ("argument", "text"),
     [

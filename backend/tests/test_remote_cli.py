@@ -269,6 +269,7 @@ def test_an_unauthenticated_command_says_where_to_get_a_token_and_works_with_one
         (["events", "--url", "http://127.0.0.1:9"], UNREACHABLE, "servodeck serve"),
         (["status", "--url", "robot"], USAGE, "http://"),
         (["move", "1:1500"], USAGE, "SERVO=POSITION"),
+        (["move", "1=1500", "2=900", "1=900"], USAGE, "Servo 1 is named twice."),
         (["move"], USAGE, "Missing argument"),
     ],
 )

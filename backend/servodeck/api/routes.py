@@ -5,7 +5,7 @@ Knows the entrance and how a framework's routes are built; no route of ours.
 """
 
 import json
-from collections.abc import Callable, Coroutine, Iterator, Sequence
+from collections.abc import Callable, Collection, Coroutine, Iterator, Sequence
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Depends
@@ -22,11 +22,12 @@ from servodeck.access.connections import connection_of
 from servodeck.access.entrance import Entrance
 from servodeck.access.guard import judge_script
 from servodeck.callers import Caller, Role, as_script
-from servodeck.errors import StorageError
+from servodeck.errors import MalformedError, StorageError
 from servodeck.robot.control import Control
 from servodeck.schema import has_more_values
 from servodeck.threads import in_thread
 
+MAX_SHOWN = 64
 # Reading as much takes a millisecond or, of a hostile text, ten.
 LARGE_BYTES = 64 * 1024
 # More than the largest download has. Objects of so many take ten milliseconds, in which a stop waits.
@@ -92,11 +93,27 @@ class BodyRequest(Request):
 
     async def json(self) -> Any:
         body = await self.body()
-        return await in_thread(lambda: parse_large(body)) if len(body) > LARGE_BYTES else json.loads(body)
+        return await in_thread(lambda: parse_large(body)) if len(body) > LARGE_BYTES else parse(body)
+
+
+def parse(text: bytes | str) -> Any:
+    """Raises JSONDecodeError, or HTTPException for a name that is given twice: which of both was meant is
+    unknown.
+    """
+    return json.loads(text, object_pairs_hook=object_of)
+
+
+def object_of(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    whole = dict(pairs)
+    if len(whole) < len(pairs):
+        names = [name for name, _ in pairs]
+        twice = next(name for name in names if names.count(name) > 1)
+        raise HTTPException(MalformedError.status, f"{twice} is given twice.")
+    return whole
 
 
 def parse_large(body: bytes) -> Any:
-    """Raises JSONDecodeError, or HTTPException where so much would be made of it that a stop waits."""
+    """As `parse`. Raises HTTPException, too, where so much would be made of it that a stop waits."""
     text = body.decode()
     try:
         is_too_much = has_more_values(text, MOST_VALUES)
@@ -104,7 +121,7 @@ def parse_large(body: bytes) -> Any:
         raise json.JSONDecodeError(str(error), "", 0) from error
     if is_too_much:
         raise HTTPException(413, f"The request holds more than {MOST_VALUES} values.")
-    return json.loads(text)
+    return parse(text)
 
 
 Handler = Callable[[Request], Coroutine[Any, Any, Response]]
@@ -116,8 +133,14 @@ class JudgingRoute(APIRoute):
     def get_route_handler(self) -> Callable[[Request], Coroutine[Any, Any, Response]]:
         handle = self.noting(super().get_route_handler())
 
+        known = set(query_of(self.dependant))
+        # A STOP is done whatever it carries.
+        is_stop = any(each.role == "stopper" for each in needs_of(self.dependant))
+
         async def judge_and_handle(request: Request) -> Response:
             self.judge(request)
+            if not is_stop:
+                judge_query(request, known)
             return await handle(BodyRequest(request.scope, request.receive))
 
         return judge_and_handle
@@ -155,6 +178,23 @@ class ApiRoute(JudgingRoute):
     def judge(self, request: Request) -> None:
         judge_script(request.scope["headers"])
         super().judge(request)
+
+
+def query_of(dependant: Dependant) -> Iterator[str]:
+    """The names of the parameters that a route takes behind its address."""
+    yield from (each.alias for each in dependant.query_params)
+    for each in dependant.dependencies:
+        yield from query_of(each)
+
+
+def judge_query(request: Request, known: Collection[str]) -> None:
+    """Raises MalformedError for a parameter that this route does not have: its default would be taken in
+    silence.
+    """
+    for name in request.query_params:
+        if name not in known:
+            allowed = ", ".join(sorted(known)) or "none"
+            raise MalformedError(f"{name[:MAX_SHOWN]} is no parameter here, allowed: {allowed}")
 
 
 def entrance_in(connection: HTTPConnection) -> Entrance:

@@ -8,7 +8,7 @@ import json
 from collections.abc import Sequence
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, Field
+from pydantic import BaseModel, ConfigDict, Field
 
 from servodeck.assistant.bodies import Body, Degrees, Joint
 from servodeck.value import value
@@ -21,6 +21,8 @@ MAX_NAME, MAX_NOTE = 64, 200
 
 class ProposedFrame(BaseModel):
     """`seconds`: how long the move into this frame takes. Servos that are not named stay where they are."""
+
+    model_config = ConfigDict(extra="forbid")
 
     seconds: Annotated[float, Field(gt=0, le=65)]
     degrees: Degrees
@@ -67,6 +69,9 @@ def check(frames: Sequence[ProposedFrame], body: Body) -> Checked:
             if joint is None:
                 names = ", ".join(one.name for one in body.joints.values())
                 problems.append(f"Frame {number}: no servo is called {servo}. There are: {names}.")
+                continue
+            if joint.number in places:
+                problems.append(f"Frame {number}: {joint.name} (servo {joint.number}) is named twice.")
                 continue
             if problem := beyond(joint, degrees):
                 problems.append(f"Frame {number}: {problem}")

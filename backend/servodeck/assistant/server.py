@@ -6,11 +6,12 @@ Decides nothing about motion: every request goes through the gateway's own door,
 
 from collections.abc import Awaitable, Callable
 from functools import wraps
+from inspect import signature
 from typing import Annotated, Any, ParamSpec, TypeVar
 
-from mcp.server.mcpserver import Image, MCPServer
+from mcp.server.mcpserver import Context, Image, MCPServer
 from mcp.server.mcpserver.exceptions import ToolError
-from mcp.types import ToolAnnotations
+from mcp.types import CallToolResult, InputRequiredResult, ToolAnnotations
 from pydantic import BaseModel, Field
 
 from servodeck import __version__
@@ -261,9 +262,30 @@ def pose_of(snapshot: Snapshot, body: Body) -> dict[int, float]:
     }
 
 
+class StrictServer(MCPServer[Any]):
+    """Refuses what a tool does not take, by name; its library would leave it out in silence. STOP is done
+    whatever it carries.
+    """
+
+    def __init__(self) -> None:
+        super().__init__("servodeck", version=__version__, instructions=INSTRUCTIONS)
+        self.taken: dict[str, list[str]] = {}
+        """The arguments of each tool."""
+
+    async def call_tool(
+        self, name: str, arguments: dict[str, Any], context: Context[Any, Any] | None = None
+    ) -> CallToolResult | InputRequiredResult:
+        taken = self.taken.get(name, list(arguments))
+        for word in arguments:
+            if word not in taken:
+                allowed = ", ".join(taken) or "none"
+                raise ToolError(f"malformed: {word} is no argument of {name}, allowed: {allowed}")
+        return await super().call_tool(name, arguments, context)
+
+
 def make_server(robot: AsyncRobot, requests: Requests, *, drives: bool) -> MCPServer[Any]:
     """`drives`: it gets the tools that move."""
-    server: MCPServer[Any] = MCPServer("servodeck", version=__version__, instructions=INSTRUCTIONS)
+    server = StrictServer()
     looking, proposing = Looking(robot, requests), Proposing(requests)
     tools: list[tuple[Callable[..., Awaitable[Any]], ToolAnnotations]] = [
         (looking.get_snapshot, LOOK),
@@ -280,5 +302,7 @@ def make_server(robot: AsyncRobot, requests: Requests, *, drives: bool) -> MCPSe
     for tool, annotations in tools:
         has_picture = tool in (looking.get_pose_picture, proposing.propose_group)
         structured = False if has_picture else None
+        if tool.__name__ != Stopping.stop.__name__:
+            server.taken[tool.__name__] = list(signature(tool).parameters)
         server.add_tool(refusing(tool), annotations=annotations, structured_output=structured)
     return server

@@ -110,10 +110,14 @@ def begun_words(begun: dict[str, Any]) -> str:
 
 def positions_in(targets: list[str]) -> dict[str, int]:
     try:
-        pairs = [target.split("=") for target in targets]
-        return {str(int(servo)): int(position) for servo, position in pairs}
+        pairs = [(int(servo), int(position)) for servo, position in (each.split("=") for each in targets)]
     except ValueError:
         fail("A target is SERVO=POSITION, for example 1=1500.", USAGE)
+    servos = [servo for servo, _ in pairs]
+    for servo in servos:
+        if servos.count(servo) > 1:
+            fail(f"Servo {servo} is named twice.", USAGE)
+    return {str(servo): position for servo, position in pairs}
 
 
 @asking

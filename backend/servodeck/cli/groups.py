@@ -2,6 +2,7 @@
 
 import json
 import time
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -25,6 +26,7 @@ from servodeck.cli.remote import Remote
 from servodeck.protocol.timings import DOWNLOAD
 
 LOOK_S = 0.2
+FIELDS = ("slot", "name", "version", "replaces", "document", "frames")
 SHAPE = '{"name": "Wave", "frames": [{"durationMs": 400, "positions": {"1": 1200}}]}'
 
 
@@ -117,14 +119,26 @@ def group_of(text: str) -> dict[str, Any]:
 def group_in(file: Path) -> dict[str, Any]:
     """As a board stores it; ends the program with an explanation for anything else."""
     try:
-        group = json.loads(file.read_text("utf-8"))
+        group = json.loads(file.read_text("utf-8"), object_pairs_hook=partial(object_in, file))
     except OSError as error:
         fail(f"{file} cannot be read: {error.strerror}.", USAGE)
     except ValueError:
         fail(f"{file} is not JSON. Expected one group: {SHAPE}", USAGE)
     if not isinstance(group, dict) or "frames" not in group or "format" in group:
         fail(f"{file} holds no valid frames. Expected: {SHAPE}", USAGE)
+    for name in group:
+        if name not in FIELDS:
+            fail(f"{file} has {name}, which a group has not: {', '.join(FIELDS)}.", USAGE)
     return group
+
+
+def object_in(file: Path, pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """Ends the program where one name is given twice, for example a servo."""
+    names = [name for name, _ in pairs]
+    for name in names:
+        if names.count(name) > 1:
+            fail(f"{file} has {name} twice in one place.", USAGE)
+    return dict(pairs)
 
 
 @asking

@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from servodeck.callers import Caller, Role
-from servodeck.errors import CancelledError, MalformedError, MovingError, NotSupportedError
+from servodeck.errors import CancelledError, MalformedError, MovingError, NotSupportedError, OutOfRangeError
 from servodeck.port.wire import STOP_PACKET, Job, Left
 from servodeck.protocol.families import FAMILIES, check
 from servodeck.protocol.packets import (
@@ -60,6 +60,7 @@ class Requests:
         board = self._board
         session.caller.require("driver")
         board.identification.judge_known()
+        judge_named_once(targets)
         for target in targets:
             check(Move(duration_ms, (target,)), board.family)
         self._limits.judge(Move(duration_ms, tuple(targets)), session)
@@ -214,6 +215,15 @@ class Requests:
 
     def _judge_driver(self, permit: Permit) -> None:
         self._lease.judge(permit, self._now())
+
+
+def judge_named_once(targets: Sequence[ServoTarget]) -> None:
+    """Raises OutOfRangeError for a servo with two targets: which of them was meant is unknown."""
+    seen: set[int] = set()
+    for target in targets:
+        if target.servo in seen:
+            raise OutOfRangeError(f"Servo {target.servo} is named twice.")
+        seen.add(target.servo)
 
 
 def judge_packet(text: str, board: str) -> CommandPacket:
