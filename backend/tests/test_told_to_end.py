@@ -150,7 +150,8 @@ def test_the_server_of_a_fleets_page_stops_the_robot_on_its_port_too(tmp_path: P
         process.send_signal(signal.Signals[name])
         assert process.wait(END_S) == 0
         bus.rest()
-        assert bus.since(told_s) == STOPS
+        # A question may have been under way.
+        assert bus.since(told_s).endswith(STOPS)
 
 
 def answers(url: str) -> bool:
