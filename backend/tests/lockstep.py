@@ -1,5 +1,6 @@
 """The simulated board itself behind the gateway's port, both in virtual time: bytes in at a time, bytes out
-at theirs, and when each servo's pulse changed last. Board: shared/src/robot/lockstepUnderTest.ts.
+at theirs, when each servo's pulse changed last, and how far a STOP threw it.
+Board: shared/src/robot/lockstepUnderTest.ts.
 
 Bytes go to the board's process when it may answer, and not before: most histories need few round trips.
 """
@@ -45,9 +46,11 @@ class Simulator:
         self._process.stdin.write(json.dumps(request) + "\n")
         return json.loads(self._process.stdout.readline())
 
-    def draw(self, board: str, seed: int, count: int, *, is_plain: bool = False) -> list[History]:
-        """`is_plain`: in which the gateway knows all that moves the robot."""
-        drawn: list[History] = self.ask(draw=board, seed=seed, count=count, isPlain=is_plain)
+    def draw(self, board: str, seed: int, count: int, kind: str = "any") -> list[History]:
+        """Of the kind `plain` the gateway knows all that moves the robot; of the kind `situation` each ends
+        in what a STOP must not make worse.
+        """
+        drawn: list[History] = self.ask(draw=board, seed=seed, count=count, kind=kind)
         return drawn
 
     def end(self) -> None:
@@ -73,6 +76,10 @@ class SteppedBoard:
         self.runs = 0
         """So many have begun to leave."""
         self.moved_s: Sequence[float] = [0.0 for _ in SERVOS]
+        self.thrown_by: Sequence[float] = [0.0 for _ in SERVOS]
+        """Of each servo, the farthest that a STOP moved it off its way."""
+        self.met: Sequence[str] = ()
+        """What the last STOP met."""
         loop = asyncio.get_running_loop()
         assert isinstance(loop, VirtualTimeLoop)
         loop.jumping.goes_to = self._follow
@@ -104,6 +111,18 @@ class SteppedBoard:
             lasts_s = inf if data[COMMAND_AT] == RUN else ANSWERS_WITHIN_S
             self._talks_until_s = max(self._talks_until_s, now() + lasts_s)
 
+    def note_press(self) -> None:
+        """A STOP begins now."""
+        self._note("press")
+
+    def note_resume(self) -> None:
+        self._note("resume")
+
+    def disturb(self, noise: str) -> None:
+        """These bytes reach it, though nobody sent them (hexadecimal)."""
+        self._talks_until_s = inf  # what it takes apart may be a run
+        self._note(f"noise {noise}")
+
     def lose(self, for_s: float) -> None:
         if not (self.ports and self.is_plugged):
             return
@@ -121,6 +140,7 @@ class SteppedBoard:
         self._happened = []
         self._is_running = answer["isRunning"]
         self.moved_s = [moved_ms / 1000 for moved_ms in answer["movedMs"]]
+        self.thrown_by, self.met = answer["thrownBy"], answer["met"]
         if answer["said"]:
             # That was one byte, and what is behind it may belong to the same report.
             self._talks_until_s = max(self._talks_until_s, answer["atMs"] / 1000 + ANSWERS_WITHIN_S)

@@ -75,6 +75,8 @@ class Outcome:
     """What the STOP said that has latched, or behind which a person resumed: they answer for that
     (docs/adr/0012).
     """
+    thrown_by: Sequence[float]
+    met: Sequence[str]
 
     @property
     def moved_on(self) -> bool:
@@ -116,11 +118,13 @@ class Watched(Control):
 
     def __init__(self, board: SteppedBoard, family: str) -> None:
         super().__init__(board, now, family)
+        self._stepped = board
         self.said: list[Said] = []
         self.pressed_s: list[float] = []
 
     def stop(self, cause: Cause = UNNAMED_PERSON) -> Left:
         self.pressed_s.append(now())
+        self._stepped.note_press()
         return super().stop(cause)
 
     def stopped_again(self, since_s: float) -> None:
@@ -210,6 +214,7 @@ class Driven:
     def resume(self) -> None:
         was_latched = self.control.latch
         self.control.resume(OLGA)
+        self.board.note_resume()
         if was_latched:
             self._resumed_s, self._begun_before_resume = now(), self._begun()
 
@@ -288,6 +293,7 @@ ACTS: dict[str, Callable[[Driven, Step], None]] = {
     "download": lambda here, step: here.download(step.get("slot", KNOWN_SLOT), frames_of(step["frames"])),
     "cancel": lambda here, _step: here.cancel(),
     "loss": lambda here, _step: here.board.lose(LOST_FOR_S),
+    "noise": lambda here, step: here.board.disturb(step["bytes"]),
 }
 
 
@@ -323,7 +329,7 @@ async def outcome_of(simulator: Simulator, family: str, history: History, door: 
     # Pressed again while it stops it joins the STOP under way.
     pressed_s = min(control.pressed_s[pressed_before:], default=inf)
     said = [one for one in control.said if one.left_s >= pressed_s]
-    outcome = Outcome(said, board.moved_s, due_s, was_latched, here.answered)
+    outcome = Outcome(said, board.moved_s, due_s, was_latched, here.answered, board.thrown_by, board.met)
     await control.board.link.close()
     return outcome
 

@@ -90,7 +90,7 @@ def test_it_names_no_more_than_what_may_move(simulator: Simulator, board: str) -
     for seed in seeds(1):
         drawn = own_seed(board, seed)
         doors = random.Random(drawn)
-        for history in simulator.draw(board, drawn, PLAIN_HISTORIES, is_plain=True):
+        for history in simulator.draw(board, drawn, PLAIN_HISTORIES, "plain"):
             door = doors.choice(sorted(DOORS))
             with named("test_stop_says.py", seed, f"{board} at {door}: {json.dumps(history)}"):
                 outcome = stopped(simulator, board, history, door)

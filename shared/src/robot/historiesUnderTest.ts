@@ -16,6 +16,8 @@ export type StopStep =
   | { readonly kind: 'speed'; readonly slot: number; readonly percent: number }
   | { readonly kind: 'download'; readonly slot: number; readonly frames: readonly Frame[] }
   | { readonly kind: 'loss'; readonly awayMs: number }
+  /** These bytes reach the board, though nobody sent them (hexadecimal). */
+  | { readonly kind: 'noise'; readonly bytes: string }
   | { readonly kind: 'wait'; readonly ms: number };
 
 export interface StopHistory {
@@ -115,6 +117,76 @@ export function someStopHistory(profile: ProfileName): fc.Arbitrary<StopHistory>
     known: someFrames(family),
     steps: fc.array(someStopStep(family), { minLength: 1, maxLength: 9 }),
   });
+}
+
+/** What a robot may be in when STOP is pressed, and what nobody can see then. */
+export const SITUATIONS = [
+  'unknown run',
+  'after an unknown run',
+  'first move',
+  'two movers',
+  'known run',
+  'lost port',
+  'noise',
+] as const;
+export type Situation = (typeof SITUATIONS)[number];
+
+/** A stray header byte takes the packet behind it apart (S4); behind the longer one a board waits for what never comes (S3). */
+const NOISES = ['55', '5555fe030ef0'];
+
+/** How a history ends, so that STOP meets a situation often; what STOP met in the end is for the board to say. */
+function someEndOf(situation: Situation, family: Family): fc.Arbitrary<StopStep[]> {
+  const stores = family.commands.includes('download');
+  const foreign = stores ? fc.constantFrom(FOREIGN_SLOT, CUT_SLOT) : fc.constantFrom(...PRELOADED_SLOTS);
+  const longestMs = Math.min(family.durationMs.max, 10_000);
+  const wait = (min: number, max: number) =>
+    fc.integer({ min, max }).map((ms): StopStep => ({ kind: 'wait', ms }));
+  const move = (min: number, max: number) =>
+    fc
+      .record({
+        targets: someTargets(family),
+        durationMs: fc.integer({ min, max: Math.min(max, longestMs) }),
+      })
+      .map((values): StopStep => ({ kind: 'move', ...values }));
+  const run = foreign.map((slot): StopStep => ({ kind: 'run', slot, times: 1 }));
+  const resume = fc.constant<StopStep>({ kind: 'resume' });
+  const noise = fc.constantFrom(...NOISES).map((bytes): StopStep => ({ kind: 'noise', bytes }));
+  const loss = fc.constantFrom(50, 400).map((awayMs): StopStep => ({ kind: 'loss', awayMs }));
+  switch (situation) {
+    case 'unknown run':
+      return fc.oneof(
+        fc.tuple(resume, run, wait(0, 2_500), move(0, longestMs), wait(0, 1_500)),
+        fc.tuple(resume, move(500, longestMs), run, wait(0, 3_000)),
+      );
+    case 'after an unknown run':
+      return fc.oneof(
+        fc.tuple(resume, run, wait(0, 1_000), move(2_000, longestMs), wait(1_000, 19_000)),
+        fc.tuple(resume, move(2_000, longestMs), run, wait(1_000, 19_000)),
+      );
+    case 'first move':
+      return fc.tuple(resume, move(0, 3_000), wait(0, 1_600));
+    case 'two movers':
+      return fc.tuple(
+        ...[resume, wait(1_500, 2_500), move(500, longestMs), wait(0, 800), move(0, longestMs), wait(0, 800)],
+      );
+    case 'known run':
+      return fc.tuple(
+        ...[resume, fc.constant<StopStep>({ kind: 'run', slot: stores ? KNOWN_SLOT : 1, times: 2 })],
+        ...[wait(0, 1_200)],
+      );
+    case 'lost port':
+      return fc.tuple(loss, wait(600, 4_000), resume, move(0, longestMs), wait(0, 2_500));
+    case 'noise':
+      return fc.tuple(resume, move(0, longestMs), noise, wait(0, 400), move(0, longestMs), wait(0, 1_500));
+  }
+}
+
+/** Histories that end in each situation as often as in any other. */
+export function someSituationHistory(profile: ProfileName): fc.Arbitrary<StopHistory> {
+  const ends = fc.constantFrom(...SITUATIONS).chain((situation) => someEndOf(situation, familyOf(profile)));
+  return fc
+    .tuple(someStopHistory(profile), ends)
+    .map(([history, end]) => ({ ...history, steps: [...history.steps.slice(0, 4), ...end] }));
 }
 
 /** These take a board away from what is known of it: by flash, by talk, or for good. */

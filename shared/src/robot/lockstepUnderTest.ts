@@ -1,20 +1,39 @@
 // A simulated board in virtual time behind a line of JSON on stdio, for tests of the gateway: a time in, what the board said until then
-// out, and when each pulse changed last. Also draws the histories, so that both languages try the same ones. No session.
+// out, when each pulse changed last, and how far a STOP threw it. Also draws the histories, so that both languages try the same ones. No
+// session.
 
 import { createInterface } from 'node:readline';
 import fc from 'fast-check';
 import type { Clock } from '../clock.ts';
+import type { Command } from '../codec/commands.ts';
 import { fromHex, toHex } from '../codec/packet.ts';
+import { commandIn } from '../codec/parse.ts';
 import { createBoard, type Board } from '../simulator/board.ts';
 import type { Fault } from '../simulator/faults.ts';
 import { isProfileName, type ProfileName } from '../simulator/profileNames.ts';
-import { SERVOS, somePlainHistory, someStopHistory, type StopHistory } from './historiesUnderTest.ts';
+import {
+  SERVOS,
+  type Situation,
+  somePlainHistory,
+  someSituationHistory,
+  someStopHistory,
+  type StopHistory,
+} from './historiesUnderTest.ts';
 import { foreignFlash, SLOW_FLASH } from './stopUnderTest.ts';
+import { createThrowWatch, situationsOf, type ThrowWatch } from './throwsUnderTest.ts';
 
-type Happening = readonly [atMs: number, what: 'unplug' | 'plugIn' | (string & {})];
+/** Anything else is a packet (hexadecimal), or behind `noise` bytes that nobody sent. */
+type Happening = readonly [atMs: number, what: 'unplug' | 'plugIn' | 'press' | 'resume' | (string & {})];
+
+const DRAWN = { any: someStopHistory, plain: somePlainHistory, situation: someSituationHistory } as const;
 
 type Request =
-  | { readonly draw: string; readonly seed: number; readonly count: number; readonly isPlain: boolean }
+  | {
+      readonly draw: string;
+      readonly seed: number;
+      readonly count: number;
+      readonly kind: keyof typeof DRAWN;
+    }
   | { readonly start: string; readonly history: StopHistory; readonly faults?: readonly Fault[] }
   /** Until then, or until it says something. */
   | { readonly untilMs: number; readonly happened: readonly Happening[] };
@@ -57,13 +76,15 @@ interface Bench {
   /** As they were looked at last, and when each changed last. */
   pulses: readonly number[];
   readonly movedMs: number[];
+  readonly history: StopHistory;
+  readonly throws: ThrowWatch;
+  readonly commands: Command[];
+  /** What the last STOP met. */
+  met: readonly Situation[];
 }
 
-function createBench(
-  profile: ProfileName,
-  { onForMs, hasPad, isSlow, unknown }: StopHistory,
-  some: readonly Fault[],
-): Bench {
+function createBench(profile: ProfileName, history: StopHistory, some: readonly Fault[]): Bench {
+  const { onForMs, hasPad, isSlow, unknown } = history;
   const flash = foreignFlash(profile, unknown);
   const faults = [...(isSlow ? SLOW_FLASH : []), ...some];
   const clock = createSteppedClock();
@@ -75,6 +96,10 @@ function createBench(
     said: '',
     pulses: look(board),
     movedMs: SERVOS.map(() => 0),
+    history,
+    throws: createThrowWatch(board, clock),
+    commands: [],
+    met: [],
   };
   return bench;
 }
@@ -90,21 +115,42 @@ function advance(bench: Bench, untilMs: number): void {
       if (pulse !== bench.pulses[index]) bench.movedMs[index] = bench.clock.now();
     });
     bench.pulses = pulses;
+    bench.throws.look();
     return bench.said !== '';
   });
 }
 
-function happen({ board }: Bench, what: Happening[1]): void {
+const NOISE = /^noise (.*)$/;
+
+function happen(bench: Bench, what: Happening[1]): void {
+  const { board, throws, commands, history } = bench;
+  const noise = NOISE.exec(what)?.[1];
   if (what === 'unplug') board.unplug();
   else if (what === 'plugIn') board.plugIn();
-  else board.receive(fromHex(what));
+  else if (what === 'resume') throws.resumed();
+  else if (what === 'press') {
+    throws.pressed();
+    bench.met = situationsOf(board, history, commands);
+  } else if (noise !== undefined) {
+    throws.disturbed();
+    board.receive(fromHex(noise));
+  } else leave(bench, fromHex(what));
+}
+
+function leave({ board, throws, commands }: Bench, packet: Uint8Array): void {
+  const command = commandIn(packet);
+  if (command !== null) {
+    commands.push(command);
+    throws.leaves(command);
+  }
+  board.receive(packet);
 }
 
 let bench: Bench | null = null;
 
 function answer(request: Request): unknown {
   if ('draw' in request) {
-    const some = (request.isPlain ? somePlainHistory : someStopHistory)(profileName(request.draw));
+    const some = DRAWN[request.kind](profileName(request.draw));
     return fc.sample(some, { seed: request.seed, numRuns: request.count });
   }
   if ('start' in request) {
@@ -120,9 +166,10 @@ function answer(request: Request): unknown {
     happen(bench, what);
   }
   advance(bench, request.untilMs);
-  const { clock, board, said, movedMs } = bench;
+  const { clock, board, said, movedMs, met } = bench;
   bench.said = '';
-  return { atMs: clock.now(), said, isRunning: board.runningSlot() !== null, movedMs };
+  const isRunning = board.runningSlot() !== null;
+  return { atMs: clock.now(), said, isRunning, movedMs, thrownBy: bench.throws.thrownBy(), met };
 }
 
 function profileName(text: string): ProfileName {

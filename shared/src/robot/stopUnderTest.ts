@@ -4,6 +4,7 @@
 import type { Unheld } from '../motion/haltPlan.ts';
 import type { Frame } from '../codec/commands.ts';
 import { family as familyOf } from '../codec/families.ts';
+import { fromHex } from '../codec/packet.ts';
 import type { Fault } from '../simulator/faults.ts';
 import {
   createFlashChip,
@@ -15,11 +16,13 @@ import {
 import { LEARM_LAYOUT } from '../simulator/learm/engine.ts';
 import type { ProfileName } from '../simulator/profileNames.ts';
 import { createRig, type HeardCommand, type Rig } from './rig.ts';
+import { createThrowWatch, situationsOf, type ThrowWatch } from './throwsUnderTest.ts';
 import {
   CUT_SLOT,
   FOREIGN_SLOT,
   KNOWN_SLOT,
   SERVOS,
+  type Situation,
   type StopHistory,
   type StopStep,
 } from './historiesUnderTest.ts';
@@ -42,6 +45,10 @@ export interface StopOutcome {
   readonly backBy: readonly number[];
   /** The longest way of a servo within one tick under a hold, where it did not go that fast before. */
   readonly longestStep: number;
+  /** Of each servo, the farthest that a STOP of the history or the last one moved it off its way. */
+  readonly thrownBy: readonly number[];
+  /** What the last STOP met. */
+  readonly met: readonly Situation[];
 }
 
 const NO_FRAME: Frame = { durationMs: 0, targets: [] };
@@ -62,10 +69,11 @@ export const SLOW_FLASH: readonly Fault[] = [{ name: 'slowErase', sectorMs: 400 
 const STORED_WITHIN_MS = 12_000;
 
 /** A session that fails says so in its own tests; here it only matters what the robot does afterwards. */
-export function take({ session, channel, clock }: Rig, step: StopStep): Promise<void> {
+export function take(rig: Rig, step: StopStep, throws: ThrowWatch): Promise<void> {
+  const { session, channel, clock } = rig;
   switch (step.kind) {
     case 'wait':
-      return clock.advance(step.ms);
+      return watchedFor(rig, step.ms, throws);
     case 'move':
       try {
         session.move(step.targets, step.durationMs);
@@ -83,9 +91,11 @@ export function take({ session, channel, clock }: Rig, step: StopStep): Promise<
       session.erase().catch(ignore);
       return Promise.resolve();
     case 'halt':
+      throws.pressed();
       session.halt().catch(ignore);
       return Promise.resolve();
     case 'resume':
+      throws.resumed();
       session.resume().catch(ignore);
       return Promise.resolve();
     case 'read':
@@ -106,7 +116,19 @@ export function take({ session, channel, clock }: Rig, step: StopStep): Promise<
     case 'loss':
       channel.unplug();
       clock.after(100, channel.plugIn);
-      return clock.advance(step.awayMs);
+      return watchedFor(rig, step.awayMs, throws);
+    case 'noise':
+      throws.disturbed();
+      channel.board.receive(fromHex(step.bytes));
+      return Promise.resolve();
+  }
+}
+
+async function watchedFor({ clock }: Rig, ms: number, throws: ThrowWatch): Promise<void> {
+  const untilMs = clock.now() + ms;
+  while (clock.now() < untilMs) {
+    await clock.advance(Math.min(untilMs - clock.now(), throws.everyMs()));
+    throws.look();
   }
 }
 
@@ -160,13 +182,26 @@ async function idle({ session, clock }: Rig): Promise<void> {
 
 export async function stopped(profile: ProfileName, history: StopHistory): Promise<StopOutcome> {
   const rig = await prepared(profile, history);
-  for (const step of history.steps) await take(rig, step);
   const { clock, session, channel } = rig;
   const { board } = channel;
+  const throws = createThrowWatch(board, clock);
+  session.subscribe({
+    traffic(entry) {
+      if (entry.direction === 'out' && entry.command !== null) throws.leaves(entry.command);
+    },
+  });
+  const { length: heardBefore } = rig.heard;
+  for (const step of history.steps) await take(rig, step, throws);
+  const met = situationsOf(
+    board,
+    history,
+    rig.heard.slice(heardBefore).map(({ command }) => command),
+  );
   const look = (): readonly number[] => SERVOS.map((servo) => board.pulse(servo));
 
   const pressedMs = clock.now();
   // Where the link is away, the session stops the board as soon as it is back.
+  throws.pressed();
   const settled = session.halt().catch(ignore);
   const holds = watchHolds(rig);
   const words = noteWords(rig, pressedMs);
@@ -180,6 +215,7 @@ export async function stopped(profile: ProfileName, history: StopHistory): Promi
     await clock.advance(isClose ? SAMPLE_MS : SELDOM_MS);
     const pulses = look();
     words.look(pulses.map((pulse, index) => pulse !== last[index]));
+    throws.look();
     if (isClose) holds.look();
     last = pulses;
   }
@@ -187,7 +223,7 @@ export async function stopped(profile: ProfileName, history: StopHistory): Promi
   board.powerOff();
   return {
     ...{ unheld: session.state.latch?.unheld ?? null, words: words.all() },
-    ...{ backBy: holds.backBy, longestStep: holds.longestStep() },
+    ...{ backBy: holds.backBy, longestStep: holds.longestStep(), thrownBy: throws.thrownBy(), met },
   };
 }
 
