@@ -2,8 +2,9 @@ import { UNKNOWN_MOTION, type KnownBoard, type Motion } from './model.ts';
 import { expect, test } from 'vitest';
 import type { Command, Frame, ServoTarget } from '../codec/commands.ts';
 import { family, type FamilyId } from '../codec/families.ts';
-import { haltPlan, holdBehindStop } from './haltPlan.ts';
+import { haltPlan } from './haltPlan.ts';
 import { afterCommand } from './motion.ts';
+import { afterEnd } from './reports.ts';
 
 type Targets = readonly (readonly [servo: number, position: number])[];
 
@@ -93,29 +94,40 @@ test('behind an unknown group its frame may go on, also when the group has been 
   }
 });
 
-test('a move behind a run that may run nothing is held all the same, slowly, and both are said', () => {
-  const { hold, unheld } = plan('doc', 1_000, [-500, run(77)], [0, move(10_000, [1, 2_000])]);
-  expect(hold?.targets).toEqual([{ servo: 1, position: expect.closeTo(1_103, -1) as number }]);
-  expect(hold?.durationMs).toBe(3_000);
-  expect(unheld?.servos).toBeNull();
-  expect(unheld?.forMs).toBeLessThan(3_400);
-});
+test.each([
+  ['behind', [-500, run(77)], [0, move(10_000, [1, 2_000])]],
+  ['ahead of', [-500, move(10_000, [1, 2_000])], [0, run(77)]],
+] as const)(
+  'a move %s a run of unknown frames is not held: they may have it elsewhere',
+  (_, first, second) => {
+    const { hold, unheld } = plan('doc', 1_000, first, second);
+    expect(hold).toBeNull();
+    expect(unheld?.servos).toBeNull();
+    expect(unheld?.forMs).toBeGreaterThan(29_000);
+  },
+);
 
-test('a hold on a guess leaves again behind the last stop: the first may be lost', () => {
-  const board: KnownBoard = { family: family('doc'), playedFrames: () => null };
-  let motion = UNKNOWN_MOTION;
-  for (const [atMs, command] of [
-    [-1_000, move(20, [1, 1_000], [2, 1_000])],
-    [0, run(77)],
-    [100, move(10_000, [1, 2_000])],
-    [1_000, STOP],
-  ] as const)
-    motion = afterCommand(motion, command, atMs, board);
-  const hold = holdBehindStop(motion, 1_000, board);
-  expect(hold?.targets).toHaveLength(1);
-  if (hold !== null) motion = afterCommand(motion, hold, 1_030, board);
-  motion = afterCommand(motion, STOP, 1_140, board);
-  expect(holdBehindStop(motion, 1_140, board)).toEqual(hold);
+test.each([
+  ['openarm-new', null],
+  ['lsc-6', 77],
+] as const)(
+  '%s: the end of such a group leaves the places of its servos unknown, and nothing moves',
+  (id, slot) => {
+    const board: KnownBoard = { family: family(id), playedFrames: () => null };
+    let motion: Motion = afterCommand(UNKNOWN_MOTION, move(20, [1, 1_000], [2, 1_000]), -1_000, board);
+    motion = afterCommand(motion, run(77), 0, board);
+    motion = afterCommand(motion, move(8_000, [1, 2_000]), 500, board);
+    motion = afterEnd(motion, slot, 5_000, board);
+    expect(haltPlan(motion, 6_000, board).hold).toBeNull();
+    motion = afterCommand(motion, move(100, [2, 1_500]), 20_000, board);
+    expect(haltPlan(motion, 21_000, board).hold?.targets).toEqual([{ servo: 2, position: 1_500 }]);
+  },
+);
+
+test('a move behind the stop of such a group ends what the group has left under way, and is held', () => {
+  const { hold, unheld } = plan('doc', 1_000, [0, run(77)], [100, STOP], [200, move(20, [1, 2_000])]);
+  expect(hold).toEqual(move(20, [1, 2_000]));
+  expect(unheld).toBeNull();
 });
 
 test('a run of an erased slot runs nothing', () => {

@@ -7,7 +7,7 @@ import type { Family } from '../codec/families.ts';
 import { wireMs } from '../codec/packet.ts';
 import type { KnownBoard, Motion } from './model.ts';
 import { advance, afterCommand, hears } from './motion.ts';
-import { endMs, guessOf, leewayOf, LONGEST_MOVE_MS, stands, type Track } from './tracks.ts';
+import { endMs, leewayOf, LONGEST_MOVE_MS, positionOf, stands, type Track } from './tracks.ts';
 
 /** What a STOP cannot hold; null where all is held. */
 export interface Unheld {
@@ -109,7 +109,7 @@ function othersThanHalted(motion: Motion, lastMs: number, family: Family): reado
 
 interface Held extends ServoTarget {
   readonly isUnderWay: boolean;
-  /** How far it may have to go to get there; Infinity for one that is held on a guess. */
+  /** How far it may have to go to get there. */
   readonly way: number;
 }
 
@@ -129,20 +129,14 @@ function holdAt(motion: Motion, atMs: number, family: Family): Hold | null {
   };
 }
 
-/** Null for a servo that cannot be held, or need not be. */
+/** Null for a servo that cannot be held, or need not be: a hold of an unknown place would throw it. */
 function heldAt(track: Track, atMs: number, family: Family): Omit<Held, 'servo'> | null {
   const leeway = leewayOf(track, atMs, family);
   if (leeway === 0) return { position: track.to, isUnderWay: false, way: 0 };
-  const at = guessOf(track, atMs);
-  // One that is held on a guess is held again: the first hold may be lost.
-  if (leeway === Infinity) return at === null || endMs(track) <= atMs ? null : guessHeld(at);
+  const at = positionOf(track, atMs);
   // A stop has halted it, where to the tick is unknown.
   if (at === null || (stands(track, atMs) && track.toLeeway > 0)) return null;
   return heldAhead(at, track.to, leeway);
-}
-
-function guessHeld(at: number): Omit<Held, 'servo'> {
-  return { position: Math.round(at), isUnderWay: true, way: Infinity };
 }
 
 /** The farthest place where it may be by now, at most its target: a hold never takes a servo back. */
@@ -156,26 +150,19 @@ function heldAhead(at: number, to: number, leeway: number): Omit<Held, 'servo'> 
 /** As short as can be where each place is sure; no servo goes faster than in its first move, and no unknown one snaps to its target. */
 function holdMs(motion: Motion, held: readonly Held[], atMs: number, family: Family): number {
   const { motion: traits, position, shortestMoveMs } = family;
-  const isGuess = held.some(({ way }) => way === Infinity);
   const range = position.max - position.min;
   const way = Math.min(range, Math.max(...held.map((one) => one.way)));
   const needsMs = Math.max(
     shortestMoveMs,
     (timings.move.firstMs * way) / range,
-    isGuess && mayMoveUnknown(motion, atMs) ? timings.stop.unknownFrameMs : 0,
     traits.timing === 'shared' ? unknownMs(motion, atMs, traits.tickMs) : 0,
   );
   return Math.ceil(needsMs / traits.tickMs) * traits.tickMs;
 }
 
-/** An unknown group, or the frame behind which it was stopped. Orders that contest a servo are known both. */
-function mayMoveUnknown({ run, restlessUntilMs }: Motion, atMs: number): boolean {
-  return run !== null || restlessUntilMs > atMs;
-}
-
 /** How long the part that cannot be held still needs, a begun tick with it, or is given. */
 function unknownMs({ tracks, restlessUntilMs }: Motion, atMs: number, tickMs: number): number {
-  const unheld = [...tracks.values()].filter((track) => guessOf(track, atMs) === null);
+  const unheld = [...tracks.values()].filter((track) => positionOf(track, atMs) === null);
   const needMs = unheld.map((track) => Math.min(endMs(track) - atMs + tickMs, mostMs(track)));
   return Math.max(Math.min(timings.stop.unknownFrameMs, restlessUntilMs - atMs), ...needMs);
 }

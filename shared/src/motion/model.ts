@@ -165,7 +165,7 @@ export const UNKNOWN_MOTION: Motion = {
   skipsFirst: 'no',
 };
 
-/** It is unknown where anything is while that group may run, nor behind it: perhaps its slot is empty, and the moves go on. */
+/** It is unknown where anything is while that group may run, and behind it; perhaps its slot is empty, and the moves go on. */
 export function runningUnknown(motion: Motion, slot: number | null, endsToHear = 1): Motion {
   const readings = onlyReleased(motion.readings);
   return { ...motion, tracks: doubted(motion.tracks), readings, run: { kind: 'unknown', slot, endsToHear } };

@@ -5,16 +5,16 @@ import timings from '../../protocol/timings.json' with { type: 'json' };
 import type { ServoTarget } from '../codec/commands.ts';
 import type { Family } from '../codec/families.ts';
 
-/**
- * One servo's way. `from` is null when it is unknown where it started. A leeway of Infinity says that the position is right only
- * if no unknown group has moved the servo: a guess, good enough to hold it there, not to show it.
- */
+/** One servo's way. `from` is null when it is unknown where it started. */
 export interface Track {
   readonly from: number | null;
   readonly to: number;
   readonly startMs: number;
   readonly durationMs: number;
-  /** How far off the two ends may be: a servo whose way is changed or halted keeps what was open then. */
+  /**
+   * How far off the two ends may be: a servo whose way is changed or halted keeps what was open then. Where one is Infinity, the place is
+   * unknown, and the way says only until when the servo may move.
+   */
   readonly fromLeeway: number;
   readonly toLeeway: number;
 }
@@ -40,7 +40,7 @@ export function standingAt(at: number): Track {
 
 /** A servo that sets out then, from anywhere. */
 export function startingAt(to: number, atMs: number): Track {
-  return { from: null, to, startMs: atMs, durationMs: 0, fromLeeway: Infinity, toLeeway: Infinity };
+  return astray(to, atMs, 0);
 }
 
 /** It has arrived, or was there from the start. */
@@ -58,31 +58,31 @@ export function shareDone(track: Track, nowMs: number): number {
   return nowMs >= endMs(track) ? 1 : Math.max(0, nowMs - track.startMs) / track.durationMs;
 }
 
-/** Exact, not rounded; null where even a guess is impossible. */
-export function guessOf(track: Track, nowMs: number): number | null {
-  const done = shareDone(track, nowMs);
-  if (done === 1) return track.to;
-  return track.from === null ? null : track.from + (track.to - track.from) * done;
-}
-
-/** The same; null while unknown. */
+/** Exact, not rounded; null while unknown. */
 export function positionOf(track: Track, nowMs: number): number | null {
-  const leeway = nowMs >= endMs(track) ? track.toLeeway : track.fromLeeway;
-  return leeway === Infinity ? null : guessOf(track, nowMs);
+  const { from, to, fromLeeway, toLeeway } = track;
+  const done = shareDone(track, nowMs);
+  if (done === 1) return toLeeway === Infinity ? null : to;
+  return from === null || fromLeeway === Infinity ? null : from + (to - from) * done;
 }
 
-/** From now on an unknown group may have moved them. */
+/** A way until then, of which no place is known. */
+function astray(to: number, startMs: number, durationMs: number): Track {
+  return { from: null, to, startMs, durationMs, fromLeeway: Infinity, toLeeway: Infinity };
+}
+
+/** An unknown group may move these servos from now on: their places are void, only their times stay. */
 export function doubted(tracks: Tracks): Tracks {
-  const guess = { fromLeeway: Infinity, toLeeway: Infinity };
-  return new Map([...tracks].map(([servo, track]) => [servo, { ...track, ...guess }]));
+  return new Map(
+    [...tracks].map(([servo, { to, startMs, durationMs }]) => [servo, astray(to, startMs, durationMs)]),
+  );
 }
 
 /** How far off that may be: its way of one tick, held up by what the board says, and what the ends leave open. */
 export function leewayOf(track: Track, nowMs: number, { motion, position }: Family): number {
   const { from, to, durationMs, fromLeeway, toLeeway } = track;
   if (nowMs >= endMs(track) + motion.talkMs) return toLeeway;
-  if (fromLeeway === Infinity)
-    return nowMs < endMs(track) ? Infinity : position.max - position.min + toLeeway;
+  if (fromLeeway === Infinity) return Infinity;
   const way = from === null ? position.max - position.min : Math.abs(to - from);
   const tick = Math.min(1, (motion.tickMs + motion.talkMs) / durationMs);
   // What was open at its start the board may have left behind one tick later than we.
@@ -215,20 +215,10 @@ function redirected(
   family: Family,
 ): Track {
   const from = track ? positionOf(track, atMs) : null;
-  const guess = track ? guessOf(track, atMs) : null;
-  // Sent to where it is guessed to be, it is held there.
-  if (from === null && guess !== null && Math.abs(guess - to) <= 1)
-    return { from: to, to, startMs: atMs, durationMs, fromLeeway: Infinity, toLeeway: 0 };
   const carried = track && from !== null ? leewayOf(track, atMs, family) : 0;
   // Positions are whole numbers to the board, wherever it cuts a way short.
   const fromLeeway = carried === 0 ? 0 : carried + 1;
   return { from, to, startMs: atMs, durationMs, fromLeeway, toLeeway: 0 };
-}
-
-/** Its motion continues as an estimate. */
-function guessed(track: Track | undefined, to: number, atMs: number, durationMs: number): Track {
-  const from = track ? guessOf(track, atMs) : null;
-  return { from, to, startMs: atMs, durationMs, fromLeeway: Infinity, toLeeway: Infinity };
 }
 
 /** After new targets took effect at `atMs`; `isSure` false where an unknown group may overrule them. */
@@ -245,13 +235,12 @@ export function retarget(
   const next = new Map(tracks);
   const aim = (servo: number, to: number, sure: boolean): void => {
     const track = tracks.get(servo);
-    const way = sure ? redirected(track, to, atMs, durationMs, family) : guessed(track, to, atMs, durationMs);
-    next.set(servo, way);
+    next.set(servo, sure ? redirected(track, to, atMs, durationMs, family) : astray(to, atMs, durationMs));
   };
   if (family.motion.timing === 'shared')
     tracks.forEach((track, servo) => {
       const isSure = Number.isFinite(track.toLeeway);
-      // A guess that has surely arrived goes nowhere.
+      // One of unknown place that has surely arrived goes nowhere.
       if (isSure || endMs(track) + family.motion.tickMs + family.motion.talkMs > atMs)
         aim(servo, track.to, isSure);
     });

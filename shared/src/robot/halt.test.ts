@@ -212,26 +212,35 @@ describe('STOP', () => {
     expect(rig.channel.board.runningSlot()).toBe(7);
   });
 
-  test.each([
-    ['a slot that may be empty', false],
-    ['an erased slot', true],
-  ])('holds a move behind the run of %s', async (_, isErased) => {
+  test('holds a move behind the run of an erased slot', async () => {
     const rig = await createRig();
     await knownAtRest(rig);
-    if (isErased) {
-      const erased = rig.session.erase();
-      await rig.clock.advance(1_000);
-      await erased;
-    }
+    const erased = rig.session.erase();
+    await rig.clock.advance(1_000);
+    await erased;
     void rig.session.run(77, 1);
     await rig.clock.advance(100);
     rig.session.move([{ servo: 1, position: 2_000 }], 10_000);
     await rig.clock.advance(1_000);
     void rig.session.halt();
     expect(await movesForMs(rig)).toBeLessThan(350);
+    expect(rig.session.state.latch?.unheld).toBeNull();
+  });
+
+  test('holds no move behind the run of a slot that may be empty, and says that it may go on', async () => {
+    const rig = await createRig();
+    await knownAtRest(rig);
+    void rig.session.run(77, 1);
+    await rig.clock.advance(100);
+    rig.session.move([{ servo: 1, position: 2_000 }], 10_000);
+    await rig.clock.advance(1_000);
+    const before = rig.heard.length;
+    void rig.session.halt();
+    const movedForMs = await movesForMs(rig);
+    expect(rig.heard.slice(before).map(({ command }) => command.kind)).toEqual(['stop', 'stop', 'stop']);
     const { unheld } = rig.session.state.latch ?? {};
-    if (isErased) expect(unheld).toBeNull();
-    else expect(unheld).toMatchObject({ servos: null });
+    expect(unheld?.servos).toBeNull();
+    expect(unheld?.forMs).toBeGreaterThanOrEqual(movedForMs);
   });
 
   describe('at a LeArm, which takes what comes for the rest of a packet that was cut (L3)', () => {

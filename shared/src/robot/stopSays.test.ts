@@ -18,7 +18,7 @@ const LOOKED_MS = 5;
 const LEAST_HELD = 0.3;
 /**
  * Where STOP says which servos go on, no hold throws a servo any farther than that in a tick, and none takes one of the others back
- * by more. A servo whose place is a guess since an unknown group is named, and goes to that place slowly.
+ * by more.
  */
 const HOLD_LIMIT = 30;
 const TIMEOUT_MS = 3_600_000;
@@ -298,7 +298,7 @@ const FOUND: readonly {
     },
   },
   {
-    name: 'a servo on its way from where an unknown group left it is held on a guess',
+    name: 'a servo is on its way from where an unknown group left it',
     profile: 'lsc-32',
     history: {
       ...{ ...PLAIN, onForMs: 60_106 },

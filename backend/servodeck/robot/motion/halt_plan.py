@@ -9,9 +9,9 @@ from math import inf
 from servodeck.protocol.families import Family
 from servodeck.protocol.timings import MOVE, STOP, wire_ms
 from servodeck.protocol.values import Move, ServoTarget, Stop
-from servodeck.robot.motion.model import KnownBoard, Motion, rounded
+from servodeck.robot.motion.model import KnownBoard, Motion
 from servodeck.robot.motion.motion import advance, after_command, hears
-from servodeck.robot.motion.tracks import LONGEST_MOVE_MS, Track, end_ms, guess_of, leeway_of, stands
+from servodeck.robot.motion.tracks import LONGEST_MOVE_MS, Track, end_ms, leeway_of, position_of, stands
 from servodeck.value import value
 
 STOP_OFFSETS_MS = [STOP.repeat_every_ms * (index + 1) for index in range(STOP.repeats)]
@@ -37,7 +37,7 @@ class HaltPlan:
 
 @value
 class Held:
-    """`way`: how far it may have to go to get there; inf for one that is held on a guess."""
+    """`way`: how far it may have to go to get there."""
 
     servo: int
     position: int
@@ -135,16 +135,11 @@ def hold_at(motion: Motion, at_ms: float, family: Family) -> Move | None:
 
 
 def held_at(servo: int, track: Track, at_ms: float, family: Family) -> Held | None:
-    """None for a servo that cannot be held, or need not be."""
+    """None for a servo that cannot be held, or need not be: a hold of an unknown position would throw it."""
     leeway = leeway_of(track, at_ms, family)
     if leeway == 0:
         return Held(servo, round(track.to), is_under_way=False, way=0)
-    at = guess_of(track, at_ms)
-    if leeway == inf:
-        # One that is held on a guess is held again: the first hold may be lost.
-        if at is None or end_ms(track) <= at_ms:
-            return None
-        return Held(servo, rounded(at), is_under_way=True, way=inf)
+    at = position_of(track, at_ms)
     # A stop has halted it; where is not known to the tick.
     if at is None or (stands(track, at_ms) and track.to_leeway > 0):
         return None
@@ -163,28 +158,19 @@ def hold_ms(motion: Motion, held: list[Held], at_ms: float, family: Family) -> i
     """As short as can be where each place is sure; no servo goes faster than in its first move, and no
     unknown one snaps to its target.
     """
-    is_guess = any(one.way == inf for one in held)
     way_range = family.position.max - family.position.min
     way = min(way_range, max(one.way for one in held))
     needs_ms = max(
         family.shortest_move_ms,
         MOVE.first_ms * way / way_range,
-        STOP.unknown_frame_ms if is_guess and may_move_unknown(motion, at_ms) else 0,
         unknown_ms(motion, at_ms, family.motion.tick_ms) if family.motion.timing == "shared" else 0,
     )
     return math.ceil(needs_ms / family.motion.tick_ms) * family.motion.tick_ms
 
 
-def may_move_unknown(motion: Motion, at_ms: float) -> bool:
-    """An unknown group, or the frame behind which it was stopped. Orders that contest a servo are
-    known both.
-    """
-    return motion.run is not None or motion.restless_until_ms > at_ms
-
-
 def unknown_ms(motion: Motion, at_ms: float, tick_ms: float) -> float:
     """How long what cannot be held still needs, a begun tick with it, or is given."""
-    unheld = [track for track in motion.tracks.values() if guess_of(track, at_ms) is None]
+    unheld = [track for track in motion.tracks.values() if position_of(track, at_ms) is None]
     needs_ms = [min(end_ms(track) - at_ms + tick_ms, most_ms(track)) for track in unheld]
     return max([min(STOP.unknown_frame_ms, motion.restless_until_ms - at_ms), *needs_ms])
 

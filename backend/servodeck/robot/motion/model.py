@@ -192,7 +192,7 @@ UNKNOWN_MOTION = Motion()
 
 
 def running_unknown(motion: Motion, slot: int | None, ends_to_hear: int = 1, until_ms: float = inf) -> Motion:
-    """It is unknown where anything is while that group may run, nor behind it: perhaps its slot is empty, and
+    """It is unknown where anything is while that group may run, and behind it; perhaps its slot is empty, and
     the moves continue.
     """
     run = UnknownRun(slot, ends_to_hear, until_ms)

@@ -20,9 +20,8 @@ LONGEST_MOVE_MS = MOVE.longest_ms
 @value
 class Track:
     """One servo's way. `start` is None where it is unknown where it began. `start_leeway` and `to_leeway`:
-    how far off the two ends may be; a servo whose way is changed or halted keeps what was open then. Infinite
-    says that the position is right only if no unknown group has moved the servo: a guess, good enough to hold
-    it there, not to show it.
+    how far off the two ends may be; a servo whose way is changed or halted keeps what was open then. If one
+    is infinite, the position is unknown, and the way says only until when the servo may move.
     """
 
     start: float | None
@@ -48,7 +47,7 @@ def end_ms(track: Track) -> float:
 
 def starting_at(to: float, at_ms: float) -> Track:
     """A servo that sets out then, from anywhere."""
-    return Track(None, to, at_ms, 0, inf, inf)
+    return astray(to, at_ms, 0)
 
 
 def standing_at(at: float) -> Track:
@@ -70,23 +69,24 @@ def share(track: Track, now_ms: float) -> float:
     return 1 if now_ms >= end_ms(track) else max(0.0, now_ms - track.start_ms) / track.duration_ms
 
 
-def guess_of(track: Track, now_ms: float) -> float | None:
-    """Exact, not rounded; None where even a guess is impossible."""
+def position_of(track: Track, now_ms: float) -> float | None:
+    """Exact, not rounded; None while it is unknown."""
     done = share(track, now_ms)
     if done == 1:
-        return track.to
-    return None if track.start is None else track.start + (track.to - track.start) * done
+        return None if track.to_leeway == inf else track.to
+    if track.start is None or track.start_leeway == inf:
+        return None
+    return track.start + (track.to - track.start) * done
 
 
-def position_of(track: Track, now_ms: float) -> float | None:
-    """The same; None while it is unknown."""
-    leeway = track.to_leeway if now_ms >= end_ms(track) else track.start_leeway
-    return None if leeway == inf else guess_of(track, now_ms)
+def astray(to: float, start_ms: float, duration_ms: float) -> Track:
+    """A way until then, of which no position is known."""
+    return Track(None, to, start_ms, duration_ms, inf, inf)
 
 
 def doubted(tracks: Tracks) -> Tracks:
-    """From now on an unknown group may have moved them."""
-    return {servo: replace(track, start_leeway=inf, to_leeway=inf) for servo, track in tracks.items()}
+    """An unknown group may move these servos from now on: their positions are void, only their times stay."""
+    return {servo: astray(way.to, way.start_ms, way.duration_ms) for servo, way in tracks.items()}
 
 
 def leeway_of(track: Track, now_ms: float, family: Family) -> float:
@@ -97,7 +97,7 @@ def leeway_of(track: Track, now_ms: float, family: Family) -> float:
     if now_ms >= end_ms(track) + traits.talk_ms:
         return track.to_leeway
     if track.start_leeway == inf:
-        return inf if now_ms < end_ms(track) else position.max - position.min + track.to_leeway
+        return inf
     way = position.max - position.min if track.start is None else abs(track.to - track.start)
     tick = min(1.0, (traits.tick_ms + traits.talk_ms) / track.duration_ms) if track.duration_ms else 1.0
     # What was open at its start the board may have left behind one tick later than we.
@@ -200,19 +200,9 @@ def stopped_before(tracks: Tracks, recent: Sequence[Order], at_ms: float, family
 def redirected(track: Track | None, to: float, at_ms: float, duration_ms: float, family: Family) -> Track:
     """Its way from `at_ms` on to `to`."""
     start = position_of(track, at_ms) if track else None
-    guess = guess_of(track, at_ms) if track else None
-    if start is None and guess is not None and abs(guess - to) <= 1:
-        # Sent to where it is guessed to be, it is held there.
-        return Track(to, to, at_ms, duration_ms, start_leeway=inf)
     carried = leeway_of(track, at_ms, family) if track and start is not None else 0
     # Positions are whole numbers to the board, wherever it cuts a way short.
     return Track(start, to, at_ms, duration_ms, start_leeway=0 if carried == 0 else carried + 1)
-
-
-def guessed(track: Track | None, to: float, at_ms: float, duration_ms: float) -> Track:
-    """Its way continues as a guess."""
-    start = guess_of(track, at_ms) if track else None
-    return Track(start, to, at_ms, duration_ms, inf, inf)
 
 
 def retarget(
@@ -232,16 +222,15 @@ def retarget(
     duration_ms = board_duration_ms(requested_ms, family)
 
     def aimed(servo: int, to: float, *, sure: bool) -> Track:
-        track = tracks.get(servo)
         if sure:
-            return redirected(track, to, at_ms, duration_ms, family)
-        return guessed(track, to, at_ms, duration_ms)
+            return redirected(tracks.get(servo), to, at_ms, duration_ms, family)
+        return astray(to, at_ms, duration_ms)
 
     changed = dict(tracks)
     if family.motion.timing == "shared":
         for servo, track in tracks.items():
             is_known = track.to_leeway != inf
-            # A guess that has surely arrived goes nowhere.
+            # One of unknown position that has surely arrived goes nowhere.
             if is_known or end_ms(track) + family.motion.tick_ms + family.motion.talk_ms > at_ms:
                 changed[servo] = aimed(servo, track.to, sure=is_known)
     for target in targets:
