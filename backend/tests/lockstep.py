@@ -118,6 +118,11 @@ class SteppedBoard:
     def note_resume(self) -> None:
         self._note("resume")
 
+    def restart(self) -> None:
+        """It loses its power for a moment."""
+        self._talks_until_s = inf  # some say so
+        self._note("restart")
+
     def disturb(self, noise: str) -> None:
         """These bytes reach it, though nobody sent them (hexadecimal)."""
         self._talks_until_s = inf  # what it takes apart may be a run

@@ -293,6 +293,7 @@ ACTS: dict[str, Callable[[Driven, Step], None]] = {
     "download": lambda here, step: here.download(step.get("slot", KNOWN_SLOT), frames_of(step["frames"])),
     "cancel": lambda here, _step: here.cancel(),
     "loss": lambda here, _step: here.board.lose(LOST_FOR_S),
+    "restart": lambda here, _step: here.board.restart(),
     "noise": lambda here, step: here.board.disturb(step["bytes"]),
 }
 

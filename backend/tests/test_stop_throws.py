@@ -32,6 +32,7 @@ SITUATIONS = {
     "two movers",
     "lost port",
     "noise",
+    "unseen restart",
 }
 # Rounded places, and what a servo goes in a tick under the slowest hold: 10 steps of a bus servo.
 LIMIT_US, LIMIT_STEPS = 26, 10

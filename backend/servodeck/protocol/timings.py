@@ -42,6 +42,7 @@ class Stop(NamedTuple):
     repeat_every_ms: int
     held_within_ms: int
     unknown_frame_ms: int
+    rested_ms: int
 
 
 class Move(NamedTuple):

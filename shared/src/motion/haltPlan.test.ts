@@ -42,6 +42,19 @@ test('at rest each servo is held where it is, and all is held', () => {
   expect(unheld).toBeNull();
 });
 
+test('what has stood for long is left alone: a hold would only undo what nobody here has seen', () => {
+  expect(plan('doc', 900).hold?.targets).toHaveLength(2);
+  expect(plan('doc', 1_100)).toEqual({ hold: null, unheld: null });
+});
+
+test('what a known group may move is held while it runs, and for a while: a stop may be lost', () => {
+  const groups = { 5: [{ durationMs: 9_000, targets: [{ servo: 1, position: 2_000 }] }] };
+  const servosAt = (nowMs: number) =>
+    planWith(groups, 'lsc-6', nowMs, [0, run(5)], [5_000, STOP]).hold?.targets.map(({ servo }) => servo);
+  expect(servosAt(5_500)).toEqual([1, 2]);
+  expect(servosAt(7_500)).toEqual([1]);
+});
+
 test('a servo under way is held ahead of where it may be when the hold arrives, in a time for the way that is not sure', () => {
   const { hold, unheld } = plan('doc', 500, [0, move(1_000, [1, 2_000])]);
   // 27 ms later, and one tick and what the board says ahead.

@@ -116,7 +116,7 @@ interface Held extends ServoTarget {
 /** The one move that holds the robot where it is at `atMs`, which is when it arrives; null where there is nothing to hold. */
 function holdAt(motion: Motion, atMs: number, family: Family): Hold | null {
   const all = [...motion.tracks].flatMap(([servo, track]) => {
-    const held = heldAt(track, atMs, family);
+    const held = hasRested(motion, track, atMs) ? null : heldAt(track, atMs, family);
     return held === null ? [] : [{ servo, ...held }];
   });
   if (all.length === 0) return null;
@@ -127,6 +127,11 @@ function holdAt(motion: Motion, atMs: number, family: Family): Hold | null {
     targets: held.map(({ servo, position }) => ({ servo, position })),
     durationMs: holdMs(motion, held, atMs, family),
   };
+}
+
+/** Nothing of ours can have moved it since: a hold would only undo what nobody here has seen. */
+function hasRested({ ranUntilMs }: Motion, track: Track, atMs: number): boolean {
+  return Math.max(endMs(track), ranUntilMs) + timings.stop.restedMs < atMs;
 }
 
 /** Null for a servo that cannot be held, or need not be: a hold of an unknown place would throw it. */

@@ -100,6 +100,8 @@ export interface Motion {
   /** Of servos at rest, with a track or without. */
   readonly readings: Readings;
   readonly run: UnknownRun | DeadlineRun | PolledRun | null;
+  /** A group of known frames ran until then. */
+  readonly ranUntilMs: number;
   /** Moves and frames of almost now. */
   readonly recent: readonly Order[];
   /** When a group ended by our clock whose end the board has not said yet; -Infinity for none. */
@@ -154,6 +156,7 @@ export const UNKNOWN_MOTION: Motion = {
   tracks: new Map(),
   readings: new Map(),
   run: null,
+  ranUntilMs: -Infinity,
   recent: [],
   unreportedEndMs: -Infinity,
   deafUntilMs: -Infinity,

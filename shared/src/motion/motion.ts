@@ -84,7 +84,8 @@ export function playbackOf({ family }: KnownBoard): Playback {
 
 /** The same motion with everything that was due by `nowMs` done. Call before reading it. */
 export function advance(motion: Motion, nowMs: number, board: KnownBoard): Motion {
-  return playbackOf(board).advance(motion, nowMs, board);
+  const isKnown = motion.run !== null && motion.run.kind !== 'unknown';
+  return playbackOf(board).advance(isKnown ? { ...motion, ranUntilMs: nowMs } : motion, nowMs, board);
 }
 
 /** False where the board may be too busy to take up what it is sent, or takes it for the rest of a cut packet. */

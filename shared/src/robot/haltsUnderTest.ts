@@ -80,6 +80,18 @@ function ofShortestFrames(): Promise<HaltHistory> {
   return ranFor(2_000, 'openarm-old', [both(504, 2)], 0);
 }
 
+/** What has stood for long is left alone. */
+function standingForLong(): Promise<HaltHistory> {
+  const steps: HaltStep[] = [{ kind: 'wait', ms: 1_000 }, { kind: 'halt' }, { kind: 'wait', ms: 3_000 }];
+  return recorded('bus-ctrl', [], [], steps, 10_000);
+}
+
+/** What has stood for long is held where a known group runs. */
+function standingInARun(): Promise<HaltHistory> {
+  const base = { durationMs: 9_000, targets: [{ servo: 6, position: 1_000 }] };
+  return ranFor(4_000, 'learm-esp32', [base], 1);
+}
+
 function ranFor(
   ms: number,
   profile: ProfileName,
@@ -110,7 +122,9 @@ export async function generateHaltHistories(): Promise<readonly HaltHistory[]> {
     }))
       histories.push(await recorded(profile, frames, foreign, steps, onForMs));
   }
-  return [...histories, await behindTheFirstFrame(), await ofShortestFrames()];
+  const others = [behindTheFirstFrame, ofShortestFrames, standingForLong, standingInARun];
+  for (const other of others) histories.push(await other());
+  return histories;
 }
 
 async function recorded(

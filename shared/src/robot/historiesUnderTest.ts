@@ -18,6 +18,8 @@ export type StopStep =
   | { readonly kind: 'loss'; readonly awayMs: number }
   /** These bytes reach the board, though nobody sent them (hexadecimal). */
   | { readonly kind: 'noise'; readonly bytes: string }
+  /** The board loses its power for a moment, and nobody sees it. */
+  | { readonly kind: 'restart' }
   | { readonly kind: 'wait'; readonly ms: number };
 
 export interface StopHistory {
@@ -128,6 +130,7 @@ export const SITUATIONS = [
   'known run',
   'lost port',
   'noise',
+  'unseen restart',
 ] as const;
 export type Situation = (typeof SITUATIONS)[number];
 
@@ -178,15 +181,22 @@ function someEndOf(situation: Situation, family: Family): fc.Arbitrary<StopStep[
       return fc.tuple(loss, wait(600, 4_000), resume, move(0, longestMs), wait(0, 2_500));
     case 'noise':
       return fc.tuple(resume, move(0, longestMs), noise, wait(0, 400), move(0, longestMs), wait(0, 1_500));
+    case 'unseen restart':
+      return fc.tuple(
+        ...[resume, move(0, longestMs), wait(13_000, 15_000), fc.constant<StopStep>({ kind: 'restart' })],
+        ...[wait(500, 3_000)],
+      );
   }
 }
 
-/** Histories that end in each situation as often as in any other. */
+/** Histories that end in each situation as often as in any other. No group is taken to run behind a restart. */
 export function someSituationHistory(profile: ProfileName): fc.Arbitrary<StopHistory> {
   const ends = fc.constantFrom(...SITUATIONS).chain((situation) => someEndOf(situation, familyOf(profile)));
-  return fc
-    .tuple(someStopHistory(profile), ends)
-    .map(([history, end]) => ({ ...history, steps: [...history.steps.slice(0, 4), ...end] }));
+  return fc.tuple(someStopHistory(profile), ends).map(([history, end]) => {
+    const isRestarted = end.some(({ kind }) => kind === 'restart');
+    const begin = history.steps.slice(0, 4).filter(({ kind }) => !(isRestarted && kind === 'run'));
+    return { ...history, steps: [...begin, ...end] };
+  });
 }
 
 /** These take a board away from what is known of it: by flash, by talk, or for good. */

@@ -23,7 +23,10 @@ import { foreignFlash, SLOW_FLASH } from './stopUnderTest.ts';
 import { createThrowWatch, situationsOf, type ThrowWatch } from './throwsUnderTest.ts';
 
 /** Anything else is a packet (hexadecimal), or behind `noise` bytes that nobody sent. */
-type Happening = readonly [atMs: number, what: 'unplug' | 'plugIn' | 'press' | 'resume' | (string & {})];
+type Happening = readonly [
+  atMs: number,
+  what: 'unplug' | 'plugIn' | 'restart' | 'press' | 'resume' | (string & {}),
+];
 
 const DRAWN = { any: someStopHistory, plain: somePlainHistory, situation: someSituationHistory } as const;
 
@@ -127,6 +130,7 @@ function happen(bench: Bench, what: Happening[1]): void {
   const noise = NOISE.exec(what)?.[1];
   if (what === 'unplug') board.unplug();
   else if (what === 'plugIn') board.plugIn();
+  else if (what === 'restart') board.reboot();
   else if (what === 'resume') throws.resumed();
   else if (what === 'press') {
     throws.pressed();

@@ -121,6 +121,9 @@ export function take(rig: Rig, step: StopStep, throws: ThrowWatch): Promise<void
       throws.disturbed();
       channel.board.receive(fromHex(step.bytes));
       return Promise.resolve();
+    case 'restart':
+      channel.board.reboot();
+      return Promise.resolve();
   }
 }
 

@@ -164,6 +164,7 @@ export function situationsOf(
     'two movers': runningSlot === null && moving.length > 1,
     'known run': runningSlot === KNOWN_SLOT,
     'lost port': steps.some(({ kind }) => kind === 'loss'),
+    'unseen restart': moving.length === 0 && steps.some(({ kind }) => kind === 'restart'),
     noise: steps.some(({ kind }) => kind === 'noise'),
   };
   return SITUATIONS.filter((situation) => met[situation]);

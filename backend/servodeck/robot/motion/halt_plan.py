@@ -125,13 +125,19 @@ def hold_at(motion: Motion, at_ms: float, family: Family) -> Move | None:
     """The one move that holds the robot where it is at `at_ms`, which is when it arrives; None where there is
     nothing to hold.
     """
-    found = [held_at(servo, track, at_ms, family) for servo, track in motion.tracks.items()]
+    moved = {servo: track for servo, track in motion.tracks.items() if not has_rested(motion, track, at_ms)}
+    found = [held_at(servo, track, at_ms, family) for servo, track in moved.items()]
     first = sorted((held for held in found if held), key=lambda held: not held.is_under_way)
     held = first[: family.servos_per_move]
     if not held:
         return None
     targets = tuple(ServoTarget(one.servo, one.position) for one in held)
     return Move(hold_ms(motion, held, at_ms, family), targets)
+
+
+def has_rested(motion: Motion, track: Track, at_ms: float) -> bool:
+    """No command can have moved it since: a hold would only undo what is not known here."""
+    return max(end_ms(track), motion.ran_until_ms) + STOP.rested_ms < at_ms
 
 
 def held_at(servo: int, track: Track, at_ms: float, family: Family) -> Held | None:

@@ -133,6 +133,8 @@ class Motion:
     readings: Readings = field(default_factory=dict)
     """Of servos without a track."""
     run: AnyRun | None = None
+    ran_until_ms: float = -inf
+    """A group of known frames ran until then."""
     recent: tuple[Order, ...] = ()
     """Moves and frames of almost now."""
     unreported_end_ms: float = -inf

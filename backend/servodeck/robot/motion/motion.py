@@ -103,6 +103,8 @@ def advance(motion: Motion, now_ms: float, board: KnownBoard) -> Motion:
     """The same motion with everything that was due by `now_ms` done. Call before reading it."""
     if isinstance(motion.run, UnknownRun) and now_ms >= motion.run.until_ms:
         return replace(motion, run=None)
+    if motion.run is not None and not isinstance(motion.run, UnknownRun):
+        motion = replace(motion, ran_until_ms=now_ms)
     return playback_of(board).advance(motion, now_ms, board)
 
 
