@@ -9,6 +9,8 @@ import type { ProfileName } from '../simulator/profileNames.ts';
 import { IS_EXHAUSTIVE } from '../testing/cases.ts';
 import { SIMULATED } from './estimateUnderTest.ts';
 import {
+  KNOWN_SLOT,
+  SERVOS,
   SITUATIONS,
   somePlainHistory,
   someSituationHistory,
@@ -66,6 +68,27 @@ describe.each(throws)('$name', ({ boards, history }) => {
     expect(Math.max(...moved), JSON.stringify(outcome)).toBe(0);
     expectNoThrow(profile, outcome);
   });
+});
+
+test('a frame that is due with the stop counts as target, whichever the board takes first', async () => {
+  const all = (...places: readonly number[]) =>
+    places.map((position, index) => ({ servo: SERVOS[index] ?? 0, position }));
+  const outcome = await stopped('openarm-old', {
+    ...{ onForMs: 60_000, hasPad: false, isSlow: true, wasErased: false },
+    unknown: [{ durationMs: 0, targets: [{ servo: 2, position: 500 }] }],
+    known: [
+      { durationMs: 356, targets: all(500, 500, 500) },
+      { durationMs: 300, targets: all(500, 500, 572) },
+      { durationMs: 156, targets: all(500, 500) },
+    ],
+    steps: [
+      { kind: 'move', targets: [{ servo: 6, position: 500 }], durationMs: 0 },
+      { kind: 'resume' },
+      { kind: 'run', slot: KNOWN_SLOT, times: 2 },
+      { kind: 'wait', ms: 1_196 },
+    ],
+  });
+  expectNoThrow('openarm-old', outcome);
 });
 
 /**

@@ -37,13 +37,15 @@ interface Course {
 
 /** Until then a packet may be on the wire, in the mailbox, or wait for the tick (S9, S26). */
 const TAKEN_WITHIN_MS = 150;
+/** Of a frame and a stop that are no farther apart nobody can say which the board takes first: the stop needs up to 40 ms, its loop 40. */
+const DUE_WITHIN_MS = 80;
 const CLOSELY_MS = 5;
 const BRIEF_MS = 20;
 const SELDOM_MS = 100;
 const CLOSELY_FOR_MS = 400;
 
 export function createThrowWatch(
-  board: Pick<Board, 'pulse' | 'target' | 'runningSlot' | 'frameCount' | 'storedFrame'>,
+  board: Pick<Board, 'pulse' | 'target' | 'runningSlot' | 'frameCount' | 'storedFrame' | 'dueFrame'>,
   clock: Pick<Clock, 'now'>,
 ): ThrowWatch {
   const farthest = SERVOS.map(() => 0);
@@ -57,7 +59,11 @@ export function createThrowWatch(
   let held: readonly MoveCommand[] = [];
 
   function course(servo: number): Course {
-    const places = [board.pulse(servo), board.target(servo), ...requestedOf(servo), ...briefPlacesOf(servo)];
+    const due = board.dueFrame(DUE_WITHIN_MS);
+    const places = [
+      ...[board.pulse(servo), board.target(servo)],
+      ...[...requestedOf(servo), ...briefPlacesOf(servo), ...(due ? placesOf(servo, due) : [])],
+    ];
     return { min: Math.min(...places), max: Math.max(...places), target: board.target(servo) };
   }
 

@@ -50,6 +50,8 @@ export interface Board {
   /** A hand turns the servo; one with torque holds against it. */
   readonly turn: (servo: number, position: number) => void;
   readonly runningSlot: () => number | null;
+  /** The frame of the running group that begins within so many milliseconds, unless a stop keeps it from that; null where none is known. */
+  readonly dueFrame: (withinMs: number) => Frame | null;
   /** What the count table says; 255 for all after power was lost while it was written (S40). */
   readonly frameCount: (slot: number) => number;
   /** What flash holds at that place, committed or not; null where it cannot be played. */
@@ -189,6 +191,7 @@ export function createBoard(options: BoardOptions): Board {
     target: (servo) => turn(() => engine.target(servo)),
     turn: (servo, position) => turn(() => engine.turn?.(servo, position)),
     runningSlot: () => turn(() => engine.runningSlot()),
+    dueFrame: (withinMs) => turn(() => engine.dueFrame?.(withinMs) ?? null),
     frameCount: (slot) => turn(() => engine.frameCount(slot)),
     storedFrame: (slot, frameIndex) => turn(() => engine.storedFrame(slot, frameIndex)),
     snapshot: () => turn(snapshot),

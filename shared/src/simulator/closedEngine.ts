@@ -168,6 +168,7 @@ export function createClosedEngine(traits: ClosedTraits, parts: EngineParts): En
     frameCount: store.frameCount,
     storedFrame,
     runningSlot: runner.runningSlot,
+    dueFrame: runner.dueFrame,
   };
 }
 

@@ -35,6 +35,8 @@ export interface Engine {
   readonly frameCount: (slot: number) => number;
   readonly storedFrame: (slot: number, frameIndex: number) => Frame | null;
   readonly runningSlot: () => number | null;
+  /** The frame of the running group that begins within so many milliseconds, where its groups have deadlines. */
+  readonly dueFrame?: (withinMs: number) => Frame | null;
 }
 
 export type CreateEngine = (parts: EngineParts) => Engine;

@@ -79,5 +79,6 @@ export function createOpenEngine(build: OpenBuild, parts: EngineParts): Engine {
     frameCount: store.frameCount,
     storedFrame,
     runningSlot: runner.runningSlot,
+    dueFrame: runner.dueFrame,
   };
 }

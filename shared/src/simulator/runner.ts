@@ -12,6 +12,8 @@ export interface Runner {
   step(): Work;
   dueMs(): number;
   readonly runningSlot: () => number | null;
+  /** The frame that begins within so many milliseconds, unless a stop keeps it from that. */
+  readonly dueFrame: (withinMs: number) => Frame | null;
 }
 
 /** What the board says of a run by itself; empty work where it says nothing. */
@@ -118,11 +120,19 @@ export function createRunner(parts: RunnerParts): Runner {
     return frameIssued ? deadlineMs : 0;
   }
 
+  function dueFrame(withinMs: number): Frame | null {
+    if (!running || (frameIssued && deadlineMs - now() > withinMs)) return null;
+    const next = frameIssued ? frameIndex + 1 : frameIndex;
+    if (next < frameTotal) return frame(slot, next);
+    return times === 0 || loopsDone + 1 < times ? frame(slot, 0) : null;
+  }
+
   return {
     request,
     stop,
     step,
     dueMs,
     runningSlot: () => (running ? slot : null),
+    dueFrame,
   };
 }
