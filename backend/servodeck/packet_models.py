@@ -33,10 +33,21 @@ class StoredFrame(Message):
     targets: tuple[ServoPosition, ...]
 
 
+class ServoGoal(Message):
+    """Where a servo goes on to in later parts of its move, and in how many milliseconds it is there."""
+
+    servo: int
+    position: int
+    within_ms: int
+
+
 class MoveCommand(Message):
+    """`goals`: of the servos for which it is a part of a longer move."""
+
     kind: Literal["move"]
     duration_ms: int
     targets: tuple[ServoPosition, ...]
+    goals: tuple[ServoGoal, ...] = ()
 
 
 class RunCommand(Message):

@@ -183,7 +183,8 @@ class StoredGroup(Message):
 
 class ServoWay(Message):
     """A move of a servo, in progress or ended: the time since its start (below 0: not started yet), and its
-    duration. `start` is null where its position at the start is unknown.
+    duration. `start` is null where its position at the start is unknown. `goal`: where it goes on to in later
+    parts of its move, in `goal_within_ms`.
     """
 
     servo: int
@@ -191,6 +192,8 @@ class ServoWay(Message):
     target: int
     begun_ms_ago: float
     duration_ms: float
+    goal: int | None = None
+    goal_within_ms: float = 0
 
 
 class ReportedPosition(Message):

@@ -9,7 +9,9 @@ from typing import Any
 
 from websockets.sync.client import ClientConnection
 
+from servodeck.api.websocket import take
 from servodeck.callers import THIS_COMPUTER, Caller
+from servodeck.intents import PacketMessage
 from servodeck.port.wire import Left
 from servodeck.protocol.families import UNKNOWN
 from servodeck.protocol.packets import encode
@@ -68,6 +70,11 @@ class Client(Session):
         if self.control.driving.driver is None:
             self.control.driving.act(self, "request")
         return self.control.requests.send(self, packet.hex(), self.nonce)
+
+    def run(self, packet: bytes) -> None:
+        """As a page: what moves is ended before that run leaves."""
+        message = PacketMessage(type="packet", id=1, bytes=packet.hex(), nonce=self.nonce)
+        take(message, self, self.control)
 
     async def next(self) -> str:
         """What left the wire is in `followed` instead."""

@@ -62,11 +62,20 @@ class SteppedBoard:
     """It follows the clock of the running loop."""
 
     def __init__(
-        self, simulator: Simulator, board: str, history: History, faults: Sequence[dict[str, Any]] = ()
+        self,
+        simulator: Simulator,
+        board: str,
+        history: History,
+        faults: Sequence[dict[str, Any]] = (),
+        sampled: dict[str, Any] | None = None,
     ) -> None:
-        """With `faults` it may say something at any time."""
+        """With `faults` it may say something at any time. `sampled`: `servos`, whose pulses are noted every
+        `everyMs`.
+        """
         self._simulator = simulator
-        simulator.ask(start=board, history=history, faults=list(faults))
+        watched = {"sampled": sampled} if sampled else {}
+        simulator.ask(start=board, history=history, faults=list(faults), **watched)
+        self.samples: list[list[int]] = []
         self._happened: list[tuple[float, str]] = []
         self._talks_until_s = inf if faults else 0.0
         self._is_running = False
@@ -144,6 +153,7 @@ class SteppedBoard:
         assert "early" not in answer, answer
         self._happened = []
         self._is_running = answer["isRunning"]
+        self.samples += answer["samples"]
         self.moved_s = [moved_ms / 1000 for moved_ms in answer["movedMs"]]
         self.thrown_by, self.met = answer["thrownBy"], answer["met"]
         if answer["said"]:

@@ -240,8 +240,8 @@ async def test_the_messages_that_need_something_before_them() -> None:
 @in_virtual_time
 async def test_a_span_of_driving_is_one_entry_with_a_count_and_a_download_one_at_its_end() -> None:
     async with script(behind=AnsweringPort(repeat([46]))) as here:
-        for position in (1000, 1100, 1200):
-            await here.move(1500, s1=position)
+        for duration_ms, position in ((1500, 1000), (900, 1100), (900, 1200)):
+            await here.move(duration_ms, s1=position)
             await asyncio.sleep(1.6)
         await asyncio.sleep(5)
         await here.download(5, 6)

@@ -14,7 +14,7 @@ from servodeck.protocol.values import Move
 from tests.amount import named, seeds
 from tests.client import Client
 from tests.samples import STOP, command_in
-from tests.scripted import Scripted, move, script
+from tests.scripted import Scripted, script
 from tests.virtual_time import in_virtual_time, now
 
 SILENT_S = 2.0
@@ -53,6 +53,12 @@ def held_in(packet: bytes) -> dict[int, int]:
     return {target.servo: target.position for target in command.targets}
 
 
+def went_to_its_end(here: Scripted) -> bool:
+    """In parts, each farther, and nothing else left."""
+    places = [held_in(packet)[1] for packet in here.port.packets()]
+    return places == sorted(places) and places[-1] == 2000
+
+
 async def unattended(here: Scripted) -> object:
     return (await here.client.get("/api/status")).json()["unattended"]
 
@@ -67,8 +73,8 @@ async def test_a_move_with_beats_is_stopped_and_held_two_seconds_after_the_last_
         last_s = now()
         await asyncio.sleep(5)
         assert stops_s(here)[0] == pytest.approx(last_s + SILENT_S, abs=LATE_S)
-        begun, stop, hold, *_ = here.port.packets()
-        assert (begun, stop) == (move(LONG_MS, s1=2000), STOP)
+        packets = here.port.packets()
+        hold = packets[packets.index(STOP) + 1]
         # On the way from 1500 to 2000 in ten seconds, five of which have passed.
         assert held_in(hold)[1] == pytest.approx(1750, abs=20)
         # The program may have died with the robot in motion: a person has to look.
@@ -93,7 +99,7 @@ async def test_a_move_with_beats_goes_to_its_end_while_they_come() -> None:
             await asyncio.sleep(1)
             await beat(here)
         await asyncio.sleep(5)
-        assert here.port.packets() == [move(LONG_MS, s1=2000)]
+        assert went_to_its_end(here)
         assert (here.control.latch, here.control.driving.driver) == (False, None)
 
 
@@ -115,7 +121,7 @@ async def test_a_move_without_beats_is_permitted_by_its_request_and_shown_to_eve
             shown = [message["unattended"] for message in await page.heard() if "unattended" in message]
             assert shown[-1] is None
             await asyncio.sleep(5)
-            assert here.port.packets() == [move(time_ms, s1=2000)]
+            assert went_to_its_end(here)
             assert (here.control.latch, here.control.driving.driver) == (False, None)
 
 
@@ -158,7 +164,8 @@ async def test_a_request_that_waits_is_the_heartbeat_of_its_program() -> None:
         begun = await here.post("move", timeMs=LONG_MS, positions={"1": 2000}, beats=True, waitMs=60_000)
         assert begun.json()["ended"] is True
         await asyncio.sleep(5)
-        assert (here.port.packets(), here.control.latch) == ([move(LONG_MS, s1=2000)], False)
+        assert went_to_its_end(here)
+        assert not here.control.latch
 
 
 @in_virtual_time

@@ -99,9 +99,9 @@ def test_servos_are_moved_by_name_in_degrees_from_home(here: Served, port: Board
         begun_s = time.monotonic()
         robot.move({"Base": 30, "elbow": 10}, units="deg")
         assert time.monotonic() - begun_s >= 1.5
-        robot.move({"Base": 1500, "2": 1520}, units="board", seconds=0.02)  # they have arrived
+        robot.move({"Base": 1500, "2": 1520}, units="board", seconds=0.04)  # they have arrived
     moves = [packet for packet in sent(port) if packet != STOP]
-    assert moves == [move(1500, s1=1800), move(1500, s2=1420), move(20, s1=1500, s2=1520)]
+    assert moves == [move(1500, s1=1800), move(1500, s2=1420), move(40, s1=1500, s2=1520)]
 
 
 def test_poses_are_applied_by_name_and_home_is_number_0(here: Served, port: BoardPort) -> None:

@@ -164,14 +164,14 @@ async def test_a_port_that_never_opened_does_not_latch() -> None:
 @in_virtual_time
 async def test_a_plain_stop_overtakes_what_waits_and_takes_waiting_runs_with_it() -> None:
     async with driven() as (control, port, anna):
-        on_wire = anna.send(MOVE)
-        await asyncio.sleep(0.005)
+        on_wire = anna.send(BATTERY)
+        await asyncio.sleep(0.002)
         run, move = anna.send(RUN), anna.send(MOVE_ELSEWHERE)
         await anna.send(STOP)
         with pytest.raises(CancelledError):
             await run
         await asyncio.gather(on_wire, move)
-        assert port.packets()[1:] == [MOVE, STOP, MOVE_ELSEWHERE]
+        assert port.packets()[1:] == [BATTERY, STOP, MOVE_ELSEWHERE]
         assert control.latch is False
 
 

@@ -110,7 +110,7 @@ def test_what_was_moved_is_known_and_a_first_move_counts_down() -> None:
     assert (motion.is_unknown(1, 1.0), motion.is_unknown(2, 1.0)) == (False, True)
     assert motion.first_moves_ms([1], 0.5) == motion.first_moves_ms([2], 0.5) == 1500
     assert motion.first_moves_ms([1], 2.0) == 0
-    own_time = estimate_after((0.0, move(2000, s1=1000)), family="lsc-6")
+    own_time = estimate_after((0.0, move(2000, s1=500)), family="bus-ctrl")
     assert (own_time.first_moves_ms([1], 0.5), own_time.first_moves_ms([2], 0.5)) == (1500, 0)
 
 

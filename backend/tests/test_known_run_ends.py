@@ -98,7 +98,7 @@ def test_a_known_run_is_over_at_its_computed_end_and_the_robot_stands(board: str
     for seed in seeds(1):
         drawn = own_seed(board, seed)
         dice = random.Random(drawn)
-        for history in simulator.draw(board, drawn, HISTORIES, is_plain=True):
+        for history in simulator.draw(board, drawn, HISTORIES, kind="plain"):
             times = dice.randint(1, 3)
             with (
                 named("test_known_run_ends.py", seed, f"{board}, {times} times: {json.dumps(history)}"),

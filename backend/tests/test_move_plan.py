@@ -58,10 +58,9 @@ def test_a_first_move_in_progress_is_never_made_faster_where_boards_share_the_ti
     with pytest.raises(OutOfRangeError, match=r"allowed 1000\.\."):
         plan({2: 1500}, 999, beginning, DOC, 0.5)
     assert len(plan({2: 1500}, 1000, beginning, DOC, 0.5).steps) == 1
-    lsc = FAMILIES["lsc-6"]
-    own_time = moved(lsc, 1, duration_ms=1500)
+    own_time = moved(BUS, 1, duration_ms=1500)
     own_time.left(Move(0, (ServoTarget(2, 500),)), 0.0)
-    assert len(plan({2: 1500}, 20, own_time, lsc, 0.5).steps) == 1
+    assert len(plan({2: 600}, 20, own_time, BUS, 0.5).steps) == 1
 
 
 def test_more_servos_than_a_packet_takes_make_more_packets() -> None:

@@ -59,12 +59,10 @@ async def test_a_script_goes_to_a_pose_by_number_or_name(tmp_path: Path) -> None
         assert begun.json() == {"packets": 2, "overInMs": 1500, "firstMoves": [1, 2]}
         assert (await client.post("/api/poses/1/apply", json={"timeMs": 1600})).status_code == 200
         assert (await client.post("/api/poses/2/apply")).status_code == 200
-        assert port.packets()[1:] == [
-            move(1500, s1=1800),
-            move(1500, s2=900),
-            move(1600, s1=1800, s2=900),
-            move(1500, s1=1500),
-        ]
+        *sent, last = port.packets()[1:]
+        assert sent == [move(1500, s1=1800), move(1500, s2=900), move(1600, s1=1800, s2=900)]
+        # Servo 2 is under way from an unknown place, and is not made faster.
+        assert last in [move(duration_ms, s1=1500) for duration_ms in range(1500, 1601)]
 
 
 async def test_an_unreachable_pose_is_refused_and_moves_nothing(tmp_path: Path) -> None:

@@ -20,8 +20,10 @@ OTHER_SERVO = MOVE[:7] + b"\x02" + MOVE[8:]
 async def test_every_client_gets_the_commands_that_left_from_any_client() -> None:
     async with gateway_on() as control:
         anna, bert = Client(control), Client(control)
-        for packet in (MOVE, BATTERY, RUN):
+        for packet in (MOVE, BATTERY):
             await anna.send(packet)
+        await asyncio.sleep(MOVE_S)
+        await anna.send(RUN)
         await asyncio.sleep(0.2)
         await anna.heard()
         await bert.heard()

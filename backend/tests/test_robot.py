@@ -44,6 +44,7 @@ async def test_a_limit_holds_for_all() -> None:
         say(control, bert, type="packet", id=7, bytes=MOVE.hex(), nonce=bert.nonce)
         assert await bert.heard() == [{"type": "refused", "id": 7, "code": "outOfRange", "detail": REFUSAL}]
         await bert.send(MOVE_ELSEWHERE)
+        await asyncio.sleep(MOVE_S)
         await bert.send(RUN)
         assert port.packets() == [STOP, MOVE_ELSEWHERE, RUN]
 

@@ -5,6 +5,7 @@ that is published.
 
 import asyncio
 from collections.abc import Awaitable, Callable
+from itertools import dropwhile
 
 import pytest
 from hypothesis import given, settings
@@ -12,8 +13,10 @@ from hypothesis import strategies as st
 
 from servodeck.api.websocket import take
 from servodeck.callers import Caller
+from servodeck.errors import MovingError
 from servodeck.intents import StopMessage
-from servodeck.protocol.packets import encode
+from servodeck.protocol.decoder import COMMAND_AT
+from servodeck.protocol.packets import MOVE, RUN, encode
 from servodeck.protocol.values import Command, Erase, Move, Run, ServoTarget
 from tests.amount import TIMES
 from tests.boards import WorkingBoard, new_board, old_board
@@ -44,6 +47,12 @@ class Page:
 
     async def move(self, position: int, duration_ms: int) -> None:
         await self.send(Move(duration_ms, (ServoTarget(1, position),)))
+
+    async def slide(self, position: int, duration_ms: int) -> None:
+        """Not by a packet of its own."""
+        session = self._session
+        targets = [ServoTarget(1, position)]
+        await self._here.control.requests.move(session, targets, duration_ms, session.nonce)
 
     async def run(self, slot: int) -> None:
         await self.send(Run(slot, 1))
@@ -94,12 +103,9 @@ async def is_under_way(driver: Page | Program, after_s: float) -> None:
 
 
 def place_when_left(here: Scripted, hold_left_s: float) -> float:
-    """Of servo 1, by the time since the move of 10 s had arrived."""
-    left_s, packet = next(
-        (at_s, packet)
-        for at_s, packet in reversed(here.port.written)
-        if packet[5:7] == MOVE_MS.to_bytes(2, "little")
-    )
+    """Of servo 1, by the time since the move of 10 s, or its first part, had arrived."""
+    behind_run = dropwhile(lambda left: left[1][COMMAND_AT] != RUN, here.port.written)
+    left_s, packet = next(left for left in behind_run if left[1][COMMAND_AT] == MOVE)
     return START + (END - START) * ((hold_left_s - left_s) * 1000 - wire_ms(packet)) / MOVE_MS
 
 
@@ -134,7 +140,7 @@ async def test_behind_a_run_of_an_erased_slot_all_is_held(
 @given(after_s=instants)
 @settings(max_examples=2 * TIMES)
 @in_virtual_time
-async def test_behind_a_run_of_an_unknown_slot_no_move_is_held(
+async def test_behind_a_run_of_an_unknown_slot_a_move_is_refused_and_a_stop_says_that_anything_may_move(
     board: str, press: str, after_s: float
 ) -> None:
     async with script(role="owner", board=board, behind=BOARDS[board]()) as here:
@@ -142,9 +148,12 @@ async def test_behind_a_run_of_an_unknown_slot_no_move_is_held(
         await driver.move(START, 1500)
         await asyncio.sleep(2)
         await driver.run(NEVER_STORED)
-        await asyncio.sleep(0.3)
-        await is_under_way(driver, after_s)
+        await asyncio.sleep(after_s)
         before = len(here.port.written)
+        for move in (driver.move, driver.slide):
+            with pytest.raises(MovingError):
+                await move(END, MOVE_MS)
+        assert here.port.written[before:] == []
         unheld = await PRESSES[press](here)
         assert [packet for _, packet in here.port.written[before:]] == [STOP] * 3
         assert unheld is not None

@@ -6,12 +6,12 @@ import pytest
 
 from servodeck.api.websocket import take
 from servodeck.callers import Caller
-from servodeck.errors import CancelledError, NotDrivingError
+from servodeck.errors import CancelledError, MovingError, NotDrivingError
 from servodeck.intents import ContinueMessage, StopMessage
 from servodeck.robot.control import Control
 from tests.client import ANNA, Client, gateway_on
 from tests.fake_port import FakePort
-from tests.samples import MOVE, RUN, STOP, STOPS
+from tests.samples import MOVE, MOVE_S, RUN, STOP, STOPS
 from tests.scripted import RUN_ENDED, script
 from tests.virtual_time import in_virtual_time, now
 
@@ -97,6 +97,9 @@ async def test_the_next_driver_ends_it_first() -> None:
     async with gateway_on(port) as control:
         control.leave(await begin(control))
         carl = Client(control)
+        with pytest.raises(MovingError):
+            await carl.send(MOVE)
+        await asyncio.sleep(0.5)
         await carl.send(MOVE)
         assert port.packets() == [STOP, RUN, *STOPS, MOVE]
         assert await unattended_of(carl) is None
@@ -130,7 +133,9 @@ async def test_the_boards_word_that_it_ended_and_another_run_end_the_leave_too()
         again = await begin(control) if control.driving.driver is None else anna
         await again.send(RUN)
         take(ContinueMessage(type="continue", for_ms=60_000), again, control)
-        await again.send(RUN)
+        again.run(RUN)
+        await asyncio.sleep(0.5)
+        assert port.packets()[-5:] == [RUN, *STOPS, RUN]
         assert await unattended_of(again) is None
         control.leave(again)
         await asyncio.sleep(1)
@@ -167,6 +172,7 @@ async def test_only_what_runs_may_continue_and_only_its_driver_allows_it() -> No
         await anna.send(MOVE)
         with pytest.raises(CancelledError):
             control.allow_unattended(anna, 60_000)
+        await asyncio.sleep(MOVE_S)
         await anna.send(RUN)
         with pytest.raises(NotDrivingError):
             control.allow_unattended(carl, 60_000)

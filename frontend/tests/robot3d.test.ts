@@ -72,13 +72,16 @@ test('the elbow goes to the other side, and the gripper comes back to its place'
   await dashboard.type(model.along('Forward'), 150);
   await advance(3000);
   const before = await lastTarget(robot.bus, 4);
+  const movesBefore = ofKind(await robot.bus(), 'move').length;
   await dashboard.button('Other elbow').click();
   await advance(3000);
   await expect(model.along('Up')).toHaveValue('300');
   await expect(model.along('Forward')).toHaveValue('150');
   const after = await lastTarget(robot.bus, 4);
   expect(Math.sign((after ?? 0) - 1500)).toBe(-Math.sign((before ?? 0) - 1500));
-  expect(ofKind(await robot.bus(), 'move').at(-1)?.durationMs).toBeGreaterThanOrEqual(300);
+  const parts = ofKind(await robot.bus(), 'move').slice(movesBefore);
+  const takesMs = parts.reduce((sum, { durationMs }) => sum + durationMs, 0);
+  expect(takesMs).toBeGreaterThanOrEqual(300);
 });
 
 test('a locked servo stays where it is while the end is led', async ({ dashboard, page, robot }) => {

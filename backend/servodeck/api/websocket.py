@@ -42,12 +42,13 @@ from servodeck.intents import (
     client_message,
 )
 from servodeck.port.wire import Left
-from servodeck.protocol.values import ServoTarget
+from servodeck.protocol.values import Run, ServoTarget
 from servodeck.robot.board.playing import FrameGroup
 from servodeck.robot.control import Control
 from servodeck.robot.hub import AGAINST_THE_RULES, Session
 from servodeck.robot.latch import Cause
 from servodeck.robot.operations import PageClaim
+from servodeck.robot.requests import judge_packet
 from servodeck.schema import first_problem
 from servodeck.snapshots import Outcome, PlayState
 
@@ -218,6 +219,11 @@ def play(group: FrameGroup, message_id: int, nonce: str, session: Session, contr
 
 def take_packet(message: PacketMessage, session: Session, control: Control) -> None:
     with refusing(session, message.id):
+        command = judge_packet(message.bytes, control.board.family_id).command
+        if isinstance(command, Run):  # which ends first what moves
+            claim = PageClaim(control, session, message.nonce)
+            perform(session, message.id, control.operations.run(claim, command.slot, command.times))
+            return
         left = control.requests.send(session, message.bytes, message.nonce)
         left.add_done_callback(lambda left: answer(session, message.id, left))
 

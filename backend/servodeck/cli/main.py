@@ -158,7 +158,8 @@ def facts_of(piece: Piece) -> dict[str, Any]:
 
     if not piece.is_packet:
         return {"noise": piece.data.hex()}
-    command = piece.command and command_model(piece.command).model_dump(by_alias=True)
+    # A packet says nothing of later ones.
+    command = piece.command and command_model(piece.command).model_dump(by_alias=True, exclude={"goals"})
     reports = [report_model(report).model_dump(by_alias=True) for report in piece.reports]
     return {"packet": piece.data.hex(), "command": command, "reports": reports, "text": piece.text}
 

@@ -54,8 +54,11 @@ class MotionTraits:
     # entries handed on to bus servos (S31). Its servos wait that long, and what came meanwhile is late (S29).
     talk_ms: float
     # `shared`: any new target re-times every servo (S26). `perServo`: one that starts leaves the others
-    # alone.
-    timing: Literal["shared", "perServo"]
+    # alone. `unknown`: no source says which, so a packet carries every servo under way and both readings give
+    # the same motion.
+    timing: Literal["shared", "perServo", "unknown"]
+    # A longer move leaves in parts of that time at most; None where it leaves as one packet.
+    part_ms: int | None
     # `deadlines`: a frame takes its time, to the millisecond (S42). `polled`: the next begins some time
     # behind it (L7).
     groups: Literal["deadlines", "polled"]

@@ -53,6 +53,13 @@ class Move(NamedTuple):
     expires_ms: int
 
 
+class Parts(NamedTuple):
+    rest_ms: int
+    seam_ms: int
+    seam_slack_ms: int
+    grain_ms: float
+
+
 class Estimate(NamedTuple):
     longest_deafness_ms: int
     last_ticks_ms: int
@@ -154,6 +161,7 @@ HID: Final = _section("hid", Hid)
 DECODER: Final = _section("decoder", Decoding)
 STOP: Final = _section("stop", Stop)
 MOVE: Final = _section("move", Move)
+PARTS: Final = _section("parts", Parts)
 ESTIMATE: Final = _section("estimate", Estimate)
 RUN: Final = _section("run", Run)
 PLAY: Final = _section("play", Play)

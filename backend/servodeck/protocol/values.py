@@ -49,9 +49,20 @@ class Frame:
 
 
 @value
+class Goal:
+    """Where a servo goes on to in later parts of its move, and in how many milliseconds it is there."""
+
+    servo: int
+    position: int
+    within_ms: int
+
+
+@value
 class Move:
     duration_ms: int
     targets: tuple[ServoTarget, ...]
+    goals: tuple[Goal, ...] = ()
+    """Not in the packet: where it is a part of a longer move."""
     kind: ClassVar[CommandKind] = "move"
 
 

@@ -15,7 +15,17 @@ from servodeck.port.wire import Left
 from servodeck.protocol.families import Family, check
 from servodeck.protocol.packets import MOVE, portions_of
 from servodeck.protocol.timings import RUN
-from servodeck.protocol.values import Command, Erase, Erased, Release, Run, RunAccepted, RunStarted, SetSpeed
+from servodeck.protocol.values import (
+    Command,
+    Erase,
+    Erased,
+    Move,
+    Release,
+    Run,
+    RunAccepted,
+    RunStarted,
+    SetSpeed,
+)
 from servodeck.robot.board.halt import repeat_stop
 from servodeck.robot.board.storing import ERASE_TIMEOUT_S
 from servodeck.robot.hub import Session
@@ -105,7 +115,11 @@ class Grant:
     def send(self, command: Command, lasts_s: float = 0.0) -> Left:
         """`lasts_s`: what it sets in motion."""
         self._judge()
-        left = self._control.requests.put(self._claim.session, command, self._claim.permit())
+        requests, session, permit = self._control.requests, self._claim.session, self._claim.permit()
+        if isinstance(command, Move):
+            left = requests.move_by(session, command, permit)
+        else:
+            left = requests.put(session, command, permit)
         self._claim.lasts(left, lasts_s)
         return left
 

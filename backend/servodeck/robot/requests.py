@@ -8,8 +8,14 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from servodeck.callers import Caller, Role
-from servodeck.errors import CancelledError, MalformedError, MovingError, NotSupportedError, OutOfRangeError
-from servodeck.port.wire import STOP_PACKET, Job, Left
+from servodeck.errors import (
+    CancelledError,
+    MalformedError,
+    MovingError,
+    NotSupportedError,
+    OutOfRangeError,
+)
+from servodeck.port.wire import STOP_PACKET, Job, Left, Wire
 from servodeck.protocol.families import FAMILIES, check
 from servodeck.protocol.packets import (
     DOWNLOAD,
@@ -67,14 +73,28 @@ class Requests:
         board.link.wire()
         judge_latch(MOVE, self._latch.is_closed)
         board.jobs.judge_idle()
+        self._judge_no_run()
         permit = self._lease.permit(session, nonce, self._now())
-        # Servos that wait to start may do so as long as the driver is heard.
+        return self._put_move(session, targets, duration_ms, permit)
+
+    def move_by(self, session: Session, move: Move, permit: Permit) -> Left:
+        """As `move`, with a permit."""
+        self._judge_put(session, encoded(move, self._board.family), move)
+        self._judge_no_run()
+        return self._put_move(session, move.targets, move.duration_ms, permit)
+
+    def _put_move(
+        self, session: Session, targets: Sequence[ServoTarget], duration_ms: int, permit: Permit
+    ) -> Left:
+        board = self._board
+        # Later parts, and servos that wait to start, may leave as long as the driver is heard.
         waiting = replace(permit, until_s=math.inf)
 
-        def judge(target: ServoTarget, starts: bool) -> None:
-            self._judge_driver(waiting if starts else permit)
+        def judge(target: ServoTarget, may_wait: bool) -> None:
+            self._judge_driver(waiting if may_wait else permit)
             board.identification.judge_known()
             judge_latch(MOVE, self._latch.is_closed)
+            self._judge_no_run()
             self._limits.judge(Move(duration_ms, (target,)), session)
 
         return board.moves.put(targets, duration_ms, MoveRequest(session, judge))
@@ -100,10 +120,7 @@ class Requests:
             )
         if packet.number == STOP:
             return self.stop_once(session)
-        self._board.jobs.judge_run(command, self._board.link.place)
-        self._board.jobs.judge_idle()
-        if isinstance(command, Run | Erase):
-            self._board.plays.judge_idle()
+        self._judge_begun_by_hand(command)
         if packet.is_harmless:
             return wire.send(packet, session)
         permitted, moves = self._permitted(session, nonce), self._board.moves
@@ -111,15 +128,38 @@ class Requests:
 
         def judge() -> None:
             permitted()
+            self._judge_under_way(command)
             if isinstance(command, Move):
+                self._judge_hastened(command)
                 moves.overtaken([target.servo for target in command.targets], this_round)
 
         return wire.send(packet, session, judge=judge)
 
+    def _judge_begun_by_hand(self, command: Command) -> None:
+        """Raises what keeps a packet that leaves as it is from beginning its motion now."""
+        board = self._board
+        board.jobs.judge_run(command, board.link.place)
+        board.jobs.judge_idle()
+        if isinstance(command, Run | Erase):
+            board.plays.judge_idle()
+        self._judge_under_way(command)
+
+    def _judge_under_way(self, command: Command) -> None:
+        """Also as it leaves: what waited before it may have begun meanwhile."""
+        board = self._board
+        if isinstance(command, Run) and board.activity.may_move():
+            raise MovingError(still_moving(board.motion, self._now()))
+        if isinstance(command, Move):
+            self._judge_no_run()
+
     def put(self, session: Session, command: Command, permit: Permit) -> Left:
         """As `send`, with a permit."""
+        packet = encoded(command, self._board.family)
+        wire = self._judge_put(session, packet, command)
+        return wire.send(packet, session, judge=lambda: self._judge_driver(permit))
+
+    def _judge_put(self, session: Session, packet: CommandPacket, command: Command) -> Wire:
         board = self._board
-        packet = encoded(command, board.family)
         session.caller.require(role_for(packet))
         self._limits.judge(command, session)
         wire = board.link.wire()
@@ -129,7 +169,22 @@ class Requests:
         board.jobs.judge_idle()
         if isinstance(command, Run | Erase):
             board.plays.judge_idle()
-        return wire.send(packet, session, judge=lambda: self._judge_driver(permit))
+        return wire
+
+    def _judge_no_run(self) -> None:
+        """A frame would make a moved servo faster, and the servo what the frame moves (S26)."""
+        motion, now = self._board.motion, self._now()
+        if motion.group_may_run(now):
+            raise MovingError(end_of_group(motion.group_ends_in_s(now)))
+
+    def _judge_hastened(self, move: Move) -> None:
+        """A packet by hand leaves as it is, so one that would make another servo faster is refused."""
+        rest_ms = self._board.motion.hastened_ms(move, self._now())
+        if rest_ms:
+            raise OutOfRangeError(
+                f"Another servo is under way for {rest_ms} ms more and would get there as fast as this move. "
+                "Give the packet that time at least, or wait."
+            )
 
     def stop_once(self, session: Session) -> Left:
         """Ends the running group behind its frame in progress. It overtakes all that waits, and a run that it
@@ -163,8 +218,9 @@ class Requests:
         judge_latch(MOVE, self._latch.is_closed)
         board.jobs.judge_idle()
         board.plays.judge_idle()
-        if board.motion.group_may_run(self._now()) or wire.has_waiting(RUN):
-            raise MovingError(end_of_group(board.motion.group_ends_in_s(self._now())))
+        self._judge_no_run()
+        if wire.has_waiting(RUN):
+            raise MovingError(end_of_group(None))
         permit = self._lease.permit(session, nonce, self._now())
         if permit.issued_s < self._latch.stopped_s:  # a large request may be slower than the STOP behind it
             raise CancelledError("STOP was pressed after this was requested.")

@@ -6,6 +6,7 @@ requests.py what may leave.
 """
 
 import asyncio
+import math
 from collections.abc import Awaitable, Callable, Coroutine, Mapping, Sequence
 from typing import Any, Literal, TypeVar
 
@@ -164,7 +165,9 @@ class Scripts:
             if not await is_wanted():
                 raise CancelledError("The client disconnected.")
             await grant.send(step.move, duration_ms / 1000)
-        return Moved(len(plan.steps), duration_ms, plan.first_moves)
+        # As fast as the soft limit lets it be.
+        over_in_ms = duration_ms or math.ceil(control.board.motion.moves_for_s(control.now()) * 1000)
+        return Moved(len(plan.steps), over_in_ms, plan.first_moves)
 
     async def run(
         self, caller: Caller, slot: int, times: int, *, take: bool, continue_ms: int | None = None

@@ -29,6 +29,8 @@ test('the simulated arm stands up gently, and moves a little until it is touched
   await draw(5_000);
   expect(pose()).not.toEqual([1200, 1500, 1950, 2050, 1150, 1500]);
   touch();
+  // The way that it was on ends.
+  await draw(2_500);
   const before = moves().length;
   await draw(20_000);
   expect(moves()).toHaveLength(before);

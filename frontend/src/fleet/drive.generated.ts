@@ -92,7 +92,8 @@ export interface MotionState {
 }
 /**
  * A move of a servo, in progress or ended: the time since its start (below 0: not started yet), and its
- * duration. `start` is null where its position at the start is unknown.
+ * duration. `start` is null where its position at the start is unknown. `goal`: where it goes on to in later
+ * parts of its move, in `goal_within_ms`.
  */
 export interface ServoWay {
   servo: number;
@@ -100,6 +101,8 @@ export interface ServoWay {
   target: number;
   begunMsAgo: number;
   durationMs: number;
+  goal: number | null;
+  goalWithinMs: number;
 }
 /**
  * The position that the board reported for a servo, with its age. `isCurrent`: as far as the gateway

@@ -5,7 +5,7 @@ import { placeOf, poseOf } from './pose.ts';
 const plain = { servo: 1, trim: 0 };
 const trimmed = { servo: 1, trim: 20 };
 const moving = (start: number | null): MotionState => ({
-  servos: [{ servo: 1, start, target: 1600, begunMsAgo: 500, durationMs: 1000 }],
+  servos: [{ servo: 1, start, target: 1600, begunMsAgo: 500, durationMs: 1000, goal: null, goalWithinMs: 0 }],
   reported: [],
   runSlot: null,
   released: [],

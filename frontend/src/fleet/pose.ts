@@ -24,7 +24,7 @@ function onBoardAt(motion: MotionState | null, servo: number): ServoPlace {
   const way = motion.servos.find((one) => one.servo === servo);
   const reported = motion.reported.find((one) => one.servo === servo && one.isCurrent)?.position ?? null;
   if (way === undefined) return { target: reported, estimated: reported };
-  return { target: way.target, estimated: reported ?? estimateOf(way) };
+  return { target: way.goal ?? way.target, estimated: reported ?? estimateOf(way) };
 }
 
 /** Straight from its start to its target; unknown on the way from an unknown place. */

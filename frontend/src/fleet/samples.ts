@@ -70,17 +70,19 @@ export function fleetLibrary(groups: readonly ActionGroup[]): FleetLibrary {
 }
 
 const LIVE_MS = 50;
+const NO_GOAL = { goal: null, goalWithinMs: 0 };
 
 /** A robot whose first servos were moved, and that goes where it is told at once. Of one that waits for the lease there are no reports. */
 export function drivenRobot(lease: DriveLease, listener: DriveListener): DriveChannel {
   let servos = [
-    { servo: 1, start: 1500, target: 1900, begunMsAgo: 300, durationMs: 600 },
+    { servo: 1, start: 1500, target: 1900, begunMsAgo: 300, durationMs: 600, ...NO_GOAL },
     ...[2, 3, 4].map((servo) => ({
       servo,
       start: 1500,
       target: 1500 - 60 * servo,
       begunMsAgo: 900,
       durationMs: 600,
+      ...NO_GOAL,
     })),
   ];
   let count = 0;
@@ -97,6 +99,7 @@ export function drivenRobot(lease: DriveLease, listener: DriveListener): DriveCh
       if (wish.type !== 'move') return;
       const moved = wish.targets.map(({ servo, position }) => ({
         ...{ servo, start: position, target: position, begunMsAgo: 100, durationMs: 100 },
+        ...NO_GOAL,
       }));
       servos = [...servos.filter(({ servo }) => moved.every((one) => one.servo !== servo)), ...moved];
     },

@@ -108,6 +108,10 @@ export interface DeviceOptions {
   readonly robots: RobotProfiles;
 }
 
+/** Equal where two profiles let the same servos go equally far. */
+const limitsOf = ({ servos }: RobotProfile): string =>
+  servos.map(({ servo, min, max }) => `${servo}:${min}..${max}`).join();
+
 export function createDevice({ family, clock, notices, robots }: DeviceOptions): Device {
   const store = createStore<DeviceState>(() => ({ family, ...NOTHING }));
   const traffic = createTrafficLog();
@@ -132,7 +136,14 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     if (robotOnBoard === null && connected.id !== 'unknown') robots.takeUpFor(connected.id);
   }
 
-  robots.store.subscribe(() => takeUpRobot(store.getState().snapshot));
+  let limits = limitsOf(robot());
+
+  robots.store.subscribe(() => {
+    takeUpRobot(store.getState().snapshot);
+    const next = limitsOf(robot());
+    if (next !== limits) session?.limitsChanged();
+    limits = next;
+  });
 
   function motions(): Motions {
     if (session === null) return () => NO_MOTION;

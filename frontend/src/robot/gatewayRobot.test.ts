@@ -22,7 +22,10 @@ const WAVE: readonly Frame[] = [{ durationMs: 200, targets: [{ servo: 1, positio
 
 const lease = (state: LeaseState): GatewayMessage => ({ type: 'lease', lease: state });
 const left = (...commands: readonly Command[]): GatewayMessage =>
-  ({ type: 'left', commands }) as unknown as GatewayMessage;
+  ({
+    type: 'left',
+    commands: commands.map((command) => (command.kind === 'move' ? { ...command, goals: [] } : command)),
+  }) as unknown as GatewayMessage;
 const types = ({ posted }: GatewayUnderTest): readonly string[] => posted.map(({ type }) => type);
 
 /** Time for what waits for nothing but its turn. */
@@ -419,7 +422,17 @@ describe('playing', () => {
 
 describe('what moved before the page came', () => {
   const MOVED: WelcomeMessage['motion'] = {
-    servos: [{ servo: 1, start: 1_000, target: 2_000, begunMsAgo: 60_000, durationMs: 500 }],
+    servos: [
+      {
+        servo: 1,
+        start: 1_000,
+        target: 2_000,
+        begunMsAgo: 60_000,
+        durationMs: 500,
+        goal: null,
+        goalWithinMs: 0,
+      },
+    ],
     ...{ runSlot: null, released: [], reported: [] },
   };
 

@@ -247,6 +247,7 @@ export function createGatewayRobot({ url, clock, mayDrive = true }: GatewayRobot
         typeof action === 'string' ? { type: 'lease', action } : { type: 'grant', to: action.grantTo },
       ),
     letRun: (forMs) => socket.postIfOpen({ type: 'continue', forMs }),
+    limitsChanged: () => undefined,
     calibrate(servo) {
       if (mayDrive) socket.postIfOpen({ type: 'calibrate', servo });
     },

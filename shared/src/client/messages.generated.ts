@@ -651,7 +651,8 @@ export interface MotionState {
 }
 /**
  * A move of a servo, in progress or ended: the time since its start (below 0: not started yet), and its
- * duration. `start` is null where its position at the start is unknown.
+ * duration. `start` is null where its position at the start is unknown. `goal`: where it goes on to in later
+ * parts of its move, in `goal_within_ms`.
  */
 export interface ServoWay {
   servo: number;
@@ -659,6 +660,8 @@ export interface ServoWay {
   target: number;
   begunMsAgo: number;
   durationMs: number;
+  goal: number | null;
+  goalWithinMs: number;
 }
 /**
  * The position that the board reported for a servo, with its age. `isCurrent`: as far as the gateway
@@ -910,10 +913,22 @@ export interface LeftMessage {
   type: 'left';
   commands: (MoveCommand | RunCommand | DownloadCommand | SetSpeedCommand | ServosCommand | PlainCommand)[];
 }
+/**
+ * `goals`: of the servos for which it is a part of a longer move.
+ */
 export interface MoveCommand {
   kind: 'move';
   durationMs: number;
   targets: ServoPosition[];
+  goals: ServoGoal[];
+}
+/**
+ * Where a servo goes on to in later parts of its move, and in how many milliseconds it is there.
+ */
+export interface ServoGoal {
+  servo: number;
+  position: number;
+  withinMs: number;
 }
 /**
  * `times` 0 repeats until stopped.

@@ -212,14 +212,14 @@ test('a request whose answer was lost is sent again with its key, and moves the 
   await new Promise<void>((resolve) => void relay.listen(0, '127.0.0.1', resolve));
   const far = new Servodeck(`http://127.0.0.1:${(relay.address() as AddressInfo).port}`);
   await far.status();
-  await far.move({ 1: 1600 }, { units: 'board', wait: false });
+  await far.move({ 1: 1600 }, { units: 'board' });
   await far.close();
   relay.closeAllConnections();
   relay.close();
   expect(keys).toHaveLength(2);
   expect(new Set(keys).size).toBe(1);
   // The servos that a stop before has held have moves of their own.
-  expect(moves().filter((move) => move.durationMs === 1500)).toEqual([{ durationMs: 1500, 1: 1600 }]);
+  expect(moves().filter((move) => move[1] === 1600)).toHaveLength(1);
 });
 
 test('events begin with the whole state and tell each change, until the time is over', async () => {

@@ -81,8 +81,13 @@ interface MotionTraits {
    * bus servos (S31). Its servos wait that long, and what came meanwhile is late (S29).
    */
   readonly talkMs: number;
-  /** `shared`: any new target re-times every servo (S26). `perServo`: one that starts leaves the others alone. */
-  readonly timing: 'shared' | 'perServo';
+  /**
+   * `shared`: any new target re-times every servo (S26). `perServo`: one that starts leaves the others alone. `unknown`: no source says which,
+   * so a packet carries every servo under way and both readings give the same motion.
+   */
+  readonly timing: 'shared' | 'perServo' | 'unknown';
+  /** A longer move leaves in parts of that time at most; null where it leaves as one packet. */
+  readonly partMs: number | null;
   /** `deadlines`: a frame takes its time, to the millisecond (S42). `polled`: the next begins some time behind it (L7). */
   readonly groups: 'deadlines' | 'polled';
   /** A stop halts these where they are; the others go on to the end of their frame (S50, L9). */

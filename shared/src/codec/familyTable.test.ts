@@ -24,7 +24,8 @@ const button = v.picklist([
 const motion = v.strictObject({
   tickMs: whole,
   talkMs: v.pipe(v.number(), v.minValue(0)),
-  timing: v.picklist(['shared', 'perServo']),
+  timing: v.picklist(['shared', 'perServo', 'unknown']),
+  partMs: v.nullable(v.number()),
   groups: v.picklist(['deadlines', 'polled']),
   haltedByStop: v.array(whole),
   chainedSlot: v.nullable(whole),

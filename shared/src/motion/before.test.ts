@@ -15,7 +15,10 @@ import type { Report } from '../codec/reports.ts';
 const DOC: KnownBoard = { family: family('doc'), playedFrames: () => null };
 const NOW_MS = 10_000;
 
-const WAY: WayBefore = { servo: 3, from: 1_000, to: 2_000, begunMsAgo: 400, durationMs: 1_000 };
+const WAY: WayBefore = {
+  ...{ servo: 3, from: 1_000, to: 2_000, begunMsAgo: 400, durationMs: 1_000 },
+  ...{ goal: null, goalWithinMs: 0 },
+};
 
 function came(ways: readonly WayBefore[], runSlot: MotionBefore['runSlot'] = null): Motion {
   return takenOver(UNKNOWN_MOTION, { ways, runSlot, released: [5], reported: [] }, NOW_MS, DOC.family);

@@ -160,7 +160,7 @@ function holdMs(motion: Motion, held: readonly Held[], atMs: number, family: Fam
   const needsMs = Math.max(
     shortestMoveMs,
     (timings.move.firstMs * way) / range,
-    traits.timing === 'shared' ? unknownMs(motion, atMs, traits.tickMs) : 0,
+    traits.timing === 'perServo' ? 0 : unknownMs(motion, atMs, traits.tickMs),
   );
   return Math.ceil(needsMs / traits.tickMs) * traits.tickMs;
 }

@@ -8,6 +8,7 @@ import type { ReportKind } from '../codec/reports.ts';
 import {
   boardDurationMs,
   doubted,
+  endMs,
   lastEndMs,
   LONGEST_MOVE_MS,
   type Order,
@@ -95,8 +96,26 @@ export interface PolledRun {
   readonly isBlurred: boolean;
 }
 
+/**
+ * The way that was asked of a servo, linear from `from` at `startMs` to `to` at `endMs`. The board has been told until `sentUntilMs`, which is
+ * its place `sentTo`; the rest leaves in later parts (parts.ts).
+ */
+export interface Course {
+  /** Null where it is unknown. */
+  readonly from: number | null;
+  readonly to: number;
+  readonly startMs: number;
+  readonly endMs: number;
+  readonly sentUntilMs: number;
+  readonly sentTo: number;
+}
+
+export type Courses = ReadonlyMap<number, Course>;
+
 export interface Motion {
   readonly tracks: Tracks;
+  /** Of servos that our orders move, or moved last. */
+  readonly courses: Courses;
   /** Of servos at rest, with a track or without. */
   readonly readings: Readings;
   readonly run: UnknownRun | DeadlineRun | PolledRun | null;
@@ -154,6 +173,7 @@ export const LAST_TICKS_MS = timings.estimate.lastTicksMs;
 /** Nothing is known: after connecting, and after anything unseen that may have moved the robot. */
 export const UNKNOWN_MOTION: Motion = {
   tracks: new Map(),
+  courses: new Map(),
   readings: new Map(),
   run: null,
   ranUntilMs: -Infinity,
@@ -181,6 +201,28 @@ export interface WayBefore {
   readonly to: number;
   readonly begunMsAgo: number;
   readonly durationMs: number;
+  /** Where it goes on to in later parts of its move, in `goalWithinMs`; null where it is the end. */
+  readonly goal: number | null;
+  readonly goalWithinMs: number;
+}
+
+/** Where a servo goes on to in later parts of its move. */
+export interface Goal {
+  readonly servo: number;
+  readonly position: number;
+  readonly withinMs: number;
+}
+
+/** As who sends the parts says behind one of them: its servos go on to there. */
+export function headedFor(motion: Motion, goals: readonly Goal[], nowMs: number): Motion {
+  const courses = new Map(motion.courses);
+  for (const { servo, position, withinMs } of goals) {
+    const track = motion.tracks.get(servo);
+    if (track === undefined) continue;
+    const sent = { sentUntilMs: endMs(track), sentTo: track.to };
+    courses.set(servo, { from: null, to: position, startMs: nowMs, endMs: nowMs + withinMs, ...sent });
+  }
+  return { ...motion, courses };
 }
 
 /** Where the board said that a servo stood; `isCurrent`: as far as is known it stands there still. */
@@ -211,7 +253,10 @@ export function takenOver(motion: Motion, before: MotionBefore, nowMs: number, f
   );
   if (before.runSlot !== null) return runningUnknown({ ...motion, readings }, before.runSlot);
   const tracks = before.ways.map((way) => [way.servo, trackOf(way, nowMs, family)] as const);
-  return { ...motion, readings, tracks: new Map(tracks), run: null };
+  const goals = before.ways.flatMap(({ servo, goal, goalWithinMs }) =>
+    goal === null ? [] : [{ servo, position: goal, withinMs: goalWithinMs }],
+  );
+  return headedFor({ ...motion, readings, tracks: new Map(tracks), run: null }, goals, nowMs);
 }
 
 function trackOf({ from, to, begunMsAgo, durationMs }: WayBefore, nowMs: number, family: Family): Track {

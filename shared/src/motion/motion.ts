@@ -15,6 +15,7 @@ import { HEADER } from '../codec/packet.ts';
 import { deadlines } from './deadlines.ts';
 import {
   afterOrder,
+  type Courses,
   LAST_TICKS_MS,
   onlyReleased,
   type Reading,
@@ -24,6 +25,7 @@ import {
   type Motion,
   type Playback,
 } from './model.ts';
+import { carriesAll, reTimed } from './parts.ts';
 import { polled } from './polled.ts';
 import {
   boardDurationMs,
@@ -85,7 +87,18 @@ export function playbackOf({ family }: KnownBoard): Playback {
 /** The same motion with everything that was due by `nowMs` done. Call before reading it. */
 export function advance(motion: Motion, nowMs: number, board: KnownBoard): Motion {
   const isKnown = motion.run !== null && motion.run.kind !== 'unknown';
-  return playbackOf(board).advance(isKnown ? { ...motion, ranUntilMs: nowMs } : motion, nowMs, board);
+  const ran = isKnown ? { ...motion, ranUntilMs: nowMs } : motion;
+  return withPlannedCourses(playbackOf(board).advance(ran, nowMs, board));
+}
+
+/** What is left of a move is not sent while a group may move its servo, nor where its place is lost. */
+function withPlannedCourses(motion: Motion): Motion {
+  const isPlanned = (servo: number): boolean => {
+    const track = motion.tracks.get(servo);
+    return motion.run === null && track !== undefined && track.toLeeway < Infinity;
+  };
+  const planned = new Map([...motion.courses].filter(([servo]) => isPlanned(servo)));
+  return planned.size === motion.courses.size ? motion : { ...motion, courses: planned };
 }
 
 /** False where the board may be too busy to take up what it is sent, or takes it for the rest of a cut packet. */
@@ -99,7 +112,27 @@ export function afterCommand(motion: Motion, command: Command, atMs: number, boa
   const after = isHeard
     ? restless(current, afterHeard(current, command, atMs, board), atMs)
     : maybeSwallowed(afterUnheard(current, command, atMs, board), atMs);
-  return { ...after, readings: afterOrder(after.readings, command, isHeard) };
+  return {
+    ...after,
+    courses: coursesAfter(after.courses, command, atMs, board.family),
+    readings: afterOrder(after.readings, command, isHeard),
+  };
+}
+
+/**
+ * What is left of a move ends with a stop, a run, a release, and with a newer move of its servo. Where a move re-times servos that it does not
+ * name (S26), the rest of theirs comes as much later.
+ */
+function coursesAfter(courses: Courses, command: Command, atMs: number, family: Family): Courses {
+  if (courses.size === 0) return courses;
+  if (command.kind === 'stop' || command.kind === 'run' || command.kind === 'release') return new Map();
+  if (command.kind !== 'move') return courses;
+  const sent = new Map(command.targets.map(({ servo, position }) => [servo, position]));
+  const untilMs = carriesAll(family) ? atMs + boardDurationMs(command.durationMs, family) : -Infinity;
+  const left = [...courses].filter(([servo, { sentTo }]) => (sent.get(servo) ?? sentTo) === sentTo);
+  return new Map(
+    left.map(([servo, course]) => [servo, sent.has(servo) ? course : reTimed(course, untilMs)] as const),
+  );
 }
 
 /** What it completes then may move any servo to anywhere. */
@@ -225,7 +258,8 @@ function perhapsMoved(
 ): Motion {
   const { tickMs, talkMs, timing } = family.motion;
   const untilMs = motion.deafUntilMs + boardDurationMs(durationMs, family) + tickMs + talkMs;
-  const tracks = new Map(heldUp(motion.tracks, atMs, timing === 'shared' ? untilMs : motion.deafUntilMs));
+  const isShared = timing !== 'perServo';
+  const tracks = new Map(heldUp(motion.tracks, atMs, isShared ? untilMs : motion.deafUntilMs));
   for (const { servo, position } of targets) {
     const track = motion.tracks.get(servo);
     const isThere =
@@ -233,7 +267,7 @@ function perhapsMoved(
     if (!isThere) tracks.set(servo, torn(track ?? startingAt(position, atMs), untilMs));
   }
   const unrest = (restlessMs: number): number =>
-    timing === 'shared' && restlessMs > atMs ? Math.max(restlessMs, untilMs) : restlessMs;
+    isShared && restlessMs > atMs ? Math.max(restlessMs, untilMs) : restlessMs;
   return {
     ...motion,
     tracks,
@@ -302,17 +336,35 @@ export function farthestFrom(
 /** The last commanded position of a servo, or null. */
 export function targetOf(motion: Motion, servo: number): number | null {
   const track = motion.tracks.get(servo);
-  return track === undefined || track.toLeeway === Infinity ? null : track.to;
+  if (track === undefined || track.toLeeway === Infinity) return null;
+  const course = motion.courses.get(servo);
+  // Its part has left.
+  return course !== undefined && course.sentTo === track.to ? course.to : track.to;
 }
 
 /** The motion of the others alone. */
 export function withoutServos(motion: Motion, servos: readonly number[]): Motion {
-  return { ...motion, tracks: only(motion.tracks, (_, servo) => !servos.includes(servo)) };
+  const others = (courses: Courses): Courses =>
+    new Map([...courses].filter(([servo]) => !servos.includes(servo)));
+  return {
+    ...motion,
+    tracks: only(motion.tracks, (_, servo) => !servos.includes(servo)),
+    courses: others(motion.courses),
+  };
 }
 
-/** Milliseconds until the moves in progress end; 0 at rest. */
-export function remainingMs(motion: Motion, nowMs: number): number {
-  return lastEndMs(motion.tracks, nowMs) - nowMs;
+/** Milliseconds until the moves in progress end, with what is still to be sent of them; 0 at rest. */
+export function remainingMs({ tracks, courses }: Motion, nowMs: number): number {
+  return Math.max(lastEndMs(tracks, nowMs), ...[...courses.values()].map((course) => course.endMs)) - nowMs;
+}
+
+/** Milliseconds until the other servos have ended whose place is unknown on the way. */
+export function unknownRestMs(motion: Motion, but: readonly number[], nowMs: number): number {
+  const unknown = only(
+    motion.tracks,
+    (track, servo) => !but.includes(servo) && positionOf(track, nowMs) === null,
+  );
+  return lastEndMs(unknown, nowMs) - nowMs;
 }
 
 /** How long a move must take at least, so that no servo whose start is unknown snaps to its target. */
@@ -322,7 +374,7 @@ export function gentleMs(
   nowMs: number,
   { motion: { timing } }: Family,
 ): number {
-  const isShared = timing === 'shared';
+  const isShared = timing !== 'perServo';
   if (isShared && motion.run?.kind === 'unknown') return Infinity;
   const unknown = only(
     motion.tracks,

@@ -104,7 +104,10 @@ export function unrestBehind(
 ): Unrest {
   const { timing, tickMs, talkMs } = family.motion;
   const arrivedMs = atMs + boardDurationMs(requestedMs, family) + tickMs + talkMs;
-  const until = (untilMs: number): number => (timing !== 'shared' || untilMs <= atMs ? untilMs : arrivedMs);
+  const until = (untilMs: number): number => {
+    if (timing === 'perServo' || untilMs <= atMs) return untilMs;
+    return timing === 'shared' ? arrivedMs : Math.max(untilMs, arrivedMs);
+  };
   return { restlessUntilMs: until(restlessUntilMs), inheritedUntilMs: until(inheritedUntilMs) };
 }
 

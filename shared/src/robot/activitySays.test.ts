@@ -15,6 +15,7 @@ import timings from '../../protocol/timings.json' with { type: 'json' };
 import { KNOWN_SLOT, SERVOS, somePlainHistory, someStopHistory } from './historiesUnderTest.ts';
 import type { Rig } from './rig.ts';
 import { prepared, take } from './stopUnderTest.ts';
+import { createThrowWatch } from './throwsUnderTest.ts';
 
 const BOARDS: readonly ProfileName[] = [
   ...(['doc', 'openarm-old', 'openarm-new', 'lsc-6', 'bus-ctrl', 'xarm'] as const),
@@ -59,7 +60,8 @@ describe('while a page shows "Idle"', () => {
         fc.asyncProperty(someStopHistory(board), async (history) => {
           const rig = await prepared(board, history);
           const seen = watch(rig);
-          for (const step of history.steps) await take(rig, step);
+          const throws = createThrowWatch(rig.channel.board, rig.clock);
+          for (const step of history.steps) await take(rig, step, throws);
           await rig.clock.advance(REST_MS);
           rig.channel.board.powerOff();
           idleMs += seen.idleMs;

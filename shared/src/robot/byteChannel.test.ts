@@ -38,7 +38,8 @@ test('a move of more servos than a packet holds leaves as two, back to back', as
 test('STOP holds all of them, in two packets', async () => {
   const { session, clock, heard, channel } = await shortRig();
   session.move(allTo(2_000), 5_000);
-  await clock.advance(1_000);
+  // No part is on the wire then.
+  await clock.advance(700);
   const before = heard.length;
   const halted = session.halt();
   await clock.advance(1_500);

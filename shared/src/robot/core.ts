@@ -20,6 +20,8 @@ export interface Core {
   readonly servosPerMove: number;
   /** A move or a stop of ours is still to leave. */
   isUnsettled(): boolean;
+  /** Ends what moves, without the latch: resolves when its servos are held. */
+  endMotion(): Promise<void>;
 }
 
 export function setActivity({ store }: Core, activity: Activity): void {

@@ -23,7 +23,7 @@ import {
   BATTERY_TIMEOUT_MS,
 } from './timings.ts';
 
-export interface DriverOptions extends Pick<Core, 'clock' | 'store' | 'queue'> {
+export interface DriverOptions extends Pick<Core, 'clock' | 'store' | 'queue' | 'endMotion'> {
   readonly replies: Replies;
   readonly slotMemory: SlotMemory | undefined;
   /** What the link carries, in bytes. */
@@ -48,11 +48,11 @@ export interface Driver {
 }
 
 export function createDriver(family: Family, options: DriverOptions): Driver {
-  const { clock, store, queue, replies, slotMemory, longestPacket } = options;
+  const { clock, store, queue, endMotion, replies, slotMemory, longestPacket } = options;
   const estimate = createRobotEstimate(family, clock);
   const servosPerMove = Math.min(family.servosPerMove, servosIn(longestPacket));
   const core: Core = {
-    ...{ family, clock, store, estimate, queue, servosPerMove },
+    ...{ family, clock, store, estimate, queue, servosPerMove, endMotion },
     exchange: createExchange(family, clock, queue, replies),
     isUnsettled: () => moves.servos().length > 0 || groups.isStopping() || isMotion(queue.unfinished()),
   };
@@ -62,7 +62,7 @@ export function createDriver(family: Family, options: DriverOptions): Driver {
   const readBattery = createBatteryReader(core);
 
   function dropMoves(): boolean {
-    const wasWaiting = moves.servos().length > 0;
+    const wasWaiting = moves.servos().length > 0 || estimate.partDueMs() < Infinity;
     moves.clear();
     return player.drop() || wasWaiting;
   }

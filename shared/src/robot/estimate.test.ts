@@ -50,7 +50,8 @@ test("a servo that LeArm's group blurred is moved slowly, but not for as long as
   robot.stored(8, [frame, frame]);
   robot.applied({ kind: 'run', slot: 8, times: 200 });
   await clock.advance(3_000);
-  expect(robot.softened({ kind: 'move', ...frame, durationMs: 20 }).durationMs).toBe(1_500);
+  const order = { servo: 2, position: 2_000, durationMs: 20 };
+  expect(robot.takePart([order], 6)?.durationMs).toBe(1_500);
 });
 
 test('the end that is reported is that of the only group that can run, also where its run may have come late', async () => {

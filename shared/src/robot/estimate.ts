@@ -4,6 +4,8 @@
 import type { Clock } from '../clock.ts';
 import {
   takenOver,
+  type Goal,
+  headedFor,
   type MotionBefore,
   eitherOf,
   forgotten,
@@ -27,9 +29,12 @@ import {
   readingOf,
   remainingMs,
   targetOf,
+  unknownRestMs,
   withoutServos,
 } from '../motion/motion.ts';
-import type { Command, Frame, MoveCommand } from '../codec/commands.ts';
+import { carriesAll, intervalMs, nextPart, partDueMs, type ServoOrder } from '../motion/parts.ts';
+import { lastEndMs, only, stands } from '../motion/tracks.ts';
+import type { Command, Frame, MoveCommand, ServoTarget } from '../codec/commands.ts';
 import type { Family } from '../codec/families.ts';
 import { moveBytes, wireMs } from '../codec/packet.ts';
 import type { Report } from '../codec/reports.ts';
@@ -45,13 +50,22 @@ export interface RobotEstimate {
   motions(): Motions;
   /** Nothing has moved it, and the board has not said where it stands. */
   isUnknown(servo: number): boolean;
-  /** How long it takes at least because a servo of unknown place starts with it or is on its first way still; else 0. */
-  firstMs(move: MoveCommand): number;
+  /** How long a move of these takes at least because a servo of unknown place starts with it or is on its first way still; else 0. */
+  firstMs(servos: readonly number[]): number;
   /**
-   * The move with the time it needs at least: a first move 1.5 s, `swift` servos the soft limit's for their way from where they are
-   * when it arrives; and where the board re-times every servo (S26) the time that the others were given.
+   * The next packet: these orders, and the servos under way that have to go on with it (parts.ts); null where nothing has to leave now.
+   * An order of 0 ms is as fast as the soft limit lets it be, from where the servo is when the packet arrives. It counts as sent.
    */
-  softened(move: MoveCommand, swift?: readonly number[]): MoveCommand;
+  takePart(orders: readonly ServoOrder[], servosPerMove: number): MoveCommand | null;
+  /** When the next part has to begin to leave, without a new order; Infinity where none follows. */
+  partDueMs(): number;
+  /** What is left of the moves of these servos, or of all, is not sent. */
+  dropParts(servos?: readonly number[]): void;
+  /** A move of that time would make another servo under way faster: how long it takes at least, else 0. */
+  hastenedMs(move: MoveCommand): number;
+  groupMayRun(): boolean;
+  /** At most, as far as the moves go that are known; a group is another matter. */
+  movesForMs(): number;
   /** What a STOP pressed now holds and what not; `leaving` is on the wire and cannot be called back. */
   haltPlan(leaving: Command | null): HaltPlan;
   /** What holds the robot, as a move that begins to leave now, a gap behind a stop. */
@@ -81,6 +95,8 @@ export interface RobotEstimate {
   deafUntilMs(): number;
   /** The link was opened then: others may have set something in motion before. */
   opened(atMs: number): void;
+  /** Servos of a move that left just now go on to there, in parts that others send. */
+  headedFor(goals: readonly Goal[]): void;
   /** What others, who saw it move, know of it just now. */
   placed(before: MotionBefore): void;
 }
@@ -104,27 +120,59 @@ export function createRobotEstimate(family: Family, clock: Clock): RobotEstimate
     return targetOf(now(), servo) === null && positionAt(now(), servo, clock.now()) === null;
   }
 
-  function firstMs({ targets }: MoveCommand): number {
-    const servos = targets.map(({ servo }) => servo);
+  function firstMs(servos: readonly number[]): number {
     const gentle = servos.some(isUnknown) ? Infinity : gentleMs(now(), servos, clock.now(), family);
     return Math.min(FIRST_MOVE_MS, gentle);
   }
 
-  function softMs({ targets }: MoveCommand, swift: readonly number[]): number {
+  function softMs(swift: readonly ServoTarget[], arrivesMs: number): number {
     const motion = now();
-    const arrivesMs = clock.now() + wireMs(moveBytes(targets.length));
-    const ways = targets
-      .filter(({ servo }) => swift.includes(servo))
-      .map(({ servo, position }) => farthestFrom(motion, servo, position, arrivesMs, family));
+    const ways = swift.map(({ servo, position }) => farthestFrom(motion, servo, position, arrivesMs, family));
     const share = Math.max(0, ...ways) / (family.position.max - family.position.min);
     // Boards cut what is no whole tick.
     return Math.ceil((share * RANGE_MS) / family.motion.tickMs) * family.motion.tickMs;
   }
 
-  function othersMs({ targets }: MoveCommand): number {
-    if (family.motion.timing !== 'shared') return 0;
+  /** Those that are to go as fast as they may arrive together. */
+  function timed(orders: readonly ServoOrder[]): readonly ServoOrder[] {
+    const swift = orders.filter(({ durationMs }) => durationMs === 0);
+    if (swift.length === 0) return orders;
+    const swiftMs = Math.max(
+      intervalMs(orders.length, family),
+      softMs(swift, clock.now() + wireMs(moveBytes(orders.length))),
+    );
+    return orders.map((order) => (order.durationMs === 0 ? { ...order, durationMs: swiftMs } : order));
+  }
+
+  function takePart(orders: readonly ServoOrder[], servosPerMove: number): MoveCommand | null {
+    const motionNow = now();
+    const servos = orders.map(({ servo }) => servo);
+    const othersMs = carriesAll(family) ? unknownRestMs(motionNow, servos, clock.now()) : 0;
+    const leastMs = Math.max(firstMs(servos), othersMs);
+    const part = nextPart(motionNow, timed(orders), clock.now(), { family, servosPerMove, leastMs });
+    if (part === null) return null;
+    motion = { ...motionNow, courses: part.courses };
+    return part.move;
+  }
+
+  function dropParts(servos?: readonly number[]): void {
+    if (motion.courses.size === 0) return;
+    const others =
+      servos === undefined ? [] : [...motion.courses].filter(([servo]) => !servos.includes(servo));
+    motion = { ...motion, courses: new Map(others) };
+  }
+
+  function hastenedMs({ targets, durationMs }: MoveCommand): number {
+    if (!carriesAll(family)) return 0;
     const requested = targets.map(({ servo }) => servo);
-    return Math.ceil(remainingMs(withoutServos(now(), requested), clock.now()));
+    const others = withoutServos(now(), requested).tracks;
+    const restMs = Math.ceil(
+      lastEndMs(
+        only(others, (track) => !stands(track, clock.now())),
+        clock.now(),
+      ) - clock.now(),
+    );
+    return restMs > durationMs + family.motion.tickMs ? restMs : 0;
   }
 
   return {
@@ -148,10 +196,12 @@ export function createRobotEstimate(family: Family, clock: Clock): RobotEstimate
     },
     isUnknown,
     firstMs,
-    softened(move, swift = []) {
-      const needsMs = Math.max(firstMs(move), softMs(move, swift), othersMs(move));
-      return move.durationMs >= needsMs ? move : { ...move, durationMs: needsMs };
-    },
+    takePart,
+    partDueMs: () => partDueMs(now(), clock.now()),
+    dropParts,
+    hastenedMs,
+    groupMayRun: () => now().run !== null,
+    movesForMs: () => remainingMs(now(), clock.now()),
     haltPlan(leaving) {
       const begun = leaving === null ? now() : afterCommand(now(), leaving, clock.now(), board);
       return haltPlan(begun, clock.now(), board);
@@ -189,6 +239,7 @@ export function createRobotEstimate(family: Family, clock: Clock): RobotEstimate
     maySwallow: () => motion.maySwallow > 0,
     deafUntilMs: () => motion.deafUntilMs,
     opened: (atMs) => (motion = inherited(now(), atMs)),
+    headedFor: (goals) => (motion = headedFor(now(), goals, clock.now())),
     placed: (before) => (motion = takenOver(now(), before, clock.now(), family)),
   };
 }

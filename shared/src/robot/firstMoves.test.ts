@@ -72,14 +72,14 @@ describe('servos of unknown position', () => {
   });
 
   test('do not slow down a known one where the board times each servo by itself', async () => {
-    const rig = await createRig({ family: family('lsc-6'), profile: 'lsc-6' });
-    rig.session.move([{ servo: 1, position: 1_600 }], 0);
+    const rig = await createRig({ family: family('bus-ctrl'), profile: 'bus-ctrl' });
+    rig.session.move([{ servo: 1, position: 600 }], 0);
     await rig.clock.advance(2_000);
-    rig.session.move(pose(1_800).slice(1), 5_000);
+    rig.session.move(pose(800).slice(1), 5_000);
     await rig.clock.advance(50);
-    rig.session.move([{ servo: 1, position: 1_650 }], 0);
+    rig.session.move([{ servo: 1, position: 625 }], 0);
     await rig.clock.advance(50);
-    expect(rig.ofKind('move').at(-1)).toMatchObject({ targets: [{ servo: 1, position: 1_650 }] });
+    expect(rig.ofKind('move').at(-1)).toMatchObject({ targets: [{ servo: 1, position: 625 }] });
     expect(rig.ofKind('move').at(-1)?.durationMs).toBeLessThan(50);
   });
 

@@ -240,8 +240,10 @@ describe('run', () => {
     await rig.clock.advance(300);
     expect(rig.heard.slice(before).map(({ command }) => command.kind)).toEqual([
       'stop',
+      'move',
       'stop',
       'stop',
+      'move',
       'run',
     ]);
     expect(rig.channel.board.runningSlot()).toBe(6);

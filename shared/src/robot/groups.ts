@@ -54,14 +54,15 @@ export function createGroups(core: Core, slotMemory: SlotMemory | undefined): Gr
     requireRunnable(store.state, slot, times);
     requests += 1;
     const mine = requests;
-    if (stopping !== null || store.state.activity.kind === 'running') {
-      // One that left between the repeats of a stop would be ended by the last one.
-      await (stopping ?? end());
-      // STOP may have been pressed meanwhile.
-      requireReleased(store.state);
-      if (mine !== requests)
-        throw new LinkError('cancelled', 'another group or a stop was requested meanwhile');
-    }
+    // One that left between the repeats of a stop would be ended by the last one.
+    if (stopping !== null) await stopping;
+    // The frames of the group would make what is under way faster (S26).
+    const mayMove = (): boolean => estimate.movesForMs() > 0 || core.isUnsettled();
+    if (store.state.activity.kind === 'running' || mayMove()) await core.endMotion();
+    // STOP may have been pressed meanwhile.
+    requireReleased(store.state);
+    if (mine !== requests)
+      throw new LinkError('cancelled', 'another group or a stop was requested meanwhile');
     running.began(slot, times, 'requested');
     try {
       await begin({ kind: 'run', slot, times });

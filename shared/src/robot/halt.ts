@@ -18,6 +18,8 @@ import { COMMAND_NUMBER } from '../codec/commands.ts';
 
 export interface Halt {
   halt(why?: HaltReason): Promise<void>;
+  /** The same packets without the latch: a group shall begin where something moves. */
+  endMotion(): Promise<void>;
   resume(): Promise<void>;
   /** The link went: a person must look before anything moves again. */
   latchedByLoss(): void;
@@ -135,6 +137,10 @@ export function createHalt(options: HaltOptions): Halt {
       latch.set({ reason: why, by: null, stop: 'sending', unheld });
       latch.press();
       await latch.follow(sendOrJoin());
+    },
+    async endMotion() {
+      dropAll(new LinkError('cancelled', 'the robot was asked for something else'));
+      await sendOrJoin();
     },
     resume: () => latch.release(),
     stopAfterReturn() {

@@ -37,9 +37,20 @@ type Request =
       readonly count: number;
       readonly kind: keyof typeof DRAWN;
     }
-  | { readonly start: string; readonly history: StopHistory; readonly faults?: readonly Fault[] }
+  | {
+      readonly start: string;
+      readonly history: StopHistory;
+      readonly faults?: readonly Fault[];
+      readonly sampled?: Sampling;
+    }
   /** Until then, or until it says something. */
   | { readonly untilMs: number; readonly happened: readonly Happening[] };
+
+/** The pulses of these servos are reported as they are at each whole multiple of that time. */
+interface Sampling {
+  readonly servos: readonly number[];
+  readonly everyMs: number;
+}
 
 interface SteppedClock extends Clock {
   /** Fires what is due until then; earlier where `isEnough` says so. */
@@ -72,6 +83,8 @@ function createSteppedClock(): SteppedClock {
   };
 }
 
+const NOT_SAMPLED: Sampling = { servos: [], everyMs: Infinity };
+
 interface Bench {
   readonly clock: SteppedClock;
   readonly board: Board;
@@ -79,6 +92,10 @@ interface Bench {
   /** As they were looked at last, and when each changed last. */
   pulses: readonly number[];
   readonly movedMs: number[];
+  readonly sampled: Sampling;
+  nextSampleMs: number;
+  /** Since the last answer, oldest first. */
+  samples: readonly (readonly number[])[];
   readonly history: StopHistory;
   readonly throws: ThrowWatch;
   readonly commands: Command[];
@@ -86,7 +103,12 @@ interface Bench {
   met: readonly Situation[];
 }
 
-function createBench(profile: ProfileName, history: StopHistory, some: readonly Fault[]): Bench {
+function createBench(
+  profile: ProfileName,
+  history: StopHistory,
+  some: readonly Fault[],
+  sampled: Sampling,
+): Bench {
   const { onForMs, hasPad, isSlow, unknown } = history;
   const flash = foreignFlash(profile, unknown);
   const faults = [...(isSlow ? SLOW_FLASH : []), ...some];
@@ -99,6 +121,9 @@ function createBench(profile: ProfileName, history: StopHistory, some: readonly 
     said: '',
     pulses: look(board),
     movedMs: SERVOS.map(() => 0),
+    sampled,
+    nextSampleMs: sampled.everyMs,
+    samples: [],
     history,
     throws: createThrowWatch(board, clock),
     commands: [],
@@ -112,6 +137,17 @@ function look(board: Board): readonly number[] {
 }
 
 function advance(bench: Bench, untilMs: number): void {
+  const { board, sampled } = bench;
+  while (bench.said === '' && bench.nextSampleMs <= untilMs) {
+    run(bench, bench.nextSampleMs);
+    if (bench.clock.now() < bench.nextSampleMs) return;
+    bench.samples = [...bench.samples, sampled.servos.map(board.pulse)];
+    bench.nextSampleMs += sampled.everyMs;
+  }
+  run(bench, untilMs);
+}
+
+function run(bench: Bench, untilMs: number): void {
   bench.clock.advanceTo(untilMs, () => {
     const pulses = look(bench.board);
     pulses.forEach((pulse, index) => {
@@ -159,7 +195,8 @@ function answer(request: Request): unknown {
   }
   if ('start' in request) {
     bench?.board.powerOff();
-    bench = createBench(profileName(request.start), request.history, request.faults ?? []);
+    const { start, history, faults = [], sampled = NOT_SAMPLED } = request;
+    bench = createBench(profileName(start), history, faults, sampled);
     return {};
   }
   if (bench === null) throw new RangeError('no board was started');
@@ -170,10 +207,11 @@ function answer(request: Request): unknown {
     happen(bench, what);
   }
   advance(bench, request.untilMs);
-  const { clock, board, said, movedMs, met } = bench;
+  const { clock, board, said, movedMs, met, samples } = bench;
   bench.said = '';
+  bench.samples = [];
   const isRunning = board.runningSlot() !== null;
-  return { atMs: clock.now(), said, isRunning, movedMs, thrownBy: bench.throws.thrownBy(), met };
+  return { atMs: clock.now(), said, isRunning, movedMs, thrownBy: bench.throws.thrownBy(), met, samples };
 }
 
 function profileName(text: string): ProfileName {

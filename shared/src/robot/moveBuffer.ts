@@ -2,16 +2,16 @@
 // after another. What is taken out is one move that the family can take in one packet. Knows no link.
 
 import type { Clock } from '../clock.ts';
-import type { MoveCommand, ServoTarget } from '../codec/commands.ts';
-import type { Family } from '../codec/families.ts';
-import { moveBytes, wireMs } from '../codec/packet.ts';
+import type { ServoTarget } from '../codec/commands.ts';
+import type { ServoOrder } from '../motion/parts.ts';
 import type { Core } from './core.ts';
+import { LinkError } from './linkError.ts';
 import { encodeOrRefuse, refuseUnfit, requireReleased } from './rules.ts';
 import { FIRST_MOVE_STAGGER_MS } from './timings.ts';
 
 export interface Moves {
   put(targets: readonly ServoTarget[], durationMs: number): void;
-  /** The newest move, or null when there is nothing to say. */
+  /** The newest move, or the next part of those under way; null when there is nothing to say. */
   take(): Uint8Array | null;
   /** Servos with a value that is still to leave, in the order they were first moved. */
   servos(): readonly number[];
@@ -23,7 +23,8 @@ export interface Moves {
 }
 
 export function createMoves({ family, clock, store, estimate, queue, servosPerMove }: Core): Moves {
-  const buffer = createMoveBuffer(family, servosPerMove);
+  const buffer = createMoveBuffer();
+  let cancelTimer = (): void => undefined;
   const firstMoves = createFirstMoves({
     ...{ clock, isUnknown: estimate.isUnknown, due: queue.wake, waiting: showWaiting },
   });
@@ -32,33 +33,45 @@ export function createMoves({ family, clock, store, estimate, queue, servosPerMo
     if (waitingToStart.join() !== store.state.waitingToStart.join()) store.update({ waitingToStart });
   }
 
+  /** Wakes the queue when the next part is due. */
+  function planPart(): void {
+    cancelTimer();
+    const dueMs = estimate.partDueMs();
+    if (dueMs < Infinity) cancelTimer = clock.after(Math.max(0, dueMs - clock.now()), queue.wake);
+  }
+
+  function clear(): void {
+    buffer.clear();
+    estimate.dropParts();
+    cancelTimer();
+    showWaiting([]);
+  }
+
   return {
     put(targets, durationMs) {
       requireReleased(store.state);
+      // A frame that nobody knows would make the servo faster, and the servo what that frame moves.
+      if (estimate.groupMayRun()) throw new LinkError('busy', 'a group may run: end it first');
       for (const target of targets) refuseUnfit({ kind: 'move', targets: [target], durationMs }, family);
       buffer.put(targets, durationMs);
       queue.wake();
     },
     take() {
-      const servos = firstMoves.next(buffer.servos());
-      if (servos.length === 0) return null;
-      const { move, swift } = buffer.take(servos);
-      return encodeOrRefuse(estimate.softened(move, swift), family);
+      // One began at the board while these waited.
+      if (estimate.groupMayRun()) clear();
+      const servos = firstMoves.next(buffer.servos()).slice(0, servosPerMove);
+      const move = estimate.takePart(buffer.take(servos), servosPerMove);
+      planPart();
+      return move && encodeOrRefuse(move, family);
     },
     servos: buffer.servos,
     startsWithinMs: (servos) => firstMoves.startsWithinMs([...new Set([...buffer.servos(), ...servos])]),
-    clear() {
-      buffer.clear();
-      showWaiting([]);
+    clear,
+    drop(servos) {
+      buffer.drop(servos);
+      estimate.dropParts(servos);
     },
-    drop: buffer.drop,
   };
-}
-
-interface NewestMove {
-  readonly move: MoveCommand;
-  /** Servos whose value named no time: they go as fast as the soft limit and the link allow. */
-  readonly swift: readonly number[];
 }
 
 interface MoveBuffer {
@@ -68,37 +81,26 @@ interface MoveBuffer {
   servos(): readonly number[];
   clear(): void;
   drop(servos: readonly number[]): void;
-  /** As many values of these servos as one packet takes, in the longest duration of any of them. */
-  take(servos: readonly number[]): NewestMove;
+  /** The values of these servos. */
+  take(servos: readonly number[]): readonly ServoOrder[];
 }
 
-function createMoveBuffer(family: Family, servosPerMove: number): MoveBuffer {
-  const newest = new Map<number, { readonly position: number; readonly durationMs: number }>();
+function createMoveBuffer(): MoveBuffer {
+  const newest = new Map<number, ServoOrder>();
 
   return {
     put(targets, durationMs) {
-      for (const { servo, position } of targets) newest.set(servo, { position, durationMs });
+      for (const target of targets) newest.set(target.servo, { ...target, durationMs });
     },
     servos: () => [...newest.keys()],
     take(servos) {
-      const taken = [...newest]
-        .filter(([servo]) => servos.includes(servo))
-        .slice(0, servosPerMove)
-        .map(([servo, value]) => ({ servo, ...value }));
+      const taken = [...newest.values()].filter(({ servo }) => servos.includes(servo));
       for (const { servo } of taken) newest.delete(servo);
-      const targets = taken.map(({ servo, position }) => ({ servo, position }));
-      const durationMs = Math.max(intervalMs(targets, family), ...taken.map((value) => value.durationMs));
-      const swift = taken.filter((value) => value.durationMs === 0).map(({ servo }) => servo);
-      return { move: { kind: 'move', targets, durationMs }, swift };
+      return taken;
     },
     clear: () => newest.clear(),
     drop: (servos) => servos.forEach((servo) => newest.delete(servo)),
   };
-}
-
-/** Time until the next packet of this size can take effect: shorter moves would make the servo stop and go. */
-function intervalMs(targets: readonly ServoTarget[], family: Family): number {
-  return Math.max(family.shortestMoveMs, Math.ceil(wireMs(moveBytes(targets.length)) + family.serviceGapMs));
 }
 
 interface FirstMoveOptions {

@@ -29,7 +29,7 @@ export interface RawOperations {
 export async function sendRaw(
   bytes: Uint8Array,
   state: SessionState,
-  estimate: Pick<RobotEstimate, 'isUnknown' | 'firstMs'>,
+  estimate: Pick<RobotEstimate, 'isUnknown' | 'firstMs' | 'hastenedMs' | 'groupMayRun'>,
   operations: RawOperations,
 ): Promise<void> {
   await send();
@@ -67,9 +67,15 @@ export async function sendRaw(
     const unknown = move.targets.map(({ servo }) => servo).filter(estimate.isUnknown);
     if (unknown.length > 1)
       throw new LinkError('outOfRange', `servos ${unknown.join(', ')} make their first moves one by one`);
-    const needsMs = estimate.firstMs(move);
-    if (needsMs <= move.durationMs) return;
-    const reason = `the first move of a servo takes ${FIRST_MOVE_MS} ms, this one at least ${needsMs}`;
+    if (estimate.groupMayRun()) throw new LinkError('busy', 'a group may run: end it first');
+    const needsMs = estimate.firstMs(move.targets.map(({ servo }) => servo));
+    if (needsMs > move.durationMs) {
+      const reason = `the first move of a servo takes ${FIRST_MOVE_MS} ms, this one at least ${needsMs}`;
+      throw new LinkError('outOfRange', reason);
+    }
+    const hastenedMs = estimate.hastenedMs(move);
+    if (hastenedMs === 0) return;
+    const reason = `another servo is under way for ${hastenedMs} ms more and would get there as fast as this move`;
     throw new LinkError('outOfRange', reason);
   }
 }

@@ -30,7 +30,12 @@ export interface Robot {
   letRun(forMs: number | null): void;
   /** Moves of this servo may pass the limits that the gateway holds; null ends it, and so does the end of the link. */
   calibrate(servo: number | null): void;
-  /** Newest wins per servo. Positions in the family's unit; `durationMs` 0 is as fast as the link allows. */
+  /** What is left of moves was judged by other limits and is not sent. A gateway judges by itself. */
+  limitsChanged(): void;
+  /**
+   * Newest wins per servo. Positions in the family's unit; `durationMs` 0 is as fast as the link allows. Refused while a group may run.
+   * A longer move leaves in parts (ADR 58).
+   */
   move(targets: readonly ServoTarget[], durationMs: number): void;
   /** `times` 0 repeats until stopped. A group that runs already is stopped first (S45, S46). */
   run(slot: number, times: number): Promise<void>;

@@ -4,11 +4,14 @@ wire and the reports of the board, and the groups it stored itself. Twin of shar
 Pure: time comes in, in seconds. Knows commands and reports; no wire, no client.
 """
 
+import math
 from collections.abc import Collection, Sequence
+from dataclasses import replace
 from math import inf
+from typing import Any
 
 from servodeck.protocol.families import Family
-from servodeck.protocol.timings import ESTIMATE, RUN
+from servodeck.protocol.timings import ESTIMATE, MOVE, RUN, wire_ms
 from servodeck.protocol.values import (
     AllPositions,
     Command,
@@ -25,7 +28,6 @@ from servodeck.protocol.values import (
     RunFinished,
     RunStarted,
     RunStopped,
-    ServoTarget,
     SetSpeed,
     Stop,
 )
@@ -44,7 +46,7 @@ from servodeck.robot.motion.model import (
     position_at,
     remaining_ms,
     target_of,
-    without_servos,
+    unknown_rest_ms,
 )
 from servodeck.robot.motion.motion import (
     advance,
@@ -54,7 +56,17 @@ from servodeck.robot.motion.motion import (
     hears,
     latest_end_ms,
 )
+from servodeck.robot.motion.parts import (
+    ServoOrder,
+    carries_all,
+    interval_ms,
+    is_unfinished,
+    move_bytes,
+    next_part,
+    part_due_ms,
+)
 from servodeck.robot.motion.reports import after_cut, after_end, after_report, reports_end
+from servodeck.robot.motion.tracks import last_end_ms, only, stands
 from servodeck.snapshots import MotionState, ReportedPosition, ServoWay
 
 # Longer than the board takes to report the start or end of a run: neither shall be taken for the next one's.
@@ -249,15 +261,63 @@ class Estimate:
         """The time left of first moves that a move of those servos would make faster or slower."""
         return gentle_ms(self._motion, servos, self._advance(now), self.family)
 
-    def others_ms(self, servos: Collection[int], now: float) -> float:
-        """The time left of moves of other servos than `servos`."""
+    def take_part(
+        self, orders: Sequence[ServoOrder], servos_per_move: int, least_ms: float, now: float
+    ) -> Move | None:
+        """The next packet: these orders, and the servos under way that have to go on with it (parts.py); None
+        where nothing has to leave now. An order of 0 ms is as fast as the soft limit lets it be, from where
+        the servo is when the packet arrives. It counts as sent. `least_ms`: of a first move.
+        """
         now_ms = self._advance(now)
-        return remaining_ms(without_servos(self._motion, servos), now_ms)
+        servos = {order.servo for order in orders}
+        if carries_all(self.family):
+            least_ms = max(least_ms, unknown_rest_ms(self._motion, servos, now_ms))
+        part = next_part(
+            self._motion, self._timed(orders, now_ms), now_ms, self.family, servos_per_move, least_ms
+        )
+        if part is None:
+            return None
+        self._motion = replace(self._motion, courses=part.courses)
+        return part.move
 
-    def farthest_from(self, target: ServoTarget, now: float, at_s: float) -> float:
-        """The largest possible distance of the servo from `target` at that time, in board units."""
-        self._advance(now)
-        return farthest_from(self._motion, target.servo, target.position, at_s * 1000, self.family)
+    def _timed(self, orders: Sequence[ServoOrder], now_ms: float) -> Sequence[ServoOrder]:
+        """Those that are to go as fast as they may arrive together."""
+        arrives_ms = now_ms + wire_ms(move_bytes(len(orders)))
+        ways = [
+            farthest_from(self._motion, order.servo, order.position, arrives_ms, self.family)
+            for order in orders
+            if order.duration_ms == 0
+        ]
+        swift_ms = max(soft_ms(max(ways, default=0), self.family), interval_ms(len(orders), self.family))
+        return [replace(order, duration_ms=swift_ms) if order.duration_ms == 0 else order for order in orders]
+
+    def part_due_s(self, now: float) -> float:
+        """When the next part has to begin to leave, without a new order; infinite where none follows."""
+        return part_due_ms(self._motion, self._advance(now)) / 1000
+
+    @property
+    def unfinished(self) -> Sequence[int]:
+        """The servos that still have to be sent on."""
+        return [servo for servo, course in self._motion.courses.items() if is_unfinished(course)]
+
+    def drop_parts(self, servos: Collection[int]) -> None:
+        """What is left of the moves of these servos is not sent."""
+        courses = {servo: each for servo, each in self._motion.courses.items() if servo not in servos}
+        self._motion = replace(self._motion, courses=courses)
+
+    def hastened_ms(self, move: Move, now: float) -> int:
+        """A move of that time would make another servo under way faster: how long it takes at least, else
+        0.
+        """
+        now_ms = self._advance(now)
+        if not carries_all(self.family):
+            return 0
+        moved = {target.servo for target in move.targets}
+        others = only(
+            self._motion.tracks, lambda track, servo: servo not in moved and not stands(track, now_ms)
+        )
+        rest_ms = math.ceil(last_end_ms(others, now_ms) - now_ms)
+        return rest_ms if rest_ms > move.duration_ms + self.family.motion.tick_ms else 0
 
     def halt_plan(self, now: float) -> HaltPlan:
         """The plan of a STOP pressed now: its hold, and the unheld motion."""
@@ -294,11 +354,18 @@ class Estimate:
                 target=round(track.to),
                 begun_ms_ago=round(now * 1000 - track.start_ms, 1),
                 duration_ms=round(track.duration_ms, 1),
+                **self._goal_of(servo, now),
             )
             for servo, track in self._motion.tracks.items()
             if track.to_leeway < inf
         ]
         return MotionState(servos=ways, run_slot=None, released=released, reported=reported)
+
+    def _goal_of(self, servo: int, now: float) -> dict[str, Any]:
+        course = self._motion.courses.get(servo)
+        if course is None or not is_unfinished(course):
+            return {}
+        return {"goal": round(course.to), "goal_within_ms": round(course.end_ms - now * 1000, 1)}
 
     def _forget(self, at_ms: float) -> None:
         self._memory.forget_speeds()
@@ -356,3 +423,10 @@ class Estimate:
             self._motion = after_cut(self._motion, at_ms, self)
         self._over_ms = end_ms if is_in_doubt else -inf
         self._advance(at_ms / 1000)
+
+
+def soft_ms(way: float, family: Family) -> int:
+    """The soft limit: so long a servo takes at least for that way, in board units."""
+    share = way / (family.position.max - family.position.min)
+    # Boards cut what is no whole tick.
+    return math.ceil(share * MOVE.range_ms / family.motion.tick_ms) * family.motion.tick_ms

@@ -1,12 +1,12 @@
 """Moves that wait for the wire: the newest value of each servo, merged, as many in a packet as it takes, made
-when the wire is free. Servos of unknown place start slowly and one after another (safety.md section 2).
+when the wire is free; and the next parts of those that are under way (parts.py). Servos of unknown place
+start slowly and one after another (safety.md section 2).
 
-Knows targets, time and the wire. The caller judges who may move a servo, at the request and again when the
-packet leaves. Twin of shared/src/robot/moveBuffer.ts, and of `softened` in shared/src/robot/estimate.ts.
+Knows targets, time and the wire. The caller judges who may move a servo, at the request and again when each
+packet leaves. Twin of shared/src/robot/moveBuffer.ts.
 """
 
 import asyncio
-import math
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, field
 from math import inf
@@ -19,9 +19,9 @@ from servodeck.port.wire import CLOCK_GRAIN_S, Left, Owner, fail, settle
 from servodeck.protocol import timings
 from servodeck.protocol.families import Family
 from servodeck.protocol.packets import MOVE, CommandPacket, encoded
-from servodeck.protocol.timings import wire_s
-from servodeck.protocol.values import Move, ServoTarget
+from servodeck.protocol.values import ServoTarget
 from servodeck.robot.board.estimate import Estimate
+from servodeck.robot.motion.parts import ServoOrder
 from servodeck.value import value
 
 FIRST_MOVE_MS = timings.MOVE.first_ms
@@ -39,9 +39,9 @@ class MovedBoard(Protocol):
 
 @dataclass(eq=False, slots=True)
 class MoveRequest:
-    """One request. `judge` raises what keeps that target from leaving now; `starts`: it is the servo's first
-    move, for which it may have waited. `left` resolves when each value has left or a newer one has taken its
-    place.
+    """One request. `judge` raises what keeps that target from leaving now; its second argument: it was begun
+    before or may have waited, a later part or the servo's first move. `left` resolves when each value has
+    begun to leave or a newer one has taken its place.
     """
 
     owner: Owner
@@ -71,16 +71,19 @@ class MoveBuffer:
         self._now = now
         self._changed = changed
         self._wishes: dict[int, Wish] = {}
+        self._going: dict[int, Wish] = {}
+        """By servo: the request that moved it last, whose rest may leave in later parts."""
         self._queued: Left | None = None
         self._round = 0
         self._next_start_s = -inf
         self._timer: asyncio.TimerHandle | None = None
+        self._part_timer: asyncio.TimerHandle | None = None
         self.waiting_to_start: list[int] = []
         """Servos that start from an unknown position, in the order of their starts."""
 
     @property
     def is_empty(self) -> bool:
-        return not self._wishes
+        return not self._wishes and not self._board.motion.unfinished
 
     def is_waiting(self, request: MoveRequest) -> bool:
         """Something of it has not begun to leave."""
@@ -111,7 +114,10 @@ class MoveBuffer:
         return self._round
 
     def overtaken(self, servos: Collection[int], by_round: int) -> None:
-        """Drops the targets of those servos from before that round."""
+        """Drops the targets of those servos from before that round, and what is left of their moves."""
+        self._board.motion.drop_parts(servos)
+        for servo in servos:
+            self._going.pop(servo, None)
         for servo in servos:
             wish = self._wishes.get(servo)
             if wish and wish.round < by_round:
@@ -120,20 +126,28 @@ class MoveBuffer:
         self._plan_starts()
 
     def drop(self, reason: GatewayError, owner: Owner = None) -> None:
-        """Drops the moves of `owner`, or all."""
+        """Drops the moves of `owner`, or all, and what is left of those under way."""
+        motion = self._board.motion
+        others = {servo for servo, wish in self._going.items() if owner not in (None, wish.request.owner)}
+        motion.drop_parts([servo for servo in motion.unfinished if servo not in others])
+        self._plan_part()
         for servo, wish in list(self._wishes.items()):
             if owner is None or wish.request.owner is owner:
                 self._refuse(servo, reason)
         self._plan_starts()
 
     def _queue_up(self) -> None:
-        if (self._queued and not self._queued.done()) or not self._next_servos():
+        if (self._queued and not self._queued.done()) or not (self._next_servos() or self._part_is_due()):
             return
         taken: list[Wish] = []
         this_round = self._round
         left = self._board.link.wire().send_made(MOVE, lambda: self._make(taken, this_round), self)
-        left.add_done_callback(lambda left: settle_all(taken, left))
+        left.add_done_callback(lambda left: self._left(taken, left))
         self._queued = left
+
+    def _left(self, taken: Sequence[Wish], left: Left) -> None:
+        settle_all(taken, left)
+        self._plan_part()  # as many servos as are under way now make its packet
 
     def _make(self, taken: list[Wish], this_round: int) -> CommandPacket | None:
         """The next move; the wire is free for it."""
@@ -145,18 +159,48 @@ class MoveBuffer:
             is_due = self._wishes[servo].round <= this_round and len(taken) < family.servos_per_move
             if is_due and self._may_leave(servo, starts=starts):
                 taken.append(self._wishes.pop(servo))
-        if not taken:
-            self._plan_starts()
-            return None
-        if starts:
+        if starts and taken:
             self._next_start_s = now + FIRST_MOVE_STAGGER_S
-        targets = [wish.target for wish in taken]
-        swift = {wish.target.servo for wish in taken if wish.duration_ms == 0}
-        duration_ms = max(wish.duration_ms for wish in taken)
-        packet = encoded(softened(targets, duration_ms, swift, family, motion, now), family)
+        self._judge_parts(but={wish.target.servo for wish in taken})
+        servos = [wish.target.servo for wish in taken]
+        orders = [ServoOrder(wish.target.servo, wish.target.position, wish.duration_ms) for wish in taken]
+        move = motion.take_part(orders, family.servos_per_move, first_ms(servos, motion, now), now)
+        self._going |= {wish.target.servo: wish for wish in taken}
         self._plan_starts()
+        self._plan_part()
         self._queue_up()
-        return packet
+        return encoded(move, family) if move else None
+
+    def _judge_parts(self, but: Collection[int]) -> None:
+        """What its request may not move any more stands at the end of its part."""
+        for servo in [servo for servo in self._board.motion.unfinished if servo not in but]:
+            wish = self._going.get(servo)
+            try:
+                if wish:
+                    wish.request.judge(wish.target, True)
+            except GatewayError:
+                self._board.motion.drop_parts([servo])
+
+    def _part_is_due(self) -> bool:
+        now = self._now()
+        return self._board.motion.part_due_s(now) <= now + CLOCK_GRAIN_S
+
+    def _plan_part(self) -> None:
+        """Sets a timer for the next part."""
+        if self._part_timer:
+            self._part_timer.cancel()
+            self._part_timer = None
+        now = self._now()
+        due_s = self._board.motion.part_due_s(now)
+        if due_s < inf:
+            delay_s = max(SHORTEST_WAIT_S, due_s - now)
+            self._part_timer = asyncio.get_running_loop().call_later(delay_s, self._part_comes_due)
+
+    def _part_comes_due(self) -> None:
+        self._part_timer = None
+        self._queue_up()
+        if self._queued is None:  # a timer may fire a little early
+            self._plan_part()
 
     def _next_servos(self) -> list[int]:
         """The servos that may leave now: one that starts, else all whose position is known."""
@@ -214,31 +258,6 @@ def settle_all(taken: Sequence[Wish], left: Left) -> None:
             wish.request.done(wish.target.servo)
 
 
-def softened(
-    targets: Sequence[ServoTarget],
-    duration_ms: int,
-    swift: Collection[int],
-    family: Family,
-    motion: Estimate,
-    now: float,
-) -> Move:
-    """The move with the time that it needs at least: a first move 1.5 s, `swift` servos the soft limit's for
-    their way from where they are when it arrives; and where the board re-times every servo (S26) the time
-    that the others were given.
-    """
-    servos = [target.servo for target in targets]
-    arrives_s = now + wire_s(move_bytes(len(targets)))
-    ways = [motion.farthest_from(target, now, arrives_s) for target in targets if target.servo in swift]
-    needs_ms = max(
-        float(duration_ms),
-        interval_ms(len(targets), family),
-        first_ms(servos, motion, now),
-        soft_ms(max(ways, default=0), family),
-        motion.others_ms(servos, now) if family.motion.timing == "shared" else 0,
-    )
-    return Move(min(math.ceil(needs_ms), family.duration_ms.max), tuple(targets))
-
-
 def first_ms(servos: Collection[int], motion: Estimate, now: float) -> float:
     """The least duration of a move of these servos, in ms, where one of them starts from an unknown position
     or is still in its first move; else 0.
@@ -247,20 +266,3 @@ def first_ms(servos: Collection[int], motion: Estimate, now: float) -> float:
     if any(motion.is_unknown(servo, now) for servo in servos):
         return FIRST_MOVE_MS
     return min(FIRST_MOVE_MS, motion.first_moves_ms(servos, now))
-
-
-def soft_ms(way: float, family: Family) -> float:
-    share = way / (family.position.max - family.position.min)
-    # Boards cut what is no whole tick.
-    return math.ceil(share * timings.MOVE.range_ms / family.motion.tick_ms) * family.motion.tick_ms
-
-
-def interval_ms(servo_count: int, family: Family) -> int:
-    """Until the next packet of this size can take effect: shorter moves would make the servo stop and go."""
-    return max(
-        family.shortest_move_ms, math.ceil(wire_s(move_bytes(servo_count)) * 1000 + family.service_gap_ms)
-    )
-
-
-def move_bytes(servo_count: int) -> int:
-    return 7 + 3 * servo_count

@@ -112,12 +112,13 @@ class Playing:
         self._begin_next()
 
     def end(self, error: GatewayError | None) -> None:
-        """Nothing of it leaves any more."""
+        """No frame begins any more. With `error` nothing of it leaves, else the last frame does."""
         self._is_stopped = True
         if self._timer:
             self._timer.cancel()
         self._request = None
-        self._moves.drop(CancelledError("The group that this frame belongs to has ended."), self)
+        if error:
+            self._moves.drop(CancelledError("The group that this frame belongs to has ended."), self)
         reason = {} if error is None else {"code": error.code, "detail": error.detail}
         self._update(status="ended" if error else "done", **reason)
 

@@ -169,7 +169,7 @@ def hold_ms(motion: Motion, held: list[Held], at_ms: float, family: Family) -> i
     needs_ms = max(
         family.shortest_move_ms,
         MOVE.first_ms * way / way_range,
-        unknown_ms(motion, at_ms, family.motion.tick_ms) if family.motion.timing == "shared" else 0,
+        0 if family.motion.timing == "perServo" else unknown_ms(motion, at_ms, family.motion.tick_ms),
     )
     return math.ceil(needs_ms / family.motion.tick_ms) * family.motion.tick_ms
 

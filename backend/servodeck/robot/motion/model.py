@@ -128,8 +128,28 @@ AnyRun = UnknownRun | DeadlineRun | PolledRun
 
 
 @value
+class Course:
+    """The way that was asked of a servo, linear from `start` (None where it is unknown) at `start_ms` to `to`
+    at `end_ms`. The board has been told until `sent_until_ms`, which is its place `sent_to`; the rest leaves
+    in later parts (parts.py).
+    """
+
+    start: float | None
+    to: float
+    start_ms: float
+    end_ms: float
+    sent_until_ms: float
+    sent_to: int
+
+
+Courses = Mapping[int, Course]
+
+
+@value
 class Motion:
     tracks: Tracks = field(default_factory=dict)
+    courses: Courses = field(default_factory=dict)
+    """Of servos that our orders move, or moved last."""
     readings: Readings = field(default_factory=dict)
     """Of servos without a track."""
     run: AnyRun | None = None
@@ -277,22 +297,37 @@ def farthest_from(motion: Motion, servo: int, to: float, now_ms: float, family: 
 def target_of(motion: Motion, servo: int) -> float | None:
     """The last target of a servo, or None."""
     track = motion.tracks.get(servo)
-    return None if track is None or track.to_leeway == inf else track.to
+    if track is None or track.to_leeway == inf:
+        return None
+    course = motion.courses.get(servo)
+    # Its part has left.
+    return course.to if course and course.sent_to == track.to else track.to
 
 
 def without_servos(motion: Motion, servos: Collection[int]) -> Motion:
     """The motion of the others alone."""
-    return replace(motion, tracks=only(motion.tracks, lambda _, servo: servo not in servos))
+    courses = {servo: course for servo, course in motion.courses.items() if servo not in servos}
+    tracks = only(motion.tracks, lambda _, servo: servo not in servos)
+    return replace(motion, tracks=tracks, courses=courses)
 
 
 def remaining_ms(motion: Motion, now_ms: float) -> float:
-    """Milliseconds until the moves in progress end; 0 at rest."""
-    return last_end_ms(motion.tracks, now_ms) - now_ms
+    """Milliseconds until the moves in progress end, with what is still to be sent of them; 0 at rest."""
+    ends_ms = [course.end_ms for course in motion.courses.values()]
+    return max([last_end_ms(motion.tracks, now_ms), *ends_ms]) - now_ms
+
+
+def unknown_rest_ms(motion: Motion, but: Collection[int], now_ms: float) -> float:
+    """Milliseconds until the other servos have ended whose place is unknown on the way."""
+    unknown = only(
+        motion.tracks, lambda track, servo: servo not in but and position_of(track, now_ms) is None
+    )
+    return last_end_ms(unknown, now_ms) - now_ms
 
 
 def gentle_ms(motion: Motion, servos: Collection[int], now_ms: float, family: Family) -> float:
     """The least duration of a move, so that no servo of unknown position snaps to its target."""
-    is_shared = family.motion.timing == "shared"
+    is_shared = family.motion.timing != "perServo"
     if is_shared and isinstance(motion.run, UnknownRun):
         return inf
     ends_ms = [

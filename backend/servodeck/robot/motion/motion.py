@@ -44,6 +44,7 @@ from servodeck.protocol.values import (
 )
 from servodeck.robot.motion.deadlines import deadlines, end_of, longest_ms
 from servodeck.robot.motion.model import (
+    Courses,
     DeadlineRun,
     KnownBoard,
     Motion,
@@ -55,6 +56,7 @@ from servodeck.robot.motion.model import (
     running_unknown,
     without_servos,
 )
+from servodeck.robot.motion.parts import carries_all, re_timed
 from servodeck.robot.motion.polled import polled
 from servodeck.robot.motion.tracks import (
     LONGEST_MOVE_MS,
@@ -102,10 +104,21 @@ def playback_of(board: KnownBoard) -> Playback:
 def advance(motion: Motion, now_ms: float, board: KnownBoard) -> Motion:
     """The same motion with everything that was due by `now_ms` done. Call before reading it."""
     if isinstance(motion.run, UnknownRun) and now_ms >= motion.run.until_ms:
-        return replace(motion, run=None)
+        return with_planned_courses(replace(motion, run=None))
     if motion.run is not None and not isinstance(motion.run, UnknownRun):
         motion = replace(motion, ran_until_ms=now_ms)
-    return playback_of(board).advance(motion, now_ms, board)
+    return with_planned_courses(playback_of(board).advance(motion, now_ms, board))
+
+
+def with_planned_courses(motion: Motion) -> Motion:
+    """What is left of a move is not sent while a group may move its servo, nor where its place is lost."""
+
+    def is_planned(servo: int) -> bool:
+        track = motion.tracks.get(servo)
+        return motion.run is None and track is not None and track.to_leeway < inf
+
+    planned = {servo: course for servo, course in motion.courses.items() if is_planned(servo)}
+    return motion if len(planned) == len(motion.courses) else replace(motion, courses=planned)
 
 
 def hears(motion: Motion, at_ms: float) -> bool:
@@ -123,7 +136,29 @@ def after_command(motion: Motion, command: Command, at_ms: float, board: KnownBo
         after = restless(current, after_heard(current, command, at_ms, board), at_ms)
     else:
         after = maybe_swallowed(after_unheard(current, command, at_ms, board), at_ms)
-    return replace(after, readings=after_order(after.readings, command, is_heard=is_heard))
+    return replace(
+        after,
+        courses=courses_after(after.courses, command, at_ms, board.family),
+        readings=after_order(after.readings, command, is_heard=is_heard),
+    )
+
+
+def courses_after(courses: Courses, command: Command, at_ms: float, family: Family) -> Courses:
+    """What is left of a move ends with a stop, a run, a release, and with a newer move of its servo. Where a
+    move re-times servos that it does not name (S26), the rest of theirs comes as much later.
+    """
+    match command:
+        case Stop() | Run() | Release():
+            return {}
+        case Move(duration_ms, targets) if courses:
+            sent = {target.servo: target.position for target in targets}
+            until_ms = at_ms + board_duration_ms(duration_ms, family) if carries_all(family) else -inf
+            return {
+                servo: course if servo in sent else re_timed(course, until_ms)
+                for servo, course in courses.items()
+                if sent.get(servo, course.sent_to) == course.sent_to
+            }
+    return courses
 
 
 def maybe_swallowed(motion: Motion, at_ms: float) -> Motion:
@@ -278,7 +313,7 @@ def perhaps_moved(motion: Motion, move: Move, at_ms: float, family: Family) -> M
     """It may not have moved them, and where the board re-times every servo all that was under way may be
     later by it (S26).
     """
-    is_shared, traits = family.motion.timing == "shared", family.motion
+    is_shared, traits = family.motion.timing != "perServo", family.motion
     until_ms = motion.deaf_until_ms + board_duration_ms(move.duration_ms, family)
     until_ms += traits.tick_ms + traits.talk_ms
     tracks = held_up(motion.tracks, at_ms, until_ms if is_shared else motion.deaf_until_ms)

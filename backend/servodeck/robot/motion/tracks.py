@@ -110,9 +110,10 @@ def unrest_after(until_ms: float, requested_ms: float, at_ms: float, family: Fam
     what takes effect at `at_ms` (S26).
     """
     traits = family.motion
-    if traits.timing != "shared" or until_ms <= at_ms:
+    if traits.timing == "perServo" or until_ms <= at_ms:
         return until_ms
-    return at_ms + board_duration_ms(requested_ms, family) + traits.tick_ms + traits.talk_ms
+    arrived_ms = at_ms + board_duration_ms(requested_ms, family) + traits.tick_ms + traits.talk_ms
+    return arrived_ms if traits.timing == "shared" else max(until_ms, arrived_ms)
 
 
 @value

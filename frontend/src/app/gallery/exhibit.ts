@@ -88,6 +88,7 @@ export function frozenSession(
     lease: () => undefined,
     letRun: () => undefined,
     calibrate: () => undefined,
+    limitsChanged: () => undefined,
     move: () => {
       throw new LinkError('latched', 'the gallery moves nothing');
     },

@@ -252,11 +252,14 @@ describe('a robot that goes to rest', () => {
     const { clock, device, ofKind, latch, noticeTexts } = await createTiredRobot();
     expect(ofKind('move')).toHaveLength(1);
     await clock.advance(REST_WARNING_MS);
-    expect(ofKind('move').slice(1)).toEqual([
-      { kind: 'move', durationMs: REST_MOVE_MS, targets: [{ servo: 2, position: 1500 }] },
-    ]);
     expect(latch()).toBeNull();
     await clock.advance(REST_MOVE_MS);
+    // In parts of a second, at most.
+    const [first, ...others] = ofKind('move').slice(1);
+    expect(first?.durationMs).toBe(1000);
+    expect(others.find(({ targets }) => targets[0]?.position === 1500)).toMatchObject({
+      targets: [{ servo: 2 }],
+    });
     expect(latch()).toMatchObject({ reason: 'battery' });
     expect(noticeTexts()).not.toContain(words.battery.goingToRest({ ms: REST_WARNING_MS }));
     expect(noticeTexts()).toContain(words.battery.rested({ volts: '6.50\u00a0V' }));
@@ -281,9 +284,9 @@ describe('a robot that goes to rest', () => {
       () => 'rest',
       (book) => markRest(addPose(book, { name: 'Folded', unit: 'us', targets }), 1),
     );
-    await clock.advance(REST_WARNING_MS);
+    await clock.advance(REST_WARNING_MS + REST_MOVE_MS - 200);
     expect(ofKind('move').at(-1)).toMatchObject({ targets: [{ servo: 2, position: rest.goesTo }] });
-    await clock.advance(REST_MOVE_MS);
+    await clock.advance(200);
     expect(latch()).not.toBeNull();
   });
 
@@ -308,7 +311,7 @@ describe('a robot that goes to rest', () => {
     await clock.advance(1000);
     device.move([{ servo: 2, position: 2000 }], 8000);
     await clock.advance(REST_WARNING_MS + 2000);
-    expect(ofKind('move').at(-1)?.targets).toEqual([{ servo: 2, position: 2000 }]);
+    expect(device.motion(2).target).toBe(2000);
     await clock.advance(15_000);
     expect(ofKind('move').some(({ targets }) => targets.some(({ position }) => position === 1500))).toBe(
       true,

@@ -82,7 +82,7 @@ describe('a button', () => {
     expect(ofKind('run')).toEqual([{ kind: 'run', slot: 5, times: 1 }]);
     expect([positions(), step()]).toEqual([[], 0]);
     await clock.advance(4000);
-    expect(positions()).toEqual([1200]);
+    expect(positions().at(-1)).toBe(1200);
   });
 
   test.each([

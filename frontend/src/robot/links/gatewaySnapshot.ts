@@ -139,7 +139,11 @@ export function createGatewaySnapshot(options: GatewaySnapshotOptions): GatewayS
         showLease();
         break;
       case 'left':
-        if (isOpen) message.commands.forEach(left);
+        if (isOpen)
+          for (const command of message.commands) {
+            left(command);
+            if (command.kind === 'move') estimate.headedFor(command.goals);
+          }
         break;
       case 'job':
         slots.jobChanged(message.job);

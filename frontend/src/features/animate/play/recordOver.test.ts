@@ -75,9 +75,13 @@ describe('recording over the motion', () => {
       .moves()
       .slice(sentBefore)
       .flatMap((move) => move.targets);
-    expect(targets.filter(({ servo }) => servo === 2)).toEqual([{ servo: 2, position: 2000 }]);
+    // Packets of servo 1 carry it on its one way to 2000.
+    const ofArmed = targets.filter(({ servo }) => servo === 2).map(({ position }) => position);
+    expect(ofArmed.at(-1)).toBe(2000);
+    expect(ofArmed.toSorted((one, other) => one - other)).toEqual(ofArmed);
     const played = targets.filter(({ servo }) => servo === 1).map(({ position }) => position);
-    expect(played[0]).toBe(1300);
+    // Its way there is 1.5 s long and leaves in two parts.
+    expect(played.slice(0, 2)).toEqual([1200, 1300]);
     expect(played.filter((position) => position === 1600 || position === 1000)).toEqual([
       1600, 1000, 1600, 1000,
     ]);
@@ -141,9 +145,11 @@ describe('recording over the motion', () => {
     await page.draw(LEAD_MS + 7000);
     const sent = page.moves().slice(sentBefore);
     const own = sent.filter(({ targets }) => targets.some(({ servo }) => servo === 3));
-    expect(own[0]?.durationMs).toBeGreaterThanOrEqual(LEAD_MS);
-    expect(own[0]?.targets).toContainEqual(late[0]);
-    for (const { targets } of own) expect(targets).toContainEqual(late[0]);
+    const places = own.map(({ targets }) => targets.find(({ servo }) => servo === 3)?.position);
+    // The way of 1.5 s leaves in two parts, and it stays there.
+    expect(own[0]?.durationMs).toBe(1000);
+    expect(places.slice(0, 2)).toEqual([1500 + Math.round((800 * 1000) / LEAD_MS), 2300]);
+    expect(new Set(places.slice(1))).toEqual(new Set([2300]));
   });
 
   test('what plays is locked meanwhile: a move of both moves only the armed servo', async () => {
@@ -176,7 +182,7 @@ describe('recording over the motion', () => {
     await page.draw(1000);
     page.press();
     await page.draw(1000);
-    expect(page.at(2, 1900)).toBe(2000);
+    expect(page.at(2, 1900)).toBeCloseTo(2000, -1);
     const later = page.keysOf(2).filter(([atMs]) => (atMs ?? 0) > 2050);
     expect(later).toEqual([
       [2500, 1200],
