@@ -23,7 +23,7 @@ export interface StopTimes {
 
 interface Rules {
   readonly gapMs: number;
-  /** How many stops follow each press; where others send some too, only the first is looked for. */
+  /** How many stops follow each press at least: to a board that confirms none they go on. */
   readonly stopsPerPress?: number;
 }
 
@@ -38,7 +38,7 @@ export function stopTimes(
     const untilMs = pressedMs[press + 1] ?? Infinity;
     const mine = stops.filter(({ firstByteMs }) => firstByteMs > atMs && firstByteMs < untilMs);
     const [first] = mine;
-    if (first === undefined || mine.length !== (stopsPerPress ?? mine.length))
+    if (first === undefined || mine.length < (stopsPerPress ?? 1))
       throw new Error(`${mine.length} stops followed press ${press + 1} of ${pressedMs.length}`);
     const before = packets[packets.indexOf(first) - 1];
     const between = packets.filter(({ endMs }) => endMs > atMs && endMs < first.firstByteMs);

@@ -4,6 +4,7 @@
 import { once } from 'node:events';
 import { createServer, type AddressInfo, type Socket } from 'node:net';
 import { family } from '#shared/codec/families.ts';
+import { wireMs } from '#shared/codec/packet.ts';
 import { amount } from './amounts.ts';
 import type { Figure } from './figure.ts';
 import { stopFigures, type StopTimes } from './presses.ts';
@@ -66,6 +67,14 @@ async function pressAfterCut(port: Port, presser: Presser): Promise<number> {
   return stopMs - fromMs;
 }
 
+/** A row of stops is written at once, and each of them leaves at its time. */
+function stopsIn(bytes: Buffer, atMs: number): readonly number[] {
+  const times: number[] = [];
+  for (let at = bytes.indexOf(STOP); at >= 0; at = bytes.indexOf(STOP, at + STOP.length))
+    times.push(atMs + wireMs(at));
+  return times;
+}
+
 async function withPort<Result>(work: (port: Port) => Promise<Result>): Promise<Result> {
   const sockets: Socket[] = [];
   let openedMs = 0;
@@ -74,7 +83,7 @@ async function withPort<Result>(work: (port: Port) => Promise<Result>): Promise<
     sockets.push(socket);
     openedMs = Date.now();
     // Packets are written whole, and nothing else is written here.
-    socket.on('data', (bytes) => bytes.includes(STOP) && stopsMs.push(Date.now()));
+    socket.on('data', (bytes) => stopsMs.push(...stopsIn(bytes, Date.now())));
     socket.on('error', () => socket.destroy());
   });
   server.listen(0, HOST);

@@ -27,6 +27,7 @@ from servodeck.snapshots import (
     PlayState,
     PortState,
     RobotState,
+    StopOutcome,
     StoredGroup,
     UnattendedRun,
     UnheldServos,
@@ -41,7 +42,8 @@ class GatewayState(Message):
     driven. `brokenSlots` hold half a group: they cannot be run. `slotVersions` are the groups that the
     gateway last stored in each slot. `stoppedBy` is the name of the person who pressed STOP, or whose page
     did so for the battery, if known. `waitingToStart`: servos that are to move from an unknown place, so they
-    start one after another, in this order.
+    start one after another, in this order. `mayBeRunning`: what others began before the port was opened may
+    continue, because the board has not answered yet.
     """
 
     board: str
@@ -56,6 +58,7 @@ class GatewayState(Message):
     broken_slots: list[int]
     slot_versions: dict[str, StoredGroup]
     waiting_to_start: list[int]
+    may_be_running: bool
 
 
 class WelcomeMessage(GatewayState):
@@ -120,9 +123,12 @@ class NoiseMessage(Message):
 
 
 class HaltedMessage(Message):
-    """The stop sequence has left the wire. `unheld`: servos that may continue to move, if any."""
+    """The stop sequence has left the wire. `unheld`: servos that may continue to move, if any. It comes again
+    where more is known later.
+    """
 
     type: Literal["halted"] = "halted"
+    outcome: StopOutcome
     unheld: UnheldServos | None
 
 

@@ -59,6 +59,11 @@ class PortState(Message):
     retry_in_ms: int | None = None
 
 
+# `sent`: the stops have left the wire. `confirmed`: the board said that it stopped, or that it hears them.
+# `unanswered`: such a board answers, and this one did not.
+StopOutcome = Literal["sent", "confirmed", "unanswered"]
+
+
 class LinkState(Message):
     """The link to the board: `identifying` while it is queried, `stale` while it does not answer a
     question that such a board always answers, `refused` until a person says which board it is. `code` and

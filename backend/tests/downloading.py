@@ -3,13 +3,14 @@
 from collections.abc import Iterable, Sequence
 
 from servodeck.callers import Caller
+from servodeck.protocol.decoder import COMMAND_AT
+from servodeck.protocol.packets import DOWNLOAD
 from servodeck.protocol.timings import wire_s
 from servodeck.robot.board.download import Group, made_of, packets_of
 from servodeck.robot.control import Control
 from servodeck.snapshots import JobState
 from tests.client import ANNA, Client
 from tests.fake_port import FakePort
-from tests.samples import STOP
 from tests.virtual_time import at, now
 
 STORED = bytes.fromhex("55550219")
@@ -25,7 +26,7 @@ class AnsweringPort(FakePort):
 
     def write(self, data: bytes) -> None:
         super().write(data)
-        if data != STOP:
+        if data[COMMAND_AT] == DOWNLOAD:
             for after_ms in next(self._answers_ms, ()):
                 at(now() + wire_s(len(data)) + after_ms / 1000, lambda: self.say(STORED))
 

@@ -11,20 +11,46 @@ from servodeck.port.diagnosis import Heard
 from servodeck.port.hid import HidPort
 from servodeck.port.ports import OpenPort
 from servodeck.port.whereabouts import UsbDevice
-from servodeck.protocol.decoder import LONGEST_PACKET
+from servodeck.protocol import timings
+from servodeck.protocol.decoder import COMMAND_AT, LONGEST_PACKET
 from servodeck.protocol.families import Withheld
+from servodeck.protocol.packets import DOWNLOAD, RUN
+
+STOP = bytes.fromhex("55550207")
+# Behind the row of stops that ends what others left on the line.
+STOPS_AT_OPENING = 3
+# While motion is latched, a board that confirms nothing is told again so long behind the last packet.
+REMINDED_S = (1.0, 1.05)
+# From the last piece of a row to the one stop that is left of it: the piece's time on the wire, and a gap.
+ROW_END_S = 0.11
+WHOLE_PIECES = 6
+
+
+def is_row(data: bytes) -> bool:
+    """Stop packets back to back."""
+    return len(data) > len(STOP) and data == STOP * (len(data) // len(STOP))
+
+
+def is_reminder(after_s: float) -> bool:
+    return REMINDED_S[0] <= after_s <= REMINDED_S[1]
 
 
 class FakePort:
-    """Bytes to us come through a real socket pair, so that the event loop sees them as it sees a port's."""
+    """Bytes to us come through a real socket pair, so that the event loop sees them as it sees a port's.
+    `written` begins with the last stop of the opening, where it is no return; what left before is in
+    `opening`. Stops in a row, and those that are said again while motion is latched, are in `rows` alone.
+    """
 
     longest_packet = LONGEST_PACKET
     shortest_s = 0.0
     in_reports = False
     withheld: frozenset[Withheld] = frozenset()
+    is_return = False
 
     def __init__(self) -> None:
         self._ours, self._boards = socket.socketpair()
+        self.opening: list[tuple[float, bytes]] = []
+        self.rows: list[tuple[float, bytes]] = []
         self.written: list[tuple[float, bytes]] = []
         self.refuses_writes = False
         self.is_open = True
@@ -45,9 +71,25 @@ class FakePort:
     def write(self, data: bytes) -> Awaitable[None] | None:
         if self.refuses_writes:
             raise PortLostError("The board takes nothing.")
-        self.written.append((asyncio.get_running_loop().time(), data))
-        self._wrote.set()
+        now = asyncio.get_running_loop().time()
+        is_opening = (self.rows or self.in_reports) and not (self.written or self.is_return)
+        if is_opening and data == STOP and len(self.opening) < STOPS_AT_OPENING - 1:
+            self.opening.append((now, data))
+        elif is_row(data) or (data == STOP and self.rows and self._goes_on(now)):
+            self.rows.append((now, data))
+        else:
+            self.written.append((now, data))
+            self._wrote.set()
         return None
+
+    def _goes_on(self, now: float) -> bool:
+        """The end of a row that is no whole number of its pieces, or a stop that is said again."""
+        last_s, last = max((*self.rows[-1:], *self.written[-1:]))
+        pieces = [len(row) for _, row in self.rows[-WHOLE_PIECES:]]
+        if is_row(last) and now - last_s < ROW_END_S:
+            return pieces == [timings.STOP.stray_bytes] * WHOLE_PIECES
+        is_latched = len(self.rows) > 1 or self.is_return
+        return is_latched and last[COMMAND_AT] not in (RUN, DOWNLOAD) and is_reminder(now - last_s)
 
     def close(self) -> None:
         self.is_open = False
@@ -65,6 +107,10 @@ class FakePort:
         while len(self.written) < count:
             self._wrote.clear()
             await self._wrote.wait()
+
+    def everything(self) -> list[tuple[float, bytes]]:
+        """In the order in which it was written."""
+        return sorted((*self.opening, *self.rows, *self.written))
 
     def packets(self) -> list[bytes]:
         return [packet for _, packet in self.written]
@@ -102,6 +148,7 @@ class FakePorts:
 
     def __init__(self, *outcomes: PortError | FakePort) -> None:
         self._outcomes = list(outcomes)
+        self._was_opened = False
         self.attempts: list[tuple[float, str]] = []
         self.listened: list[str] = []
 
@@ -110,6 +157,7 @@ class FakePorts:
         outcome = self._outcomes.pop(0) if len(self._outcomes) > 1 else self._outcomes[0]
         if isinstance(outcome, PortError):
             raise outcome
+        outcome.is_return, self._was_opened = self._was_opened, True
         return outcome
 
     async def close(self, port: OpenPort) -> None:

@@ -78,7 +78,7 @@ class SteppedBoard:
         self.samples: list[list[int]] = []
         self._happened: list[tuple[float, str]] = []
         self._talks_until_s = inf if faults else 0.0
-        self._is_running = False
+        self.is_running = False
         self.ports: list[BoardPort] = []
         self.is_plugged = True
         self.last_byte_s = 0.0
@@ -113,7 +113,7 @@ class SteppedBoard:
     # What happens to it
 
     def take(self, data: bytes) -> None:
-        self._note(data.hex())
+        self.note(data.hex())
         self.runs += data[COMMAND_AT] == RUN
         if data[COMMAND_AT] not in (STOP, MOVE):
             # A run may be reported at any time from then on.
@@ -122,26 +122,26 @@ class SteppedBoard:
 
     def note_press(self) -> None:
         """A STOP begins now."""
-        self._note("press")
+        self.note("press")
 
     def note_resume(self) -> None:
-        self._note("resume")
+        self.note("resume")
 
     def restart(self) -> None:
         """It loses its power for a moment."""
         self._talks_until_s = inf  # some say so
-        self._note("restart")
+        self.note("restart")
 
     def disturb(self, noise: str) -> None:
         """These bytes reach it, though nobody sent them (hexadecimal)."""
         self._talks_until_s = inf  # what it takes apart may be a run
-        self._note(f"noise {noise}")
+        self.note(f"noise {noise}")
 
     def lose(self, for_s: float) -> None:
         if not (self.ports and self.is_plugged):
             return
         self.is_plugged = False
-        self._note("unplug")
+        self.note("unplug")
         if self.ports[-1].is_open:
             self.ports[-1].unplug()
         at(now() + for_s, self._plug_in)
@@ -152,7 +152,7 @@ class SteppedBoard:
         answer = self._simulator.ask(untilMs=until_ms, happened=self._happened)
         assert "early" not in answer, answer
         self._happened = []
-        self._is_running = answer["isRunning"]
+        self.is_running = answer["isRunning"]
         self.samples += answer["samples"]
         self.moved_s = [moved_ms / 1000 for moved_ms in answer["movedMs"]]
         self.thrown_by, self.met = answer["thrownBy"], answer["met"]
@@ -165,13 +165,14 @@ class SteppedBoard:
 
     def _plug_in(self) -> None:
         self.is_plugged = True
-        self._note("plugIn")
+        self.note("plugIn")
 
-    def _note(self, what: str) -> None:
+    def note(self, what: str) -> None:
+        """Bytes in hex that reach it now, or what happens to its cable."""
         self._happened.append((now() * 1000, what))
 
     def _follow(self, at_s: float) -> float:
-        may_talk = self._is_running or now() < self._talks_until_s
+        may_talk = self.is_running or now() < self._talks_until_s
         return self.run_on(at_s) if may_talk else at_s
 
 

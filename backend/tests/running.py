@@ -63,6 +63,7 @@ async def http_to(
     )
     if device:
         await control.use_port(device)
+        await control.until_identified()
     app = create_app(control, library, entrance or entrance_to(), static)
     async with client_of(app) as client:
         yield client, control
@@ -110,6 +111,8 @@ async def server_on(
     server = Server(app, control, device, ready.set)
     life = asyncio.create_task(server.serve([listener]))
     await ready.wait()
+    if device:
+        await control.until_identified()
     try:
         yield Running(f"127.0.0.1:{port}", control, server, entrance)
     finally:

@@ -66,7 +66,7 @@ async def test_stop_answers_when_the_stops_have_left_and_resume_moves_nothing() 
             "latch": True,
             "halted": True,
             # Motion from before the port was opened.
-            "unheld": {"servos": None, "forMs": 29_000},
+            "unheld": {"servos": None, "forMs": 29_080},
         }
         assert port.packets() == [STOP] * 4
         assert control.latch is True

@@ -66,8 +66,10 @@ async def test_stop_latches_for_everyone_until_resume() -> None:
                 anna.send(packet)
         await anna.send(BATTERY)
         control.resume(THIS_COMPUTER)
-        assert [message["type"] for message in await bert.heard()] == ["state", "resumed"]
-        assert port.packets()[7:] == [BATTERY]
+        # More is known of the stops once those behind them have left.
+        assert [message["type"] for message in await bert.heard()] == ["halted", "state", "resumed"]
+        again = hold_at(2000, 100)
+        assert port.packets()[7:] == [again, again, BATTERY]
         await anna.send(MOVE)
 
 

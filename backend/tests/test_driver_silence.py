@@ -36,14 +36,14 @@ async def test_a_tab_that_froze_and_wakes_moves_nothing() -> None:
 @in_virtual_time
 async def test_what_waits_too_long_for_the_wire_is_not_sent() -> None:
     async with driven(MOVE) as (_, port, anna):
-        anna.beats = False
+        anna.beats, begun_s = False, now()
         long_move = bytes.fromhex("5555650320e803" + "".join(f"{servo:02x}dc05" for servo in range(1, 33)))
         waiting = [anna.send(long_move) for _ in range(6)]
         outcomes = await asyncio.gather(*waiting, return_exceptions=True)
         assert [type(outcome) for outcome in outcomes[:4]] == [type(None)] * 4
         assert isinstance(outcomes[-1], (ExpiredError, CancelledError))
         last_s = max(at_s for at_s, packet in port.written if packet == long_move)
-        assert last_s <= 0.1 + 0.5 + 0.05
+        assert last_s - begun_s <= 0.5 + 0.05
 
 
 @in_virtual_time
@@ -157,7 +157,7 @@ async def test_a_download_right_behind_an_unknown_group_is_refused_and_puts_off_
 
 @in_virtual_time
 async def test_a_download_behind_the_last_frame_of_an_unknown_group_is_stored_without_its_driver() -> None:
-    port = AnsweringPort([[], [180], [46]])
+    port = AnsweringPort([[180], [46]])
     async with gateway_on(port) as control:
         anna = Client(control)
         await anna.send(RUN)

@@ -78,6 +78,7 @@ def test_names_on_the_wire_are_camel_case() -> None:
         broken_slots=[],
         slot_versions={},
         waiting_to_start=[],
+        may_be_running=False,
     )
     state = json.loads(encode(state_message))
     assert state["port"]["retryInMs"] == 250

@@ -505,7 +505,8 @@ async def test_what_is_left_of_a_move_ends(end: Callable[[Control, Client], Any]
         ask(anna, 10_000, s1=2500)
         await asyncio.sleep(2.2)
         await end(control, anna)
-        await asyncio.sleep(1)
+        # The holds of a STOP that the board does not confirm have left by then.
+        await asyncio.sleep(2)
         written = [each for port in ports for each in port.written]
         before = len(written)
         # So far it had gone a third of the way at most, or a hold has sent it back to where it was.

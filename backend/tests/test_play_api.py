@@ -51,6 +51,7 @@ async def test_without_a_heartbeat_it_is_stopped_after_two_seconds_and_latched()
         stopped_s = next(at_s for at_s, packet in here.port.written if packet == STOP and at_s > begun_s)
         assert stopped_s - begun_s <= SILENT_S + 0.02
         assert (here.control.latch, (await latest(here))["code"]) == (True, "latched")
+        await asyncio.sleep(1)  # the hold again, behind as many stops as a board can miss
         count = len(here.port.written)
         await asyncio.sleep(5)
         assert len(here.port.written) == count
@@ -148,7 +149,7 @@ async def test_who_is_not_let_in_any_more_is_stopped_unless_an_owner_lets_it_con
             behind = [parse_command(packet) for packet in here.port.packets()[count:]]
             assert (here.control.board.plays.present is not None) is goes_on
             assert here.control.latch is not goes_on
-            assert goes_on or sum(isinstance(command, Move) for command in behind) <= 2
+            assert goes_on or sum(isinstance(command, Move) for command in behind) <= 4
 
 
 @in_virtual_time

@@ -369,8 +369,8 @@ async def end_it(end: str, after_s: float) -> None:
 
 def holds_of(port: FakePort) -> set[bytes]:
     """Those that come right behind a stop."""
-    written = port.packets()
-    return {packet for before, packet in itertools.pairwise(written) if before == STOP}
+    written = [packet for _, packet in port.everything()]
+    return {packet for before, packet in itertools.pairwise(written) if before.endswith(STOP)}
 
 
 @in_virtual_time

@@ -17,11 +17,11 @@ from servodeck.robot.board.download import Group, made_of, packets_of
 from servodeck.robot.control import Control
 from tests.client import ANNA, Client
 from tests.fake_port import FakePort, FakePorts
-from tests.samples import BATTERY, BATTERY_REPORT, MOVE, RUN, STOP, STOPS
+from tests.samples import MOVE, RUN, STOPS
 from tests.virtual_time import at, in_virtual_time, now
 
 OPEN_FIRMWARE = ("doc", "openarm-old", "openarm-new")
-RETURNED_S = 1.0
+RETURNED_S = 1.6
 HALF_OF_MOVE_S = 0.005
 FRAME = Frame(500, (ServoTarget(1, 1500),))
 
@@ -118,7 +118,7 @@ async def test_another_port_gets_none_of_it() -> None:
             await anna.send(MOVE)
         await control.use_port("/dev/other")
         await asyncio.sleep(RETURNED_S)
-        assert second.packets() == [STOP]
+        assert second.packets() == STOPS
 
 
 @pytest.mark.parametrize("board", ["lsc-6", "xarm", "learm-esp32"])
@@ -132,20 +132,21 @@ async def test_a_board_that_bears_no_filler_may_have_heard_no_stop(board: str) -
         assert second.packets() == STOPS
         await asyncio.sleep(40)
         await control.stop()
-        assert control.unheld is not None
-        assert control.unheld.servos is None
+        # As many stops as its parser can miss have left; a LeArm may have been overrun by them (L3).
+        assert (control.unheld is None) is (board != "learm-esp32")
 
 
 @in_virtual_time
 async def test_its_first_answer_has_it_stopped_once_more() -> None:
     first, second = FakePort(), FakePort()
-    async with gateway("lsc-6", first, second) as (control, anna):
+    async with gateway("learm-esp32", first, second) as (control, anna):
         await asyncio.sleep(31)
-        await lose_behind(anna, MOVE, first)
+        move = encode(Move(1000, (ServoTarget(2, 600),)), FAMILIES["learm-esp32"])
+        await lose_behind(anna, move, first)
         await control.stop()
-        await anna.send(BATTERY)
+        await anna.send(bytes.fromhex("55550201"))
         before = len(second.packets())
-        second.say(BATTERY_REPORT)
+        second.say(bytes.fromhex("555504010101"))
         await asyncio.sleep(1)
         assert second.packets()[before:] == STOPS
         await asyncio.sleep(33)

@@ -7,6 +7,7 @@ event is.
 import asyncio
 import json
 from functools import partial
+from math import inf
 from typing import Any
 
 import pytest
@@ -15,6 +16,8 @@ from servodeck.errors import GatewayError, NoAnswerError, PortMissingError
 from servodeck.port.ports import OpenPort
 from servodeck.port.whereabouts import UsbDevice
 from servodeck.protocol.packets import encode
+from servodeck.protocol.timings import STOP as STOP_TIMES
+from servodeck.protocol.timings import wire_s
 from servodeck.protocol.values import Frame, ReadPositions, ServoTarget
 from servodeck.robot.board.download import Group, made_of, packets_of
 from servodeck.robot.board.playing import FrameGroup
@@ -22,18 +25,20 @@ from servodeck.robot.control import Control
 from servodeck.robot.scripts import Scripts
 from servodeck.snapshots import PlayState
 from tests.client import ANNA, Client
-from tests.fake_port import FakePort
+from tests.fake_port import STOPS_AT_OPENING, FakePort, is_row
 from tests.running import DEVICE
+from tests.samples import BATTERY, STOP
 from tests.vectors import load_scenarios
 from tests.virtual_time import at, in_virtual_time, now
 
 Event = dict[str, Any]
 SCENARIOS = load_scenarios()
-# So long the port is open before the first input, as the link of the page's session is.
+# So long the stops of the opening have left before the first input, as at the page's session.
 OPEN_FOR_S = 0.1
 # Behind the last event: what should not come any more would be seen.
 QUIET_S = 5.0
 BEFORE_HEARTBEAT_S = 1.5
+REMINDED_S = STOP_TIMES.again_every_ms / 1000
 
 
 class Listener(Client):
@@ -61,6 +66,7 @@ class PulledPorts:
         if not self.is_there:
             raise PortMissingError("The device is not plugged in.")
         self.opened.append(FakePort())
+        self.opened[-1].is_return = len(self.opened) > 1
         return self.opened[-1]
 
     async def close(self, port: OpenPort) -> None:
@@ -106,10 +112,23 @@ class Player:
             if self._control.driving.driver not in (None, self._session):
                 self._scripts.act(ANNA, "heartbeat")
 
-    def leaves(self) -> list[tuple[float, str]]:
-        """Behind the stop that is the gateway's own: it sends one when it opens a port."""
-        written = [one for port in self._ports.opened for one in port.written]
-        return [(self._ms(at_s), packet.hex(" ").upper()) for at_s, packet in written[1:]]
+    def leaves(self, *, opening: bool) -> list[tuple[float, str, int]]:
+        """Each with the number of times that it leaves back to back; behind the first `opening`, if it is not
+        part of the scenario. What is said again each second while motion is latched is left out.
+        """
+        written = [port.everything() for port in self._ports.opened]
+        if not opening:
+            written[0] = written[0][1 + STOPS_AT_OPENING :]
+        packets: list[tuple[float, str, int]] = []
+        left_s, was_reminder = -inf, False
+        for at_s, data in [one for port in written for one in port]:
+            times = len(data) // len(STOP) if is_row(data) else 1
+            is_reminder = data == STOP and abs(at_s - left_s - REMINDED_S) < 0.001
+            is_asked = was_reminder and data == BATTERY
+            left_s, was_reminder = at_s + wire_s(len(data)), is_reminder
+            if not (is_reminder or is_asked):
+                packets.append((self._ms(at_s), data[: len(data) // times].hex(" ").upper(), times))
+        return packets
 
     def tells(self) -> list[tuple[float, str, Any]]:
         """Each field when it has changed."""
@@ -240,16 +259,20 @@ async def test_what_comes_of_it_is_what_is_written(scenario: Event) -> None:
     ports, events = PulledPorts(), scenario["events"]
     identifies = scenario.get("identifies", False)
     control = Control(ports, now, scenario["family"], identifies_board=identifies)
-    await control.use_port(DEVICE)
+    opening = asyncio.create_task(control.use_port(DEVICE))
     if not identifies:
+        await opening
         await asyncio.sleep(OPEN_FOR_S)
+    for _ in range(10):  # until the port is open
+        await asyncio.sleep(0)
     player = Player(control, ports)
     for event in events:
         at(player.begun_s + event["atMs"] / 1000, partial(player.take, event))
     watching = asyncio.create_task(player.watch())
     await asyncio.sleep(events[-1]["atMs"] / 1000 + (BEFORE_HEARTBEAT_S if identifies else QUIET_S))
     watching.cancel()
-    is_like(player.leaves(), [(one["atMs"], one["leaves"]) for one in events if "leaves" in one])
+    leaves = [(one["atMs"], one["leaves"], one.get("times", 1)) for one in events if "leaves" in one]
+    is_like(player.leaves(opening=identifies), leaves)
     is_like(player.ends, [(one["atMs"], one["ends"], one["with"]) for one in events if "ends" in one])
     changes = [(one["atMs"], *change) for one in events if "tells" in one for change in one["tells"].items()]
     tells = player.tells()

@@ -73,6 +73,7 @@ async def test_it_is_on_disk_before_the_first_byte_leaves_and_a_disk_that_takes_
         loop = asyncio.get_running_loop()
         control = Control(FakePorts(port), loop.time, "doc", slot_memory=SlotMemory(folder))
         await control.use_port("/dev/board")
+        await control.until_identified()
         begin(control, group("v1"))
         await port.until_written(2)
         assert SlotMemory(folder).broken("/dev/board") == saved

@@ -79,6 +79,7 @@ async def test_what_was_heard_is_not_said_again() -> None:
     async with driven(MOVE) as (control, port, _):
         await asyncio.sleep(MOVE_S)
         await control.stop()
+        await asyncio.sleep(1)  # the hold again, behind as many stops as a board can miss
         before = port.packets()
         await asyncio.sleep(5)
         assert port.packets() == before

@@ -3,6 +3,7 @@
 import json
 import os
 import pty as terminals
+import re
 import signal
 import subprocess
 import sys
@@ -76,8 +77,10 @@ def test_a_terminal_that_is_closed_stops_it_though_nothing_can_be_written_there(
     with bus_of_pty() as (board, bus):
         ours, theirs = terminals.openpty()
         command = ["serve", "--listen", "127.0.0.1:0", "--serial", board.device, "--simulated"]
+        # The log comes through the same terminal, and begins with no digit.
+        command += ["--no-open", "--log-format", "json", "--data", str(tmp_path)]
         process = subprocess.Popen(
-            [sys.executable, "-c", IN_TERMINAL, *command, "--no-open", "--data", str(tmp_path)],
+            [sys.executable, "-c", IN_TERMINAL, *command],
             stdin=theirs,
             stdout=theirs,
             stderr=theirs,
@@ -88,7 +91,8 @@ def test_a_terminal_that_is_closed_stops_it_though_nothing_can_be_written_there(
         said = b""
         while b"\n" not in said.partition(b"Servodeck is at ")[2]:
             said += os.read(ours, 1000)
-        run_a_group(said.partition(b"Servodeck is at ")[2].split()[0].decode())
+        [url] = re.findall(rb"Servodeck is at (http://[0-9.]+:[0-9]+)", said)
+        run_a_group(url.decode())
         os.close(ours)
         process.wait(END_S)
         bus.rest()

@@ -116,7 +116,7 @@ async def test_a_port_declared_as_simulated_is_published_so_and_only_that_one() 
     ports = FakePorts(FakePort(), FakePort())
     control = Control(ports, now, "doc", "/dev/board", simulated=True)
     await control.use_port("/dev/board")
-    [welcome] = await Client(control).heard()
+    welcome, *_ = await Client(control).heard()
     assert welcome["port"]["simulated"] is True
     await control.use_port("/dev/other")
     assert control.board.port.simulated is False

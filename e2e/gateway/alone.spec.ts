@@ -30,7 +30,7 @@ test('a run that may go on outlives its page; the next page sees it, and stops i
   expect(ofKind((await robot.bus()).slice(before), 'stop')).toHaveLength(0);
 
   await next.stop.click();
-  await poll(async () => ofKind((await robot.bus()).slice(before), 'stop').length).toBe(3);
+  await poll(async () => ofKind((await robot.bus()).slice(before), 'stop').length).toBeGreaterThanOrEqual(3);
   await expect(next.alone).toHaveCount(0);
 });
 
@@ -49,7 +49,7 @@ test('an endless run that may go on can be bound to its page again, and then end
   await context.newPage();
   const before = (await robot.bus()).length;
   await dashboard.page.close();
-  await poll(async () => ofKind((await robot.bus()).slice(before), 'stop').length).toBe(3);
+  await poll(async () => ofKind((await robot.bus()).slice(before), 'stop').length).toBeGreaterThanOrEqual(3);
 });
 
 test('a pose that a page has captured can be gone to by a script @exhaustive', async ({

@@ -157,7 +157,8 @@ test('when the driver’s window closes in a move the robot is stopped, and the 
   await poll(() => lastTarget(robot.bus, 1)).toBe(1800);
   const before = (await robot.bus()).length;
   await driver.page.close();
-  await poll(async () => ofKind((await robot.bus()).slice(before), 'stop').length).toBe(3);
+  // More follow where the board does not confirm them.
+  await poll(async () => ofKind((await robot.bus()).slice(before), 'stop').length).toBeGreaterThanOrEqual(3);
   await expect(dashboard.status).toContainText('The driver disconnected while the robot moved');
   await dashboard.resume.click();
   await dashboard.type(dashboard.target(2), 1700);

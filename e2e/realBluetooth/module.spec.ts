@@ -16,7 +16,7 @@ test('a module is chosen, its board moves, tells its battery and stops', async (
   await expect(openModule.estimate(1)).toHaveText('≈ 2000');
   await openModule.stop.click();
   await expect(openModule.status).toContainText('Stop sent');
-  await poll(async () => ofKind(await bluetoothBoard.bus(), 'stop')).toHaveLength(3);
+  await poll(async () => ofKind(await bluetoothBoard.bus(), 'stop').length).toBeGreaterThanOrEqual(3);
   expect(ofKind(await bluetoothBoard.bus(), 'move').at(-1)?.targets).toContainEqual({
     servo: 1,
     position: 2000,

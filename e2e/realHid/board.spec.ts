@@ -21,7 +21,7 @@ test('a board on its own USB cable is driven, stopped, pulled and found again', 
   await expect(connected.estimate(1)).toHaveText('≈ 2000');
   await connected.stop.click();
   await expect(connected.status).toContainText('Stop sent');
-  await poll(async () => ofKind(await ptyBoard.bus(), 'stop')).toHaveLength(3);
+  await poll(async () => ofKind(await ptyBoard.bus(), 'stop').length).toBeGreaterThanOrEqual(3);
   await pull();
   await expect(connected.link).toHaveText(/^Lost/);
   await plugIn();

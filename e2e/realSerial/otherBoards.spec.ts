@@ -57,6 +57,6 @@ test.describe('a LeArm AI that has just been switched on', () => {
     await poll(() => lastTarget(ptyBoard.bus, 2)).toBe(1600);
     await dashboard.stop.click();
     await expect(dashboard.status).toContainText('Stop sent');
-    await poll(async () => ofKind(await ptyBoard.bus(), 'stop')).toHaveLength(3);
+    await poll(async () => ofKind(await ptyBoard.bus(), 'stop').length).toBeGreaterThanOrEqual(3);
   });
 });

@@ -40,7 +40,7 @@ test('STOP goes out three times over a real port, and holds', async ({ connected
   await expect(connected.estimate(1)).toHaveText('≈ 2000');
   await connected.stop.click();
   await expect(connected.status).toContainText('Stop sent');
-  await poll(async () => ofKind(await ptyBoard.bus(), 'stop')).toHaveLength(3);
+  await poll(async () => ofKind(await ptyBoard.bus(), 'stop').length).toBeGreaterThanOrEqual(3);
   expect(ofKind(await ptyBoard.bus(), 'move').at(-1)?.targets).toEqual([{ servo: 1, position: 2000 }]);
 });
 

@@ -53,8 +53,8 @@ class Ports(Protocol):
 
 
 class LinkEvents(Protocol):
-    def port_opened(self, wire: Wire) -> None:
-        """Before anything else is sent on that wire."""
+    def port_opened(self, wire: Wire) -> asyncio.Task[None] | None:
+        """Before anything else is sent on that wire. Done when what is sent at first has left."""
 
     def port_lost(self, unfinished: CommandPacket | None) -> None:
         """It was open and was lost; that packet was on its way."""
@@ -129,8 +129,8 @@ class Link:
         raise ClosedError("No serial port is open.")
 
     async def use(self, device: str) -> None:
-        """Changes to that device. Raises the PortError of the first attempt; later attempts continue all the
-        same.
+        """Changes to that device; returns when the stops have left that an opening begins with. Raises the
+        PortError of the first attempt; later attempts continue all the same.
         """
         first: asyncio.Future[None] = asyncio.get_running_loop().create_future()
         whereabouts = Whereabouts(device)
@@ -204,9 +204,12 @@ class Link:
         opened_at, wire = self._now(), self._make_wire(port)
         try:
             self._wire = wire
-            self._events.port_opened(wire)
+            stops = self._events.port_opened(wire)
             self._show(PortState(device=whereabouts.path, status="open"))
-            settle(first)
+            if stops:
+                stops.add_done_callback(lambda _: self._settle(first, wire))
+            else:
+                settle(first)
             await wire.run()
         except PortError as error:
             self._wire = None
@@ -220,6 +223,10 @@ class Link:
         finally:
             self._wire = None
             await self._ports.close(port)
+
+    def _settle(self, first: asyncio.Future[None], wire: Wire) -> None:
+        if self._wire is wire:
+            settle(first)
 
     async def _open(self, whereabouts: Whereabouts) -> OpenPort:
         """Opens the device, also under a new name; nothing is sent before it is certain to be the same

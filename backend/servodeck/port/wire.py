@@ -21,6 +21,13 @@ from servodeck.protocol.timings import STOP, wire_s
 from servodeck.protocol.values import Stop
 
 STOP_PACKET = CommandPacket(Stop(), bytes.fromhex("55550207"))
+
+
+def stop_packets(byte_count: int) -> CommandPacket:
+    """Whole stop packets back to back, as many as fit."""
+    return CommandPacket(Stop(), STOP_PACKET.data * (byte_count // len(STOP_PACKET.data)))
+
+
 QUEUE_PER_OWNER = 8
 CLOCK_GRAIN_S = 1e-6
 
@@ -59,14 +66,17 @@ class Halt:
 
     `hold` follows the first stop at once, because a stop never ends the move in progress (S50), and the last
     one, because the first stop may have been lost (S52): each time that of the moment. It is several packets
-    where the port carries none that is long enough; `held` are those that left.
+    where the port carries none that is long enough; `held` are those that left. `question` leaves behind the
+    second stop: where it is answered before the last one, the board hears that one.
     """
 
     hold: Hold
     left: Left
+    question: Callable[[], CommandPacket | None]
     stops_to_go: int = 1 + STOP.repeats
     held: list[CommandPacket] = field(default_factory=list)
     hold_now: bool = False
+    ask_now: bool = False
     due: float = field(default=float("-inf"))
 
 
@@ -88,6 +98,12 @@ class Wire:
         """
         self.unfinished: CommandPacket | None = first
         """The packet that may not have left completely."""
+        self.asked: int | None = None
+        """The command number of the question behind the latest stop sequence."""
+        self.is_heard = False
+        """The board has answered it."""
+        self.is_confirmed = False
+        """And did so before the last stop of the sequence."""
         self._port = port
         self._gap_s = max(gap_s, STOP.gap_ms / 1000)
         self._now = now
@@ -132,9 +148,16 @@ class Wire:
 
         return self._queue_up(queue, packet.number, make, owner)
 
-    def send_made(self, number: int, make: Callable[[], CommandPacket | None], owner: Owner) -> Left:
+    def send_made(
+        self,
+        number: int,
+        make: Callable[[], CommandPacket | None],
+        owner: Owner,
+        *,
+        urgent: bool = False,
+    ) -> Left:
         """Queues a packet of that command number that is made when the wire is free."""
-        return self._queue_up(self._queue, number, make, owner)
+        return self._queue_up(self._urgent if urgent else self._queue, number, make, owner)
 
     def _queue_up(
         self, queue: deque[Job], number: int, make: Callable[[], CommandPacket | None], owner: Owner
@@ -146,15 +169,21 @@ class Wire:
         self._work.set()
         return job.left
 
-    def halt(self, hold: Hold, reason: GatewayError) -> Left:
+    def halt(
+        self,
+        hold: Hold,
+        reason: GatewayError,
+        question: Callable[[], CommandPacket | None] = lambda: None,
+    ) -> Left:
         """Drops all that waits and sends the stop sequence with what `hold` gives. Pressed again, it joins
-        the one under way.
+        the one under way. `question`: such a board answers it where it hears.
         """
         if self._ended:
             raise self._ended
         self.purge(lambda _job: True, reason)
         if self._halt is None:
-            self._halt = Halt(hold, asyncio.get_running_loop().create_future())
+            self._halt = Halt(hold, asyncio.get_running_loop().create_future(), question)
+            self.asked, self.is_heard, self.is_confirmed = None, False, False
             metrics.totals.stops += 1
         else:
             self._halt.hold = hold
@@ -171,8 +200,18 @@ class Wire:
         return self._port.longest_packet
 
     @property
+    def in_reports(self) -> bool:
+        """Each packet leaves in a frame of its own."""
+        return self._port.in_reports
+
+    @property
     def withheld(self) -> frozenset[Withheld]:
         return self._port.withheld
+
+    @property
+    def halting(self) -> Left | None:
+        """The stop sequence under way."""
+        return self._halt.left if self._halt else None
 
     @property
     def is_halting(self) -> bool:
@@ -180,6 +219,8 @@ class Wire:
 
     def answered(self, number: int) -> None:
         """The board has answered a packet of that command number: if it left last, the gap is over."""
+        if number == self.asked:
+            self.is_heard = True
         if number == self._last_number:
             self._free_at = min(self._free_at, max(self._left_at, self._now()))
             self._freed.set()
@@ -236,14 +277,21 @@ class Wire:
                 await self._put(hold, None)
                 halt.held.append(hold)
                 halt.hold_now = halt.hold(halt.held) is not None
+        elif halt.ask_now:
+            halt.ask_now = False
+            if question := halt.question():
+                await self._put(question, None)
+                self.asked = question.number
         elif halt.stops_to_go:
             await self._until(halt.due)
+            self.is_confirmed = self.is_heard and halt.stops_to_go == 1
             is_edge = halt.stops_to_go in (1 + STOP.repeats, 1)
             halt.stops_to_go -= 1
             halt.due = self._now() + STOP.repeat_every_ms / 1000
             await self._put(STOP_PACKET, None)
             halt.held = []
             halt.hold_now = is_edge and halt.hold(halt.held) is not None
+            halt.ask_now = halt.stops_to_go == 1
         if halt.stops_to_go == 0 and not halt.hold_now:
             self._halt = None
             settle(halt.left)

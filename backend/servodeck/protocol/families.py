@@ -105,6 +105,10 @@ class Family:
     empty_seven: Literal["runFinished", "runStopped", "unknown"]
     # Any question ends a running group without a report (L8): ask only while nothing runs.
     query_kills_run: bool
+    # So many bytes of what comes next are taken at most for the rest of a packet that was cut (S3, L3).
+    left_over_bytes: int
+    # The question whose answer proves that the board hears its stops; None where it may stay silent.
+    stop_confirmed_by: Question | None
     # What ends a packet that was cut, on a board that bears it; None: nothing may be sent for that.
     resync_filler: int | None
     # Command numbers that must not go out, not even by hand.

@@ -40,6 +40,10 @@ class Stop(NamedTuple):
     gap_ms: int
     repeats: int
     repeat_every_ms: int
+    stray_bytes: int
+    hold_again_ms: int
+    holds_again: int
+    again_every_ms: int
     held_within_ms: int
     unknown_frame_ms: int
     rested_ms: int

@@ -71,4 +71,5 @@ class Broadcast:
             "broken_slots": board.broken_slots,
             "slot_versions": board.slot_versions,
             "waiting_to_start": board.moves.waiting_to_start,
+            "may_be_running": board.may_be_running,
         }

@@ -318,6 +318,9 @@ class Control:
     def stopped_again(self, since_s: float) -> None:
         self._publish_unheld(since_s)
 
+    def is_latched(self) -> bool:
+        return self.latch
+
     def is_watched(self) -> bool:
         return self._is_monitored or len(self.hub) > 0
 
@@ -386,7 +389,8 @@ class Control:
     def _halted(self, left: Left) -> None:
         if not left.cancelled() and left.exception() is None:
             self._publish_unheld(self._pressed_s)
+            self.board.halts.insist(self._pressed_s)
 
     def _publish_unheld(self, since_s: float) -> None:
         self._unheld = self.board.halts.unheld_since(since_s)
-        self.hub.send_all(HaltedMessage(unheld=self.unheld))
+        self.hub.send_all(HaltedMessage(outcome=self.board.halts.outcome, unheld=self.unheld))

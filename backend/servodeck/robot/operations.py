@@ -145,7 +145,7 @@ class Operations:
             grant = Grant(self._control, claim)
             self._control.board.plays.judge_idle()
             # One that left between the repeats of a stop would be ended by the last one.
-            for stops in (self._ending, self._control.board.halts.at_return):
+            for stops in (self._ending, self._control.board.halts.at_opening):
                 if stops:
                     await asyncio.shield(stops)
                     claim.renew()
@@ -219,6 +219,7 @@ class Operations:
     def _judge_rest(self) -> None:
         if not (self._control.board.activity.is_at_rest() and self._control.board.moves.is_empty):
             raise MovingError("The robot is moving: wait until it rests, or stop it first.")
+        self._control.board.judge_before()
 
     @contextlib.asynccontextmanager
     async def _one_request(self) -> AsyncIterator[None]:

@@ -262,6 +262,7 @@ class Requests:
         is_clear = board.moves.is_empty and wire.is_clear_of(lambda number: number not in HARMLESS)
         if not (board.activity.is_at_rest() and is_clear):
             raise MovingError(still_moving(board.motion, self._now()))
+        board.judge_before()
         claim()
         return board.jobs.begin(parts, by, board.link.place, wire)
 

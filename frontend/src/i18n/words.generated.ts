@@ -999,6 +999,7 @@ export interface Messages {
       readonly sending: string;
       readonly sent: string;
       readonly confirmed: string;
+      readonly unanswered: string;
       readonly failed: string;
     };
     readonly resumed: (values: { readonly name: string }) => string;
@@ -1014,6 +1015,7 @@ export interface Messages {
   };
   readonly activity: {
     readonly idle: string;
+    readonly before: string;
     readonly moving: string;
     readonly running: (values: { readonly slot: number; readonly times: number }) => string;
     readonly runTruth: {

@@ -64,7 +64,8 @@ async function farGateway(clock: VirtualClock, delayMs: number, line: SimulatedC
       if (!(error instanceof LinkError)) throw error;
       if ('id' in message) say({ type: 'refused', id: message.id, code: error.code, detail: error.message });
     };
-    if (message.type === 'stop') void there.halt().then(() => say({ type: 'halted', unheld: null }));
+    if (message.type === 'stop')
+      void there.halt().then(() => say({ type: 'halted', outcome: 'sent', unheld: null }));
     else if (message.type === 'play') {
       const frames = message.frames.map(({ durationMs, positions }) => ({
         durationMs,

@@ -106,9 +106,9 @@ describe('STOP', () => {
   test('what a stop of anybody cannot hold the gateway says, and its word counts', async () => {
     const { robot, say, state } = await createGateway();
     state({ latchedBy: 'person', stoppedBy: 'Anna' });
-    say({ type: 'halted', unheld: { servos: [3], forMs: 1_200 } });
+    say({ type: 'halted', outcome: 'sent', unheld: { servos: [3], forMs: 1_200 } });
     expect(robot.state.latch).toMatchObject({ reason: 'elsewhere', unheld: { servos: [3], forMs: 1_200 } });
-    say({ type: 'halted', unheld: null });
+    say({ type: 'halted', outcome: 'sent', unheld: null });
     expect(robot.state.latch).toMatchObject({ unheld: null });
   });
 
@@ -119,7 +119,7 @@ describe('STOP', () => {
     const halted = robot.halt();
     expect(robot.state.latch).toMatchObject({ reason: 'pressed', stop: 'sending' });
     expect(types(gateway)).toEqual(['stop']);
-    say({ type: 'halted', unheld: null });
+    say({ type: 'halted', outcome: 'sent', unheld: null });
     await halted;
     expect(robot.state.latch).toMatchObject({ stop: 'sent' });
     say({ type: 'received', bytes: '55550207', report: { kind: 'runStopped' } });
@@ -187,7 +187,7 @@ describe('STOP', () => {
       await clock.advance(5_000);
       expect(gateway.posted).toEqual([{ type: 'stop', reason: 'person' }]);
       expect(robot.state.latch).toMatchObject({ reason: 'pressed', stop: 'sending' });
-      say({ type: 'halted', unheld: null });
+      say({ type: 'halted', outcome: 'sent', unheld: null });
       await settled(gateway);
       expect(robot.state.latch).toMatchObject({ reason: 'pressed', stop: 'sent' });
     });
@@ -200,7 +200,7 @@ describe('STOP', () => {
       await expect(halted).resolves.toMatchObject({ code: 'gatewayUnreachable' });
       await clock.advance(5_000);
       expect(types(gateway)).toEqual(['stop', 'stop']);
-      say({ type: 'halted', unheld: null });
+      say({ type: 'halted', outcome: 'sent', unheld: null });
       await settled(gateway);
       cut();
       await clock.advance(5_000);
@@ -215,7 +215,7 @@ describe('STOP', () => {
     state({ link: stale, latchedBy: 'loss' });
     expect(robot.state.latch).toMatchObject({ reason: 'reconnected', stop: 'failed' });
     state({ link: READY.link });
-    say({ type: 'halted', unheld: { servos: null, forMs: 900 } });
+    say({ type: 'halted', outcome: 'sent', unheld: { servos: null, forMs: 900 } });
     await settled(gateway);
     expect(types(gateway)).toEqual([]);
     expect(robot.state.latch).toMatchObject({

@@ -34,7 +34,7 @@ export const READY: Omit<StateMessage, 'type'> = {
   link: { status: 'ready', code: null, detail: null },
   identity: { evidence: [], candidates: [] },
   ...{ latch: false, latchedBy: null, stoppedBy: null, clients: 1, unattended: null },
-  ...{ brokenSlots: [], slotVersions: {}, waitingToStart: [] },
+  ...{ brokenSlots: [], slotVersions: {}, waitingToStart: [], mayBeRunning: false },
 };
 
 const WELCOME: WelcomeMessage = {

@@ -284,6 +284,7 @@ export interface WelcomeMessage {
     [k: string]: StoredGroup;
   };
   waitingToStart: number[];
+  mayBeRunning: boolean;
   type: 'welcome';
   version: string;
   robot: RobotState | null;
@@ -843,10 +844,12 @@ export interface NoiseMessage {
   bytes: string;
 }
 /**
- * The stop sequence has left the wire. `unheld`: servos that may continue to move, if any.
+ * The stop sequence has left the wire. `unheld`: servos that may continue to move, if any. It comes again
+ * where more is known later.
  */
 export interface HaltedMessage {
   type: 'halted';
+  outcome: 'sent' | 'confirmed' | 'unanswered';
   unheld: UnheldServos | null;
 }
 /**
@@ -882,6 +885,7 @@ export interface StateMessage {
     [k: string]: StoredGroup;
   };
   waitingToStart: number[];
+  mayBeRunning: boolean;
   type: 'state';
 }
 /**

@@ -54,6 +54,10 @@ export interface Family {
   readonly emptySeven: 'runFinished' | 'runStopped' | 'unknown';
   /** Any question ends a running group, unsaid (L8): ask only while nothing runs. */
   readonly queryKillsRun: boolean;
+  /** So many bytes of what comes next a board takes at most for the rest of a packet that was cut before (S3, L3). */
+  readonly leftOverBytes: number;
+  /** The question whose answer proves that the board hears its stops; null where it may stay silent for good reasons. */
+  readonly stopConfirmedBy: Question | null;
   /** What frees a parser that waits for the rest of a cut packet (S7); null where that may do harm. */
   readonly resyncFiller: number | null;
   /** Command numbers that must not go out, not even by hand: they write settings, move, or their meaning is unknown. */

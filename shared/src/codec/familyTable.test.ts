@@ -56,6 +56,8 @@ const row = v.strictObject({
   runReportsNameSlot: v.boolean(),
   emptySeven: v.picklist(['runFinished', 'runStopped', 'unknown']),
   queryKillsRun: v.boolean(),
+  leftOverBytes: whole,
+  stopConfirmedBy: v.nullable(v.picklist(['readBattery', 'readVersion', 'readPositions'])),
   resyncFiller: v.nullable(whole),
   neverSend: v.array(whole),
   ignoresUnknown: v.boolean(),

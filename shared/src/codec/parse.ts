@@ -3,7 +3,7 @@
 
 import { ALL_GROUPS, COMMAND_NUMBER, type Command, type Frame, type ServoTarget } from './commands.ts';
 import type { Family } from './families.ts';
-import type { Packet } from './packet.ts';
+import { packetBytes, type Packet } from './packet.ts';
 import { SERVO_TYPES, type Report } from './reports.ts';
 
 /** How many servos its answers are about; no count stands in them. */
@@ -31,9 +31,18 @@ export function parseCommand({ command, params }: Packet): Command | null {
   }
 }
 
-/** The same of a packet's bytes, header and all. */
+/** The same of a packet's bytes, header and all. Stop packets in a row are one stop. */
 export function commandIn(packet: Uint8Array): Command | null {
-  return parseCommand({ command: packet[3] ?? 0, params: packet.subarray(4) });
+  const command = parseCommand({ command: packet[3] ?? 0, params: packet.subarray(4) });
+  return command ?? (stopsIn(packet) > 0 ? { kind: 'stop' } : null);
+}
+
+const STOP_BYTES = packetBytes(COMMAND_NUMBER.stop, []);
+
+/** How many stop packets these bytes are; 0 where they are anything else. */
+export function stopsIn(bytes: Uint8Array): number {
+  const areStops = bytes.every((byte, index) => byte === STOP_BYTES[index % STOP_BYTES.length]);
+  return areStops ? Math.floor(bytes.length / STOP_BYTES.length) : 0;
 }
 
 /** Those that only some families have. */

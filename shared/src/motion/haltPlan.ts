@@ -33,7 +33,7 @@ const STOP: Command = { kind: 'stop' };
 const STOP_MS = wireMs(4);
 
 /** As of the press of STOP at `nowMs`: the first hold, and the motion that continues behind the last one. */
-export function haltPlan(motion: Motion, nowMs: number, board: KnownBoard): HaltPlan {
+export function haltPlan(motion: Motion, nowMs: number, board: KnownBoard, holdsToFollow = 0): HaltPlan {
   const stoppedMs = nowMs + STOP_MS;
   const stopped = afterCommand(advance(motion, nowMs, board), STOP, stoppedMs, board);
   const hold = holdBehindStop(stopped, stoppedMs, board);
@@ -44,7 +44,7 @@ export function haltPlan(motion: Motion, nowMs: number, board: KnownBoard): Halt
   const lastMs = holdLeavesMs(lastHold, lastStopMs, board.family);
   return {
     hold,
-    unheld: unheldSince(nowMs, afterHold(current, lastHold, lastStopMs, board), lastMs, board),
+    unheld: unheldSince(nowMs, afterHold(current, lastHold, lastStopMs, board), lastMs, board, holdsToFollow),
   };
 }
 
@@ -64,19 +64,28 @@ function afterHold(motion: Motion, hold: Hold | null, stoppedMs: number, board: 
     : afterCommand(motion, hold, holdLeavesMs(hold, stoppedMs, board.family), board);
 }
 
-/** What may go on, now that the last packet of a STOP pressed at `pressedMs` left at `lastMs`. */
+/**
+ * What may go on, now that the last packet of a STOP pressed at `pressedMs` left at `lastMs`. Where the board re-times every servo (S26), each
+ * hold that is to follow puts off the end of what is under way, by a tick that has begun.
+ */
 export function unheldSince(
   pressedMs: number,
   motion: Motion,
   lastMs: number,
   board: KnownBoard,
+  holdsToFollow = 0,
 ): Unheld | null {
   const { family } = board;
+  const { tickMs, talkMs, timing } = family.motion;
+  const laterMs = timing === 'shared' ? holdsToFollow * (tickMs + talkMs) : 0;
   const limitMs = lastMs + timings.stop.heldWithinMs;
   const current = advance(motion, lastMs, board);
-  const known = [...current.tracks].map(([servo, track]) => ({ servo, untilMs: restsMs(track, family) }));
+  const known = [...current.tracks].map(([servo, track]) => ({
+    servo,
+    untilMs: restsMs(track, family) + laterMs,
+  }));
   const late = known.filter(({ untilMs }) => untilMs > limitMs);
-  const unknownMs = unknownUntilMs(current, lastMs);
+  const unknownMs = unknownUntilMs(current, lastMs) + laterMs;
   const isUnknown = unknownMs > limitMs;
   if (late.length === 0 && !isUnknown) return null;
   const forMs = Math.max(...late.map(({ untilMs }) => untilMs), isUnknown ? unknownMs : 0) - pressedMs;

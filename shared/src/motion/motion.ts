@@ -148,8 +148,10 @@ function maybeSwallowed(motion: Motion, atMs: number): Motion {
 }
 
 /** After one of our packets was cut. Where no filler ends it (S7) the board waits for its rest, and takes what comes next for that. */
-export function afterCutPacket(motion: Motion, { resyncFiller, maxLength }: Family): Motion {
+export function afterCutPacket(motion: Motion, { resyncFiller, maxLength, leftOverBytes }: Family): Motion {
   if (resyncFiller !== null) return motion;
+  // A header that it takes for LEN is more than it has room for: only an answer says that it survived that (L3).
+  if (leftOverBytes < HEADER) return { ...motion, maySwallow: Infinity };
   // Cut in its head, it gets the first header of the next one for its LEN.
   const longestBytes = Math.max(HEADER, maxLength) + HEAD_BYTES;
   return { ...motion, maySwallow: Math.ceil(longestBytes / SHORTEST_PACKET_BYTES) };

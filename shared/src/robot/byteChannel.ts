@@ -26,6 +26,8 @@ export interface ByteChannel {
   readonly label: string;
   /** In bytes; Infinity where a packet of any length passes. Longer ones never reach `write`. */
   readonly longestPacket: number;
+  /** Each packet leaves in a frame of its own: what others left unfinished on the line is no part of it. Absent: it does not. */
+  readonly inReports?: boolean;
   /** Set before `open`; each attempt may set another. null: no listener. */
   events: ChannelEvents | null;
   /** Rejects with a LinkError, in bounded time. May be called again after `lost`, `close` or a failure. */

@@ -39,7 +39,7 @@ import type { Family } from '../codec/families.ts';
 import { moveBytes, wireMs } from '../codec/packet.ts';
 import type { Report } from '../codec/reports.ts';
 import type { Motions, ServoMotion } from './state.ts';
-import { FIRST_MOVE_MS, RANGE_MS } from './timings.ts';
+import { FIRST_MOVE_MS, HOLD_AGAIN_MS, RANGE_MS } from './timings.ts';
 import timings from '../../protocol/timings.json' with { type: 'json' };
 
 export interface RobotEstimate {
@@ -67,11 +67,13 @@ export interface RobotEstimate {
   /** At most, as far as the moves go that are known; a group is another matter. */
   movesForMs(): number;
   /** What a STOP pressed now holds and what not; `leaving` is on the wire and cannot be called back. */
-  haltPlan(leaving: Command | null): HaltPlan;
+  haltPlan(leaving: Command | null, holdsToFollow?: number): HaltPlan;
   /** What holds the robot, as a move that begins to leave now, a gap behind a stop. */
   hold(): MoveCommand | null;
+  /** The same where the one before may not have been heard: the servos have gone on, and are not torn back. Where it was, nothing moves. */
+  holdAgain(): MoveCommand | null;
   /** The motion that continues in spite of a STOP pressed then, whose last packet left just now. */
-  unheldSince(pressedMs: number): Unheld | null;
+  unheldSince(pressedMs: number, holdsToFollow: number): Unheld | null;
   moving(): boolean;
   /** What is known of the group that may run: with its frames, when it ends. */
   groupRuns(): 'no' | 'known' | 'unknown';
@@ -132,6 +134,8 @@ export function createRobotEstimate(family: Family, clock: Clock): RobotEstimate
     // Boards cut what is no whole tick.
     return Math.ceil((share * RANGE_MS) / family.motion.tickMs) * family.motion.tickMs;
   }
+
+  const hold = (): MoveCommand | null => holdBehindStop(now(), clock.now() - family.serviceGapMs, board);
 
   /** Those that are to go as fast as they may arrive together. */
   function timed(orders: readonly ServoOrder[]): readonly ServoOrder[] {
@@ -202,12 +206,22 @@ export function createRobotEstimate(family: Family, clock: Clock): RobotEstimate
     hastenedMs,
     groupMayRun: () => now().run !== null,
     movesForMs: () => remainingMs(now(), clock.now()),
-    haltPlan(leaving) {
+    haltPlan(leaving, holdsToFollow) {
       const begun = leaving === null ? now() : afterCommand(now(), leaving, clock.now(), board);
-      return haltPlan(begun, clock.now(), board);
+      return haltPlan(begun, clock.now(), board, holdsToFollow);
     },
-    hold: () => holdBehindStop(now(), clock.now() - family.serviceGapMs, board),
-    unheldSince: (pressedMs) => unheldSince(pressedMs, now(), clock.now(), board),
+    hold,
+    holdAgain() {
+      const again = hold();
+      if (again === null) return null;
+      const leftMs = remainingMs(now(), clock.now());
+      if (leftMs === 0) return { ...again, durationMs: Math.max(HOLD_AGAIN_MS, again.durationMs) };
+      // What is still under way takes no longer for being held again, and no tick that has begun is cut.
+      const { tickMs } = family.motion;
+      return { ...again, durationMs: Math.min(again.durationMs, (1 + Math.ceil(leftMs / tickMs)) * tickMs) };
+    },
+    unheldSince: (pressedMs, holdsToFollow) =>
+      unheldSince(pressedMs, now(), clock.now(), board, holdsToFollow),
     moving() {
       const { run, restlessUntilMs } = now();
       return run !== null || restlessUntilMs > clock.now() || remainingMs(now(), clock.now()) > 0;

@@ -6,14 +6,16 @@ import timings from '../../protocol/timings.json' with { type: 'json' };
 import { sleep, type Clock } from '../clock.ts';
 import { encodeCommand } from '../codec/encode.ts';
 import { UNKNOWN_BOARD } from '../codec/families.ts';
+import { stopsIn } from '../codec/parse.ts';
 import { wireMs } from '../codec/packet.ts';
+import type { ReportKind } from '../codec/reports.ts';
 import type { HaltPlan, Unheld } from '../motion/haltPlan.ts';
 import { LinkError } from './linkError.ts';
 import type { Queue } from './queue.ts';
 import { createMotionLatch } from './latch.ts';
 import type { HaltReason } from './state.ts';
 import type { SessionStore } from './store.ts';
-import { STOP_EVERY_MS, STOP_REPEATS } from './timings.ts';
+import { HOLDS_AGAIN, STOP_AGAIN_MS, STOP_EVERY_MS, STOP_REPEATS, STRAY_BYTES } from './timings.ts';
 import { COMMAND_NUMBER } from '../codec/commands.ts';
 
 export interface Halt {
@@ -23,8 +25,15 @@ export interface Halt {
   resume(): Promise<void>;
   /** The link went: a person must look before anything moves again. */
   latchedByLoss(): void;
-  /** The link is back after a loss: end what may still run, wait for a person. */
+  /**
+   * The line is open, for the first time or again: what others left unfinished on it is filled with stops, then the robot is stopped.
+   * Resolves when these have left; nothing else leaves before. Behind a loss a person must resume.
+   */
+  opened(isReturn: boolean): Promise<void>;
+  /** The board is back after a silence: end what may still run, wait for a person. */
   stopAfterReturn(): void;
+  /** It answers for the first time since the line was opened: now it hears for sure. Resolves when these stops have left. */
+  stopAtAnswer(): Promise<void>;
   /**
    * The board says that a group runs: behind a stop it is one that it held while its flash worked, which drops stops (S9, S41). Or it
    * answers for the first time since a packet was cut: the stops since then it may have taken for the rest of that. Or it was deaf
@@ -32,6 +41,8 @@ export interface Halt {
    */
   again(): void;
   confirmed(): void;
+  /** The board has said something of that kind. */
+  heard(kind: ReportKind): void;
 }
 
 /** A STOP that is leaving. */
@@ -40,7 +51,15 @@ interface Sequence {
   stopsToGo: number;
   /** When the next stop may begin to leave. */
   dueMs: number;
+  /** The board had answered before the latest stop. */
+  wasHeard: boolean;
   left: Promise<Unheld | null>;
+}
+
+/** What such a board is asked behind a stop, and what it answers where it hears. */
+interface Confirmation {
+  readonly question: Uint8Array;
+  readonly answer: ReportKind;
 }
 
 export interface HaltOptions {
@@ -48,14 +67,18 @@ export interface HaltOptions {
   readonly store: SessionStore;
   readonly queue: Queue;
   /** What a STOP pressed now holds, and what not. */
-  plan(): HaltPlan;
+  plan(holdsToFollow: number): HaltPlan;
   /** The move that holds the robot and begins to leave now; null where there is nothing to hold. */
-  hold(): HaltPlan['hold'];
+  hold(isAgain: boolean): HaltPlan['hold'];
   /** As many as one packet holds. */
   servosPerMove(): number;
   /** The motion that continues in spite of a STOP pressed then, whose last packet left just now. */
-  unheldSince(pressedMs: number): Unheld | null;
+  unheldSince(pressedMs: number, holdsToFollow: number): Unheld | null;
   encoded(hold: NonNullable<HaltPlan['hold']>): Uint8Array;
+  /** So many bytes the board may take for the rest of what others left on the line; 0 on a link that frames its packets. */
+  leftOverBytes(): number;
+  /** Null where such a board may stay silent, or where no question may leave now. */
+  confirmation(): Confirmation | null;
   dropAll(error: LinkError): void;
 }
 
@@ -63,8 +86,13 @@ export function createHalt(options: HaltOptions): Halt {
   const { clock, store, queue, dropAll } = options;
 
   let sequence: Sequence | null = null;
+  /** What the board has to answer to the question behind the latest STOP, and whether it has. */
+  let asked: ReportKind | null = null;
+  let isHeard = false;
+  /** Counted, so that a stop that came later ends the insisting of one before. */
+  let insistences = 0;
   const latch = createMotionLatch({
-    ...{ clock, store, unheldSince: options.unheldSince },
+    ...{ clock, store, unheldSince: (pressedMs) => options.unheldSince(pressedMs, 0) },
     drop: () => dropAll(new LinkError('latched', 'stopped')),
   });
 
@@ -72,18 +100,18 @@ export function createHalt(options: HaltOptions): Halt {
    * Others may have pressed STOP, too: it is built when it leaves, behind their stops. Where the link carries no packet that holds
    * all servos, the others follow in the next.
    */
-  async function sendHold(): Promise<void> {
+  async function sendHold(holdNow = (): HaltPlan['hold'] => options.hold(false)): Promise<void> {
     const held = new Set<number>();
     let wanted = 0;
     const part = (): HaltPlan['hold'] => {
-      const hold = options.hold();
+      const hold = holdNow();
       const targets = hold?.targets.filter(({ servo }) => !held.has(servo)) ?? [];
       return hold && targets.length > 0
         ? { ...hold, targets: targets.slice(0, options.servosPerMove()) }
         : null;
     };
     const packet = (): Uint8Array | null => {
-      if (wanted === 0) wanted = options.hold()?.targets.length ?? 0;
+      if (wanted === 0) wanted = holdNow()?.targets.length ?? 0;
       const hold = part();
       for (const { servo } of hold?.targets ?? []) held.add(servo);
       return hold && options.encoded(hold);
@@ -99,20 +127,110 @@ export function createHalt(options: HaltOptions): Halt {
    * frame that began because that stop fell into a full mailbox (S52).
    */
   async function sendSequence(mine: Sequence): Promise<Unheld | null> {
+    asked = null;
+    isHeard = false;
     try {
       for (let isFirst = true; mine.stopsToGo > 0; isFirst = false) {
         if (mine.dueMs > clock.now()) await sleep(clock, mine.dueMs - clock.now());
         mine.stopsToGo -= 1;
+        mine.wasHeard = isHeard;
         mine.dueMs = (await sendStop(clock, queue.stop)) + STOP_EVERY_MS;
         if (isFirst || mine.stopsToGo === 0) await sendHold();
+        // An answer before the last stop proves that this one is heard.
+        if (mine.stopsToGo === 1) await ask();
       }
     } finally {
       sequence = null;
     }
-    return options.unheldSince(mine.pressedMs);
+    if (mine.wasHeard) latch.change({ stop: 'confirmed' });
+    insist(mine.pressedMs, options.leftOverBytes()).catch(ignore);
+    return options.unheldSince(mine.pressedMs, mine.wasHeard ? 0 : holdsToFollow());
+  }
+
+  /** While the board has not confirmed, the hold leaves so often more. */
+  const holdsToFollow = (): number => (options.leftOverBytes() > 0 ? HOLDS_AGAIN : 0);
+
+  async function ask(): Promise<void> {
+    const confirmation = options.confirmation();
+    if (confirmation === null) return;
+    await queue.stop(confirmation.question);
+    asked = confirmation.answer;
+  }
+
+  /**
+   * A stray byte before STOP makes the board take all of it for the rest of a packet (S3, S4). So stops go on behind it until the board has
+   * confirmed them, or cannot miss them any more, with the hold again where the stray bytes are over; then seldom, until a person resumes.
+   */
+  async function insist(pressedMs: number, bytes: number): Promise<void> {
+    insistences += 1;
+    const mine = insistences;
+    const isWanted = (): boolean => mine === insistences && sequence === null && isUnconfirmed();
+    for (let sent = 0; sent < bytes && isWanted() && !isHeard; sent += STRAY_BYTES) {
+      const stops = stopPackets(Math.min(STRAY_BYTES, bytes - sent));
+      await queue.stop(() => (isWanted() ? stops : null));
+      if (sent === 0 || sent + STRAY_BYTES >= bytes)
+        await sendHold(() => (isWanted() ? options.hold(true) : null));
+    }
+    if (isWanted()) await judge(pressedMs, bytes, isWanted);
+    while (isWanted()) {
+      await sleep(clock, STOP_AGAIN_MS);
+      if (!isWanted()) return;
+      if (isHeard) again();
+      else if (store.state.link.status !== 'identifying') await remind(isWanted);
+    }
+  }
+
+  const isUnconfirmed = (): boolean => {
+    const { latch: current } = store.state;
+    return current !== null && current.stop !== 'confirmed';
+  };
+
+  /** What is to be said now that all these stops have left. */
+  async function judge(pressedMs: number, bytes: number, isWanted: () => boolean): Promise<void> {
+    if (isHeard) {
+      await queue.stop(() => (isWanted() ? STOP_PACKET : null));
+      await sendHold(() => (isWanted() ? options.hold(true) : null));
+      if (isWanted()) latch.change({ stop: 'confirmed', unheld: options.unheldSince(pressedMs, 0) });
+    } else if (asked !== null) {
+      latch.change({ stop: 'unanswered', unheld: { servos: null, forMs: Infinity } });
+    } else if (bytes > 0) {
+      latch.change({ unheld: options.unheldSince(pressedMs, 0) });
+    }
+  }
+
+  async function remind(isWanted: () => boolean): Promise<void> {
+    await queue.stop(() => (isWanted() ? STOP_PACKET : null));
+    if (isWanted()) await ask();
+  }
+
+  /** Those that nobody pressed; a STOP that is pressed meanwhile sends its own in place of these. */
+  async function stopQuietly(leftOverBytes = 0): Promise<Unheld | null> {
+    if (leftOverBytes > 0) await queue.stop(stopPackets(leftOverBytes));
+    await repeatStop(clock, queue.stop, () => sequence === null);
+    return sequence?.left ?? options.unheldSince(latch.pressedMs, 0);
+  }
+
+  /** Its failure is the latch's `failed`; no caller waits for it. */
+  function stopForPerson(stops: Promise<Unheld | null>): void {
+    latch.press();
+    const before = insistences;
+    async function stopAndRemind(): Promise<void> {
+      await latch.follow(stops);
+      // A STOP that was pressed meanwhile insists by itself.
+      if (before === insistences) await insist(latch.pressedMs, 0);
+    }
+    stopAndRemind().catch(ignore);
   }
 
   const stopsFollow = (): boolean => sequence !== null && sequence.stopsToGo > 0;
+
+  function again(): void {
+    const { latch: current } = store.state;
+    if (current === null || stopsFollow()) return;
+    // Also a confirmed one.
+    store.update({ latch: { ...current, stop: 'sending' } });
+    void latch.settled.then(() => latch.follow(sendOrJoin())).catch(ignore);
+  }
 
   /** Pressed again it joins the one under way: each press is followed by a stop, but presses never put off the hold. */
   function sendOrJoin(): Promise<Unheld | null> {
@@ -122,6 +240,7 @@ export function createHalt(options: HaltOptions): Halt {
     }
     const mine: Sequence = {
       ...{ pressedMs: latch.pressedMs, stopsToGo: 1 + STOP_REPEATS, dueMs: clock.now() },
+      wasHeard: false,
       left: Promise.resolve(null),
     };
     sequence = mine;
@@ -131,9 +250,9 @@ export function createHalt(options: HaltOptions): Halt {
 
   return {
     latchedByLoss: () =>
-      latch.set({ reason: 'reconnected', by: null, stop: 'failed', unheld: options.plan().unheld }),
+      latch.set({ reason: 'reconnected', by: null, stop: 'failed', unheld: options.plan(0).unheld }),
     async halt(why = 'pressed') {
-      const { unheld } = options.plan();
+      const { unheld } = options.plan(holdsToFollow());
       latch.set({ reason: why, by: null, stop: 'sending', unheld });
       latch.press();
       await latch.follow(sendOrJoin());
@@ -143,26 +262,31 @@ export function createHalt(options: HaltOptions): Halt {
       await sendOrJoin();
     },
     resume: () => latch.release(),
-    stopAfterReturn() {
-      latch.press();
-      async function send(): Promise<Unheld | null> {
-        await repeatStop(clock, queue.stop, () => sequence === null);
-        // STOP was pressed meanwhile, and its stops leave in place of these.
-        return sequence?.left ?? options.unheldSince(latch.pressedMs);
-      }
-      // Its failure is the latch's `failed`; no caller waits for it.
-      latch.follow(send()).catch(() => undefined);
+    async opened(isReturn) {
+      const stops = stopQuietly(options.leftOverBytes());
+      if (isReturn) stopForPerson(stops);
+      await stops;
     },
-    again() {
-      const { latch: current } = store.state;
-      if (current === null || stopsFollow()) return;
-      // Also a confirmed one.
-      store.update({ latch: { ...current, stop: 'sending' } });
-      void latch.settled.then(() => latch.follow(sendOrJoin())).catch(() => undefined);
+    stopAfterReturn: () => stopForPerson(stopQuietly()),
+    async stopAtAnswer() {
+      await stopQuietly();
     },
+    again,
     confirmed: () => latch.change({ stop: 'confirmed' }),
+    heard(kind) {
+      if (kind === asked) isHeard = true;
+    },
   };
 }
+
+const ignore = (): undefined => undefined;
+
+/** Whole ones, back to back: as many as fit. */
+const stopPackets = (bytes: number): Uint8Array =>
+  Uint8Array.from(
+    { length: bytes - (bytes % STOP_PACKET.length) },
+    (_, index) => STOP_PACKET[index % STOP_PACKET.length] ?? 0,
+  );
 
 /** The same on every board, so also on one that is not identified yet. */
 export const STOP_PACKET = encodeCommand({ kind: 'stop' }, UNKNOWN_BOARD);
@@ -234,7 +358,9 @@ function fillerFor(packet: Uint8Array, filler: number): Uint8Array {
   const command = packet[COMMAND_AT];
   if (command === COMMAND_NUMBER.run || command === COMMAND_NUMBER.download)
     return new Uint8Array(timings.line.fillerBytes).fill(filler);
-  return Uint8Array.of(0, ...new Uint8Array(packet.length).fill(filler));
+  // Of stops in a row each is a packet of its own.
+  const bytes = stopsIn(packet) > 0 ? STOP_PACKET.length : packet.length;
+  return Uint8Array.of(0, ...new Uint8Array(bytes).fill(filler));
 }
 
 interface StopAgain {

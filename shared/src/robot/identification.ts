@@ -37,14 +37,16 @@ interface IdentificationOptions {
   readBattery(): Promise<number>;
   /** Something moves: no time for questions. */
   isMoving(): boolean;
+  /** Resolves when the stops have left that follow its first answer. */
+  answered(): Promise<void>;
   /** From now on such a board is spoken to. */
   drive(family: Family): void;
   entered(state: LinkState): void;
 }
 
 interface Identification {
-  /** The line is open. */
-  begin(): void;
+  /** The line is open, and nothing is asked before these stops have left; null: there are none. */
+  begin(stops: Promise<void> | null): void;
   /** The line is down. */
   ended(): void;
   /** Throws where the link is not open or something moves. */
@@ -92,22 +94,34 @@ export function createIdentification(options: IdentificationOptions): Identifica
     if (status() === 'ready') entered({ status: 'stale', sinceMs: clock.now() });
   }
 
-  async function check(): Promise<void> {
+  async function check(stops: Promise<void> | null): Promise<void> {
     const mine = (round += 1);
     heartbeat.stop();
     entered({ status: 'identifying' });
-    const evidence = await identify({ clock, exchange, noiseBytes: () => noiseBytes, echoes: () => echoes });
+    const heard = { noiseBytes: () => noiseBytes, echoes: () => echoes };
+    const evidence = await identify({ clock, exchange, stops, ...heard });
+    await options.answered();
     if (mine !== round) return;
     store.update({ identity: identityFrom(evidence) });
     judge();
   }
 
-  function begunCheck(): void {
-    check().catch((error: unknown) => {
-      // Where the line went while questions were out, its state says so already.
-      if (lineIsOpen && status() === 'identifying')
-        refuse(error instanceof LinkError ? error.code : 'internal', String(error));
-    });
+  function begunCheck(stops: Promise<void> | null = null): void {
+    check(stops).catch(failed);
+  }
+
+  /** Where the line went while questions were out, its state says so already. */
+  function failed(error: unknown): void {
+    if (lineIsOpen && status() === 'identifying')
+      refuse(error instanceof LinkError ? error.code : 'internal', String(error));
+  }
+
+  /** The family's word is enough. */
+  async function acceptBehind(stops: Promise<void>): Promise<void> {
+    const mine = (round += 1);
+    entered({ status: 'identifying' });
+    await stops;
+    if (mine === round) accept(false);
   }
 
   function judge(): void {
@@ -137,11 +151,12 @@ export function createIdentification(options: IdentificationOptions): Identifica
   }
 
   return {
-    begin() {
+    begin(stops) {
       lineIsOpen = true;
       store.update({ identity: NOTHING_HEARD });
-      if (isDoubted) begunCheck();
-      else accept(false);
+      if (isDoubted) begunCheck(stops);
+      else if (stops === null) accept(false);
+      else acceptBehind(stops).catch(failed);
     },
     ended() {
       lineIsOpen = false;
@@ -165,7 +180,7 @@ export function createIdentification(options: IdentificationOptions): Identifica
       if (mustAsk || status() === 'stale') begunCheck();
       else judge();
     },
-    familyOnLine: () => (status() === 'identifying' ? UNKNOWN_BOARD : store.state.family),
+    familyOnLine: () => (identifies && status() === 'identifying' ? UNKNOWN_BOARD : store.state.family),
     heard(report, bytes) {
       hears(bytes);
       heartbeat.heard();
@@ -241,6 +256,8 @@ function createHeartbeat({ clock, question, ask, gone }: HeartbeatOptions): Hear
 export interface IdentifyOptions {
   readonly clock: Clock;
   readonly exchange: Exchange;
+  /** What has to leave before the first question. */
+  readonly stops: Promise<void> | null;
   /** Bytes heard so far that were no packets. */
   noiseBytes(): number;
   /** Packets heard so far that were our own question. */
@@ -260,6 +277,7 @@ export const QUESTIONS: Readonly<
 export async function identify({
   clock,
   exchange,
+  stops,
   noiseBytes,
   echoes,
 }: IdentifyOptions): Promise<readonly Evidence[]> {
@@ -290,7 +308,7 @@ export async function identify({
     return [battery, await ask(battery.kind === 'answered' ? 'readPositions' : 'readVersion')];
   }
 
-  await sleep(clock, IDENTIFY_LISTEN_MS);
+  await Promise.all([sleep(clock, IDENTIFY_LISTEN_MS), stops]);
   let answers = await askAll();
   // Text lines come from a LeArm that has just restarted and is deaf for a while (L1).
   const isStarting = noiseBytes() > noiseBefore && echoes() === echoesBefore;

@@ -33,7 +33,8 @@ describe('a lost link', () => {
     channel.plugIn();
     await clock.advance(1_000);
     expect(session.state.link).toEqual({ status: 'ready' });
-    expect(heard.map(({ command }) => command.kind)).toEqual(['stop', 'stop', 'stop']);
+    const kinds = new Set(heard.map(({ command }) => command.kind));
+    expect([...kinds]).toEqual(['stop']);
     expect(() => session.move([{ servo: 1, position: 1_500 }], 0)).toThrow(
       expect.objectContaining({ code: 'latched' }),
     );

@@ -217,6 +217,6 @@ describe('playing from the page', () => {
     await done;
     await clock.advance(5_000);
     expect(session.state.activity).toEqual({ kind: 'idle' });
-    expect(ofKind('move').length, 'two frames and two holds').toBe(2 + 2);
+    expect(ofKind('move').length, 'two frames, two holds, and these once more').toBe(2 + 4);
   });
 });

@@ -2,9 +2,8 @@
 // queue, the replies and a driver for the board that is there. Knows no cable by name and no user interface.
 
 import type { Clock } from '../clock.ts';
-import type { Command } from '../codec/commands.ts';
 import { UNKNOWN_BOARD, type Family } from '../codec/families.ts';
-import { commandIn } from '../codec/parse.ts';
+import { commandIn, stopsIn } from '../codec/parse.ts';
 import type { Report } from '../codec/reports.ts';
 import type { ByteChannel } from './byteChannel.ts';
 import { createChannelLink, createReceiver } from './channelLink.ts';
@@ -12,7 +11,7 @@ import type { SlotMemory } from './download.ts';
 import { createDriver, type Driver } from './driver.ts';
 import { createReplies } from './replies.ts';
 import { createHalt, STOP_PACKET, createResync, createStopAgain } from './halt.ts';
-import { createIdentification } from './identification.ts';
+import { createIdentification, QUESTIONS } from './identification.ts';
 import type { LineState } from './link.ts';
 import { LinkError } from './linkError.ts';
 import { createQueue } from './queue.ts';
@@ -20,7 +19,7 @@ import type { Robot } from './robot.ts';
 import { encodeOrRefuse } from './rules.ts';
 import type { LinkState, SessionState } from './state.ts';
 import { createSessionStore, noteReport, NOTHING_READ } from './store.ts';
-import { OVERSLEPT_MS } from './timings.ts';
+import { LONGEST_MOVE_MS, OVERSLEPT_MS } from './timings.ts';
 
 export interface LocalRobotOptions {
   readonly channel: ByteChannel;
@@ -47,6 +46,9 @@ export function createLocalRobot(options: LocalRobotOptions): Robot {
   /** The link was opened and not only mended. */
   let isOpened = false;
   let openedMs = 0;
+  /** The stops that follow the first answer behind an opening; null before that answer. */
+  let atAnswer: Promise<void> | null = null;
+  let endDoubt = (): void => undefined;
 
   const link = createChannelLink({
     channel,
@@ -63,21 +65,23 @@ export function createLocalRobot(options: LocalRobotOptions): Robot {
     send: link.send,
     takeMove: () => driver.moves.take(),
     leaving: note,
-    sent: (packet) => take(commandIn(packet)),
+    sent: take,
     moveFailed,
   });
 
   let driver: Driver = driverFor(family);
   const halt = createHalt({
     ...{ clock, store, queue, dropAll: (error) => driver.drop(error) },
-    plan() {
+    plan(holdsToFollow) {
       const leaving = queue.unfinished();
-      return driver.core.estimate.haltPlan(leaving && commandIn(leaving));
+      return driver.core.estimate.haltPlan(leaving && commandIn(leaving), holdsToFollow);
     },
-    hold: () => driver.core.estimate.hold(),
-    unheldSince: (pressedMs) => driver.core.estimate.unheldSince(pressedMs),
+    hold: (isAgain) => (isAgain ? driver.core.estimate.holdAgain() : driver.core.estimate.hold()),
+    unheldSince: (pressedMs, holdsToFollow) => driver.core.estimate.unheldSince(pressedMs, holdsToFollow),
     servosPerMove: () => driver.core.servosPerMove,
     encoded: (hold) => encodeOrRefuse(hold, driver.core.family),
+    leftOverBytes: () => (channel.inReports === true ? 0 : store.state.family.leftOverBytes),
+    confirmation,
   });
   const stopAgain = createStopAgain(
     clock,
@@ -91,6 +95,7 @@ export function createLocalRobot(options: LocalRobotOptions): Robot {
     ...{ clock, store, queue, replies, family, identifies, isWatched },
     isMoving: () => driver.core.estimate.moving(),
     readBattery: () => driver.readBattery(),
+    answered: () => atAnswer ?? Promise.resolve(),
     drive,
     entered,
   });
@@ -143,20 +148,34 @@ export function createLocalRobot(options: LocalRobotOptions): Robot {
   }
 
   /** Into the estimate when it has left: not before can the board act on it. */
-  function take(command: Command | null): void {
+  function take(packet: Uint8Array): void {
+    const command = commandIn(packet);
     if (command === null) return;
-    driver.applied(command);
+    for (let count = Math.max(1, stopsIn(packet)); count > 0; count -= 1) driver.applied(command);
     if (command.kind === 'stop') stopAgain.stopped();
+  }
+
+  /** While the board is identified, questions of that kind are out already; one that is busy would keep it from the stops (S9). */
+  function confirmation() {
+    const { link: line, family: present } = store.state;
+    const isAskable = line.status === 'ready' || line.status === 'stale';
+    const isBusy = driver.core.estimate.deafUntilMs() > clock.now();
+    if (present.stopConfirmedBy === null || !isAskable || isBusy) return null;
+    const { command, answer } = QUESTIONS[present.stopConfirmedBy];
+    return { question: encodeOrRefuse(command, present), answer };
   }
 
   function heard(report: Report, bytes: Uint8Array): void {
     store.emit('traffic', { atMs: clock.now(), direction: 'in', bytes, report });
     queue.answered(bytes[3] ?? 0);
-    replies.deliver(report);
+    const isAnswer = replies.deliver(report);
+    if (isAnswer && store.state.link.status === 'identifying')
+      atAnswer ??= halt.stopAtAnswer().catch(() => undefined);
     const mightSwallow = driver.core.estimate.maySwallow();
     driver.groups.heard(report);
     noteReport(store, report, clock.now());
     if (report.kind === 'runStopped') halt.confirmed();
+    halt.heard(report.kind);
     stopAgain.heard();
     const hearsAgain = mightSwallow && !driver.core.estimate.maySwallow();
     if (hearsAgain || report.kind === 'runAccepted' || report.kind === 'runStarted') halt.again();
@@ -174,12 +193,31 @@ export function createLocalRobot(options: LocalRobotOptions): Robot {
       entered(line);
       return;
     }
-    if (line.isReturn) queue.returned();
-    resync.send();
     isOpened = !line.isReturn;
+    const isUntouched = isOpened && options.isNew === true;
+    if (!isUntouched) queue.returned();
+    resync.send();
+    atAnswer = isUntouched ? Promise.resolve() : null;
+    doubt(identifies && !isUntouched);
+    identification.begin(isUntouched ? null : stopAtOpening(line.isReturn));
+  }
+
+  async function stopAtOpening(isReturn: boolean): Promise<void> {
+    await halt.opened(isReturn);
     openedMs = clock.now();
-    if (line.isReturn) halt.stopAfterReturn();
-    identification.begin();
+  }
+
+  /** Whether what others began may go on. A board that is taken at its family's word is one that this program began itself. */
+  function doubt(mayBeRunning: boolean): void {
+    endDoubt();
+    endDoubt = () => undefined;
+    if (store.state.mayBeRunning !== mayBeRunning) store.update({ mayBeRunning });
+  }
+
+  /** One that answers nothing has finished its longest frame by then. */
+  function judgeDoubt(): void {
+    if (store.state.identity.evidence.some(({ kind }) => kind === 'answered')) doubt(false);
+    else endDoubt = clock.after(LONGEST_MOVE_MS, () => doubt(false));
   }
 
   function entered(next: LinkState): void {
@@ -194,6 +232,7 @@ export function createLocalRobot(options: LocalRobotOptions): Robot {
   /** Listeners find what is known of its slots and servos. */
   function becomesReady(): void {
     driver.groups.linked();
+    if (store.state.mayBeRunning) judgeDoubt();
     if (isOpened && options.isNew !== true) driver.core.estimate.opened(openedMs);
     isOpened = false;
   }
@@ -202,6 +241,7 @@ export function createLocalRobot(options: LocalRobotOptions): Robot {
   function unlinked(next: LinkState): void {
     const packet = queue.unfinished();
     stopAgain.void();
+    if (!link.isOpen) doubt(false);
     if (!link.isOpen) receiver.reset();
     driver.core.estimate.forget(packet && commandIn(packet));
     if (packet !== null && !link.isOpen) {

@@ -28,7 +28,7 @@ export interface Queue {
   answered(command: number): void;
   /** The packet that has not left the wire for sure: it is leaving, or it failed on the way and none has left since. */
   unfinished(): Uint8Array | null;
-  /** The line is open again: what left before it was lost may be on the wire still. */
+  /** The line is open: what left before, also from others, may be on the wire still. */
   returned(): void;
   /** Rejects every request that has not begun to leave. Stops stay. */
   purge(error: LinkError): void;

@@ -35,6 +35,12 @@ export interface Rig {
   ofKind<K extends Command['kind']>(kind: K): readonly Extract<Command, { kind: K }>[];
 }
 
+/** By then the stops of an opening have left, also those that end what others left on the line. */
+export const OPENING_MS = 900;
+
+/** STOP as it leaves at first; behind it the board is told again and again until it confirms or a person resumes. */
+export const STOP_KINDS: readonly Command['kind'][] = ['stop', 'move', 'stop', 'stop', 'move'];
+
 /** Until that many servos, commanded all at once to make their first move, have surely arrived. */
 export function firstMovesMs(servoCount: number): number {
   return (servoCount - 1) * FIRST_MOVE_STAGGER_MS + FIRST_MOVE_MS + 500;

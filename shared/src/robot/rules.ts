@@ -74,6 +74,11 @@ export function requireReleased(state: SessionState): void {
  */
 export function requireRest(state: SessionState, { isMoving, isUnsettled }: RestQuestions): void {
   requireReleased(state);
+  if (state.mayBeRunning)
+    throw new LinkError(
+      'busy',
+      'what ran before the link was opened may go on: wait until the board answers',
+    );
   if (state.activity.kind !== 'idle' || isMoving() || isUnsettled())
     throw new LinkError('busy', 'the robot is moving: wait or stop it first');
 }

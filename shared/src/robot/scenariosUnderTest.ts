@@ -3,14 +3,17 @@
 
 import { sleep } from '../clock.ts';
 import type { Frame, ServoTarget } from '../codec/commands.ts';
-import { family as familyOf, type BoardId, type FamilyId } from '../codec/families.ts';
+import { family as familyOf, type BoardId, type Family, type FamilyId } from '../codec/families.ts';
 import { fromHex, toHex, wireMs } from '../codec/packet.ts';
+import { commandIn, stopsIn } from '../codec/parse.ts';
 import { createVirtualClock } from '../testing/virtualClock.ts';
+import { STOP_PACKET } from './halt.ts';
 import { LinkError } from './linkError.ts';
 import { createLocalRobot } from './localRobot.ts';
 import type { Robot } from './robot.ts';
-import type { SessionState } from './state.ts';
+import type { Latch, SessionState } from './state.ts';
 import type { ByteChannel } from './byteChannel.ts';
+import { STOP_AGAIN_MS, STOP_EVERY_MS, STOP_REPEATS } from './timings.ts';
 
 export type Intent =
   | { readonly type: 'move'; readonly targets: readonly ServoTarget[]; readonly durationMs: number }
@@ -38,7 +41,8 @@ type Input =
 
 /** What must come of it. */
 type Output =
-  | { readonly leaves: string }
+  /** `times`: so many of these, back to back. */
+  | { readonly leaves: string; readonly times?: number }
   | { readonly tells: Shown }
   | { readonly ends: number; readonly with: string };
 
@@ -68,21 +72,35 @@ interface Shown {
 
 /** Long after the last input, so that what should not come any more would be seen. */
 const QUIET_MS = 10_000;
-/** So long the link is open before the first input: what others had set in motion is then no longer than this from its end. */
+/** So long the stops of the opening have left before the first input. */
 const OPEN_FOR_MS = 100;
+
+/** From the opening until its stops have left. */
+function openingMs({ leftOverBytes, serviceGapMs }: Family): number {
+  return (
+    serviceGapMs +
+    wireMs(leftOverBytes) +
+    serviceGapMs +
+    STOP_REPEATS * STOP_EVERY_MS +
+    wireMs(STOP_PACKET.length)
+  );
+}
 const isInput = (event: ScenarioEvent): boolean => 'intent' in event || 'says' in event || 'port' in event;
 const exactly = (ms: number): number => Math.round(ms * 1000) / 1000;
 
 /** Its inputs with what came of them, in the order of time. */
 export async function played({ events, ...head }: Scenario): Promise<Scenario> {
   const clock = createVirtualClock();
-  const openForMs = head.identifies ? 0 : OPEN_FOR_MS;
+  const openForMs = head.identifies ? 0 : openingMs(familyOf(head.family)) + OPEN_FOR_MS;
   const inputs = events.filter(isInput);
   const outputs: ScenarioEvent[] = [];
   const note = (output: Output): void =>
     void outputs.push({ atMs: exactly(clock.now() - openForMs), ...output });
   let isBegun = false;
   let isThere = true;
+  /** What is said again each second while motion is latched is left out of the transcript. */
+  let leftMs = Infinity;
+  let wasReminder = false;
   const channel: ByteChannel = {
     ...{ label: 'Board', longestPacket: Infinity, events: null },
     open: () =>
@@ -90,7 +108,15 @@ export async function played({ events, ...head }: Scenario): Promise<Scenario> {
         ? Promise.resolve()
         : Promise.reject(new LinkError('portMissing', 'the device is not plugged in')),
     async write(packet) {
-      note({ leaves: toHex(packet) });
+      const isReminder = stopsIn(packet) === 1 && Math.abs(clock.now() - leftMs - STOP_AGAIN_MS) < 1;
+      // Where such a board answers, it is asked behind it.
+      const isAsked = wasReminder && commandIn(packet)?.kind === 'readBattery';
+      wasReminder = isReminder;
+      const times = Math.max(1, stopsIn(packet));
+      const leaves = toHex(packet.subarray(0, packet.length / times));
+      if ((isBegun || openForMs === 0) && !isReminder && !isAsked)
+        note({ leaves, ...(times > 1 && { times }) });
+      leftMs = clock.now() + wireMs(packet.length);
       await sleep(clock, wireMs(packet.length));
     },
     close: () => Promise.resolve(),
@@ -173,11 +199,14 @@ async function requested(session: Robot, intent: Intent): Promise<unknown> {
   }
 }
 
+/** Its last packet has left. */
+const LEFT: ReadonlySet<Latch['stop']> = new Set(['sent', 'confirmed', 'unanswered']);
+
 function shownOf({ link, latch, brokenSlots, waitingToStart, activity }: SessionState): Shown {
   return {
     link: link.status === 'refused' ? `refused: ${link.error.code}` : link.status,
     latched: latch !== null,
-    ...((latch?.stop === 'sent' || latch?.stop === 'confirmed') && { unheld: rounded(latch.unheld) }),
+    ...(latch !== null && LEFT.has(latch.stop) && { unheld: rounded(latch.unheld) }),
     brokenSlots,
     waitingToStart,
     playedFrame: activity.kind === 'playing' ? activity.frameIndex : null,

@@ -96,8 +96,11 @@ export interface Latch {
   readonly reason: HaltReason | LatchReason;
   /** Name of the person who stopped it elsewhere; null where it was here. */
   readonly by: string | null;
-  /** `sending`: the stop packets are on their way. `sent`: they left the wire. `confirmed`: the board said so. */
-  readonly stop: 'sending' | 'sent' | 'confirmed' | 'failed';
+  /**
+   * `sending`: the stop packets are on their way. `sent`: they left the wire. `confirmed`: the board said so, or that it hears them.
+   * `unanswered`: such a board answers, and this one did not.
+   */
+  readonly stop: 'sending' | 'sent' | 'confirmed' | 'unanswered' | 'failed';
   /** What may go on in spite of it; null: all is held. */
   readonly unheld: Unheld | null;
 }
@@ -137,6 +140,8 @@ export interface SessionState {
   /** Who drives a robot that others can drive, too; null on a link of one's own. */
   readonly lease: Lease | null;
   readonly activity: Activity;
+  /** What others began before the link was opened may go on: the board has not said yet that it hears the stops. */
+  readonly mayBeRunning: boolean;
   /** Commanded to move, but their positions are unknown: they start one after another, in this order (safety.md). */
   readonly waitingToStart: readonly number[];
   readonly battery: Battery;

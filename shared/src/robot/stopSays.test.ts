@@ -70,8 +70,8 @@ describe.each(SIMULATED)('$profile', ({ profile }) => {
   );
 });
 
-/** A hold where the place is unknown takes the time of a first move; the last one leaves 160 ms behind the press. */
-const SLOWEST_HOLD_MS = 1_800;
+/** A hold where the place is unknown takes the time of a first move; the last one leaves 160 ms behind the press, and is said again twice. */
+const SLOWEST_HOLD_MS = 1_900;
 
 /** What is named though nothing that the history knows can move it, or can move it that long. */
 function tooMuch({ known, steps }: StopHistory, { unheld }: StopOutcome): readonly string[] {

@@ -55,8 +55,8 @@ const NO_FRAME: Frame = { durationMs: 0, targets: [] };
 const ignore = (): undefined => undefined;
 
 const SAMPLE_MS = 5;
-/** Then the robot is looked at more seldom. */
-const CLOSELY_FOR_MS = 900;
+/** By then the last hold of a STOP that nothing confirms has ended, also with many servos; then the robot is looked at more seldom. */
+const CLOSELY_FOR_MS = 1_300;
 export const SELDOM_MS = 250;
 /** The longest flash work is over by then, and what waited for it has begun. */
 const DEAF_FOR_MS = 4_000;

@@ -35,6 +35,7 @@ export const INITIAL_STATE: SessionState = {
   latch: null,
   lease: null,
   activity: { kind: 'idle' },
+  mayBeRunning: false,
   waitingToStart: [],
   battery: { kind: 'unread' },
   ...NOTHING_READ,

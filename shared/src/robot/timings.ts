@@ -9,10 +9,15 @@ export const RECONNECT_DELAYS_MS = timings.line.reconnectMs;
 
 export const STOP_REPEATS = timings.stop.repeats;
 export const STOP_EVERY_MS = timings.stop.repeatEveryMs;
+export const STRAY_BYTES = timings.stop.strayBytes;
+export const HOLDS_AGAIN = timings.stop.holdsAgain;
+export const HOLD_AGAIN_MS = timings.stop.holdAgainMs;
+export const STOP_AGAIN_MS = timings.stop.againEveryMs;
 
 export const FIRST_MOVE_MS = timings.move.firstMs;
 export const FIRST_MOVE_STAGGER_MS = timings.move.firstStaggerMs;
 export const RANGE_MS = timings.move.rangeMs;
+export const LONGEST_MOVE_MS = timings.move.longestMs;
 /** Hidden pages, whose timers browsers let wait for a second, are to drive nothing either. */
 export const OVERSLEPT_MS = timings.move.expiresMs;
 

@@ -9,7 +9,7 @@ import { family as familyOf, type Family, type Range } from '../codec/families.t
 import { createEstimateUnderTest, isWrong, SIMULATED, type EstimateUnderTest } from './estimateUnderTest.ts';
 import { TIMES } from '../testing/cases.ts';
 import { FOREIGN_SLOT, KNOWN_SLOT } from './historiesUnderTest.ts';
-import { createRig } from './rig.ts';
+import { createRig, OPENING_MS } from './rig.ts';
 import { foreignFlash } from './stopUnderTest.ts';
 import { someMove, usualServos } from './stepsUnderTest.ts';
 
@@ -113,6 +113,7 @@ test('a group of others dies of our first question on a LeArm: of the next one (
     channel.board.receive(encodeCommand(command, family));
     await clock.advance(100);
   };
+  await clock.advance(OPENING_MS);
   await foreign({ kind: 'run', slot: FOREIGN_SLOT, times: 1 });
   await foreign({ kind: 'readVersion' });
   // Behind all that others may have begun.

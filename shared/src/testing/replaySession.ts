@@ -6,6 +6,7 @@ import type { Robot } from '../robot/robot.ts';
 import { type Intent, intentsOf } from './intents.ts';
 import { sleep, type Clock } from '../clock.ts';
 import { wireMs } from '../codec/packet.ts';
+import { stopsIn } from '../codec/parse.ts';
 import { LinkError, type LinkErrorCode } from '../robot/linkError.ts';
 import type { ByteChannel } from '../robot/byteChannel.ts';
 import { family, type BoardId, FAMILIES } from '../codec/families.ts';
@@ -113,7 +114,12 @@ const SETTLE_MS = 10_000;
 export async function replayToSession(entries: readonly Entry[], board: BoardId): Promise<SessionReplay> {
   const clock = createVirtualClock(entries[0]?.atMs ?? 0);
   const channel = createReplayChannel(clock);
-  const session = createLocalRobot({ channel, isNew: true, family: family(board), clock });
+  const session = createLocalRobot({
+    channel,
+    isNew: !opensWithStops(entries),
+    family: family(board),
+    clock,
+  });
   const log = listen(session, clock);
   const host = createHost(session, log.failed);
   const happen = createHappenings(channel, session);
@@ -131,6 +137,12 @@ export async function replayToSession(entries: readonly Entry[], board: BoardId)
   }
   await clock.advance(SETTLE_MS);
   return { traffic: log.traffic, failures: log.failures, state: session.state };
+}
+
+/** As a line that others may have used before; a board in the page has none. */
+function opensWithStops(entries: readonly Entry[]): boolean {
+  const first = entries.find(({ mark }) => mark === 'sent');
+  return first !== undefined && 'bytes' in first && stopsIn(first.bytes) > 1;
 }
 
 function isOpening(entry: Entry | undefined): boolean {

@@ -133,11 +133,13 @@ class Activity:
             self._run_ended()
         self._look()
 
-    def hold(self, held: Sequence[CommandPacket], family: Family) -> CommandPacket | None:
+    def hold(
+        self, held: Sequence[CommandPacket], family: Family, *, is_again: bool = False
+    ) -> CommandPacket | None:
         """As the robot stands when it leaves. The servos of the packets that are `held` are held already: a
-        port may carry none that holds all of them.
+        port may carry none that holds all of them. `is_again`: the hold before may not have been heard.
         """
-        hold = self.motion.hold(self._now())
+        hold = (self.motion.hold_again if is_again else self.motion.hold)(self._now())
         if hold is None:
             return None
         moves = [packet.command for packet in held if isinstance(packet.command, Move)]

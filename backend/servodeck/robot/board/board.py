@@ -15,22 +15,24 @@ from servodeck.errors import (
     CancelledError,
     ClosedError,
     GatewayError,
+    MovingError,
     PortLostError,
 )
 from servodeck.port.link import Link, Ports
 from servodeck.port.ports import OpenPort
 from servodeck.port.reader import inbox_of
-from servodeck.port.wire import Left, Owner, Wire
+from servodeck.port.wire import STOP_PACKET, Left, Owner, Wire
 from servodeck.protocol.decoder import DecoderEvent, NoiseEvent, PacketEvent
 from servodeck.protocol.families import FAMILIES, Family, carried
 from servodeck.protocol.packets import STOP, CommandPacket, encoded, parse_report
-from servodeck.protocol.values import Command, ReadBattery, Report, RunAccepted, RunStarted
+from servodeck.protocol.timings import MOVE
+from servodeck.protocol.values import Command, ReadBattery, Report, RunAccepted, RunStarted, RunStopped
 from servodeck.robot.board.activity import Activity, Unattended
 from servodeck.robot.board.download import Part
 from servodeck.robot.board.estimate import Estimate
 from servodeck.robot.board.halt import Halts
 from servodeck.robot.board.identification import Identification, Status
-from servodeck.robot.board.identity import identity_state
+from servodeck.robot.board.identity import Answered, identity_state
 from servodeck.robot.board.move_buffer import MoveBuffer
 from servodeck.robot.board.playing import Plays
 from servodeck.robot.board.port_families import PortFamilies
@@ -50,11 +52,14 @@ class BoardEvents(Protocol):
 
     def stopped_again(self, since_s: float) -> None:
         """The stops have left that are sent when a port comes back or a board answers again, which was at
-        `since_s`.
+        `since_s`; or more is known of those of a STOP pressed then.
         """
 
     def board_changed(self) -> None:
         """The state of link, board, slots, unattended run or waiting servos has changed."""
+
+    def is_latched(self) -> bool:
+        """Motion is refused until a person resumes."""
 
     def is_watched(self) -> bool:
         """A client is connected, or the board is read for notifications."""
@@ -116,7 +121,11 @@ class Board:
         self.moves = MoveBuffer(self, now, events.board_changed)
         self.plays = Plays(self.moves, self._play_changed, now)
         self.unattended = Unattended(now, events.unattended_time_over, events.board_changed)
-        self.halts = Halts(self, now, events.stopped_again)
+        self.halts = Halts(self, now, events.stopped_again, events.is_latched)
+        self._identifies = identifies
+        self.may_be_running = False
+        """What others began before the port was opened may continue: the board has not answered yet."""
+        self._doubt: asyncio.TimerHandle | None = None
         self.activity = Activity(
             *(family, self.plays, self.unattended, now),
             stop_again=self.halts.halt_again,
@@ -202,15 +211,22 @@ class Board:
 
     # Events of the link
 
-    def port_opened(self, wire: Wire) -> None:
+    def port_opened(self, wire: Wire) -> asyncio.Task[None]:
         metrics.totals.port_openings += 1
         self.battery.port_opened()
         self.activity.lose()
-        if not self.halts.was_lost:
+        is_first = not self.halts.was_lost
+        if is_first:
             self.activity.opened()
-        self.halts.port_opened(wire)
         claim = self.identification.claim
-        self.identification.begin(is_vouched=self._families.is_vouched(self.link.state.device, claim))
+        is_vouched = self._families.is_vouched(self.link.state.device, claim)
+        # A board that is taken at its family's word is one that was started with this gateway.
+        self.may_be_running = self._identifies and not is_vouched
+        stops = self.halts.port_opened(wire)
+        if is_first:  # the last frame that others began may have begun only when these left
+            stops.add_done_callback(self._stopped_at_opening)
+        self.identification.begin(stops, is_vouched=is_vouched)
+        return stops
 
     def port_lost(self, unfinished: CommandPacket | None) -> None:
         metrics.totals.port_losses += 1
@@ -222,6 +238,7 @@ class Board:
 
     def port_changed(self) -> None:
         if self.link.state.status != "open":
+            self._end_doubt()
             self.identification.ended()
             self.moves.drop(PortLostError("The serial port is no longer open."))
             self.activity.lose()  # also for packets that left just before
@@ -252,10 +269,44 @@ class Board:
             self._no_longer_ready(status)
         if before == "stale" and status not in ("stale", "closed"):
             self.halts.halt_again()  # it may have moved or restarted unheard
+        if status == "ready" and self.may_be_running:
+            self._judge_doubt()
         if "ready" in (before, status) and before != status:
             self.battery.board_ready(is_ready=status == "ready")
         if self.link.state.status == "open":
             self._events.board_changed()
+
+    def answered(self) -> asyncio.Task[None]:
+        return self.halts.answered()
+
+    def judge_before(self) -> None:
+        """Raises MovingError while what others began before the port was opened may continue."""
+        if self.may_be_running:
+            raise MovingError(
+                "The board does not answer, so what was started before the port was opened may still run: "
+                f"wait until {MOVE.longest_ms // 1000} s have passed."
+            )
+
+    def _stopped_at_opening(self, _stops: asyncio.Task[None]) -> None:
+        if self.link.state.status == "open":
+            self.activity.opened()
+
+    def _judge_doubt(self) -> None:
+        """A board that answers nothing has finished its longest frame by then."""
+        if any(isinstance(one, Answered) for one in self.identification.evidence):
+            self._end_doubt()
+        else:
+            delay_s = MOVE.longest_ms / 1000
+            self._doubt = asyncio.get_running_loop().call_later(delay_s, self._end_doubt_later)
+
+    def _end_doubt_later(self) -> None:
+        self._end_doubt()
+        self._events.board_changed()
+
+    def _end_doubt(self) -> None:
+        if self._doubt:
+            self._doubt.cancel()
+        self._doubt, self.may_be_running = None, False
 
     def _no_longer_ready(self, status: Status) -> None:
         """Before it is ready again, it may have moved, restarted or been exchanged."""
@@ -331,7 +382,10 @@ class Board:
         if command is None:  # filler
             self.activity.filled(at_s)
             return
-        self.activity.left(packet, command, at_s, is_halting=self.link.wire().is_halting)
+        is_halting = self.link.wire().is_halting or owner is self.halts
+        # Of stops in a row each is a packet of its own.
+        for _ in range(len(packet.data) // len(STOP_PACKET.data) if packet.number == STOP else 1):
+            self.activity.left(packet, command, at_s, is_halting=is_halting)
         if isinstance(command, ReadBattery):
             self.battery.query_left(at_s)
         self.jobs.left(command, at_s, self.link.place)
@@ -350,6 +404,8 @@ class Board:
         metrics.received[metrics.name_of(event.packet.command)] += 1
         with contextlib.suppress(GatewayError):
             self.link.wire().answered(event.packet.command)
+        if isinstance(report, RunStopped):
+            self.halts.confirmed()
         may_have_swallowed = self.motion.may_swallow
         self.activity.heard(report, event.packet.command)
         self.battery.heard(report)

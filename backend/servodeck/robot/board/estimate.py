@@ -11,7 +11,7 @@ from math import inf
 from typing import Any
 
 from servodeck.protocol.families import Family
-from servodeck.protocol.timings import ESTIMATE, MOVE, RUN, wire_ms
+from servodeck.protocol.timings import ESTIMATE, MOVE, RUN, STOP, wire_ms
 from servodeck.protocol.values import (
     AllPositions,
     Command,
@@ -319,17 +319,32 @@ class Estimate:
         rest_ms = math.ceil(last_end_ms(others, now_ms) - now_ms)
         return rest_ms if rest_ms > move.duration_ms + self.family.motion.tick_ms else 0
 
-    def halt_plan(self, now: float) -> HaltPlan:
+    def halt_plan(self, now: float, holds_to_follow: int = 0) -> HaltPlan:
         """The plan of a STOP pressed now: its hold, and the unheld motion."""
-        return halt_plan(self._motion, self._advance(now), self)
+        return halt_plan(self._motion, self._advance(now), self, holds_to_follow)
 
     def hold(self, now: float) -> Move | None:
         """The move that holds the robot, if it begins to leave now, a gap behind a stop."""
         return hold_after_stop(self._motion, self._advance(now) - self.family.service_gap_ms, self)
 
-    def unheld_since(self, pressed_s: float, now: float) -> Unheld | None:
+    def hold_again(self, now: float) -> Move | None:
+        """The same where the one before may not have been heard: the servos have gone on, and are not torn
+        back. Where it was heard, nothing moves.
+        """
+        again = self.hold(now)
+        if again is None:
+            return None
+        left_ms = remaining_ms(self._motion, self._advance(now))
+        if left_ms <= CLOCK_GRAIN_MS:
+            return replace(again, duration_ms=max(STOP.hold_again_ms, again.duration_ms))
+        # What is still under way takes no longer for being held again, and no tick that has begun is cut.
+        tick_ms = self.family.motion.tick_ms
+        longest_ms = (1 + math.ceil(left_ms / tick_ms)) * tick_ms
+        return replace(again, duration_ms=min(again.duration_ms, longest_ms))
+
+    def unheld_since(self, pressed_s: float, now: float, holds_to_follow: int = 0) -> Unheld | None:
         """The unheld motion of a STOP pressed at `pressed_s`, whose last packet left just now."""
-        return unheld_since(pressed_s * 1000, self._motion, self._advance(now), self)
+        return unheld_since(pressed_s * 1000, self._motion, self._advance(now), self, holds_to_follow)
 
     def snapshot(self, now: float) -> MotionState:
         """For a client that joins now."""

@@ -7,44 +7,63 @@ Knows the board and its wire; not who may stop it, nor the latch.
 
 import asyncio
 import contextlib
+import math
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 from servodeck.errors import CancelledError, GatewayError
-from servodeck.port.wire import CLOCK_GRAIN_S, STOP_PACKET, Left, Wire
+from servodeck.port.wire import CLOCK_GRAIN_S, STOP_PACKET, Left, Wire, stop_packets
 from servodeck.protocol.decoder import COMMAND_AT
 from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.packets import DOWNLOAD, RUN, CommandPacket
+from servodeck.protocol.packets import STOP as STOP_NUMBER
 from servodeck.protocol.timings import LINE, STOP, wire_s
+from servodeck.robot.board.identity import QUESTIONS
 from servodeck.robot.motion.halt_plan import Unheld
+from servodeck.snapshots import StopOutcome
 
 if TYPE_CHECKING:
     from servodeck.robot.board.board import Board
 
 
 class Halts:
-    def __init__(self, board: "Board", now: Callable[[], float], stopped: Callable[[float], None]) -> None:
+    def __init__(
+        self,
+        board: "Board",
+        now: Callable[[], float],
+        stopped: Callable[[float], None],
+        is_latched: Callable[[], bool],
+    ) -> None:
         """`stopped` is called when stops have left that no person pressed, with the time since when the board
-        may have moved.
+        may have moved, and when more is known of those of a STOP pressed then. `is_latched`: no person has
+        resumed.
         """
         self._board = board
         self._now = now
         self._stopped = stopped
+        self._is_latched = is_latched
         self._cut: tuple[str, CommandPacket] | None = None
         """The packet that a loss has cut on its way to the board at that place, until filler has ended it."""
         self.count = 0
         """The number of halts."""
         self.was_lost = False
         """The port was lost, and has not come back."""
-        self.at_return: asyncio.Task[None] | None = None
-        """Its stops are leaving, because the port has come back."""
+        self.at_opening: asyncio.Task[None] | None = None
+        """Its stops are leaving, because the port was opened."""
+        self._insisting: asyncio.Task[None] | None = None
+        self._is_unanswered = False
+        self._holds_to_follow = 0
+        """While the board has not confirmed the stops, the hold leaves so often more."""
 
     def halt(self, reason: GatewayError) -> Left:
         """Resolves when the stop sequence has left; raises when there is no port to stop."""
         self.count += 1
+        self._is_unanswered = False
         self._board.plays.end(reason)
         self._board.moves.drop(reason)
-        return self._board.link.wire().halt(self._hold, reason)
+        wire = self._board.link.wire()
+        self._holds_to_follow = STOP.holds_again if self.left_over_bytes(wire) else 0
+        return wire.halt(self._hold, reason, self._question)
 
     def halt_again(self) -> None:
         """The board may have missed the first stops. What these hold ends later than reported then."""
@@ -53,6 +72,7 @@ class Halts:
         def left(stops: Left) -> None:
             if not stops.cancelled() and stops.exception() is None:
                 self._stopped(again_s)
+                self.insist(again_s)
 
         with contextlib.suppress(GatewayError):  # no port to stop
             self.halt(
@@ -69,7 +89,25 @@ class Halts:
 
     def unheld_since(self, pressed_s: float) -> Unheld | None:
         """The unheld motion of a stop pressed at `pressed_s`, whose last packet left just now."""
-        return self._board.motion.unheld_since(pressed_s, self._now())
+        if self._is_unanswered:
+            return Unheld(None, math.inf)
+        holds = 0 if self.outcome == "confirmed" else self._holds_to_follow
+        return self._board.motion.unheld_since(pressed_s, self._now(), holds)
+
+    @property
+    def outcome(self) -> StopOutcome:
+        """What has become of the latest stops."""
+        if self._is_unanswered:
+            return "unanswered"
+        with contextlib.suppress(GatewayError):  # no port
+            if self._board.link.wire().is_confirmed:
+                return "confirmed"
+        return "sent"
+
+    def confirmed(self) -> None:
+        """The board says that it has stopped."""
+        with contextlib.suppress(GatewayError):  # no port any more
+            self._board.link.wire().is_confirmed = True
 
     def lost(self, place: str, unfinished: CommandPacket | None) -> None:
         """The port at that place is lost, and that packet was on its way."""
@@ -84,38 +122,133 @@ class Halts:
             return None
         return CommandPacket(None, filler_for(packet.data, filler_byte))
 
-    def port_opened(self, wire: Wire) -> None:
-        """After a loss servos may still move, so several stops leave. Otherwise one is enough, for motion
-        that an owner of the port before this gateway has begun.
-
+    def port_opened(self, wire: Wire) -> asyncio.Task[None]:
+        """What others may have left unfinished on the line is filled with stops, then the robot is stopped:
+        motion that an owner of the port before this gateway has begun, or that a loss has left. Done when
+        these stops have left; nothing else leaves before.
         """
-        if self.was_lost:
-            self.at_return = asyncio.create_task(self._stop_at_return(wire))
-        else:
-            wire.send(STOP_PACKET, self._board, urgent=True)
-        self.was_lost = False
+        is_return, self.was_lost = self.was_lost, False
+        self._holds_to_follow = 0
+        self.at_opening = asyncio.create_task(self._stop_at_opening(wire, is_return=is_return))
+        return self.at_opening
 
-    async def _stop_at_return(self, wire: Wire) -> None:
-        """A STOP that is pressed meanwhile takes the place of these."""
+    def answered(self) -> asyncio.Task[None]:
+        """The board answers for the first time since the port was opened: now it hears for sure."""
+        return asyncio.create_task(self._stop_quietly(self._board.link.wire(), self.count))
+
+    async def _stop_at_opening(self, wire: Wire, *, is_return: bool) -> None:
         opened_s, before = self._now(), self.count
         try:
-            with contextlib.suppress(GatewayError):  # lost once more
-                await repeat_stop(
-                    lambda: wire.send(STOP_PACKET, self._board, urgent=True),
-                    self._now,
-                    lambda: before == self.count,
-                )
-                if before == self.count:
-                    self._stopped(opened_s)
+            if byte_count := self.left_over_bytes(wire):
+                with contextlib.suppress(GatewayError):  # lost once more
+                    stops = stop_packets(byte_count)
+                    await wire.send_made(STOP_NUMBER, lambda: stops, self._board, urgent=True)
+            await self._stop_quietly(wire, before)
+            if is_return and before == self.count:
+                self._stopped(opened_s)
+                self.insist(opened_s, 0)
         finally:
-            self.at_return = None
+            self.at_opening = None
 
-    def _hold(self, held: Sequence[CommandPacket]) -> CommandPacket | None:
+    async def _stop_quietly(self, wire: Wire, before: int) -> None:
+        """A STOP that is pressed meanwhile takes the place of these."""
+        with contextlib.suppress(GatewayError):  # lost once more
+            await repeat_stop(
+                lambda: wire.send(STOP_PACKET, self._board, urgent=True),
+                self._now,
+                lambda: before == self.count,
+            )
+            if wire.halting:
+                await asyncio.shield(wire.halting)
+
+    def left_over_bytes(self, wire: Wire) -> int:
+        """The board may take so many for the rest of what others left on the line; reports are whole
+        packets.
+        """
+        return 0 if wire.in_reports else self._board.family.left_over_bytes
+
+    def insist(self, pressed_s: float, byte_count: int | None = None) -> None:
+        """A stray byte before STOP makes the board take all of it for the rest of a packet (S3, S4). So stops
+        go on behind it until the board has confirmed them, or cannot miss them any more, with the hold again
+        where the stray bytes are over; then seldom, until a person resumes. `byte_count`: of those that go
+        on; without it as many as such a board may miss.
+        """
+        if self._insisting:
+            self._insisting.cancel()
+        mine = self.count
+        try:
+            wire = self._board.link.wire()
+        except GatewayError:  # no port
+            return
+        if byte_count is None:
+            byte_count = self.left_over_bytes(wire)
+
+        def is_wanted() -> bool:
+            return mine == self.count and self._is_latched() and not wire.is_confirmed
+
+        self._insisting = asyncio.create_task(self._insist(wire, pressed_s, byte_count, is_wanted))
+
+    async def _insist(
+        self, wire: Wire, pressed_s: float, byte_count: int, is_wanted: Callable[[], bool]
+    ) -> None:
+        with contextlib.suppress(GatewayError):  # lost: the stops at its return are others
+            for sent in range(0, byte_count, STOP.stray_bytes):
+                if not is_wanted() or wire.is_heard:
+                    break
+                await self._send(wire, stop_packets(min(STOP.stray_bytes, byte_count - sent)), is_wanted)
+                if sent == 0 or sent + STOP.stray_bytes >= byte_count:
+                    await self._hold_again(wire, is_wanted)
+            if is_wanted():
+                self._holds_to_follow = 0
+            if is_wanted() and wire.is_heard:
+                await self._send(wire, STOP_PACKET, is_wanted)
+                await self._hold_again(wire, is_wanted)
+                if is_wanted():
+                    wire.is_confirmed = True
+                    self._stopped(pressed_s)
+            elif is_wanted() and (byte_count or wire.asked):
+                self._is_unanswered = wire.asked is not None
+                self._stopped(pressed_s)
+            while is_wanted():
+                await asyncio.sleep(STOP.again_every_ms / 1000)
+                if is_wanted():
+                    await self._remind(wire, is_wanted)
+
+    async def _remind(self, wire: Wire, is_wanted: Callable[[], bool]) -> None:
+        if wire.is_heard:
+            self.halt_again()
+        elif self._board.identification.state.status != "identifying":
+            await self._send(wire, STOP_PACKET, is_wanted)
+            question = self._question()
+            if question and is_wanted():
+                await self._send(wire, question, is_wanted)
+                wire.asked = question.number
+
+    async def _hold_again(self, wire: Wire, is_wanted: Callable[[], bool]) -> None:
+        held: list[CommandPacket] = []
+        while is_wanted() and (hold := self._hold(held, is_again=True)):
+            await self._send(wire, hold, is_wanted)
+            held.append(hold)
+
+    async def _send(self, wire: Wire, packet: CommandPacket, is_wanted: Callable[[], bool]) -> None:
+        await wire.send_made(packet.number, lambda: packet if is_wanted() else None, self, urgent=True)
+
+    def _question(self) -> CommandPacket | None:
+        """None where such a board may stay silent. A board that is busy would lose a stop to it (S9)."""
+        question = self._board.family.stop_confirmed_by
+        is_busy = self._board.motion.deaf_until_s > self._now()
+        return QUESTIONS[question].packet if question and self._is_known() and not is_busy else None
+
+    def _is_known(self) -> bool:
+        return self._board.identification.state.status in ("ready", "stale")
+
+    def _hold(self, held: Sequence[CommandPacket], *, is_again: bool = False) -> CommandPacket | None:
         """Of a board that is unknown nothing is held; where the port carries whole packets, one holds all."""
         board = self._board
-        is_known = board.identification.state.status in ("ready", "stale")
         is_whole = board.family is FAMILIES[board.family_id]
-        return board.activity.hold(held, board.family) if is_known and not (held and is_whole) else None
+        if not self._is_known() or (held and is_whole):
+            return None
+        return board.activity.hold(held, board.family, is_again=is_again)
 
 
 def filler_for(cut: bytes, filler: int) -> bytes:
@@ -130,7 +263,9 @@ def filler_for(cut: bytes, filler: int) -> bytes:
     """
     if cut[COMMAND_AT] in (RUN, DOWNLOAD):
         return bytes([filler]) * LINE.filler_bytes
-    return bytes([0]) + bytes([filler]) * len(cut)
+    # Of stops in a row each is a packet of its own.
+    byte_count = len(STOP_PACKET.data) if cut[COMMAND_AT] == STOP_NUMBER else len(cut)
+    return bytes([0]) + bytes([filler]) * byte_count
 
 
 async def repeat_stop(

@@ -52,6 +52,9 @@ class IdentifiedBoard(Protocol):
     def is_idle(self) -> bool:
         """Nothing moves, runs or is being stored."""
 
+    def answered(self) -> asyncio.Task[None]:
+        """For the first time since the line was opened; done when the stops have left that follow."""
+
     def drive(self, family: Family) -> None:
         """From now on it is driven as a board of that family."""
 
@@ -74,6 +77,8 @@ class Identification:
         self._noise_bytes = 0
         self._echoes = 0
         self._check: asyncio.Task[None] | None = None
+        self._at_answer: asyncio.Task[None] | None = None
+        """The stops behind the first answer since the line was opened."""
         self._heartbeat = Heartbeat(self._heartbeat_question, self._is_answered, self._gone)
 
     @property
@@ -84,7 +89,7 @@ class Identification:
     @property
     def heard_as(self) -> Family | None:
         """The family by which a report is parsed; None: the one that is driven."""
-        return UNKNOWN if self.state.status == "identifying" else None
+        return UNKNOWN if self._asks and self.state.status == "identifying" else None
 
     @property
     def link_state(self) -> LinkState:
@@ -108,13 +113,14 @@ class Identification:
                 "The board is unknown and no port is open to identify it. Open a port, or choose the board."
             )
 
-    def begin(self, *, is_vouched: bool = False) -> None:
-        """The line is open. `is_vouched`: the claim needs no check, until another is named."""
+    def begin(self, stops: asyncio.Task[None], *, is_vouched: bool = False) -> None:
+        """The line is open, and nothing is asked before these stops have left. `is_vouched`: the claim needs
+        no check, until another is named.
+        """
+        self.evidence = ()
+        self._at_answer = None
         self._is_vouched = is_vouched
-        if self._asks:
-            self._begin_check()
-        else:
-            self._judge()
+        self._begin_check(stops)
 
     def ended(self) -> None:
         """The line is down."""
@@ -162,27 +168,40 @@ class Identification:
     def _asks(self) -> bool:
         return self._identifies and not self._is_vouched
 
-    def _begin_check(self) -> None:
+    def _begin_check(self, stops: asyncio.Task[None] | None = None) -> None:
         self._end_check()
         self.evidence = ()
         self._heartbeat.stop()
         self._enter(BoardStatus("identifying"))
-        self._check = asyncio.create_task(self._ask_all())
+        self._check = asyncio.create_task(self._ask_all(stops))
 
     def _end_check(self) -> None:
         if self._check:
             self._check.cancel()
         self._check = None
 
-    async def _ask_all(self) -> None:
+    async def _ask_all(self, stops: asyncio.Task[None] | None) -> None:
         try:
-            self.evidence = await identify(self._ask, lambda: self._noise_bytes, lambda: self._echoes)
+            if self._asks:
+                self.evidence = await identify(
+                    self._ask_first, lambda: self._noise_bytes, lambda: self._echoes, stops
+                )
+            elif stops:  # the family's word is enough
+                await asyncio.shield(stops)
+            if self._at_answer:
+                await asyncio.shield(self._at_answer)
         except GatewayError as error:
             # Where the line went while questions were out, its state says so already.
             if self.state.status == "identifying":
                 self._refuse(error)
         else:
             self._judge()
+
+    async def _ask_first(self, question: Question) -> Report | None:
+        report = await self._ask(question)
+        if report is not None and self._at_answer is None:
+            self._at_answer = self._board.answered()
+        return report
 
     def _judge(self) -> None:
         fit = fit_of(self.claim, self.evidence)

@@ -149,10 +149,13 @@ SendQuestion = Callable[[Question], Awaitable[Report | None]]
 
 
 async def identify(
-    send_question: SendQuestion, noise_bytes: Callable[[], int], echoes: Callable[[], int]
+    send_question: SendQuestion,
+    noise_bytes: Callable[[], int],
+    echoes: Callable[[], int],
+    stops: asyncio.Task[None] | None = None,
 ) -> Sequence[Evidence]:
     """`noise_bytes`: heard so far that were no packets; `echoes`: packets heard so far that were our own
-    question. Raises when the link goes meanwhile.
+    question. `stops` leave before the first question. Raises when the link goes meanwhile.
     """
     noise_before, echoes_before = noise_bytes(), echoes()
 
@@ -167,6 +170,8 @@ async def identify(
         return [battery, await ask("readPositions" if isinstance(battery, Answered) else "readVersion")]
 
     await asyncio.sleep(IDENTIFY.listen_ms / 1000)
+    if stops:
+        await asyncio.shield(stops)
     answers = await ask_all()
     # Text lines come from a LeArm that has just restarted and is deaf for a while (L1).
     is_starting = noise_bytes() > noise_before and echoes() == echoes_before

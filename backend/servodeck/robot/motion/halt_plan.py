@@ -45,7 +45,7 @@ class Held:
     way: float
 
 
-def halt_plan(motion: Motion, now_ms: float, board: KnownBoard) -> HaltPlan:
+def halt_plan(motion: Motion, now_ms: float, board: KnownBoard, holds_to_follow: int = 0) -> HaltPlan:
     """At the press of STOP at `now_ms`: the first hold, and the motion that continues after the last one."""
     stopped_ms = now_ms + wire_ms(4)
     stopped = after_command(advance(motion, now_ms, board), Stop(), stopped_ms, board)
@@ -57,7 +57,7 @@ def halt_plan(motion: Motion, now_ms: float, board: KnownBoard) -> HaltPlan:
     last_hold = hold_after_stop(current, last_stop_ms, board)
     last_ms = hold_leaves_ms(last_hold, last_stop_ms, board.family)
     held = after_hold(current, last_hold, last_stop_ms, board)
-    return HaltPlan(hold, unheld_since(now_ms, held, last_ms, board))
+    return HaltPlan(hold, unheld_since(now_ms, held, last_ms, board, holds_to_follow))
 
 
 def hold_after_stop(motion: Motion, stopped_ms: float, board: KnownBoard) -> Move | None:
@@ -81,13 +81,20 @@ def after_hold(motion: Motion, hold: Move | None, stopped_ms: float, board: Know
     return after_command(motion, hold, hold_leaves_ms(hold, stopped_ms, board.family), board)
 
 
-def unheld_since(pressed_ms: float, motion: Motion, last_ms: float, board: KnownBoard) -> Unheld | None:
-    """The unheld motion, after the last packet of a STOP pressed at `pressed_ms` left at `last_ms`."""
+def unheld_since(
+    pressed_ms: float, motion: Motion, last_ms: float, board: KnownBoard, holds_to_follow: int = 0
+) -> Unheld | None:
+    """The unheld motion, after the last packet of a STOP pressed at `pressed_ms` left at `last_ms`. Where the
+    board re-times every servo (S26), each hold that is to follow puts off the end of what is under way, by a
+    tick that has begun.
+    """
     family, limit_ms = board.family, last_ms + STOP.held_within_ms
+    traits = family.motion
+    later_ms = holds_to_follow * (traits.tick_ms + traits.talk_ms) if traits.timing == "shared" else 0.0
     current = advance(motion, last_ms, board)
-    rests_at_ms = {servo: rests_ms(track, family) for servo, track in current.tracks.items()}
+    rests_at_ms = {servo: rests_ms(track, family) + later_ms for servo, track in current.tracks.items()}
     late = {servo: until_ms for servo, until_ms in rests_at_ms.items() if until_ms > limit_ms}
-    unknown_ms = unknown_until_ms(current, last_ms)
+    unknown_ms = unknown_until_ms(current, last_ms) + later_ms
     is_unknown = unknown_ms > limit_ms
     if not late and not is_unknown:
         return None

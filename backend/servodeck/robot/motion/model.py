@@ -167,7 +167,7 @@ class Motion:
     """When it has answered all that, it hears again sooner."""
     may_hold_packet: bool = False
     """A packet came while it was deaf, and may wait to be taken up."""
-    may_swallow: int = 0
+    may_swallow: float = 0
     """So many more packets the board may take for the rest of one that was cut."""
     restless_until_ms: float = -inf
     """Until then a servo we know nothing of may still be on its way."""

@@ -180,6 +180,10 @@ def after_cut_packet(motion: Motion, family: Family) -> Motion:
     """
     if family.resync_filler is not None:
         return motion
+    if family.left_over_bytes < HEADER:
+        # It takes a header for LEN, which is more than it has room for: only an answer says that it survived
+        # that (L3).
+        return replace(motion, may_swallow=inf)
     # Cut in its head, it gets the first header of the next one for its LEN.
     longest_bytes = max(HEADER, family.max_length) + HEAD_BYTES
     return replace(motion, may_swallow=math.ceil(longest_bytes / SHORTEST_PACKET_BYTES))

@@ -41,6 +41,7 @@ export function StatusLine({ className, onMoveHere }: StatusLineProps) {
   const isTeaching = useIsTeaching();
   const isDown = link.status === 'lost' || link.status === 'refused';
   const isCalm = link.status === 'ready' && latch === null;
+  const mayBeRunning = useSnapshot((snapshot) => snapshot.mayBeRunning) && activity.kind === 'idle';
   return (
     <div
       className={cx(
@@ -61,6 +62,8 @@ export function StatusLine({ className, onMoveHere }: StatusLineProps) {
         <Latched latch={latch} />
       ) : isTeaching ? (
         <Said truth="warning" text={words.teach.status} />
+      ) : mayBeRunning && link.status === 'ready' ? (
+        <Said truth="warning" text={words.activity.before} />
       ) : (
         <Said
           truth={activityTruth(activity)}
@@ -91,7 +94,7 @@ function Latched({ latch }: { readonly latch: Latch }) {
   return (
     <>
       <Said
-        truth={latch.stop === 'confirmed' ? 'confirmed' : latch.stop === 'failed' ? 'danger' : 'warning'}
+        truth={STOP_TRUTH[latch.stop]}
         text={words.stop.outcome[latch.stop]}
         more={isOurs ? latchWords(latch) : `${latchWords(latch)}. ${mayResumeText(lease)}`}
       />
@@ -103,6 +106,14 @@ function Latched({ latch }: { readonly latch: Latch }) {
     </>
   );
 }
+
+const STOP_TRUTH: Readonly<Record<Latch['stop'], Truth>> = {
+  sending: 'warning',
+  sent: 'warning',
+  confirmed: 'confirmed',
+  unanswered: 'danger',
+  failed: 'danger',
+};
 
 const ANSWERED_ELSEWHERE: readonly LinkErrorCode[] = ['closed', 'boardUnknown', 'wrongBoard', 'echo'];
 

@@ -96,12 +96,13 @@ export function createGatewaySnapshot(options: GatewaySnapshotOptions): GatewayS
   let document: string | null = null;
   let withheld: StateMessage['port']['withheld'] = [];
   let waitingToStart: readonly number[] = [];
+  let mayBeRunning = false;
   let latchedBy: LatchReason | null = null;
   let stoppedBy: string | null = null;
   let play: PlayState | null = null;
   /** Until the link is ready: from then on the estimate follows by itself. */
   let before: MotionBefore | null = null;
-  const latch = createMotionLatch({ clock, store, drop, unheldSince: (ms) => estimate.unheldSince(ms) });
+  const latch = createMotionLatch({ clock, store, drop, unheldSince: (ms) => estimate.unheldSince(ms, 0) });
 
   function heard(message: Exclude<Said, { type: 'tick' | 'played' }>): void {
     switch (message.type) {
@@ -167,7 +168,7 @@ export function createGatewaySnapshot(options: GatewaySnapshotOptions): GatewayS
       case 'halted':
         if (isOpen)
           latch.change({
-            stop: 'sent',
+            stop: message.outcome,
             unheld: message.unheld && { ...message.unheld, forMs: message.unheld.forMs ?? Infinity },
           });
         break;
@@ -181,11 +182,12 @@ export function createGatewaySnapshot(options: GatewaySnapshotOptions): GatewayS
     board = boardOf(state);
     if (isOpen && board !== null) showBoard(board);
     ({ withheld } = state.port);
-    waitingToStart = state.waitingToStart;
+    ({ waitingToStart, mayBeRunning } = state);
     stoppedBy = state.stoppedBy;
     if (isOpen) {
       store.update({ withheld });
       if (waitingToStart.join() !== store.state.waitingToStart.join()) store.update({ waitingToStart });
+      if (mayBeRunning !== store.state.mayBeRunning) store.update({ mayBeRunning });
     }
     latchChanged(state.latchedBy && LATCHED_BY[state.latchedBy]);
   }
@@ -197,7 +199,14 @@ export function createGatewaySnapshot(options: GatewaySnapshotOptions): GatewayS
       entered(line);
       return;
     }
-    store.update({ battery, waitingToStart, withheld, robotOnBoard: { document }, identity: NOTHING_HEARD });
+    store.update({
+      battery,
+      waitingToStart,
+      mayBeRunning,
+      withheld,
+      robotOnBoard: { document },
+      identity: NOTHING_HEARD,
+    });
     showLease();
     latchAsGateway();
     if (board !== null) showBoard(board);
@@ -258,7 +267,7 @@ export function createGatewaySnapshot(options: GatewaySnapshotOptions): GatewayS
   function drop(): void {
     options.dropMoves();
     requestedRun = null;
-    store.update({ waitingToStart: [] });
+    store.update({ waitingToStart: [], mayBeRunning: false });
     showActivity();
   }
 

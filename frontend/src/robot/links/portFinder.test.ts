@@ -3,7 +3,16 @@
 import { expect, test } from 'vitest';
 import { portLabel } from './browserDevices.ts';
 import { CH340, createBrowser, type FakeBrowser, type FakePort } from './serialUnderTest.ts';
-import { expectUse, openReady, openTab, outcome, pass, freshBrowser, type Outcome } from './tabUnderTest.ts';
+import {
+  BACK_MS,
+  expectUse,
+  openReady,
+  openTab,
+  outcome,
+  pass,
+  freshBrowser,
+  type Outcome,
+} from './tabUnderTest.ts';
 
 const CP2102: SerialPortInfo = { usbVendorId: 0x10c4, usbProductId: 0xea60 };
 const NO_USB: SerialPortInfo = {};
@@ -50,7 +59,7 @@ test.each(CASES)('$name', async ({ ours = CH340, beside = [], then, opens }) => 
   mine.unplug();
   await pass(100);
   const newcomers = plugInTogether(it.browser, then);
-  await pass(500);
+  await pass(BACK_MS);
   const open = newcomers.findIndex((port) => port.isOpen());
   if (typeof opens === 'number') {
     expect(open).toBe(opens);
@@ -108,7 +117,7 @@ test('ours is found again though the browser noticed late that it went, and a tw
   await pass(100);
   mine.unplug();
   const again = it.browser.plugIn();
-  await pass(100);
+  await pass(BACK_MS);
   expect([outcome(tab), again.isOpen(), twin.isOpen()]).toEqual(['ready', true, false]);
 });
 

@@ -7,7 +7,7 @@ import { LinkError } from '#shared/robot/linkError.ts';
 import { browserClock } from './browserClock.ts';
 import type { Connection, ConnectionEvents } from './connection.ts';
 
-interface TabDevice extends Pick<ByteChannel, 'label' | 'longestPacket'> {
+interface TabDevice extends Pick<ByteChannel, 'label' | 'longestPacket' | 'inReports'> {
   /** The same in all tabs. */
   readonly lockName: string;
   /** Rejects with a LinkError, in bounded time. */
@@ -101,6 +101,7 @@ export function createTabChannel(device: TabDevice): ByteChannel {
   const channel: ByteChannel = {
     label: device.label,
     longestPacket: device.longestPacket,
+    inReports: device.inReports ?? false,
     events: null,
     open(options) {
       stopAwaiting();

@@ -59,6 +59,9 @@ export function hideTabs(): void {
   vi.stubGlobal('Worker', createTimerWorker(inTime));
 }
 
+/** From the return of a lost line until the stops have left that end what others may have left on it. */
+export const BACK_MS = 1000;
+
 export function pass(ms = TOLD_WITHIN_MS): Promise<unknown> {
   return vi.advanceTimersByTimeAsync(ms);
 }
@@ -69,7 +72,7 @@ export function openTab({ port }: FakePort): Tab {
 }
 
 export function openChannel(channel: ByteChannel): Tab {
-  const session = createLocalRobot({ channel, family: FAMILIES.doc, clock: browserClock });
+  const session = createLocalRobot({ channel, isNew: true, family: FAMILIES.doc, clock: browserClock });
   const tab: Tab = { session, channel, outcomes: [], noise: [] };
   session.subscribe({
     state: () => tab.outcomes.at(-1) !== outcome(tab) && tab.outcomes.push(outcome(tab)),

@@ -5,6 +5,7 @@ import { expect, test } from 'vitest';
 import { toHex } from '#shared/codec/packet.ts';
 import type { FakePort } from './serialUnderTest.ts';
 import {
+  BACK_MS,
   expectUse,
   freshBrowser,
   hideTabs,
@@ -172,7 +173,7 @@ async function openTabAfterLoss(first: Tab, port: FakePort): Promise<void> {
   await pass(5);
   expect(outcome(first)).toBe('lost');
   const again = it.browser.plugIn();
-  await pass(100);
+  await pass(BACK_MS);
   expect(outcome(first)).toBe('ready');
   expect(again.isOpen()).toBe(true);
 }
@@ -194,10 +195,11 @@ test('a page that was left and comes back finds its robot, stopped, and waits fo
   const port = it.browser.plugIn();
   const tab = await openReady(port);
   tab.session.leave();
-  await pass(600);
+  await pass(BACK_MS + 100);
   expect(outcome(tab)).toBe('ready');
   expect(tab.session.state.latch?.reason).toBe('reconnected');
-  expect(stops(port)).toBe(4);
+  // One as it was left, a row of them and three as it is back.
+  expect(stops(port)).toBe(5);
 });
 
 test('a page that is left while its port opens lets go of it, and opens it when it comes back', async () => {

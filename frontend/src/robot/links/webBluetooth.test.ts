@@ -19,6 +19,7 @@ import {
 } from './webBluetooth.ts';
 import { createModule, FFF0, STEPS, type FakeModule, type Step } from './bluetoothUnderTest.ts';
 import {
+  BACK_MS,
   BATTERY_REPORT,
   expectUse,
   freshBrowser,
@@ -80,7 +81,7 @@ describe.each(STEPS)('at %s', (step: Step) => {
       expect(failed.outcomes).toContain(expected);
 
       if (outcome(failed) !== 'ready') failed.session.retryNow();
-      await pass(500);
+      await pass(BACK_MS);
       expect(outcome(failed)).toBe('ready');
       expect(fake.isConnected()).toBe(true);
       await expectUse(failed, fake);
@@ -104,7 +105,7 @@ test('an adapter that is switched off says so, and on again the link is tried at
   await pass(30_000);
   expect(outcome(tab)).toBe('bluetoothOff');
   fake.power(true);
-  await pass(100);
+  await pass(BACK_MS);
   expect(outcome(tab)).toBe('ready');
 });
 

@@ -29,7 +29,7 @@ interface Link {
 function connect(board: FakeBoard, family: FamilyId = 'doc'): Link {
   const channel = createWebHidChannel(board.device);
   const robot = createLocalRobot({
-    ...{ channel, withheld: HID_WITHHELD },
+    ...{ channel, isNew: true, withheld: HID_WITHHELD },
     ...{ family: FAMILIES[family], clock: browserClock },
   });
   const noise: number[] = [];

@@ -100,6 +100,7 @@ export function createWebHidChannel(chosen: HIDDevice): ByteChannel {
   return createTabChannel({
     label,
     longestPacket: REPORT_BYTES,
+    inReports: true,
     lockName: `servodeck board ${kindOf(chosen)}`,
     connect: async (events) => openBoard(await finder.find(), events),
     wentAway: finder.wentAway,

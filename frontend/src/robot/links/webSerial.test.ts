@@ -5,6 +5,7 @@ import { describe, expect, test } from 'vitest';
 import type { LinkErrorCode } from '#shared/robot/linkError.ts';
 import { STEPS, type FakePort, type Step } from './serialUnderTest.ts';
 import {
+  BACK_MS,
   BATTERY_REPORT,
   expectUse,
   openReady,
@@ -140,7 +141,7 @@ describe('a port that is read', () => {
     await pass(10);
     expect(outcome(tab)).toBe('lost');
     const again = it.browser.plugIn();
-    await pass(400);
+    await pass(BACK_MS);
     expect(outcome(tab)).toBe('ready');
     expect(tab.noise).toEqual([]);
     await expectUse(tab, again);

@@ -73,7 +73,7 @@ async function cutAndReturn(
   await clock.advance(pulledForMs);
   channel.plugIn();
   await clock.advance(1);
-  expect(session.state.link.status).toBe('ready');
+  expect(session.state.link.status).toBe('identifying');
 }
 
 const arrivedWhole = (servo: number, cut: number): boolean => cut >= HEAD_BYTES + servo * ENTRY_BYTES;
@@ -81,7 +81,8 @@ const arrivedWhole = (servo: number, cut: number): boolean => cut >= HEAD_BYTES 
 async function cutMove(servoCount: number, cut: number, circumstances: Circumstances): Promise<void> {
   const rig = await runningRig();
   await cutAndReturn(rig, servoCount, cut, circumstances);
-  await rig.clock.advance(600);
+  await rig.clock.advance(1_000);
+  expect(rig.session.state.link.status).toBe('ready');
   const { board } = rig.channel;
   expect(board.runningSlot()).toBeNull();
   for (let servo = 1; servo <= SERVOS; servo += 1)

@@ -96,7 +96,7 @@ async function pullAt({ slot, frames, packetMs }: Group, frameIndex: number, aft
   expect(session.state.brokenSlots).toEqual([slot]);
 
   channel.plugIn();
-  await clock.advance(700);
+  await clock.advance(1_400);
   await session.resume();
   await expect(session.run(slot, 1)).rejects.toMatchObject({ code: 'slotBroken' });
   await clock.advance(100);
