@@ -94,7 +94,10 @@ def use(commands: Path, folder: Path) -> None:
         assert process.stdout
         ready = READY.match(process.stdout.readline())
         assert ready, "it does not say where it is"
-        assert connection.recv(100) == STOP, "the board hears something else than a stop at first"
+        opening = connection.recv(100)
+        assert opening == STOP * (len(opening) // len(STOP)), (
+            "the board hears something else than stops at first"
+        )
         ask(ready[1])
         leave(process, connection)
 
