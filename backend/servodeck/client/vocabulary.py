@@ -44,7 +44,7 @@ UNKNOWN_END_S = PROGRAM.unknown_end_ms / 1000
 AFTER_END_S = PROGRAM.after_end_ms / 1000
 IDENTIFIED_S = PROGRAM.identified_ms / 1000
 START_S = PROGRAM.first_move_ms / 1000
-# Behind the end of its program the gateway stops what moves by itself.
+# The gateway by itself stops what its program leaves moving.
 LEAVE_S = LEASE.silent_ms / 1000
 REMEMBERED_S = PROGRAM.names_ms / 1000
 LATE_S = PROGRAM.late_ms / 1000

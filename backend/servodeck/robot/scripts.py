@@ -165,7 +165,7 @@ class Scripts:
             if not await is_wanted():
                 raise CancelledError("The client disconnected.")
             await grant.send(step.move, duration_ms / 1000)
-        # As fast as the soft limit lets it be.
+        # A time of 0 is that of the soft limit.
         over_in_ms = duration_ms or math.ceil(control.board.motion.moves_for_s(control.now()) * 1000)
         return Moved(len(plan.steps), over_in_ms, plan.first_moves)
 

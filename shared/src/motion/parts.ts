@@ -101,7 +101,7 @@ function shared(
 ): { readonly carried: Going; readonly left: readonly Course[] } {
   if (!carriesAll(family)) return { carried: going.filter(isDue).slice(0, room), left: [] };
   if (going.length <= room) return { carried: going, left: [] };
-  // What has its last part already waits for the packet rather than cutting it short.
+  // Servos on their last part arrive with the packet rather than cut it short.
   const carried = going
     .filter(([, course]) => isUnfinished(course))
     .toSorted(([, one], [, other]) => one.sentUntilMs - other.sentUntilMs)
@@ -165,7 +165,7 @@ function partMs(
 ): number {
   const seams = left.filter(isUnfinished).map((course) => course.sentUntilMs - arrivesMs);
   const leftMs = Math.max(0, ...left.map((course) => course.sentUntilMs - arrivesMs));
-  // One that should be there already comes to its end with any packet.
+  // Servos past their time arrive with any packet.
   const ends = [...courses.map((course) => course.endMs - arrivesMs), ...seams].filter((ms) => ms > GRAIN_MS);
   const firstMs = Math.min(...ends, LONGEST_MOVE_MS);
   // Servos that arrive almost together arrive together.
@@ -175,7 +175,7 @@ function partMs(
     togetherMs <= longestMs + GRAIN_MS ? togetherMs : inTicks(Math.min(longestMs, firstMs - REST_MS), family);
   const intervalOfAllMs = intervalMs(courses.length, family);
   const durationMs = Math.ceil(Math.max(wantedMs, leastMs, leftMs, intervalOfAllMs) - GRAIN_MS);
-  // What the board cuts of a tick would make those faster that are on their way.
+  // Boards cut the rest of a tick, which would make the servos under way faster.
   const isUnderWayLater = courses.some((course) => course.endMs > arrivesMs + durationMs + GRAIN_MS);
   const whole =
     isUnderWayLater || isJoined ? inTicks(durationMs + family.motion.tickMs - 1, family) : durationMs;

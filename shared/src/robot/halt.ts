@@ -358,7 +358,7 @@ function fillerFor(packet: Uint8Array, filler: number): Uint8Array {
   const command = packet[COMMAND_AT];
   if (command === COMMAND_NUMBER.run || command === COMMAND_NUMBER.download)
     return new Uint8Array(timings.line.fillerBytes).fill(filler);
-  // Of stops in a row each is a packet of its own.
+  // Each stop of a row is a packet of its own.
   const bytes = stopsIn(packet) > 0 ? STOP_PACKET.length : packet.length;
   return Uint8Array.of(0, ...new Uint8Array(bytes).fill(filler));
 }

@@ -383,7 +383,7 @@ class Board:
             self.activity.filled(at_s)
             return
         is_halting = self.link.wire().is_halting or owner is self.halts
-        # Of stops in a row each is a packet of its own.
+        # Each stop of a row is a packet of its own.
         for _ in range(len(packet.data) // len(STOP_PACKET.data) if packet.number == STOP else 1):
             self.activity.left(packet, command, at_s, is_halting=is_halting)
         if isinstance(command, ReadBattery):

@@ -263,7 +263,7 @@ def filler_for(cut: bytes, filler: int) -> bytes:
     """
     if cut[COMMAND_AT] in (RUN, DOWNLOAD):
         return bytes([filler]) * LINE.filler_bytes
-    # Of stops in a row each is a packet of its own.
+    # Each stop of a row is a packet of its own.
     byte_count = len(STOP_PACKET.data) if cut[COMMAND_AT] == STOP_NUMBER else len(cut)
     return bytes([0]) + bytes([filler]) * byte_count
 

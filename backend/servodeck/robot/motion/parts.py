@@ -131,7 +131,7 @@ def divided(going: Going, due: Going, room: int, family: Family) -> tuple[Going,
         return due[:room], ()
     if len(going) <= room:
         return going, ()
-    # What has its last part already waits for the packet rather than cutting it short.
+    # Servos on their last part arrive with the packet rather than cut it short.
     unfinished = [one for one in going if is_unfinished(one[1])]
     carried = sorted(unfinished, key=lambda one: one[1].sent_until_ms)[:room]
     servos = {servo for servo, _ in carried}
@@ -200,7 +200,7 @@ def part_ms(
     seams = [course.sent_until_ms - arrives_ms for course in left if is_unfinished(course)]
     left_ms = max((course.sent_until_ms - arrives_ms for course in left), default=0.0)
     ends = [course.end_ms - arrives_ms for course in courses] + seams
-    # One that should be there already comes to its end with any packet.
+    # Servos past their time arrive with any packet.
     ends = [ms for ms in ends if ms > PARTS.grain_ms]
     first_ms = min([*ends, float(LONGEST_MOVE_MS)])
     # Servos that arrive almost together arrive together.
@@ -212,7 +212,7 @@ def part_ms(
         wanted_ms = in_ticks(min(longest_ms, first_ms - PARTS.rest_ms), family)
     least = max(wanted_ms, least_ms, left_ms, interval_ms(len(courses), family))
     duration_ms = math.ceil(least - PARTS.grain_ms)
-    # What the board cuts of a tick would make those faster that are on their way.
+    # Boards cut the rest of a tick, which would make the servos under way faster.
     if is_joined or any(course.end_ms > arrives_ms + duration_ms + PARTS.grain_ms for course in courses):
         duration_ms = in_ticks(duration_ms + family.motion.tick_ms - 1, family)
     return min(duration_ms, family.duration_ms.max)
