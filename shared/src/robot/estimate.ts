@@ -216,7 +216,7 @@ export function createRobotEstimate(family: Family, clock: Clock): RobotEstimate
       if (again === null) return null;
       const leftMs = remainingMs(now(), clock.now());
       if (leftMs === 0) return { ...again, durationMs: Math.max(HOLD_AGAIN_MS, again.durationMs) };
-      // What is still under way takes no longer for being held again, and no tick that has begun is cut.
+      // A move under way takes no longer for being held again, and a tick that has begun is never cut.
       const { tickMs } = family.motion;
       return { ...again, durationMs: Math.min(again.durationMs, (1 + Math.ceil(leftMs / tickMs)) * tickMs) };
     },

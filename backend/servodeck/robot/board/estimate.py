@@ -337,7 +337,7 @@ class Estimate:
         left_ms = remaining_ms(self._motion, self._advance(now))
         if left_ms <= CLOCK_GRAIN_MS:
             return replace(again, duration_ms=max(STOP.hold_again_ms, again.duration_ms))
-        # What is still under way takes no longer for being held again, and no tick that has begun is cut.
+        # A move under way takes no longer for being held again, and a tick that has begun is never cut.
         tick_ms = self.family.motion.tick_ms
         longest_ms = (1 + math.ceil(left_ms / tick_ms)) * tick_ms
         return replace(again, duration_ms=min(again.duration_ms, longest_ms))
