@@ -165,8 +165,9 @@ function partMs(
 ): number {
   const seams = left.filter(isUnfinished).map((course) => course.sentUntilMs - arrivesMs);
   const leftMs = Math.max(0, ...left.map((course) => course.sentUntilMs - arrivesMs));
+  const arrivals = courses.map(({ endMs: end, sentUntilMs }) => Math.max(end, sentUntilMs) - arrivesMs);
   // Servos past their time arrive with any packet.
-  const ends = [...courses.map((course) => course.endMs - arrivesMs), ...seams].filter((ms) => ms > GRAIN_MS);
+  const ends = [...arrivals, ...seams].filter((ms) => ms > GRAIN_MS);
   const firstMs = Math.min(...ends, LONGEST_MOVE_MS);
   // Servos that arrive almost together arrive together.
   const togetherMs = Math.max(0, ...ends.filter((ms) => ms <= firstMs + REST_MS));

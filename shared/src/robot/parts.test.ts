@@ -204,6 +204,23 @@ test('a short move of one servo does not hasten another', async () => {
   ).toBeLessThanOrEqual(1_000);
 });
 
+test('no later packet has a servo arrive earlier', async () => {
+  const steps: Step[] = [
+    { kind: 'move', servos: [5], shares: [1_000], durationMs: 489 },
+    { kind: 'move', servos: [2], shares: [950], durationMs: 173 },
+    { kind: 'wait', ms: 600 },
+  ];
+  const { wrong, rig } = await driven({ family: 'openarm-old', profile: 'openarm-old' }, steps);
+  expect(wrong).toEqual([]);
+  const arrivals = rig.heard.flatMap(({ atMs, command }) =>
+    command.kind === 'move' && command.targets.some(({ servo, position }) => servo === 2 && position === 2_400)
+      ? [atMs + command.durationMs]
+      : [],
+  );
+  expect(arrivals.length).toBeGreaterThan(1);
+  expect(arrivals).toEqual(arrivals.toSorted((one, other) => one - other));
+});
+
 describe('what else asks for motion', () => {
   const slow = [{ servo: 6, position: 2_400 }];
 

@@ -199,9 +199,9 @@ def part_ms(
     """
     seams = [course.sent_until_ms - arrives_ms for course in left if is_unfinished(course)]
     left_ms = max((course.sent_until_ms - arrives_ms for course in left), default=0.0)
-    ends = [course.end_ms - arrives_ms for course in courses] + seams
+    arrivals = [max(course.end_ms, course.sent_until_ms) - arrives_ms for course in courses]
     # Servos past their time arrive with any packet.
-    ends = [ms for ms in ends if ms > PARTS.grain_ms]
+    ends = [ms for ms in arrivals + seams if ms > PARTS.grain_ms]
     first_ms = min([*ends, float(LONGEST_MOVE_MS)])
     # Servos that arrive almost together arrive together.
     together_ms = max((ms for ms in ends if ms <= first_ms + PARTS.rest_ms), default=0.0)
