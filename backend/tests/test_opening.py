@@ -8,6 +8,7 @@ from collections.abc import Iterator
 
 import pytest
 
+from servodeck.api.app import create_app
 from servodeck.errors import MovingError
 from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.packets import encode
@@ -17,7 +18,7 @@ from servodeck.robot.control import Control
 from tests.client import ANNA, Client
 from tests.fake_port import FakeHidPort, FakePort, FakePorts
 from tests.lockstep import ENTRY, NODE, Simulator, SteppedBoard
-from tests.running import DEVICE
+from tests.running import DEVICE, NO_LIBRARY, client_of, entrance_to
 from tests.samples import BATTERY, BATTERY_REPORT, MOVE, STOP, STOPS
 from tests.virtual_time import in_virtual_time, now
 
@@ -88,6 +89,21 @@ async def test_what_a_silent_board_ran_before_may_run_for_its_longest_frame_and_
     await asyncio.sleep(30.1)
     assert [one["mayBeRunning"] for one in await anna.heard() if one["type"] == "state"][-1] is False
     download(control, "openarm-old")
+    await control.board.link.close()
+
+
+@in_virtual_time
+async def test_a_download_of_a_script_waits_for_what_a_silent_board_may_run() -> None:
+    port = FakePort()
+    control = await opened(port, "openarm-old")
+    app = create_app(control, NO_LIBRARY, entrance_to(now=now))
+    group = {"slot": 5, "name": "", "frames": [{"durationMs": 500, "positions": {"1": 1500}}]}
+    async with client_of(app) as client:
+        answer = await client.post("/api/download", json={"groups": [group]})
+    assert answer.status_code == 202, answer.text
+    assert not control.board.may_be_running
+    # Opened, silent to its questions, and its longest frame.
+    assert 30 < now() < 34
     await control.board.link.close()
 
 

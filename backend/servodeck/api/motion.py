@@ -129,8 +129,16 @@ async def once_identified(request: Request, control: Controlled) -> None:
         raise CancelledError("The client disconnected.")
 
 
+async def once_settled(request: Request, control: Controlled) -> None:
+    """Also until what others began before the port was opened has ended, on a board that answers nothing."""
+    await control.until_settled()
+    if await request.is_disconnected():
+        raise CancelledError("The client disconnected.")
+
+
 ONCE_IDENTIFIED = [SEEN_AT_ROBOT, Depends(once_identified)]
 KEYED_ONCE_IDENTIFIED = [KEYED, *ONCE_IDENTIFIED]
+ONCE_SETTLED = [SEEN_AT_ROBOT, Depends(once_settled)]
 
 
 @motion_api.post("/move", dependencies=KEYED_ONCE_IDENTIFIED, response_model_exclude_none=True)
@@ -177,7 +185,7 @@ async def run(
     return RunBegun(outcome=outcome, ended=await waits.ran(slot, wish.wait_ms))
 
 
-@motion_api.post("/erase", dependencies=ONCE_IDENTIFIED)
+@motion_api.post("/erase", dependencies=ONCE_SETTLED)
 async def erase(caller: Annotated[Caller, OWNER], scripts: Scripted, wish: EraseWish = POLITELY) -> Erased:
     """Erases every slot of the board, for good."""
     await scripts.erase(caller, take=wish.take)
@@ -260,7 +268,7 @@ class DownloadWish(Message):
 jobs_api = routes("/api", "jobs", KeyedRoute)
 
 
-@jobs_api.post("/download", status_code=202, dependencies=KEYED_ONCE_IDENTIFIED)
+@jobs_api.post("/download", status_code=202, dependencies=[KEYED, *ONCE_SETTLED])
 async def download(
     wish: DownloadWish,
     caller: Annotated[Caller, DRIVER],

@@ -30,7 +30,7 @@ from servodeck.cli.options import (
     request,
     show,
 )
-from servodeck.cli.remote import RefusedError, Remote, UnreachableError, stopped_words
+from servodeck.cli.remote import LONG_WAIT_S, RefusedError, Remote, UnreachableError, stopped_words
 
 BEAT_S = 1.0
 # The longest time that the gateway allows without a driver.
@@ -39,8 +39,6 @@ LONGEST_ALONE_S = 3600
 # more, or where only the board could report it.
 AFTER_END_S = 2.0
 UNKNOWN_END_S = 30.0
-# Servos of unknown place start a quarter of a second apart.
-MOVE_WAIT_S = 90.0
 
 
 @asking
@@ -100,7 +98,7 @@ def move(
     """Move servos together, in the board's unit."""
     body = {"timeMs": time_ms, "positions": positions_in(targets), "take": take}
     once_identified(remote)
-    answer = request(remote, "POST", "/api/move", body, wait_s=MOVE_WAIT_S)
+    answer = request(remote, "POST", "/api/move", body, wait_s=LONG_WAIT_S)
     show(answer, as_json, begun_words)
 
 
@@ -225,7 +223,8 @@ def erase(
     if not sure:
         typer.confirm("Every group on the board goes for good. Erase them?", abort=True)
     once_identified(remote)
-    show(request(remote, "POST", "/api/erase", {"take": take}), as_json, lambda _: "Every slot is empty.")
+    erased = request(remote, "POST", "/api/erase", {"take": take}, wait_s=LONG_WAIT_S)
+    show(erased, as_json, lambda _: "Every slot is empty.")
 
 
 @asking
@@ -317,7 +316,7 @@ def pose(
     """Go to a pose of the robot on the board."""
     once_identified(remote)
     path = f"/api/poses/{quote(wanted, safe='')}/apply"
-    begun = request(remote, "POST", path, {"timeMs": time_ms, "take": take}, wait_s=MOVE_WAIT_S)
+    begun = request(remote, "POST", path, {"timeMs": time_ms, "take": take}, wait_s=LONG_WAIT_S)
     show(begun, as_json, begun_words)
 
 

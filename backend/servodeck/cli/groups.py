@@ -22,7 +22,7 @@ from servodeck.cli.options import (
     request,
     show,
 )
-from servodeck.cli.remote import Remote
+from servodeck.cli.remote import LONG_WAIT_S, Remote
 from servodeck.protocol.timings import DOWNLOAD
 
 LOOK_S = 0.2
@@ -59,7 +59,8 @@ def delivered(remote: Remote, groups: list[dict[str, Any]], *, take: bool) -> di
     """As one job, in as many requests as the gateway needs to read them."""
     first, *rest = portions_of(groups)
     once_identified(remote)
-    job: dict[str, Any] = request(remote, "POST", "/api/download", {"groups": first, "take": take})
+    body: dict[str, Any] = {"groups": first, "take": take}
+    job: dict[str, Any] = request(remote, "POST", "/api/download", body, wait_s=LONG_WAIT_S)
     for portion in rest:
         body = {"groups": portion, "take": take, "behind": job["id"]}
         job = request(remote, "POST", "/api/download", body)

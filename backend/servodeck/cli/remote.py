@@ -14,6 +14,9 @@ from urllib.parse import urlsplit
 
 HERE = "http://127.0.0.1:8300"
 ANSWER_S = 10.0
+# Servos of unknown position start a quarter of a second apart; an erase takes half a minute, and so does what
+# others began before the port was opened.
+LONG_WAIT_S = 90.0
 OK, FAILED = 200, 400
 CONNECTIONS = {"http": HTTPConnection, "https": HTTPSConnection}
 

@@ -25,7 +25,7 @@ from servodeck.errors import (
     NotPairedError,
     OutOfRangeError,
 )
-from servodeck.protocol.timings import LEASE, PROGRAM
+from servodeck.protocol.timings import LEASE, MOVE, PROGRAM
 
 Units = Literal["deg", "board"]
 """Degrees from home, or the board's unit."""
@@ -43,6 +43,9 @@ LOOK_S = PROGRAM.look_ms / 1000
 UNKNOWN_END_S = PROGRAM.unknown_end_ms / 1000
 AFTER_END_S = PROGRAM.after_end_ms / 1000
 IDENTIFIED_S = PROGRAM.identified_ms / 1000
+# A download and an erase also wait until the longest frame that others can have begun has ended.
+SETTLED_S = IDENTIFIED_S + MOVE.longest_ms / 1000
+ERASE_S = 30.0
 START_S = PROGRAM.first_move_ms / 1000
 # The gateway by itself stops what its program leaves moving.
 LEAVE_S = LEASE.silent_ms / 1000
@@ -207,7 +210,7 @@ class Vocabulary:
         if replaces is not None:
             group["replaces"] = replaces
         until_s = self._until(timeout if wait else None)
-        job: Json = yield from self._begin("/api/download", {"groups": [group]}, IDENTIFIED_S, until_s)
+        job: Json = yield from self._begin("/api/download", {"groups": [group]}, SETTLED_S, until_s)
         path = f"/api/jobs/{job['id']}"
         try:
             while wait and job["status"] == "running":
@@ -224,7 +227,7 @@ class Vocabulary:
 
     def erase(self) -> Steps[None]:
         self.may_drive = True
-        yield Call("POST", "/api/erase", {"take": self._take}, more_s=30.0)
+        yield Call("POST", "/api/erase", {"take": self._take}, more_s=SETTLED_S + ERASE_S)
 
     # The right to drive
 

@@ -34,6 +34,7 @@ from servodeck.port.link import Ports
 from servodeck.port.wire import Left, Owner
 from servodeck.protocol.decoder import NoiseEvent
 from servodeck.protocol.families import FAMILIES, UNKNOWN, Family
+from servodeck.protocol.timings import MOVE
 from servodeck.protocol.values import Command, Report
 from servodeck.robot.acts import Acts
 from servodeck.robot.board.board import Board
@@ -52,6 +53,8 @@ from servodeck.snapshots import JobState, LatchedBy, PlayState, UnheldServos
 UNNAMED_PERSON = Cause("person")
 # Longer than a port takes to open and a LeArm to start and to be identified (L1).
 IDENTIFIED_WITHIN_S = 8.0
+# Longer than the longest frame that others can have begun.
+SETTLED_WITHIN_S = MOVE.longest_ms / 1000 + 1
 
 
 class Control:
@@ -226,10 +229,19 @@ class Control:
         """Returns when the board is identified, or cannot be now: then the request is refused with the
         reason. Raises CancelledError where STOP was pressed meanwhile.
         """
+        unknown = ("opening", "identifying")
+        await self._while(lambda: self.board.link_state.status in unknown, IDENTIFIED_WITHIN_S)
+
+    async def until_settled(self) -> None:
+        """Also until what others began before the port was opened has ended."""
+        await self.until_identified()
+        await self._while(lambda: self.board.may_be_running, SETTLED_WITHIN_S)
+
+    async def _while(self, is_so: Callable[[], bool], within_s: float) -> None:
         stopped_s = self._latch.stopped_s
         with contextlib.suppress(TimeoutError):
-            async with asyncio.timeout(IDENTIFIED_WITHIN_S):
-                while self.board.link_state.status in ("opening", "identifying"):
+            async with asyncio.timeout(within_s):
+                while is_so():
                     await self._changed.wait()
         if self._latch.stopped_s != stopped_s:
             raise CancelledError("STOP was pressed after this was requested.")

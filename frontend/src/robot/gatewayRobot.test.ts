@@ -421,6 +421,18 @@ describe('playing', () => {
 });
 
 describe('what moved before the page came', () => {
+  test('what may still run and what waits to start is shown on any family', async () => {
+    const waiting = { mayBeRunning: true, waitingToStart: [2, 3] };
+    const { robot } = await createGateway({ welcome: { ...waiting, board: 'openarm-new' } });
+    expect(robot.state).toMatchObject(waiting);
+  });
+
+  test('STOP does not hide what may still run', async () => {
+    const { robot } = await createGateway({ welcome: { mayBeRunning: true } });
+    void robot.halt();
+    expect(robot.state.mayBeRunning).toBe(true);
+  });
+
   const MOVED: WelcomeMessage['motion'] = {
     servos: [
       {

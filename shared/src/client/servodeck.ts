@@ -143,7 +143,12 @@ export class Servodeck {
     const bodies = await this.#names.frames(frames, units, signal);
     const group = { slot, name, version: '', frames: bodies, ...(replaces !== undefined && { replaces }) };
     const body = { groups: [group], take: this.#take };
-    let job: JobState = await this.#motions.begin('post', '/api/download', { body }, patience);
+    let job: JobState = await this.#motions.begin(
+      'post',
+      '/api/download',
+      { body },
+      { moreS: SETTLED_S, ...patience },
+    );
     const given = { values: { job: job.id } };
     const lateWords = 'The download did not end in time, so it was cancelled.';
     try {

@@ -77,7 +77,7 @@ export function requireRest(state: SessionState, { isMoving, isUnsettled }: Rest
   if (state.mayBeRunning)
     throw new LinkError(
       'busy',
-      'what ran before the link was opened may go on: wait until the board answers',
+      'what ran before the link was opened may go on for 30 s: try again when it is over',
     );
   if (state.activity.kind !== 'idle' || isMoving() || isUnsettled())
     throw new LinkError('busy', 'the robot is moving: wait or stop it first');

@@ -199,18 +199,12 @@ export function createGatewaySnapshot(options: GatewaySnapshotOptions): GatewayS
       entered(line);
       return;
     }
-    store.update({
-      battery,
-      waitingToStart,
-      mayBeRunning,
-      withheld,
-      robotOnBoard: { document },
-      identity: NOTHING_HEARD,
-    });
+    store.update({ battery, withheld, robotOnBoard: { document }, identity: NOTHING_HEARD });
     showLease();
     latchAsGateway();
     if (board !== null) showBoard(board);
     else entered({ status: 'identifying' });
+    store.update({ waitingToStart, mayBeRunning });
     showActivity();
   }
 
@@ -257,7 +251,7 @@ export function createGatewaySnapshot(options: GatewaySnapshotOptions): GatewayS
     estimate.forget(null);
     if (next.status === 'closed') estimate.groupEnded();
     estimate.unstored();
-    store.update({ storedSlots: estimate.storedSlots(), ...NOTHING_READ });
+    store.update({ storedSlots: estimate.storedSlots(), mayBeRunning: false, ...NOTHING_READ });
     if (next.status === 'lost' || next.status === 'stale')
       latch.set({ reason: 'reconnected', by: null, stop: 'failed', unheld: estimate.haltPlan(null).unheld });
     else drop();
@@ -267,7 +261,7 @@ export function createGatewaySnapshot(options: GatewaySnapshotOptions): GatewayS
   function drop(): void {
     options.dropMoves();
     requestedRun = null;
-    store.update({ waitingToStart: [], mayBeRunning: false });
+    store.update({ waitingToStart: [] });
     showActivity();
   }
 
