@@ -20,7 +20,10 @@ export interface ThrowWatch {
   resumed(): void;
   /** A packet begins to leave for the board now. */
   leaves(command: Command): void;
-  /** Noise on the line: from now on it is open which packets the board takes, so all that was requested counts as target. */
+  /**
+   * Noise on the line: from now on it is open which packets the board takes. So all that was requested counts as target, and where a
+   * servo is now as a place on its way: a packet that has it arrive later may be lost, and then it is farther than anybody can know.
+   */
   disturbed(): void;
   /** So often it has to look: what a hold throws stays there, but what a packet throws the next one may take back. */
   everyMs(): number;
@@ -52,17 +55,19 @@ export function createThrowWatch(
   /** What was requested besides what the board says; all of it since the line was disturbed. */
   let requested: readonly { readonly atMs: number; readonly targets: readonly ServoTarget[] }[] = [];
   let isDisturbed = false;
+  let disturbedAt: readonly (readonly number[])[] = SERVOS.map(() => []);
   let courses: readonly Course[] | null = null;
   let pressedMs = -Infinity;
   let stops = 0;
   /** The holds of this STOP. */
   let held: readonly MoveCommand[] = [];
 
-  function course(servo: number): Course {
+  function course(servo: number, index: number): Course {
     const due = board.dueFrame(DUE_WITHIN_MS);
     const places = [
       ...[board.pulse(servo), board.target(servo)],
       ...[...requestedOf(servo), ...briefPlacesOf(servo), ...(due ? placesOf(servo, due) : [])],
+      ...(disturbedAt[index] ?? []),
     ];
     return { min: Math.min(...places), max: Math.max(...places), target: board.target(servo) };
   }
@@ -133,6 +138,7 @@ export function createThrowWatch(
       // The packet on the wire is disturbed with it.
       requested = requested.filter(({ atMs }) => clock.now() - atMs < TAKEN_WITHIN_MS);
       isDisturbed = true;
+      disturbedAt = SERVOS.map((servo, index) => [...(disturbedAt[index] ?? []), board.pulse(servo)]);
     },
     everyMs() {
       if (courses === null) return Infinity;
