@@ -34,6 +34,8 @@ SITUATIONS = {
     "noise",
     "unseen restart",
 }
+# A simulated LSC gives a servo no pulse before its first move, which is over at once.
+NEVER_IN = {"lsc-6": {"first move"}}
 # Rounded places, and what a servo goes in a tick under the slowest hold: 10 steps of a bus servo.
 LIMIT_US, LIMIT_STEPS = 26, 10
 
@@ -71,7 +73,8 @@ def test_a_stop_throws_no_servo(simulator: Simulator, board: str, capsys: pytest
                 assert throws(outcome, board) == []
     with capsys.disabled():
         sys.stderr.write(f"\n{board}: STOP met {dict(met)}\n")
-    assert not IS_EXHAUSTIVE or min(met[situation] for situation in SITUATIONS) >= LEAST_OF_EACH
+    situations = SITUATIONS - NEVER_IN.get(board, set())
+    assert not IS_EXHAUSTIVE or min(met[situation] for situation in situations) >= LEAST_OF_EACH
 
 
 @pytest.mark.parametrize("door", DOORS)
