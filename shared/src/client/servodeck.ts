@@ -7,7 +7,7 @@ import timings from '../../protocol/timings.json' with { type: 'json' };
 import { GatewayError } from './errors.ts';
 import { gatewayAt, type Event, type Gateway } from './gateway.ts';
 import type { JobState, Status, UnheldServos } from './http.generated.ts';
-import { endedWith, LOOK_S, Motions, patienceOf, rest, type Patience } from './motions.ts';
+import { endedWith, LOOK_S, Motions, patienceOf, rest, SETTLED_S, type Patience } from './motions.ts';
 import { Names } from './names.ts';
 import type {
   DownloadOptions,
