@@ -19,7 +19,8 @@ from tests.test_stop_scripts import HOLD_MS, MOVE, move_time_ms
 from tests.virtual_time import at, in_virtual_time, now
 
 # Stops, and a hold between them.
-END_S = 0.4
+# Three stops, and those of a board that may have missed them.
+END_S = 1.0
 # A frame of a group that the gateway does not know may take as long.
 UNKNOWN_GROUP_S = 31.0
 FRAMES: list[tuple[float, dict[int, float]]] = [(1.5, {1: 1800}), (0.5, {1: 1200}), (0.5, {1: 1500})]

@@ -96,7 +96,7 @@ async def test_an_unknown_board_gets_questions_and_stops_and_nothing_else() -> N
 @in_virtual_time
 async def test_what_waits_for_one_board_does_not_go_to_another() -> None:
     async with driven() as (control, port, anna):
-        leaving, waiting = anna.send(MOVE), anna.send(ERASE)
+        leaving, waiting = anna.send(BATTERY), anna.send(ERASE)
         await asyncio.sleep(0)
         control.choose_family("lsc-6")
         await leaving
@@ -104,7 +104,7 @@ async def test_what_waits_for_one_board_does_not_go_to_another() -> None:
             await waiting
         with pytest.raises(OutOfRangeError):
             control.choose_family("toaster")
-        assert port.packets() == [STOP, MOVE]
+        assert port.packets() == [STOP, BATTERY]
 
 
 @in_virtual_time
@@ -228,7 +228,7 @@ async def test_changing_the_port_first_ends_a_group_that_could_not_be_stopped_af
 
 
 @in_virtual_time
-async def test_shutting_down_stops_the_robot_within_half_a_second() -> None:
+async def test_shutting_down_stops_the_robot_within_a_second() -> None:
     async with driven() as (control, port, anna):
         for _ in range(8):
             anna.send(MOVE)
@@ -239,7 +239,7 @@ async def test_shutting_down_stops_the_robot_within_half_a_second() -> None:
         with pytest.raises(LatchedError):
             anna.send(MOVE)
         await ending
-        assert now() - begun_s <= 0.5
+        assert now() - begun_s <= 0.9
         assert port.packets()[1:] == [MOVE, STOP, STOP, STOP]
         assert control.board.link.state.status == "closed"
         await control.shut_down()

@@ -85,7 +85,9 @@ async def test_a_run_says_whether_the_board_has_taken_it() -> None:
         assert await outcome(page, run(page)) == "acknowledged"
         # The one before was ended first.
         assert port.packets() == [STOP, RUN, *STOPS, RUN]
+        await control.stop()
         control.choose_family("openarm-old")
+        control.resume(page.caller)
         assert await outcome(page, run(page)) == "sent"
 
 

@@ -480,10 +480,6 @@ async def takes_another_port(control: Control, anna: Client) -> None:
     await control.use_port("/dev/other")
 
 
-async def is_another_board(control: Control, anna: Client) -> None:
-    control.choose_family("openarm-new")
-
-
 ENDS = [
     presses_stop,
     lets_go,
@@ -492,7 +488,6 @@ ENDS = [
     falls_silent,
     finds_a_limit,
     takes_another_port,
-    is_another_board,
 ]
 
 

@@ -309,10 +309,6 @@ async def closes_the_port(control: Control, _: FakePort, anna: Client) -> None:
     await control.close_port()
 
 
-async def names_another_board(control: Control, _: FakePort, anna: Client) -> None:
-    control.choose_family("openarm-old")
-
-
 async def stops_playing(control: Control, _: FakePort, anna: Client) -> None:
     take(StopPlayingMessage(type="stopPlaying"), anna, control)
 
@@ -329,7 +325,6 @@ ENDS: dict[str, Callable[[Control, FakePort, Client], Awaitable[None]]] = {
         is_revoked,
         loses_the_port,
         closes_the_port,
-        names_another_board,
         stops_playing,
     )
 }

@@ -82,6 +82,12 @@ async def test_a_parameter_behind_an_address_that_a_route_has_not_is_named() -> 
             "malformed",
             "limt is no parameter here, allowed: act, before, limit, who",
         )
+        for path in ("move", "slots/5/run", "play", "download", "poses/home/apply", "erase", "resume"):
+            assert await asked(client, "POST", f"/api/{path}?beats=true") == (
+                422,
+                "malformed",
+                "beats is no parameter here, allowed: none",
+            )
         assert (await client.get("/api/audit?limit=5")).status_code == 200
         assert (await client.get("/api/audit/file?format=xml")).status_code == 422
 

@@ -6,6 +6,7 @@ Knows the entrance and how a framework's routes are built; no route of ours.
 
 import json
 from collections.abc import Callable, Collection, Coroutine, Iterator, Sequence
+from functools import cached_property
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Depends
@@ -133,14 +134,8 @@ class JudgingRoute(APIRoute):
     def get_route_handler(self) -> Callable[[Request], Coroutine[Any, Any, Response]]:
         handle = self.noting(super().get_route_handler())
 
-        known = set(query_of(self.dependant))
-        # A STOP is done whatever it carries.
-        is_stop = any(each.role == "stopper" for each in needs_of(self.dependant))
-
         async def judge_and_handle(request: Request) -> Response:
             self.judge(request)
-            if not is_stop:
-                judge_query(request, known)
             return await handle(BodyRequest(request.scope, request.receive))
 
         return judge_and_handle
@@ -167,9 +162,17 @@ class JudgingRoute(APIRoute):
         return handle_and_note
 
     def judge(self, request: Request) -> None:
-        """Raises a GatewayError for a caller who may not request this."""
+        """Raises a GatewayError for a caller who may not request this, or for a parameter that is none."""
         for needs in needs_of(self.dependant):
             request.state.caller = needs.judge(request)
+        # A STOP is done whatever it carries.
+        if not any(each.role == "stopper" for each in needs_of(self.dependant)):
+            judge_query(request, self._query)
+
+    @cached_property
+    def _query(self) -> Collection[str]:
+        """The parameters that it takes."""
+        return set(query_of(self.dependant))
 
 
 class ApiRoute(JudgingRoute):

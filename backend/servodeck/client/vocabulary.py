@@ -25,7 +25,7 @@ from servodeck.errors import (
     NotPairedError,
     OutOfRangeError,
 )
-from servodeck.protocol.timings import LEASE, MOVE, PROGRAM
+from servodeck.protocol.timings import ERASE, LEASE, MOVE, PROGRAM
 
 Units = Literal["deg", "board"]
 """Degrees from home, or the board's unit."""
@@ -45,7 +45,7 @@ AFTER_END_S = PROGRAM.after_end_ms / 1000
 IDENTIFIED_S = PROGRAM.identified_ms / 1000
 # A download and an erase also wait until the longest frame that others can have begun has ended.
 SETTLED_S = IDENTIFIED_S + MOVE.longest_ms / 1000
-ERASE_S = 30.0
+ERASE_S = ERASE.timeout_ms / 1000
 START_S = PROGRAM.first_move_ms / 1000
 # The gateway by itself stops what its program leaves moving.
 LEAVE_S = LEASE.silent_ms / 1000

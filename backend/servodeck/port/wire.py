@@ -16,7 +16,7 @@ from servodeck.errors import BusyError, ClosedError, GatewayError, OutOfRangeErr
 from servodeck.port.ports import OpenPort
 from servodeck.port.reader import start_reading
 from servodeck.protocol.families import Withheld
-from servodeck.protocol.packets import CommandPacket
+from servodeck.protocol.packets import HARMLESS, CommandPacket
 from servodeck.protocol.timings import STOP, wire_s
 from servodeck.protocol.values import Stop
 
@@ -183,7 +183,7 @@ class Wire:
         self.purge(lambda _job: True, reason)
         if self._halt is None:
             self._halt = Halt(hold, asyncio.get_running_loop().create_future(), question)
-            self.asked, self.is_heard, self.is_confirmed = None, False, False
+            self.forget_answers()
             metrics.totals.stops += 1
         else:
             self._halt.hold = hold
@@ -233,6 +233,16 @@ class Wire:
 
     def has_waiting(self, number: int) -> bool:
         return any(job.number == number for job in (*self._urgent, *self._queue))
+
+    @property
+    def has_motion_waiting(self) -> bool:
+        """A packet waits that may move the robot."""
+        waiting = (job.number for job in (*self._urgent, *self._queue))
+        return any(number not in HARMLESS for number in waiting)
+
+    def forget_answers(self) -> None:
+        """Of the stop sequence before: what leaves now is not answered yet."""
+        self.asked, self.is_heard, self.is_confirmed = None, False, False
 
     def is_clear_of(self, unwanted: Callable[[int], bool]) -> bool:
         """No packet of such a command number waits, and no stop sequence is under way."""

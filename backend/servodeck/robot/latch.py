@@ -137,7 +137,7 @@ class Watch:
         if self._control.latch:
             return
         with contextlib.suppress(GatewayError):
-            self._control.board.halts.halt(reason)
+            self._control.board.halts.end_for_good(reason)
 
     def _stop_unwatched(self) -> None:
         """STOP because no driver watches over what moves: a person has to look before motion resumes. Not

@@ -162,6 +162,7 @@ class Operations:
         """Behind its frame in progress; everything else is free to move. Sent three times (S54), also where
         the caller has gone meanwhile.
         """
+        self._control.board.halts.unconfirmed()
         left = self._control.requests.stop_once(session)
         if self._ending is None:
             self._ending = asyncio.create_task(self._end_again(session, left))
@@ -178,6 +179,7 @@ class Operations:
                     lambda: waiting.pop() if waiting else self._control.requests.stop_once(session),
                     self._control.now,
                 )
+                self._control.board.halts.insist_on_end()
         finally:
             self._ending = None
 

@@ -33,7 +33,7 @@ export function patienceOf({ wait, timeout, signal }: Limits): Patience {
 }
 
 /** Flash takes its time. */
-const ERASE_S = 30;
+const ERASE_S = timings.erase.timeoutMs / 1000;
 /** A download and an erase also wait until the longest frame that others can have begun has ended. */
 export const SETTLED_S = timings.move.longestMs / 1000;
 
@@ -79,7 +79,12 @@ export class Motions {
   /** Every slot of the board. The gateway recognises no repeat of it, so it has no key. */
   async erase(take: boolean): Promise<void> {
     this.#mayDrive = true;
-    await this.#gateway.call('post', '/api/erase', { body: { take } }, { moreS: IDENTIFIED_S + SETTLED_S + ERASE_S });
+    await this.#gateway.call(
+      'post',
+      '/api/erase',
+      { body: { take } },
+      { moreS: IDENTIFIED_S + SETTLED_S + ERASE_S },
+    );
   }
 
   lease(action: LeaseWish['action']): Promise<LeaseState> {

@@ -136,7 +136,7 @@ test('a closed robot refuses every method', async () => {
     expect(await codeOf(ask())).toBe('closed');
 });
 
-test('unknown units, and a servo that is named twice, are refused by name', async () => {
+test('unknown units and options, and a servo that is named twice, are refused by name', async () => {
   const frames = [[1.5, { 1: 30 }]] as const;
   for (const word of ['degrees', 'rad', 'Deg', '']) {
     const units = word as 'deg';
@@ -145,6 +145,9 @@ test('unknown units, and a servo that is named twice, are refused by name', asyn
     await expect(robot.play(frames, { units })).rejects.toThrow(said);
     await expect(robot.download(5, frames, { units })).rejects.toThrow(said);
   }
+  const misspelt = { units: 'deg', second: 3 } as { units: 'deg' };
+  await expect(robot.move({ 1: 30 }, misspelt)).rejects.toThrow('second is no option of this method.');
+  await expect(robot.pose('home', misspelt as object)).rejects.toThrow('units is no option of this method.');
   await expect(robot.move({ Base: 10, 1: -10 }, { units: 'deg' })).rejects.toThrow(
     'Servo 1 is named twice, the second time as Base',
   );

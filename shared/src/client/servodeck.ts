@@ -63,9 +63,10 @@ export class Servodeck {
   /** Moves servos together: `{ Base: 30 }`. The first move of a servo takes at least 1.5 s. */
   async move(
     positions: Positions,
-    { units, seconds = POSE_S, wait = true, timeout, signal }: MoveOptions,
+    { units, seconds = POSE_S, wait = true, timeout, signal, ...unknown }: MoveOptions,
   ): Promise<void> {
     this.#judgeOpen();
+    judgeOptions(unknown);
     const patience = patienceOf({ wait, timeout, signal });
     const wanted = await this.#names.positions(positions, units, signal);
     const timeMs = Math.round(seconds * 1000);
@@ -78,9 +79,10 @@ export class Servodeck {
   /** Moves to a pose of the robot, by name or number; "home" is number 0. */
   async pose(
     pose: string | number,
-    { seconds = POSE_S, wait = true, timeout, signal }: PoseOptions = {},
+    { seconds = POSE_S, wait = true, timeout, signal, ...unknown }: PoseOptions = {},
   ): Promise<void> {
     this.#judgeOpen();
+    judgeOptions(unknown);
     const patience = patienceOf({ wait, timeout, signal });
     const body = { timeMs: Math.round(seconds * 1000), take: this.#take, beats: true };
     const given = { values: { pose: String(pose) }, body };
@@ -101,9 +103,10 @@ export class Servodeck {
   /** Runs a group of the board, by its name or slot. */
   async run(
     group: string | number,
-    { times = 1, wait = true, timeout, alone, signal }: RunOptions = {},
+    { times = 1, wait = true, timeout, alone, signal, ...unknown }: RunOptions = {},
   ): Promise<Outcome> {
     this.#judgeOpen();
+    judgeOptions(unknown);
     judgeEnd(times, wait, timeout);
     const patience = patienceOf({ wait, timeout, signal });
     const slot = typeof group === 'number' ? group : await this.#names.slotOf(group);
@@ -120,9 +123,10 @@ export class Servodeck {
   /** Plays frames by the gateway's clock: `[[0.5, { Base: 30 }], …]`. */
   async play(
     frames: Frames,
-    { units, times = 1, loopFrom = 0, wait = true, timeout, alone, signal }: PlayOptions,
+    { units, times = 1, loopFrom = 0, wait = true, timeout, alone, signal, ...unknown }: PlayOptions,
   ): Promise<void> {
     this.#judgeOpen();
+    judgeOptions(unknown);
     judgeEnd(times, wait, timeout);
     const patience = patienceOf({ wait, timeout, signal });
     const bodies = await this.#names.frames(frames, units, signal);
@@ -136,9 +140,10 @@ export class Servodeck {
   async download(
     slot: number,
     frames: Frames,
-    { units, name = '', replaces, wait = true, timeout, signal }: DownloadOptions,
+    { units, name = '', replaces, wait = true, timeout, signal, ...unknown }: DownloadOptions,
   ): Promise<JobState> {
     this.#judgeOpen();
+    judgeOptions(unknown);
     const patience = patienceOf({ wait, timeout, signal });
     const bodies = await this.#names.frames(frames, units, signal);
     const group = { slot, name, version: '', frames: bodies, ...(replaces !== undefined && { replaces }) };
@@ -254,6 +259,12 @@ export class Servodeck {
     if (this.#closed.signal.aborted)
       throw new GatewayError('closed', 'This robot was closed: its program makes a new one.');
   }
+}
+
+/** A program in JavaScript may misspell one: it would go on with what was not meant. */
+function judgeOptions(unknown: object): void {
+  const [name] = Object.keys(unknown);
+  if (name !== undefined) throw new GatewayError('outOfRange', `${name} is no option of this method.`);
 }
 
 function judgeEnd(times: number, wait: boolean, timeout: number | undefined): void {

@@ -16,14 +16,14 @@ const sourceOf = (name: string): ts.SourceFile =>
 const servodeck = sourceOf('servodeck.ts');
 const members: readonly ts.ClassElement[] = servodeck.statements.find(ts.isClassDeclaration)?.members ?? [];
 
-/** Of this language alone: Python cancels its task. */
-const OF_THIS_LANGUAGE = 'signal';
+/** Of this language alone: Python cancels its task, and refuses unknown options by itself. */
+const OF_THIS_LANGUAGE = ['signal', 'unknown'];
 
 function wordsOf({ parameters }: ts.SignatureDeclarationBase) {
   const options = parameters.map(({ name }) => name).find(ts.isObjectBindingPattern)?.elements ?? [];
   return {
     arguments: parameters.flatMap(({ name }) => (ts.isIdentifier(name) ? [name.text] : [])),
-    options: options.map(({ name }) => name.getText()).filter((name) => name !== OF_THIS_LANGUAGE),
+    options: options.map(({ name }) => name.getText()).filter((name) => !OF_THIS_LANGUAGE.includes(name)),
   };
 }
 

@@ -22,6 +22,8 @@ export interface Core {
   isUnsettled(): boolean;
   /** Ends what moves, without the latch: resolves when its servos are held. */
   endMotion(): Promise<void>;
+  /** A group was told to end: stops follow for as long as that is wanted, where the board may have missed these. */
+  insistOnEnd(isWanted: () => boolean): Promise<void>;
 }
 
 export function setActivity({ store }: Core, activity: Activity): void {

@@ -23,7 +23,7 @@ import {
   BATTERY_TIMEOUT_MS,
 } from './timings.ts';
 
-export interface DriverOptions extends Pick<Core, 'clock' | 'store' | 'queue' | 'endMotion'> {
+export interface DriverOptions extends Pick<Core, 'clock' | 'store' | 'queue' | 'endMotion' | 'insistOnEnd'> {
   readonly replies: Replies;
   readonly slotMemory: SlotMemory | undefined;
   /** What the link carries, in bytes. */
@@ -48,11 +48,11 @@ export interface Driver {
 }
 
 export function createDriver(family: Family, options: DriverOptions): Driver {
-  const { clock, store, queue, endMotion, replies, slotMemory, longestPacket } = options;
+  const { clock, store, queue, endMotion, insistOnEnd, replies, slotMemory, longestPacket } = options;
   const estimate = createRobotEstimate(family, clock);
   const servosPerMove = Math.min(family.servosPerMove, servosIn(longestPacket));
   const core: Core = {
-    ...{ family, clock, store, estimate, queue, servosPerMove, endMotion },
+    ...{ family, clock, store, estimate, queue, servosPerMove, endMotion, insistOnEnd },
     exchange: createExchange(family, clock, queue, replies),
     isUnsettled: () => moves.servos().length > 0 || groups.isStopping() || isMotion(queue.unfinished()),
   };

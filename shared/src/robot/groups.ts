@@ -45,9 +45,13 @@ export function createGroups(core: Core, slotMemory: SlotMemory | undefined): Gr
     await mine;
   }
 
-  function stop(): Promise<void> {
+  async function stop(): Promise<void> {
     requests += 1;
-    return end();
+    const mine = requests;
+    await end();
+    const isWanted = (): boolean =>
+      mine === requests && store.state.activity.kind === 'idle' && !core.isUnsettled();
+    core.insistOnEnd(isWanted).catch(() => undefined);
   }
 
   async function run(slot: number, times: number): Promise<void> {

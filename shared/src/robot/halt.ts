@@ -22,6 +22,10 @@ export interface Halt {
   halt(why?: HaltReason): Promise<void>;
   /** The same packets without the latch: a group shall begin where something moves. */
   endMotion(): Promise<void>;
+  /** As `endMotion`, where this program can stop nothing any more behind it: resolves when the stops have left that a stray byte can swallow. */
+  endBeforeClosing(): Promise<void>;
+  /** The stops that end a group behind its frame have left: more follow for a board that took these for the rest of a packet. */
+  insistOnEnd(isWanted: () => boolean): Promise<void>;
   resume(): Promise<void>;
   /** The link went: a person must look before anything moves again. */
   latchedByLoss(): void;
@@ -165,18 +169,23 @@ export function createHalt(options: HaltOptions): Halt {
     insistences += 1;
     const mine = insistences;
     const isWanted = (): boolean => mine === insistences && sequence === null && isUnconfirmed();
-    for (let sent = 0; sent < bytes && isWanted() && !isHeard; sent += STRAY_BYTES) {
-      const stops = stopPackets(Math.min(STRAY_BYTES, bytes - sent));
-      await queue.stop(() => (isWanted() ? stops : null));
-      if (sent === 0 || sent + STRAY_BYTES >= bytes)
-        await sendHold(() => (isWanted() ? options.hold(true) : null));
-    }
+    await sendRows(bytes, () => isWanted() && !isHeard, true);
     if (isWanted()) await judge(pressedMs, bytes, isWanted);
     while (isWanted()) {
       await sleep(clock, STOP_AGAIN_MS);
       if (!isWanted()) return;
       if (isHeard) again();
       else if (store.state.link.status !== 'identifying') await remind(isWanted);
+    }
+  }
+
+  /** As many stops as a stray byte can make the board miss; the hold behind the first and the last row. */
+  async function sendRows(bytes: number, isWanted: () => boolean, holds: boolean): Promise<void> {
+    for (let sent = 0; sent < bytes && isWanted(); sent += STRAY_BYTES) {
+      const stops = stopPackets(Math.min(STRAY_BYTES, bytes - sent));
+      await queue.stop(() => (isWanted() ? stops : null));
+      if (holds && (sent === 0 || sent + STRAY_BYTES >= bytes))
+        await sendHold(() => (isWanted() ? options.hold(true) : null));
     }
   }
 
@@ -260,6 +269,18 @@ export function createHalt(options: HaltOptions): Halt {
     async endMotion() {
       dropAll(new LinkError('cancelled', 'the robot was asked for something else'));
       await sendOrJoin();
+    },
+    async endBeforeClosing() {
+      dropAll(new LinkError('closed', 'the link was closed'));
+      await sendOrJoin();
+      const mine = insistences;
+      await sendRows(options.leftOverBytes(), () => mine === insistences && !isHeard, true);
+    },
+    async insistOnEnd(isWanted) {
+      const mine = insistences;
+      const isStill = (): boolean =>
+        isWanted() && mine === insistences && sequence === null && store.state.latch === null;
+      await sendRows(options.leftOverBytes(), isStill, false);
     },
     resume: () => latch.release(),
     async opened(isReturn) {

@@ -172,7 +172,9 @@ export function createIdentification(options: IdentificationOptions): Identifica
       const isOpen = lineIsOpen && status() !== 'identifying';
       // A board that was not asked was taken at the word of its starter, which was another one.
       const mustAsk = isOpen && family !== claim && store.state.identity.evidence.length === 0;
-      if (mustAsk) requireIdle(store.state, options);
+      // What moves would be forgotten, and nothing would end it. Behind a STOP stops go on to any board.
+      if (isOpen && family !== claim && (mustAsk || store.state.latch === null))
+        requireIdle(store.state, options);
       if (family !== claim) isDoubted = true;
       claim = family;
       if (!isOpen) return;

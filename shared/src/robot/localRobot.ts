@@ -112,6 +112,7 @@ export function createLocalRobot(options: LocalRobotOptions): Robot {
       store,
       queue,
       endMotion: () => halt.endMotion(),
+      insistOnEnd: (isWanted) => halt.insistOnEnd(isWanted),
       replies,
       slotMemory,
       longestPacket: channel.longestPacket,
@@ -256,6 +257,8 @@ export function createLocalRobot(options: LocalRobotOptions): Robot {
     else driver.drop(new LinkError('closed', 'the link was closed'));
   }
 
+  const mayMove = (): boolean => store.state.activity.kind === 'running' || driver.core.estimate.moving();
+
   return {
     get state() {
       return store.state;
@@ -263,6 +266,8 @@ export function createLocalRobot(options: LocalRobotOptions): Robot {
     subscribe: store.subscribe,
     open: link.open,
     async close() {
+      // A line that is lost meanwhile takes no more stops.
+      if (link.isOpen && mayMove()) await halt.endBeforeClosing().catch(() => undefined);
       await link.close();
       store.update({ latch: null });
     },

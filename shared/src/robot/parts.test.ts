@@ -213,7 +213,8 @@ test('no later packet has a servo arrive earlier', async () => {
   const { wrong, rig } = await driven({ family: 'openarm-old', profile: 'openarm-old' }, steps);
   expect(wrong).toEqual([]);
   const arrivals = rig.heard.flatMap(({ atMs, command }) =>
-    command.kind === 'move' && command.targets.some(({ servo, position }) => servo === 2 && position === 2_400)
+    command.kind === 'move' &&
+    command.targets.some(({ servo, position }) => servo === 2 && position === 2_400)
       ? [atMs + command.durationMs]
       : [],
   );

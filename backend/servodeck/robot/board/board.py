@@ -173,9 +173,12 @@ class Board:
 
     def choose_family(self, family: str) -> None:
         """A person has chosen it; `unknown` has the board identified again. Raises MovingError while it
-        stores.
+        stores, or while it moves and no STOP was pressed: what moves would be forgotten, and nothing would
+        end it.
         """
         self.jobs.judge_idle()
+        if family != self.family_id and not self._events.is_latched() and self.activity.may_still_move():
+            raise MovingError("The robot is moving: wait until it rests, or stop it first.")
         self.identification.choose(FAMILIES[family])
 
     def _drop_all(self, reason: GatewayError) -> None:
@@ -198,15 +201,17 @@ class Board:
         self.halts.was_lost = False
         if self.motion.group_may_run(self._now()):
             with contextlib.suppress(GatewayError):
-                await self.halts.halt(CancelledError("The port is being closed."))
+                await self.halts.end_before_closing(CancelledError("The port is being closed."))
         self.activity.forget(FAMILIES[self.family_id])
 
     async def shut_down(self) -> None:
         """Stops the board, waits for the stops to leave, closes the port. May be called twice."""
         ending = CancelledError("The gateway is shutting down.")
         self.jobs.end(ending)
+        may_move = self.activity.may_still_move()
         with contextlib.suppress(GatewayError, TimeoutError):
-            await asyncio.wait_for(asyncio.shield(self.halts.halt(ending)), DRAIN_S)
+            stops = self.halts.end_before_closing(ending) if may_move else self.halts.halt(ending)
+            await asyncio.wait_for(asyncio.shield(stops), DRAIN_S)
         await self.link.close()
 
     # Events of the link
@@ -383,6 +388,7 @@ class Board:
             self.activity.filled(at_s)
             return
         is_halting = self.link.wire().is_halting or owner is self.halts
+        self.halts.left(packet, is_halting=is_halting)
         # Each stop of a row is a packet of its own.
         for _ in range(len(packet.data) // len(STOP_PACKET.data) if packet.number == STOP else 1):
             self.activity.left(packet, command, at_s, is_halting=is_halting)

@@ -52,13 +52,15 @@ class Halts:
         """Its stops are leaving, because the port was opened."""
         self._insisting: asyncio.Task[None] | None = None
         self._is_unanswered = False
+        self._is_superseded = False
+        """Something else that moves the robot has left since."""
         self._holds_to_follow = 0
         """While the board has not confirmed the stops, the hold leaves so often more."""
 
     def halt(self, reason: GatewayError) -> Left:
         """Resolves when the stop sequence has left; raises when there is no port to stop."""
         self.count += 1
-        self._is_unanswered = False
+        self._is_unanswered = self._is_superseded = False
         self._board.plays.end(reason)
         self._board.moves.drop(reason)
         wire = self._board.link.wire()
@@ -86,6 +88,44 @@ class Halts:
         if not self._board.activity.may_move():
             return None
         return self.halt(CancelledError("The driver began something else."))
+
+    def end_for_good(self, reason: GatewayError) -> Left:
+        """Without the latch, and nothing is to follow: as `halt`, and stops go on where the board may have
+        missed these. Resolves when the stop sequence has left.
+        """
+        ended_s = self._now()
+        left = self.halt(reason)
+        left.add_done_callback(lambda left: self._has_ended(left, ended_s))
+        return left
+
+    def _has_ended(self, left: Left, ended_s: float) -> None:
+        if not left.cancelled() and left.exception() is None:
+            self.insist(ended_s, is_latching=False)
+
+    async def end_before_closing(self, reason: GatewayError) -> None:
+        """Behind it this gateway can stop nothing any more: done when all stops have left."""
+        await self.halt(reason)
+        wire, mine = self._board.link.wire(), self.count
+        await self._rows(
+            wire, self.left_over_bytes(wire), lambda: mine == self.count and not wire.is_confirmed
+        )
+
+    def insist_on_end(self) -> None:
+        """Stops that end a group behind its frame have left: as for STOP, without a hold."""
+        if not self._is_latched():
+            self.insist(self._now(), is_latching=False, holds=False)
+
+    def unconfirmed(self) -> None:
+        """Stops that end a group are about to leave: no answer from before confirms them."""
+        self._is_superseded = False
+        if not self._is_latched():
+            with contextlib.suppress(GatewayError):  # no port
+                self._board.link.wire().forget_answers()
+
+    def left(self, packet: CommandPacket, *, is_halting: bool) -> None:
+        """That packet leaves."""
+        if not (is_halting or packet.is_harmless):
+            self._is_superseded = True
 
     def unheld_since(self, pressed_s: float) -> Unheld | None:
         """The unheld motion of a stop pressed at `pressed_s`, whose last packet left just now."""
@@ -167,11 +207,14 @@ class Halts:
         """
         return 0 if wire.in_reports else self._board.family.left_over_bytes
 
-    def insist(self, pressed_s: float, byte_count: int | None = None) -> None:
+    def insist(
+        self, pressed_s: float, byte_count: int | None = None, *, is_latching: bool = True, holds: bool = True
+    ) -> None:
         """A stray byte before STOP makes the board take all of it for the rest of a packet (S3, S4). So stops
         go on behind it until the board has confirmed them, or cannot miss them any more, with the hold again
-        where the stray bytes are over; then seldom, until a person resumes. `byte_count`: of those that go
-        on; without it as many as such a board may miss.
+        where the stray bytes are over; then seldom, until a person resumes. Not `is_latching`: until
+        anything else is to move the robot. `byte_count`: of those that go on; without it as many as such a
+        board may miss.
         """
         if self._insisting:
             self._insisting.cancel()
@@ -184,22 +227,31 @@ class Halts:
             byte_count = self.left_over_bytes(wire)
 
         def is_wanted() -> bool:
-            return mine == self.count and self._is_latched() and not wire.is_confirmed
+            if is_latching:
+                is_over = not self._is_latched()
+            else:
+                is_over = self._is_superseded or wire.has_motion_waiting
+            return mine == self.count and not wire.is_confirmed and not is_over
 
-        self._insisting = asyncio.create_task(self._insist(wire, pressed_s, byte_count, is_wanted))
+        self._insisting = asyncio.create_task(
+            self._insist(wire, pressed_s, byte_count, is_wanted, holds=holds)
+        )
 
     async def _insist(
-        self, wire: Wire, pressed_s: float, byte_count: int, is_wanted: Callable[[], bool]
+        self,
+        wire: Wire,
+        pressed_s: float,
+        byte_count: int,
+        is_wanted: Callable[[], bool],
+        *,
+        holds: bool,
     ) -> None:
         with contextlib.suppress(GatewayError):  # lost: the stops at its return are others
-            for sent in range(0, byte_count, STOP.stray_bytes):
-                if not is_wanted() or wire.is_heard:
-                    break
-                await self._send(wire, stop_packets(min(STOP.stray_bytes, byte_count - sent)), is_wanted)
-                if sent == 0 or sent + STOP.stray_bytes >= byte_count:
-                    await self._hold_again(wire, is_wanted)
+            await self._rows(wire, byte_count, is_wanted, holds=holds)
             if is_wanted():
                 self._holds_to_follow = 0
+            if not self._is_latched():  # there is no state of a STOP to tell
+                return
             if is_wanted() and wire.is_heard:
                 await self._send(wire, STOP_PACKET, is_wanted)
                 await self._hold_again(wire, is_wanted)
@@ -213,6 +265,17 @@ class Halts:
                 await asyncio.sleep(STOP.again_every_ms / 1000)
                 if is_wanted():
                     await self._remind(wire, is_wanted)
+
+    async def _rows(
+        self, wire: Wire, byte_count: int, is_wanted: Callable[[], bool], *, holds: bool = True
+    ) -> None:
+        """As many stops as a stray byte can make the board miss; the hold behind the first and last row."""
+        for sent in range(0, byte_count, STOP.stray_bytes):
+            if not is_wanted() or wire.is_heard:
+                return
+            await self._send(wire, stop_packets(min(STOP.stray_bytes, byte_count - sent)), is_wanted)
+            if holds and (sent == 0 or sent + STOP.stray_bytes >= byte_count):
+                await self._hold_again(wire, is_wanted)
 
     async def _remind(self, wire: Wire, is_wanted: Callable[[], bool]) -> None:
         if wire.is_heard:

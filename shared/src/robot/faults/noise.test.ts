@@ -115,3 +115,64 @@ test('Resume in the middle of it ends it: a move leaves behind one packet at mos
   expect(last?.command.kind).toBe('move');
   expect((last?.atMs ?? Infinity) - resumedMs).toBeLessThan(84 * 1.05 + 10 + 11);
 });
+
+/** A stored group of two frames runs without end. */
+async function running(profile: ProfileName): Promise<Rig> {
+  const rig = await createRig({ profile, family: family(profile) });
+  const { clock, session } = rig;
+  session.move([{ servo: 2, position: 1_500 }], 0);
+  await clock.advance(firstMovesMs(1));
+  const frames = [1_200, 1_700].map((position) => ({ durationMs: 300, targets: [{ servo: 2, position }] }));
+  const stored = session.download([{ slot: 5, frames }]);
+  await clock.advance(12_000);
+  await stored;
+  const ran = session.run(5, 0);
+  await clock.advance(700);
+  await ran;
+  return rig;
+}
+
+describe.each<[string, (rig: Rig) => Promise<void>]>([
+  ['End group', ({ session }) => session.stopGroup()],
+  ['a link that is closed', ({ session }) => session.close()],
+])('%s', (_, end) => {
+  test.each(
+    (['doc', 'openarm-old', 'openarm-new'] as const).flatMap((id) =>
+      ['', '55', '55 55 FE 03 0E F0'].map((noise) => [id, noise] as const),
+    ),
+  )('%s: behind "%s" no group runs on', async (id, noise) => {
+    const rig = await running(id);
+    const { clock, channel } = rig;
+    expect(channel.board.runningSlot()).toBe(5);
+    channel.board.receive(fromHex(noise));
+    const ended = end(rig);
+    await clock.advance(1_500);
+    await ended;
+    expect(channel.board.runningSlot()).toBeNull();
+  });
+});
+
+test('a group that is requested behind End group is not ended by its stops', async () => {
+  const rig = await running('doc');
+  const { clock, session, channel } = rig;
+  const ended = session.stopGroup();
+  await clock.advance(250);
+  await ended;
+  const ran = session.run(5, 0);
+  await clock.advance(3_000);
+  await ran;
+  expect(channel.board.runningSlot()).toBe(5);
+});
+
+test('another family is not chosen while the robot moves, and is behind a STOP', async () => {
+  const { session, clock, channel } = await running('openarm-new');
+  await expect(session.choose(family('lsc-16'))).rejects.toMatchObject({ code: 'busy' });
+  expect(session.state.activity.kind).toBe('running');
+  const stopped = session.halt();
+  await clock.advance(2_000);
+  await stopped;
+  expect(channel.board.runningSlot()).toBeNull();
+  await session.choose(family('openarm-old'));
+  await clock.advance(2_000);
+  expect(session.state.family.id).toBe('openarm-old');
+});
