@@ -132,6 +132,16 @@ def test_on_its_own_port_a_signal_stops_first_and_then_has_its_usual_effect(boar
 
 
 @needs_simulator
+def test_on_its_own_port_a_second_ctrl_c_takes_no_stop_away(board: Board) -> None:
+    begun = program(str(board.link), AWAITS_A_SIGNAL)
+    for _ in range(2):
+        begun.send_signal(signal.SIGINT)
+        time.sleep(0.05)  # a person's two presses, of another process
+    ended_s(begun)
+    assert behind_the_move(board).count(STOP) >= 3
+
+
+@needs_simulator
 def test_a_handler_of_the_program_stays_the_only_one(board: Board) -> None:
     own = "signal.signal(signal.SIGTERM, lambda *_: print('own', flush=True))"
     begun = subprocess.Popen(

@@ -109,14 +109,17 @@ class DirectTransport:
 
     def close(self) -> None:
         """Stops the robot and closes the port. A second call, as by a signal in the middle of the first,
-        waits until the robot is stopped.
+        waits until the robot is stopped. Ctrl-C meanwhile is raised behind the stops, not in place of them.
         """
         if self._ending is None:
             self._ending = asyncio.run_coroutine_threadsafe(self._ended(), self._loop)
-        with contextlib.suppress(concurrent.futures.TimeoutError):
-            self._ending.result(CLOSE_S)
-        if self._is_closed:
-            return
+        interrupt = interrupt_during(self._ending)
+        if not self._is_closed:
+            self._release()
+        if interrupt:
+            raise interrupt
+
+    def _release(self) -> None:
         self._is_closed = True
         atexit.unregister(self.close)
         no_signals(self.close)
@@ -166,6 +169,19 @@ class DirectTransport:
         except KeyboardInterrupt:
             future.cancel()
             raise
+
+
+def interrupt_during(ending: "concurrent.futures.Future[None]") -> KeyboardInterrupt | None:
+    """Waits until it is over, also where Ctrl-C is pressed meanwhile; returns that."""
+    found: KeyboardInterrupt | None = None
+    while True:
+        try:
+            with contextlib.suppress(concurrent.futures.TimeoutError):
+                ending.result(CLOSE_S)
+        except KeyboardInterrupt as interrupt:
+            found = interrupt
+        else:
+            return found
 
 
 class DirectStream:
