@@ -2,6 +2,9 @@
 
 import fc from 'fast-check';
 import { expect, test } from 'vitest';
+import { makeBlock } from '#shared/group/blockEdits.ts';
+import { emptyGroup } from '#shared/group/group.ts';
+import { insertFrame } from '#shared/group/groupEdits.ts';
 import { FAMILIES } from '#shared/codec/families.ts';
 import {
   added,
@@ -21,7 +24,7 @@ import { evenly } from '#shared/testing/cases.ts';
 import { robotNames } from '../../../i18n/sentences.ts';
 import { createTestPage } from '../../pageUnderTest.ts';
 import { bodyLinks } from '../bodyLinks.ts';
-import { type LedLimb, leadTo, poseOfLimb, radiansOf, takeLimb } from './limbs.ts';
+import { type LedLimb, leadTo, pathOf, poseOfLimb, radiansOf, takeLimb } from './limbs.ts';
 
 const MOST_TURN = 6;
 
@@ -51,6 +54,27 @@ function limbsOf(robot: Robot): readonly LedLimb[] {
       return joints.length < 3 ? [] : [{ tip: end.name, chain, servos }];
     });
 }
+
+test('the way of an end is the same by keys and by blocks alone', () => {
+  const robot = readyRobot('arm', 'doc', robotNames('arm'));
+  const [limb] = limbsOf(robot);
+  const group = [1300, 1700, 1500].reduce(
+    (sum, position) =>
+      insertFrame(sum, sum.frames.length, {
+        durationMs: 400,
+        targets: [3, 4, 5, 6].map((servo) => ({ servo, position })),
+      }),
+    emptyGroup('Wave', 'us'),
+  );
+  const refs = group.frames.flatMap(({ id: frameId, targets }) =>
+    targets.map(({ servo }) => ({ frameId, servo })),
+  );
+  const blocks = makeBlock(group, refs, 'All')!;
+  expect(blocks.frames).toEqual([]);
+  const [path, ofBlocks] = [group, blocks].map((one) => pathOf(limb!, robot, one, 'us'));
+  expect(path?.length).toBeGreaterThan(10);
+  expect(ofBlocks).toEqual(path);
+});
 
 const isLocked = (): boolean => false;
 const direction = fc

@@ -199,10 +199,10 @@ export function pathOf(
   group: ActionGroup,
   unit: Family['unit'],
 ): readonly PathPoint[] {
-  const { ends, tracks: own } = timesOf(group);
+  const { lengthMs: toMs, tracks: own } = timesOf(group);
   const tracks = motionTracks(group, own);
-  const [fromMs, toMs] = [ends[0] ?? 0, ends.at(-1) ?? 0];
-  if (ends.length < 2) return [];
+  const fromMs = Math.min(...[...tracks.values()].map(({ keys }) => keys[0]?.atMs ?? toMs));
+  if (fromMs >= toMs) return [];
   const count = Math.min(MOST_POINTS, Math.ceil((toMs - fromMs) / EACH_MS) + 1);
   return Array.from({ length: count }, (_, index) => {
     const atMs = fromMs + ((toMs - fromMs) * index) / (count - 1);
