@@ -4,6 +4,24 @@ import { ofKind } from '../fixtures/bus.ts';
 import { noteTexts } from '../fixtures/notes.ts';
 import { expect, poll, test } from '../fixtures/test.ts';
 
+test('STOP ends what is recorded, and what was recorded until then becomes a group', async ({
+  dashboard,
+  page,
+}) => {
+  await dashboard.type(dashboard.target(1), 1000);
+  await expect(dashboard.estimate(1)).toHaveText('≈ 1000');
+  await dashboard.button('Record').click();
+  await dashboard.type(dashboard.target(1), 2000);
+  await expect(dashboard.estimate(1)).not.toHaveText('≈ 1000');
+  await dashboard.stop.press('Escape');
+  const dialog = page.getByRole('dialog', { name: 'Recorded motion' });
+  await expect(dialog).toContainText(/positions become \d+ keys/);
+  await expect(dashboard.button(/^End recording/)).toHaveCount(0);
+  await dialog.getByRole('button', { name: 'Make it the group' }).click();
+  await expect(dashboard.resume).toBeVisible();
+  await expect(dashboard.frame(1)).toHaveAccessibleName(/, moves servo 1$/);
+});
+
 test('an example is written out for the board, plays at twice its speed, pauses and goes on', async ({
   dashboard,
   robot,

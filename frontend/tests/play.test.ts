@@ -6,6 +6,7 @@ import * as library from '../../e2e/fixtures/library.ts';
 import * as notes from '../../e2e/fixtures/notes.ts';
 import * as timeline from '../../e2e/fixtures/timeline.ts';
 import { expect, here, poll, test } from './harness/test.ts';
+import { advance } from './harness/time.ts';
 
 const { captureGroup, downloadGroup } = here(group);
 const { libraryOf } = here(library);
@@ -187,6 +188,26 @@ test('what a hand did becomes keys: recorded on purpose, or taken after the fact
   await dialog.getByRole('button', { name: 'Make it the group' }).click();
   await expect(page.getByRole('radio', { name: 'Action group', exact: true })).toBeChecked();
   await expect(dashboard.frame(1)).toBeVisible();
+});
+
+test('STOP ends what is recorded, and what was recorded until then becomes keys', async ({
+  dashboard,
+  page,
+}) => {
+  await dashboard.type(dashboard.target(1), 1000);
+  await expect(dashboard.estimate(1)).toHaveText('≈ 1000');
+  await dashboard.button('Record').click();
+  await dashboard.type(dashboard.target(1), 2000);
+  await advance(500);
+  await page.keyboard.press('Escape');
+  await expect(dashboard.button(/^End recording/)).toHaveCount(0);
+  const dialog = page.getByRole('dialog', { name: 'Recorded motion' });
+  await expect(dialog).toContainText(/positions become \d+ keys/);
+  await expect(dashboard.notices).toContainText('STOP ended the recording');
+  await dialog.getByRole('button', { name: 'Make it the group' }).click();
+  await expect(dashboard.button('Record')).toBeVisible();
+  await expect(dashboard.resume).toBeVisible();
+  await expect(dashboard.frame(1)).toHaveAccessibleName('Frame 1, 1500 ms, moves servo 1');
 });
 
 test('armed rows are recorded, each moved by itself, and no other', async ({ dashboard, page }) => {

@@ -112,6 +112,49 @@ test('the end follows the pointer, and STOP ends it', async ({ dashboard, page, 
   expect(ofKind(await robot.bus(), 'move').length).toBe(moves);
 });
 
+test('the first touch of a straight arm turns each servo a little', async ({ dashboard, page, robot }) => {
+  const model = await openStraight({ dashboard, page });
+  await model.handle.hover();
+  await page.mouse.down();
+  const box = await model.handle.boundingBox();
+  const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+  await page.mouse.move(x + 6, y + 6, { steps: 3 });
+  await advance(220);
+  for (const servo of ARM_SERVOS) {
+    const turned = Math.abs(((await lastTarget(robot.bus, servo)) ?? 1500) - 1500);
+    // 11 µs are a degree.
+    expect(turned, `of servo ${servo}`).toBeLessThan(15 * 11);
+  }
+  await page.mouse.move(x + 60, y + 60, { steps: 12 });
+  await advance(1000);
+  await expect(model.handle).toHaveAttribute('data-short', 'false');
+  await page.mouse.up();
+});
+
+test('beside the axis of the base one key press turns no servo far, and a held key less', async ({
+  dashboard,
+  page,
+  robot,
+}) => {
+  const model = await openStraight({ dashboard, page });
+  const base = async (): Promise<number> => (await lastTarget(robot.bus, 6)) ?? 1500;
+  await model.handle.press('ArrowRight');
+  await model.handle.focus();
+  const turned: number[] = [];
+  // The first is a press, the others come from a key that stays down. 11 µs are a degree.
+  for (let press = 0; press < 4; press++) {
+    const before = await base();
+    await page.keyboard.down('PageUp');
+    await advance(100);
+    turned.push(Math.abs((await base()) - before));
+  }
+  await page.keyboard.up('PageUp');
+  const [first = 0, ...held] = turned;
+  expect(first).toBeGreaterThan(2 * 11);
+  expect(first).toBeLessThan(10 * 11);
+  expect(Math.max(...held)).toBeLessThan(1.5 * 11);
+});
+
 test('a press on a part selects its servo', async ({ dashboard, page }) => {
   const model = await openStraight({ dashboard, page });
   const box = await model.picture.boundingBox();

@@ -21,6 +21,7 @@ import { createNotices } from '../state/notices.ts';
 import { createPeople, peopleProblem, peopleApi } from '../features/people/people.ts';
 import type { Me } from '#shared/client/http.generated.ts';
 import { createPlayback, createPlayhead } from '../features/animate/play/playback.ts';
+import { endRecordingWithStop } from '../features/animate/play/TakeDialog.tsx';
 import { createTeaching } from '../features/drive/teaching.ts';
 import { createRobotSync } from '../features/profiles/robotSync.ts';
 import { followRobot } from '../features/profiles/robotOfLink.ts';
@@ -140,6 +141,7 @@ export async function openPage({ me, problem }: Arrival): Promise<Page> {
     written.flush();
   };
   watchLeaving(window, { hidden: paused, left });
+  endRecordingWithStop(stores);
   applyBatteryPolicy({ device, battery, robots, poses, notices });
   void welcomeVisitor(storage, { device, robots });
   watchInputs(window, pad);

@@ -2,7 +2,13 @@
 // soon after each edit. Text that cannot be read is never thrown away: it is stored under another key, with a notice. Never
 // moves the robot.
 
-import { emptyGroup, type ActionGroup, groupFromText, groupToText } from '#shared/group/group.ts';
+import {
+  emptyGroup,
+  type ActionGroup,
+  groupFromText,
+  groupToText,
+  holdsMotion,
+} from '#shared/group/group.ts';
 import type { History } from '#shared/document/history.ts';
 import type { Clock } from '#shared/clock.ts';
 import { words } from '../i18n/words.ts';
@@ -88,11 +94,12 @@ export const knownFamily = (connected: Family, robot: Pick<Robot, 'board'>): Fam
   connected.id === 'unknown' ? FAMILIES[robot.board] : connected;
 
 export function boardOfGroup(
-  { unit, frames }: Pick<ActionGroup, 'unit' | 'frames'>,
+  group: Pick<ActionGroup, 'unit' | 'frames' | 'blocks'>,
   family: Family,
   robot: Robot,
 ): GroupBoard {
-  const isOther = frames.length > 0 && unit !== family.unit;
+  const { unit } = group;
+  const isOther = holdsMotion(group) && unit !== family.unit;
   return isOther
     ? { family: familyOfUnit(unit), robot: robotInUnit(robot, unit), isOther }
     : { family, robot, isOther };

@@ -6,7 +6,7 @@ import { useStore } from 'zustand';
 import { familyOfUnit, robotInUnit } from '#shared/profile/units.ts';
 import type { Robot, RobotServo } from '#shared/profile/robot.ts';
 import type { Family } from '#shared/codec/families.ts';
-import type { ActionGroup } from '#shared/group/group.ts';
+import { holdsMotion, type ActionGroup } from '#shared/group/group.ts';
 import type { History } from '#shared/document/history.ts';
 import type { MacroPage } from '#shared/profile/macro.ts';
 import type { PoseBook } from '#shared/profile/pose.ts';
@@ -96,6 +96,9 @@ export function useDocument<T>(select: (state: DocumentState) => T): T {
 export function useGroup(): ActionGroup {
   return useDocument((state) => state.present);
 }
+
+/** As controls ask it: only changes between empty and not draw again. */
+export const useHoldsMotion = (): boolean => useDocument(({ present }) => holdsMotion(present));
 
 export function useLibrary<T>(select: (state: LibraryState) => T): T {
   return useStore(useStores().library.store, select);

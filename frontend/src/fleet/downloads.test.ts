@@ -1,4 +1,5 @@
 import { describe, expect, test } from 'vitest';
+import { makeBlock } from '#shared/group/blockEdits.ts';
 import { factsOf, slotOffered, wishesFor, type Picked } from './downloads.ts';
 import { fleetGroup, fleetRobot } from './samples.ts';
 
@@ -27,6 +28,15 @@ describe('the slot that is offered', () => {
     const small = fleetRobot('d', { board: 'xarm' });
     expect(slotOffered(fleetGroup('Nod', [1], 250), [arm, small], [])).not.toBe(250);
   });
+});
+
+test('a group made only of blocks is as good as its keys', () => {
+  const { group, ...rest } = picked('Wave', 1, [1]);
+  const refs = group.frames.map(({ id: frameId }) => ({ frameId, servo: 1 }));
+  const blocks = { ...rest, group: makeBlock(group, refs, 'All')! };
+  expect(blocks.group.frames).toEqual([]);
+  expect(factsOf(blocks, [blocks], [arm])).toMatchObject({ isEmpty: false, refusedBy: [] });
+  expect(wishesFor([blocks], [arm])).toHaveLength(1);
 });
 
 describe('the wishes', () => {

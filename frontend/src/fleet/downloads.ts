@@ -2,7 +2,7 @@
 // what is replaced. Pure.
 
 import { compile } from '#shared/group/compile.ts';
-import { maxErrorOf, type ActionGroup } from '#shared/group/group.ts';
+import { holdsMotion, maxErrorOf, type ActionGroup } from '#shared/group/group.ts';
 import { slotFor } from '#shared/group/slotPlaces.ts';
 import { EMPTY_SLOT_BOOK } from '#shared/group/slotBook.ts';
 import { onBoard } from '#shared/profile/robot.ts';
@@ -73,7 +73,7 @@ export function wishesFor(
 
 export function factsOf(one: Picked, picked: readonly Picked[], robots: readonly FleetRobot[]): PickedFacts {
   const { group, slot } = one;
-  const isEmpty = group.frames.length === 0;
+  const isEmpty = !holdsMotion(group);
   const refusing = isEmpty ? [] : robots.filter((robot) => framesFor(group, robot) === null);
   const replaced = robots.filter(
     (robot) =>

@@ -798,6 +798,7 @@ export interface Messages {
     readonly record: string;
     readonly recordHint: string;
     readonly end: (values: { readonly ms: number }) => string;
+    readonly stopped: string;
     readonly takeThat: string;
     readonly takeThatHint: string;
     readonly keeps: {
@@ -1187,6 +1188,7 @@ export interface Messages {
     readonly frames: string;
     readonly empty: string;
     readonly emptyHint: string;
+    readonly onlyBlocksHint: string;
     readonly captureHint: string;
     readonly frame: (values: { readonly number: number }) => string;
     readonly playingFrame: string;

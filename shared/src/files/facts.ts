@@ -2,7 +2,9 @@
 // documents are stored.
 
 import * as v from 'valibot';
-import { poseAt, totalDurationMs, type ActionGroup } from '../group/group.ts';
+import { flattened } from '../group/blockEdits.ts';
+import { motionLengthMs } from '../group/blocks.ts';
+import { poseAt, type ActionGroup } from '../group/group.ts';
 import type { PoseBook } from '../profile/pose.ts';
 import { supplyOf } from '../profile/battery.ts';
 import { homeTargets } from '../profile/poseShapes.ts';
@@ -18,7 +20,8 @@ interface FactsContext {
 
 export function factsOf(group: ActionGroup, { updatedAtMs, robot }: FactsContext): GroupFacts {
   // The middle distinguishes groups: many begin and end at rest.
-  const pose = poseAt(group.frames, Math.floor(group.frames.length / 2));
+  const { frames } = flattened(group);
+  const pose = poseAt(frames, Math.floor(frames.length / 2));
   return {
     kind: 'group',
     // Half a character, cut off at the length limit, could not be sent.
@@ -27,7 +30,7 @@ export function factsOf(group: ActionGroup, { updatedAtMs, robot }: FactsContext
     tags: group.tags.map((tag) => tag.toWellFormed()),
     updatedAtMs,
     frames: group.frames.length,
-    durationMs: totalDurationMs(group.frames),
+    durationMs: motionLengthMs(group),
     unit: group.unit,
     pose: [...pose].map(([servo, position]) => ({ servo, position })),
   };

@@ -1,12 +1,21 @@
 import fc from 'fast-check';
 import { describe, expect, test } from 'vitest';
 import { FAMILIES } from '../codec/families.ts';
+import { factsOf } from '../files/facts.ts';
 import { frozen, refsOf, sampled, someGroup, someRefs, withGroup } from '../testing/groups.ts';
 import { deleteBlock, duplicateBlock, flattened, makeBlock, setBlock, unpackBlock } from './blockEdits.ts';
 import { blocksOf, endOfBlock, motionLengthMs, motionTracks, servosOf } from './blocks.ts';
 import { compile } from './compile.ts';
 import { convertGroup } from './frameEdits.ts';
-import { emptyGroup, flawOfGroup, groupFromText, groupToText, type ActionGroup } from './group.ts';
+import { copyKeys, pasteFrames, pasteKeys } from './clip.ts';
+import {
+  emptyGroup,
+  flawOfGroup,
+  groupFromText,
+  groupToText,
+  holdsMotion,
+  type ActionGroup,
+} from './group.ts';
 import { insertFrame } from './groupEdits.ts';
 import { timesOf } from './groupTimes.ts';
 import { deleteTime, insertTime, scaleTime } from './timeEdits.ts';
@@ -41,6 +50,31 @@ const keysOf = (group: ActionGroup, servo: number) =>
   motionTracks(group)
     .get(servo)
     ?.keys.map(({ atMs, position }) => [atMs, position]);
+
+/** A group of nothing else. */
+const ONLY = makeBlock(NOD, refsOf(NOD), 'All')!;
+
+describe('a group made only of blocks', () => {
+  test('holds motion, and is no longer empty for anything that is put into it', () => {
+    expect(ONLY.frames).toEqual([]);
+    expect([ONLY, NOD, emptyGroup('New', 'us'), { ...ONLY, blocks: [] }].map(holdsMotion)).toEqual([
+      ...[true, true, false, false],
+    ]);
+    const pose = { durationMs: 500, targets: [{ servo: 1, position: 400 }] };
+    expect(insertFrame(ONLY, 0, pose, 'steps').unit).toBe('us');
+    const steps = insertFrame(emptyGroup('Other', 'steps'), 0, pose);
+    const clip = copyKeys(steps, refsOf(steps));
+    const problems = [{ kind: 'unit', clip: 'steps', group: 'us' }];
+    expect(pasteKeys(ONLY, clip, 0, { ripple: false })).toEqual({ group: ONLY, problems });
+    expect(pasteFrames(ONLY, clip, 0)).toEqual({ group: ONLY, problems });
+  });
+
+  test('is listed as long as it lasts, with the pose in its middle', () => {
+    const { durationMs, pose } = factsOf(ONLY, { updatedAtMs: 0, robot: '' });
+    expect(durationMs).toBe(motionLengthMs(ONLY));
+    expect(pose.map(({ servo }) => servo)).toEqual([1, 2]);
+  });
+});
 
 describe('keys made into a block', () => {
   test('move as before, whichever they are, and so they do as keys again', () => {

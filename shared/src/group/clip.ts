@@ -3,7 +3,7 @@
 
 import type { ServoTarget } from '../codec/commands.ts';
 import type { Range } from '../codec/families.ts';
-import { emptyGroup, MAX_FRAMES, type ActionGroup, type GroupFrame } from './group.ts';
+import { emptyGroup, holdsMotion, MAX_FRAMES, type ActionGroup, type GroupFrame } from './group.ts';
 import { changed, insertFrames } from './groupEdits.ts';
 import { lifted } from './keyRanges.ts';
 import { momentsOf, newMoment, placed, wholeMs, withMoments, type Moment } from './moments.ts';
@@ -108,8 +108,9 @@ export function pasteFrames(
 export const clipGroup = (clip: Clip): ActionGroup =>
   pasteKeys(emptyGroup('', clip.unit), clip, clip.leadMs, { ripple: false }).group;
 
-function otherUnit({ unit, frames }: ActionGroup, clip: Clip): PasteProblem | null {
-  return clip.unit === unit || frames.length === 0 ? null : { kind: 'unit', clip: clip.unit, group: unit };
+function otherUnit(group: ActionGroup, clip: Clip): PasteProblem | null {
+  const { unit } = group;
+  return clip.unit === unit || !holdsMotion(group) ? null : { kind: 'unit', clip: clip.unit, group: unit };
 }
 
 function judged(group: ActionGroup, pasted: ActionGroup, clip: Clip, rangeOf: RangeOf): Pasted {

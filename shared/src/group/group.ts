@@ -180,6 +180,10 @@ const isInOrder = ({ moments, times }: Block): boolean =>
 const isAscending = (targets: readonly ServoTarget[]): boolean =>
   targets.slice(1).every(({ servo }, index) => servo > (targets[index]?.servo ?? servo));
 
+/** Whether there is anything to play, download or save: frames, or blocks alone. */
+export const holdsMotion = ({ frames, blocks = [] }: Pick<ActionGroup, 'frames' | 'blocks'>): boolean =>
+  frames.length + blocks.length > 0;
+
 /** Nominal time of one pass, as the frames ask for it. */
 export function totalDurationMs(frames: readonly Frame[]): number {
   return frames.reduce((sum, frame) => sum + frame.durationMs, 0);

@@ -3,7 +3,13 @@
 
 import { type Frame, type ServoTarget, sortedTargets } from '../codec/commands.ts';
 import { sameEasing, type Easing } from './curves.ts';
-import { GROUP_NAME_LENGTH, type ActionGroup, type GroupFrame, type KeyTarget } from './group.ts';
+import {
+  GROUP_NAME_LENGTH,
+  holdsMotion,
+  type ActionGroup,
+  type GroupFrame,
+  type KeyTarget,
+} from './group.ts';
 
 /** As much of the name as one may be long. */
 export function rename(group: ActionGroup, name: string): ActionGroup {
@@ -51,7 +57,7 @@ export function insertFrame(
   const at = Math.max(0, Math.min(index, group.frames.length));
   return {
     ...group,
-    unit: group.frames.length === 0 ? unit : group.unit,
+    unit: holdsMotion(group) ? group.unit : unit,
     nextId: group.nextId + 1,
     frames: group.frames.toSpliced(at, 0, added),
   };

@@ -101,19 +101,110 @@ test('out of reach it stretches towards the place', () => {
   expect(lengthOf(minus(tip, [0.343, 0, 0.07]))).toBeLessThan(2e-3);
 });
 
-test('a drag in small steps turns the joints in small steps', () => {
-  const step = fc.constantFrom<Vec3>([1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]);
+/** Of the arm, from its shoulder to its tip. */
+const LENGTH_M = 0.104 + 0.089 + 0.15 + 0.04;
+/** What a joint turns at most for each radian by which the hand swings the whole limb. */
+const MOST_TURN = 6;
+const DEGREE = Math.PI / 180;
+
+const farthest = (from: readonly number[], to: readonly number[]): number =>
+  Math.max(...to.map((one, index) => Math.abs(one - (from[index] ?? 0))));
+
+const direction = fc
+  .tuple(evenly(-1, 1), evenly(-1, 1), evenly(-1, 1))
+  .filter((way) => Math.hypot(...way) > 0.1)
+  .map((way): Vec3 => scaled(way, 1 / Math.hypot(...way)));
+/** Straight, nearly so, folded to a limit, or anything. */
+const nearSingular = fc.oneof(
+  fc.constant(0),
+  evenly(-0.03, 0.03),
+  fc.constantFrom(-HALF, HALF),
+  evenly(-HALF, HALF),
+);
+const singularAngles = fc.tuple(evenly(-HALF, HALF), nearSingular, nearSingular, nearSingular);
+/** As a hand goes: long and short ways in one direction or another, or out of reach. */
+const handWays = fc.array(fc.record({ direction, m: fc.constantFrom(1e-4, 1e-3, 5e-3, 0.02, 0.3) }), {
+  minLength: 1,
+  maxLength: 12,
+});
+const rises = fc.constantFrom(null, 0);
+
+test('near singular places, too, a drag turns no joint farther than the hand asks', () => {
   fc.assert(
-    fc.property(armAngles, step, (from, direction) => {
-      const { tip } = poseOfChain(ARM, from);
-      // A millimetre above its own base, or of a straight arm, is many degrees; elsewhere it is few.
-      fc.pre(Math.hypot(tip[0], tip[1]) > 0.05 && Math.abs(from[2]) > 0.3);
-      const { angles } = follow(ARM, from, { tip: added(tip, scaled(direction, 0.001)), rise: null });
-      const farthest = Math.max(...angles.map((one, index) => Math.abs(one - (from[index] ?? 0))));
-      expect(farthest).toBeLessThan(0.1);
+    fc.property(singularAngles, handWays, rises, (start, ways, rise) => {
+      let [angles, hand]: [readonly number[], Vec3] = [start, poseOfChain(ARM, start).tip];
+      for (const { direction, m } of ways) {
+        hand = added(hand, scaled(direction, m));
+        const { angles: next } = follow(ARM, angles, { tip: hand, rise }, m);
+        expect(farthest(angles, next)).toBeLessThanOrEqual((MOST_TURN * m) / LENGTH_M + 1e-9);
+        angles = next;
+      }
     }),
     { numRuns: 500 },
   );
+});
+
+test('a hand that rests turns nothing, however far the tip is from it', () => {
+  fc.assert(
+    fc.property(singularAngles, direction, (from, way) => {
+      const wish = { tip: added(poseOfChain(ARM, from).tip, scaled(way, 0.05)), rise: null };
+      expect(farthest(from, follow(ARM, from, wish, 0).angles)).toBeLessThan(1e-9);
+    }),
+  );
+});
+
+test('a bent elbow keeps its side through any drag', () => {
+  const bend = fc.oneof(evenly(1.2 * DEGREE, 5 * DEGREE), evenly(1.2 * DEGREE, HALF));
+  const side = fc.constantFrom(-1, 1);
+  fc.assert(
+    fc.property(singularAngles, bend, side, handWays, (others, bent, sign, ways) => {
+      const start = others.map((one, index) => (index === 2 ? sign * bent : one));
+      let [angles, hand]: [readonly number[], Vec3] = [start, poseOfChain(ARM, start).tip];
+      for (const { direction, m } of ways) {
+        hand = added(hand, scaled(direction, m));
+        angles = follow(ARM, angles, { tip: hand, rise: null }, m).angles;
+        expect(sign * (angles[2] ?? 0)).toBeGreaterThan(DEGREE);
+      }
+    }),
+    { numRuns: 500 },
+  );
+});
+
+test('away from singular places the tip stays with the hand', () => {
+  const bend = fc.oneof(evenly(0.5, 1.2), evenly(-1.2, -0.5));
+  const inside = evenly(-1.2, 1.2);
+  const misses: number[] = [];
+  fc.assert(
+    fc.property(fc.tuple(inside, inside, bend, inside), direction, (from, way) => {
+      const { tip } = poseOfChain(ARM, from);
+      fc.pre(Math.hypot(tip[0], tip[1]) > 0.08);
+      let angles: readonly number[] = from;
+      for (let mm = 1; mm <= 10; mm++) {
+        const wish = { tip: added(tip, scaled(way, mm / 1000)), rise: null };
+        const found = follow(ARM, angles, wish, 1e-3);
+        angles = found.angles;
+        misses.push(found.missM);
+      }
+    }),
+    { numRuns: 300 },
+  );
+  expect(misses.filter((miss) => miss < 1e-4).length / misses.length).toBeGreaterThan(0.9);
+});
+
+test('from the straight arm the first touch turns the base by as little as the rest, and the tip catches up', () => {
+  const start = poseOfChain(ARM, [0, 0, 0, 0]).tip;
+  const way = scaled([1, 1, -1.4], 1 / Math.hypot(1, 1, 1.4));
+  let angles: readonly number[] = [0, 0, 0, 0];
+  const misses: number[] = [];
+  for (let mm = 2; mm <= 80; mm += 2) {
+    const found = follow(ARM, angles, { tip: added(start, scaled(way, mm / 1000)), rise: null }, 2e-3);
+    expect(farthest(angles, found.angles)).toBeLessThan(2 * DEGREE);
+    angles = found.angles;
+    misses.push(found.missM * 1000);
+  }
+  expect(Math.max(...misses)).toBeLessThan(8);
+  expect(misses.at(-1)).toBeLessThan(0.1);
+  expect(angles[0]).toBeCloseTo(Math.PI / 4, 2);
 });
 
 test('the other elbow leaves the tip where it is, and back again', () => {

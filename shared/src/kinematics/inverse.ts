@@ -4,6 +4,7 @@
 
 import {
   type Chain,
+  type ChainJoint,
   type ChainPose,
   cross,
   dot,
@@ -26,11 +27,16 @@ export interface Solution {
   readonly missM: number;
 }
 
+/**
+ * A joint that is led by a hand turns at most so many times as far as one that swings the whole limb along with it. Near a singular
+ * place, where a millimetre takes tens of degrees, the tip lags behind instead (measured in ADR 62).
+ */
+const MOST_TURN = 6;
 const ITERATIONS = 60;
 /** Good enough to stop: a tenth of what the servos can resolve. */
 const ENOUGH_M = 5e-5;
 /** What a rise of 1 counts beside the metres of the tip: about the length of a hand. */
-const RISE_M = 0.1;
+export const RISE_M = 0.1;
 /** So far in one iteration, where the Jacobian still means something. */
 const STEP_M = 0.05;
 const DAMPING = { first: 1e-3, least: 1e-7, most: 10, shrinks: 0.3, grows: 4 };
@@ -40,9 +46,35 @@ const PRIMES = [2, 3, 5, 7, 11, 13];
 /** Reached as well as another, if it comes as near as this. */
 const SAME_M = 5e-4;
 
-/** For a drag: the nearest way from the angles given. Never jumps to another elbow; where it cannot go on, it stays. */
-export function follow(chain: Chain, from: readonly number[], wish: Wish): Solution {
-  return descend(chain, from, wish);
+/**
+ * For a drag: the nearest way from the angles given, for a hand that has moved by `askedM` since. No joint turns farther than that asks,
+ * and the elbow keeps its side; where it cannot go on, it stays.
+ */
+export function follow(chain: Chain, from: readonly number[], wish: Wish, askedM: number): Solution {
+  return descend(withinReachOfHand(chain, from, askedM), from, wish);
+}
+
+/** The limits of the joints, narrowed to what one movement of the hand may do. */
+function withinReachOfHand(chain: Chain, from: readonly number[], askedM: number): Chain {
+  const most = (MOST_TURN * askedM) / limbLengthM(chain);
+  const bend = bendOf(poseOfChain(chain, from));
+  const joints = chain.joints.map((joint, index) => {
+    const at = clamped(from[index] ?? 0, joint);
+    const { min, max } = index === ELBOW ? onItsSide(joint, at, bend) : joint;
+    return { ...joint, min: Math.max(min, at - most), max: Math.min(max, at + most) };
+  });
+  return { ...chain, joints };
+}
+
+/** From the second joint to the tip: the first one may sit far out on a body. */
+const limbLengthM = ({ joints, tip }: Chain): number =>
+  joints.slice(1).reduce((sum, { origin }) => sum + lengthOf(origin), lengthOf(tip));
+
+/** An elbow that is bent stays so: from straight, either side is as near. */
+function onItsSide({ min, max }: ChainJoint, at: number, bend: number): Pick<ChainJoint, 'min' | 'max'> {
+  if (Math.abs(bend) < STRAIGHT) return { min, max };
+  const straightest = at - bend + Math.sign(bend) * Math.min(Math.abs(bend), STILL_BENT);
+  return bend > 0 ? { min: Math.max(min, straightest), max } : { min, max: Math.min(max, straightest) };
 }
 
 /** For a place typed in: tries other elbows and the other side of the base where the nearest way does not end there. */
@@ -76,17 +108,27 @@ export function flip(chain: Chain, from: readonly number[], rise: Wish['rise']):
 }
 
 /** Which way the third joint bends, from the joint before it to the next one: 1, -1, or 0 for straight. */
-function sideOf({ joints, tip }: ChainPose): number {
+function sideOf(pose: ChainPose): number {
+  const bend = bendOf(pose);
+  return Math.abs(Math.sin(bend)) < STRAIGHT ? 0 : Math.sign(bend);
+}
+
+/** The angle of the third joint from straight, about its axis; 0 where the limb has no elbow. */
+function bendOf({ joints, tip }: ChainPose): number {
   const [before, elbow] = [joints[ELBOW - 1], joints[ELBOW]];
   if (before === undefined || elbow === undefined) return 0;
   const next = joints.slice(ELBOW + 1).find(({ at }) => lengthOf(minus(at, elbow.at)) > SAME_M);
-  const [near, far] = [minus(elbow.at, before.at), minus(next?.at ?? tip, elbow.at)];
-  const sine = dot(cross(near, far), elbow.axis) / (lengthOf(near) * lengthOf(far) || 1);
-  return Math.abs(sine) < STRAIGHT ? 0 : Math.sign(sine);
+  const { at, axis } = elbow;
+  const across = (vector: Vec3): Vec3 => minus(vector, scaled(axis, dot(vector, axis)));
+  const [near, far] = [across(minus(at, before.at)), across(minus(next?.at ?? tip, at))];
+  if (Math.min(lengthOf(near), lengthOf(far)) < SAME_M) return 0;
+  return Math.atan2(dot(cross(near, far), axis), dot(near, far));
 }
 
 /** A degree. */
 const STRAIGHT = 0.0175;
+/** Two degrees: with the rounding to whole units of a servo it still counts as bent. */
+const STILL_BENT = 2 * STRAIGHT;
 /** Base, shoulder, elbow. */
 const ELBOW = 2;
 

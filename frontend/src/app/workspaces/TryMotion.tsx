@@ -4,7 +4,14 @@ import { examplesFor, type ExampleId } from '#shared/group/examples/examples.ts'
 import { useStore } from 'zustand';
 import { takeExample } from '../../features/animate/group/ExamplesControl.tsx';
 import { PLAY } from '../../features/animate/play/playActions.ts';
-import { useDevice, useDocument, useRobot, useSnapshot, useStores } from '../../features/stores.ts';
+import {
+  useDevice,
+  useDocument,
+  useHoldsMotion,
+  useRobot,
+  useSnapshot,
+  useStores,
+} from '../../features/stores.ts';
 import { words } from '../../i18n/whole.ts';
 import { startHindrance } from '../../robot/readiness.ts';
 import { Button } from '../../ui/Button.tsx';
@@ -19,7 +26,7 @@ export function TryMotion() {
   const robot = useRobot();
   const isSimulated = useDevice(({ way }) => way?.isSimulated === true);
   const name = useDocument(({ present }) => present.name);
-  const isEmpty = useDocument(({ present }) => present.frames.length === 0);
+  const isEmpty = !useHoldsMotion();
   const isBlocked = useSnapshot((snapshot) => startHindrance(snapshot) !== null);
   const isPlaying = useStore(playback.store, ({ phase }) => phase !== null);
   const ids = examplesFor(robot);

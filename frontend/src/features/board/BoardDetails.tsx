@@ -9,7 +9,16 @@ import { Dialog } from '../../ui/Dialog.tsx';
 import { laterComponent } from '../../ui/later.tsx';
 import { words } from '../../i18n/whole.ts';
 import { chosenTimes } from './slots/groupPlace.ts';
-import { useDocument, useSlot, useStores, useView, useDevice, useSlots, useSnapshot } from '../stores.ts';
+import {
+  useDocument,
+  useHoldsMotion,
+  useSlot,
+  useStores,
+  useView,
+  useDevice,
+  useSlots,
+  useSnapshot,
+} from '../stores.ts';
 import { startHindrance, motionHindrance } from '../../robot/readiness.ts';
 import { Confirm } from '../../ui/Confirm.tsx';
 import { NumberField } from '../../ui/NumberField.tsx';
@@ -63,7 +72,7 @@ function PlaceControl() {
   const { document, view } = useStores();
   const slot = useDocument(({ present }) => present.slot);
   const times = useDocument(({ present }) => present.times);
-  const isEmpty = useDocument(({ present }) => present.frames.length === 0);
+  const isEmpty = !useHoldsMotion();
   const chosenSlot = useSlot();
   const isUnchanged = useView((state) => chosenTimes(state) === times) && chosenSlot === slot;
   const keep = (): void =>

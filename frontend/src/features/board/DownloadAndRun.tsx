@@ -2,7 +2,16 @@
 // stopped), whether the run may continue without this page, and such a run.
 
 import { isWatching } from '#shared/robot/lease.ts';
-import { useCompiled, useDevice, useDocument, useSlot, useSnapshot, useStores, useView } from '../stores.ts';
+import {
+  useCompiled,
+  useDevice,
+  useDocument,
+  useHoldsMotion,
+  useSlot,
+  useSnapshot,
+  useStores,
+  useView,
+} from '../stores.ts';
 import { Button } from '../../ui/Button.tsx';
 import { CheckedNumber } from '../CheckedNumber.tsx';
 import { ProgressBar } from '../../ui/ProgressBar.tsx';
@@ -52,7 +61,7 @@ export function DownloadProgress() {
 export function DownloadControl() {
   const { compiled, library, notices, replacing, view } = useStores();
   const unit = useDocument(({ present }) => present.unit);
-  const isEmpty = useDocument(({ present }) => present.frames.length === 0);
+  const isEmpty = !useHoldsMotion();
   const slot = useSlot();
   const frameCount = useCompiled((state) => state.latest.frames.length);
   const sameUnit = useDevice((state) => state.family.unit === unit);

@@ -3,6 +3,7 @@
 
 import { useEffect, useMemo } from 'react';
 import type { ServoTarget } from '#shared/codec/commands.ts';
+import { RISE_M } from '#shared/kinematics/inverse.ts';
 import { added, minus, lengthOf, scaled, type Vec3 } from '#shared/kinematics/model.ts';
 import type { TipChoice } from '#shared/profile/mapping.ts';
 import {
@@ -79,7 +80,7 @@ export function tipStep(arm: Arm, speed: TipSpeed | null, dtMs: number, before: 
   if (limb.servos.some((servo) => isAhead(robot, servo, place(servo)))) return { ...STAYS, state: from };
   for (const share of SHARES)
     for (const rise of risesFrom(arm, from, dtMs)) {
-      const next = stepBy(arm, from, { by: scaled(speed, (share * dtMs) / 1e6), rise }, dtMs);
+      const next = stepBy(arm, from, { by: scaled(speed, dtMs / 1e6), share, rise }, dtMs);
       if (next === null) continue;
       const moves = next.sent.filter(({ servo, position }) => position !== place(servo).target);
       return { ...STAYS, state: next, moves };
@@ -133,15 +134,19 @@ function risesFrom({ isLevel }: Arm, { leading }: TipState, dtMs: number): reado
 }
 
 interface Wanted {
+  /** What the hand asks for, of which the tip goes a share: where joints have to turn far it slows down. */
   readonly by: Vec3;
+  readonly share: number;
   readonly rise: number | null;
 }
 
 /** null where the tip would leave its line, or a servo could not follow. */
-function stepBy(arm: Arm, from: TipState, { by, rise }: Wanted, dtMs: number): TipState | null {
+function stepBy(arm: Arm, from: TipState, { by, share, rise }: Wanted, dtMs: number): TipState | null {
   const { robot, isLocked: locked } = arm;
-  const tip = added(from.tip, by);
-  const wish = { tip, rise, how: 'follow', isLocked: locked } as const;
+  const tip = added(from.tip, scaled(by, share));
+  const tiltM = rise === null ? 0 : Math.abs(rise - poseOfLimb(from.leading).pointing[2]) * RISE_M;
+  const mode = { how: 'follow', askedM: lengthOf(by) + tiltM } as const;
+  const wish = { tip, rise, mode, isLocked: locked };
   const { leading, targets } = leadTo(from.leading, robot, wish);
   const pose = poseOfLimb(leading);
   const isOnLine = lengthOf(minus(pose.tip, tip)) <= OFF_LINE_M;

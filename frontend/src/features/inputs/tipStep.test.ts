@@ -110,6 +110,41 @@ test('no servo is sent beyond its limits or faster than it can turn', () => {
   );
 });
 
+test('near singular places, too, a stick turns no servo farther than it asks', () => {
+  const near = fc.oneof(
+    fc.constant(1500),
+    fc.integer({ min: 1480, max: 1520 }),
+    fc.integer({ min: 900, max: 2100 }),
+  );
+  const lengthM = 0.045 + 0.104 + 0.089 + 0.145;
+  let moved = 0;
+  fc.assert(
+    fc.property(fc.tuple(near, near, near, near), DIRECTIONS, SPEEDS, (positions, direction, mmPerS) => {
+      const arm = armAt(positions);
+      const asked = (6 * mmPerS * FRAME_MS) / 1e6 / lengthM;
+      for (let frame = 0; frame < 20; frame++) {
+        const before = new Map(arm.targets);
+        const { moves } = arm.frame(scaled(direction, mmPerS));
+        moved += moves.length;
+        for (const { servo, position } of moves) {
+          // Half a unit before and half a unit behind: 2,000 units are half a turn.
+          const most = (asked * 2000) / Math.PI + 1;
+          expect(Math.abs(position - (before.get(servo) ?? 0))).toBeLessThanOrEqual(most);
+        }
+      }
+    }),
+  );
+  expect(moved).toBeGreaterThan(1000);
+});
+
+test('beside the axis of its base the tip goes slowly, and does not stay', () => {
+  const arm = armAt([1500, 1540, 1500, 1500]);
+  const start = arm.pose().tip;
+  for (let frame = 0; frame < 100; frame++) arm.frame([0, 50, 0]);
+  expect(Math.abs((arm.targets.get(6) ?? 0) - 1500)).toBeGreaterThan(20);
+  expect(minus(arm.pose().tip, start)[1]).toBeGreaterThan(5e-3);
+});
+
 describe('one arm', () => {
   const BENT = [1500, 1800, 1900, 1700];
 

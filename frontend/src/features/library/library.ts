@@ -4,7 +4,13 @@
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import { sleep, type Clock } from '#shared/clock.ts';
-import { emptyGroup, type ActionGroup, groupFromText, groupToText } from '#shared/group/group.ts';
+import {
+  emptyGroup,
+  type ActionGroup,
+  groupFromText,
+  groupToText,
+  holdsMotion,
+} from '#shared/group/group.ts';
 import { rename } from '#shared/group/groupEdits.ts';
 import type { Label } from '#shared/document/history.ts';
 import { factsOf, type GroupFacts } from '#shared/files/facts.ts';
@@ -280,7 +286,7 @@ export function createLibrary(options: LibraryOptions): Library {
     const current = waiting.find(({ id }) => id === opened.id());
     if (current !== undefined && current.text !== groupToText(shown()))
       show(current.id, groupOf(current.text));
-    else if (current === undefined && !opened.wasRemembered && shown().frames.length > 0)
+    else if (current === undefined && !opened.wasRemembered && holdsMotion(shown()))
       put(opened.id(), groupToText(shown()));
     notifySaved();
     if (!(await flush())) return;

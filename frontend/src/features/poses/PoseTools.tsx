@@ -7,6 +7,7 @@ import { servoOf } from '#shared/profile/robot.ts';
 import { putFrame } from '../animate/frames/CaptureButton.tsx';
 import { GENTLE_MOVE_MS } from '../../robot/moves.ts';
 import { servoLabel } from '../../i18n/sentences.ts';
+import { holdsMotion } from '#shared/group/group.ts';
 import { useDevice, useDocument, usePoses, useRobot, useStores } from '../stores.ts';
 import { Button, ActionIconButton } from '../../ui/Button.tsx';
 import { Toggle } from '../../ui/Toggle.tsx';
@@ -62,7 +63,7 @@ function Shapes() {
   const restId = usePoses(({ present }) => present.restId);
   const isRest = restId !== null && restId === pose?.id;
   const mayShape = pose?.unit === unit;
-  const fitsGroup = useDocument(({ present }) => present.frames.length === 0 || present.unit === pose?.unit);
+  const fitsGroup = useDocument(({ present }) => !holdsMotion(present) || present.unit === pose?.unit);
   const hasSides = (pose?.targets ?? []).some(
     ({ servo }) => typeof servoOf(robot, servo)?.mirror === 'number',
   );

@@ -10,6 +10,7 @@ import {
   useDevice,
   useDocument,
   useGroupBoard,
+  useHoldsMotion,
   useKnownFamily,
   useSnapshot,
   useStores,
@@ -89,8 +90,11 @@ function CaptureBar() {
 function Total() {
   const count = useDocument(({ present }) => present.frames.length);
   const totalMs = useDocument(({ present }) => motionLengthMs(present));
+  const holdsMotion = useHoldsMotion();
   return (
-    <p className={captureBarStyles.total}>{count === 0 ? '' : words.actions.total({ count, ms: totalMs })}</p>
+    <p className={captureBarStyles.total}>
+      {!holdsMotion ? '' : words.actions.total({ count, ms: totalMs })}
+    </p>
   );
 }
 
@@ -129,17 +133,18 @@ function Tools() {
 }
 
 function Content() {
-  const isEmpty = useDocument(({ present }) => present.frames.length === 0);
+  const hasFrames = useDocument(({ present }) => present.frames.length > 0);
+  const holdsMotion = useHoldsMotion();
   const isPhone = useLayout() === 'phone';
   const isFolded = useView(({ frameCards }) => frameCards === 'folded') && !isPhone;
   const isPainted = useIsPainted();
   const timeline = <Timeline key="timeline" />;
   const capture = <CaptureBar key="capture" />;
-  const tools = isEmpty ? null : <FrameTools key="tools" />;
-  const play = isEmpty ? null : <PlayBar key="play" />;
+  const tools = hasFrames ? <FrameTools key="tools" /> : null;
+  const play = holdsMotion ? <PlayBar key="play" /> : null;
   const frames = (
     <Fragment key="frames">
-      {isEmpty ? <Empty /> : !isFolded && <FrameStrip />}
+      {hasFrames ? !isFolded && <FrameStrip /> : <Empty />}
       {isPhone ? (
         [capture, tools, play]
       ) : (
@@ -199,10 +204,11 @@ function OtherBoard() {
 }
 
 function Empty() {
+  const holdsMotion = useHoldsMotion();
   return (
     <EmptyState
       title={words.actions.empty}
-      hint={words.actions.emptyHint}
+      hint={holdsMotion ? words.actions.onlyBlocksHint : words.actions.emptyHint}
       sketch={<Sketch />}
       className={styles.empty}
     />

@@ -5,7 +5,7 @@ import { blockIdOf, blocksOf } from '#shared/group/blocks.ts';
 import { collisionText, problemText } from '../../board/compile/problems.tsx';
 import { useState } from 'react';
 import type { CompileProblem } from '#shared/group/compileReport.ts';
-import { type ActionGroup, MOST_ERROR_UNITS, maxErrorOf } from '#shared/group/group.ts';
+import { type ActionGroup, holdsMotion, MOST_ERROR_UNITS, maxErrorOf } from '#shared/group/group.ts';
 import { tracksOf, type KeyRef } from '#shared/group/tracks.ts';
 import { setMeta } from '#shared/group/groupEdits.ts';
 import { select } from '../../servoView.ts';
@@ -138,7 +138,7 @@ export function CompileRow() {
   const { compiled } = useStores();
   const { latest, isFresh } = useInFrame(compiled.store, (state) => state);
   const { report, source } = latest;
-  const isEmpty = source.group.frames.length === 0;
+  const isEmpty = !holdsMotion(source.group);
   const fits = obstacles(report, 'board').length === 0;
   return (
     <div className={styles.row} aria-busy={!isFresh}>
@@ -175,7 +175,7 @@ function ErrorField() {
   const { document } = useStores();
   const family = useKnownFamily();
   const value = useDocument(({ present }) => maxErrorOf(present, family));
-  const isOfGroup = useDocument(({ present }) => present.frames.length === 0 || present.unit === family.unit);
+  const isOfGroup = useDocument(({ present }) => !holdsMotion(present) || present.unit === family.unit);
   return (
     <div className={field.named} role="group" aria-label={words.compile.label}>
       <span className={styles.dim} aria-hidden="true">
@@ -192,7 +192,7 @@ function ErrorField() {
           document.edit(
             () => words.compile.step,
             (group) =>
-              setMeta(group.frames.length === 0 ? { ...group, unit: family.unit } : group, { maxErrorUnits }),
+              setMeta(holdsMotion(group) ? group : { ...group, unit: family.unit }, { maxErrorUnits }),
           )
         }
       />

@@ -4,7 +4,7 @@ import { useState } from 'react';
 import { exampleGroup, examplesFor, type ExampleId } from '#shared/group/examples/examples.ts';
 import { poseAt, totalDurationMs } from '#shared/group/group.ts';
 import { PoseThumb } from '../../picture/PoseThumb.tsx';
-import { useDevice, useDocument, useRobot, useStores, type Stores } from '../../stores.ts';
+import { useDevice, useHoldsMotion, useRobot, useStores, type Stores } from '../../stores.ts';
 import { Button } from '../../../ui/Button.tsx';
 import { Dialog } from '../../../ui/Dialog.tsx';
 import { words } from '../../../i18n/whole.ts';
@@ -12,7 +12,7 @@ import styles from './Examples.module.css';
 
 export function ExamplesControl() {
   const [isOpen, setOpen] = useState(false);
-  const isEmpty = useDocument(({ present }) => present.frames.length === 0);
+  const isEmpty = !useHoldsMotion();
   const isUnit = useDevice((state) => state.family.id !== 'unknown');
   return (
     <>

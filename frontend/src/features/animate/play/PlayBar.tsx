@@ -10,6 +10,7 @@ import {
   useStores,
   useDevice,
   useDocument,
+  useHoldsMotion,
   usePlayback,
   useRobot,
   useServoView,
@@ -22,6 +23,7 @@ import { useSlotContents } from '../../board/slots/slotHooks.ts';
 import { motionHindrance, startHindrance } from '../../../robot/readiness.ts';
 import { isSilent } from '../../servoView.ts';
 import { CollisionNote } from '../../board/compile/problems.tsx';
+import { holdsMotion } from '#shared/group/group.ts';
 import { timesOf } from '#shared/group/groupTimes.ts';
 import { ActionButton, ActionIconButton, Button } from '../../../ui/Button.tsx';
 import { cx } from '../../../ui/cx.ts';
@@ -38,7 +40,7 @@ const usePlayer = (): Player => playerOf(useStores().playback);
 export function PlayBar() {
   const phase = usePlayback((state) => state.phase);
   const stores = useStores();
-  useDocument(({ present }) => present.frames.length === 0);
+  useHoldsMotion();
   const isIdle = phase === null;
   return (
     <div className={styles.bar} role="group" aria-label={words.play.tools}>
@@ -57,7 +59,7 @@ export function PlayBar() {
 
 /** The stores, read again with each change of what decides whether something of the group can be sent. */
 function useSendable() {
-  useDocument(({ present }) => `${present.unit} ${present.frames.length === 0}`);
+  useDocument(({ present }) => `${present.unit} ${holdsMotion(present)}`);
   useSnapshot(startHindrance);
   useDevice((state) => state.family);
   return useStores();
@@ -99,7 +101,7 @@ function endWord(phase: keyof typeof END_ICONS): string {
 /** As the one to play. */
 function PreviewButton({ phase }: { readonly phase: PlaybackPhase | null }) {
   const stores = useStores();
-  const isEmpty = useDocument(({ present }) => present.frames.length === 0);
+  const isEmpty = !useHoldsMotion();
   const isOn = phase === 'previewing';
   const may = PREVIEW.enabled(stores);
   return (

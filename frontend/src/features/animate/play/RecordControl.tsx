@@ -2,9 +2,9 @@
 // the last two minutes.
 
 import { useStore } from 'zustand';
+import { holdsMotion } from '#shared/group/group.ts';
 import { recorded } from '../../servoView.ts';
 import {
-  servoViewOf,
   useDevice,
   useDocument,
   usePlayback,
@@ -12,7 +12,6 @@ import {
   useServoView,
   useSnapshot,
   useStores,
-  type Stores,
 } from '../../stores.ts';
 import { startHindrance } from '../../../robot/readiness.ts';
 import { Button, ActionButton } from '../../../ui/Button.tsx';
@@ -20,7 +19,7 @@ import { useNow } from '../../../ui/useEachFrame.ts';
 import { say } from '../../../i18n/sentences.ts';
 import { words } from '../../../i18n/whole.ts';
 import { RECORD_OVER } from './recordOver.ts';
-import { KEEP_LAST, offer } from './TakeDialog.tsx';
+import { endRecording, KEEP_LAST } from './TakeDialog.tsx';
 
 export function RecordControl() {
   const stores = useStores();
@@ -28,11 +27,7 @@ export function RecordControl() {
   const sinceMs = useStore(tape.store, (state) => state.recordingSinceMs);
   return (
     <>
-      <Record
-        sinceMs={sinceMs}
-        onBegin={() => tape.record()}
-        onEnd={() => offer(stores, tape.end(recorded(servoViewOf(stores), servosOf(stores)).servos))}
-      />
+      <Record sinceMs={sinceMs} onBegin={() => tape.record()} onEnd={() => endRecording(stores)} />
       <ActionButton
         tone="quiet"
         hint={words.record.takeThatHint}
@@ -51,7 +46,7 @@ function RecordOver() {
   const isShown = useServoView(({ armed, overdubbed }) => armed.length + overdubbed.length > 0);
   const isOn = useServoView(({ overdubbed }) => overdubbed.length > 0);
   usePlayback(({ phase }) => phase === null);
-  useDocument(({ present }) => `${present.unit} ${present.frames.length === 0}`);
+  useDocument(({ present }) => `${present.unit} ${holdsMotion(present)}`);
   useSnapshot(startHindrance);
   useDevice(({ family }) => family);
   useDevice(({ known }) => known);
@@ -69,9 +64,6 @@ function RecordOver() {
     </Button>
   );
 }
-
-const servosOf = ({ robots }: Pick<Stores, 'robots'>): readonly number[] =>
-  robots.current().robot.servos.map(({ servo }) => servo);
 
 interface RecordProps {
   /** null: nothing is recorded. */

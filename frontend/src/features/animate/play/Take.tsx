@@ -7,7 +7,7 @@ import { simplify, type Sample } from '#shared/group/simplify.ts';
 import { type Robot, servoOf } from '#shared/profile/robot.ts';
 import { GENTLE_MOVE_MS } from '../../../robot/moves.ts';
 import { recorded } from '../../servoView.ts';
-import { useDevice, useDocument, useRobot, useServoView, useStores } from '../../stores.ts';
+import { useDevice, useHoldsMotion, useRobot, useServoView, useStores } from '../../stores.ts';
 import { Button } from '../../../ui/Button.tsx';
 import { CheckedNumber } from '../../CheckedNumber.tsx';
 import { Toggle } from '../../../ui/Toggle.tsx';
@@ -26,7 +26,7 @@ const MOST_ERROR = 200;
 export function Take({ samples, onClose }: TakeProps) {
   const { document, playhead, view } = useStores();
   const unit = useDevice((state) => state.family.unit);
-  const isEmpty = useDocument(({ present }) => present.frames.length === 0);
+  const isEmpty = !useHoldsMotion();
   const robot = useRobot();
   const armed = recorded(
     useServoView((all) => all),

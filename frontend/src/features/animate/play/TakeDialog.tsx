@@ -3,7 +3,8 @@
 
 import { useStore } from 'zustand';
 import type { Sample } from '#shared/group/simplify.ts';
-import { useStores, type Stores } from '../../stores.ts';
+import { recorded } from '../../servoView.ts';
+import { servoViewOf, useStores, type Stores } from '../../stores.ts';
 import type { Action } from '../../../ui/action.ts';
 import { words } from '../../../i18n/words.ts';
 import { Dialog } from '../../../ui/Dialog.tsx';
@@ -11,9 +12,27 @@ import { laterComponent } from '../../../ui/later.tsx';
 
 // What was recorded is offered to become keys; where nothing moved, that is said.
 
-export function offer({ notices, tape }: Pick<Stores, 'notices' | 'tape'>, taken: readonly Sample[]): void {
+function offer({ notices, tape }: Pick<Stores, 'notices' | 'tape'>, taken: readonly Sample[]): void {
   if (taken.length === 0) notices.show('info', words.record.nothing);
   tape.store.setState({ taken });
+}
+
+type RecordingStores = Pick<Stores, 'notices' | 'tape' | 'view' | 'robots' | 'device'>;
+
+export function endRecording(stores: RecordingStores): void {
+  const all = stores.robots.current().robot.servos.map(({ servo }) => servo);
+  offer(stores, stores.tape.end(recorded(servoViewOf(stores), all).servos));
+}
+
+/** STOP ends what is recorded on purpose, from wherever it comes; what was recorded until then is offered as at the end. */
+export function endRecordingWithStop(stores: RecordingStores): void {
+  const { device, notices, tape } = stores;
+  device.store.subscribe(({ snapshot: { latch } }, { snapshot: before }) => {
+    const isRecording = tape.store.getState().recordingSinceMs !== null;
+    if (latch === null || before.latch !== null || !isRecording) return;
+    endRecording(stores);
+    if (tape.store.getState().taken.length > 0) notices.show('info', words.record.stopped);
+  });
 }
 
 export const KEEP_LAST: Action<Pick<Stores, 'notices' | 'tape'>> = {

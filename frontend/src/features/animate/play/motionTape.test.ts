@@ -2,6 +2,7 @@ import { describe, expect, test } from 'vitest';
 import { totalDurationMs } from '#shared/group/group.ts';
 import { simplify } from '#shared/group/simplify.ts';
 import { positionAt, tracksOf } from '#shared/group/tracks.ts';
+import { endRecordingWithStop } from './TakeDialog.tsx';
 import { createTestPage } from '../../pageUnderTest.ts';
 
 const at = (servo: number, position: number) => [{ servo, position }];
@@ -22,6 +23,31 @@ describe('the tape of motions', () => {
     expect(samples.at(-1)?.position).toBe(2000);
     expect((samples.at(-1)?.atMs ?? 0) - (samples[0]?.atMs ?? 0)).toBeLessThan(1200);
     expect(tape.store.getState().recordingSinceMs).toBeNull();
+  });
+
+  test('ends with STOP, and what was recorded until then is offered and said', async () => {
+    const page = await createTestPage();
+    const { tape, device, draw, session, noticeTexts } = page;
+    endRecordingWithStop(page);
+    device.move(at(1, 1000), 500);
+    await draw(3000);
+    void session.halt();
+    await draw(500);
+    expect(tape.store.getState()).toEqual({ recordingSinceMs: null, taken: [] });
+    device.resume();
+    await draw(500);
+    tape.record();
+    device.move(at(1, 2000), 2000);
+    await draw(1000);
+    void session.halt();
+    await draw(1000);
+    const { recordingSinceMs, taken } = tape.store.getState();
+    expect(recordingSinceMs).toBeNull();
+    const own = taken.filter(({ servo }) => servo === 1).map(({ position }) => position);
+    expect(own[0]).toBe(1000);
+    expect(own.at(-1)).toBeGreaterThan(1300);
+    expect(own.at(-1)).toBeLessThan(1700);
+    expect(noticeTexts()).toContainEqual(expect.stringContaining('STOP ended the recording.'));
   });
 
   test('what has come to rest before is no part of a recording', async () => {

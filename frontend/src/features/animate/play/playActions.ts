@@ -1,5 +1,6 @@
 // Playing the group as actions: from the page, on the drawing alone, frame by frame, and by the board; and why each cannot be done now.
 
+import { holdsMotion } from '#shared/group/group.ts';
 import { startHindrance } from '../../../robot/readiness.ts';
 import type { Stores } from '../../stores.ts';
 import type { Action } from '../../../ui/action.ts';
@@ -12,8 +13,8 @@ const phaseOf = ({ playback }: PlayContext) => playback.store.getState().phase;
 
 const isIdle = (context: PlayContext): true | string => phaseOf(context) === null || words.play.needsPause;
 
-const hasFrames = ({ document }: PlayContext): true | string =>
-  document.store.getState().present.frames.length > 0 || words.board.nothingToDownload;
+const hasMotion = ({ document }: PlayContext): true | string =>
+  holdsMotion(document.store.getState().present) || words.board.nothingToDownload;
 
 /** The first reason of several why not; `true` where there is none. */
 const each = (...reasons: readonly (true | string)[]): true | string =>
@@ -26,7 +27,7 @@ export function maySend(context: PlayContext): true | string {
   const hindrance = startHindrance(snapshot);
   if (hindrance !== null) return words.servos.blocked[hindrance];
   if (family.unit !== unit) return words.actions.otherUnit({ unit: words.units[unit] });
-  return hasFrames(context);
+  return hasMotion(context);
 }
 
 export const PLAY: Action<PlayContext> = {
@@ -39,11 +40,11 @@ export const PLAY: Action<PlayContext> = {
 export const PREVIEW: Action<PlayContext> = {
   ...{ id: 'preview', icon: 'eye', keys: ['Shift+ '] },
   label: (context) => (phaseOf(context) === null ? words.play.preview : words.play.pause),
-  enabled: (context) => phaseOf(context) !== null || hasFrames(context),
+  enabled: (context) => phaseOf(context) !== null || hasMotion(context),
   run: ({ playback }) => playerOf(playback).togglePreview(),
 };
 
-const mayStep = (context: PlayContext): true | string => each(hasFrames(context), isIdle(context));
+const mayStep = (context: PlayContext): true | string => each(hasMotion(context), isIdle(context));
 
 export const STEP_BACK: Action<PlayContext> = {
   ...{ id: 'stepBack', icon: 'earlier', keys: [','] },

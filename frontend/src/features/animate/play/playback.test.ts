@@ -1,5 +1,6 @@
 import { compileSource } from '../../board/compile/compileSource.ts';
 import { describe, expect, test } from 'vitest';
+import { makeBlock } from '#shared/group/blockEdits.ts';
 import { emptyGroup, type ActionGroup } from '#shared/group/group.ts';
 import { insertFrame, setMeta, type NewFrame } from '#shared/group/groupEdits.ts';
 import { startHistory } from '#shared/document/history.ts';
@@ -10,7 +11,7 @@ import { createTestPage } from '../../pageUnderTest.ts';
 import { createSharedSlots } from '../../board/slots/sharedSlotsUnderTest.ts';
 import { INITIAL_SERVO_VIEW } from '../../servoView.ts';
 import { runByKey } from '../../../ui/action.ts';
-import { STEPS } from './playActions.ts';
+import { PLAY_ACTIONS, STEPS } from './playActions.ts';
 
 const frame = (durationMs: number, position: number, more: Partial<NewFrame> = {}): NewFrame => ({
   durationMs,
@@ -89,6 +90,37 @@ describe('playing on the drawing alone', () => {
     playback.togglePreview();
     await draw(4100);
     expect([phase(), playhead.at()]).toEqual(['previewing', 500]);
+  });
+});
+
+describe('a group made only of blocks', () => {
+  const refs = WAVE.frames.map(({ id: frameId }) => ({ frameId, servo: 1 }));
+  const BLOCKS = makeBlock(WAVE, refs, 'All')!;
+
+  test('may be played, looked at, stepped through and run as any other, and an empty one is not looked at', async () => {
+    const page = await pageWith(BLOCKS);
+    const { playback, playhead, draw, phase, noticeTexts } = page;
+    expect(BLOCKS.frames).toEqual([]);
+    expect(PLAY_ACTIONS.map((action) => action.enabled(page))).toEqual(PLAY_ACTIONS.map(() => true));
+    const stops = [0, 400, 1400];
+    for (const at of stops.slice(1)) {
+      playback.step(1);
+      expect(playhead.at()).toBe(at);
+    }
+    playhead.go(0);
+    playback.togglePreview();
+    await draw(200);
+    expect([phase(), playhead.at()]).toEqual(['previewing', 200]);
+    playback.togglePreview();
+    page.document.edit(
+      () => 'clear',
+      () => emptyGroup('New', 'us'),
+    );
+    playhead.go(0);
+    playback.togglePreview();
+    await draw(200);
+    expect([phase(), playhead.at()]).toEqual([null, 0]);
+    expect(noticeTexts()).toContain('Capture a frame first.');
   });
 });
 

@@ -4,7 +4,8 @@
 import { compileSource } from '../../board/compile/compileSource.ts';
 import { problemText } from '../../board/compile/problems.tsx';
 import type { StoreApi } from 'zustand/vanilla';
-import { totalDurationMs } from '#shared/group/group.ts';
+import { blocksOf, endOfBlock } from '#shared/group/blocks.ts';
+import { type ActionGroup, holdsMotion, totalDurationMs } from '#shared/group/group.ts';
 import { frameEnds } from '#shared/group/tracks.ts';
 import type { Activity } from '#shared/robot/state.ts';
 import { words } from '../../../i18n/whole.ts';
@@ -43,6 +44,12 @@ export const SPEED_PERCENT = { min: 10, max: 200 } as const;
 const NEAR_END_MS = 100;
 
 export const playerOf = (playback: Playback): Player => playback.player(createPlayer);
+
+/** The ends of frames, and both ends of blocks. */
+function stopsOf(group: ActionGroup): readonly number[] {
+  const ends = blocksOf(group).flatMap((block) => [block.startMs, endOfBlock(block)]);
+  return [0, ...frameEnds(group.frames), ...ends].sort((one, other) => one - other);
+}
 
 function createPlayer(options: PlaybackOptions, store: StoreApi<PlaybackState>): Player {
   const { device, document, compiled, slots, notices, view, playhead, robots } = options;
@@ -151,6 +158,10 @@ function createPlayer(options: PlaybackOptions, store: StoreApi<PlaybackState>):
   }
 
   function preview(): void {
+    if (!holdsMotion(document.store.getState().present)) {
+      notices.show('warning', words.board.nothingToDownload);
+      return;
+    }
     store.setState({ isLive: false });
     const { speedPercent } = store.getState();
     const part = playedPart.part();
@@ -245,7 +256,7 @@ function createPlayer(options: PlaybackOptions, store: StoreApi<PlaybackState>):
   }
 
   function step(direction: 1 | -1): void {
-    const stops = [0, ...frameEnds(document.store.getState().present.frames)];
+    const stops = stopsOf(document.store.getState().present);
     const at = playhead.at();
     const to =
       direction === 1 ? stops.find((stopMs) => stopMs > at) : stops.findLast((stopMs) => stopMs < at);

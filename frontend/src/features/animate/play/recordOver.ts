@@ -3,7 +3,7 @@
 
 import { unpackedWithin } from '#shared/group/blockEdits.ts';
 import { copyFrames, pasteKeys } from '#shared/group/clip.ts';
-import type { ActionGroup } from '#shared/group/group.ts';
+import { holdsMotion, type ActionGroup } from '#shared/group/group.ts';
 import { insertFrame } from '#shared/group/groupEdits.ts';
 import { timesOf } from '#shared/group/groupTimes.ts';
 import { deleteKeys } from '#shared/group/keyEdits.ts';
@@ -28,7 +28,7 @@ export const keyCountOf = ({ frames }: ActionGroup): number =>
 
 /** Behind a gentle way from where the group ends; an empty one takes the unit. */
 export function appended(before: ActionGroup, { frames, unit }: ActionGroup): ActionGroup {
-  if (before.frames.length > 0 && before.unit !== unit) return before;
+  if (holdsMotion(before) && before.unit !== unit) return before;
   return frames.reduce((sum, frame) => insertFrame(sum, sum.frames.length, frame, unit), before);
 }
 

@@ -5,6 +5,7 @@ import { duplicateKeys, copyKeys, pasteKeys, type Clip, type Pasted } from '#sha
 import { makeBlock } from '#shared/group/blockEdits.ts';
 import { blockOver, blocksOf, motionTracks } from '#shared/group/blocks.ts';
 import type { Easing } from '#shared/group/curves.ts';
+import { holdsMotion } from '#shared/group/group.ts';
 import { mirror, setColour, deleteMarker } from '#shared/group/frameEdits.ts';
 import { deleteKeys, setEasing, setKey, smoothKeys } from '#shared/group/keyEdits.ts';
 import type { ServoTarget } from '#shared/codec/commands.ts';
@@ -58,7 +59,7 @@ export function setKeysAt(context: TimelineContext, servos: readonly number[], a
     edit: (group) =>
       placed.reduce(
         (sum, { servo, position: there }) => setKey(sum, servo, atMs, there),
-        group.frames.length === 0 ? { ...group, unit } : group,
+        holdsMotion(group) ? group : { ...group, unit },
       ),
     selects: ({ tracks }) =>
       keysAt(

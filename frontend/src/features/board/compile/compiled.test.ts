@@ -1,7 +1,8 @@
 import { describe, expect, test } from 'vitest';
 import { eventually } from '#shared/testing/eventually.ts';
 import { insertFrame, setMeta } from '#shared/group/groupEdits.ts';
-import { groupFromText, groupToText } from '#shared/group/group.ts';
+import { makeBlock } from '#shared/group/blockEdits.ts';
+import { emptyGroup, groupFromText, groupToText } from '#shared/group/group.ts';
 import { createCompiled, obstacles } from './compiled.ts';
 import { createTestPage } from '../../pageUnderTest.ts';
 import { compileSource, type Source } from './compileSource.ts';
@@ -40,6 +41,24 @@ describe('the group as the board gets it', () => {
     await clock.advance(100);
     expect(state().isFresh).toBe(true);
     expect(state().latest.report.frameCount).toBe(2);
+  });
+
+  test('made only of blocks is worked out from the start of a visit', async () => {
+    const made = [1000, 1500].reduce(
+      (group, position) => insertFrame(group, group.frames.length, frame(position)),
+      emptyGroup('Wave', 'us'),
+    );
+    const blocks = makeBlock(
+      made,
+      [1, 2].map((frameId) => ({ frameId, servo: 1 })),
+      'All',
+    )!;
+    expect(blocks.frames).toEqual([]);
+    const { compiled, clock } = await createTestPage(new Map([['servodeck.group', groupToText(blocks)]]));
+    expect(compiled.store.getState().isFresh).toBe(false);
+    expect(compiled.now(compileSource).frames.length).toBeGreaterThan(0);
+    await clock.advance(300);
+    expect(compiled.store.getState().latest.report.frameCount).toBeGreaterThan(0);
   });
 
   test('is not worked out within a gesture', async () => {

@@ -3,7 +3,7 @@
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import type { CompileProblem } from '#shared/group/compileReport.ts';
-import { type ActionGroup, maxErrorOf, groupToText } from '#shared/group/group.ts';
+import { type ActionGroup, holdsMotion, maxErrorOf, groupToText } from '#shared/group/group.ts';
 import type { Clock } from '#shared/clock.ts';
 import type { Device } from '../../../robot/device.ts';
 import { type Document, knownFamily } from '../../groupDocument.ts';
@@ -63,8 +63,8 @@ export function createCompiled({
   }
   const store = createStore<CompiledState>(() => ({ latest: nothingOf(wanted()), isFresh: true }));
 
-  /** The first one of a group with frames is still to come. */
-  let isMade = wanted().group.frames.length === 0;
+  /** The first one of a group with motion is still to come. */
+  let isMade = !holdsMotion(wanted().group);
 
   const isLatest = (source: Source): boolean => isMade && isSame(source, store.getState().latest.source);
 

@@ -3,7 +3,7 @@
 import { compileSource } from '../compile/compileSource.ts';
 import { problemText } from '../compile/problems.tsx';
 import { useMemo, useState, useEffect } from 'react';
-import type { ActionGroup } from '#shared/group/group.ts';
+import { holdsMotion, type ActionGroup } from '#shared/group/group.ts';
 import { ownSlot, slotFor } from '#shared/group/slotPlaces.ts';
 import type { Listed } from '#shared/files/documentStore.ts';
 import { useDevice, useRobot, useStores, useLibrary, useSnapshot } from '../../stores.ts';
@@ -246,7 +246,7 @@ export function hindranceOf(one: Wanted, all: readonly Wanted[]): string | null 
   const { group } = one.compiled.source;
   const [problem] = obstacles(one.compiled.report, 'board');
   if (problem !== undefined) return problemText(problem, one.compiled.source);
-  if (group.frames.length === 0) return words.slots.several.noFrame;
+  if (!holdsMotion(group)) return words.slots.several.noFrame;
   const isTaken = all.some((other) => other !== one && other.slot === one.slot);
   return isTaken ? words.slots.several.sameSlot({ slot: one.slot }) : null;
 }

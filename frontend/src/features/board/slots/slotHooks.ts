@@ -2,7 +2,7 @@
 
 import { recordOf, contentOf, type SlotContent } from '#shared/group/slotBook.ts';
 import { holds } from '#shared/document/history.ts';
-import { useSlots, useSnapshot, useCompiled, useDocument, useLibrary } from '../../stores.ts';
+import { useSlots, useSnapshot, useCompiled, useDocument, useHoldsMotion, useLibrary } from '../../stores.ts';
 import type { Truth } from '../../../ui/Chip.tsx';
 
 /** Names from this page's downloads or from the gateway; undefined if the content is unknown or broken. */
@@ -31,7 +31,7 @@ export function useSlotContents(): (slot: number) => SlotContent {
   const versions = useSnapshot(({ slotVersions }) => slotVersions) ?? NO_VERSIONS;
   const latest = useCompiled((state) => state.latest);
   const documentId = useLibrary((state) => state.openId);
-  const isEmpty = useDocument(({ present }) => present.frames.length === 0);
+  const isEmpty = !useHoldsMotion();
   // Compiling follows an edit a little later: a result for an earlier group does not count.
   const isOfThis = useDocument((history) => holds(history, latest.source.group));
   const fingerprint = isOfThis ? latest.fingerprint : '';

@@ -3,7 +3,7 @@
 
 import { memo, useCallback, useEffect, useRef, useState, useMemo } from 'react';
 import { useStore } from 'zustand';
-import type { ActionGroup } from '#shared/group/group.ts';
+import { holdsMotion, type ActionGroup } from '#shared/group/group.ts';
 import type { Remark } from '#shared/files/reading.ts';
 import { Button, IconButton } from '../../../ui/Button.tsx';
 import { ProgressBar } from '../../../ui/ProgressBar.tsx';
@@ -247,7 +247,7 @@ function SaveAs() {
   const group = useGroup();
   const [format, setFormat] = useState<SaveFormat>('json');
   const losses = useMemo(() => lossesIn(format, group), [format, group]);
-  if (group.frames.length === 0) return <p className={saveAs.dim}>{words.files.nothing}</p>;
+  if (!holdsMotion(group)) return <p className={saveAs.dim}>{words.files.nothing}</p>;
   return (
     <>
       <div>

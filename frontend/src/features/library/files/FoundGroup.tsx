@@ -4,6 +4,7 @@
 import { useMemo } from 'react';
 import { type Unit, meaningIn, UNIT_RANGE } from '#shared/files/reading.ts';
 import { type ActionGroup, totalDurationMs, poseAt } from '#shared/group/group.ts';
+import { flattened } from '#shared/group/blockEdits.ts';
 import { filled, misfitsOf } from '#shared/files/fit.ts';
 import { meaningText, misfitText } from './fileText.ts';
 import { words } from '../../../i18n/whole.ts';
@@ -98,7 +99,8 @@ export function FoundGroup({ found, isUnitMissing, answer, onAnswer, onTake }: F
   const robot = useRobot();
   const { unit, converts } = answer;
   const group = takenAs(found, answer, family.unit);
-  const { frames } = group;
+  const shown = useMemo(() => flattened(group), [group]);
+  const { frames } = shown;
   return (
     <div className={styles.group}>
       <div className={styles.row}>
@@ -109,10 +111,10 @@ export function FoundGroup({ found, isUnitMissing, answer, onAnswer, onTake }: F
             changed={[]}
           />
         </span>
-        <GroupPlot group={group} />
+        <GroupPlot group={shown} />
         <div className={styles.words}>
           <p className={styles.name}>{group.name}</p>
-          <p className={styles.dim}>{aboutOf(group)}</p>
+          <p className={styles.dim}>{aboutOf(shown)}</p>
         </div>
         <Button
           tone="primary"
@@ -131,7 +133,7 @@ export function FoundGroup({ found, isUnitMissing, answer, onAnswer, onTake }: F
           onChange={(isOn) => onAnswer({ converts: isOn })}
         />
       )}
-      {unit !== null && <Misfits group={group} />}
+      {unit !== null && <Misfits group={shown} />}
     </div>
   );
 }

@@ -2,7 +2,7 @@
 // cancels. A worker reads them, so that the page stays responsive. Knows no dialog.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
-import type { ActionGroup } from '#shared/group/group.ts';
+import { holdsMotion, type ActionGroup } from '#shared/group/group.ts';
 import type { Stores } from '../../stores.ts';
 import { words } from '../../../i18n/whole.ts';
 import { firstAnswers, type Answer, type AnsweredFile, type ReadyGroup } from './answers.ts';
@@ -11,7 +11,7 @@ import type { Reading } from '#shared/files/reading.ts';
 type Needed = Pick<Stores, 'document' | 'library' | 'view' | 'notices'>;
 
 export function takeGroup({ document, library, view, notices }: Needed, group: ActionGroup): void {
-  if (document.store.getState().present.frames.length > 0) library.create();
+  if (holdsMotion(document.store.getState().present)) library.create();
   document.edit(
     () => words.files.step({ name: group.name }),
     () => group,

@@ -1,4 +1,5 @@
 import { expect, test } from 'vitest';
+import { makeBlock } from '#shared/group/blockEdits.ts';
 import { emptyGroup } from '#shared/group/group.ts';
 import { insertFrame } from '#shared/group/groupEdits.ts';
 import { createVirtualClock } from '#shared/testing/virtualClock.ts';
@@ -26,6 +27,18 @@ test('groups of files become documents; what was being written is still there', 
   expect(page.names()).toEqual(['Bow', 'Nod', 'Wave']);
   page.document.undo();
   expect(page.group().frames).toHaveLength(0);
+});
+
+test('a group made only of blocks is not written over', async () => {
+  const page = createVisit(createMemoryStore(), createVirtualClock());
+  const blocks = makeBlock(group('Turn'), [{ frameId: 1, servo: 1 }], 'All')!;
+  expect(blocks.frames).toEqual([]);
+  takeGroup(page, blocks);
+  await page.later();
+  takeGroup(page, group('Wave'));
+  await page.later();
+  await page.library.refresh();
+  expect(page.names()).toEqual(['Turn', 'Wave']);
 });
 
 test('what is taken is shown, whatever was worked on', () => {

@@ -4,7 +4,7 @@
 import styles from './RobotView.module.css';
 import { type KeyboardEvent, type PointerEvent, useRef, useState } from 'react';
 import { Plane, Vector3 } from 'three';
-import type { Vec3 } from '#shared/kinematics/model.ts';
+import { lengthOf, minus, type Vec3 } from '#shared/kinematics/model.ts';
 import { type Robot, servoOf, positionOf, type RobotServo } from '#shared/profile/robot.ts';
 import { words } from '../../../i18n/whole.ts';
 import { Button } from '../../../ui/Button.tsx';
@@ -22,6 +22,7 @@ import {
   poseOfLimb,
   takeLimb,
   radiansOf,
+  type LeadMode,
 } from './limbs.ts';
 import type { Model } from './model.ts';
 import { turnedBy } from './ring.ts';
@@ -48,6 +49,8 @@ interface Hold {
   readonly plane: Plane;
   readonly besideTip: Vector3;
   leading: Leading;
+  /** Where the tip was wished last. */
+  wished: Vec3;
 }
 
 /** Sits over the end of a limb; moved past React. */
@@ -66,7 +69,8 @@ export function LimbHandle({ limb, isLevel, isBlocked, model, onElement }: LimbH
     const facing = room.stage.camera.getWorldDirection(new Vector3());
     const plane = new Plane().setFromNormalAndCoplanarPoint(facing, tip);
     const at = pointOn(plane, room, event) ?? tip;
-    hold.current = { pointer: event.pointerId, plane, besideTip: tip.clone().sub(at), leading };
+    const wished = poseOfLimb(leading).tip;
+    hold.current = { pointer: event.pointerId, plane, besideTip: tip.clone().sub(at), leading, wished };
     event.currentTarget.setPointerCapture(event.pointerId);
     setHeld(true);
   }
@@ -77,8 +81,11 @@ export function LimbHandle({ limb, isLevel, isBlocked, model, onElement }: LimbH
     if (held === null || room === null || held.pointer !== event.pointerId) return;
     const at = pointOn(held.plane, room, event)?.add(held.besideTip);
     if (at === undefined) return;
-    const led = lead(stores, held.leading, [at.x, at.y, at.z - room.liftM()], isLevel, 'follow');
+    const wished: Vec3 = [at.x, at.y, at.z - room.liftM()];
+    const askedM = lengthOf(minus(wished, held.wished));
+    const led = lead(stores, held.leading, wished, isLevel, { how: 'follow', askedM });
     held.leading = led.leading;
+    held.wished = wished;
     setShort(led.missM > SHORT_M);
   }
 
@@ -96,7 +103,9 @@ export function LimbHandle({ limb, isLevel, isBlocked, model, onElement }: LimbH
     const by = event.shiftKey ? STEP_M.coarse : STEP_M.fine;
     const { tip } = poseOfLimb(leading);
     const wished: Vec3 = [tip[0] + way[0] * by, tip[1] + way[1] * by, tip[2] + way[2] * by];
-    lead(stores, leading, wished, isLevel, 'follow');
+    // One press gets its millimetre also beside the axis of the base; a key that is held asks as a hand does.
+    const askedM = event.repeat ? by : STEP_M.coarse;
+    lead(stores, leading, wished, isLevel, { how: 'follow', askedM });
   }
 
   return (
@@ -168,7 +177,7 @@ export function PlaceFields({ limb, isLevel, isBlocked }: LimbProps) {
     if (leading === null || place === null) return;
     const { tip } = poseOfLimb(leading);
     const along = (axis: number): number => (axis === index ? mm / 1000 : (tip[axis] ?? 0));
-    const { missM } = lead(stores, leading, [along(0), along(1), along(2)], isLevel, 'reach');
+    const { missM } = lead(stores, leading, [along(0), along(1), along(2)], isLevel, { how: 'reach' });
     if (missM > SHORT_M)
       stores.notices.refuse(words.robot3d.outOfReach({ missMm: Math.round(missM * 1000) }));
   }
@@ -235,13 +244,13 @@ function tipInRoom(leading: Leading, model: Model): Vector3 {
 }
 
 /** A drag streams as a slider does; a typed place is one slow move, or none where it is out of reach. */
-function lead(stores: Stores, leading: Leading, tip: Vec3, isLevel: boolean, how: 'follow' | 'reach'): Led {
+function lead(stores: Stores, leading: Leading, tip: Vec3, isLevel: boolean, mode: LeadMode): Led {
   const led = leadTo(leading, stores.robots.current().robot, {
-    ...{ tip, how, rise: isLevel ? 0 : null },
+    ...{ tip, mode, rise: isLevel ? 0 : null },
     isLocked: (servo) => isLocked(stores, servo),
   });
   const free = freeOf(stores, led.targets);
-  if (how === 'follow') stores.device.drag(free, 'hand');
+  if (mode.how === 'follow') stores.device.drag(free, 'hand');
   else if (led.missM <= SHORT_M) stores.device.move(free, 'leap');
   return led;
 }

@@ -121,9 +121,11 @@ export function takeLimb(limb: LedLimb, robot: Robot, positions: Positions): Lea
 
 export const poseOfLimb = ({ limb, angles }: Leading): ChainPose => poseOfChain(limb.chain, angles);
 
+/** `follow`: the nearest way, for a hand that has moved by so much. `reach`: any elbow, for a place that was typed. */
+export type LeadMode = { readonly how: 'follow'; readonly askedM: number } | { readonly how: 'reach' };
+
 interface Lead extends Wish {
-  /** `follow`: the nearest way, for a drag. `reach`: any elbow, for a place that was typed. */
-  readonly how: 'follow' | 'reach';
+  readonly mode: LeadMode;
   isLocked(servo: number): boolean;
 }
 
@@ -133,10 +135,11 @@ export interface Led {
   readonly missM: number;
 }
 
-export function leadTo(leading: Leading, robot: Robot, { how, isLocked, ...wish }: Lead): Led {
+export function leadTo(leading: Leading, robot: Robot, { mode, isLocked, ...wish }: Lead): Led {
   const { limb, angles } = leading;
   const chain = withLocks(limb, angles, isLocked);
-  const { angles: found, missM }: Solution = (how === 'follow' ? follow : reach)(chain, angles, wish);
+  const { angles: found, missM }: Solution =
+    mode.how === 'follow' ? follow(chain, angles, wish, mode.askedM) : reach(chain, angles, wish);
   const targets = targetsOf(limb, robot, found, isLocked);
   return { leading: { limb, angles: found }, targets, missM };
 }
@@ -196,10 +199,10 @@ export function pathOf(
   group: ActionGroup,
   unit: Family['unit'],
 ): readonly PathPoint[] {
-  const { ends, tracks: own } = timesOf(group);
+  const { lengthMs: toMs, tracks: own } = timesOf(group);
   const tracks = motionTracks(group, own);
-  const [fromMs, toMs] = [ends[0] ?? 0, ends.at(-1) ?? 0];
-  if (ends.length < 2) return [];
+  const fromMs = Math.min(...[...tracks.values()].map(({ keys }) => keys[0]?.atMs ?? toMs));
+  if (fromMs >= toMs) return [];
   const count = Math.min(MOST_POINTS, Math.ceil((toMs - fromMs) / EACH_MS) + 1);
   return Array.from({ length: count }, (_, index) => {
     const atMs = fromMs + ((toMs - fromMs) * index) / (count - 1);
