@@ -1027,13 +1027,14 @@ export interface components {
     /**
      * DocumentWrite
      * @description `expected` is the revision at which it was read, 0 for a new one. `isRemoved` writes it to the trash:
-     *     several documents that are to appear together are written so, and then restored together.
+     *     several documents that are to appear together are written so, and then restored together. `facts` are
+     *     those of a group; a robot's are computed from its text, whatever is said here.
      */
     DocumentWrite: {
       /** Expected */
       expected: number;
       /** Facts */
-      facts: components['schemas']['GroupFacts'] | components['schemas']['RobotFacts-Input'];
+      facts?: (components['schemas']['GroupFacts'] | components['schemas']['RobotFacts-Input']) | null;
       /** Isremoved */
       isRemoved: boolean;
       /**
@@ -2238,9 +2239,14 @@ export interface components {
     /**
      * RobotFacts
      * @description The facts of a robot that the gateway needs: the limits of its servos and the poses for programs, in
-     *     the board's unit. `lowBatteryMv`: at or below, its battery is low; null where a page of before stored it.
+     *     the board's unit. `lowBatteryMv`: at or below, its battery is low; at or below `alarmMv` its
+     *     `batteryPolicy` holds. These are null where a version of before stored it.
      */
     'RobotFacts-Input': {
+      /** Alarmmv */
+      alarmMv?: number | null;
+      /** Batterypolicy */
+      batteryPolicy?: ('tell' | 'refuse' | 'rest') | null;
       /** Board */
       board: string;
       /**
@@ -2262,9 +2268,14 @@ export interface components {
     /**
      * RobotFacts
      * @description The facts of a robot that the gateway needs: the limits of its servos and the poses for programs, in
-     *     the board's unit. `lowBatteryMv`: at or below, its battery is low; null where a page of before stored it.
+     *     the board's unit. `lowBatteryMv`: at or below, its battery is low; at or below `alarmMv` its
+     *     `batteryPolicy` holds. These are null where a version of before stored it.
      */
     'RobotFacts-Output': {
+      /** Alarmmv */
+      alarmMv: number | null;
+      /** Batterypolicy */
+      batteryPolicy: ('tell' | 'refuse' | 'rest') | null;
       /** Board */
       board: string;
       /**
