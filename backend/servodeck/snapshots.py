@@ -255,7 +255,8 @@ PlayStatus = Literal["playing", "done", "ended"]
 class PlayState(Message):
     """A play of the gateway by its own clock, and its progress. `times` 0: until stopped. `by`: the client
     that began it. `lateFrames` began so late that later frames were delayed, by `latestMs` at most;
-    `skippedFrames` did not leave. `ended`: before its last frame had ended; `code` and `detail` say why.
+    `skippedFrames` did not leave. `batteryUnknown`: new runs are refused at an alarm, and its battery could
+    not be judged. `ended`: before its last frame had ended; `code` and `detail` say why.
     """
 
     id: str
@@ -267,6 +268,7 @@ class PlayState(Message):
     late_frames: int = 0
     latest_ms: int = 0
     skipped_frames: int = 0
+    battery_unknown: bool = False
     code: ErrorCode | None = None
     detail: str | None = None
 

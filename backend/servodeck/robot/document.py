@@ -18,9 +18,6 @@ from servodeck.schema import Message, has_more_values, is_object, text_member
 from servodeck.snapshots import MAX_SAFE, BatteryPolicy, NamedPose, PoseTarget, RobotFacts, ServoLimits
 
 KIT_FORMAT: Final = "servodeck-robot-kit"
-NAME_LENGTH: Final = 64
-TRIM: Final = Range(-125, 125)
-MAX_POSITION: Final = 0xFFFF
 # More than a text of the library has room for, and few enough to parse without others waiting.
 MAX_VALUES: Final = 250_000
 # What JavaScript trims.
@@ -28,7 +25,9 @@ SPACES: Final = (
     "\t\n\v\f\r \u00a0\u1680\u2000\u2001\u2002\u2003\u2004\u2005\u2006\u2007\u2008\u2009\u200a"
     "\u2028\u2029\u202f\u205f\u3000\ufeff"
 )
-_SUPPLIES: Final = load_shared("supplies")
+_ROBOTS: Final = load_shared("robots")
+NAME_LENGTH: Final[int] = _ROBOTS["nameLength"]
+TRIM, BATTERY_MV, SUPPLY_MA = (Range(**_ROBOTS[name]) for name in ("trim", "batteryMv", "supplyMa"))
 
 Found = TypeVar("Found", bound=Message)
 
@@ -77,8 +76,8 @@ Name = Annotated[str, AfterValidator(trimmed), within(1, NAME_LENGTH)]
 UrdfName = Annotated[str, within(1, 128)]
 Position = Annotated[int, WHOLE, Field(ge=0, le=2500)]
 Trim = Annotated[int, WHOLE, Field(ge=TRIM.min, le=TRIM.max)]
-Millivolts = Annotated[int, WHOLE, Field(ge=4000, le=13_000)]
-Milliamperes = Annotated[int, WHOLE, Field(ge=100, le=60_000)]
+Millivolts = Annotated[int, WHOLE, Field(ge=BATTERY_MV.min, le=BATTERY_MV.max)]
+Milliamperes = Annotated[int, WHOLE, Field(ge=SUPPLY_MA.min, le=SUPPLY_MA.max)]
 AnyWhole = Annotated[int, WHOLE, Field(ge=-MAX_SAFE, le=MAX_SAFE)]
 RunningId = Annotated[int, WHOLE, Field(ge=1, le=MAX_SAFE)]
 ServoNumber = Annotated[int, WHOLE, Field(ge=1, le=253)]
@@ -166,7 +165,7 @@ class RobotFile(RoughRobotFile):
 
 class DocumentTarget(Message):
     servo: Annotated[int, WHOLE, Field(ge=0, le=0xFF)]
-    position: Annotated[int, WHOLE, Field(ge=0, le=MAX_POSITION)]
+    position: Annotated[int, WHOLE, Field(ge=0, le=0xFFFF)]
 
 
 class Pose(Message):
@@ -253,7 +252,7 @@ def pose_on_board(
 ) -> NamedPose | None:
     """As the board counts. None where a trim takes it out of what can be sent."""
     on_board = [(servo, position + trims.get(servo, 0)) for servo, position in targets]
-    if any(not 0 <= position <= MAX_POSITION for _, position in on_board):
+    if any(not 0 <= position <= 0xFFFF for _, position in on_board):
         return None
     sent = [PoseTarget(servo=servo, position=position) for servo, position in on_board]
     return NamedPose(id=number, name=name, unit=unit, targets=sent)
@@ -261,10 +260,10 @@ def pose_on_board(
 
 def usual_supply(robot: RoughRobot) -> dict[str, int]:
     """The thresholds that are usual for what feeds it. Twin of usualSupply in battery.ts."""
-    cells = _SUPPLIES["cells"][robot.battery]
+    cells = _ROBOTS["cells"][robot.battery]
     if cells:
-        return {name: mv * cells for name, mv in _SUPPLIES["cell"].items()}
-    usual: dict[str, int] = _SUPPLIES["adapterUs" if FAMILIES[robot.board].unit == "us" else "adapterSteps"]
+        return {name: mv * cells for name, mv in _ROBOTS["cell"].items()}
+    usual: dict[str, int] = _ROBOTS["adapterUs" if FAMILIES[robot.board].unit == "us" else "adapterSteps"]
     return usual
 
 

@@ -1574,6 +1574,7 @@ export interface components {
             | 'busy'
             | 'slotBroken'
             | 'slotChanged'
+            | 'batteryLow'
             | 'cancelled'
             | 'outOfRange'
             | 'malformed'
@@ -1702,6 +1703,7 @@ export interface components {
             | 'busy'
             | 'slotBroken'
             | 'slotChanged'
+            | 'batteryLow'
             | 'cancelled'
             | 'outOfRange'
             | 'malformed'
@@ -1938,9 +1940,15 @@ export interface components {
      * PlayState
      * @description A play of the gateway by its own clock, and its progress. `times` 0: until stopped. `by`: the client
      *     that began it. `lateFrames` began so late that later frames were delayed, by `latestMs` at most;
-     *     `skippedFrames` did not leave. `ended`: before its last frame had ended; `code` and `detail` say why.
+     *     `skippedFrames` did not leave. `batteryUnknown`: new runs are refused at an alarm, and its battery could
+     *     not be judged. `ended`: before its last frame had ended; `code` and `detail` say why.
      */
     PlayState: {
+      /**
+       * Batteryunknown
+       * @default false
+       */
+      batteryUnknown: boolean;
       /** By */
       by: string;
       /** Code */
@@ -1966,6 +1974,7 @@ export interface components {
             | 'busy'
             | 'slotBroken'
             | 'slotChanged'
+            | 'batteryLow'
             | 'cancelled'
             | 'outOfRange'
             | 'malformed'
@@ -2024,6 +2033,12 @@ export interface components {
      *     needs neither. `continueForMs`: how long it may continue without a `heartbeat`.
      */
     PlayWish: {
+      /**
+       * Anyway
+       * @description A person wants it although the battery is at its alarm and new runs are refused.
+       * @default false
+       */
+      anyway?: boolean;
       /** Continueforms */
       continueForMs?: number | null;
       /** Frames */
@@ -2088,6 +2103,7 @@ export interface components {
             | 'busy'
             | 'slotBroken'
             | 'slotChanged'
+            | 'batteryLow'
             | 'cancelled'
             | 'outOfRange'
             | 'malformed'
@@ -2188,6 +2204,7 @@ export interface components {
         | 'busy'
         | 'slotBroken'
         | 'slotChanged'
+        | 'batteryLow'
         | 'cancelled'
         | 'outOfRange'
         | 'malformed'
@@ -2296,10 +2313,13 @@ export interface components {
     };
     /**
      * RunBegun
-     * @description `acknowledged`: the board has accepted the command, which says nothing about the slot. `silent`: the
+     * @description `batteryUnknown`: a run is refused where the battery is at its alarm, and its voltage is not known.
+     *     `acknowledged`: the board has accepted the command, which says nothing about the slot. `silent`: the
      *     acknowledgement is missing. `sent`: such a board sends none.
      */
     RunBegun: {
+      /** Batteryunknown */
+      batteryUnknown?: boolean | null;
       /** Ended */
       ended?: boolean | null;
       /**
@@ -2326,6 +2346,12 @@ export interface components {
      * @description `times` 0: until stopped. `continueForMs`: how long the run may continue without a `heartbeat`.
      */
     RunWish: {
+      /**
+       * Anyway
+       * @description A person wants it although the battery is at its alarm and new runs are refused.
+       * @default false
+       */
+      anyway?: boolean;
       /** Continueforms */
       continueForMs?: number | null;
       /**

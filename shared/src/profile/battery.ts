@@ -1,7 +1,7 @@
 // What feeds a robot and what its volts mean: the ends of the gauge, where to warn and to alarm, what share of a pack is left
 // (boards.md chapter 8); and what many readings say together, none of which is trusted alone. Pure; knows no clock.
 
-import supplies from '../../protocol/supplies.json' with { type: 'json' };
+import robots from '../../protocol/robots.json' with { type: 'json' };
 import timings from '../../protocol/timings.json' with { type: 'json' };
 import { FAMILIES, type FamilyId } from '../codec/families.ts';
 import type { BatteryKind, Robot } from './robot.ts';
@@ -19,7 +19,7 @@ export interface Supply {
   readonly ceilingMv: number | null;
 }
 
-const CELLS = supplies.cells as Readonly<Record<BatteryKind, Supply['cells']>>;
+const CELLS = robots.cells as Readonly<Record<BatteryKind, Supply['cells']>>;
 
 export function supplyOf({ battery, board, batteryCare }: Robot): Supply {
   const cells = CELLS[battery];
@@ -27,9 +27,9 @@ export function supplyOf({ battery, board, batteryCare }: Robot): Supply {
   return { cells, ...usual, ...batteryCare.thresholds, ceilingMv: FAMILIES[board].batteryCeilingMv };
 }
 
-function usualSupply(cells: Supply['cells'], board: FamilyId): typeof supplies.cell {
-  if (cells === 0) return FAMILIES[board].unit === 'us' ? supplies.adapterUs : supplies.adapterSteps;
-  const { lowMv, highMv, warnMv, alarmMv } = supplies.cell;
+function usualSupply(cells: Supply['cells'], board: FamilyId): typeof robots.cell {
+  if (cells === 0) return FAMILIES[board].unit === 'us' ? robots.adapterUs : robots.adapterSteps;
+  const { lowMv, highMv, warnMv, alarmMv } = robots.cell;
   return {
     lowMv: lowMv * cells,
     highMv: highMv * cells,
@@ -37,6 +37,10 @@ function usualSupply(cells: Supply['cells'], board: FamilyId): typeof supplies.c
     alarmMv: alarmMv * cells,
   };
 }
+
+/** New runs are refused with the battery at or below; null: never. */
+export const refusedBelowMv = (robot: Robot): number | null =>
+  robot.batteryCare.policy === 'tell' ? null : supplyOf(robot).alarmMv;
 
 /** The same robot fed by something else: thresholds set for one pack mean nothing for another. */
 export function fedBy(robot: Robot, battery: BatteryKind): Robot {
