@@ -63,15 +63,18 @@ function readsFirstLoad(): Plugin {
  * Node knows no other import of JSON than that of the whole; of a namespace the bundler sees which sections are used, and puts their numbers
  * where they are. 0.7 KiB of the first load.
  */
-function timingsInPlace(): Plugin {
+function numbersInPlace(): Plugin {
   return {
-    name: 'timings-in-place',
+    name: 'numbers-in-place',
     enforce: 'pre',
     apply: 'build',
     transform: {
-      filter: { code: '/protocol/timings.json' },
+      filter: { code: /[/]protocol[/](?:timings|robots)[.]json/ },
       handler: (text) => ({
-        code: text.replace(/import (\w+) from ('[^']+timings[.]json') with [^;]+/, 'import * as $1 from $2'),
+        code: text.replace(
+          /import (\w+) from ('[^']+[/](?:timings|robots)[.]json') with [^;]+/,
+          'import * as $1 from $2',
+        ),
         map: null,
       }),
     },
@@ -98,7 +101,7 @@ export default defineConfig({
     react(),
     words(),
     withoutSources(),
-    timingsInPlace(),
+    numbersInPlace(),
     readsFirstLoad(),
     squeezed(),
     licences(),

@@ -26,7 +26,7 @@ NEEDED = (
     "servodeck/py.typed",
     "servodeck/static/third-party-licences.txt",
     *("servodeck/static/index.html", "servodeck/static/index.html.br", "servodeck/__main__.py"),
-    *("servodeck/protocol/families.json", "servodeck/protocol/timings.json"),
+    *(f"servodeck/protocol/{name}.json" for name in ("families", "robots", "timings")),
     "servodeck/protocol/bluetooth.json",
     "servodeck/protocol/usb.json",
 )

@@ -28,6 +28,7 @@ ErrorCode = Literal[
     "busy",
     "slotBroken",
     "slotChanged",
+    "batteryLow",
     "cancelled",
     "outOfRange",
     "malformed",
@@ -198,6 +199,13 @@ class SlotChangedError(GatewayError):
     """The slot does not hold any more what the caller has seen there."""
 
     code: ClassVar[ErrorCode] = "slotChanged"
+    status: ClassVar[int] = 409
+
+
+class BatteryLowError(GatewayError):
+    """The battery is at its alarm, and the robot refuses new runs then. A person may run it anyway."""
+
+    code: ClassVar[ErrorCode] = "batteryLow"
     status: ClassVar[int] = 409
 
 

@@ -90,11 +90,14 @@ class BatteryMessage(Message):
 
 
 class DoneMessage(Message):
-    """The request with that `id` is done. `outcome`: of a command for the board."""
+    """The request with that `id` is done. `outcome`: of a command for the board. `batteryUnknown`: of a run,
+    which is refused at an alarm of its battery, that could not be judged.
+    """
 
     type: Literal["done"] = "done"
     id: MessageId
     outcome: Outcome | None = None
+    battery_unknown: bool = False
 
 
 class RefusedMessage(Message):

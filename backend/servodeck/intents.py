@@ -46,6 +46,12 @@ class GroupBody(Message):
     frames: Annotated[list[FrameBody], Field(min_length=1, max_length=255)]
 
 
+Anyway = Annotated[
+    bool,
+    Field(description="A person wants it although the battery is at its alarm and new runs are refused."),
+]
+
+
 class PlayIntent(Message):
     """`frames` one after the other, gently to the first one, each at its time by the gateway's clock. `times`
     0: until stopped. Each pass but the first begins with frame `loopFrom`.
@@ -54,6 +60,7 @@ class PlayIntent(Message):
     frames: Annotated[list[FrameBody], Field(min_length=1, max_length=PLAYED_FRAMES)]
     times: Annotated[int, Field(ge=0, le=0xFFFF)] = 1
     loop_from: Annotated[int, Field(ge=0, lt=PLAYED_FRAMES)] = 0
+    anyway: Anyway = False
 
 
 # A packet is 255 bytes at most; one more is let in so that the gate can say what is wrong with it.
@@ -100,6 +107,7 @@ class RunMessage(Message):
     slot: Slot
     times: Annotated[int, Field(ge=0, le=0xFFFF)]
     nonce: Nonce | None
+    anyway: Anyway = False
 
 
 class StopGroupMessage(Message):

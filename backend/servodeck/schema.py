@@ -84,6 +84,16 @@ def has_more_values(text: str, most: int) -> bool:
         raise ValueError(str(error)) from error
 
 
+def text_member(text: str, name: str) -> str | None:
+    """That member of a JSON object, where it is a text."""
+    if not is_object(text):
+        return None
+    query = "SELECT value FROM json_each(?) WHERE key = ? AND type = 'text'"
+    with closing(sqlite3.connect(":memory:")) as db:
+        row = db.execute(query, (text, name)).fetchone()
+    return str(row[0]) if row else None
+
+
 def answer_to(question: str, text: str) -> int:
     with closing(sqlite3.connect(":memory:")) as db:
         return int(db.execute(question, (text,)).fetchone()[0] or 0)

@@ -255,7 +255,8 @@ PlayStatus = Literal["playing", "done", "ended"]
 class PlayState(Message):
     """A play of the gateway by its own clock, and its progress. `times` 0: until stopped. `by`: the client
     that began it. `lateFrames` began so late that later frames were delayed, by `latestMs` at most;
-    `skippedFrames` did not leave. `ended`: before its last frame had ended; `code` and `detail` say why.
+    `skippedFrames` did not leave. `batteryUnknown`: new runs are refused at an alarm, and its battery could
+    not be judged. `ended`: before its last frame had ended; `code` and `detail` say why.
     """
 
     id: str
@@ -267,6 +268,7 @@ class PlayState(Message):
     late_frames: int = 0
     latest_ms: int = 0
     skipped_frames: int = 0
+    battery_unknown: bool = False
     code: ErrorCode | None = None
     detail: str | None = None
 
@@ -332,9 +334,16 @@ class NamedPose(Message):
     targets: Annotated[list[PoseTarget], Field(min_length=1, max_length=253)]
 
 
+BatteryPolicy = Literal["tell", "refuse", "rest"]
+"""What a battery at its alarm brings about, each with what is before it: the person is warned; nothing new is
+run or played; the robot goes to rest and is stopped by the page that drives.
+"""
+
+
 class RobotFacts(Message):
     """The facts of a robot that the gateway needs: the limits of its servos and the poses for programs, in
-    the board's unit. `lowBatteryMv`: at or below, its battery is low; null where a page of before stored it.
+    the board's unit. `lowBatteryMv`: at or below, its battery is low; at or below `alarmMv` its
+    `batteryPolicy` holds. These are null where a version of before stored it.
     """
 
     kind: Literal["robot"]
@@ -344,6 +353,8 @@ class RobotFacts(Message):
     limits: Annotated[list[ServoLimits], Field(max_length=253)]
     poses: Annotated[list[NamedPose], Field(max_length=1001)]
     low_battery_mv: Whole | None = None
+    battery_policy: BatteryPolicy | None = None
+    alarm_mv: Whole | None = None
 
 
 class FleetStatus(Message):

@@ -14,6 +14,8 @@ from servodeck.fleet.console import Console
 from servodeck.fleet.gateway import NO_PAGE, FleetGateway
 from servodeck.fleet.reports import Page
 from servodeck.robot.control import Control
+from servodeck.robot.profile import no_robot
+from servodeck.snapshots import RobotFacts
 from tests.boards import new_board
 from tests.fake_port import FakePorts
 from tests.mosquitto import LAB, USERS, Mosquitto
@@ -31,8 +33,16 @@ class Gateway:
         self.name = name
         self.ahead_s = ahead_s
         self.board = new_board()
-        self.control = Control(FakePorts(self.board), lambda: time.monotonic() + self.ahead_s, "doc", DEVICE)
+        self.robot: RobotFacts | None = None
+        """What its library holds."""
+        self.control = Control(
+            *(FakePorts(self.board), lambda: time.monotonic() + self.ahead_s, "doc", DEVICE),
+            read_robot=self._read_robot,
+        )
         self.door = FleetGateway(self.control, broker, LAB, name, page)
+
+    def _read_robot(self, document: str) -> tuple[RobotFacts, int]:
+        return (self.robot, 1) if self.robot else no_robot(document)
 
     async def start(self) -> None:
         await self.control.use_port(DEVICE)

@@ -19,6 +19,7 @@ from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.packets import encode
 from servodeck.protocol.values import Move, ServoTarget
 from servodeck.robot.control import Control
+from servodeck.robot.profile import ReadFacts, no_robot
 from servodeck.snapshots import JobState
 from tests.downloading import ended
 from tests.fake_port import FakePort, FakePorts
@@ -89,6 +90,7 @@ async def script(
     clock_ms: Callable[[], int] = wall_clock_ms,
     valid_ms: int | None = None,
     store: DeviceStore | None = None,
+    read_robot: ReadFacts = no_robot,
 ) -> AsyncIterator[Scripted]:
     """`behind` the port. `identifies`: the board is asked who it is from now on. `clock_ms`: of the list of
     devices, by which the token expires after `valid_ms`.
@@ -97,7 +99,7 @@ async def script(
     entrance = Entrance(addresses.lan(PORT), DevicesInMemory(store or NoDeviceStore(), clock_ms), now)
     _, owner = entrance.devices.admit("device", "Olga", "owner")
     device, token = entrance.devices.admit("token", "Dance", role, valid_ms)
-    control = Control(FakePorts(port), now, board, identifies_board=identifies)
+    control = Control(FakePorts(port), now, board, identifies_board=identifies, read_robot=read_robot)
     await control.use_port(DEVICE)
     await asyncio.sleep(0.1)
     app = create_app(control, NO_LIBRARY, entrance)

@@ -3,18 +3,24 @@
 import json
 from collections.abc import Iterator
 from functools import partial
+from typing import Any
 
 import pytest
 
 from servodeck.callers import THIS_COMPUTER
 from servodeck.fleet.outcomes import RefusedError
 from servodeck.fleet.rules import Received
+from servodeck.fleet.topics import Verb
+from servodeck.robot.document import robot_facts
 from tests.fleet import Fleet, Gateway, console_of, eventually, fleet_on
 from tests.mosquitto import Mosquitto, needs_mosquitto
 from tests.raw_client import FOR_ARM, REPLY, raw_client
+from tests.robots import care, robot_text
 
 pytestmark = [pytest.mark.slow, needs_mosquitto]
 MOVE, RUN, STOP = 3, 6, 7
+# 6.5 V.
+LOW_BATTERY = bytes.fromhex("5555040f6419")
 NAMES = ("arm-1", "arm-2", "arm-3")
 Robots = tuple[Fleet, list[Gateway]]
 TARGETS = [{"servo": 1, "position": 1500}]
@@ -58,6 +64,26 @@ def test_a_driver_moves_runs_and_stops(mosquitto: Mosquitto, fleet: Robots) -> N
         console.ask("arm-1", "resume")
         assert console.ask("arm-1", "run", slot=3).outcome == "acknowledged"
         assert other.count(RUN) == other.count(MOVE) == 0
+
+
+def test_a_battery_at_its_alarm_refuses_runs_until_a_person_says_anyway(
+    mosquitto: Mosquitto, fleet: Robots
+) -> None:
+    maker, (arm, *_) = fleet
+    arm.robot = robot_facts(robot_text(batteryCare=care("refuse", 7000, 6600)), 0)
+    maker.do(arm.control.robot.put("arm", None))
+    maker.call(lambda: arm.board.say(LOW_BATTERY))
+    with console_of(mosquitto, "anna", *NAMES) as console:
+        assert eventually(lambda: arm.control.board.battery.rested is not None)
+        assert console.ask("arm-1", "ask", action="request").drives
+        start = {"name": "dance", "start_ms": 0.0, "uncertainty_ms": 1.0}
+        wishes: dict[Verb, dict[str, Any]] = {"run": {"slot": 3}, "prepare": {"slot": 3, **start}}
+        for verb, wish in wishes.items():
+            with pytest.raises(RefusedError) as refused:
+                console.ask("arm-1", verb, **wish)
+            assert refused.value.code == "batteryLow"
+        assert arm.count(RUN) == 0
+        assert console.ask("arm-1", "run", slot=3, anyway=True).outcome == "acknowledged"
 
 
 def test_stop_for_all_reaches_all_and_those_that_come_later(mosquitto: Mosquitto, fleet: Robots) -> None:

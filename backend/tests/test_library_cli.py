@@ -10,10 +10,11 @@ from typer.testing import CliRunner
 
 from servodeck.cli.main import app
 from servodeck.cli.options import FAILURE
+from tests.robots import robot_text, written
 from tests.samples import ERASE
 from tests.scripted import move
 from tests.test_cli import Served, run
-from tests.test_poses_api import ARM
+from tests.test_poses_api import POSES
 
 pytestmark = pytest.mark.exhaustive
 
@@ -39,8 +40,8 @@ def served(tmp_path: Path) -> Iterator[Served]:
 
 def describe(served: Served) -> None:
     with httpx2.Client(base_url=served.url) as script:
-        for name, facts in (("arm", ARM), ("wave", WAVE)):
-            document = {"text": "{}", "facts": facts, "expected": 0, "isRemoved": False}
+        arm, wave = written(robot_text(poses=POSES)), written("{}", facts=WAVE)
+        for name, document in (("arm", arm), ("wave", wave)):
             script.put(f"/api/library/{name}", json=document).raise_for_status()
         script.put("/api/robot", json={"id": "arm"}).raise_for_status()
 
@@ -48,7 +49,7 @@ def describe(served: Served) -> None:
 def test_poses_are_listed_and_gone_to_by_name_or_number(served: Served) -> None:
     assert "no poses yet" in run("poses", "--url", served.url).stdout
     describe(served)
-    assert run("poses", "--url", served.url).stdout.splitlines()[:2] == ["  1  Greeting", "  2  Rest"]
+    assert run("poses", "--url", served.url).stdout.splitlines()[1:3] == ["  1  Greeting", "  2  Rest"]
     assert json.loads(run("poses", "--url", served.url, "--json").stdout)["robot"] == "Arm"
     gone = run("pose", "2", "--url", served.url)
     assert (gone.exit_code, gone.stdout) == (0, "Moving; ends in 1.5 s.\n")

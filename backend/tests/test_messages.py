@@ -87,6 +87,7 @@ def test_names_on_the_wire_are_camel_case() -> None:
         "type": "done",
         "id": 3,
         "outcome": "sent",
+        "batteryUnknown": False,
     }
     message: TypeAdapter[Any] = TypeAdapter(GatewayMessage)
     assert message.validate_json(encode(DoneMessage(id=3, outcome="sent"))) == DoneMessage(

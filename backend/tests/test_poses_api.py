@@ -1,6 +1,5 @@
 """The poses of the robot on the board, as a script finds them and goes there."""
 
-import json
 import time
 from pathlib import Path
 from typing import Any
@@ -8,8 +7,8 @@ from typing import Any
 from httpx2 import AsyncClient
 
 from servodeck.library.library import Library
-from servodeck.snapshots import RobotFacts
 from tests.fake_port import FakePort, FakePorts
+from tests.robots import robot_text, written
 from tests.running import http_to
 from tests.samples import STOP
 from tests.scripted import move, refusal
@@ -20,35 +19,30 @@ def pose(number: int, name: str, unit: str = "us", **positions: int) -> dict[str
     return {"id": number, "name": name, "unit": unit, "targets": targets}
 
 
-BOOK = {
-    "robot": "Arm",
-    "poses": [
-        pose(1, "Greeting", s1=1800, s2=900),
-        pose(2, "Rest", s1=1500),
-        pose(3, "Rest", s1=1400),
-        pose(4, "2", s1=1300),
-        pose(5, "Steps", "steps", s1=500),
-        pose(6, "Far", s1=2600),
-    ],
-}
-
-
-ARM = {"kind": "robot", "name": "Arm", "board": "doc", "updatedAtMs": 0, "limits": [], "poses": BOOK["poses"]}
+POSES = [
+    pose(1, "Greeting", s1=1800, s2=900),
+    pose(2, "Rest", s1=1500),
+    pose(3, "Rest", s1=1400),
+    pose(4, "2", s1=1300),
+    pose(5, "Steps", "steps", s1=500),
+    pose(6, "Far", s1=2600),
+]
+HOME = pose(0, "home", s1=1500)
 
 
 async def describe(client: AsyncClient) -> None:
-    document = {"text": "{}", "facts": ARM, "expected": 0, "isRemoved": False}
+    document = written(robot_text(poses=POSES))
     assert (await client.put("/api/library/arm", json=document)).status_code == 200
     assert (await client.put("/api/robot", json={"id": "arm"})).status_code == 204
 
 
 async def test_the_poses_are_those_of_the_robot_on_the_board(tmp_path: Path) -> None:
-    async with http_to(FakePorts(FakePort()), time.monotonic, library=Library(tmp_path)) as (client, control):
+    async with http_to(FakePorts(FakePort()), time.monotonic, library=Library(tmp_path)) as (client, _):
         assert (await client.get("/api/poses")).json() == {"robot": "", "poses": []}
         await describe(client)
-        assert (await client.get("/api/poses")).json() == BOOK
-        control.robot.written("arm", 2, RobotFacts.model_validate_json(json.dumps(ARM | {"poses": []})))
-        assert (await client.get("/api/poses")).json()["poses"] == []
+        assert (await client.get("/api/poses")).json() == {"robot": "Arm", "poses": [HOME, *POSES]}
+        await client.put("/api/library/arm", json=written(robot_text(), 1))
+        assert (await client.get("/api/poses")).json()["poses"] == [HOME]
 
 
 async def test_a_script_goes_to_a_pose_by_number_or_name(tmp_path: Path) -> None:

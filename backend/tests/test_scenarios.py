@@ -22,6 +22,7 @@ from servodeck.protocol.values import Frame, ReadPositions, ServoTarget
 from servodeck.robot.board.download import Group, made_of, packets_of
 from servodeck.robot.board.playing import FrameGroup
 from servodeck.robot.control import Control
+from servodeck.robot.operations import PageClaim
 from servodeck.robot.scripts import Scripts
 from servodeck.snapshots import PlayState
 from tests.client import ANNA, Client
@@ -181,7 +182,8 @@ class Player:
         self._control.requests.move(self._session, targets, duration_ms, self._session.nonce)
 
     async def _run(self, slot: int, times: int) -> None:
-        if await self._scripts.run(ANNA, slot, times, take=False) == "silent":
+        ran = await self._scripts.run(ANNA, slot, times, take=False)
+        if ran.outcome == "silent":
             raise NoAnswerError("The board did not say that it runs the group.")
 
     async def _read(self, intent: Event) -> None:
@@ -215,7 +217,8 @@ class Player:
             self._control.driving.act(self._session, "request")
         group = FrameGroup(frames_of(intent), intent["times"], intent["loopFrom"])
         ended: asyncio.Future[PlayState] = asyncio.get_running_loop().create_future()
-        self._control.requests.play(self._session, group, self._session.nonce, ended.set_result)
+        claim = PageClaim(self._control, self._session, self._session.nonce)
+        await self._control.operations.play(claim, group, ended.set_result)
         await ended
 
     def _ms(self, at_s: float) -> float:

@@ -1,4 +1,4 @@
-// The battery's settings are accessible and fit.
+// The battery's settings are accessible and fit, and thresholds that cannot be are refused with words.
 
 import { dashboardOf, expect, test } from './harness/test.ts';
 import { expectSound, looks } from './harness/sound.ts';
@@ -17,5 +17,23 @@ for (const viewport of looks([
     await dashboard.button('Battery settings').click();
     await page.getByRole('radio', { name: 'Go to rest and stop' }).check();
     await expectSound('battery settings');
+  });
+}
+
+for (const [field, typed] of [
+  ['Alarm at, in millivolts', '7200'],
+  ['Warn at, in millivolts', '6000'],
+] as const) {
+  test(`${field}: one the wrong way round is refused with words`, async ({ page, url }) => {
+    const dashboard = dashboardOf(page);
+    await page.goto(url);
+    await expect(dashboard.link).toContainText('Ready');
+    await dashboard.button('Battery settings').click();
+    const number = page.getByRole('textbox', { name: field });
+    const before = await number.inputValue();
+    await number.fill(typed);
+    await number.press('Enter');
+    await expect(page.getByText(/battery alarm \d+ mV is not below its warning \d+ mV/u)).toBeVisible();
+    await expect(number).toHaveValue(before);
   });
 }

@@ -239,8 +239,8 @@ EXAMPLES: dict[tuple[str, str], Example] = {
     ),
     ("POST", "/api/slots/{slot}/run"): Example(
         {"outcome": "acknowledged"},
-        {"times": 2, "continueForMs": 60000, "take": False},
-        (*ON_THE_WIRE, "slotBroken"),
+        {"times": 2, "continueForMs": 60000, "take": False, "anyway": False},
+        (*ON_THE_WIRE, "slotBroken", "batteryLow"),
     ),
     ("POST", "/api/download"): Example(
         JOB,
@@ -429,6 +429,7 @@ PROBLEMS: dict[ErrorCode, str] = {
     "portBusy": "Another program uses the port.",
     "portDenied": "This user may not open the port.",
     "portMissing": "There is no such port.",
+    "batteryLow": "The battery is at 6.50 V, its alarm at 6.60 V: new runs are refused.",
     "slotBroken": "Slot 5 holds half a group: download it again.",
     "slotChanged": "Something else was stored in slot 5 in the meantime.",
     "storageBusy": "The library is busy.",

@@ -1,10 +1,11 @@
 """The library over HTTP, and the choice of the robot on the board.
 
-Translates between messages, `library` and `control`; decides only what text is a document. The library waits
-for a disk: in threads, where STOP does not wait for it.
+Translates between messages, `library` and `control`; decides only what text is a document, and
+computes the facts of a robot. The library waits for a disk: in threads, where STOP does not wait for it.
 """
 
 import json
+import logging
 import secrets
 from typing import Annotated, Any, Literal
 
@@ -15,9 +16,10 @@ from starlette.requests import HTTPConnection
 
 from servodeck.api.routes import DRIVER, OWNER, VIEWER, Controlled, leaves, routes
 from servodeck.callers import Caller, as_script
-from servodeck.errors import MalformedError, NotDrivingError, OutOfRangeError
-from servodeck.library.library import Library, Listed, Version
+from servodeck.errors import GatewayError, MalformedError, NotDrivingError, OutOfRangeError
+from servodeck.library.library import Library, Listed, Version, wall_clock_ms
 from servodeck.robot.control import Control
+from servodeck.robot.document import KIT_FORMAT, is_kit, robot_facts
 from servodeck.robot.profile import ReadFacts
 from servodeck.schema import Message, is_object
 from servodeck.snapshots import Name, PoseTarget, RobotFacts, Whole
@@ -28,6 +30,7 @@ DRAFT = "draft"
 MAX_DRAFTS = 20
 GROUP_FORMAT = "servodeck-group"
 MAX_NAME = 64
+log = logging.getLogger("servodeck.library")
 
 Id = Annotated[str, Field(pattern=r"^[A-Za-z0-9-]{1,64}$")]
 Text = Annotated[
@@ -88,12 +91,13 @@ class StoredDocument(Message):
 
 class DocumentWrite(Message):
     """`expected` is the revision at which it was read, 0 for a new one. `isRemoved` writes it to the trash:
-    several documents that are to appear together are written so, and then restored together.
+    several documents that are to appear together are written so, and then restored together. `facts` are
+    those of a group; a robot's are computed from its text, whatever is said here.
 
     """
 
     text: Text
-    facts: Facts
+    facts: Facts | None = None
     expected: Whole
     is_removed: bool
 
@@ -142,11 +146,19 @@ async def library_of(connection: HTTPConnection) -> Library:
 
 
 def robots_in(library: Library) -> ReadFacts:
-    """Reads the facts of robots, for the robot on the board."""
+    """Reads the facts of robots from their texts, for the robot on the board. The stored ones stand in for
+    a text that cannot be read: a version of before stored any.
+    """
 
     def read(document: str) -> tuple[RobotFacts, int]:
-        facts, revision = library.facts_of(document, "robot")
-        return RobotFacts.model_validate_json(facts), revision
+        stored, revision = library.facts_of(document, "robot")
+        facts = RobotFacts.model_validate_json(stored)
+        try:
+            text, revision_of_text = library.read(document)
+            return robot_facts(text, facts.updated_at_ms), revision_of_text
+        except GatewayError as error:
+            log.warning("robot not read from its text", extra={"facts": {"detail": error.detail}})
+            return facts, revision
 
     return read
 
@@ -233,26 +245,41 @@ async def write(
     client drives, only that client and owners may change the limits of the robot on the board.
 
     """
-    judge_limits(document, wanted, control, caller)
-    revision = await run_in_threadpool(keep, document, wanted, library, caller)
-    if isinstance(wanted.facts, RobotFacts):
-        control.robot.written(document, revision, wanted.facts)
+    facts = await run_in_threadpool(facts_in, wanted)
+    judge_limits(document, facts, control, caller)
+    revision = await run_in_threadpool(keep, document, wanted, facts, library, caller)
+    if isinstance(facts, RobotFacts):
+        control.robot.written(document, revision, facts)
     return DocumentWritten(revision=revision)
 
 
-def judge_limits(document: str, wanted: DocumentWrite, control: Control, caller: Caller) -> None:
-    facts = wanted.facts
+def facts_in(wanted: DocumentWrite) -> Facts:
+    """What the text says of itself counts. Raises MalformedError. Takes a while."""
+    check_document(wanted.text)
+    told = wanted.facts
+    if is_kit(wanted.text):
+        if isinstance(told, GroupFacts):
+            raise MalformedError("facts: they describe a group, and the text is a robot")
+        return robot_facts(wanted.text, told.updated_at_ms if told else wall_clock_ms())
+    if isinstance(told, GroupFacts):
+        return told
+    raise MalformedError(
+        "facts: those of a group are missing"
+        if told is None
+        else f"text: a robot of the library is a {KIT_FORMAT}, as a page stores it"
+    )
+
+
+def judge_limits(document: str, facts: Facts, control: Control, caller: Caller) -> None:
     is_ruled = isinstance(facts, RobotFacts) and control.robot.changes_limits(document, facts)
     if is_ruled and not control.driving.may_rule(caller):
         raise NotDrivingError("Another client drives: only the driver or an owner may change the limits.")
 
 
-def keep(document: str, wanted: DocumentWrite, library: Library, caller: Caller) -> int:
+def keep(document: str, wanted: DocumentWrite, facts: Facts, library: Library, caller: Caller) -> int:
     """Waits for the disk."""
-    check_document(wanted.text)
     if wanted.is_removed and not caller.may("owner"):
         library.require_removed(document)
-    facts = wanted.facts
     return library.write(
         document,
         wanted.text,

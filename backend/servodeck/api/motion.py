@@ -17,7 +17,7 @@ from servodeck.api.waiting import Waiting, WaitMs
 from servodeck.api.websocket import play as play_for_page
 from servodeck.callers import Caller
 from servodeck.errors import CancelledError, MalformedError
-from servodeck.intents import ContinueMs, GroupBody, MessageId, Nonce, PersonId, PlayIntent, Servo
+from servodeck.intents import Anyway, ContinueMs, GroupBody, MessageId, Nonce, PersonId, PlayIntent, Servo
 from servodeck.robot.board.download import frames_of, group_of, parts_of
 from servodeck.robot.board.playing import FrameGroup
 from servodeck.robot.scripts import ScriptAction, Scripts
@@ -68,15 +68,18 @@ class RunWish(Message):
     times: Annotated[int, Field(ge=0, le=0xFFFF)] = 1
     continue_for_ms: ContinueMs | None = None
     take: Take = False
+    anyway: Anyway = False
     wait_ms: WaitMs | None = None
 
 
 class RunBegun(Begun):
-    """`acknowledged`: the board has accepted the command, which says nothing about the slot. `silent`: the
+    """`batteryUnknown`: a run is refused where the battery is at its alarm, and its voltage is not known.
+    `acknowledged`: the board has accepted the command, which says nothing about the slot. `silent`: the
     acknowledgement is missing. `sent`: such a board sends none.
     """
 
     outcome: Outcome
+    battery_unknown: bool | None = None
 
 
 class EraseWish(Message):
@@ -181,8 +184,14 @@ async def run(
     """Runs the group in that slot; a motion in progress ends first. It is stopped 2 s after the last
     `heartbeat`, unless it may continue.
     """
-    outcome = await scripts.run(caller, slot, wish.times, take=wish.take, continue_ms=wish.continue_for_ms)
-    return RunBegun(outcome=outcome, ended=await waits.ran(slot, wish.wait_ms))
+    ran = await scripts.run(
+        *(caller, slot, wish.times),
+        take=wish.take,
+        continue_ms=wish.continue_for_ms,
+        anyway=wish.anyway,
+    )
+    ended = await waits.ran(slot, wish.wait_ms)
+    return RunBegun(outcome=ran.outcome, battery_unknown=ran.is_battery_unknown or None, ended=ended)
 
 
 @motion_api.post("/erase", dependencies=ONCE_SETTLED)
@@ -339,11 +348,14 @@ async def play(
     """
     group = FrameGroup(await frames_of(wish.frames), wish.times, wish.loop_from)
     if wish.nonce is None:
-        begun = await scripts.play(caller, group, take=wish.take, continue_ms=wish.continue_for_ms)
+        begun = await scripts.play(
+            caller, group, take=wish.take, continue_ms=wish.continue_for_ms, anyway=wish.anyway
+        )
         return await waits.played(begun, wish.wait_ms)
     if wish.id is None:
         raise MalformedError("id: a page needs one beside its nonce")
-    return play_for_page(group, wish.id, wish.nonce, control.driving.driving_page(caller), control)
+    page = control.driving.driving_page(caller)
+    return await play_for_page(group, wish, wish.id, wish.nonce, page, control)
 
 
 @play_api.delete("/play", dependencies=[SEEN_AT_ROBOT])

@@ -29,6 +29,7 @@ from servodeck.intents import (
     LeaseMessage,
     MoveMessage,
     PacketMessage,
+    PlayIntent,
     PlayMessage,
     ReadMessage,
     ReleaseMessage,
@@ -47,7 +48,7 @@ from servodeck.robot.board.playing import FrameGroup
 from servodeck.robot.control import Control
 from servodeck.robot.hub import AGAINST_THE_RULES, Session
 from servodeck.robot.latch import Cause
-from servodeck.robot.operations import PageClaim
+from servodeck.robot.operations import PageClaim, Ran
 from servodeck.robot.requests import judge_packet
 from servodeck.schema import first_problem
 from servodeck.snapshots import Outcome, PlayState
@@ -206,15 +207,24 @@ def answer_move(session: Session, message_id: int, left: Left) -> None:
 def take_play(message: PlayMessage, session: Session, control: Control) -> None:
     frames = [body.frame() for body in message.frames]
     group = FrameGroup(frames, message.times, message.loop_from)
-    with refusing(session, message.id):
-        play(group, message.id, message.nonce, session, control)
+
+    async def begun() -> None:
+        with refusing(session, message.id):
+            await play(group, message, message.id, message.nonce, session, control)
+
+    session.begin(begun())
 
 
-def play(group: FrameGroup, message_id: int, nonce: str, session: Session, control: Control) -> PlayState:
+async def play(
+    group: FrameGroup, wish: PlayIntent, message_id: int, nonce: str, session: Session, control: Control
+) -> PlayState:
     """Raises what prevents it from beginning. The client is notified of its end."""
-    return control.requests.play(
-        session, group, nonce, lambda state: session.put(encode(PlayedMessage(id=message_id, play=state)))
-    )
+    claim = PageClaim(control, session, nonce)
+
+    def ended(state: PlayState) -> None:
+        session.put(encode(PlayedMessage(id=message_id, play=state)))
+
+    return await control.operations.play(claim, group, ended, anyway=wish.anyway)
 
 
 def take_packet(message: PacketMessage, session: Session, control: Control) -> None:
@@ -222,7 +232,7 @@ def take_packet(message: PacketMessage, session: Session, control: Control) -> N
         command = judge_packet(message.bytes, control.board.family_id).command
         if isinstance(command, Run):  # which ends first what moves
             claim = PageClaim(control, session, message.nonce)
-            perform(session, message.id, control.operations.run(claim, command.slot, command.times))
+            perform_run(session, message.id, control.operations.run(claim, command.slot, command.times))
             return
         left = control.requests.send(session, message.bytes, message.nonce)
         left.add_done_callback(lambda left: answer(session, message.id, left))
@@ -230,7 +240,18 @@ def take_packet(message: PacketMessage, session: Session, control: Control) -> N
 
 def take_run(message: RunMessage, session: Session, control: Control) -> None:
     claim = PageClaim(control, session, message.nonce)
-    perform(session, message.id, control.operations.run(claim, message.slot, message.times))
+    run = control.operations.run(claim, message.slot, message.times, anyway=message.anyway)
+    perform_run(session, message.id, run)
+
+
+def perform_run(session: Session, message_id: int, work: Coroutine[Any, Any, Ran]) -> None:
+    async def answered() -> None:
+        with refusing(session, message_id):
+            ran = await work
+            done = DoneMessage(id=message_id, outcome=ran.outcome, battery_unknown=ran.is_battery_unknown)
+            session.put(encode(done))
+
+    session.begin(answered())
 
 
 def take_erase(message: EraseMessage, session: Session, control: Control) -> None:

@@ -16,6 +16,7 @@ from servodeck.cli.options import (
     INTERRUPTED,
     TIMED_OUT,
     USAGE,
+    Anyway,
     AsJson,
     MoveTime,
     Take,
@@ -28,6 +29,7 @@ from servodeck.cli.options import (
     fail,
     once_identified,
     request,
+    say_of_battery,
     show,
 )
 from servodeck.cli.remote import LONG_WAIT_S, RefusedError, Remote, UnreachableError, stopped_words
@@ -143,6 +145,7 @@ def run(
         ),
     ] = None,
     take: Take = False,
+    anyway: Anyway = False,
     as_json: AsJson = False,
 ) -> None:
     """Run a group of the board and wait for its end; Ctrl-C stops it. An endless run returns at once."""
@@ -154,10 +157,12 @@ def run(
     body = {
         "times": times,
         "take": take,
+        "anyway": anyway,
         "continueForMs": None if continue_for_s is None else continue_for_s * 1000,
     }
     answer = request(remote, "POST", f"/api/slots/{slot}/run", body)
     show(answer, as_json, lambda begun: f"Slot {slot}: {begun['outcome']}.")
+    say_of_battery(answer)
     if continue_for_s is not None:
         if times == 0:
             print(endless(slot, continue_for_s), file=sys.stderr)

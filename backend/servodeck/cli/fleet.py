@@ -29,7 +29,18 @@ from servodeck.cli.broker import (
 from servodeck.cli.broker_config import broker_config
 from servodeck.cli.commands import LONGEST_ALONE_S, usual_limit_s
 from servodeck.cli.groups import group_of
-from servodeck.cli.options import FAILURE, INTERRUPTED, TIMED_OUT, UNREACHABLE, USAGE, AsJson, Times, fail
+from servodeck.cli.options import (
+    BATTERY_UNKNOWN,
+    FAILURE,
+    INTERRUPTED,
+    TIMED_OUT,
+    UNREACHABLE,
+    USAGE,
+    Anyway,
+    AsJson,
+    Times,
+    fail,
+)
 from servodeck.cli.serve import Data, Lan, Listen, OpenPage, PublicUrl, serve
 
 if TYPE_CHECKING:
@@ -270,6 +281,7 @@ def run(
     together: Annotated[
         bool, typer.Option("--together", help="All at the same time, within milliseconds, or none.")
     ] = False,
+    anyway: Anyway = False,
 ) -> None:
     """Run a group of the boards of these robots and wait for its end; Ctrl-C stops it."""
     from servodeck.fleet.outcomes import FleetError
@@ -281,9 +293,9 @@ def run(
         for name in names:
             drive(console, name)
         if together:
-            begin_together(console, names, slot, times)
+            begin_together(console, names, slot, times, anyway=anyway)
         else:
-            begin(console, names, slot, times, continue_for_s)
+            begin(console, names, slot, times, continue_for_s, anyway=anyway)
         if continue_for_s is not None:
             return
         limit_s = watch(console, names, timeout_s)
@@ -299,22 +311,31 @@ def run(
 
 
 def begin(
-    console: "Console", names: Sequence[str], slot: int, times: int, continue_for_s: int | None
+    console: "Console",
+    names: Sequence[str],
+    slot: int,
+    times: int,
+    continue_for_s: int | None,
+    *,
+    anyway: bool,
 ) -> None:
     alone_ms = None if continue_for_s is None else min(continue_for_s, LONGEST_ALONE_S) * 1000
     begun = {
-        name: console.request(name, "run", slot=slot, times=times, continue_for_ms=alone_ms) for name in names
+        name: console.request(name, "run", slot=slot, times=times, continue_for_ms=alone_ms, anyway=anyway)
+        for name in names
     }
     for name, answered in begun.items():
         done = console.result_of(name, answered)
         print(f"{name}: slot {slot}, {done.outcome}.")
+        if done.battery_unknown:
+            print(f"{name}: {BATTERY_UNKNOWN}")
         console.beat()
 
 
-def begin_together(console: "Console", names: Sequence[str], slot: int, times: int) -> None:
+def begin_together(console: "Console", names: Sequence[str], slot: int, times: int, *, anyway: bool) -> None:
     from servodeck.fleet.together import start_together
 
-    start_together(console, names, slot, times)
+    start_together(console, names, slot, times, anyway=anyway)
     console.until(lambda: all(is_running(console, name) for name in names), HEAR_S)
     for name in names:
         print(f"{name}: slot {slot}, {'started' if is_running(console, name) else 'did not start'}.")

@@ -13,6 +13,7 @@ from servodeck.cli.options import (
     FAILURE,
     INTERRUPTED,
     USAGE,
+    Anyway,
     AsJson,
     Take,
     Times,
@@ -20,6 +21,7 @@ from servodeck.cli.options import (
     fail,
     once_identified,
     request,
+    say_of_battery,
     show,
 )
 from servodeck.cli.remote import LONG_WAIT_S, Remote
@@ -154,13 +156,16 @@ def play(
         ),
     ] = None,
     take: Take = False,
+    anyway: Anyway = False,
     as_json: AsJson = False,
 ) -> None:
     """Have the gateway play a group, frame by frame, and wait for its end; Ctrl-C stops it."""
     body: dict[str, Any] = {"frames": group_in(file)["frames"], "times": times, "take": take}
+    body["anyway"] = anyway
     if continue_for_s is not None:
         body["continueForMs"] = min(continue_for_s, LONGEST_ALONE_S) * 1000
     state = request(remote, "POST", "/api/play", body)
+    say_of_battery(state)
     if continue_for_s is None:
         state = watched(remote, state)
     show(state, as_json, play_words)

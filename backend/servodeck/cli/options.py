@@ -55,6 +55,9 @@ TokenFile = Annotated[
     typer.Option(envvar="SERVODECK_TOKEN_FILE", help="A file that holds the token and nothing else."),
 ]
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON.")]
+Anyway = Annotated[
+    bool, typer.Option("--anyway", help="Also while the battery is at its alarm and new runs are refused.")
+]
 Take = Annotated[bool, typer.Option("--take", help="Take the robot from its present driver (owners only).")]
 MoveTime = Annotated[int, typer.Option("--time", help="Milliseconds; a servo's first move takes 1500.")]
 Times = Annotated[int, typer.Option(help="0: until stopped.")]
@@ -107,6 +110,15 @@ def explain_silence(remote: Remote, error: UnreachableError) -> NoReturn:
 
 def show(answer: Any, as_json: bool, words: Callable[[Any], str]) -> None:
     print(json.dumps(answer) if as_json else words(answer))
+
+
+BATTERY_UNKNOWN = "the battery could not be judged before this run: the board did not tell its voltage."
+
+
+def say_of_battery(begun: Any) -> None:
+    """Beside the answer, where a run begins although its battery is not known."""
+    if begun.get("batteryUnknown"):
+        print(f"Note: {BATTERY_UNKNOWN}", file=sys.stderr)
 
 
 # As long as a board may take that has just started.

@@ -120,8 +120,9 @@ class AsyncRobot:
         wait: bool = True,
         timeout: float | None = None,  # noqa: ASYNC109
         alone: float | None = None,
+        anyway: bool = False,
     ) -> Outcome:
-        steps = self._vocabulary.run(group, times, wait=wait, timeout=timeout, alone=alone)
+        steps = self._vocabulary.run(group, times, wait=wait, timeout=timeout, alone=alone, anyway=anyway)
         outcome = await self._do(steps)
         if not wait and alone is None:
             self._beat()
@@ -137,9 +138,10 @@ class AsyncRobot:
         wait: bool = True,
         timeout: float | None = None,  # noqa: ASYNC109
         alone: float | None = None,
+        anyway: bool = False,
     ) -> None:
         steps = self._vocabulary.play(
-            frames, units, times, loop_from, wait=wait, timeout=timeout, alone=alone
+            frames, units, times, loop_from, wait=wait, timeout=timeout, alone=alone, anyway=anyway
         )
         await self._do(steps)
         if not wait and alone is None:

@@ -102,11 +102,15 @@ class Robot:
         wait: bool = True,
         timeout: float | None = None,
         alone: float | None = None,
+        anyway: bool = False,
     ) -> Outcome:
         """Runs a group of the board, by its name or slot; `times` 0: until stopped. Not waited for, it
-        continues until this robot is closed, or for `alone` seconds without this program.
+        continues until this robot is closed, or for `alone` seconds without this program. `anyway`:
+        although the battery is at its alarm, because a person wants it.
         """
-        outcome = self._do(self._vocabulary.run(group, times, wait=wait, timeout=timeout, alone=alone))
+        outcome = self._do(
+            self._vocabulary.run(group, times, wait=wait, timeout=timeout, alone=alone, anyway=anyway)
+        )
         if not wait and alone is None:
             self._beat()
         return outcome
@@ -121,12 +125,13 @@ class Robot:
         wait: bool = True,
         timeout: float | None = None,
         alone: float | None = None,
+        anyway: bool = False,
     ) -> None:
         """Plays frames by the gateway's clock: `[(0.5, {"Base": 30}), …]`. Otherwise as `run`; each pass but
         the first begins with frame `loop_from`.
         """
         steps = self._vocabulary.play(
-            frames, units, times, loop_from, wait=wait, timeout=timeout, alone=alone
+            frames, units, times, loop_from, wait=wait, timeout=timeout, alone=alone, anyway=anyway
         )
         self._do(steps)
         if not wait and alone is None:

@@ -105,13 +105,20 @@ class Vocabulary:
             yield from self._beat()
 
     def run(
-        self, group: str | int, times: int, *, wait: bool, timeout: float | None, alone: float | None
+        self,
+        group: str | int,
+        times: int,
+        *,
+        wait: bool,
+        timeout: float | None,
+        alone: float | None,
+        anyway: bool = False,
     ) -> Steps[Outcome]:
         if wait and times == 0 and timeout is None:
             raise ValueError("times=0 repeats until stopped: add a timeout, or wait=False.")
         until_s = self._until(timeout if wait else None)
         slot = group if isinstance(group, int) else (yield from self._slot_of(group))
-        body: dict[str, Any] = {"times": times}
+        body: dict[str, Any] = {"times": times, "anyway": anyway}
         if alone is not None:
             body["continueForMs"] = round(alone * 1000)
         begun = yield from self._begin(f"/api/slots/{slot}/run", body, IDENTIFIED_S + AFTER_END_S, until_s)
@@ -154,12 +161,13 @@ class Vocabulary:
         wait: bool,
         timeout: float | None,
         alone: float | None,
+        anyway: bool = False,
     ) -> Steps[None]:
         if wait and times == 0 and timeout is None:
             raise ValueError("times=0 repeats until stopped: add a timeout, or wait=False.")
         until_s = self._until(timeout if wait else None)
         bodies = yield from self._frames(frames, units)
-        body: dict[str, Any] = {"frames": bodies, "times": times, "loopFrom": loop_from}
+        body: dict[str, Any] = {"frames": bodies, "times": times, "loopFrom": loop_from, "anyway": anyway}
         if alone is not None:
             body["continueForMs"] = round(alone * 1000)
         begun = yield from self._begin("/api/play", body, IDENTIFIED_S, until_s)

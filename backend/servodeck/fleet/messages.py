@@ -10,7 +10,7 @@ from pydantic import ConfigDict, Field
 
 from servodeck.errors import ErrorCode
 from servodeck.fleet.topics import Kind, Verb
-from servodeck.intents import ContinueMs, GroupBody, Nonce, Slot, Target
+from servodeck.intents import Anyway, ContinueMs, GroupBody, Nonce, Slot, Target
 from servodeck.schema import Message
 from servodeck.snapshots import (
     BatteryState,
@@ -160,6 +160,7 @@ class RunRequest(TimelyRequest):
 
     slot: Slot
     times: Annotated[int, Field(ge=0, le=0xFFFF)] = 1
+    anyway: Anyway = False
     continue_for_ms: ContinueMs | None = None
 
 
@@ -207,6 +208,7 @@ class PrepareRequest(TimelyRequest):
     name: StartName
     slot: Slot
     times: Annotated[int, Field(ge=0, le=0xFFFF)] = 1
+    anyway: Anyway = False
     version: str | None = None
     start_ms: Annotated[float, Field(strict=False)]
     uncertainty_ms: Annotated[float, Field(ge=0, strict=False)]
@@ -241,7 +243,7 @@ AnyRequest = (
 
 class Done(Report):
     """`nonce` and `epoch` are for the next request; `drives`: the asking session has the lease. `outcome`: of
-    a command for the board. `state`: the answer to `report`.
+    a command for the board. `batteryUnknown`: of a run, as over HTTP. `state`: the answer to `report`.
     """
 
     kind: Literal["done"] = "done"
@@ -251,6 +253,7 @@ class Done(Report):
     epoch: Whole
     drives: bool
     outcome: Outcome | None = None
+    battery_unknown: bool | None = None
     job: JobState | None = None
     state: State | None = None
 
@@ -297,4 +300,6 @@ REQUESTS: dict[Verb, type[AnyRequest]] = {
 
 
 def encode(message: Message) -> bytes:
-    return message.model_dump_json(exclude_none=False).encode()
+    # A gateway of a version before refuses a field that it does not know.
+    unsaid = {"anyway"} if getattr(message, "anyway", None) is False else None
+    return message.model_dump_json(exclude=unsaid, exclude_none=False).encode()

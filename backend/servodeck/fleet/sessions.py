@@ -34,7 +34,7 @@ from servodeck.protocol.values import ServoTarget
 from servodeck.robot.board.download import group_of, parts_of
 from servodeck.robot.control import Control
 from servodeck.robot.hub import AGAINST_THE_RULES, Session
-from servodeck.robot.operations import PageClaim
+from servodeck.robot.operations import PageClaim, Ran
 from servodeck.robot.scripts import ScriptClaim
 
 # A group that was begun by a button is stopped after this time, at the latest.
@@ -140,17 +140,17 @@ class Sessions:
 
     async def _run(self, session: FleetSession, request: RunRequest) -> Done:
         claim = self._claim(session, request.nonce)
-        outcome = await self._control.operations.run(claim, request.slot, request.times)
+        ran = await self._control.operations.run(claim, request.slot, request.times, anyway=request.anyway)
         if request.continue_for_ms is not None:
             self._control.allow_unattended(session, request.continue_for_ms)
-        return self._done(session, request.n, outcome=outcome)
+        return self._ran(session, request.n, ran)
 
     async def _press(self, session: FleetSession, request: PressRequest) -> Done:
         """Takes a free lease, as a script does, and nobody keeps it behind a button."""
         claim = ScriptClaim(self._control, session, take=False)
-        outcome = await self._control.operations.run(claim, request.slot, 1)
+        ran = await self._control.operations.run(claim, request.slot, 1)
         self._control.allow_unattended(session, PRESSED_MS)
-        return self._done(session, request.n, outcome=outcome)
+        return self._ran(session, request.n, ran)
 
     async def _resume(self, session: FleetSession, request: ResumeRequest) -> Done:
         self._control.resume(session.caller, session)
@@ -173,6 +173,11 @@ class Sessions:
         return self._done(session, request.n, outcome=outcome)
 
     async def _prepare(self, session: FleetSession, request: PrepareRequest) -> Done:
+        """The battery is judged here: a run that is due may not wait for an answer of the board."""
+        guard = self._control.battery_guard
+        if not request.anyway:
+            await guard.ask()
+            guard.judge()
         lease, now = self._control.driving.lease, self._control.now()
         lease.permit(session, self._nonces.of_lease(request.nonce), now, PrepareRequest.WITHIN_S)
         self._promises.prepare(session, request)
@@ -187,12 +192,16 @@ class Sessions:
     def _keep_promise(self, promise: Promise) -> None:
         async def kept() -> None:
             with contextlib.suppress(GatewayError):  # the state says that nothing runs
-                await self._control.operations.run(promise, promise.command.slot, promise.command.times)
+                command = promise.command
+                await self._control.operations.run(promise, command.slot, command.times, anyway=True)
 
         promise.session.begin(kept())
 
     def _claim(self, session: FleetSession, nonce: str) -> PageClaim:
         return PageClaim(self._control, session, self._nonces.of_lease(nonce))
+
+    def _ran(self, session: FleetSession, n: int, ran: Ran) -> Done:
+        return self._done(session, n, outcome=ran.outcome, battery_unknown=ran.is_battery_unknown or None)
 
     def _done(self, session: FleetSession, n: int, **results: Any) -> Done:
         driving = self._control.driving

@@ -35,6 +35,8 @@ def start_together(
     lead_s: float = LEAD_S,
     name: str = "",
     judge_wanted: Callable[[], None] = lambda: None,
+    *,
+    anyway: bool = False,
 ) -> float:
     """On robots of which the console has the lease. `slot`: the same one of all, or one of each. `versions`:
     by gateway, what its slot has to hold. `name` is what gateways call this start in their state.
@@ -54,6 +56,7 @@ def start_together(
                 name=name,
                 slot=slot if isinstance(slot, int) else slot[gateway],
                 times=times,
+                anyway=anyway,
                 version=(versions or {}).get(gateway),
                 start_ms=start_s * 1000 + offset.ahead_ms,
                 uncertainty_ms=offset.uncertainty_ms,

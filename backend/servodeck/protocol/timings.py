@@ -107,6 +107,7 @@ class Battery(NamedTuple):
     after_run_ms: int
     unsolicited_after_ms: int
     unsolicited_limit: int
+    judged_within_ms: int
     hysteresis_mv: int
 
 

@@ -37,6 +37,7 @@ from servodeck.protocol.families import FAMILIES, UNKNOWN, Family
 from servodeck.protocol.timings import MOVE
 from servodeck.protocol.values import Command, Report
 from servodeck.robot.acts import Acts
+from servodeck.robot.battery_guard import BatteryGuard
 from servodeck.robot.board.board import Board
 from servodeck.robot.board.port_families import PortFamilies
 from servodeck.robot.board.slots import SlotMemory
@@ -113,6 +114,7 @@ class Control:
             polls_battery=polls_battery,
         )
         self._broadcast = Broadcast(self.hub, self.board, self._latch, self.robot, self.driving, now)
+        self.battery_guard = BatteryGuard(self.board, self.robot, now)
         self.requests = Requests(self.board, self.driving.lease, self.limits, self._latch, now)
         self.operations = Operations(self)
         self._halting: Left | None = None

@@ -7,7 +7,7 @@ judges each packet.
 
 import asyncio
 import contextlib
-from collections.abc import AsyncIterator, Sequence
+from collections.abc import AsyncIterator, Awaitable, Callable, Sequence
 from typing import TYPE_CHECKING, Protocol
 
 from servodeck.errors import CancelledError, GatewayError, MovingError, NoAnswerError
@@ -27,17 +27,27 @@ from servodeck.protocol.values import (
     SetSpeed,
 )
 from servodeck.robot.board.halt import repeat_stop
+from servodeck.robot.board.playing import FrameGroup
 from servodeck.robot.board.storing import ERASE_TIMEOUT_S
 from servodeck.robot.hub import Session
 from servodeck.robot.latch import judge_latch
 from servodeck.robot.lease import Permit
-from servodeck.snapshots import Outcome
+from servodeck.snapshots import Outcome, PlayState
+from servodeck.value import value
 
 if TYPE_CHECKING:
     from servodeck.robot.control import Control
 
 
 RUN_WAIT_S = RUN.timeout_ms / 1000
+
+
+@value
+class Ran:
+    """`is_battery_unknown`: it would have been judged by the battery, whose voltage is not known."""
+
+    outcome: Outcome
+    is_battery_unknown: bool
 
 
 class Claim(Protocol):
@@ -112,6 +122,13 @@ class Grant:
             self._judge()
             self._claim.renew()
 
+    async def waits_for(self, work: Awaitable[None]) -> None:
+        """Before its first packet."""
+        self._judge()
+        await work
+        self._judge()
+        self._claim.renew()
+
     def send(self, command: Command, lasts_s: float = 0.0) -> Left:
         """`lasts_s`: what it sets in motion."""
         self._judge()
@@ -137,8 +154,8 @@ class Operations:
         self._has_request = False
         self._ending: asyncio.Task[None] | None = None
 
-    async def run(self, claim: Claim, slot: int, times: int) -> Outcome:
-        """Ends the present motion first."""
+    async def run(self, claim: Claim, slot: int, times: int, *, anyway: bool = False) -> Ran:
+        """Ends the present motion first. `anyway`: also where the battery is at its alarm."""
         command, family = Run(slot, times), self._family()
         check(command, family)
         async with self._one_request():
@@ -149,14 +166,59 @@ class Operations:
                 if stops:
                     await asyncio.shield(stops)
                     claim.renew()
+            is_battery_unknown = not anyway and await self._judge_battery(grant)
             await grant.end_what_moves()
             left = grant.send(command)
             if "run" not in family.answers:
                 await left
-                return "sent"
+                return Ran("sent", is_battery_unknown)
             replies = self._control.board.replies
             taken = await replies.to(left, RUN_WAIT_S, RunAccepted, RunStarted)
-            return "silent" if taken is None else "acknowledged"
+            return Ran("silent" if taken is None else "acknowledged", is_battery_unknown)
+
+    async def _judge_battery(self, grant: Grant) -> bool:
+        """Whether it is not known. What moves is ended first only where it keeps the board from being asked.
+        Raises BatteryLowError.
+        """
+        guard = self._control.battery_guard
+        if guard.must_ask:
+            if not guard.may_ask:
+                await grant.end_what_moves()
+            before = self._stops()
+            await grant.waits_for(guard.ask())
+            self._judge_unstopped(before)
+        return guard.judge()
+
+    async def play(
+        self,
+        claim: Claim,
+        group: FrameGroup,
+        ended: Callable[[PlayState], None],
+        *,
+        as_run: bool = False,
+        anyway: bool = False,
+    ) -> PlayState:
+        """Begins to play it. `ended` is called with its final state. `anyway` as with `run`; `as_run`: a
+        silent driver ends it as late as a run of the board, not as soon as moves by hand.
+        """
+        control, guard = self._control, self._control.battery_guard
+        if not anyway and guard.must_ask:
+            claim.claim()
+            before = self._stops()
+            await guard.ask()
+            self._judge_unstopped(before)
+            claim.renew()
+        is_unknown = not anyway and guard.judge()
+        return control.requests.play(
+            claim.session, group, claim.permit, ended, as_run=as_run, is_battery_unknown=is_unknown
+        )
+
+    def _stops(self) -> tuple[int, float]:
+        return self._control.requests.stop_count, self._control.stopped_s
+
+    def _judge_unstopped(self, before: tuple[int, float]) -> None:
+        if self._stops() != before:
+            raise CancelledError("The group was stopped before it began.")
 
     async def end_group(self, session: Session) -> Outcome:
         """Behind its frame in progress; everything else is free to move. Sent three times (S54), also where

@@ -144,6 +144,15 @@ class RobotOfBoard:
         self._board = self._reading = None
         self._forget()
 
+    @property
+    def is_being_read(self) -> bool:
+        return self._reading is not None and not self._reading.done()
+
+    async def until_read(self) -> None:
+        """Returns when the robot of the board is known as far as it can be."""
+        if self._reading:
+            await asyncio.wait({self._reading})
+
     async def put(self, document: str, instead_of: str | None) -> None:
         """For all clients, and remembered. Raises a ConflictError where a third one is on the board,
         NotFoundError, or OutOfRangeError for one that is built on another board.

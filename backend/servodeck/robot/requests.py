@@ -55,6 +55,8 @@ class Requests:
         self._limits = limits
         self._latch = latch
         self._now = now
+        self.stop_count = 0
+        """Requests to end a group or a play; not STOP."""
 
     def move(
         self, session: Session, targets: Sequence[ServoTarget], duration_ms: int, nonce: str | None
@@ -191,6 +193,7 @@ class Requests:
         overtook does not start the group again behind it.
         """
         wire = self._board.link.wire()
+        self.stop_count += 1
         # It always goes, but the frame that it meets on the board is not stored for sure (S10).
         self._board.jobs.end(CancelledError("A stop ended the download before it was complete."))
         self._board.plays.end(CancelledError("The group was stopped."))
@@ -202,14 +205,13 @@ class Requests:
         self,
         session: Session,
         group: FrameGroup,
-        nonce: str | None,
+        permit_of: Callable[[], Permit],
         ended: Callable[[PlayState], None],
         *,
-        as_run: bool = False,
+        as_run: bool,
+        is_battery_unknown: bool,
     ) -> PlayState:
-        """Begins to play it; raises what prevents it before a packet leaves. `ended` is called with its final
-        state. `as_run`: a silent driver ends it as late as a run of the board, not as soon as moves by hand.
-        """
+        """Begins to play it; raises what prevents it before a packet leaves."""
         board = self._board
         session.caller.require("driver")
         board.identification.judge_known()
@@ -221,7 +223,7 @@ class Requests:
         self._judge_no_run()
         if wire.has_waiting(RUN):
             raise MovingError(end_of_group(None))
-        permit = self._lease.permit(session, nonce, self._now())
+        permit = permit_of()
         if permit.issued_s < self._latch.stopped_s:  # a large request may be slower than the STOP behind it
             raise CancelledError("STOP was pressed after this was requested.")
 
@@ -232,10 +234,13 @@ class Requests:
             elif board.unattended.by is not session:
                 self._judge_driver(replace(permit, until_s=math.inf))
 
-        return board.plays.begin(group, session, judge, ended, as_run=as_run)
+        return board.plays.begin(
+            group, session, judge, ended, as_run=as_run, is_battery_unknown=is_battery_unknown
+        )
 
     def stop_playing(self) -> None:
         """The play of the gateway ends with its frame in progress."""
+        self.stop_count += 1
         self._board.plays.end(CancelledError("The group was stopped."))
 
     def download(

@@ -23,9 +23,9 @@ from servodeck.robot.board.playing import FrameGroup
 from servodeck.robot.control import Control
 from servodeck.robot.hub import Session
 from servodeck.robot.lease import Permit
-from servodeck.robot.operations import Grant
+from servodeck.robot.operations import Grant, Ran
 from servodeck.robot.requests import end_of_group
-from servodeck.snapshots import JobState, LeaseState, Outcome, PlayState
+from servodeck.snapshots import JobState, LeaseState, PlayState
 from servodeck.value import value
 
 T = TypeVar("T")
@@ -103,12 +103,12 @@ class ScriptGrant(Grant):
         super().__init__(control, claim)
         self._session = claim.session
 
-    def play(self, group: FrameGroup) -> PlayState:
+    async def play(self, group: FrameGroup, *, anyway: bool) -> PlayState:
         self._judge()
-        driving = self._control.driving
-        nonce = driving.claim_for(self._session, take=False)
-        state = self._control.requests.play(self._session, group, nonce, self._played, as_run=True)
-        driving.vouch(self._session, 0.0)
+        state = await self._control.operations.play(
+            self._claim, group, self._played, as_run=True, anyway=anyway
+        )
+        self._control.driving.vouch(self._session, 0.0)
         return state
 
     def _played(self, state: PlayState) -> None:
@@ -170,35 +170,48 @@ class Scripts:
         return Moved(len(plan.steps), over_in_ms, plan.first_moves)
 
     async def run(
-        self, caller: Caller, slot: int, times: int, *, take: bool, continue_ms: int | None = None
-    ) -> Outcome:
-        """Ends the present motion first."""
+        self,
+        caller: Caller,
+        slot: int,
+        times: int,
+        *,
+        take: bool,
+        continue_ms: int | None = None,
+        anyway: bool = False,
+    ) -> Ran:
+        """Ends the present motion first. `anyway`: also where the battery is at its alarm."""
         session = self._session_of(caller)
-        return await session.do(self._run(session, slot, times, take=take, continue_ms=continue_ms))
-
-    async def _run(
-        self, session: ScriptSession, slot: int, times: int, *, take: bool, continue_ms: int | None
-    ) -> Outcome:
         claim = ScriptClaim(self._control, session, take=take)
-        outcome = await self._control.operations.run(claim, slot, times)
-        if continue_ms is not None:
-            self._control.allow_unattended(session, continue_ms)
-        return outcome
+
+        async def run() -> Ran:
+            ran = await self._control.operations.run(claim, slot, times, anyway=anyway)
+            if continue_ms is not None:
+                self._control.allow_unattended(session, continue_ms)
+            return ran
+
+        return await session.do(run())
 
     async def play(
-        self, caller: Caller, group: FrameGroup, *, take: bool, continue_ms: int | None = None
+        self,
+        caller: Caller,
+        group: FrameGroup,
+        *,
+        take: bool,
+        continue_ms: int | None = None,
+        anyway: bool = False,
     ) -> PlayState:
         """Begins it."""
         session = self._session_of(caller)
-        return await session.do(self._play(session, group, take=take, continue_ms=continue_ms))
+        claim = ScriptClaim(self._control, session, take=take)
+        return await session.do(self._play(claim, group, continue_ms, anyway=anyway))
 
     async def _play(
-        self, session: ScriptSession, group: FrameGroup, *, take: bool, continue_ms: int | None
+        self, claim: ScriptClaim, group: FrameGroup, continue_ms: int | None, *, anyway: bool
     ) -> PlayState:
         self._family()
-        grant = ScriptGrant(self._control, ScriptClaim(self._control, session, take=take))
+        session, grant = claim.session, ScriptGrant(self._control, claim)
         await grant.after_the_stop()
-        state = grant.play(group)
+        state = await grant.play(group, anyway=anyway)
         if continue_ms is not None:
             self._control.allow_unattended(session, continue_ms)
         return state

@@ -82,7 +82,7 @@ export async function openPage({ me, problem }: Arrival): Promise<Page> {
     ...{ robots, poses: poses.book, buttons: macros, pad: mappings, storage, notices, clock: pageClock },
     ...{ documentStore: mayWrite ? documentStore : loadGatewayStore(), mayWrite, epochMs: Date.now, newId },
   });
-  const noteRobot = followRobot({ robots, robotSync, notices, mayWrite, putOnBoard });
+  const noteRobot = followRobot({ robots, robotSync, notices, clock: pageClock, mayWrite, putOnBoard });
   device.store.subscribe(({ snapshot }, before) => {
     if (snapshot !== before.snapshot) noteRobot(snapshot);
   });

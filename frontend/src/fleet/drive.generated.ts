@@ -141,6 +141,7 @@ export interface DriveRefused {
         | 'busy'
         | 'slotBroken'
         | 'slotChanged'
+        | 'batteryLow'
         | 'cancelled'
         | 'outOfRange'
         | 'malformed'

@@ -135,6 +135,8 @@ export interface Messages {
     readonly otherVersion: (values: { readonly name: string }) => string;
     readonly conflict: (values: { readonly name: string; readonly copy: string }) => string;
     readonly addedToLibrary: (values: { readonly names: string }) => string;
+    readonly otherAtGateway: (values: { readonly name: string }) => string;
+    readonly noneAtGateway: (values: { readonly name: string }) => string;
     readonly onlyLooking: string;
     readonly onlyTheDriver: (values: { readonly driver: string }) => string;
     readonly copyOf: (values: { readonly name: string }) => string;
@@ -1317,6 +1319,7 @@ export interface Messages {
     readonly goingToRest: (values: { readonly ms: number }) => string;
     readonly rested: (values: { readonly volts: string }) => string;
     readonly runRefused: (values: { readonly volts: string }) => string;
+    readonly unknownAtRun: string;
     readonly anyway: string;
     readonly tab: (values: { readonly volts: string; readonly product: string }) => string;
     readonly gauge: string;
@@ -2486,6 +2489,7 @@ export interface Messages {
     readonly expired: string;
     readonly busy: string;
     readonly slotBroken: string;
+    readonly batteryLow: string;
     readonly slotChanged: string;
     readonly cancelled: string;
     readonly overslept: string;

@@ -13,8 +13,6 @@ import type { LimitGate } from './moves.ts';
 import type { Clock } from '#shared/clock.ts';
 
 export interface BoardVerbs {
-  /** From now on each run and each playback is checked first; `anyway` begins what was refused, once. */
-  guardRuns(mayBegin: RunGuard): void;
   halt(why?: HaltReason): void;
   resume(): void;
   identify(): void;
@@ -43,9 +41,6 @@ export interface BoardVerbs {
 
 export type Settled = (isDone: boolean) => void;
 
-/** Whether something may begin to run now. Where not, it shows a notice and may offer to begin it anyway. */
-export type RunGuard = (anyway: () => void) => boolean;
-
 export interface BoardVerbsOptions {
   /** null while nothing is connected. */
   session(): Robot | null;
@@ -62,9 +57,11 @@ export function createBoardVerbs({
   lateNotices,
   showError,
 }: BoardVerbsOptions): BoardVerbs {
-  let mayBegin: RunGuard = () => true;
-
-  function attempt(work: (session: Robot) => Promise<unknown>, settled: Settled = () => undefined): void {
+  function attempt(
+    work: (session: Robot) => Promise<unknown>,
+    settled: Settled = () => undefined,
+    failed: (error: unknown, session: Robot) => void = showError,
+  ): void {
     const session = now();
     if (session === null) return settled(false);
     work(session).then(
@@ -73,20 +70,27 @@ export function createBoardVerbs({
         settled(isDone !== false);
       },
       (error: unknown) => {
-        showError(error);
+        failed(error, session);
         settled(false);
       },
     );
   }
 
-  /** As `attempt`, where nothing forbids that something runs. */
-  function attemptRun(work: (session: Robot) => Promise<unknown>, settled: Settled = () => undefined): void {
-    const requested = now();
-    const anyway = (): void => {
-      if (now() === requested) attempt(work);
-    };
-    if (requested !== null && mayBegin(anyway)) attempt(work, settled);
-    else settled(false);
+  /** As `attempt`; what the battery's alarm refuses may be begun once anyway. */
+  function attemptRun(work: (session: Robot, anyway: boolean) => Promise<unknown>, settled?: Settled): void {
+    attempt(
+      (current) => work(current, false),
+      settled,
+      (error, refusing) => {
+        if (!(error instanceof LinkError && error.code === 'batteryLow')) return showError(error);
+        notices.ofBoard.show('warning', words.battery.runRefused({ volts: volts(refusing) }), {
+          label: words.battery.anyway,
+          act() {
+            if (now() === refusing) attempt((current) => work(current, true));
+          },
+        });
+      },
+    );
   }
 
   /** False where it was called off. */
@@ -105,12 +109,12 @@ export function createBoardVerbs({
   }
 
   return {
-    guardRuns: (guard) => (mayBegin = guard),
     halt: (why) => attempt((current) => current.halt(why)),
     resume: () => attempt((current) => current.resume()),
     identify: () => attempt((current) => current.identify()),
     choose: (chosen) => attempt((current) => current.choose(chosen)),
-    run: (slot, times, settled) => attemptRun((current) => current.run(slot, times), settled),
+    run: (slot, times, settled) =>
+      attemptRun((current, anyway) => current.run(slot, times, { anyway }), settled),
     stopGroup: () => attempt((current) => current.stopGroup()),
     erase: (settled) =>
       attempt(
@@ -144,10 +148,11 @@ export function createBoardVerbs({
         settled(false);
         return;
       }
-      attemptRun(async (current) => {
+      attemptRun(async (current, anyway) => {
         const { lateFrames, latestMs, skippedFrames, isWhole } = await current.play(onIt, {
           times,
           loopFrom,
+          anyway,
         });
         if (skippedFrames > 0) notices.ofBoard.show('warning', words.play.skipped({ frames: skippedFrames }));
         else if (lateFrames > 0)
@@ -158,6 +163,9 @@ export function createBoardVerbs({
     stopPlaying: () => now()?.stopPlaying(),
   };
 }
+
+const volts = ({ state: { battery } }: Robot): string =>
+  words.numbers.formatVolts(battery.kind === 'read' ? battery.batteryMv : 0);
 
 function speedSent(slot: number | null, percent: number): string {
   return slot === null ? words.board.speedSentToAll({ percent }) : words.board.speedSent({ slot, percent });

@@ -4,6 +4,7 @@
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import { sameList } from '#shared/group/groupEdits.ts';
+import { refusedBelowMv } from '#shared/profile/battery.ts';
 import { fromBoard, onBoard, type Robot as RobotProfile } from '#shared/profile/robot.ts';
 import type { Clock } from '#shared/clock.ts';
 import type { ServoTarget } from '#shared/codec/commands.ts';
@@ -143,6 +144,7 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
     const next = limitsOf(robot());
     if (next !== limits) session?.limitsChanged();
     limits = next;
+    session?.refuseRunsBelow(refusedBelowMv(robot()));
   });
 
   function motions(): Motions {
@@ -286,6 +288,7 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
       void detach();
       session = next;
       session.setAutoReconnect(autoReconnect);
+      session.refuseRunsBelow(refusedBelowMv(robot()));
       store.setState({ way });
       noteWay(way);
       noteState(next.state);
@@ -297,6 +300,7 @@ export function createDevice({ family, clock, notices, robots }: DeviceOptions):
         },
         problem: noteProblem,
         resumed: noteResumed,
+        batteryUnknown: () => notices.ofBoard.show('info', words.battery.unknownAtRun),
       });
     },
     describe(described, way) {

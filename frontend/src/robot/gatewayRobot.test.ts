@@ -374,7 +374,7 @@ describe('the log', () => {
 describe('playing', () => {
   const STATE: PlayState = {
     ...{ id: 'a1', by: 'Anna', status: 'playing', frameIndex: 0, frameCount: 1, times: 3 },
-    ...{ lateFrames: 0, latestMs: 0, skippedFrames: 0, code: null, detail: null },
+    ...{ lateFrames: 0, latestMs: 0, skippedFrames: 0, batteryUnknown: false, code: null, detail: null },
   };
   const plays = (progress: Partial<PlayState>): GatewayMessage => ({
     type: 'play',

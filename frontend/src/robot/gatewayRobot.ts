@@ -4,7 +4,7 @@
 import type { Clock } from '#shared/clock.ts';
 import { createLink } from '#shared/robot/link.ts';
 import { LinkError, type LinkErrorCode } from '#shared/robot/linkError.ts';
-import type { Robot } from '#shared/robot/robot.ts';
+import type { Robot, RunOptions } from '#shared/robot/robot.ts';
 import {
   encodeOrRefuse,
   frameCommands,
@@ -26,7 +26,7 @@ import { createGatewaySlots } from './links/gatewaySlots.ts';
 import { createGatewaySnapshot } from './links/gatewaySnapshot.ts';
 import { createGatewaySocket, type Outcome, type Said } from './links/gatewaySocket.ts';
 import { compactHex, isHarmlessPacket } from './links/gatewayValues.ts';
-import type { ClientMessage } from '#shared/client/messages.generated.ts';
+import type { ClientMessage, PlayState } from '#shared/client/messages.generated.ts';
 
 export interface GatewayRobotOptions {
   /** The gateway's WebSocket, e.g. `ws://127.0.0.1:8300/ws`. */
@@ -53,9 +53,11 @@ export function createGatewayRobot({ url, clock, mayDrive = true }: GatewayRobot
   /** Loaded when it is first needed. */
   let player: Promise<GatewayPlayer> | null = null;
   let playId = 0;
+  let unjudgedPlay = '';
 
   const socket = createGatewaySocket({
     ...{ url, heard, refused, lost },
+    batteryUnknown: () => store.emit('batteryUnknown', undefined),
     unavailable: (error) => link.lost(error),
     available: () => link.available(),
   });
@@ -86,7 +88,16 @@ export function createGatewayRobot({ url, clock, mayDrive = true }: GatewayRobot
   function heard(message: Said): void {
     if (message.type === 'tick') driving.ticked(message.nonce);
     else if (message.type === 'played') withPlayer((one) => one.ended(message));
-    else snapshot.heard(message);
+    else {
+      if (message.type === 'play') noteBattery(message.play);
+      snapshot.heard(message);
+    }
+  }
+
+  /** Once for each play, whoever began it. */
+  function noteBattery({ id, batteryUnknown }: PlayState): void {
+    if (batteryUnknown && id !== unjudgedPlay) store.emit('batteryUnknown', undefined);
+    if (batteryUnknown) unjudgedPlay = id;
   }
 
   function refused(id: number, error: LinkError): void {
@@ -119,11 +130,11 @@ export function createGatewayRobot({ url, clock, mayDrive = true }: GatewayRobot
     isUnsettled: () => moves.servos().length > 0,
   };
 
-  async function run(slot: number, times: number): Promise<void> {
+  async function run(slot: number, times: number, { anyway = false }: RunOptions = {}): Promise<void> {
     requireRunnable(store.state, slot, times);
     runs.began(slot, times);
     try {
-      const outcome = await askDriving((id, nonce) => ({ type: 'run', id, slot, times, nonce }));
+      const outcome = await askDriving((id, nonce) => ({ type: 'run', id, slot, times, nonce, anyway }));
       if (outcome === 'silent') throw new LinkError('noAnswer', 'the board did not say that it runs it');
       runs.settled(outcome === 'acknowledged' ? outcome : 'requested');
     } catch (error) {
@@ -248,6 +259,7 @@ export function createGatewayRobot({ url, clock, mayDrive = true }: GatewayRobot
       ),
     letRun: (forMs) => socket.postIfOpen({ type: 'continue', forMs }),
     limitsChanged: () => undefined,
+    refuseRunsBelow: () => undefined,
     calibrate(servo) {
       if (mayDrive) socket.postIfOpen({ type: 'calibrate', servo });
     },
@@ -297,13 +309,13 @@ export function createGatewayRobot({ url, clock, mayDrive = true }: GatewayRobot
     release,
     download,
     cancelDownload: slots.cancel,
-    async play(frames, { times = 1, loopFrom = 0 } = {}) {
+    async play(frames, how = {}) {
       requireReleased(store.state);
       if (store.state.activity.kind !== 'idle') throw new LinkError('busy', 'something else is running');
       player ??= import('./links/gatewayPlayer.ts').then(({ createGatewayPlayer }) =>
         createGatewayPlayer(socket.postIfOpen, begin, () => (playId = socket.nextId())),
       );
-      return (await player.catch(notLoaded)).play(frames, times, loopFrom);
+      return (await player.catch(notLoaded)).play(frames, how);
     },
     stopPlaying,
     motions: () => snapshot.estimate.motions(),

@@ -154,7 +154,7 @@ export async function createGateway(options: GatewayOptions = {}): Promise<Gatew
       } = state;
       say({ ...rest, type: 'state' });
     },
-    done: (outcome = 'sent') => say({ type: 'done', id: newestId(), outcome }),
+    done: (outcome = 'sent') => say({ type: 'done', id: newestId(), outcome, batteryUnknown: false }),
     refuse: (code, detail = '') => say({ type: 'refused', id: newestId(), code, detail }),
     cut() {
       const closing = current;

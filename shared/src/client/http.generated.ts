@@ -1027,13 +1027,14 @@ export interface components {
     /**
      * DocumentWrite
      * @description `expected` is the revision at which it was read, 0 for a new one. `isRemoved` writes it to the trash:
-     *     several documents that are to appear together are written so, and then restored together.
+     *     several documents that are to appear together are written so, and then restored together. `facts` are
+     *     those of a group; a robot's are computed from its text, whatever is said here.
      */
     DocumentWrite: {
       /** Expected */
       expected: number;
       /** Facts */
-      facts: components['schemas']['GroupFacts'] | components['schemas']['RobotFacts-Input'];
+      facts?: (components['schemas']['GroupFacts'] | components['schemas']['RobotFacts-Input']) | null;
       /** Isremoved */
       isRemoved: boolean;
       /**
@@ -1573,6 +1574,7 @@ export interface components {
             | 'busy'
             | 'slotBroken'
             | 'slotChanged'
+            | 'batteryLow'
             | 'cancelled'
             | 'outOfRange'
             | 'malformed'
@@ -1701,6 +1703,7 @@ export interface components {
             | 'busy'
             | 'slotBroken'
             | 'slotChanged'
+            | 'batteryLow'
             | 'cancelled'
             | 'outOfRange'
             | 'malformed'
@@ -1937,9 +1940,15 @@ export interface components {
      * PlayState
      * @description A play of the gateway by its own clock, and its progress. `times` 0: until stopped. `by`: the client
      *     that began it. `lateFrames` began so late that later frames were delayed, by `latestMs` at most;
-     *     `skippedFrames` did not leave. `ended`: before its last frame had ended; `code` and `detail` say why.
+     *     `skippedFrames` did not leave. `batteryUnknown`: new runs are refused at an alarm, and its battery could
+     *     not be judged. `ended`: before its last frame had ended; `code` and `detail` say why.
      */
     PlayState: {
+      /**
+       * Batteryunknown
+       * @default false
+       */
+      batteryUnknown: boolean;
       /** By */
       by: string;
       /** Code */
@@ -1965,6 +1974,7 @@ export interface components {
             | 'busy'
             | 'slotBroken'
             | 'slotChanged'
+            | 'batteryLow'
             | 'cancelled'
             | 'outOfRange'
             | 'malformed'
@@ -2023,6 +2033,12 @@ export interface components {
      *     needs neither. `continueForMs`: how long it may continue without a `heartbeat`.
      */
     PlayWish: {
+      /**
+       * Anyway
+       * @description A person wants it although the battery is at its alarm and new runs are refused.
+       * @default false
+       */
+      anyway?: boolean;
       /** Continueforms */
       continueForMs?: number | null;
       /** Frames */
@@ -2087,6 +2103,7 @@ export interface components {
             | 'busy'
             | 'slotBroken'
             | 'slotChanged'
+            | 'batteryLow'
             | 'cancelled'
             | 'outOfRange'
             | 'malformed'
@@ -2187,6 +2204,7 @@ export interface components {
         | 'busy'
         | 'slotBroken'
         | 'slotChanged'
+        | 'batteryLow'
         | 'cancelled'
         | 'outOfRange'
         | 'malformed'
@@ -2238,9 +2256,14 @@ export interface components {
     /**
      * RobotFacts
      * @description The facts of a robot that the gateway needs: the limits of its servos and the poses for programs, in
-     *     the board's unit. `lowBatteryMv`: at or below, its battery is low; null where a page of before stored it.
+     *     the board's unit. `lowBatteryMv`: at or below, its battery is low; at or below `alarmMv` its
+     *     `batteryPolicy` holds. These are null where a version of before stored it.
      */
     'RobotFacts-Input': {
+      /** Alarmmv */
+      alarmMv?: number | null;
+      /** Batterypolicy */
+      batteryPolicy?: ('tell' | 'refuse' | 'rest') | null;
       /** Board */
       board: string;
       /**
@@ -2262,9 +2285,14 @@ export interface components {
     /**
      * RobotFacts
      * @description The facts of a robot that the gateway needs: the limits of its servos and the poses for programs, in
-     *     the board's unit. `lowBatteryMv`: at or below, its battery is low; null where a page of before stored it.
+     *     the board's unit. `lowBatteryMv`: at or below, its battery is low; at or below `alarmMv` its
+     *     `batteryPolicy` holds. These are null where a version of before stored it.
      */
     'RobotFacts-Output': {
+      /** Alarmmv */
+      alarmMv: number | null;
+      /** Batterypolicy */
+      batteryPolicy: ('tell' | 'refuse' | 'rest') | null;
       /** Board */
       board: string;
       /**
@@ -2285,10 +2313,13 @@ export interface components {
     };
     /**
      * RunBegun
-     * @description `acknowledged`: the board has accepted the command, which says nothing about the slot. `silent`: the
+     * @description `batteryUnknown`: a run is refused where the battery is at its alarm, and its voltage is not known.
+     *     `acknowledged`: the board has accepted the command, which says nothing about the slot. `silent`: the
      *     acknowledgement is missing. `sent`: such a board sends none.
      */
     RunBegun: {
+      /** Batteryunknown */
+      batteryUnknown?: boolean | null;
       /** Ended */
       ended?: boolean | null;
       /**
@@ -2315,6 +2346,12 @@ export interface components {
      * @description `times` 0: until stopped. `continueForMs`: how long the run may continue without a `heartbeat`.
      */
     RunWish: {
+      /**
+       * Anyway
+       * @description A person wants it although the battery is at its alarm and new runs are refused.
+       * @default false
+       */
+      anyway?: boolean;
       /** Continueforms */
       continueForMs?: number | null;
       /**

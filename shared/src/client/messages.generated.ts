@@ -77,6 +77,10 @@ export interface PlayMessage {
   frames: FrameBody[];
   times?: number;
   loopFrom?: number;
+  /**
+   * A person wants it although the battery is at its alarm and new runs are refused.
+   */
+  anyway?: boolean;
   type: 'play';
   /**
    * Chosen by the client; comes back in the answer.
@@ -118,6 +122,10 @@ export interface RunMessage {
   slot: number;
   times: number;
   nonce: string | null;
+  /**
+   * A person wants it although the battery is at its alarm and new runs are refused.
+   */
+  anyway?: boolean;
 }
 /**
  * End the running group behind its frame in progress. Everything else is free to move.
@@ -327,6 +335,7 @@ export interface PortState {
         | 'busy'
         | 'slotBroken'
         | 'slotChanged'
+        | 'batteryLow'
         | 'cancelled'
         | 'outOfRange'
         | 'malformed'
@@ -381,6 +390,7 @@ export interface LinkState {
         | 'busy'
         | 'slotBroken'
         | 'slotChanged'
+        | 'batteryLow'
         | 'cancelled'
         | 'outOfRange'
         | 'malformed'
@@ -556,6 +566,7 @@ export interface JobState {
         | 'busy'
         | 'slotBroken'
         | 'slotChanged'
+        | 'batteryLow'
         | 'cancelled'
         | 'outOfRange'
         | 'malformed'
@@ -582,7 +593,8 @@ export interface JobState {
 /**
  * A play of the gateway by its own clock, and its progress. `times` 0: until stopped. `by`: the client
  * that began it. `lateFrames` began so late that later frames were delayed, by `latestMs` at most;
- * `skippedFrames` did not leave. `ended`: before its last frame had ended; `code` and `detail` say why.
+ * `skippedFrames` did not leave. `batteryUnknown`: new runs are refused at an alarm, and its battery could
+ * not be judged. `ended`: before its last frame had ended; `code` and `detail` say why.
  */
 export interface PlayState {
   id: string;
@@ -594,6 +606,7 @@ export interface PlayState {
   lateFrames: number;
   latestMs: number;
   skippedFrames: number;
+  batteryUnknown: boolean;
   code:
     | (
         | 'closed'
@@ -616,6 +629,7 @@ export interface PlayState {
         | 'busy'
         | 'slotBroken'
         | 'slotChanged'
+        | 'batteryLow'
         | 'cancelled'
         | 'outOfRange'
         | 'malformed'
@@ -723,7 +737,8 @@ export interface BatteryMessage {
   battery: BatteryUnread | BatteryRead | BatterySilent;
 }
 /**
- * The request with that `id` is done. `outcome`: of a command for the board.
+ * The request with that `id` is done. `outcome`: of a command for the board. `batteryUnknown`: of a run,
+ * which is refused at an alarm of its battery, that could not be judged.
  */
 export interface DoneMessage {
   type: 'done';
@@ -732,6 +747,7 @@ export interface DoneMessage {
    */
   id: number;
   outcome: ('acknowledged' | 'silent' | 'sent') | null;
+  batteryUnknown: boolean;
 }
 /**
  * `id` is null where the message itself could not be read, and for a stop.
@@ -760,6 +776,7 @@ export interface RefusedMessage {
     | 'busy'
     | 'slotBroken'
     | 'slotChanged'
+    | 'batteryLow'
     | 'cancelled'
     | 'outOfRange'
     | 'malformed'

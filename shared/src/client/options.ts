@@ -41,6 +41,8 @@ export interface RunOptions extends Waiting {
   readonly times?: number;
   /** Not waited for, it continues for so many seconds without this program; else until this robot is closed. */
   readonly alone?: number;
+  /** A person wants it although the battery is at its alarm and new runs are refused. */
+  readonly anyway?: boolean;
 }
 
 export interface PlayOptions extends RunOptions {

@@ -103,14 +103,14 @@ export class Servodeck {
   /** Runs a group of the board, by its name or slot. */
   async run(
     group: string | number,
-    { times = 1, wait = true, timeout, alone, signal, ...unknown }: RunOptions = {},
+    { times = 1, wait = true, timeout, alone, anyway = false, signal, ...unknown }: RunOptions = {},
   ): Promise<Outcome> {
     this.#judgeOpen();
     judgeOptions(unknown);
     judgeEnd(times, wait, timeout);
     const patience = patienceOf({ wait, timeout, signal });
     const slot = typeof group === 'number' ? group : await this.#names.slotOf(group);
-    const given = { values: { slot }, body: { times, take: this.#take, ...continuing(alone) } };
+    const given = { values: { slot }, body: { times, anyway, take: this.#take, ...continuing(alone) } };
     const { outcome } = await this.#motions.begin('post', '/api/slots/{slot}/run', given, {
       moreS: TAKEN_S,
       ...patience,
@@ -123,14 +123,24 @@ export class Servodeck {
   /** Plays frames by the gateway's clock: `[[0.5, { Base: 30 }], …]`. */
   async play(
     frames: Frames,
-    { units, times = 1, loopFrom = 0, wait = true, timeout, alone, signal, ...unknown }: PlayOptions,
+    {
+      units,
+      times = 1,
+      loopFrom = 0,
+      wait = true,
+      timeout,
+      alone,
+      anyway = false,
+      signal,
+      ...unknown
+    }: PlayOptions,
   ): Promise<void> {
     this.#judgeOpen();
     judgeOptions(unknown);
     judgeEnd(times, wait, timeout);
     const patience = patienceOf({ wait, timeout, signal });
     const bodies = await this.#names.frames(frames, units, signal);
-    const body = { frames: bodies, times, loopFrom, take: this.#take, ...continuing(alone) };
+    const body = { frames: bodies, times, loopFrom, anyway, take: this.#take, ...continuing(alone) };
     const { id } = await this.#motions.begin('post', '/api/play', { body }, patience);
     if (wait) await this.#motions.played(id, patience);
     else if (alone === undefined) this.#motions.beat();

@@ -8,7 +8,7 @@ import { poseAt, type ActionGroup } from '../group/group.ts';
 import type { PoseBook } from '../profile/pose.ts';
 import { supplyOf } from '../profile/battery.ts';
 import { homeTargets } from '../profile/poseShapes.ts';
-import { limitsOnBoard, onBoard, type Robot } from '../profile/robot.ts';
+import { BATTERY_POLICIES, limitsOnBoard, onBoard, type Robot } from '../profile/robot.ts';
 import { FAMILIES } from '../codec/families.ts';
 import { count, targetSchema, whole } from '../document/schema.ts';
 
@@ -43,6 +43,7 @@ const MAX_POSITION = 0xffff;
 
 /** Home is number 0. */
 export function robotFactsOf(robot: Robot, { poses }: PoseBook, updatedAtMs: number): RobotFacts {
+  const { warnMv, alarmMv } = supplyOf(robot);
   const home = { id: 0, name: 'home', unit: FAMILIES[robot.board].unit, targets: homeTargets(robot) };
   const all = [home, ...poses].map(({ id, name, unit, targets }) => ({
     ...{ id, name: name.toWellFormed(), unit },
@@ -56,7 +57,8 @@ export function robotFactsOf(robot: Robot, { poses }: PoseBook, updatedAtMs: num
     updatedAtMs,
     limits: limitsOnBoard(robot).map((limits) => ({ ...limits, name: limits.name.toWellFormed() })),
     poses: all.filter(({ targets }) => targets.every(({ position }) => isSendable(position))),
-    lowBatteryMv: supplyOf(robot).warnMv,
+    lowBatteryMv: warnMv,
+    ...{ batteryPolicy: robot.batteryCare.policy, alarmMv },
   };
 }
 
@@ -105,6 +107,9 @@ const robotFactsSchema = v.strictObject({
   ),
   /** At or below, its battery is low: for notifications of the gateway. */
   lowBatteryMv: v.optional(v.nullable(count), null),
+  /** What a battery at its alarm brings about; null where a version of before stored it. */
+  batteryPolicy: v.optional(v.nullable(v.picklist(BATTERY_POLICIES)), null),
+  alarmMv: v.optional(v.nullable(count), null),
 });
 
 export const factsSchema = v.variant('kind', [groupFactsSchema, robotFactsSchema]);

@@ -1,6 +1,7 @@
 // What feeds a robot and what its volts mean: the ends of the gauge, where to warn and to alarm, what share of a pack is left
 // (boards.md chapter 8); and what many readings say together, none of which is trusted alone. Pure; knows no clock.
 
+import robots from '../../protocol/robots.json' with { type: 'json' };
 import timings from '../../protocol/timings.json' with { type: 'json' };
 import { FAMILIES, type FamilyId } from '../codec/families.ts';
 import type { BatteryKind, Robot } from './robot.ts';
@@ -18,13 +19,7 @@ export interface Supply {
   readonly ceilingMv: number | null;
 }
 
-const CELLS: Readonly<Record<BatteryKind, Supply['cells']>> = { adapter: 0, '2s': 2, '3s': 3 };
-
-const CELL = { lowMv: 3100, highMv: 4200, warnMv: 3500, alarmMv: 3300 };
-/** 5 V USB to 8.4 V; the usual adapter gives 7.5 V, and such boards want 6.4 V at least. */
-const ADAPTER = { lowMv: 5000, highMv: 8400, warnMv: 7000, alarmMv: 6400 };
-/** A bus servo board takes 6 to 12.6 V: only its own alarm is certain. */
-const BUS_ADAPTER = { lowMv: 5000, highMv: 12_600, warnMv: 6200, alarmMv: 5600 };
+const CELLS = robots.cells as Readonly<Record<BatteryKind, Supply['cells']>>;
 
 export function supplyOf({ battery, board, batteryCare }: Robot): Supply {
   const cells = CELLS[battery];
@@ -32,9 +27,9 @@ export function supplyOf({ battery, board, batteryCare }: Robot): Supply {
   return { cells, ...usual, ...batteryCare.thresholds, ceilingMv: FAMILIES[board].batteryCeilingMv };
 }
 
-function usualSupply(cells: Supply['cells'], board: FamilyId): typeof CELL {
-  if (cells === 0) return FAMILIES[board].unit === 'us' ? ADAPTER : BUS_ADAPTER;
-  const { lowMv, highMv, warnMv, alarmMv } = CELL;
+function usualSupply(cells: Supply['cells'], board: FamilyId): typeof robots.cell {
+  if (cells === 0) return FAMILIES[board].unit === 'us' ? robots.adapterUs : robots.adapterSteps;
+  const { lowMv, highMv, warnMv, alarmMv } = robots.cell;
   return {
     lowMv: lowMv * cells,
     highMv: highMv * cells,
@@ -42,6 +37,10 @@ function usualSupply(cells: Supply['cells'], board: FamilyId): typeof CELL {
     alarmMv: alarmMv * cells,
   };
 }
+
+/** New runs are refused with the battery at or below; null: never. */
+export const refusedBelowMv = (robot: Robot): number | null =>
+  robot.batteryCare.policy === 'tell' ? null : supplyOf(robot).alarmMv;
 
 /** The same robot fed by something else: thresholds set for one pack mean nothing for another. */
 export function fedBy(robot: Robot, battery: BatteryKind): Robot {

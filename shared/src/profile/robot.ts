@@ -4,6 +4,7 @@
 // A servo's position is what the person means by it; the board gets it plus the servo's trim. Both in board units.
 
 import * as v from 'valibot';
+import robots from '../../protocol/robots.json' with { type: 'json' };
 import { fileReference, placeOf } from '../document/schema.ts';
 import type { ServoTarget } from '../codec/commands.ts';
 import { FAMILIES, positionRange, type FamilyId, type Range } from '../codec/families.ts';
@@ -64,14 +65,10 @@ export type BatteryKind = (typeof BATTERY_KINDS)[number];
 export const BATTERY_POLICIES = ['tell', 'refuse', 'rest'] as const;
 export type BatteryPolicy = (typeof BATTERY_POLICIES)[number];
 
-export const NAME_LENGTH = 64;
-/** As far as any board's own trim goes (L14); with the next tooth of a horn at 160 µs or 60 steps, more is never needed. */
-export const TRIM: Range = { min: -125, max: 125 };
-/** From a USB port to a pack of three full cells. */
-export const BATTERY_MV: Range = { min: 4000, max: 13_000 };
-
-/** From a USB port to a large pack. */
-export const SUPPLY_MA: Range = { min: 100, max: 60_000 };
+export const NAME_LENGTH = robots.nameLength;
+export const TRIM: Range = robots.trim;
+export const BATTERY_MV: Range = robots.batteryMv;
+export const SUPPLY_MA: Range = robots.supplyMa;
 
 const name = v.pipe(v.string(), v.trim(), v.minLength(1), v.maxLength(NAME_LENGTH));
 const whole = (range: Range) => v.pipe(v.number(), v.integer(), v.minValue(range.min), v.maxValue(range.max));

@@ -4,6 +4,7 @@
 import { COMMAND_NUMBER, type Command } from '../codec/commands.ts';
 import type { Family } from '../codec/families.ts';
 import { servosIn, wireMs } from '../codec/packet.ts';
+import { createBatteryGuard } from './batteryGuard.ts';
 import { requireAtRest, type Core } from './core.ts';
 import { createRobotEstimate } from './estimate.ts';
 import { createExchange, type Replies } from './replies.ts';
@@ -28,6 +29,8 @@ export interface DriverOptions extends Pick<Core, 'clock' | 'store' | 'queue' | 
   readonly slotMemory: SlotMemory | undefined;
   /** What the link carries, in bytes. */
   readonly longestPacket: number;
+  /** New runs are refused with the battery at or below; null: never. */
+  alarmMv(): number | null;
 }
 
 export interface Driver {
@@ -48,7 +51,8 @@ export interface Driver {
 }
 
 export function createDriver(family: Family, options: DriverOptions): Driver {
-  const { clock, store, queue, endMotion, insistOnEnd, replies, slotMemory, longestPacket } = options;
+  const { clock, store, queue, endMotion, insistOnEnd, replies, slotMemory, longestPacket, alarmMv } =
+    options;
   const estimate = createRobotEstimate(family, clock);
   const servosPerMove = Math.min(family.servosPerMove, servosIn(longestPacket));
   const core: Core = {
@@ -57,9 +61,12 @@ export function createDriver(family: Family, options: DriverOptions): Driver {
     isUnsettled: () => moves.servos().length > 0 || groups.isStopping() || isMotion(queue.unfinished()),
   };
   const moves = createMoves(core);
-  const player = createPlayer(core, moves);
-  const groups = createGroups(core, slotMemory);
-  const readBattery = createBatteryReader(core);
+  const readBattery = createBatteryReader(core, (batteryMv) => guard.heard(batteryMv));
+  const isAtRest = (): boolean =>
+    store.state.activity.kind === 'idle' && !estimate.moving() && !core.isUnsettled();
+  const guard = createBatteryGuard({ family, clock, store, alarmMv, isAtRest, readBattery });
+  const player = createPlayer(core, moves, guard);
+  const groups = createGroups(core, slotMemory, guard);
 
   function dropMoves(): boolean {
     const wasWaiting = moves.servos().length > 0 || estimate.partDueMs() < Infinity;
@@ -147,7 +154,7 @@ function positionsTimeoutMs(servoCount: number): number {
 }
 
 /** Returns the read operation: resolves with millivolts. Calls while one is under way share its answer. */
-export function createBatteryReader(core: Core): () => Promise<number> {
+export function createBatteryReader(core: Core, heard: (batteryMv: number) => void): () => Promise<number> {
   let underWay: Promise<number> | null = null;
   let silences = 0;
 
@@ -159,6 +166,7 @@ export function createBatteryReader(core: Core): () => Promise<number> {
       const batteryMv = report.kind === 'battery' ? report.batteryMv : 0;
       silences = 0;
       store.update({ battery: { kind: 'read', batteryMv, atMs: clock.now() } });
+      heard(batteryMv);
       return batteryMv;
     } catch (error) {
       if (error instanceof LinkError && error.code === 'noAnswer') countSilence();

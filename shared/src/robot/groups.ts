@@ -1,6 +1,7 @@
 // Action groups in the board's own memory: run, stop, erase, their speed, download. Class C commands are never repeated by themselves
 // (safety.md section 4). Knows slots; the moves of the page are moveBuffer.ts.
 
+import type { BatteryGuard } from './batteryGuard.ts';
 import type { Command } from '../codec/commands.ts';
 import type { Report } from '../codec/reports.ts';
 import { requireAtRest, setActivity, type Core } from './core.ts';
@@ -12,7 +13,8 @@ import { createStoring, type SlotMemory, type Storing } from './download.ts';
 import { ERASE_TIMEOUT_MS, RUN_TIMEOUT_MS } from './timings.ts';
 
 export interface Groups extends Pick<Storing, 'store' | 'cancel' | 'linked'> {
-  run(slot: number, times: number): Promise<void>;
+  /** `anyway`: also where the battery is at its alarm. */
+  run(slot: number, times: number, anyway?: boolean): Promise<void>;
   stop(): Promise<void>;
   /** Its repeats are still to leave. */
   isStopping(): boolean;
@@ -25,7 +27,7 @@ export interface Groups extends Pick<Storing, 'store' | 'cancel' | 'linked'> {
   drop(): void;
 }
 
-export function createGroups(core: Core, slotMemory: SlotMemory | undefined): Groups {
+export function createGroups(core: Core, slotMemory: SlotMemory | undefined, guard: BatteryGuard): Groups {
   const { family, clock, store, estimate, queue, exchange } = core;
   const storing = createStoring(core, slotMemory);
   const running = createRunning(clock, store, () => estimate);
@@ -54,12 +56,14 @@ export function createGroups(core: Core, slotMemory: SlotMemory | undefined): Gr
     core.insistOnEnd(isWanted).catch(() => undefined);
   }
 
-  async function run(slot: number, times: number): Promise<void> {
+  async function run(slot: number, times: number, anyway = false): Promise<void> {
     requireRunnable(store.state, slot, times);
     requests += 1;
     const mine = requests;
     // One that left between the repeats of a stop would be ended by the last one.
     if (stopping !== null) await stopping;
+    if (!anyway && guard.mustAsk()) await askBattery();
+    if (!anyway) guard.judge();
     // The frames of the group would make what is under way faster (S26).
     const mayMove = (): boolean => estimate.movesForMs() > 0 || core.isUnsettled();
     if (store.state.activity.kind === 'running' || mayMove()) await core.endMotion();
@@ -77,6 +81,12 @@ export function createGroups(core: Core, slotMemory: SlotMemory | undefined): Gr
     } finally {
       running.follow();
     }
+  }
+
+  /** What moves is ended first only where it keeps the board from being asked. */
+  async function askBattery(): Promise<void> {
+    if (!guard.mayAsk()) await core.endMotion();
+    await guard.ask();
   }
 
   async function begin(command: Command): Promise<void> {

@@ -33,6 +33,7 @@ export const LINK_ERROR_CODES = [
   'busy', // something else must end first, e.g. a download
   'slotBroken', // the slot holds half a group (S35)
   'slotChanged', // the slot holds something else than was seen there
+  'batteryLow', // the battery is at its alarm, and new runs are refused then
   'cancelled', // the person called it off
   'overslept', // this computer or page slept while it waited, so it was not sent
   'outOfRange', // the board cannot take this value

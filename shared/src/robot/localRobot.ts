@@ -46,6 +46,7 @@ export function createLocalRobot(options: LocalRobotOptions): Robot {
   /** The link was opened and not only mended. */
   let isOpened = false;
   let openedMs = 0;
+  let alarmMv: number | null = null;
   /** The stops that follow the first answer behind an opening; null before that answer. */
   let atAnswer: Promise<void> | null = null;
   let endDoubt = (): void => undefined;
@@ -116,6 +117,7 @@ export function createLocalRobot(options: LocalRobotOptions): Robot {
       replies,
       slotMemory,
       longestPacket: channel.longestPacket,
+      alarmMv: () => alarmMv,
     });
   }
 
@@ -283,12 +285,13 @@ export function createLocalRobot(options: LocalRobotOptions): Robot {
     calibrate: () => undefined,
     limitsChanged: () => driver.core.estimate.dropParts(),
     move: (targets, durationMs) => driver.moves.put(targets, durationMs),
-    run: (slot, times) => driver.groups.run(slot, times),
+    run: (slot, times, how) => driver.groups.run(slot, times, how?.anyway),
     stopGroup: () => driver.groups.stop(),
     halt: halt.halt,
     resume: halt.resume,
     erase: () => driver.groups.erase(),
     readBattery: () => driver.readBattery(),
+    refuseRunsBelow: (next) => (alarmMv = next),
     sendRaw: (packet) => driver.sendRaw(packet),
     readPositions: (servos) => driver.readings.readPositions(servos),
     readVersion: () => driver.readings.readVersion(),
@@ -297,7 +300,7 @@ export function createLocalRobot(options: LocalRobotOptions): Robot {
     release: (servos) => driver.release(servos),
     download: (groups) => driver.groups.store(groups),
     cancelDownload: () => settled(() => driver.groups.cancel()),
-    play: (frames, playing) => driver.player.play(frames, playing?.times ?? 1, playing?.loopFrom ?? 0),
+    play: (frames, how = {}) => driver.player.play(frames, how),
     stopPlaying: () => driver.player.stop(),
     motions: () => driver.core.estimate.motions(),
     isMoving: () => driver.core.estimate.moving(),

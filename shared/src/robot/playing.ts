@@ -1,18 +1,18 @@
 // Frames played from the page on deadlines. The board's own groups are groups.ts.
 
+import type { BatteryGuard } from './batteryGuard.ts';
 import type { Clock } from '../clock.ts';
 import type { Frame } from '../codec/commands.ts';
 import { setActivity, type Core } from './core.ts';
 import { LinkError } from './linkError.ts';
 import type { Moves } from './moveBuffer.ts';
-import type { Played } from './robot.ts';
+import type { Played, PlayOptions } from './robot.ts';
 import { requireReleased } from './rules.ts';
 import type { Activity, PlayProgress } from './state.ts';
 import { CATCH_UP, FIRST_MOVE_MS, GIVE_UP_MS, LATE_MS, LOOK_MS } from './timings.ts';
 
 export interface Player {
-  /** Each pass but the first begins with frame `loopFrom`. */
-  play(frames: readonly Frame[], times: number, loopFrom: number): Promise<Played>;
+  play(frames: readonly Frame[], options: PlayOptions): Promise<Played>;
   stop(): void;
   /** A move did not leave. */
   moveFailed(): void;
@@ -20,9 +20,13 @@ export interface Player {
   drop(): boolean;
 }
 
-export function createPlayer(core: Core, moves: Moves): Player {
+const NOTHING_PLAYED: Played = { lateFrames: 0, latestMs: 0, skippedFrames: 0, isWhole: false };
+
+export function createPlayer(core: Core, moves: Moves, guard: BatteryGuard): Player {
   const { store, clock } = core;
   let playing: Playing | null = null;
+  /** Of plays and their ends: one that waits for the battery is overtaken by a later one. */
+  let requests = 0;
 
   const activityIs = (kind: Activity['kind']): boolean => store.state.activity.kind === kind;
 
@@ -31,10 +35,22 @@ export function createPlayer(core: Core, moves: Moves): Player {
     else if (activityIs('playing')) setActivity(core, { kind: 'idle' });
   }
 
+  function requirePlayable(): void {
+    requireReleased(store.state);
+    if (!activityIs('idle')) throw new LinkError('busy', 'something else is running');
+  }
+
   return {
-    async play(frames, times, loopFrom) {
-      requireReleased(store.state);
-      if (!activityIs('idle')) throw new LinkError('busy', 'something else is running');
+    async play(frames, { times = 1, loopFrom = 0, anyway = false }) {
+      requirePlayable();
+      requests += 1;
+      if (!anyway && guard.mustAsk()) {
+        const mine = requests;
+        await guard.ask();
+        if (mine !== requests) return NOTHING_PLAYED;
+        requirePlayable();
+      }
+      if (!anyway) guard.judge();
       const current = play({
         ...{ clock, frames, times, loopFrom },
         startsWithinMs: ({ targets }) => moves.startsWithinMs(targets.map(({ servo }) => servo)),
@@ -53,9 +69,13 @@ export function createPlayer(core: Core, moves: Moves): Player {
         show(null);
       }
     },
-    stop: () => playing?.stop(),
+    stop() {
+      requests += 1;
+      playing?.stop();
+    },
     moveFailed: () => playing?.refused(),
     drop() {
+      requests += 1;
       const wasPlaying = playing !== null;
       playing?.stop();
       playing = null;
@@ -106,7 +126,7 @@ function play(options: PlayerOptions): Playing {
   /** Not before: the frame under way would be cut short. */
   let earliestMs = -Infinity;
   let before: Frame | null = null;
-  let played: Played = { lateFrames: 0, latestMs: 0, skippedFrames: 0, isWhole: false };
+  let played = NOTHING_PLAYED;
 
   const frameAfter = (count: number): number =>
     count < frames.length ? count : loopFrom + ((count - frames.length) % (frames.length - loopFrom));

@@ -38,7 +38,7 @@ export interface Robot {
    */
   move(targets: readonly ServoTarget[], durationMs: number): void;
   /** `times` 0 repeats until stopped. A group that runs already is stopped first (S45, S46). */
-  run(slot: number, times: number): Promise<void>;
+  run(slot: number, times: number, options?: RunOptions): Promise<void>;
   /** Ends the running group after its frame in progress. Leaves everything else free to move. */
   stopGroup(): Promise<void>;
   /** STOP: see safety.md section 1. Resolves when the whole sequence has left the wire. */
@@ -49,6 +49,8 @@ export interface Robot {
   erase(): Promise<void>;
   /** Millivolts. */
   readBattery(): Promise<number>;
+  /** New runs and plays are refused with the battery at or below; null: never. A gateway judges by itself. */
+  refuseRunsBelow(alarmMv: number | null): void;
   /** A packet written by hand, as it is. Rejects with what keeps this board from getting it: raw.ts. */
   sendRaw(packet: Uint8Array): Promise<void>;
   /** Reads the positions of these servos; the answer is in `state.reported`. */
@@ -74,7 +76,12 @@ export interface Robot {
   isMoving(): boolean;
 }
 
-export interface PlayOptions {
+export interface RunOptions {
+  /** Also where the battery is at its alarm and new runs are refused. */
+  readonly anyway?: boolean;
+}
+
+export interface PlayOptions extends RunOptions {
   /** 0: until stopped. */
   readonly times?: number;
   /** Each pass but the first begins with this frame. */

@@ -199,6 +199,8 @@ export interface SessionEvents {
   traffic(entry: Traffic): void;
   /** A request without an answer (a slider's move, a frame being played) could not be done. */
   problem(error: LinkError): void;
+  /** Something runs that would have been judged by the battery, whose voltage is not known. */
+  batteryUnknown(nothing: undefined): void;
   /** Another client has resumed motion. */
   resumed(by: string): void;
 }

@@ -16,7 +16,10 @@ export interface SessionStore {
   readonly state: SessionState;
   update(patch: Partial<SessionState>): void;
   subscribe(listener: Partial<SessionEvents>): () => void;
-  emit<K extends 'traffic' | 'problem' | 'resumed'>(event: K, value: Parameters<SessionEvents[K]>[0]): void;
+  emit<K extends Exclude<keyof SessionEvents, 'state'>>(
+    event: K,
+    value: Parameters<SessionEvents[K]>[0],
+  ): void;
 }
 
 /** Before the first query. */

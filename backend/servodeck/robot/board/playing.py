@@ -73,6 +73,7 @@ class Playing:
         over: Callable[["Playing", GatewayError | None], None],
         *,
         as_run: bool,
+        is_battery_unknown: bool,
     ) -> None:
         """`as_run`: its driver need not be heard more often than of a run of the board."""
         self.by = by
@@ -85,6 +86,7 @@ class Playing:
             frame_index=0,
             frame_count=len(frames),
             times=times,
+            battery_unknown=is_battery_unknown,
         )
         self.times = times
         self._frames = frames
@@ -238,10 +240,15 @@ class Plays:
         ended: Callable[[PlayState], None],
         *,
         as_run: bool,
+        is_battery_unknown: bool,
     ) -> PlayState:
         """Raises MovingError while another one lasts. `ended` is called with its final state."""
         self.judge_idle()
-        play = Playing(group, by, self._moves, self._now, judge, self._changed, self._finish, as_run=as_run)
+        play = Playing(
+            *(group, by, self._moves, self._now, judge, self._changed, self._finish),
+            as_run=as_run,
+            is_battery_unknown=is_battery_unknown,
+        )
         self.present, self._ended = play, ended
         facts = {"frames": len(group.frames), "times": group.times}
         log.info("play begun", extra={"facts": facts})

@@ -145,6 +145,9 @@ class PoweredBoard(ReadableBoard, Protocol):
     def may_ask(self) -> bool:
         """A client is connected, and nothing moves: time for questions."""
 
+    def is_idle(self) -> bool:
+        """Nothing moves."""
+
     def battery_changed(self) -> None: ...
 
 
@@ -154,6 +157,8 @@ class BatteryReader:
     ) -> None:
         """`polls`: the battery is read by itself while the board is ready."""
         self.newest: BatteryReading | None = None
+        self.rested: BatteryReading | None = None
+        """The newest one while nothing moved: under load the voltage sags."""
         self.is_silent = False
         """So many questions in a row stayed unanswered that the board is taken to report no voltage."""
         self._board = board
@@ -176,6 +181,8 @@ class BatteryReader:
     def heard(self, report: Report) -> None:
         if isinstance(report, Battery):
             self.newest = BatteryReading(report.battery_mv, self._now())
+            if self._board.is_idle():
+                self.rested = self.newest
             self._silences, self.is_silent = 0, False
             self._board.battery_changed()
             if self._unsolicited.answered(self._now()):
@@ -185,7 +192,7 @@ class BatteryReader:
     def forget(self) -> None:
         """The board has changed."""
         was_known = self.newest or self.is_silent
-        self.newest, self._silences, self.is_silent = None, 0, False
+        self.newest, self.rested, self._silences, self.is_silent = None, None, 0, False
         if was_known:
             self._board.battery_changed()
 
@@ -245,6 +252,11 @@ class BatteryReader:
         if self._timer:
             self._poll_in(BATTERY.after_run_ms)
 
+    @property
+    def may_answer(self) -> bool:
+        """Such boards report it, and this one has not stayed silent."""
+        return "readBattery" in self._board.family.answers and not self.is_silent
+
     def _poll_in(self, ms: float) -> None:
         self._stop_timer()
         self._timer = asyncio.get_running_loop().call_later(ms / 1000, self._tick)
@@ -256,8 +268,7 @@ class BatteryReader:
 
     def _tick(self) -> None:
         self._poll_in(BATTERY.every_ms)
-        is_answered = "readBattery" in self._board.family.answers and not self.is_silent
-        if is_answered and self._board.may_ask():
+        if self.may_answer and self._board.may_ask():
             self._poll = asyncio.create_task(self._poll_once())
 
     async def _poll_once(self) -> None:

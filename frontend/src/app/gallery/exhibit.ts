@@ -97,6 +97,7 @@ export function frozenSession(
     halt: nothing,
     resume: nothing,
     erase: nothing,
+    refuseRunsBelow: () => undefined,
     readBattery: () => Promise.resolve(0),
     readPositions: nothing,
     readVersion: nothing,

@@ -6,6 +6,7 @@ import { useBattery, useStores } from '../stores.ts';
 import { Button } from '../../ui/Button.tsx';
 import { NumberField } from '../../ui/NumberField.tsx';
 import { Choice } from '../../ui/Toggle.tsx';
+import { robotFlawSentence } from '../../i18n/robotFlaws.ts';
 import { words } from '../../i18n/whole.ts';
 import styles from './BatteryForm.module.css';
 
@@ -66,12 +67,13 @@ function Thresholds({ robot: { batteryCare } }: { readonly robot: Robot }) {
         batteryCare: { ...robot.batteryCare, thresholds },
       }),
     );
-  const field = {
-    ...BATTERY_MV,
-    step: 50,
-    unit: words.battery.millivolts,
-    onRefused: () => notices.refuse(words.battery.outOfRange({ min: BATTERY_MV.min, max: BATTERY_MV.max })),
-  };
+  const field = { ...BATTERY_MV, step: 50, unit: words.battery.millivolts };
+  const refuse = (mv: number, wanted: Thresholds) =>
+    notices.refuse(
+      mv < BATTERY_MV.min || mv > BATTERY_MV.max
+        ? words.battery.outOfRange({ min: BATTERY_MV.min, max: BATTERY_MV.max })
+        : robotFlawSentence({ code: 'alarmNotBelow', ...wanted }),
+    );
   return (
     <div className={styles.part}>
       <h3>{words.battery.thresholds}</h3>
@@ -82,6 +84,8 @@ function Thresholds({ robot: { batteryCare } }: { readonly robot: Robot }) {
             {...field}
             label={words.battery.warnField}
             value={warnMv}
+            min={alarmMv + 1}
+            onRefused={(mv) => refuse(mv, { warnMv: mv, alarmMv })}
             onChange={(mv) => set({ warnMv: mv, alarmMv })}
           />
         </span>
@@ -91,6 +95,8 @@ function Thresholds({ robot: { batteryCare } }: { readonly robot: Robot }) {
             {...field}
             label={words.battery.alarmField}
             value={alarmMv}
+            max={warnMv - 1}
+            onRefused={(mv) => refuse(mv, { warnMv, alarmMv: mv })}
             onChange={(mv) => set({ warnMv, alarmMv: mv })}
           />
         </span>

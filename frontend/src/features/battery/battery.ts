@@ -1,5 +1,6 @@
 // The battery of the current robot: when the page reads it, the readings of this visit with their gauge, and what a low one does, as chosen
-// for the robot: a warning, no new runs, or a move to the rest pose and a stop, on a shared robot only in the driver's page.
+// for the robot: a warning, or a move to the rest pose and a stop, on a shared robot only in the driver's page. New runs are
+// refused by the robot itself: shared/src/robot/batteryGuard.ts, or the gateway.
 
 import { createStore, type StoreApi } from 'zustand/vanilla';
 import {
@@ -236,14 +237,6 @@ export function applyBatteryPolicy(options: BatteryPolicyOptions): void {
 
   battery.subscribe(judge);
   device.store.subscribe(giveUpWhereStopped);
-  device.guardRuns((anyway) => {
-    if (policy() === 'tell' || !isAlarm()) return true;
-    notices.ofBoard.show('warning', words.battery.runRefused({ volts: volts() }), {
-      label: words.battery.anyway,
-      act: anyway,
-    });
-    return false;
-  });
 }
 
 const SEVERITY: Readonly<Record<Level, number>> = { good: 0, warning: 1, danger: 2 };

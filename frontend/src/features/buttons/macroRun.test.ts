@@ -123,12 +123,16 @@ describe('a button', () => {
   });
 
   test('goes no further where the run of its slot is refused', async () => {
-    const { macroRun, greet, step, clock, device, heard } = await pageWith(RUN, GO(2));
-    device.guardRuns(() => false);
+    const { macroRun, greet, step, clock, robots, ofKind } = await pageWith(RUN, GO(2));
+    const thresholds = { warnMv: 13_000, alarmMv: 12_900 };
+    robots.edit(
+      () => 'refuse',
+      (robot) => ({ ...robot, batteryCare: { policy: 'refuse', thresholds } }),
+    );
     macroRun.start(greet);
     await clock.advance(5000);
     expect(step()).toBeNull();
-    expect(heard).toEqual([]);
+    expect([ofKind('run'), ofKind('move')]).toEqual([[], []]);
   });
 
   test('never begins while stopped, while another is at work, or without steps', async () => {

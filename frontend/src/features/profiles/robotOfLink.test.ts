@@ -9,7 +9,8 @@ import type { SessionState } from '#shared/robot/state.ts';
 import { createVirtualClock, type VirtualClock } from '#shared/testing/virtualClock.ts';
 import type { DocumentStore } from '#shared/files/documentStore.ts';
 import { createMemoryStore } from '../library/memoryStore.ts';
-import { followRobot } from './robotOfLink.ts';
+import { DIFFERS_AFTER_MS, followRobot } from './robotOfLink.ts';
+import { words } from '../../i18n/words.ts';
 import { freshRobot } from './robots.ts';
 import { createVisit, named } from './robotVisitUnderTest.ts';
 
@@ -74,7 +75,7 @@ function createScreen(
     ...INITIAL_STATE,
     ...{ family: FAMILIES.doc, link: { status: 'ready' }, lease: LEASE },
   };
-  const note = followRobot({ ...visit, mayWrite, putOnBoard: (...put) => gateway.put(...put) });
+  const note = followRobot({ ...visit, clock, mayWrite, putOnBoard: (...put) => gateway.put(...put) });
   const change = (patch: Partial<SessionState>): void => note((state = { ...state, ...patch }));
   gateway.join((document) => change({ robotOnBoard: { document } }));
   return {
@@ -294,5 +295,32 @@ describe('the robot of a shared board', () => {
     await clock.advance(1000);
     expect(gateway.requested).toHaveLength(requested);
     expect(screen.inUse()).toBe('Hand');
+  });
+
+  test('that this page cannot read is told, and another one may be chosen instead of it', async () => {
+    const { clock, gateway, documentStore } = lesson();
+    const screen = createScreen(gateway, documentStore, clock);
+    await clock.advance(1000);
+    await gateway.put('unreadable', gateway.document());
+    await clock.advance(DIFFERS_AFTER_MS - 100);
+    expect(screen.noticeTexts()).toEqual([]);
+    await clock.advance(200);
+    expect(screen.noticeTexts()).toEqual([words.robots.otherAtGateway({ name: screen.inUse() })]);
+    expect(gateway.document()).toBe('unreadable');
+    screen.robots.add(() => 'add', { ...freshRobot('hand', 'doc'), name: 'Hand' });
+    await clock.advance(1000);
+    expect([screen.isTheBoards(), screen.inUse()]).toEqual([true, 'Hand']);
+    expect(screen.noticeTexts()).toEqual([]);
+  });
+
+  test('that the gateway does not have is told to those who cannot put one there', async () => {
+    const { clock, gateway, documentStore } = lesson();
+    const screen = createScreen(gateway, documentStore, clock, false);
+    await clock.advance(DIFFERS_AFTER_MS + 100);
+    expect(screen.noticeTexts()).toEqual([words.robots.noneAtGateway({ name: screen.inUse() })]);
+    const teacher = createScreen(gateway, documentStore, clock);
+    await clock.advance(1000);
+    expect(teacher.noticeTexts()).toEqual([]);
+    expect([screen.isTheBoards(), screen.noticeTexts()]).toEqual([true, []]);
   });
 });

@@ -1,6 +1,7 @@
 // On a shared link the current robot is the one that the gateway reports for the board, and choosing another one here sets it for
 // everybody. Also decides who may change limits. Moves nothing.
 
+import type { Clock } from '#shared/clock.ts';
 import { limitsOnBoard, type Robot } from '#shared/profile/robot.ts';
 import type { FamilyId } from '#shared/codec/families.ts';
 import type { Lease } from '#shared/robot/lease.ts';
@@ -16,15 +17,19 @@ export interface RobotOfLinkOptions {
   readonly robots: RobotStore;
   readonly robotSync: RobotSync;
   readonly notices: Notices;
+  readonly clock: Clock;
   /** False in a viewer's browser, which only reads the library. */
   readonly mayWrite: boolean;
   /** Sets the robot on the board; both are in the library. Rejects if it is not `insteadOf` any more, or if another person drives. */
   putOnBoard(document: string, insteadOf: string | null): Promise<void>;
 }
 
+/** Loading a robot or putting one on the board takes less: until then the difference is no news. */
+export const DIFFERS_AFTER_MS = 3000;
+
 /** Returns a function to call with each snapshot. */
 export function followRobot(options: RobotOfLinkOptions): (snapshot: SessionState) => void {
-  const { robots, robotSync, notices, mayWrite } = options;
+  const { robots, robotSync, notices, clock, mayWrite } = options;
   let { family, link, lease, robotOnBoard: reported } = INITIAL_STATE;
   let lastWord = reported;
   /** The last reported robot that was followed; another current robot since then is the person's choice. */
@@ -35,15 +40,49 @@ export function followRobot(options: RobotOfLinkOptions): (snapshot: SessionStat
   let waitsForLibrary = false;
   /** Number of the last request from here. */
   let echoes = 0;
+  let cancelDifference: (() => void) | null = null;
+  /** The notice that is shown, and the robot that was current then: choosing another one puts that on the board. */
+  let difference: { readonly text: string; readonly document: string | null; readonly id: number } | null =
+    null;
 
   function settle(): void {
     if (family.id !== 'unknown' && reported !== null && link.status === 'ready' && !isOffering)
       agree(reported.document, family.id);
+    noteDifference();
+  }
+
+  /** Whether this page shows another robot than the gateway uses. */
+  function differs(): boolean {
+    if (family.id === 'unknown' || reported === null || link.status !== 'ready') return false;
+    return reported.document === null || robotSync.robotOf(reported.document) !== robots.current().id;
+  }
+
+  function noteDifference(): void {
+    if (!differs()) {
+      cancelDifference?.();
+      cancelDifference = null;
+      if (difference !== null) notices.takeBack(difference.text);
+      difference = null;
+    } else cancelDifference ??= clock.after(DIFFERS_AFTER_MS, tellDifference);
+  }
+
+  function tellDifference(): void {
+    const { id, robot } = robots.current();
+    const document = reported?.document ?? null;
+    const tell = document === null ? words.robots.noneAtGateway : words.robots.otherAtGateway;
+    difference = { text: tell({ name: robot.name }), document, id };
+    notices.ofBoard.show('warning', difference.text);
   }
 
   function agree(document: string | null, board: FamilyId): void {
     const there = document === null ? null : robotSync.robotOf(document);
-    if (document !== null && there === null) return; // not yet loaded from the library
+    if (document !== null && there === null) {
+      // Not yet loaded from the library, or not to be read: then a person may choose another one for everybody.
+      const { id, robot } = robots.current();
+      const isChosen = difference?.document === document && difference.id !== id;
+      if (isChosen && robot.board === board && mayWrite && mayResume(lease)) void offer(id, document);
+      return;
+    }
     const isNews = document !== followed;
     followed = document;
     // Both calls may call `settle` again.

@@ -10,7 +10,7 @@ const ALL = Array.from({ length: 32 }, (_, index) => ({ servo: index + 1, positi
 const LARGE: readonly Frame[] = Array.from({ length: 255 }, () => ({ durationMs: 200, targets: ALL }));
 const STATE: PlayState = {
   ...{ id: 'a1', by: 'Anna', status: 'done', frameIndex: 0, frameCount: 1, times: 1 },
-  ...{ lateFrames: 2, latestMs: 30, skippedFrames: 1, code: null, detail: null },
+  ...{ lateFrames: 2, latestMs: 30, skippedFrames: 1, batteryUnknown: false, code: null, detail: null },
 };
 const PLAYED = { lateFrames: 2, latestMs: 30, skippedFrames: 1 };
 
@@ -42,10 +42,12 @@ function createPage(begin = (): Promise<string> => Promise.resolve('7-1')) {
 
 test('frames are handed over with the nonce of this page’s turn, and their end is what the gateway tells', async () => {
   const { player, posted, ended, turns } = createPage();
-  const played = player.play(FRAMES, 0, 0);
+  const played = player.play(FRAMES, { times: 0, loopFrom: 0 });
   await turns();
   const frames = [{ durationMs: 200, positions: { '1': 1500 } }];
-  expect(posted).toEqual([{ type: 'play', id: 7, nonce: '7-1', frames, times: 0, loopFrom: 0 }]);
+  expect(posted).toEqual([
+    { type: 'play', id: 7, nonce: '7-1', frames, times: 0, loopFrom: 0, anyway: false },
+  ]);
   ended({});
   expect(await played).toEqual({ ...PLAYED, isWhole: true });
 });
@@ -54,7 +56,7 @@ test.each(['cancelled', 'latched', 'notDriving'] as const)(
   'one that was ended (%s) is no error of its own',
   async (code) => {
     const { player, ended, turns } = createPage();
-    const played = player.play(FRAMES, 1, 0);
+    const played = player.play(FRAMES, { times: 1, loopFrom: 0 });
     await turns();
     ended({ status: 'ended', code, detail: '' });
     expect(await played).toEqual({ ...PLAYED, isWhole: false });
@@ -63,7 +65,7 @@ test.each(['cancelled', 'latched', 'notDriving'] as const)(
 
 test('one whose way to the first frame could not leave is', async () => {
   const { player, ended, turns } = createPage();
-  const failed = player.play(FRAMES, 1, 0).catch((error: unknown) => error);
+  const failed = player.play(FRAMES, { times: 1, loopFrom: 0 }).catch((error: unknown) => error);
   await turns();
   ended({ status: 'ended', code: 'expired', detail: 'Too long ago.' });
   expect(await failed).toMatchObject({ code: 'expired', message: 'Too long ago.' });
@@ -71,7 +73,7 @@ test('one whose way to the first frame could not leave is', async () => {
 
 test('what the gateway refuses for is the error; a packet’s refusal is none of it', async () => {
   const { player, turns } = createPage();
-  const failed = player.play(FRAMES, 1, 0).catch((error: unknown) => error);
+  const failed = player.play(FRAMES, { times: 1, loopFrom: 0 }).catch((error: unknown) => error);
   await turns();
   player.refused(3, new LinkError('outOfRange', 'a packet'));
   player.refused(7, new LinkError('busy', 'somebody plays'));
@@ -80,7 +82,7 @@ test('what the gateway refuses for is the error; a packet’s refusal is none of
 
 test('a group that does not fit into a message takes the way of a download', async () => {
   const { player, posted, requests, answer, ended, turns } = createPage();
-  const played = player.play(LARGE, 2, 1);
+  const played = player.play(LARGE, { times: 2, loopFrom: 1 });
   await turns();
   expect(posted).toEqual([]);
   expect(requests).toMatchObject([{ url: 'api/play', body: { id: 7, nonce: '7-1', times: 2, loopFrom: 1 } }]);
@@ -94,7 +96,7 @@ test('it is ended by a message, once it is there', async () => {
   const { player, posted, turns } = createPage();
   player.stop();
   expect(posted).toEqual([]);
-  void player.play(FRAMES, 0, 0);
+  void player.play(FRAMES, { times: 0, loopFrom: 0 });
   await turns();
   player.stop();
   expect(posted.map(({ type }) => type)).toEqual(['play', 'stopPlaying']);
@@ -103,7 +105,7 @@ test('it is ended by a message, once it is there', async () => {
 test('one that is ended while this page waits for its turn is never asked for', async () => {
   let turn: (nonce: string) => void = () => undefined;
   const { player, posted, turns } = createPage(() => new Promise((resolve) => (turn = resolve)));
-  const played = player.play(FRAMES, 0, 0);
+  const played = player.play(FRAMES, { times: 0, loopFrom: 0 });
   player.stop();
   expect(await played).toMatchObject({ isWhole: false });
   turn('7-1');
@@ -113,7 +115,7 @@ test('one that is ended while this page waits for its turn is never asked for', 
 
 test('one that is ended while its request is on its way is ended when it has arrived', async () => {
   const { player, posted, answer, turns } = createPage();
-  const played = player.play(LARGE, 0, 0);
+  const played = player.play(LARGE, { times: 0, loopFrom: 0 });
   await turns();
   player.stop();
   expect(await played).toMatchObject({ isWhole: false });
@@ -123,7 +125,7 @@ test('one that is ended while its request is on its way is ended when it has arr
 
 test('with the gateway gone nothing waits for its end', async () => {
   const { player, turns } = createPage();
-  const failed = player.play(FRAMES, 0, 0).catch((error: unknown) => error);
+  const failed = player.play(FRAMES, { times: 0, loopFrom: 0 }).catch((error: unknown) => error);
   await turns();
   player.gone(new LinkError('gatewayUnreachable', 'gone'));
   expect(await failed).toMatchObject({ code: 'gatewayUnreachable' });

@@ -3,14 +3,14 @@
 
 import type { LinkError } from '#shared/robot/linkError.ts';
 import type { Frame } from '#shared/codec/commands.ts';
-import type { Played } from '#shared/robot/robot.ts';
+import type { Played, PlayOptions } from '#shared/robot/robot.ts';
 import { MESSAGE_BYTES } from '#shared/robot/timings.ts';
 import { askGateway, frameBody, refusal } from './gatewayValues.ts';
 import type { ClientMessage, PlayedMessage, PlayMessage } from '#shared/client/messages.generated.ts';
 
 export interface GatewayPlayer {
-  /** Resolves when it has ended, however. `times` 0: until stopped; each pass but the first begins with frame `loopFrom`. */
-  play(frames: readonly Frame[], times: number, loopFrom: number): Promise<Played>;
+  /** Resolves when it has ended, however. */
+  play(frames: readonly Frame[], options: PlayOptions): Promise<Played>;
   /** What was begun from here ends with its frame in progress. */
   stop(): void;
   refused(id: number, error: LinkError): void;
@@ -63,10 +63,10 @@ export function createGatewayPlayer(
   }
 
   return {
-    play(frames, times, loopFrom) {
+    play(frames, { times = 1, loopFrom = 0, anyway = false }) {
       return new Promise((resolve, reject) => {
         const mine = (waiter = { id: newId(), resolve, reject, isHandedOver: false });
-        const wish = { frames: frames.map(frameBody), times, loopFrom };
+        const wish = { frames: frames.map(frameBody), times, loopFrom, anyway };
         handOver(mine, wish).catch((error: unknown) => settle(mine.id, (one) => one.reject(error)));
       });
     },

@@ -23,6 +23,8 @@ export interface GatewaySocketOptions {
   /** E.g. `ws://127.0.0.1:8300/ws`. */
   readonly url: string;
   heard(message: Said): void;
+  /** A run began whose battery could not be judged. */
+  batteryUnknown(): void;
   /** Its answer is not awaited. */
   refused(id: number, error: LinkError): void;
   /** The socket has closed by itself, or its port is not open any more. */
@@ -99,9 +101,14 @@ export function createGatewaySocket(options: GatewaySocketOptions): GatewaySocke
   }
 
   function arrived(message: GatewayMessage): void {
-    if (message.type === 'done') take(message.id)?.resolve(message.outcome ?? 'sent');
+    if (message.type === 'done') done(message);
     else if (message.type === 'refused') refuse(message.id, refusal(message.code, message.detail));
     else said(message);
+  }
+
+  function done({ id, outcome, batteryUnknown }: DoneMessage): void {
+    if (batteryUnknown) options.batteryUnknown();
+    take(id)?.resolve(outcome ?? 'sent');
   }
 
   function said(message: Said): void {
