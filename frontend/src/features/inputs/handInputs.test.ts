@@ -206,7 +206,7 @@ test.each(BOARDS)('%s', { timeout: 60_000 * TIMES }, async (profile) => {
 
     for (const one of history) await happen(one);
     await pass(500);
-    await session.close();
+    await Promise.all([session.close(), clock.advance(1_000)]);
     channel.board.powerOff();
   }
 
