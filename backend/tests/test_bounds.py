@@ -20,6 +20,7 @@ from servodeck.robot.hub import Session
 from tests.client import upgrade_at
 from tests.fake_port import FakePort, FakePorts
 from tests.running import Running, server_on
+from tests.test_cli import Served
 
 pytestmark = pytest.mark.slow
 
@@ -124,6 +125,22 @@ async def test_control_frames_and_fragments_count_as_messages_do(
         code, heard = await peer.end()
     assert code == TOO_MANY
     assert heard.count(PING) <= 2 * BURSTS[role] + 1 + sockets.PIECE_BYTES // len(PING)
+
+
+async def test_a_process_of_its_own_has_another_loop_and_the_same_bounds() -> None:
+    """uvloop, where there is one."""
+    served = Served("--board", "doc", "--log-level", "error")
+    try:
+        host, port = served.url.removeprefix("http://").split(":")
+        reader, writer = await asyncio.open_connection(host, int(port))
+        writer.write(upgrade_at(f"{host}:{port}"))
+        await reader.readuntil(b"\r\n\r\n")
+        writer.write(frame(Opcode.TEXT, b'{"type":"stop"}') + FLOODS["pings"] * 20_000)
+        assert (await Peer(reader, writer).end())[0] == TOO_MANY
+        writer.transport.abort()
+        await asyncio.to_thread(served.read_until_stops, 3)
+    finally:
+        served.end()
 
 
 @pytest.mark.parametrize("role", BURSTS)

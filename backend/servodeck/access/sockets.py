@@ -11,7 +11,7 @@ import secrets
 from collections import deque
 from collections.abc import Callable
 from http import HTTPStatus
-from typing import Any
+from typing import Any, cast
 from urllib.parse import unquote
 
 from starlette.types import Message
@@ -70,8 +70,7 @@ class Socket(Losable, asyncio.Protocol):
     # Of the server
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
-        assert isinstance(transport, asyncio.Transport)
-        self.transport = transport
+        self.transport = cast("asyncio.Transport", transport)
         self._shared.connections.add(self)  # type: ignore[arg-type]  # the server asks for `shutdown` alone
 
     def shutdown(self) -> None:
