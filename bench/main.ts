@@ -16,6 +16,7 @@ import { measureDrag } from './drag.ts';
 import { toRecord, type Figure } from './figure.ts';
 import { measureFiles } from './files.ts';
 import { measureFleet } from './fleet.ts';
+import { measureFloods } from './floods.ts';
 import { measureFrames } from './frames.ts';
 import { measureTracks } from './tracks.ts';
 import { measureIk } from './ik.ts';
@@ -59,6 +60,7 @@ const GROUPS: Readonly<Record<string, () => Figure[] | Promise<Figure[]>>> = {
   'stop.running': measureStopRunning,
   'stop.download': measureStopDownload,
   'stop.flood': measureStopFlood,
+  floods: measureFloods,
   page: measurePageSize,
   codec: measureCodec,
   ik: measureIk,

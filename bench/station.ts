@@ -122,19 +122,27 @@ export function temporaryFolder(): string {
   return folder;
 }
 
+interface GatewayOptions {
+  readonly data?: string;
+  readonly options?: readonly string[];
+  /** Of a script that is paired in `data`, where the options ask for pairing. */
+  readonly token?: string;
+}
+
 /** Lends `work` the address and the process of a gateway whose port is open. */
 export async function withGateway<Result>(
   device: string,
   work: (url: string, pid: number) => Promise<Result>,
+  { data = temporaryFolder(), options = [], token }: GatewayOptions = {},
 ): Promise<Result> {
   const lines: string[] = [];
-  const listen = ['--listen', '127.0.0.1:0', '--data', temporaryFolder()];
-  const serve = ['-m', 'servodeck', 'serve', ...listen, '--serial', device];
+  const listen = ['--listen', '127.0.0.1:0', '--data', data];
+  const serve = ['-m', 'servodeck', 'serve', ...listen, '--serial', device, ...options];
   const command = [...(environments.get(device) ?? []), python, ...serve, '--no-open', '--exit-with-stdin'];
   const [program = '', ...args] = environments.has(device) ? ['env', ...command] : command;
   const gateway = startChild(program, args, (line) => lines.push(line));
   try {
-    return await work(await openedGateway(lines), gateway.pid ?? 0);
+    return await work(await openedGateway(lines, token), gateway.pid ?? 0);
   } finally {
     await endChild(gateway);
   }
@@ -178,11 +186,12 @@ export function withDashboard<Result>(
 }
 
 /** Its address, once it has said it, opened its port and asked the board who it is: before that nobody may name the board. */
-async function openedGateway(lines: readonly string[]): Promise<string> {
+async function openedGateway(lines: readonly string[], token?: string): Promise<string> {
+  const headers = token === undefined ? {} : { Authorization: `Bearer ${token}` };
   const urlIn = (line: string): string | undefined => /http:\/\/[^\s/]+/.exec(line)?.[0];
   const url = await eventually('the gateway to start', () => lines.map(urlIn).find(Boolean));
   return eventually('the gateway to know what the board answers', async () => {
-    const response = await fetch(`${url}/api/status`);
+    const response = await fetch(`${url}/api/status`, { headers });
     const { port, link } = (await response.json()) as { port: { status: string }; link: { status: string } };
     return port.status === 'open' && link.status !== 'identifying' ? url : undefined;
   });

@@ -27,6 +27,7 @@ from servodeck.api.cameras import (
 from servodeck.errors import PortMissingError
 from tests.fake_port import FakePorts
 from tests.running import server_on
+from tests.stubborn import WAYS, stubborn
 
 pytestmark = pytest.mark.slow
 
@@ -38,6 +39,11 @@ PART = (
     + b"\r\n\r\n"
     + FRAME
 )
+ODD_KINDS = {
+    "/folded": f"multipart/x-mixed-replace;\r\n boundary={BOUNDARY}",
+    "/tabbed": f"multipart/x-mixed-replace;\x0bboundary={BOUNDARY}",
+    "/control": f"multipart/x-mixed-replace; boundary=\x01{BOUNDARY}",
+}
 MOVED = {"/moved": "/three", "/away": "http://localhost:{port}/three"}
 SECRET = "Basic dXNlcjpwQHNz"  # user:p@ss
 
@@ -63,7 +69,7 @@ class Picture(BaseHTTPRequestHandler):
             return
         self.send_response(200)
         motion = f"multipart/x-mixed-replace; boundary={BOUNDARY}"
-        kinds = {"/page": "text/html", "/still": "image/jpeg"}
+        kinds = {**ODD_KINDS, "/page": "text/html", "/still": "image/jpeg"}
         self.send_header("Content-Type", kinds.get(self.path, motion))
         self.end_headers()
         count = 0
@@ -125,8 +131,8 @@ async def first_chunk_of(viewers: contextlib.AsyncExitStack, client: AsyncClient
     return reader
 
 
-async def status_of_stream(client: AsyncClient) -> int:
-    async with client.stream("GET", "/api/cameras/0/stream") as answer:
+async def status_of_stream(client: AsyncClient, camera: int = 0) -> int:
+    async with client.stream("GET", f"/api/cameras/{camera}/stream") as answer:
         return answer.status_code
 
 
@@ -141,6 +147,15 @@ async def test_what_is_no_picture_is_refused_with_the_reason(source: str) -> Non
         assert (await client.get(f"/api/cameras/{len(addresses)}/stream")).status_code == 404
 
 
+@pytest.mark.parametrize(("path", "status"), [("/folded", 200), ("/tabbed", 200), ("/control", 502)])
+async def test_an_odd_kind_goes_on_as_one_line_or_is_refused(source: str, path: str, status: int) -> None:
+    async with gateway(Camera("Bench", source + path)) as client:
+        answer = await client.get("/api/cameras/0/stream")
+    assert answer.status_code == status
+    if status == 200:
+        assert answer.headers["content-type"] == f"multipart/x-mixed-replace; boundary={BOUNDARY}"
+
+
 async def test_a_name_and_password_in_the_address_go_to_the_camera_alone(source: str) -> None:
     address = source.replace("//", "//user:p%40ss@")
     async with gateway(Camera("Door", f"{address}/secret")) as client:
@@ -148,10 +163,40 @@ async def test_a_name_and_password_in_the_address_go_to_the_camera_alone(source:
         assert "p@ss" not in (await client.get("/api/cameras")).text
 
 
+@pytest.mark.parametrize("how", WAYS)
+async def test_a_head_without_end_is_waited_for_no_longer_than_silence(
+    how: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("servodeck.api.cameras.SILENT_S", 0.2)
+    with stubborn(how) as camera:
+        async with gateway(Camera("Bench", camera.address)) as client, asyncio.timeout(5):
+            answer = await client.get("/api/cameras/0/stream")
+            assert (answer.status_code, answer.json()["code"]) == (502, "cameraFailed")
+            assert "timed out" in answer.json()["detail"]
+            assert await asyncio.to_thread(camera.ended.acquire, timeout=2)
+
+
+@pytest.mark.parametrize("how", WAYS)
+async def test_a_viewer_that_leaves_ends_the_opening_and_makes_room(source: str, how: str) -> None:
+    with stubborn(how) as camera:
+        cameras = Camera("Bench", camera.address), Camera("Hall", f"{source}/endless")
+        async with gateway(*cameras) as client, asyncio.timeout(9):
+            viewers = [asyncio.create_task(client.get("/api/cameras/0/stream")) for _ in range(MOST_STREAMS)]
+            for _ in viewers:
+                assert await asyncio.to_thread(camera.begun.acquire, timeout=4)
+            assert await status_of_stream(client, 1) == 429
+            for viewer in viewers:
+                viewer.cancel()
+            for _ in viewers:
+                assert await asyncio.to_thread(camera.ended.acquire, timeout=4)
+            while await status_of_stream(client, 1) != 200:  # noqa: ASYNC110 (nothing says that all have left)
+                await asyncio.sleep(0.02)
+
+
 class Endless:
     """A source that counts what was read of it."""
 
-    headers = {"Content-Type": "multipart/x-mixed-replace; boundary=frame"}  # noqa: RUF012
+    media_type = "multipart/x-mixed-replace; boundary=frame"
 
     def __init__(self) -> None:
         self.reads = 0
@@ -163,6 +208,9 @@ class Endless:
 
     def close(self) -> None:
         self.is_closed.set()
+
+    def abort(self) -> None:
+        """It blocks nobody."""
 
 
 async def test_nothing_is_read_that_a_slow_viewer_does_not_take() -> None:

@@ -12,7 +12,7 @@ from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.typing import Origin
 
-from servodeck.access import connections
+from servodeck.access import sockets
 from servodeck.api.websocket import read_all
 from servodeck.callers import THIS_COMPUTER
 from servodeck.errors import PortMissingError
@@ -152,7 +152,7 @@ async def test_bytes_and_giants_end_the_connection(gateway: Running) -> None:
 async def test_a_client_that_never_reads_is_dropped_and_the_others_lose_nothing(
     port: FakePort, gateway: Running, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(connections, "CLOSE_S", 0.1)
+    monkeypatch.setattr(sockets, "CLOSE_S", 0.1)
     lazy = await deaf_at(gateway.address)
     async with connect(gateway.ws, max_queue=None) as client:
         await hear_until(client, "welcome")

@@ -13,6 +13,7 @@ from typing import cast
 
 import pytest
 
+from servodeck.fleet import stopping
 from servodeck.fleet.console import Console
 from servodeck.fleet.heard import Robot
 from servodeck.fleet.messages import About, State
@@ -22,6 +23,7 @@ from servodeck.fleet.stopping import stop_robots
 from servodeck.snapshots import LinkState
 from tests.fleet import WAIT_S, console_of, fleet_on
 from tests.mosquitto import Mosquitto, free_port, needs_mosquitto
+from tests.stubborn import WAYS, stubborn
 from tests.test_cli import Served
 
 pytestmark = [pytest.mark.slow, needs_mosquitto]
@@ -177,3 +179,17 @@ def test_whatever_answers_at_an_address_that_was_a_robots_has_not_stopped_it() -
         console = Nobody(robot_at("arm-1", server.page))
         assert stop_robots(cast("Console", console)).missing == ("arm-1",)
         assert len(server.requests) == 1
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("how", WAYS)
+def test_one_that_never_ends_its_answer_is_missing_and_holds_up_no_other(
+    how: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(stopping, "STRAIGHT_S", 0.3)
+    monkeypatch.setattr(stopping, "WHOLE_S", 0.3)
+    with pages() as server, stubborn(how) as endless:
+        robots = [robot_at("a", Page(endless.address, TOKEN)), robot_at("z", server.page)]
+        report = stop_robots(cast("Console", Nobody(*robots)))
+        assert (report.stopped, report.missing) == (("z",), ("a",))
+        assert endless.ended.acquire(timeout=2)

@@ -9,7 +9,7 @@ import pytest
 from websockets.asyncio.client import connect
 from websockets.exceptions import InvalidStatus
 
-from servodeck.access import addresses, connections
+from servodeck.access import addresses, connections, sockets
 from servodeck.api import server
 from tests.client import upgrade_at
 from tests.fake_port import FakePort, FakePorts
@@ -190,14 +190,14 @@ async def test_who_answers_no_ping_is_gone_and_who_does_stays(monkeypatch: pytes
 async def test_an_upgrade_that_is_refused_costs_no_more_than_a_request(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    made: list[connections.ImpatientSocket] = []
+    made: list[sockets.Socket] = []
 
-    class NotedSocket(connections.ImpatientSocket):
+    class NotedSocket(sockets.Socket):
         def __init__(self, *more: Any, **named: Any) -> None:
             super().__init__(*more, **named)
             made.append(self)
 
-    monkeypatch.setattr(server, "ImpatientSocket", NotedSocket)
+    monkeypatch.setattr(server, "Socket", NotedSocket)
     async with server_on(FakePorts(FakePort()), make_access=addresses.lan) as gateway:
         _, token = gateway.entrance.devices.admit("token", "Script", "viewer")
         origin = {"Origin": "http://evil.example"}
@@ -219,9 +219,9 @@ async def test_what_was_to_be_said_when_that_end_comes_is_no_mistake(
         await hear_until(client, "welcome")
         (session,) = gateway.control.hub.sessions
         (served,) = gateway.server.server_state.connections
-        assert isinstance(served, connections.ImpatientSocket)
+        assert isinstance(served, sockets.Socket)
         session.put("{}")
-        served.keepalive_timeout()
+        served.abort()
         await client.wait_closed()
     assert [record for record in caplog.records if record.levelname == "ERROR"] == []
 

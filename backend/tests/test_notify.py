@@ -26,6 +26,7 @@ from servodeck.notify.sender import Outcome, Sender
 from servodeck.protocol.timings import BATTERY
 from tests.fake_port import FakePort, FakePorts
 from tests.running import server_on
+from tests.stubborn import WAYS, stubborn
 
 LOW_MV = 7000
 
@@ -236,6 +237,15 @@ def test_a_receiver_that_is_gone_or_hangs_or_speaks_no_tls_drops_it(playing: Pla
     assert details[:2] == ["It does not answer: Connection refused.", "It does not answer: timed out."]
     assert details[2].startswith("It does not answer")
     assert not any("secret" in detail for detail in details)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("how", WAYS)
+def test_a_receiver_that_never_ends_its_head_drops_it(how: str) -> None:
+    with stubborn(how) as receiver:
+        outcome = sender_to(receiver.address, attempts=1, timeout_s=0.2).deliver(TEST)
+        assert outcome == Outcome("dropped", "It does not answer: timed out.")
+        assert receiver.ended.acquire(timeout=2)
 
 
 @pytest.mark.slow

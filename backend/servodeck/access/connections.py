@@ -1,21 +1,19 @@
 """Limits of connections, against clients that hold them open by sending little, or fill memory by sending
 much: a request must come soon and whole, with a head of limited size; its body is read only when the route
-needs it; a WebSocket must answer pings. Only few unauthenticated connections stay open, because STOP needs
-the descriptors.
+needs it; its answer must be read. Only few unauthenticated connections stay open, because STOP needs the
+descriptors.
 
 Knows time, bytes and addresses, no request's meaning.
 """
 
 import asyncio
+import socket
 from collections.abc import Callable
-from typing import Any, Protocol
+from typing import Protocol
 
 from starlette.types import Scope
-from uvicorn._types import ASGI3Application, ASGISendEvent
-from uvicorn.config import Config
+from uvicorn._types import ASGI3Application
 from uvicorn.protocols.http.httptools_impl import STATUS_LINE, HttpToolsProtocol, RequestResponseCycle
-from uvicorn.protocols.utils import ClientDisconnected
-from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIOProtocol
 from uvicorn.server import ServerState
 
 # Beside 216 sessions, files and the port, far below the 1,024 descriptors that the process has.
@@ -68,15 +66,40 @@ BODY_S = 30.0
 ANSWERED_S = 0.5
 HEAD_BYTES = 32 * 1024
 HEADERS = 100
-# What the system holds of a connection that is not read; 3 MiB take 100 such windows.
-RECEIVED_BYTES = 32 * 1024
+# What the system holds of a connection that is not read; one read brings at most twice as much. A library of
+# 3 MiB takes 100 windows of a known client.
+RECEIVED_BYTES = 8 * 1024
+KNOWN_RECEIVED_BYTES = 32 * 1024
+# A pipeline of more requests than any client of ours sends.
+PIPELINED = 8
+# Of answers that nobody reads, all of them together, and how long one waits for its reader.
+UNREAD_BYTES = 8 * 1024 * 1024
+UNREAD_S = 30.0
 # Beyond it no connection waits for a next request.
 MOST_WAITING = 600
 # A browser answers by itself, also for a page that sleeps. Who does not read never gets to the ping.
 PING_S = 10.0
 PONG_S = 10.0
-# For the words of the end to arrive.
-CLOSE_S = 2.0
+
+
+class Unread:
+    """Answers whose readers are slow. Beyond a sum the one that has waited longest ends."""
+
+    def __init__(self) -> None:
+        # The one that has waited longest comes first.
+        self._bytes: dict[Closable, int] = {}
+
+    def add(self, connection: Closable, size: int) -> None:
+        self._bytes[connection] = size
+        while sum(self._bytes.values()) > UNREAD_BYTES:
+            longest = next(iter(self._bytes))
+            self.remove(longest)
+            longest.abort()
+
+    def remove(self, connection: Closable) -> None:
+        """It has read, or was closed."""
+        self._bytes.pop(connection, None)
+
 
 EXTENSION = "servodeck.connection"
 HEAD_REFUSED = b"""{"code":"tooLarge","detail":"The head of a request is at most 32 KiB and 100 headers."}"""
@@ -93,6 +116,9 @@ class Connection(Protocol):
 
     def abort(self) -> None:
         """Cuts it, also where the client does not read."""
+
+    def limit_frames(self, count: Callable[[], bool]) -> None:
+        """Of a WebSocket: calls `count` for each control frame and fragment, and ends where it is False."""
 
 
 def connection_of(scope: Scope) -> Connection | None:
@@ -111,6 +137,7 @@ class State(ServerState):
         """`may_upgrade` judges the headers of an upgrade that came in at that address of ours."""
         super().__init__()
         self.unauthenticated = Unauthenticated()
+        self.unread = Unread()
         self.may_upgrade = may_upgrade
 
 
@@ -137,8 +164,13 @@ class HeadTooLargeError(Exception):
     """Ends the parsing of a request."""
 
 
+class TooManyRequestsError(Exception):
+    """Ends the parsing of a pipeline."""
+
+
 class ImpatientProtocol(Losable, HttpToolsProtocol):
     _timer: asyncio.TimerHandle | None = None
+    _unread_timer: asyncio.TimerHandle | None = None
     _head_bytes = 0
     _received_bytes = 0
     _in_head = False
@@ -154,12 +186,39 @@ class ImpatientProtocol(Losable, HttpToolsProtocol):
 
     def connection_lost(self, exc: Exception | None) -> None:
         self._end_in(None)
+        self._has_read()
         self._shared.unauthenticated.remove(self.transport)
         self._notify_lost()
         if self._answered:  # uvicorn looks at the request that came last, which may wait for its turn
             self._answered.disconnected = True
             self._answered.message_event.set()
         super().connection_lost(exc)
+        self._forget()
+
+    def _forget(self) -> None:
+        """Breaks the circles of references: what was received would stay in memory until the garbage of all
+        connections is collected.
+        """
+        self._unset_keepalive_if_required()
+        self._answered = None
+        self.pipeline.clear()
+        self.parser = self.cycle = self.scope = self.headers = None  # type: ignore[assignment]
+
+    def pause_writing(self) -> None:
+        super().pause_writing()
+        if self._unread_timer is None:
+            self._unread_timer = self.loop.call_later(UNREAD_S, self.transport.abort)
+        self._shared.unread.add(self.transport, self.transport.get_write_buffer_size())
+
+    def resume_writing(self) -> None:
+        super().resume_writing()
+        self._has_read()
+
+    def _has_read(self) -> None:
+        self._shared.unread.remove(self.transport)
+        if self._unread_timer:
+            self._unread_timer.cancel()
+        self._unread_timer = None
 
     def _start_asgi_task(self, cycle: RequestResponseCycle, app: ASGI3Application) -> None:
         self._answered = cycle
@@ -170,6 +229,8 @@ class ImpatientProtocol(Losable, HttpToolsProtocol):
         return shared(self.server_state)
 
     def know(self) -> None:
+        if not self._is_known and (opened := self.transport.get_extra_info("socket")):
+            opened.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, KNOWN_RECEIVED_BYTES)
         self._is_known = True
         self.timeout_keep_alive = KNOWN_IDLE_S
         self._shared.unauthenticated.remove(self.transport)
@@ -198,8 +259,12 @@ class ImpatientProtocol(Losable, HttpToolsProtocol):
     def handle_websocket_upgrade(self) -> None:
         self._end_in(None)
         super().handle_websocket_upgrade()
+        self._forget()
 
     def on_message_begin(self) -> None:
+        if len(self.pipeline) >= PIPELINED:
+            self.transport.abort()
+            raise TooManyRequestsError
         super().on_message_begin()
         self._in_head, self._head_bytes, self._received_bytes = True, 0, 0
         self._end_in(HEAD_S)
@@ -254,6 +319,10 @@ class ImpatientProtocol(Losable, HttpToolsProtocol):
 
     def _refuse_head(self) -> None:
         self._in_head = False
+        due = self._answered
+        if due and not due.response_complete:  # an answer to an earlier request
+            self.transport.abort()
+            return
         head = b"content-type: application/json\r\nconnection: close\r\ncontent-length: %d\r\n\r\n"
         self.transport.write(STATUS_LINE[431] + head % len(HEAD_REFUSED) + HEAD_REFUSED)
         self._hang_up()
@@ -275,45 +344,3 @@ class ImpatientProtocol(Losable, HttpToolsProtocol):
 def shared(state: ServerState) -> State:
     assert isinstance(state, State)
     return state
-
-
-class ImpatientSocket(Losable, WebSocketsSansIOProtocol):
-    """Closing is not enough: written bytes that the client does not read would hold the connection for
-    good.
-    """
-
-    _end: asyncio.TimerHandle | None = None
-
-    def __init__(self, config: Config, server_state: ServerState, *more: Any, **named: Any) -> None:
-        super().__init__(config, server_state, *more, **named)
-        self._unauthenticated = shared(server_state).unauthenticated
-
-    def connection_lost(self, exc: Exception | None) -> None:
-        self._unauthenticated.remove(self.transport)
-        self._notify_lost()
-        if self._end:  # it would keep all of this in memory until then
-            self._end.cancel()
-        super().connection_lost(exc)
-
-    def know(self) -> None:
-        self._unauthenticated.remove(self.transport)
-
-    def abort(self) -> None:
-        self.transport.abort()
-
-    def keepalive_timeout(self) -> None:
-        super().keepalive_timeout()
-        self.transport.abort()
-
-    async def send(self, message: ASGISendEvent) -> None:
-        if self.close_sent:  # no mistake: it was on its way when the end came
-            raise ClientDisconnected
-        await super().send(message)
-        # uvicorn takes a refusal for an application that forgot to answer, and logs an error.
-        self.handshake_complete = self.handshake_complete or self.close_sent
-
-    async def run_asgi(self) -> None:
-        self.scope["extensions"] = {**(self.scope["extensions"] or {}), EXTENSION: {"connection": self}}
-        await super().run_asgi()
-        if not self.disconnected:
-            self._end = self.loop.call_later(CLOSE_S, self.transport.abort)

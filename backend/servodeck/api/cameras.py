@@ -27,7 +27,7 @@ from servodeck.schema import Message
 from servodeck.threads import in_thread
 
 KIND = "multipart/x-mixed-replace"
-# A camera that sends nothing for so long is gone.
+# A camera that sends nothing for so long, or no whole head, is gone.
 SILENT_S = 10.0
 CHUNK_BYTES = 32 * 1024
 # Read ahead of a slow viewer.
@@ -86,18 +86,42 @@ async def stream(request: Requested, camera_id: int, caller: Annotated[Caller, V
         raise BusyError(f"{MOST_STREAMS} camera streams are open already. Close one of them, then try again.")
     state.open_streams += 1
     try:
-        source = await in_thread(lambda: opened(cameras[camera_id]), close)
+        source = await source_for(request, cameras[camera_id])
     except BaseException:
         state.open_streams -= 1
         raise
     return Relay(source, state, lambda: entrance_in(request).still_lets_in(caller))
 
 
+async def source_for(request: Requested, camera: Camera) -> "Source":
+    """Raises CameraError, also where the viewer leaves before the camera answers."""
+    source = Source()
+    opening = asyncio.create_task(in_thread(lambda: source.open(camera), lambda _: close(source)))
+    leaving = asyncio.create_task(until_gone(request.receive))
+    try:
+        await asyncio.wait({opening, leaving}, return_when=asyncio.FIRST_COMPLETED)
+        if not opening.done():
+            source.abort()
+        await opening
+    except BaseException:
+        source.abort()
+        raise
+    finally:
+        leaving.cancel()
+        opening.cancel()
+    return source
+
+
+async def until_gone(receive: Receive) -> None:
+    while (await receive())["type"] != "http.disconnect":
+        pass
+
+
 class Relay(StreamingResponse):
     """Its place is free again when it ends, also if its viewer leaves before the first byte."""
 
     def __init__(self, source: Any, state: Any, may_view: Callable[[], bool]) -> None:
-        super().__init__(self._chunks(may_view), media_type=source.headers["Content-Type"])
+        super().__init__(self._chunks(may_view), media_type=source.media_type)
         self._source, self._state = source, state
         self._is_read = False
 
@@ -121,11 +145,54 @@ def cameras_in(request: Requested) -> tuple[Camera, ...]:
     return cameras
 
 
-def opened(camera: Camera) -> Any:
-    """Blocks. Raises CameraError."""
+class Source:
+    """The stream of a camera. Its methods block, but for `abort`, which ends the others from any thread."""
+
+    media_type = KIND
+
+    def __init__(self) -> None:
+        from servodeck.fetching import Fetch
+
+        self._fetch = Fetch(SILENT_S)
+        self._answer: Any = None
+
+    def open(self, camera: Camera) -> None:
+        """Raises CameraError."""
+        from urllib.error import HTTPError
+
+        request, same_host = request_of(camera)
+        try:
+            self._answer = self._fetch.open(request, same_host)
+        except (OSError, ValueError, HTTPException) as error:
+            if isinstance(error, HTTPError):
+                error.close()
+            advice = "Check that it is on, and its address."
+            raise CameraError(
+                f"The camera {camera.name} does not answer: {reason_in(error)}. {advice}"
+            ) from error
+        kind = self._answer.headers.get_content_type()
+        # On one line, as it may have come folded.
+        self.media_type = " ".join(str(self._answer.headers["Content-Type"]).split())
+        if kind != KIND or not self.media_type.isprintable():
+            self._answer.close()
+            advice = "Use an address of it that sends motion JPEG."
+            raise CameraError(f"The camera {camera.name} sends {kind}. {advice}")
+
+    def read1(self, size: int) -> bytes:
+        found: bytes = self._answer.read1(size)
+        return found
+
+    def close(self) -> None:
+        self._answer.close()
+
+    def abort(self) -> None:
+        self._fetch.abort()
+
+
+def request_of(camera: Camera) -> tuple[Any, Any]:
+    """With the handler of its redirections."""
     # They take as long to load as all routes.
-    from urllib.error import HTTPError
-    from urllib.request import HTTPRedirectHandler, Request, build_opener
+    from urllib.request import HTTPRedirectHandler, Request
 
     class SameHost(HTTPRedirectHandler):
         """A password goes to its camera alone."""
@@ -141,22 +208,7 @@ def opened(camera: Camera) -> Any:
         pair = f"{unquote(parts.username)}:{unquote(parts.password or '')}"
         headers["Authorization"] = "Basic " + base64.b64encode(pair.encode()).decode()
     host = parts.netloc.rpartition("@")[2]
-    request = Request(urlunsplit(parts._replace(netloc=host)), headers=headers)
-    try:
-        answer = build_opener(SameHost).open(request, timeout=SILENT_S)
-    except (OSError, ValueError, HTTPException) as error:
-        if isinstance(error, HTTPError):
-            error.close()
-        advice = "Check that it is on, and its address."
-        raise CameraError(
-            f"The camera {camera.name} does not answer: {reason_in(error)}. {advice}"
-        ) from error
-    kind = answer.headers.get_content_type()
-    if kind != KIND:
-        answer.close()
-        advice = "Use an address of it that sends motion JPEG."
-        raise CameraError(f"The camera {camera.name} sends {kind}. {advice}")
-    return answer
+    return Request(urlunsplit(parts._replace(netloc=host)), headers=headers), SameHost
 
 
 def reason_in(error: Exception) -> str:
@@ -200,3 +252,4 @@ async def relayed(source: Any, may_view: Callable[[], bool]) -> AsyncGenerator[b
     finally:
         has_ended.set()
         room.release()
+        source.abort()  # the thread may wait for a byte

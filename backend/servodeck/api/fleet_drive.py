@@ -13,6 +13,7 @@ from fastapi import APIRouter
 from pydantic import ValidationError
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
+from servodeck.access.connections import connection_of
 from servodeck.api.fleet import OfFleet
 from servodeck.api.intake import rate_of
 from servodeck.api.routes import DRIVER, audit_in, entrance_in
@@ -61,6 +62,8 @@ async def close(socket: WebSocket, reason: CloseReason | None) -> None:
 async def read_all(socket: WebSocket, session: DriveSession, caller: Caller) -> CloseReason | None:
     """Until the page leaves; or why it has to."""
     rate = rate_of(caller, asyncio.get_running_loop().time)
+    if connection := connection_of(socket.scope):
+        connection.limit_frames(rate.take)
     while (event := await socket.receive())["type"] != "websocket.disconnect":
         text = event.get("text")
         if text is None:

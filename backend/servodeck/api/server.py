@@ -25,10 +25,10 @@ from servodeck.access.connections import (
     PONG_S,
     RECEIVED_BYTES,
     ImpatientProtocol,
-    ImpatientSocket,
     State,
 )
 from servodeck.access.guard import Guard
+from servodeck.access.sockets import Socket
 from servodeck.api.health import notify_systemd
 from servodeck.errors import PortError
 from servodeck.protocol.timings import PLAY
@@ -52,10 +52,9 @@ class Server(uvicorn.Server):
             uvicorn.Config(
                 app,
                 http=ImpatientProtocol,
-                ws=ImpatientSocket,
+                ws=Socket,
                 ws_ping_interval=PING_S,
                 ws_ping_timeout=PONG_S,
-                ws_per_message_deflate=False,
                 ws_max_size=PLAY.message_bytes,
                 timeout_keep_alive=IDLE_S,
                 timeout_graceful_shutdown=CANCEL_S,

@@ -14,6 +14,7 @@ from pydantic import ValidationError
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from servodeck import metrics
+from servodeck.access.connections import connection_of
 from servodeck.api.intake import Intake, merged, rate_of
 from servodeck.callers import Caller, Role
 from servodeck.errors import BusyError, GatewayError, MalformedError
@@ -126,6 +127,8 @@ async def serve_session(socket: WebSocket, session: Session, control: Control) -
 
 async def read_all(socket: WebSocket, session: Session, control: Control) -> None:
     intake = intake_of(session, control)
+    if connection := connection_of(socket.scope):
+        connection.limit_frames(lambda: intake.count() or not session.ended.is_set())
     try:
         while (event := await socket.receive())[
             "type"

@@ -11,6 +11,7 @@ import socket
 import ssl
 import sys
 import threading
+from collections import deque
 from collections.abc import Callable, Mapping
 from functools import cache
 from pathlib import Path
@@ -32,6 +33,8 @@ KEEP_ALIVE_S = 5
 FIRST_WAIT_S, LONGEST_WAIT_S = 0.25, 5.0
 END_S = 0.5
 TOPIC_BYTES = 4096
+# To a broker that does not read; far more than is said to it in the 10 s in which it is found to be gone.
+UNSENT_BYTES = 1024 * 1024
 PORTS = {"mqtt": 1883, "mqtts": 8883, "ws": 80, "wss": 443}
 log = logging.getLogger("servodeck.fleet")
 
@@ -140,6 +143,8 @@ class Connection:
         self._failures = 0
         self._is_refused = False
         self._ended = threading.Event()
+        self._unsent: deque[tuple[mqtt.MQTTMessageInfo, int]] = deque()
+        self._publishing = threading.Lock()
         client = mqtt.Client(
             CallbackAPIVersion.VERSION2,
             client_id,
@@ -175,13 +180,27 @@ class Connection:
         self._client.loop_start()
 
     def publish(self, outgoing: Outgoing) -> bool:
-        """From any thread, without waiting. False while there is no connection: it is not sent later."""
-        if not self.is_connected:
-            return False
-        info = self._client.publish(
-            outgoing.topic, outgoing.payload, outgoing.qos, outgoing.is_retained, properties_of(outgoing)
-        )
-        return info.rc == mqtt.MQTT_ERR_SUCCESS
+        """From any thread, without waiting. False while there is no connection, or while the broker does not
+        read: it is not sent later.
+        """
+        with self._publishing:
+            if not self.is_connected or not self._has_room_for(outgoing):
+                return False
+            info = self._client.publish(
+                outgoing.topic, outgoing.payload, outgoing.qos, outgoing.is_retained, properties_of(outgoing)
+            )
+            if info.rc != mqtt.MQTT_ERR_SUCCESS:
+                return False
+            self._unsent.append((info, len(outgoing.payload)))
+            return True
+
+    def _has_room_for(self, outgoing: Outgoing) -> bool:
+        """A STOP, whose payload is empty, always finds room."""
+        unsent = self._unsent
+        while unsent and has_been_sent(unsent[0][0]):
+            unsent.popleft()
+        waiting_bytes = sum(size for _, size in unsent)
+        return not outgoing.payload or waiting_bytes < UNSENT_BYTES
 
     def subscribe(self, topic: str, interest: Interest) -> None:
         """Also behind the next connections, until `unsubscribe`."""
@@ -215,6 +234,7 @@ class Connection:
             self._is_refused = True
             self._failed(f"The broker refuses: {reason}.")
             return
+        self._unsent = deque()  # what an earlier connection has not sent is gone
         self._failures, self.problem, self.is_connected = 0, None, True
         self._plan_next()
         if self._interests:
@@ -269,6 +289,14 @@ class Connection:
         limit_s = min(LONGEST_WAIT_S, FIRST_WAIT_S * 2 ** min(self._failures, 10))
         wait_s = random.uniform(0.0, limit_s)
         self._client.reconnect_delay_set(wait_s, wait_s)  # type: ignore[arg-type]  # it takes fractions, too
+
+
+def has_been_sent(info: mqtt.MQTTMessageInfo) -> bool:
+    """Or never will be, by this connection."""
+    try:
+        return info.is_published()
+    except (RuntimeError, ValueError):
+        return True
 
 
 def send_at_once(_client: mqtt.Client, _data: Any, opened: Any) -> None:

@@ -17,7 +17,8 @@ from servodeck.fleet.outcomes import StopReport, report_of
 
 # Over a broker that works all have confirmed it by then.
 GRACE_S = 0.25
-STRAIGHT_S = 1.0
+# For the connection and for each read, and for all of it.
+STRAIGHT_S, WHOLE_S = 1.0, 2.0
 ANSWER_BYTES = 16 * 1024
 # Those that are switched off take all of that second, in which the others must not wait.
 AT_ONCE = 256
@@ -73,7 +74,9 @@ def stop_straight(about: About) -> bool:
     address is one in this network.
     """
     # They take as long to load as all of the console.
-    from urllib.request import HTTPRedirectHandler, ProxyHandler, Request, build_opener
+    from urllib.request import HTTPRedirectHandler, ProxyHandler, Request
+
+    from servodeck.fetching import Fetch
 
     class Nowhere(HTTPRedirectHandler):
         def redirect_request(self, *_: Any) -> None:
@@ -84,8 +87,7 @@ def stop_straight(about: About) -> bool:
     headers = {"Authorization": f"Bearer {about.stop_token}"}
     request = Request(f"{about.page.rstrip('/')}/api/stop", b"", headers, method="POST")
     try:
-        with build_opener(Nowhere, ProxyHandler({})).open(request, timeout=STRAIGHT_S) as response:
-            said = json.loads(response.read(ANSWER_BYTES))
+        said = json.loads(Fetch(WHOLE_S, STRAIGHT_S).read(request, ANSWER_BYTES, Nowhere, ProxyHandler({})))
     except (OSError, HTTPException, ValueError):
         return False
     # Something else may have the address by now.

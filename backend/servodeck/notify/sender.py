@@ -109,7 +109,9 @@ def post(receiver: Receiver, notice: Notice, timeout_s: float) -> None:
     """Blocks. Raises FailedError. Follows no redirection: the secrets in a request are for that host."""
     # They take as long to load as all routes.
     from urllib.error import HTTPError
-    from urllib.request import HTTPRedirectHandler, Request, build_opener
+    from urllib.request import HTTPRedirectHandler, Request
+
+    from servodeck.fetching import Fetch
 
     class Nowhere(HTTPRedirectHandler):
         def redirect_request(self, *_: Any) -> None:
@@ -118,7 +120,7 @@ def post(receiver: Receiver, notice: Notice, timeout_s: float) -> None:
     made = post_of(receiver, notice)
     request = Request(made.url, made.body, made.headers, method="POST")
     try:
-        build_opener(Nowhere).open(request, timeout=timeout_s).close()
+        Fetch(timeout_s).open(request, Nowhere).close()
     except HTTPError as error:
         error.close()
         is_passing = error.code >= 500 or error.code in PASSING

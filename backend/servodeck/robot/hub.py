@@ -6,6 +6,7 @@ Knows sessions, callers, texts and commands; no socket, no other message's meani
 """
 
 import asyncio
+import sys
 from collections.abc import Callable, Collection, Coroutine
 from dataclasses import replace
 from functools import lru_cache
@@ -22,6 +23,8 @@ from servodeck.value import value
 # Enough for a second of a busy board (960 bytes) and the answers to a full queue; far more means that
 # it does not read.
 OUTBOX_MESSAGES = 256
+# Of texts alone: what is made only when it is sent takes no room before.
+OUTBOX_BYTES = 256 * 1024
 # Sessions up to which a caller of that role may connect: viewers never take the places of drivers, nor
 # drivers those of owners, who can revoke others.
 SESSIONS_AT_MOST: dict[Role, int] = {"stopper": 200, "viewer": 200, "driver": 208, "owner": 216}
@@ -49,6 +52,7 @@ class Session:
         self.caller = caller
         self.answers = answers
         self._outbox: asyncio.Queue[str | Callable[[], str]] = asyncio.Queue(OUTBOX_MESSAGES)
+        self._outbox_bytes = 0
         self.ended = asyncio.Event()
         self.close_reason: CloseReason | None = None
         self._pending: set[asyncio.Task[Any]] = set()
@@ -63,10 +67,12 @@ class Session:
     def _put(self, text: str | Callable[[], str]) -> None:
         if self.ended.is_set():
             return
-        try:
-            self._outbox.put_nowait(text)
-        except asyncio.QueueFull:
+        size = size_of(text)
+        if self._outbox.full() or (self._outbox_bytes and self._outbox_bytes + size > OUTBOX_BYTES):
             self.end(TRY_AGAIN_LATER, "This client does not read its messages.")
+            return
+        self._outbox_bytes += size
+        self._outbox.put_nowait(text)
 
     def end(self, code: int, reason: str) -> None:
         self.close_reason = self.close_reason or CloseReason(code, reason)
@@ -92,7 +98,13 @@ class Session:
 
     async def next(self) -> str:
         text = await self._outbox.get()
+        self._outbox_bytes -= size_of(text)
         return text if isinstance(text, str) else text()
+
+
+def size_of(text: str | Callable[[], str]) -> int:
+    """In memory, where one letter of a name may double what each of the others takes."""
+    return sys.getsizeof(text) if isinstance(text, str) else 0
 
 
 def is_of(session: Session | None, caller_id: str) -> bool:
@@ -238,7 +250,11 @@ class Relay:
         if not commands:
             return
         behind = self._after.get(session)
-        self._after[session] = commands if behind is None else newest(behind + commands)
+        waiting = commands if behind is None else newest(behind + commands)
+        if len(waiting) > OUTBOX_MESSAGES:  # of commands, none of which replaces another
+            session.end(TRY_AGAIN_LATER, "This client does not read its messages.")
+            return
+        self._after[session] = waiting
         if behind is None:
             session.put_later(lambda: text_of(self._after.pop(session, ())))
 
