@@ -29,6 +29,11 @@ pytestmark = pytest.mark.slow
 PATIENCE_S = 3
 
 
+def done(number: int) -> dict[str, object]:
+    """What a page hears of a request that has left."""
+    return {"type": "done", "id": number, "outcome": "sent", "batteryUnknown": False}
+
+
 @pytest.fixture
 def port() -> FakePort:
     return FakePort()
@@ -81,8 +86,8 @@ async def test_a_conversation_from_welcome_to_resume(port: FakePort, gateway: Ru
         nonce = await drive(client)
         await say(client, type="packet", id=1, bytes=MOVE.hex(), nonce=nonce)
         await say(client, type="packet", id=2, bytes=BATTERY.hex())
-        assert await hear_until(client, "done") == {"type": "done", "id": 1, "outcome": "sent"}
-        assert await hear_until(client, "done") == {"type": "done", "id": 2, "outcome": "sent"}
+        assert await hear_until(client, "done") == done(1)
+        assert await hear_until(client, "done") == done(2)
         port.say(BATTERY_REPORT)
         # That the question has left may be said behind that it is done.
         assert await hear_until(client, "received") == BATTERY_HEARD
@@ -166,7 +171,7 @@ async def test_a_client_that_never_reads_is_dropped_and_the_others_lose_nothing(
         assert len(gateway.control.hub) == 1
         nonce = await drive(client)
         await say(client, type="packet", id=1, bytes=MOVE.hex(), nonce=nonce)
-        assert await hear_until(client, "done") == {"type": "done", "id": 1, "outcome": "sent"}
+        assert await hear_until(client, "done") == done(1)
         async with asyncio.timeout(PATIENCE_S):
             while len(gateway.server.server_state.connections) > 1:  # noqa: ASYNC110 (nothing announces it)
                 await asyncio.sleep(0.01)

@@ -136,7 +136,12 @@ async def test_a_pulled_cable_is_reported_and_a_plugged_one_found_again(
         await hear_until(client, "state")
         nonce = await drive(client)
         await say(client, type="packet", id=1, bytes=MOVE.hex(), nonce=nonce)
-        assert await hear_until(client, "done") == {"type": "done", "id": 1, "outcome": "sent"}
+        assert await hear_until(client, "done") == {
+            "type": "done",
+            "id": 1,
+            "outcome": "sent",
+            "batteryUnknown": False,
+        }
 
 
 @pytest.mark.parametrize("board", ["xarm"], indirect=True)
