@@ -13,7 +13,7 @@ from servodeck.callers import Caller
 from servodeck.errors import MovingError
 from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.packets import encode
-from servodeck.protocol.values import Move, Run, ServoTarget
+from servodeck.protocol.values import Command, Move, Run, ServoTarget
 from servodeck.robot.control import Control
 from tests.client import Client
 from tests.lockstep import ENTRY, NODE, Simulator, SteppedBoard
@@ -129,7 +129,7 @@ async def test_what_is_requested_next_is_not_stopped(simulator: Simulator, again
     await here.control.operations.end_group(here.page)
     await asyncio.sleep(0.1)
     family = FAMILIES["doc"]
-    commands = {"move": Move(1500, (ServoTarget(1, 1800),)), "run": Run(SLOT, 0)}
+    commands: dict[str, Command] = {"move": Move(1500, (ServoTarget(1, 1800),)), "run": Run(SLOT, 0)}
     await here.page.send(encode(commands[again], family))
     sent_s = now()
     await asyncio.sleep(3)
