@@ -96,7 +96,10 @@ def test_a_terminal_that_is_closed_stops_it_though_nothing_can_be_written_there(
         os.close(ours)
         process.wait(END_S)
         bus.rest()
-        assert bus.since(0).partition(RUN)[2] == STOPS
+        behind = bus.since(0).partition(RUN)[2]
+        assert behind.startswith(STOPS)
+        # More of them, for a board that takes these for the rest of a packet.
+        assert behind.replace(STOP, b"") == b""
 
 
 def test_a_process_of_nohup_outlives_its_terminal_and_no_polite_kill(tmp_path: Path) -> None:

@@ -2,7 +2,7 @@
 // documents are stored.
 
 import * as v from 'valibot';
-import { flattened } from '../group/blockEdits.ts';
+import { flattened } from '../group/flattened.ts';
 import { motionLengthMs } from '../group/blocks.ts';
 import { poseAt, type ActionGroup } from '../group/group.ts';
 import type { PoseBook } from '../profile/pose.ts';

@@ -1,7 +1,7 @@
 // A group as a file of any format, and what that format cannot hold. Databases are made by what is handed in.
 
 import type { Family } from '../codec/families.ts';
-import { flattened } from '../group/blockEdits.ts';
+import { flattened } from '../group/flattened.ts';
 import { type ActionGroup, groupToFile, isStraight } from '../group/group.ts';
 import type { Robot } from '../profile/robot.ts';
 import { arduinoOf, programOf, type Program, pythonOf } from './program.ts';

@@ -1,7 +1,7 @@
 // Edits of blocks, pure as all others: the very same group where nothing changes. What a block does is blocks.ts.
 
 import { sortedTargets } from '../codec/commands.ts';
-import { blocksOf, endOfBlock, motionTracks, servosOf } from './blocks.ts';
+import { blocksOf, endOfBlock, servosOf } from './blocks.ts';
 import {
   FASTEST_PERCENT,
   MAX_FRAMES,
@@ -11,18 +11,12 @@ import {
   type Block,
   type BlockMoment,
 } from './group.ts';
-import { changed, sameList } from './groupEdits.ts';
+import { flattened, withBlocks } from './flattened.ts';
+import { changed } from './groupEdits.ts';
 import { lifted } from './keyRanges.ts';
-import { carried, momentsOf, newMoment, placed, withMoments, withTargets, type Moment } from './moments.ts';
+import { carried, momentsOf, withMoments } from './moments.ts';
 import type { TimeRange } from './timeEdits.ts';
 import type { KeyRef } from './tracks.ts';
-
-function withBlocks(group: ActionGroup, blocks: readonly Block[]): ActionGroup {
-  const { blocks: _, ...rest } = group;
-  const same = sameList(blocksOf(group), blocks);
-  if (same === blocksOf(group)) return group;
-  return same.length === 0 ? rest : { ...rest, blocks: same };
-}
 
 /**
  * The keys of these servos from the first to the last of these keys, under a name. The motion stays as it is; null where there is none to
@@ -147,26 +141,6 @@ export function unpackedWithin(
         servosOf(block).some((servo) => servos.has(servo)),
     )
     .reduce((sum, { id }) => unpackBlock(sum, id), group);
-}
-
-/** Blocks as keys, for formats that know none: the motion stays as it is. */
-export function flattened(group: ActionGroup): ActionGroup {
-  if (blocksOf(group).length === 0) return group;
-  const covered = new Set(blocksOf(group).flatMap(servosOf));
-  const tracks = motionTracks(group);
-  const free = momentsOf(group).map((moment) =>
-    withTargets(
-      moment,
-      moment.frame.targets.filter(({ servo }) => !covered.has(servo)),
-    ),
-  );
-  const keys = [...covered].flatMap((servo) => tracks.get(servo)?.keys ?? []);
-  const moments = keys.reduce<readonly Moment[]>(
-    (all, { servo, atMs, position, easing }) =>
-      placed(all, atMs, [{ servo, position, easing }], (own) => newMoment(atMs, own, { easing })),
-    free,
-  );
-  return withBlocks(withMoments(group, moments), []);
 }
 
 /** Blocks that overlap stand below one another: the level of each by its id, from 0 on. */

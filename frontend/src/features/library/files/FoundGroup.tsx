@@ -4,7 +4,7 @@
 import { useMemo } from 'react';
 import { type Unit, meaningIn, UNIT_RANGE } from '#shared/files/reading.ts';
 import { type ActionGroup, totalDurationMs, poseAt } from '#shared/group/group.ts';
-import { flattened } from '#shared/group/blockEdits.ts';
+import { flattened } from '#shared/group/flattened.ts';
 import { filled, misfitsOf } from '#shared/files/fit.ts';
 import { meaningText, misfitText } from './fileText.ts';
 import { words } from '../../../i18n/whole.ts';
