@@ -90,7 +90,9 @@ class Served:
             self.read_until_stops(STOPS_AT_OPENING)
 
     def read_until_stops(self, count: int) -> bytes:
-        """What the board got, until it holds that many stops."""
+        """What the board got, until it holds that many stops. More of them may have left at once, for a board
+        that takes these for the rest of a packet.
+        """
         received = b""
         until = time.monotonic() + 20
         while received.count(STOP) < count:
@@ -98,7 +100,11 @@ class Served:
             # Between two openings of the port its other end is closed.
             with suppress(OSError):
                 received += os.read(self.pty.board, 100)
-        return received
+        last = -1
+        for _ in range(count):
+            last = received.index(STOP, last + 1)
+        end = last + len(STOP)
+        return received[:end] if (STOP * len(received)).startswith(received[end:]) else received
 
     def read_behind_stops(self, count: int) -> bytes:
         """As `read`, behind the stops that go on while motion is latched."""
