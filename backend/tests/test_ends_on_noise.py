@@ -15,9 +15,11 @@ from servodeck.protocol.families import FAMILIES
 from servodeck.protocol.packets import encode
 from servodeck.protocol.values import Command, Move, Run, ServoTarget
 from servodeck.robot.control import Control
-from tests.client import Client
+from tests.client import Client, gateway_on
+from tests.fake_port import FakePort
 from tests.lockstep import ENTRY, NODE, Simulator, SteppedBoard
 from tests.running import DEVICE
+from tests.test_moves import ask, driver_at_the_centre, moves_on
 from tests.virtual_time import in_virtual_time, now
 
 OLGA = Caller("olga", "Olga", "owner")
@@ -153,3 +155,20 @@ async def test_no_other_family_is_chosen_while_it_moves(simulator: Simulator, fa
     stepped.run_on(now())
     assert not stepped.is_running
     await here.control.board.link.close()
+
+
+@in_virtual_time
+async def test_end_group_takes_no_hold_from_an_end_that_follows_at_once() -> None:
+    port = FakePort()
+    async with gateway_on(port) as control:
+        anna = await driver_at_the_centre(control)
+        ask(anna, 900, s1=2500)
+        await asyncio.sleep(0.1)
+        ending = asyncio.create_task(control.operations.end_group(anna))
+        await asyncio.sleep(0.05)
+        before = len(port.written)
+        control.driving.act(anna, "release")
+        await ending
+        await asyncio.sleep(2)
+        # The sequence holds twice, and the stops that go on twice more.
+        assert len(moves_on(port, before)) == 4

@@ -128,13 +128,17 @@ async def once_identified(request: Request, control: Controlled) -> None:
     identified.
     """
     await control.until_identified()
-    if await request.is_disconnected():
-        raise CancelledError("The client disconnected.")
+    await judge_connected(request)
 
 
 async def once_settled(request: Request, control: Controlled) -> None:
     """Also until what others began before the port was opened has ended, on a board that answers nothing."""
     await control.until_settled()
+    await judge_connected(request)
+
+
+async def judge_connected(request: Request) -> None:
+    """Raises CancelledError for a client that has gone while its request waited."""
     if await request.is_disconnected():
         raise CancelledError("The client disconnected.")
 

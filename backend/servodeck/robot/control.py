@@ -232,14 +232,14 @@ class Control:
         reason. Raises CancelledError where STOP was pressed meanwhile.
         """
         unknown = ("opening", "identifying")
-        await self._while(lambda: self.board.link_state.status in unknown, IDENTIFIED_WITHIN_S)
+        await self._wait_while(lambda: self.board.link_state.status in unknown, IDENTIFIED_WITHIN_S)
 
     async def until_settled(self) -> None:
         """Also until what others began before the port was opened has ended."""
         await self.until_identified()
-        await self._while(lambda: self.board.may_be_running, SETTLED_WITHIN_S)
+        await self._wait_while(lambda: self.board.may_be_running, SETTLED_WITHIN_S)
 
-    async def _while(self, is_so: Callable[[], bool], within_s: float) -> None:
+    async def _wait_while(self, is_so: Callable[[], bool], within_s: float) -> None:
         stopped_s = self._latch.stopped_s
         with contextlib.suppress(TimeoutError):
             async with asyncio.timeout(within_s):

@@ -224,7 +224,6 @@ class Operations:
         """Behind its frame in progress; everything else is free to move. Sent three times (S54), also where
         the caller has gone meanwhile.
         """
-        self._control.board.halts.unconfirmed()
         left = self._control.requests.stop_once(session)
         if self._ending is None:
             self._ending = asyncio.create_task(self._end_again(session, left))
@@ -235,13 +234,16 @@ class Operations:
 
     async def _end_again(self, session: Session, first: Left) -> None:
         waiting = [first]
-        try:
+
+        def stop() -> Left:
+            return waiting.pop() if waiting else self._control.requests.stop_once(session)
+
+        async def stops() -> None:
             with contextlib.suppress(GatewayError):  # a port that is lost takes no more of them
-                await repeat_stop(
-                    lambda: waiting.pop() if waiting else self._control.requests.stop_once(session),
-                    self._control.now,
-                )
-                self._control.board.halts.insist_on_end()
+                await repeat_stop(stop, self._control.now)
+
+        try:
+            await self._control.board.halts.end_group(stops)
         finally:
             self._ending = None
 

@@ -8,8 +8,8 @@ Knows the board and its wire; not who may stop it, nor the latch.
 import asyncio
 import contextlib
 import math
-from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Awaitable, Callable, Coroutine, Sequence
+from typing import TYPE_CHECKING, Any
 
 from servodeck.errors import CancelledError, GatewayError
 from servodeck.port.wire import CLOCK_GRAIN_S, STOP_PACKET, Left, Wire, stop_packets
@@ -93,34 +93,59 @@ class Halts:
         """Without the latch, and nothing is to follow: as `halt`, and stops go on where the board may have
         missed these. Resolves when the stop sequence has left.
         """
-        ended_s = self._now()
-        left = self.halt(reason)
-        left.add_done_callback(lambda left: self._has_ended(left, ended_s))
-        return left
 
-    def _has_ended(self, left: Left, ended_s: float) -> None:
-        if not left.cancelled() and left.exception() is None:
-            self.insist(ended_s, is_latching=False)
+        def has_left(stops: Left) -> None:
+            if not stops.cancelled() and stops.exception() is None:
+                self._go_on(holds=True)
+
+        left = self.halt(reason)
+        left.add_done_callback(has_left)
+        return left
 
     async def end_before_closing(self, reason: GatewayError) -> None:
         """Behind it this gateway can stop nothing any more: done when all stops have left."""
         await self.halt(reason)
         wire, mine = self._board.link.wire(), self.count
-        await self._rows(
-            wire, self.left_over_bytes(wire), lambda: mine == self.count and not wire.is_confirmed
-        )
 
-    def insist_on_end(self) -> None:
-        """Stops that end a group behind its frame have left: as for STOP, without a hold."""
-        if not self._is_latched():
-            self.insist(self._now(), is_latching=False, holds=False)
+        def is_wanted() -> bool:
+            return mine == self.count and not wire.is_confirmed
 
-    def unconfirmed(self) -> None:
-        """Stops that end a group are about to leave: no answer from before confirms them."""
-        self._is_superseded = False
+        await self._rows(wire, self.left_over_bytes(wire), is_wanted, holds=True)
+
+    async def end_group(self, stops: Callable[[], Awaitable[None]]) -> None:
+        """`stops` end a group behind its frame: more of them go on, without a hold, unless another stop has
+        taken their place.
+        """
+        before, self._is_superseded = self.count, False
         if not self._is_latched():
             with contextlib.suppress(GatewayError):  # no port
                 self._board.link.wire().forget_answers()
+        await stops()
+        if before == self.count and not self._is_latched():
+            self._go_on(holds=False)
+
+    def _go_on(self, *, holds: bool) -> None:
+        """As `insist` for an end without the latch: until anything else is to move the robot."""
+        try:
+            wire = self._board.link.wire()
+        except GatewayError:  # no port
+            return
+        mine = self.count
+
+        def is_wanted() -> bool:
+            is_over = self._is_superseded or wire.has_motion_waiting
+            return mine == self.count and not wire.is_confirmed and not is_over
+
+        async def rows() -> None:
+            with contextlib.suppress(GatewayError):  # lost: the stops at its return are others
+                await self._rows(wire, self.left_over_bytes(wire), is_wanted, holds=holds)
+
+        self._begin(rows())
+
+    def _begin(self, insisting: Coroutine[Any, Any, None]) -> None:
+        if self._insisting:
+            self._insisting.cancel()
+        self._insisting = asyncio.create_task(insisting)
 
     def left(self, packet: CommandPacket, *, is_halting: bool) -> None:
         """That packet leaves."""
@@ -207,17 +232,12 @@ class Halts:
         """
         return 0 if wire.in_reports else self._board.family.left_over_bytes
 
-    def insist(
-        self, pressed_s: float, byte_count: int | None = None, *, is_latching: bool = True, holds: bool = True
-    ) -> None:
+    def insist(self, pressed_s: float, byte_count: int | None = None) -> None:
         """A stray byte before STOP makes the board take all of it for the rest of a packet (S3, S4). So stops
         go on behind it until the board has confirmed them, or cannot miss them any more, with the hold again
-        where the stray bytes are over; then seldom, until a person resumes. Not `is_latching`: until
-        anything else is to move the robot. `byte_count`: of those that go on; without it as many as such a
-        board may miss.
+        where the stray bytes are over; then seldom, until a person resumes. `byte_count`: of those that go
+        on; without it as many as such a board may miss.
         """
-        if self._insisting:
-            self._insisting.cancel()
         mine = self.count
         try:
             wire = self._board.link.wire()
@@ -227,31 +247,17 @@ class Halts:
             byte_count = self.left_over_bytes(wire)
 
         def is_wanted() -> bool:
-            if is_latching:
-                is_over = not self._is_latched()
-            else:
-                is_over = self._is_superseded or wire.has_motion_waiting
-            return mine == self.count and not wire.is_confirmed and not is_over
+            return mine == self.count and self._is_latched() and not wire.is_confirmed
 
-        self._insisting = asyncio.create_task(
-            self._insist(wire, pressed_s, byte_count, is_wanted, holds=holds)
-        )
+        self._begin(self._insist(wire, pressed_s, byte_count, is_wanted))
 
     async def _insist(
-        self,
-        wire: Wire,
-        pressed_s: float,
-        byte_count: int,
-        is_wanted: Callable[[], bool],
-        *,
-        holds: bool,
+        self, wire: Wire, pressed_s: float, byte_count: int, is_wanted: Callable[[], bool]
     ) -> None:
         with contextlib.suppress(GatewayError):  # lost: the stops at its return are others
-            await self._rows(wire, byte_count, is_wanted, holds=holds)
+            await self._rows(wire, byte_count, is_wanted, holds=True)
             if is_wanted():
                 self._holds_to_follow = 0
-            if not self._is_latched():  # there is no state of a STOP to tell
-                return
             if is_wanted() and wire.is_heard:
                 await self._send(wire, STOP_PACKET, is_wanted)
                 await self._hold_again(wire, is_wanted)
@@ -266,9 +272,7 @@ class Halts:
                 if is_wanted():
                     await self._remind(wire, is_wanted)
 
-    async def _rows(
-        self, wire: Wire, byte_count: int, is_wanted: Callable[[], bool], *, holds: bool = True
-    ) -> None:
+    async def _rows(self, wire: Wire, byte_count: int, is_wanted: Callable[[], bool], *, holds: bool) -> None:
         """As many stops as a stray byte can make the board miss; the hold behind the first and last row."""
         for sent in range(0, byte_count, STOP.stray_bytes):
             if not is_wanted() or wire.is_heard:
