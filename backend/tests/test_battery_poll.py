@@ -17,10 +17,8 @@ from servodeck.robot.hub import Session
 from tests.client import ANNA, Client
 from tests.lockstep import Simulator
 from tests.samples import BATTERY
-from tests.test_identification import Here, asked, pytestmark, simulator
+from tests.test_identification import Here, asked
 from tests.virtual_time import in_virtual_time
-
-fixtures = (simulator, pytestmark)
 
 # Until the board is known and its battery was asked for.
 READY_S = 2.0

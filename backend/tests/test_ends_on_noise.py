@@ -3,7 +3,7 @@ board take the first stops for the rest of a packet (S3, S4). The latch: test_op
 """
 
 import asyncio
-from collections.abc import Awaitable, Callable, Iterator
+from collections.abc import Awaitable, Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -17,7 +17,7 @@ from servodeck.protocol.values import Command, Move, Run, ServoTarget
 from servodeck.robot.control import Control
 from tests.client import Client, gateway_on
 from tests.fake_port import FakePort
-from tests.lockstep import ENTRY, NODE, Simulator, SteppedBoard
+from tests.lockstep import Simulator, SteppedBoard
 from tests.running import DEVICE
 from tests.test_moves import ask, driver_at_the_centre, moves_on
 from tests.virtual_time import in_virtual_time, now
@@ -29,18 +29,6 @@ HISTORY = {"onForMs": 60_000, "hasPad": False, "isSlow": False, "unknown": FRAME
 NOISES = ["", "55", "5555FE030EF0"]
 # Three stops, all that a stray byte can swallow, and the rest of a frame.
 WITHIN_S = 1.5
-
-pytestmark = [
-    pytest.mark.skipif(not ENTRY.exists(), reason="the simulator is not built: npm run build"),
-    pytest.mark.skipif(NODE is None, reason="Node is not installed"),
-]
-
-
-@pytest.fixture(scope="module")
-def simulator() -> Iterator[Simulator]:
-    made = Simulator()
-    yield made
-    made.end()
 
 
 @dataclass

@@ -4,7 +4,7 @@ page's session does the same on a link of its own: shared/src/robot/identificati
 """
 
 import asyncio
-from collections.abc import AsyncIterator, Iterator, Sequence
+from collections.abc import AsyncIterator, Sequence
 from contextlib import asynccontextmanager
 from typing import Any
 
@@ -17,14 +17,9 @@ from servodeck.protocol.decoder import COMMAND_AT
 from servodeck.protocol.families import FAMILIES, UNKNOWN
 from servodeck.robot.control import Control
 from tests.client import Client
-from tests.lockstep import ENTRY, NODE, Simulator, SteppedBoard
+from tests.lockstep import Simulator, SteppedBoard
 from tests.samples import MOVE, RUN, STOP
 from tests.virtual_time import in_virtual_time, now
-
-pytestmark = [
-    pytest.mark.skipif(not ENTRY.exists(), reason="the simulator is not built: npm run build"),
-    pytest.mark.skipif(NODE is None, reason="Node is not installed"),
-]
 
 DEVICE = "/dev/board"
 STOPS = [STOP] * 3
@@ -45,13 +40,6 @@ ANSWERS_LIKE = {
 }
 # Longer than the questions take, but of a board that is just starting; not so long that it is asked again.
 ASKED_S = 2.4
-
-
-@pytest.fixture(scope="module")
-def simulator() -> Iterator[Simulator]:
-    made = Simulator()
-    yield made
-    made.end()
 
 
 class Here:

@@ -4,7 +4,6 @@ still run, and what follows a STOP. Page: shared/src/robot/faults/leftOver.test.
 """
 
 import asyncio
-from collections.abc import Iterator
 
 import pytest
 
@@ -17,7 +16,7 @@ from servodeck.robot.board.download import Group, made_of, packets_of
 from servodeck.robot.control import Control
 from tests.client import ANNA, Client
 from tests.fake_port import FakeHidPort, FakePort, FakePorts
-from tests.lockstep import ENTRY, NODE, Simulator, SteppedBoard
+from tests.lockstep import Simulator, SteppedBoard
 from tests.running import DEVICE, NO_LIBRARY, client_of, entrance_to
 from tests.samples import BATTERY, BATTERY_REPORT, MOVE, STOP, STOPS
 from tests.virtual_time import in_virtual_time, now
@@ -177,13 +176,6 @@ async def test_a_silent_board_is_told_once_a_second_until_a_person_resumes() -> 
     await control.board.link.close()
 
 
-@pytest.fixture(scope="module")
-def simulator() -> Iterator[Simulator]:
-    made = Simulator()
-    yield made
-    made.end()
-
-
 LEFT_OVERS = [
     "",
     "55",
@@ -197,7 +189,6 @@ LEFT_OVERS = [
 ]
 
 
-@pytest.mark.skipif(not ENTRY.exists() or NODE is None, reason="the simulator is not built: npm run build")
 @pytest.mark.parametrize("board", ["doc", "openarm-old", "openarm-new"])
 @pytest.mark.parametrize("left_over", LEFT_OVERS)
 @in_virtual_time

@@ -5,7 +5,7 @@ both readings. Then what ends a move that leaves in parts. The page's robot: sha
 
 import asyncio
 import random
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache
 from itertools import pairwise
@@ -32,7 +32,7 @@ from servodeck.snapshots import ServoLimits
 from tests.amount import named, seeds
 from tests.client import Client, gateway_on
 from tests.fake_port import FakePort, FakePorts
-from tests.lockstep import ENTRY, NODE, Simulator, SteppedBoard
+from tests.lockstep import Simulator, SteppedBoard
 from tests.running import DEVICE, NO_LIBRARY, client_of, entrance_to
 from tests.samples import BATTERY, RUN, command_in
 from tests.scripted import script
@@ -274,16 +274,7 @@ async def wrongs_of(simulator: Simulator, board: tuple[str, str], door: str, see
     return wrongs
 
 
-@pytest.fixture(scope="module")
-def simulator() -> Iterator[Simulator]:
-    made = Simulator()
-    yield made
-    made.end()
-
-
 @pytest.mark.slow
-@pytest.mark.skipif(not ENTRY.exists(), reason="the simulator is not built: npm run build")
-@pytest.mark.skipif(NODE is None, reason="Node is not installed")
 @pytest.mark.parametrize("door", DOORS)
 @pytest.mark.parametrize("board", BOARDS, ids=" on ".join)
 def test_no_servo_goes_faster_than_what_was_asked_of_it_and_each_arrives_in_time(

@@ -3,12 +3,11 @@ program was started with, and nothing of the board before is true of the next on
 """
 
 import asyncio
-from collections.abc import AsyncIterator, Iterator
+from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from dataclasses import dataclass
 from typing import Any
 
-import pytest
 from httpx2 import AsyncClient
 
 from servodeck.api.app import create_app
@@ -20,28 +19,16 @@ from tests.boards import old_board
 from tests.client import Client
 from tests.downloading import ended
 from tests.fake_port import FakePort, FakePorts
-from tests.lockstep import ENTRY, NODE, Simulator, SteppedBoard
+from tests.lockstep import Simulator, SteppedBoard
 from tests.running import NO_LIBRARY, client_of, entrance_to
 from tests.samples import BATTERY_REPORT
 from tests.scripted import refusal
 from tests.virtual_time import in_virtual_time, now
 
-pytestmark = [
-    pytest.mark.skipif(not ENTRY.exists(), reason="the simulator is not built: npm run build"),
-    pytest.mark.skipif(NODE is None, reason="Node is not installed"),
-]
-
 STARTED, OTHER = "/dev/started", "/dev/other"
 QUESTIONS = {1, 15, 21}
 ASKED_S = 3.0
 HISTORY = {"onForMs": 60_000, "hasPad": False, "isSlow": False, "unknown": []}
-
-
-@pytest.fixture(scope="module")
-def simulator() -> Iterator[Simulator]:
-    made = Simulator()
-    yield made
-    made.end()
 
 
 class TwoPorts(SteppedBoard):

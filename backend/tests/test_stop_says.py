@@ -6,7 +6,6 @@ shared/src/robot/stopSays.test.ts.
 
 import json
 import random
-from collections.abc import Iterator
 from typing import Any
 
 import pytest
@@ -14,7 +13,7 @@ import pytest
 from servodeck.protocol.timings import ESTIMATE, MOVE
 from servodeck.snapshots import UnheldServos
 from tests.amount import named, seeds
-from tests.lockstep import ENTRY, NODE, SERVOS, Simulator
+from tests.lockstep import SERVOS, Simulator
 from tests.stop_under_test import DOORS, Outcome, stopped
 from tests.vectors import load_vectors
 
@@ -32,16 +31,7 @@ LEAST_HELD = 0.2
 
 pytestmark = [
     pytest.mark.slow,
-    pytest.mark.skipif(not ENTRY.exists(), reason="the simulator is not built: npm run build"),
-    pytest.mark.skipif(NODE is None, reason="Node is not installed"),
 ]
-
-
-@pytest.fixture(scope="module")
-def simulator() -> Iterator[Simulator]:
-    made = Simulator()
-    yield made
-    made.end()
 
 
 def own_seed(board: str, seed: int) -> int:

@@ -7,14 +7,13 @@ import json
 import random
 import sys
 from collections import Counter
-from collections.abc import Iterator
 from typing import Any
 
 import pytest
 
 from servodeck.protocol.families import FAMILIES
 from tests.amount import IS_EXHAUSTIVE, named, seeds
-from tests.lockstep import ENTRY, NODE, Simulator
+from tests.lockstep import Simulator
 from tests.stop_under_test import DOORS, Outcome, stopped
 from tests.test_stop_says import BOARDS, own_seed
 from tests.vectors import load_vectors
@@ -41,16 +40,7 @@ LIMIT_US, LIMIT_STEPS = 26, 10
 
 pytestmark = [
     pytest.mark.slow,
-    pytest.mark.skipif(not ENTRY.exists(), reason="the simulator is not built: npm run build"),
-    pytest.mark.skipif(NODE is None, reason="Node is not installed"),
 ]
-
-
-@pytest.fixture(scope="module")
-def simulator() -> Iterator[Simulator]:
-    made = Simulator()
-    yield made
-    made.end()
 
 
 def throws(outcome: Outcome, board: str) -> list[float]:

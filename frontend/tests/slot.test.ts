@@ -1,6 +1,6 @@
 // The board's own memory: what a slot holds and runs, what takes its place, and what an erase takes.
 
-import { kindsAfter, lastTarget, ofKind } from '../../e2e/fixtures/bus.ts';
+import { kindsAfter, lastTarget, ofKind, STOPS_OF_AN_END } from '../../e2e/fixtures/bus.ts';
 import * as group from '../../e2e/fixtures/group.ts';
 import * as library from '../../e2e/fixtures/library.ts';
 import * as notes from '../../e2e/fixtures/notes.ts';
@@ -42,7 +42,7 @@ test('a group runs until it is ended after its frame in progress, one at a time'
   await expect(dashboard.status).toHaveText('Idle');
   // Half a second behind a run, and never among its stops, the page asks for the battery.
   const kinds = async () => (await kindsAfter(robot.bus, beforeEnd)).join(' ');
-  await poll(kinds).toMatch(/^stop stop stop( stop)*( readBattery)*$/);
+  await poll(kinds).toMatch(new RegExp(`^stop( stop){${STOPS_OF_AN_END - 1}}( readBattery)*$`));
   await expect(dashboard.resume).toBeHidden();
 });
 

@@ -1,6 +1,6 @@
 // STOP: from anywhere, at once, and nothing moves again before Resume. What the board heard is the judge.
 
-import { ofKind } from '../../e2e/fixtures/bus.ts';
+import { ofKind, STOPS_OF_AN_END } from '../../e2e/fixtures/bus.ts';
 import * as group from '../../e2e/fixtures/group.ts';
 import { SLOW_FLASH } from '../../e2e/fixtures/robot.ts';
 import * as stopping from '../../e2e/fixtures/stopping.ts';
@@ -37,7 +37,7 @@ test('behind the end of a group that the board alone knows STOP says for how lon
   const stops = async () => ofKind(await robot.bus(), 'stop').length;
   const before = await stops();
   await dashboard.button('End group').click();
-  await poll(stops).toBeGreaterThanOrEqual(before + 3);
+  await poll(stops).toBe(before + STOPS_OF_AN_END);
   await dashboard.stop.click();
   await expect(dashboard.status).toContainText(/The robot may keep moving for up to \d+\.\d s/);
 });

@@ -66,13 +66,13 @@ BODY_S = 30.0
 ANSWERED_S = 0.5
 HEAD_BYTES = 32 * 1024
 HEADERS = 100
-# What the system holds of a connection that is not read; one read brings at most twice as much. A library of
+# The system's buffer for a connection that is not read; one read brings at most twice as much. A library of
 # 3 MiB takes 100 windows of a known client.
 RECEIVED_BYTES = 8 * 1024
 KNOWN_RECEIVED_BYTES = 32 * 1024
 # A pipeline of more requests than any client of ours sends.
 PIPELINED = 8
-# Of answers that nobody reads, all of them together, and how long one waits for its reader.
+# All answers together that nobody reads, and how long one waits for its reader.
 UNREAD_BYTES = 8 * 1024 * 1024
 UNREAD_S = 30.0
 # Beyond it no connection waits for a next request.

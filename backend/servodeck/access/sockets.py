@@ -29,11 +29,12 @@ from servodeck.callers import Rate
 
 # A frame takes 6 bytes at least and 10 µs to parse: a STOP waits 4 ms for one piece.
 PIECE_BYTES = 2 * 1024
-# Of pongs, pings and messages, beside what the system holds. A message waits while more than 64 KiB do.
+# Pongs, pings and messages that wait for the client, in addition to what the system holds. Above 64 KiB a
+# message waits.
 UNREAD_BYTES = 128 * 1024
 # Control frames and fragments a second, and at once, where the application names no limit of its own.
 FRAMES = (10.0, 100)
-# For the words of the end to arrive.
+# Time in which the reason of a close reaches the client.
 CLOSE_S = 2.0
 PING_BYTES = 4
 log = logging.getLogger("uvicorn.error")
@@ -67,7 +68,7 @@ class Socket(Losable, asyncio.Protocol):
         self._ping = b""
         self._timer: asyncio.TimerHandle | None = None
 
-    # Of the server
+    # Called by the server
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         self.transport = cast("asyncio.Transport", transport)
@@ -80,7 +81,7 @@ class Socket(Losable, asyncio.Protocol):
         self._leave(CloseCode.SERVICE_RESTART)
         self.transport.close()
 
-    # Of the application
+    # Called by the application
 
     def know(self) -> None:
         """Only who is known may upgrade."""
@@ -182,7 +183,7 @@ class Socket(Losable, asyncio.Protocol):
         self._write()
         self._end_in(CLOSE_S)
 
-    # Of the client
+    # What comes from the client
 
     def data_received(self, data: bytes) -> None:
         self.transport.pause_reading()
@@ -306,7 +307,7 @@ class Socket(Losable, asyncio.Protocol):
         self._received.append(message)
         self._has_received.set()
 
-    # Of both
+    # Shared by both ways
 
     def _write(self) -> None:
         if self.transport.is_closing():

@@ -256,16 +256,16 @@ async def write(
 def facts_in(wanted: DocumentWrite) -> Facts:
     """What the text says of itself counts. Raises MalformedError. Takes a while."""
     check_document(wanted.text)
-    told = wanted.facts
+    facts = wanted.facts
     if is_kit(wanted.text):
-        if isinstance(told, GroupFacts):
+        if isinstance(facts, GroupFacts):
             raise MalformedError("facts: they describe a group, and the text is a robot")
-        return robot_facts(wanted.text, told.updated_at_ms if told else wall_clock_ms())
-    if isinstance(told, GroupFacts):
-        return told
+        return robot_facts(wanted.text, facts.updated_at_ms if facts else wall_clock_ms())
+    if isinstance(facts, GroupFacts):
+        return facts
     raise MalformedError(
         "facts: those of a group are missing"
-        if told is None
+        if facts is None
         else f"text: a robot of the library is a {KIT_FORMAT}, as a page stores it"
     )
 
