@@ -273,7 +273,8 @@ export function createHalt(options: HaltOptions): Halt {
     async endBeforeClosing() {
       dropAll(new LinkError('closed', 'the link was closed'));
       await sendOrJoin();
-      const mine = insistences;
+      // A STOP before it goes on no longer: these take its place.
+      const mine = (insistences += 1);
       await sendRows(options.leftOverBytes(), () => mine === insistences && !isHeard, true);
     },
     async insistOnEnd(isWanted) {
